@@ -1,0 +1,1 @@
+//! The window: canvas, commands, tools, panels, theme.

@@ -1,0 +1,3 @@
+//! Classifiers: from features to labels.
+
+pub mod naive;

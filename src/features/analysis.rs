@@ -1,0 +1,126 @@
+use super::{Features, NeighbourLabels};
+use crate::classify::naive;
+use crate::geometry::runs::{self, Axes};
+use crate::labels::{Label, Meaning, Schemes};
+use crate::plan::{Joint, Plan, Room, RoomId};
+use crate::topology::{Graph, RoomShapes};
+
+/// What is known of a room's label.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RoomStatus {
+    /// Given to the room itself, or by the scheme for its function.
+    Labelled(Label),
+    /// The scheme leaves its function blank (a balcony, a shaft): counts like the outside.
+    NotClassified,
+    /// It has no function, or one the scheme does not know; such functions are reported.
+    Unlabelled,
+}
+
+impl RoomStatus {
+    /// The status of a room under the schemes and the plan's typology. A label given to the room
+    /// itself comes first.
+    pub fn of(plan: &Plan, schemes: &Schemes, room: &Room) -> Self {
+        if let Some(given) = room.label {
+            return Self::Labelled(given.label);
+        }
+        match schemes.meaning(plan.meta().typology.as_ref(), &room.function) {
+            Some(Meaning::Labelled(label)) => Self::Labelled(label),
+            Some(Meaning::NotClassified) => Self::NotClassified,
+            None => Self::Unlabelled,
+        }
+    }
+
+    pub const fn label(self) -> Option<Label> {
+        match self {
+            Self::Labelled(label) => Some(label),
+            Self::NotClassified | Self::Unlabelled => None,
+        }
+    }
+}
+
+/// What follows from a plan for one room.
+#[derive(Clone, Debug)]
+pub struct RoomAnalysis {
+    pub id: RoomId,
+    pub status: RoomStatus,
+    /// The major and minor axis; `None` for a room that encloses no area.
+    pub axes: Option<Axes>,
+    /// `F_r`; `None` for a room that encloses no area, and for one that is not classified.
+    pub features: Option<Features>,
+    /// The naive classifier's label from `<a, rt, d>`; `None` where there are no features.
+    pub temporary: Option<Label>,
+}
+
+/// What follows from a plan: shapes, graph, and each room's features. A pure function of the plan,
+/// the schemes and the way neighbours' labels are taken.
+#[derive(Debug)]
+pub struct Analysis {
+    pub shapes: RoomShapes,
+    pub graph: Graph,
+    /// By room id, in the order of [`RoomShapes::all`].
+    pub rooms: Vec<RoomAnalysis>,
+}
+
+impl Analysis {
+    /// What follows for one room.
+    pub fn room(&self, id: RoomId) -> Option<&RoomAnalysis> {
+        self.shapes.index_of(id).map(|index| &self.rooms[index])
+    }
+
+    /// For each opening of a room: what lies on its other side.
+    pub fn neighbours(&self, id: RoomId) -> impl Iterator<Item = (crate::plan::OpeningId, Joint)> + '_ {
+        let index = self.shapes.index_of(id).unwrap_or(usize::MAX);
+        self.graph.of_room(index).map(move |connection| (connection.opening, other_side(connection.sides, id)))
+    }
+}
+
+/// The side of a connection that is not `id`; `id` itself when both are.
+fn other_side(sides: [Joint; 2], id: RoomId) -> Joint {
+    if sides[0] == Joint::Room(id) { sides[1] } else { sides[0] }
+}
+
+/// Analyses a plan.
+pub fn analyse(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels) -> Analysis {
+    let shapes = RoomShapes::new(plan);
+    let graph = Graph::new(plan, &shapes);
+    let typology = plan.meta().typology.as_ref();
+    let mut rooms: Vec<RoomAnalysis> = plan
+        .rooms()
+        .enumerate()
+        .map(|(index, (id, room))| {
+            let shape = &shapes.all()[index];
+            let status = RoomStatus::of(plan, schemes, room);
+            let axes = runs::axes(&shape.outer, &shape.holes);
+            let area_m2 = shape.area_m2();
+            let features = axes.filter(|_| area_m2 > 0.0 && status != RoomStatus::NotClassified).map(|axes| Features {
+                area_m2,
+                axes_ratio: axes.ratio(),
+                doors: graph.of_room(index).len() as u32,
+                doors_to: [0; 5],
+            });
+            let temporary = features
+                .map(|features| naive::classify(typology, features.area_m2, features.axes_ratio, features.doors));
+            RoomAnalysis { id, status, axes, features, temporary }
+        })
+        .collect();
+    let seen: Vec<Option<Label>> = rooms
+        .iter()
+        .map(|room| match neighbours {
+            _ if room.status == RoomStatus::NotClassified => None,
+            NeighbourLabels::True => room.status.label().or(room.temporary),
+            NeighbourLabels::Temporary => room.temporary,
+        })
+        .collect();
+    for (index, room) in rooms.iter_mut().enumerate() {
+        let Some(features) = &mut room.features else { continue };
+        for connection in graph.of_room(index) {
+            let other = other_side(connection.sides, room.id);
+            // An opening between a room and itself leads nowhere new: it counts in d only.
+            let label = other.room().filter(|&id| id != room.id).and_then(|id| seen[shapes.index_of(id)?]);
+            if let Some(label) = label {
+                features.doors_to[label.index()] += 1;
+            }
+        }
+    }
+    Analysis { shapes, graph, rooms }
+}

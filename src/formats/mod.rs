@@ -1,0 +1,187 @@
+//! Reading and writing plans in files. One file of source per format, one line here to register it.
+//!
+//! A reader never guesses silently: what it mends or leaves out becomes a [`Note`] with its place.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use crate::labels::Schemes;
+use crate::plan::Plan;
+
+/// Every known format, in the order in which they are tried.
+pub const FORMATS: &[&dyn Format] = &[];
+
+/// A file format for plans.
+pub trait Format: Sync {
+    /// Its name for people ('Enfilade plan').
+    fn name(&self) -> &'static str;
+
+    /// How its files end, without the leading dot, longest first (`plan.json`).
+    fn extensions(&self) -> &'static [&'static str];
+
+    /// Whether a file that starts with `head` (up to 4 KiB) is probably of this format.
+    fn recognises(&self, head: &[u8]) -> bool;
+
+    /// Reads a file's bytes. `stem` is the file's name without its ending, for plans without a name.
+    ///
+    /// # Errors
+    /// When nothing usable can be read; what can be mended or left out becomes a note instead.
+    fn read(&self, bytes: &[u8], stem: &str) -> Result<Import, ReadError>;
+
+    /// Writes a plan, or `None` where the format can only be read.
+    fn write(&self, plan: &Plan, schemes: &Schemes) -> Option<Vec<u8>>;
+}
+
+/// What a file gave.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Import {
+    /// One plan a storey; at least one.
+    pub plans: Vec<Plan>,
+    /// What was mended or left out, in the file's order.
+    pub notes: Vec<Note>,
+}
+
+/// One thing that a reader mended or left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Note {
+    pub kind: NoteKind,
+    pub place: Place,
+    /// What was found and what was done, in a sentence.
+    pub what: String,
+}
+
+/// What a reader did.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum NoteKind {
+    /// The thing is in the plan, mended.
+    Healed,
+    /// The thing is not in the plan.
+    Skipped,
+}
+
+/// Where in a file something stands.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// Line from 1, where the format has lines.
+    pub line: Option<usize>,
+    /// The element ('space 3547daca-…'); empty when it is the whole file.
+    pub element: String,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.line, self.element.as_str()) {
+            (None, "") => f.write_str("file"),
+            (None, element) => f.write_str(element),
+            (Some(line), "") => write!(f, "line {line}"),
+            (Some(line), element) => write!(f, "line {line}, {element}"),
+        }
+    }
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let kind = match self.kind {
+            NoteKind::Healed => "healed",
+            NoteKind::Skipped => "skipped",
+        };
+        write!(f, "{kind}: {}: {}", self.place, self.what)
+    }
+}
+
+/// Why a file could not be read: what is wrong, where, and what to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReadError {
+    pub place: Place,
+    pub what: String,
+    /// What the user can do about it.
+    pub hint: String,
+}
+
+impl fmt::Display for ReadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.place != Place::default() {
+            write!(f, "{}: ", self.place)?;
+        }
+        f.write_str(&self.what)?;
+        if !self.hint.is_empty() {
+            write!(f, "; {}", self.hint)?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for ReadError {}
+
+/// A [`ReadError`] with the file it belongs to.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileError {
+    pub path: PathBuf,
+    pub error: ReadError,
+}
+
+impl fmt::Display for FileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.path.display(), self.error)
+    }
+}
+
+impl std::error::Error for FileError {}
+
+/// The largest file that is read: the largest real plan seen has half a megabyte.
+pub const FILE_LIMIT_BYTES: u64 = 256 << 20;
+
+/// Reads a plan file of any known format.
+///
+/// # Errors
+/// When the file cannot be opened, is larger than [`FILE_LIMIT_BYTES`], is of no known format, or its
+/// format's reader refuses it.
+pub fn read_file(path: &Path) -> Result<Import, FileError> {
+    let fail = |what: String, hint: &str| FileError {
+        path: path.to_owned(),
+        error: ReadError { place: Place::default(), what, hint: hint.to_owned() },
+    };
+    let size = std::fs::metadata(path).map_err(|error| fail(error.to_string(), "check the path"))?.len();
+    if size > FILE_LIMIT_BYTES {
+        return Err(fail(format!("has {size} bytes; the limit is {FILE_LIMIT_BYTES}"), "split it into storeys"));
+    }
+    let bytes = std::fs::read(path).map_err(|error| fail(error.to_string(), "check the path"))?;
+    let file_name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let format = find_format(&file_name, &bytes).ok_or_else(|| {
+        fail("is of no known plan format".to_owned(), "known are plan.json, the authors' XML, and GeoJSON")
+    })?;
+    format.read(&bytes, stem(&file_name, format)).map_err(|error| FileError { path: path.to_owned(), error })
+}
+
+/// The format of a file: by its content, then by its name.
+pub fn find_format(file_name: &str, bytes: &[u8]) -> Option<&'static dyn Format> {
+    let head = &bytes[..bytes.len().min(4096)];
+    let named = |format: &&dyn Format| extension_of(file_name, *format).is_some();
+    FORMATS
+        .iter()
+        .find(|format| named(format) && format.recognises(head))
+        .or_else(|| FORMATS.iter().find(|format| format.recognises(head)))
+        .or_else(|| FORMATS.iter().find(|format| named(format)))
+        .copied()
+}
+
+/// Whether a file's name ends like that of a known format: what a folder's import takes.
+pub fn is_plan_file_name(file_name: &str) -> bool {
+    FORMATS.iter().any(|format| extension_of(file_name, *format).is_some())
+}
+
+fn extension_of(file_name: &str, format: &dyn Format) -> Option<&'static str> {
+    let lower = file_name.to_lowercase();
+    format
+        .extensions()
+        .iter()
+        .copied()
+        .find(|extension| lower.strip_suffix(extension).is_some_and(|rest| rest.ends_with('.')))
+}
+
+fn stem<'a>(file_name: &'a str, format: &dyn Format) -> &'a str {
+    match extension_of(file_name, format) {
+        Some(extension) => &file_name[..file_name.len() - extension.len() - 1],
+        None => file_name,
+    }
+}

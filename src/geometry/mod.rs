@@ -1,0 +1,28 @@
+//! Points, vectors, segments, boxes and polygons. Knows nothing of plans.
+//!
+//! Lengths are metres, areas square metres, angles radians; the y axis points up, so that a
+//! counter-clockwise ring has a positive area.
+
+mod bounds;
+mod point;
+pub mod polygon;
+pub mod runs;
+mod segment;
+
+pub use bounds::Bounds;
+pub use point::{Point, Vector};
+pub use segment::Segment;
+
+/// The grid on which every stored length lies: 0.1 mm.
+///
+/// A tenth of a millimetre is far below what anyone measures in a building, and coordinates trimmed
+/// to it print with at most four decimals, which makes saving twice give the same bytes.
+pub const GRID_M: f64 = 1e-4;
+
+/// Rounds a length or coordinate in metres to the grid of [`GRID_M`]; never returns negative zero.
+///
+/// Not-a-number and infinities pass through: the reader of a file refuses them with their place.
+pub fn trim_m(value_m: f64) -> f64 {
+    // `+ 0.0` turns -0.0 into 0.0, which would otherwise print differently.
+    (value_m * 1e4).round() / 1e4 + 0.0
+}

@@ -1,0 +1,213 @@
+//! Wall runs: maximal chains of collinear boundary pieces, what the paper calls a wall of a room,
+//! and the axes ratio that follows from them (paper, section 3.3).
+
+use super::{Point, Vector, polygon};
+
+/// Two directions count as equal, and as perpendicular, up to this angle: the paper's threshold for
+/// collinear line segments (section 3.3).
+pub const ANGLE_TOLERANCE_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
+
+/// Boundary pieces shorter than this are noise of digitising (a notch of a fraction of a
+/// millimetre where two polygons were joined), not corners of a room. One centimetre is below the
+/// thickness of plaster and above any rounding seen in real files.
+pub const NOTCH_M: f64 = 0.01;
+
+/// A wall of a room in the paper's sense.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Run {
+    /// Where the run starts, going round its ring.
+    pub start: Point,
+    /// Where it ends.
+    pub end: Point,
+}
+
+impl Run {
+    pub fn vector(self) -> Vector {
+        self.end - self.start
+    }
+
+    /// Straight length from start to end in metres.
+    pub fn length_m(self) -> f64 {
+        self.vector().length()
+    }
+}
+
+/// The wall runs of a ring, in its order.
+///
+/// Consecutive pieces join a run as long as each stays within [`ANGLE_TOLERANCE_RAD`] of the run's
+/// direction, which is that of its chord: so a circle drawn with many short pieces does not become
+/// one run. The walk starts behind the sharpest turn, which makes the result independent of where
+/// the ring happens to begin.
+pub fn runs(ring: &[Point]) -> Vec<Run> {
+    let ring = without_notches(ring);
+    let n = ring.len();
+    if n < 2 {
+        return Vec::new();
+    }
+    let piece = |i: usize| ring[(i + 1) % n] - ring[i % n];
+    // Turns that differ by rounding only must not decide: compare on a grid of a microradian, and
+    // among equals take the corner whose following piece is longest.
+    let start = (0..n)
+        .max_by_key(|&i| {
+            let turn = turn_rad(piece(i + n - 1), piece(i));
+            ((turn * 1e6).round() as i64, (piece(i).length() * 1e6).round() as i64, std::cmp::Reverse(i))
+        })
+        .unwrap_or(0);
+    let mut runs: Vec<Run> = Vec::new();
+    let mut i = 0;
+    while i < n {
+        let mut run = Run { start: ring[(start + i) % n], end: ring[(start + i + 1) % n] };
+        i += 1;
+        while i < n && turn_rad(run.vector(), piece(start + i)) <= ANGLE_TOLERANCE_RAD {
+            run.end = ring[(start + i + 1) % n];
+            i += 1;
+        }
+        runs.push(run);
+    }
+    runs
+}
+
+/// The angle in radians between two directions, in 0..=π.
+fn turn_rad(from: Vector, to: Vector) -> f64 {
+    from.cross(to).abs().atan2(from.dot(to))
+}
+
+/// The ring less the points that stand closer than [`NOTCH_M`] to the one kept before them.
+fn without_notches(ring: &[Point]) -> Vec<Point> {
+    let mut kept: Vec<Point> = Vec::with_capacity(ring.len());
+    for &point in ring {
+        if kept.last().is_none_or(|last| last.distance(point) >= NOTCH_M) {
+            kept.push(point);
+        }
+    }
+    while kept.len() > 1 && kept[0].distance(kept[kept.len() - 1]) < NOTCH_M {
+        kept.pop();
+    }
+    kept
+}
+
+/// The major and the minor axis of a room and what they were taken from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Axes {
+    /// `M`: the longest wall run in metres.
+    pub major_m: f64,
+    /// `m`: the longest wall run perpendicular to it, or the room's extent that way.
+    pub minor_m: f64,
+    /// Whether `m` is an extent, because no run is perpendicular to `M`.
+    pub minor_is_extent: bool,
+}
+
+impl Axes {
+    /// `rt = M / m` (paper, section 3.2); at least a little above zero, may be below 1.
+    pub fn ratio(self) -> f64 {
+        self.major_m / self.minor_m
+    }
+}
+
+/// The axes of a room from its rings (outer first), as `design` defines them: `M` the longest wall
+/// run, `m` the longest run perpendicular to `M` within [`ANGLE_TOLERANCE_RAD`], else the extent of
+/// the outer ring perpendicular to `M`. `None` where the rings enclose no area.
+///
+/// When several runs are equally long as `M` (a square with one clipped corner, say), the one that
+/// gives the longest `m` is taken, so that the result does not hang on the ring's first corner.
+pub fn axes<R: AsRef<[Point]>>(outer: &[Point], holes: &[R]) -> Option<Axes> {
+    if polygon::signed_area(outer).abs() < 1e-9 {
+        return None;
+    }
+    let mut all = runs(outer);
+    for hole in holes {
+        all.extend(runs(hole.as_ref()));
+    }
+    let longest = all.iter().map(|run| run.length_m()).fold(0.0, f64::max);
+    if longest <= 0.0 {
+        return None;
+    }
+    // Equal up to a tenth of a millimetre, the grid of stored lengths.
+    let candidates = all.iter().filter(|run| run.length_m() >= longest - super::GRID_M);
+    candidates
+        .map(|run| {
+            let perpendicular = all
+                .iter()
+                .filter(|other| {
+                    let turn = turn_rad(run.vector(), other.vector());
+                    (turn - std::f64::consts::FRAC_PI_2).abs() <= ANGLE_TOLERANCE_RAD
+                })
+                .map(|other| other.length_m())
+                .fold(0.0, f64::max);
+            if perpendicular > 0.0 {
+                return Axes { major_m: run.length_m(), minor_m: perpendicular, minor_is_extent: false };
+            }
+            Axes { major_m: run.length_m(), minor_m: extent_m(outer, run.vector().left()), minor_is_extent: true }
+        })
+        .filter(|axes| axes.minor_m > 0.0)
+        .max_by(|p, q| {
+            (!p.minor_is_extent, p.minor_m)
+                .partial_cmp(&(!q.minor_is_extent, q.minor_m))
+                .unwrap_or(std::cmp::Ordering::Equal)
+        })
+}
+
+/// How far a ring extends along a direction, in metres.
+fn extent_m(ring: &[Point], direction: Vector) -> f64 {
+    let Some(unit) = direction.unit() else { return 0.0 };
+    let Some(&origin) = ring.first() else { return 0.0 };
+    let (mut least, mut most) = (0.0_f64, 0.0_f64);
+    for &point in ring {
+        let along = (point - origin).dot(unit);
+        least = least.min(along);
+        most = most.max(along);
+    }
+    most - least
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ring(points: &[(f64, f64)]) -> Vec<Point> {
+        points.iter().map(|&(x, y)| Point::new(x, y)).collect()
+    }
+
+    const NO_HOLES: [Vec<Point>; 0] = [];
+
+    #[test]
+    fn extra_points_on_a_wall_do_not_end_a_run() {
+        let plain = ring(&[(0.0, 0.0), (6.0, 0.0), (6.0, 3.0), (0.0, 3.0)]);
+        let split = ring(&[(2.0, 0.0), (4.0, 0.0), (6.0, 0.0), (6.0, 1.0), (6.0, 3.0), (0.0, 3.0), (0.0, 0.0)]);
+        for outer in [plain, split] {
+            let axes = axes(&outer, &NO_HOLES).expect("a rectangle has axes");
+            assert_eq!((axes.major_m, axes.minor_m, axes.minor_is_extent), (6.0, 3.0, false));
+            assert_eq!(axes.ratio(), 2.0);
+            assert_eq!(runs(&outer).len(), 4);
+        }
+    }
+
+    #[test]
+    fn triangle_without_perpendicular_takes_the_extent() {
+        let outer = ring(&[(0.0, 0.0), (4.0, 0.0), (2.0, 3.0)]);
+        let axes = axes(&outer, &NO_HOLES).expect("a triangle has axes");
+        assert_eq!((axes.major_m, axes.minor_m, axes.minor_is_extent), (4.0, 3.0, true));
+    }
+
+    #[test]
+    fn a_round_room_is_many_runs() {
+        let circle: Vec<Point> = (0..72)
+            .map(|i| Point::default() + Vector::new(5.0, 0.0).rotated(f64::from(i) * std::f64::consts::TAU / 72.0))
+            .collect();
+        let runs = runs(&circle);
+        assert!(runs.len() > 8, "{}", runs.len());
+    }
+
+    #[test]
+    fn a_notch_below_a_centimetre_is_not_a_corner() {
+        let outer =
+            ring(&[(0.0, 0.0), (3.0, 0.0), (3.0004, -0.0004), (3.0008, 0.0), (8.0, 0.0), (8.0, 4.0), (0.0, 4.0)]);
+        assert_eq!(axes(&outer, &NO_HOLES).expect("has axes").major_m, 8.0);
+    }
+
+    #[test]
+    fn what_encloses_nothing_has_no_axes() {
+        assert_eq!(axes(&[], &NO_HOLES), None);
+        assert_eq!(axes(&ring(&[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)]), &NO_HOLES), None);
+    }
+}

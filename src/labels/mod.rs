@@ -1,0 +1,9 @@
+//! The five labels, typologies, and label schemes: the tables from functions to labels.
+
+mod label;
+mod scheme;
+mod typology;
+
+pub use label::Label;
+pub use scheme::{Meaning, SchemeError, Schemes, normalised_function};
+pub use typology::Typology;

@@ -1,0 +1,215 @@
+use std::sync::Arc;
+
+use super::{CornerId, Extra, RoomId};
+use crate::geometry::{Point, trim_m};
+use crate::labels::Label;
+
+/// A point shared by walls and room boundaries.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Corner {
+    /// On the 0.1 mm grid.
+    pub position: Point,
+    pub extra: Extra,
+}
+
+/// A straight piece between two corners.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wall {
+    pub from: CornerId,
+    pub to: CornerId,
+    /// In metres, at least 0 (a line), centred on the line between the corners.
+    pub thickness_m: f64,
+    pub extra: Extra,
+}
+
+/// An area bounded by corners. Its identity survives edits.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Room {
+    /// The outer boundary: at least three corners, the first not repeated; of either direction.
+    /// Empty for a room that a file names without giving its boundary.
+    pub outer: Arc<[CornerId]>,
+    /// Holes (courtyards, shafts, islands): rings inside the outer one.
+    pub holes: Vec<Arc<[CornerId]>>,
+    /// What the room is for, as the source or the person wrote it; empty when unknown.
+    pub function: String,
+    /// A label given to this room itself; without one, the label scheme's answer for the function
+    /// counts.
+    pub label: Option<RoomLabel>,
+    /// What is written in the room ('1.23', 'Library'); empty when unnamed.
+    pub name: String,
+    pub note: String,
+    pub extra: Extra,
+}
+
+impl Room {
+    /// All rings, the outer one first.
+    pub fn rings(&self) -> impl Iterator<Item = &Arc<[CornerId]>> {
+        std::iter::once(&self.outer).chain(&self.holes)
+    }
+
+    /// Whether the room has a boundary at all.
+    pub fn has_boundary(&self) -> bool {
+        !self.outer.is_empty()
+    }
+}
+
+/// A label and who gave it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RoomLabel {
+    pub label: Label,
+    pub origin: LabelOrigin,
+}
+
+/// Who gave a label.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LabelOrigin {
+    /// A person, in Enfilade.
+    Person,
+    /// The imported file stated it.
+    Imported,
+    /// A prediction that a person accepted.
+    AcceptedPrediction,
+}
+
+impl LabelOrigin {
+    pub const ALL: [Self; 3] = [Self::Person, Self::Imported, Self::AcceptedPrediction];
+
+    /// The word for files and for people.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Person => "person",
+            Self::Imported => "imported",
+            Self::AcceptedPrediction => "accepted prediction",
+        }
+    }
+}
+
+/// What an opening is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum OpeningKind {
+    /// A doorway with one leaf.
+    Door,
+    /// A doorway with two leaves.
+    DoubleDoor,
+    /// A free passage.
+    Passage,
+    /// A window: for drawing only, it joins nothing and does not count in `d`.
+    Window,
+}
+
+impl OpeningKind {
+    pub const ALL: [Self; 4] = [Self::Door, Self::DoubleDoor, Self::Passage, Self::Window];
+
+    /// The word for files and for people.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Door => "door",
+            Self::DoubleDoor => "double door",
+            Self::Passage => "passage",
+            Self::Window => "window",
+        }
+    }
+
+    /// Whether one can walk through it: everything but a window.
+    pub const fn is_passable(self) -> bool {
+        !matches!(self, Self::Window)
+    }
+}
+
+/// A doorway, free passage or window.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Opening {
+    pub kind: OpeningKind,
+    pub place: Place,
+    /// How a door's leaf opens; `None` lets the drawing choose.
+    pub swing: Option<Swing>,
+    /// The two sides it joins, where a file or a person states them; `None` when they follow from
+    /// geometry.
+    pub pinned: Option<[Joint; 2]>,
+    pub extra: Extra,
+}
+
+/// Where an opening is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// On the edge between two corners, which is that of a wall or a room's boundary.
+    Hosted {
+        from: CornerId,
+        to: CornerId,
+        /// Distance in metres from the corner `from` to the opening's middle, along the edge.
+        at_m: f64,
+        /// Clear width in metres, above 0.
+        width_m: f64,
+    },
+    /// A segment of its own, where an import gives no host.
+    Free { from: Point, to: Point },
+}
+
+/// One side of a pinned opening.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Joint {
+    Room(RoomId),
+    Outside,
+}
+
+impl Joint {
+    pub const fn room(self) -> Option<RoomId> {
+        match self {
+            Self::Room(id) => Some(id),
+            Self::Outside => None,
+        }
+    }
+}
+
+/// How a door's leaf opens, seen along its segment from its first end to its second.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Swing {
+    /// Whether the hinge is at the first end of the segment (else at the second). A double door has
+    /// one at each.
+    pub hinge_at_start: bool,
+    /// The side into which the leaf opens.
+    pub side: LeafSide,
+}
+
+/// A side of a directed segment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LeafSide {
+    Left,
+    Right,
+}
+
+/// A picture under the plan, to trace over.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Backdrop {
+    /// Path relative to the plan's file, with forward slashes.
+    pub path: String,
+    /// Hash of the picture's bytes, to find it again after a move; empty when unknown.
+    pub content_hash: String,
+    /// Where the picture's upper left corner lies in the plan.
+    pub origin: Point,
+    /// Size of a pixel in metres.
+    pub metres_per_pixel: f64,
+    /// Counter-clockwise turn about `origin` in radians.
+    pub rotation_rad: f64,
+    /// 0 invisible to 1 opaque.
+    pub opacity: f64,
+    pub extra: Extra,
+}
+
+impl Opening {
+    /// An opening of a kind at a place; nothing pinned, its swing left to the drawing.
+    pub const fn new(kind: OpeningKind, place: Place) -> Self {
+        Self { kind, place, swing: None, pinned: None, extra: None }
+    }
+
+    /// The same opening with its lengths on the 0.1 mm grid.
+    pub fn trimmed(mut self) -> Self {
+        self.place = match self.place {
+            Place::Hosted { from, to, at_m, width_m } => {
+                Place::Hosted { from, to, at_m: trim_m(at_m), width_m: trim_m(width_m) }
+            }
+            Place::Free { from, to } => Place::Free { from: from.trimmed(), to: to.trimmed() },
+        };
+        self
+    }
+}

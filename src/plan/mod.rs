@@ -1,0 +1,157 @@
+//! The document: one storey of one building as an immutable value that is cheap to clone.
+//!
+//! Corners are shared, like OpenStreetMap's nodes: walls and room boundaries refer to them by id, so
+//! that moving one moves everything that uses it. An edit is a function from plan to plan (see
+//! [`edit`]); [`Plan::violations`] states the invariants; [`History`] keeps the plans for undo.
+
+mod builder;
+pub mod edit;
+mod element;
+mod history;
+mod id;
+mod invariants;
+mod meta;
+
+use std::sync::Arc;
+
+use imbl::OrdMap;
+
+pub use builder::Builder;
+pub use element::{
+    Backdrop, Corner, Joint, LabelOrigin, LeafSide, Opening, OpeningKind, Place, Room, RoomLabel, Swing, Wall,
+};
+pub use history::{History, Step};
+pub use id::{CornerId, ElementId, IdError, OpeningId, RoomId, WallId};
+pub use invariants::Violation;
+pub use meta::{Meta, Scale, ScaleOrigin};
+
+use crate::geometry::{Bounds, Point, Segment};
+
+/// Fields of a file that this version does not know, kept so that saving does not lose them.
+pub type Extra = Option<Arc<serde_json::Map<String, serde_json::Value>>>;
+
+/// No coordinate lies further than this from the origin, in metres: 100 km is beyond any building,
+/// and far inside what `f64` holds to the 0.1 mm grid.
+pub const COORDINATE_LIMIT_M: f64 = 100_000.0;
+
+/// A door's width in metres where a file gives none: the paper's authors scale their plans by a
+/// door of 90 cm.
+pub const DEFAULT_DOOR_WIDTH_M: f64 = 0.9;
+
+/// A wall's thickness in metres where nothing gives one: a masonry partition with plaster.
+pub const DEFAULT_WALL_THICKNESS_M: f64 = 0.12;
+
+/// The thickest plausible wall in metres (design, 'The plan model'): how far an opening looks for
+/// the rooms it joins.
+pub const THICKEST_WALL_M: f64 = 0.6;
+
+/// One storey of one building. Clones share all structure.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Plan {
+    pub(crate) meta: Arc<Meta>,
+    pub(crate) corners: OrdMap<CornerId, Corner>,
+    pub(crate) walls: OrdMap<WallId, Wall>,
+    pub(crate) rooms: OrdMap<RoomId, Arc<Room>>,
+    pub(crate) openings: OrdMap<OpeningId, Arc<Opening>>,
+    pub(crate) backdrop: Option<Arc<Backdrop>>,
+    pub(crate) extra: Extra,
+}
+
+impl Plan {
+    pub fn meta(&self) -> &Meta {
+        &self.meta
+    }
+
+    pub fn backdrop(&self) -> Option<&Backdrop> {
+        self.backdrop.as_deref()
+    }
+
+    pub fn corner(&self, id: CornerId) -> Option<&Corner> {
+        self.corners.get(&id)
+    }
+
+    pub fn wall(&self, id: WallId) -> Option<&Wall> {
+        self.walls.get(&id)
+    }
+
+    pub fn room(&self, id: RoomId) -> Option<&Room> {
+        self.rooms.get(&id).map(Arc::as_ref)
+    }
+
+    pub fn opening(&self, id: OpeningId) -> Option<&Opening> {
+        self.openings.get(&id).map(Arc::as_ref)
+    }
+
+    /// All corners by id.
+    pub fn corners(&self) -> impl ExactSizeIterator<Item = (CornerId, &Corner)> {
+        self.corners.iter().map(|(&id, corner)| (id, corner))
+    }
+
+    /// All walls by id.
+    pub fn walls(&self) -> impl ExactSizeIterator<Item = (WallId, &Wall)> {
+        self.walls.iter().map(|(&id, wall)| (id, wall))
+    }
+
+    /// All rooms by id.
+    pub fn rooms(&self) -> impl ExactSizeIterator<Item = (RoomId, &Room)> {
+        self.rooms.iter().map(|(&id, room)| (id, room.as_ref()))
+    }
+
+    /// All openings by id.
+    pub fn openings(&self) -> impl ExactSizeIterator<Item = (OpeningId, &Opening)> {
+        self.openings.iter().map(|(&id, opening)| (id, opening.as_ref()))
+    }
+
+    /// Where a corner lies, if it exists.
+    pub fn position(&self, id: CornerId) -> Option<Point> {
+        self.corner(id).map(|corner| corner.position)
+    }
+
+    /// The points of a ring of corners; a corner that does not exist is left out, which the
+    /// invariants exclude.
+    pub fn ring_points(&self, ring: &[CornerId]) -> Vec<Point> {
+        ring.iter().filter_map(|&id| self.position(id)).collect()
+    }
+
+    /// A wall's centre line.
+    pub fn wall_segment(&self, wall: &Wall) -> Option<Segment> {
+        Some(Segment::new(self.position(wall.from)?, self.position(wall.to)?))
+    }
+
+    /// The segment an opening occupies: on its host edge, or its own.
+    pub fn opening_segment(&self, opening: &Opening) -> Option<Segment> {
+        match opening.place {
+            Place::Free { from, to } => Some(Segment::new(from, to)),
+            Place::Hosted { from, to, at_m, width_m } => {
+                let edge = Segment::new(self.position(from)?, self.position(to)?);
+                let direction = edge.vector().unit()?;
+                let centre = edge.a + direction * at_m;
+                Some(Segment::new(centre - direction * (width_m / 2.0), centre + direction * (width_m / 2.0)))
+            }
+        }
+    }
+
+    /// The box of all corners and free openings; empty for an empty plan.
+    pub fn bounds(&self) -> Bounds {
+        let corners = Bounds::of(self.corners.values().map(|corner| corner.position));
+        self.openings.values().fold(corners, |bounds, opening| match opening.place {
+            Place::Free { from, to } => bounds.with(from).with(to),
+            Place::Hosted { .. } => bounds,
+        })
+    }
+
+    /// Whether nothing is drawn.
+    pub fn is_empty(&self) -> bool {
+        self.corners.is_empty() && self.rooms.is_empty() && self.openings.is_empty()
+    }
+
+    /// Whether both are the same value in memory: a quick test that never says yes wrongly.
+    pub fn is_same_value(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.meta, &other.meta)
+            && self.corners.ptr_eq(&other.corners)
+            && self.walls.ptr_eq(&other.walls)
+            && self.rooms.ptr_eq(&other.rooms)
+            && self.openings.ptr_eq(&other.openings)
+            && self.backdrop.as_ref().map(Arc::as_ptr) == other.backdrop.as_ref().map(Arc::as_ptr)
+    }
+}

@@ -1,0 +1,1 @@
+//! Plan files on disk: loading, and saving without ever losing what was there.

@@ -1,0 +1,144 @@
+use rstar::{AABB, RTree, RTreeObject};
+
+use crate::geometry::polygon::{self, Location};
+use crate::geometry::{Bounds, Point, Vector};
+use crate::plan::{Plan, RoomId};
+
+/// A room's boundary as points.
+#[derive(Clone, Debug)]
+pub struct RoomShape {
+    pub id: RoomId,
+    /// The outer ring; empty for a room without a boundary.
+    pub outer: Vec<Point>,
+    pub holes: Vec<Vec<Point>>,
+    pub bounds: Bounds,
+}
+
+impl RoomShape {
+    /// Area in m², holes taken off.
+    pub fn area_m2(&self) -> f64 {
+        polygon::area(&self.outer, &self.holes)
+    }
+
+    /// Where a point lies in relation to the room.
+    pub fn locate(&self, point: Point) -> Location {
+        if self.bounds.contains(point) { polygon::locate(&self.outer, &self.holes, point) } else { Location::Outside }
+    }
+
+    /// All rings, the outer one first.
+    pub fn rings(&self) -> impl Iterator<Item = &Vec<Point>> {
+        std::iter::once(&self.outer).chain(&self.holes)
+    }
+
+    /// The stretches of the ray from `origin` along the unit vector `direction` that lie inside the
+    /// room, as distances in metres from 0 to `reach_m`, in order.
+    pub fn stretches(&self, origin: Point, direction: Vector, reach_m: f64) -> Vec<(f64, f64)> {
+        let end = origin + direction * reach_m;
+        if !self.bounds.intersects(Bounds::of([origin, end])) {
+            return Vec::new();
+        }
+        let mut cuts = vec![0.0, reach_m];
+        for edge in self.rings().flat_map(|ring| polygon::edges(ring)) {
+            let across = edge.vector();
+            let denominator = direction.cross(across);
+            if denominator.abs() < 1e-12 {
+                continue;
+            }
+            let to_edge = edge.a - origin;
+            let along_edge = to_edge.cross(direction) / denominator;
+            let along_ray = to_edge.cross(across) / denominator;
+            if (-1e-9..=1.0 + 1e-9).contains(&along_edge) && along_ray > 0.0 && along_ray < reach_m {
+                cuts.push(along_ray);
+            }
+        }
+        cuts.sort_by(f64::total_cmp);
+        let mut inside: Vec<(f64, f64)> = Vec::new();
+        for pair in cuts.windows(2) {
+            let (from, to) = (pair[0], pair[1]);
+            if to - from < 1e-9 || self.locate(origin + direction * ((from + to) / 2.0)) == Location::Outside {
+                continue;
+            }
+            match inside.last_mut() {
+                Some(last) if from - last.1 < 1e-9 => last.1 = to,
+                _ => inside.push((from, to)),
+            }
+        }
+        inside
+    }
+}
+
+/// The shapes of all rooms of a plan, by id, with an index to find them by place.
+#[derive(Debug)]
+pub struct RoomShapes {
+    shapes: Vec<RoomShape>,
+    tree: RTree<Entry>,
+}
+
+#[derive(Debug)]
+struct Entry {
+    index: usize,
+    bounds: Bounds,
+}
+
+impl RTreeObject for Entry {
+    type Envelope = AABB<[f64; 2]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        AABB::from_corners([self.bounds.min.x, self.bounds.min.y], [self.bounds.max.x, self.bounds.max.y])
+    }
+}
+
+impl RoomShapes {
+    pub fn new(plan: &Plan) -> Self {
+        let shapes: Vec<RoomShape> = plan
+            .rooms()
+            .map(|(id, room)| {
+                let outer = plan.ring_points(&room.outer);
+                let holes = room.holes.iter().map(|hole| plan.ring_points(hole)).collect();
+                let bounds = polygon::bounds(&outer);
+                RoomShape { id, outer, holes, bounds }
+            })
+            .collect();
+        let entries = shapes
+            .iter()
+            .enumerate()
+            .filter(|(_, shape)| !shape.bounds.is_empty())
+            .map(|(index, shape)| Entry { index, bounds: shape.bounds })
+            .collect();
+        Self { shapes, tree: RTree::bulk_load(entries) }
+    }
+
+    /// All shapes, sorted by room id.
+    pub fn all(&self) -> &[RoomShape] {
+        &self.shapes
+    }
+
+    /// Index of a room in [`RoomShapes::all`].
+    pub fn index_of(&self, id: RoomId) -> Option<usize> {
+        self.shapes.binary_search_by_key(&id, |shape| shape.id).ok()
+    }
+
+    pub fn get(&self, id: RoomId) -> Option<&RoomShape> {
+        self.index_of(id).map(|index| &self.shapes[index])
+    }
+
+    /// Indices of the rooms whose boxes meet `bounds`, ascending.
+    pub fn near(&self, bounds: Bounds) -> Vec<usize> {
+        if bounds.is_empty() {
+            return Vec::new();
+        }
+        let envelope = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
+        let mut found: Vec<usize> =
+            self.tree.locate_in_envelope_intersecting(envelope).map(|entry| entry.index).collect();
+        found.sort_unstable();
+        found
+    }
+
+    /// Indices of the rooms that contain a point (their boundary included), the smallest first.
+    pub fn at(&self, point: Point) -> Vec<usize> {
+        let mut found = self.near(Bounds::of([point]));
+        found.retain(|&index| self.shapes[index].locate(point) != Location::Outside);
+        found.sort_by(|&p, &q| self.shapes[p].area_m2().total_cmp(&self.shapes[q].area_m2()).then(p.cmp(&q)));
+        found
+    }
+}
