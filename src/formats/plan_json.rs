@@ -327,6 +327,8 @@ struct DiskRoom {
     holes: Vec<Vec<Text<CornerId>>>,
     #[serde(default, skip_serializing_if = "String::is_empty")]
     note: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    source_id: String,
     #[serde(flatten)]
     extra: Map<String, Value>,
 }
@@ -354,6 +356,8 @@ struct DiskOpening {
     /// Pinned sides; null is the outside.
     #[serde(skip_serializing_if = "Option::is_none")]
     joins: Option<[Option<Text<RoomId>>; 2]>,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    source_id: String,
     #[serde(flatten)]
     extra: Map<String, Value>,
 }
@@ -496,6 +500,7 @@ impl DiskRoom {
             outer: ring(&room.outer),
             holes: room.holes.iter().map(ring).collect(),
             note: room.note.clone(),
+            source_id: room.source_id.clone(),
             extra: fields(&room.extra),
         }
     }
@@ -514,6 +519,7 @@ impl DiskOpening {
             hinge: opening.swing.map(|swing| if swing.hinge_at_start { DiskHinge::Start } else { DiskHinge::End }),
             opens: opening.swing.map(|swing| swing.side.into()),
             joins: opening.pinned.map(|sides| sides.map(|side| side.room().map(Text))),
+            source_id: opening.source_id.clone(),
             extra: fields(&opening.extra),
         };
         match opening.place {
@@ -639,6 +645,7 @@ impl DiskRoom {
             }),
             name: self.name,
             note: self.note,
+            source_id: self.source_id,
             extra: kept(self.extra),
         }
     }
@@ -667,6 +674,7 @@ impl DiskOpening {
             place,
             swing,
             pinned: self.joins.map(|sides| sides.map(joint)),
+            source_id: self.source_id,
             extra: kept(self.extra),
         })
     }

@@ -1,3 +1,4 @@
+use crate::golden::assert_golden;
 use enfilade::formats::plan_json::{from_bytes, to_bytes};
 use enfilade::geometry::Point;
 use enfilade::labels::{Label, Typology};
@@ -46,6 +47,7 @@ fn full_plan() -> Plan {
             label: Some(RoomLabel { label: Label::Hall, origin: LabelOrigin::AcceptedPrediction }),
             name: "Salon\n1".to_owned(),
             note: "fireplace".to_owned(),
+            source_id: String::new(),
             extra: None,
         },
     );
@@ -75,5 +77,5 @@ fn a_plan_reads_back_as_it_was() {
 #[test]
 fn the_file_looks_as_documented() {
     let text = String::from_utf8(to_bytes(&full_plan())).unwrap();
-    assert_eq!(text, include_str!("every_field.plan.json"));
+    assert_golden("every_field.plan.json", &text);
 }
