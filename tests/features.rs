@@ -1,5 +1,6 @@
 //! Features are a matter of shape and connections: the same after moving, turning and mirroring a
 //! plan, and after naming its rooms anew.
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 use enfilade::features::{Analysis, NeighbourLabels, analyse};
 use enfilade::geometry::{Point, Vector};
