@@ -320,7 +320,7 @@ struct DiskOpening {
     #[serde(skip_serializing_if = "Option::is_none")]
     on: Option<[Text<CornerId>; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    at: Option<Metres>,
+    at: Option<Number>,
     #[serde(skip_serializing_if = "Option::is_none")]
     width: Option<Metres>,
     /// The ends of a free opening.
@@ -504,7 +504,7 @@ impl DiskOpening {
         match opening.place {
             OpeningPlace::Hosted { from, to, at_m, width_m } => {
                 disk.on = Some([Text(from), Text(to)]);
-                disk.at = Some(Metres(at_m));
+                disk.at = Some(Number(at_m));
                 disk.width = Some(Metres(width_m));
             }
             OpeningPlace::Free { from, to } => {
@@ -634,7 +634,7 @@ impl DiskOpening {
     fn live(self) -> Result<Opening, &'static str> {
         let place = match (self.on, self.at, self.width, self.from, self.to) {
             (Some([from, to]), Some(at), Some(width), None, None) => {
-                OpeningPlace::Hosted { from: from.0, to: to.0, at_m: at.0, width_m: width.0 }
+                OpeningPlace::Hosted { from: from.0, to: to.0, at_m: trim_m(at.0), width_m: width.0 }
             }
             (None, None, None, Some([x0, y0]), Some([x1, y1])) => {
                 OpeningPlace::Free { from: Point::new(x0.0, y0.0), to: Point::new(x1.0, y1.0) }
