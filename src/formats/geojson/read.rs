@@ -181,9 +181,9 @@ fn check_units(collection: &DiskCollection, items: &[Item]) -> Result<Option<Not
 
 /// What a file says of the plan as a whole.
 fn meta_of(disk: &DiskMeta, stem: &str) -> Meta {
-    let sentence = disk.scale.0.trim();
+    let sentence = disk.scale.as_str();
     let stated = ScaleOrigin::ALL.into_iter().find(|origin| origin.name() == disk.scale_origin.0);
-    let lower = sentence.to_lowercase();
+    let lower = sentence.trim_start().to_lowercase();
     let opening_word = ScaleOrigin::ALL.into_iter().find(|origin| lower.starts_with(origin.name()));
     // Metres without a word on how they came about are still the file's statement.
     let origin = stated.or(opening_word).unwrap_or(ScaleOrigin::Imported);
