@@ -1,5 +1,6 @@
 //! Plan files and GeoJSON: what is written reads back, what is broken is refused in words.
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(clippy::print_stdout, reason = "a skipped test says so")]
 
 #[path = "formats/broken.rs"]
 mod broken;
