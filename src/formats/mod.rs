@@ -2,6 +2,7 @@
 //!
 //! A reader never guesses silently: what it mends or leaves out becomes a [`Note`] with its place.
 
+pub mod geojson;
 mod json_text;
 pub mod plan_json;
 
@@ -13,7 +14,7 @@ use crate::labels::Schemes;
 use crate::plan::Plan;
 
 /// Every known format, in the order in which they are tried.
-pub const FORMATS: &[&dyn Format] = &[&plan_json::PlanJson];
+pub const FORMATS: &[&dyn Format] = &[&plan_json::PlanJson, &geojson::GeoJson];
 
 /// A file format for plans.
 pub trait Format: Sync {
