@@ -1,5 +1,6 @@
 //! The command line. One file a subcommand, one line in [`SUBCOMMANDS`] to register it.
 
+mod check;
 mod dataset;
 mod features;
 mod inputs;
@@ -10,7 +11,8 @@ use std::path::{Path, PathBuf};
 use clap::{ArgMatches, Args, Command};
 
 /// All subcommands, in the order of the help.
-const SUBCOMMANDS: &[Entry] = &[entry::<features::FeaturesCommand>(), entry::<dataset::DatasetCommand>()];
+const SUBCOMMANDS: &[Entry] =
+    &[entry::<features::FeaturesCommand>(), entry::<dataset::DatasetCommand>(), entry::<check::CheckCommand>()];
 
 /// A subcommand: its arguments (a clap `Args`) and what it does with them.
 pub trait Subcommand: Args {
