@@ -3,5 +3,5 @@
 mod graph;
 mod shapes;
 
-pub use graph::{Connection, Graph};
+pub use graph::{Connection, Graph, sides_by_geometry};
 pub use shapes::{RoomShape, RoomShapes};
