@@ -4,6 +4,7 @@ mod dataset;
 mod export;
 mod features;
 mod inputs;
+mod render;
 
 use std::io::{IsTerminal as _, Write};
 use std::path::{Path, PathBuf};
@@ -16,6 +17,7 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<features::FeaturesCommand>(),
     entry::<dataset::DatasetCommand>(),
     entry::<export::ExportCommand>(),
+    entry::<render::RenderCommand>(),
 ];
 
 /// A subcommand: its arguments (a clap `Args`) and what it does with them.

@@ -5,7 +5,7 @@ use super::{Fill, Style, names};
 use crate::features::{Analysis, RoomStatus};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::labels::normalised_function;
-use crate::plan::{Joint, Meta, OpeningId, Plan, RoomId};
+use crate::plan::{Joint, Meta, Plan, RoomId};
 
 /// A plan as shapes, before zoom and colours: made once a plan, asked for a [`Scene`] once a view.
 pub struct Drawing {
@@ -62,7 +62,6 @@ pub(super) struct WallDrawing {
 
 /// A way from room to room, or out, through an opening.
 pub(super) struct GraphEdge {
-    pub opening: OpeningId,
     pub from: Point,
     pub through: Point,
     /// The other room's centre; without one it leads outside, this way.
@@ -354,7 +353,7 @@ fn graph_edges(analysis: &Analysis, rooms: &[RoomDrawing], openings: &[OpeningDr
             let normal = opening.normal();
             if (first.centre - opening.centre).dot(normal) > 0.0 { -normal } else { normal }
         });
-        edges.push(GraphEdge { opening: opening.id, from: first.centre, through: opening.centre, to });
+        edges.push(GraphEdge { from: first.centre, through: opening.centre, to });
     }
     edges
 }
