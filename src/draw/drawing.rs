@@ -1,7 +1,9 @@
+use std::collections::BTreeMap;
+
 use super::openings::OpeningDrawing;
 use super::scene::{Frame, Group, Item, Layer, Length, Scene, View};
 use super::walls::{self, Faces, Walls};
-use super::{Fill, Style, names};
+use super::{Fill, Rgba, Style, names};
 use crate::features::{Analysis, RoomStatus};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::labels::normalised_function;
@@ -141,7 +143,8 @@ impl Drawing {
             Layer::Boundaries if layers.walls => self.boundary_lines(style),
             Layer::Walls if layers.walls => self.wall_fills(style, view),
             Layer::Openings if layers.openings => {
-                self.openings.iter().map(|opening| opening.group(style, view)).collect()
+                let floors = self.fills(style);
+                self.openings.iter().map(|opening| opening.group(style, view, &floors)).collect()
             }
             Layer::Graph if layers.graph => self.graph_marks(style),
             Layer::Names if layers.names || layers.areas => names::groups(self, style, view),
@@ -176,9 +179,13 @@ impl Drawing {
         vec![Group::new(Layer::Grid, Frame::Plan, items)]
     }
 
-    fn room_fills(&self, style: &Style) -> Vec<Group> {
+    /// The colours of the rooms' fills.
+    fn fills(&self, style: &Style) -> Vec<Rgba> {
         let palette = style.palette();
-        let functions = palette.functions(self.rooms.iter().map(|room| room.function.as_str()));
+        let functions = match style.fill {
+            Fill::Function => palette.functions(self.rooms.iter().map(|room| room.function.as_str())),
+            Fill::Label | Fill::None => BTreeMap::new(),
+        };
         let fill = |room: &RoomDrawing| match style.fill {
             Fill::None => palette.paper,
             Fill::Label => palette.status(room.status),
@@ -186,6 +193,11 @@ impl Drawing {
                 functions.get(&normalised_function(&room.function)).copied().unwrap_or(palette.unlabelled)
             }
         };
+        self.rooms.iter().map(|room| fill(room).faded(style.fill_opacity)).collect()
+    }
+
+    fn room_fills(&self, style: &Style) -> Vec<Group> {
+        let fills = self.fills(style);
         // Large rooms first: one that lies in or over another is seen.
         let mut order: Vec<usize> = (0..self.rooms.len()).filter(|&i| !self.rooms[i].outer.is_empty()).collect();
         order.sort_by(|&p, &q| self.rooms[q].area_m2.total_cmp(&self.rooms[p].area_m2).then(p.cmp(&q)));
@@ -193,8 +205,7 @@ impl Drawing {
             .into_iter()
             .map(|i| {
                 let room = &self.rooms[i];
-                let colour = fill(room).faded(style.fill_opacity);
-                let polygon = Item::Polygon { outer: room.outer.clone(), holes: room.holes.clone(), colour };
+                let polygon = Item::Polygon { outer: room.outer.clone(), holes: room.holes.clone(), colour: fills[i] };
                 Group {
                     element: room.id.to_string(),
                     title: room_title(room),

@@ -223,7 +223,7 @@ fn legend_entries(drawing: &Drawing, style: &Style) -> Vec<Entry> {
 /// factors of the text's size.
 const ROW: f64 = 1.7;
 const SCALE_HEIGHT: f64 = 2.4;
-const SCALE_WIDTH: f64 = 13.0;
+const SCALE_WIDTH: f64 = 15.0;
 
 /// No legend has more rows; what is left over is counted in a last entry.
 const MOST_ROWS: usize = 4;
