@@ -4,6 +4,8 @@
 
 #[path = "formats/broken.rs"]
 mod broken;
+#[path = "formats/docs.rs"]
+mod docs;
 #[path = "formats/generated.rs"]
 mod generated;
 #[path = "formats/geojson.rs"]
