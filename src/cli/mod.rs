@@ -1,5 +1,6 @@
 //! The command line. One file a subcommand, one line in [`SUBCOMMANDS`] to register it.
 
+mod check;
 mod dataset;
 mod export;
 mod features;
@@ -16,6 +17,7 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<features::FeaturesCommand>(),
     entry::<dataset::DatasetCommand>(),
     entry::<export::ExportCommand>(),
+    entry::<check::CheckCommand>(),
 ];
 
 /// A subcommand: its arguments (a clap `Args`) and what it does with them.
