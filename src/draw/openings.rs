@@ -1,13 +1,13 @@
 //! Doors, passages and windows as an architect draws them: cut out of the wall they stand in, doors
 //! with their leaf and the arc it swings through.
 
-use super::{Rgba, Style};
 use super::drawing::RoomDrawing;
 use super::scene::{Dash, Frame, Group, Item, Layer, Length, View};
 use super::walls::{self, Faces};
+use super::{Rgba, Style};
 use crate::features::{Analysis, RoomStatus};
 use crate::geometry::polygon::Location;
-use crate::geometry::{Bounds, Point, Vector};
+use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::labels::Label;
 use crate::plan::{LeafSide, Opening, OpeningId, OpeningKind, Plan};
 
@@ -128,7 +128,7 @@ impl OpeningDrawing {
     }
 
     /// Hangs a door's leaves: as the plan says, else as an architect would.
-    fn hang(&mut self, opening: &Opening, analysis: &Analysis, rooms: &[RoomDrawing], faces: &Faces, others: &[Self]) {
+    fn hang(&mut self, opening: &Opening, rooms: &[RoomDrawing], faces: &Faces, others: &[Self]) {
         let width = 2.0 * self.half_width;
         let leaf_count = match self.kind {
             OpeningKind::Door if width <= WIDEST_LEAF_M => 1.0,
@@ -198,14 +198,19 @@ impl OpeningDrawing {
 
     /// The box of all that is drawn of it.
     pub fn bounds(&self) -> Bounds {
-        let u = self.along * self.half_width;
-        let ends = [self.centre - u, self.centre + u];
-        Bounds::of(ends.into_iter().chain(self.leaves.iter().map(|leaf| leaf.tip)))
+        let Segment { a, b } = self.segment();
+        Bounds::of([a, b].into_iter().chain(self.leaves.iter().map(|leaf| leaf.tip)))
     }
 
-    /// The regions leaves swing through: corner points of each.
+    /// The regions leaves swing through: the hinge, the closed leaf's end, the open leaf's end of each.
     pub fn sweeps(&self) -> impl Iterator<Item = [Point; 3]> + '_ {
         self.leaves.iter().map(|leaf| [leaf.hinge, leaf.shut, leaf.tip])
+    }
+
+    /// Its segment as drawn.
+    pub fn segment(&self) -> Segment {
+        let u = self.along * self.half_width;
+        Segment::new(self.centre - u, self.centre + u)
     }
 
     /// Its shapes.
@@ -218,11 +223,17 @@ impl OpeningDrawing {
         let at = |u: f64, v: f64| self.centre + self.along * (u * self.half_width) + self.normal() * v;
         let line = |points: Vec<Point>, colour, width| Item::Line { points, closed: false, colour, width, dash: None };
         let (right, left) = self.faces;
-        if self.cut.is_some() && style.layers.rooms && self.kind.is_passable() {
+        if self.cut.is_some() && self.kind == OpeningKind::Window {
+            // Whatever rooms reach into the wall: a window is glass, not floor.
+            let outer = vec![at(-1.0, right), at(1.0, right), at(1.0, left), at(-1.0, left)];
+            items.push(Item::Polygon { outer, holes: Vec::new(), colour: palette.paper.faded(style.fill_opacity) });
+        } else if self.cut.is_some() && style.layers.rooms {
             // The floor of either room reaches to the middle of the wall; of a single one, through.
             let [on_left, on_right] = self.sides.map(|side| side.map(|index| floors[index]));
             let halves = match (on_left, on_right) {
-                (Some(colour), Some(other)) if colour != other => [Some((0.0, left, colour)), Some((right, 0.0, other))],
+                (Some(colour), Some(other)) if colour != other => {
+                    [Some((0.0, left, colour)), Some((right, 0.0, other))]
+                }
                 (Some(colour), _) | (None, Some(colour)) => [Some((right, left, colour)), None],
                 (None, None) => [None; 2],
             };
@@ -253,7 +264,8 @@ impl OpeningDrawing {
             }
             OpeningKind::Passage => {
                 let dash = Some(Dash { dash: Length::Px(4.0), gap: Length::Px(3.0) });
-                for v in [right, left] {
+                let lintels = if self.cut.is_some() { vec![right, left] } else { vec![0.0] };
+                for v in lintels {
                     items.push(Item::Line {
                         points: vec![at(-1.0, v), at(1.0, v)],
                         closed: false,

@@ -263,10 +263,17 @@ impl Derived {
         let scale = (median_m2.sqrt() / USUAL_ROOM_M).clamp(0.3, 1.5);
 
         let rooms_area: Shapes = indoors.simplify_shape(FillRule::NonZero);
-        // Closing (grown, then shrunk by the same) fills what is narrower than the thickest wall.
+        // Closing (grown, then shrunk by the same) fills what is narrower than the thickest wall:
+        // between rooms, and between them and balconies.
         let reach = THICKEST_WALL_M / 2.0 * scale.min(1.0);
-        let building = grown(&grown(&rooms_area, reach), -reach);
-        let gaps = building.overlay(&rooms_area, OverlayRule::Difference, FillRule::NonZero);
+        let closed = |shapes: &Shapes| grown(&grown(shapes, reach), -reach);
+        let building = closed(&rooms_area);
+        let gaps = if outdoors.is_empty() {
+            building.overlay(&rooms_area, OverlayRule::Difference, FillRule::NonZero)
+        } else {
+            let all: Vec<Ring> = indoors.iter().chain(&outdoors).cloned().collect();
+            closed(&all.simplify_shape(FillRule::NonZero)).overlay(&all, OverlayRule::Difference, FillRule::NonZero)
+        };
         // Rooms drawn to the faces of walls leave much of the building to walls; rooms that meet on
         // centre lines leave none.
         let (gaps_m2, length_m) = (area_m2(&gaps), indoors.iter().map(|ring| polygon::perimeter(&points(ring))).sum());
