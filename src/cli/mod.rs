@@ -3,6 +3,7 @@
 mod dataset;
 mod export;
 mod features;
+mod import;
 mod inputs;
 mod render;
 
@@ -14,6 +15,7 @@ use clap::{ArgMatches, Args, Command};
 /// All subcommands, in the order of the help.
 #[rustfmt::skip] // one line each
 const SUBCOMMANDS: &[Entry] = &[
+    entry::<import::ImportCommand>(),
     entry::<features::FeaturesCommand>(),
     entry::<dataset::DatasetCommand>(),
     entry::<export::ExportCommand>(),
