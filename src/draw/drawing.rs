@@ -42,6 +42,11 @@ impl RoomDrawing {
         std::iter::once(&self.outer).chain(&self.holes)
     }
 
+    /// Whether it is a lift, whose doors slide.
+    pub fn is_lift(&self) -> bool {
+        normalised_function(&self.function).split(' ').any(|word| matches!(word, "lift" | "elevator"))
+    }
+
     /// Whether it lies under the open sky, so that it is no part of the building's mass: by its
     /// function, and only where the scheme leaves that blank.
     pub fn is_open_air(&self) -> bool {

@@ -9,7 +9,7 @@ use crate::features::{Analysis, RoomStatus};
 use crate::geometry::polygon::Location;
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::labels::Label;
-use crate::plan::{LeafSide, Opening, OpeningId, OpeningKind, Plan};
+use crate::plan::{LeafSide, Opening, OpeningId, OpeningKind, Plan, THICKEST_WALL_M};
 
 /// An opening as drawn.
 pub(super) struct OpeningDrawing {
@@ -81,11 +81,19 @@ impl OpeningDrawing {
         let normal = along.left();
         let mut half_width = segment.length() / 2.0;
         let mut middle = segment.midpoint();
-        // The thinnest wall seen at three places: one may look along a wall that ends here.
-        let wall = [0.0, -0.5, 0.5]
+        // Looked for at three places: one may look along a wall that ends here. The thinnest is the
+        // wall; where it widens along the opening, the whole of it is taken.
+        let seen: Vec<(f64, f64)> = [0.0, -0.8, 0.8]
             .into_iter()
             .filter_map(|place| faces.wall_at(middle + along * (place * half_width), normal, SEAT_REACH_M))
-            .min_by(|p, q| (p.1 - p.0).total_cmp(&(q.1 - q.0)));
+            .collect();
+        let wall = seen.iter().copied().min_by(|p, q| (p.1 - p.0).total_cmp(&(q.1 - q.0))).map(|thinnest| {
+            seen.iter().fold(thinnest, |(right, left), other| {
+                let (low, high) = (right.min(other.0), left.max(other.1));
+                let meets = other.0 <= left && other.1 >= right;
+                if meets && high - low <= THICKEST_WALL_M { (low, high) } else { (right, left) }
+            })
+        });
         let (right, left) = wall.unwrap_or((-NO_WALL_M / 2.0, NO_WALL_M / 2.0));
         if wall.is_some() {
             // Just off both faces, how far until another wall stands in the way.
@@ -135,6 +143,10 @@ impl OpeningDrawing {
             OpeningKind::DoubleDoor if width <= 2.0 * WIDEST_LEAF_M => 2.0,
             _ => return,
         };
+        let is_lift = |side: Option<usize>| side.is_some_and(|index| rooms[index].is_lift());
+        if opening.swing.is_none() && self.sides.into_iter().any(is_lift) {
+            return;
+        }
         if let Some(swing) = opening.swing {
             self.leaves = self.leaves(leaf_count, swing.hinge_at_start, swing.side);
             return;
