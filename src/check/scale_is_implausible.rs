@@ -67,9 +67,9 @@ impl Check for ScaleIsImplausible {
         if let Some(factor) = self.rooms_factor {
             reasons.push(format!("its rooms' sides are {factor:.2} times as long as usual for their labels"));
         }
+        let (factor, way) = if self.factor > 1.0 { (self.factor, "long") } else { (1.0 / self.factor, "short") };
         format!(
-            "lengths seem {:.2} times too long: {} (scale {})",
-            self.factor,
+            "lengths seem {factor:.2} times too {way}: {} (scale {})",
             reasons.join(", "),
             self.origin.name()
         )

@@ -42,6 +42,11 @@ impl RoomDrawing {
         std::iter::once(&self.outer).chain(&self.holes)
     }
 
+    /// Whether it is a lift, whose doors slide.
+    pub fn is_lift(&self) -> bool {
+        normalised_function(&self.function).split(' ').any(|word| matches!(word, "lift" | "elevator"))
+    }
+
     /// Whether it lies under the open sky, so that it is no part of the building's mass: by its
     /// function, and only where the scheme leaves that blank.
     pub fn is_open_air(&self) -> bool {
@@ -107,12 +112,13 @@ impl Drawing {
             walls_drawn.iter().fold(plan.bounds(), |bounds, wall| bounds.union(Bounds::of(wall.outer.iter().copied())));
         let bounds = openings.iter().fold(bounds, |bounds, opening| bounds.union(opening.bounds()));
         let graph = graph_edges(analysis, &rooms, &openings);
+        let boundaries = without_openings(walls.boundaries, &openings);
         Self {
             meta: plan.meta().clone(),
             rooms,
             walls: walls_drawn,
             wall_lines: walls.lines,
-            boundaries: walls.boundaries,
+            boundaries,
             openings,
             graph,
             faces,
@@ -180,7 +186,7 @@ impl Drawing {
     }
 
     /// The colours of the rooms' fills.
-    fn fills(&self, style: &Style) -> Vec<Rgba> {
+    pub(super) fn fills(&self, style: &Style) -> Vec<Rgba> {
         let palette = style.palette();
         let functions = match style.fill {
             Fill::Function => palette.functions(self.rooms.iter().map(|room| room.function.as_str())),
@@ -347,6 +353,35 @@ fn room_title(room: &RoomDrawing) -> String {
         (false, false) => format!("{}: {}", room.name, normalised_function(&room.function)),
     };
     format!("{head}, {label}, {}", names::area_text(room.area_m2))
+}
+
+/// The pieces of boundaries that are left beside openings that stand in no wall.
+fn without_openings(mut boundaries: Vec<Segment>, openings: &[OpeningDrawing]) -> Vec<Segment> {
+    // An opening given for a boundary lies on it but for rounding.
+    const ON_IT_M: f64 = 0.05;
+    for opening in openings.iter().filter(|opening| opening.cut.is_none()) {
+        let gap = opening.segment();
+        let mut left = Vec::with_capacity(boundaries.len() + 1);
+        for boundary in boundaries {
+            let length = boundary.length();
+            let (p, q) = (boundary.nearest_fraction(gap.a), boundary.nearest_fraction(gap.b));
+            let (from, to) = (p.min(q), p.max(q));
+            let middle = boundary.a.lerp(boundary.b, (from + to) / 2.0);
+            let along = gap.vector().cross(boundary.vector()).abs() <= ON_IT_M * gap.length() * length;
+            if !along || (to - from) * length < ON_IT_M || gap.distance(middle) > ON_IT_M {
+                left.push(boundary);
+                continue;
+            }
+            if from * length > ON_IT_M {
+                left.push(Segment::new(boundary.a, boundary.a.lerp(boundary.b, from)));
+            }
+            if (1.0 - to) * length > ON_IT_M {
+                left.push(Segment::new(boundary.a.lerp(boundary.b, to), boundary.b));
+            }
+        }
+        boundaries = left;
+    }
+    boundaries
 }
 
 fn graph_edges(analysis: &Analysis, rooms: &[RoomDrawing], openings: &[OpeningDrawing]) -> Vec<GraphEdge> {
