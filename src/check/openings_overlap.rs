@@ -53,6 +53,10 @@ impl Check for OpeningsOverlap {
         found
     }
 
+    fn size(&self) -> f64 {
+        self.overlap_m
+    }
+
     fn place(&self) -> Place<'_> {
         Place {
             elements: self.openings.iter().map(|opening| ElementId::Opening(opening.id)).collect(),

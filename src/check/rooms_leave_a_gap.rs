@@ -85,6 +85,10 @@ impl Check for RoomsLeaveAGap {
             .collect()
     }
 
+    fn size(&self) -> f64 {
+        self.length_m
+    }
+
     fn place(&self) -> Place<'_> {
         Place {
             elements: self.rooms.iter().map(|room| ElementId::Room(room.id)).collect(),

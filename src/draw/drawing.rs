@@ -1,3 +1,4 @@
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use super::openings::OpeningDrawing;
@@ -34,6 +35,10 @@ pub(super) struct RoomDrawing {
     pub bounds: Bounds,
     /// The middle of the room where it is widest: where its name and its node go.
     pub centre: Point,
+    /// Indices of the rooms painted over it: smaller ones that reach into its box.
+    pub above: Vec<usize>,
+    /// Indices of the openings that reach into its box.
+    pub openings: Vec<usize>,
 }
 
 impl RoomDrawing {
@@ -61,6 +66,11 @@ const OPEN_AIR: [&str; 12] = [
     "porch",
 ];
 
+/// The order of painting: large rooms first, so that one that lies in or over another is seen.
+fn painting_order(rooms: &[RoomDrawing], one: usize, other: usize) -> Ordering {
+    rooms[other].area_m2.total_cmp(&rooms[one].area_m2).then(one.cmp(&other))
+}
+
 /// A connected piece of wall.
 pub(super) struct WallDrawing {
     pub outer: Vec<Point>,
@@ -78,7 +88,7 @@ pub(super) struct GraphEdge {
 impl Drawing {
     /// The shapes of a plan. `analysis` must be that of the same plan.
     pub fn new(plan: &Plan, analysis: &Analysis) -> Self {
-        let rooms: Vec<RoomDrawing> = plan
+        let mut rooms: Vec<RoomDrawing> = plan
             .rooms()
             .zip(&analysis.rooms)
             .zip(analysis.shapes.all())
@@ -92,11 +102,23 @@ impl Drawing {
                 holes: shape.holes.clone(),
                 bounds: shape.bounds,
                 centre: names::centre(&shape.outer, &shape.holes),
+                above: Vec::new(),
+                openings: Vec::new(),
             })
             .collect();
+        for i in 0..rooms.len() {
+            // Less a centimetre: neighbours meet at most along an edge.
+            let near = analysis.shapes.near(rooms[i].bounds.inflated(-0.01));
+            rooms[i].above = near.into_iter().filter(|&j| painting_order(&rooms, j, i).is_gt()).collect();
+        }
         let walls = Walls::new(plan, &rooms);
         let faces = Faces::new(&walls.solid);
         let openings = OpeningDrawing::all(plan, analysis, &rooms, &faces);
+        for (i, opening) in openings.iter().enumerate() {
+            for room in analysis.shapes.near(opening.bounds()) {
+                rooms[room].openings.push(i);
+            }
+        }
         let cuts: Vec<_> = openings.iter().filter_map(|opening| opening.cut.clone()).collect();
         let solid = walls::without(walls.solid, &cuts);
         // From here on what is left of the walls bounds the rooms for their names.
@@ -144,7 +166,7 @@ impl Drawing {
     pub fn layer(&self, layer: Layer, style: &Style, view: &View) -> Vec<Group> {
         let layers = &style.layers;
         match layer {
-            Layer::Grid if layers.grid => self.grid(style, view),
+            Layer::Grid if layers.grid => grid(style, view.px_per_m, view.bounds()),
             Layer::Rooms if layers.rooms => self.room_fills(style),
             Layer::Boundaries if layers.walls => self.boundary_lines(style),
             Layer::Walls if layers.walls => self.wall_fills(style, view),
@@ -156,33 +178,6 @@ impl Drawing {
             Layer::Names if layers.names || layers.areas => names::groups(self, style, view),
             _ => Vec::new(),
         }
-    }
-
-    fn grid(&self, style: &Style, view: &View) -> Vec<Group> {
-        let palette = style.palette();
-        let Some(step_m) = grid_step_m(view.px_per_m) else { return Vec::new() };
-        let seen = view.bounds();
-        let mut items = Vec::new();
-        let mut line = |from: Point, to: Point, index: i64| {
-            let colour = if index % 10 == 0 { palette.grid_major } else { palette.grid };
-            items.push(Item::Line {
-                points: vec![from, to],
-                closed: false,
-                colour,
-                width: Length::Px(1.0),
-                dash: None,
-            });
-        };
-        let indices = |low: f64, high: f64| (low / step_m).ceil() as i64..=(high / step_m).floor() as i64;
-        for i in indices(seen.min.x, seen.max.x) {
-            let x = i as f64 * step_m;
-            line(Point::new(x, seen.min.y), Point::new(x, seen.max.y), i);
-        }
-        for i in indices(seen.min.y, seen.max.y) {
-            let y = i as f64 * step_m;
-            line(Point::new(seen.min.x, y), Point::new(seen.max.x, y), i);
-        }
-        vec![Group::new(Layer::Grid, Frame::Plan, items)]
     }
 
     /// The colours of the rooms' fills.
@@ -204,9 +199,8 @@ impl Drawing {
 
     fn room_fills(&self, style: &Style) -> Vec<Group> {
         let fills = self.fills(style);
-        // Large rooms first: one that lies in or over another is seen.
         let mut order: Vec<usize> = (0..self.rooms.len()).filter(|&i| !self.rooms[i].outer.is_empty()).collect();
-        order.sort_by(|&p, &q| self.rooms[q].area_m2.total_cmp(&self.rooms[p].area_m2).then(p.cmp(&q)));
+        order.sort_by(|&p, &q| painting_order(&self.rooms, p, q));
         order
             .into_iter()
             .map(|i| {
@@ -336,6 +330,27 @@ const TYPICAL_WALL_M: f64 = 0.1;
 /// Distance of the grid's lines in metres: the least of 0.1, 1, 10, … that keeps them 12 pixels apart.
 pub fn grid_step_m(px_per_m: f64) -> Option<f64> {
     [0.1, 1.0, 10.0, 100.0, 1000.0].into_iter().find(|step| step * px_per_m >= 12.0)
+}
+
+/// The grid over a part of the plan.
+pub(super) fn grid(style: &Style, px_per_m: f64, seen: Bounds) -> Vec<Group> {
+    let palette = style.palette();
+    let Some(step_m) = grid_step_m(px_per_m) else { return Vec::new() };
+    let mut items = Vec::new();
+    let mut line = |from: Point, to: Point, index: i64| {
+        let colour = if index % 10 == 0 { palette.grid_major } else { palette.grid };
+        items.push(Item::Line { points: vec![from, to], closed: false, colour, width: Length::Px(1.0), dash: None });
+    };
+    let indices = |low: f64, high: f64| (low / step_m).ceil() as i64..=(high / step_m).floor() as i64;
+    for i in indices(seen.min.x, seen.max.x) {
+        let x = i as f64 * step_m;
+        line(Point::new(x, seen.min.y), Point::new(x, seen.max.y), i);
+    }
+    for i in indices(seen.min.y, seen.max.y) {
+        let y = i as f64 * step_m;
+        line(Point::new(seen.min.x, y), Point::new(seen.max.x, y), i);
+    }
+    vec![Group::new(Layer::Grid, Frame::Plan, items)]
 }
 
 /// What a room is, in a line: 'Library: reading room, big room, 84.2 m²'.

@@ -300,10 +300,14 @@ fn place(drawing: &Drawing, index: usize, style: &Style, view: &View, floor: Rgb
     let space = Space::new(drawing, index, style, view);
     for blocks in blocks(room, style) {
         // Off the doors' ways if it can be; else the letters stand clear of the arcs by a halo.
-        for (may_be_swept, halo) in [(false, None), (true, Some(floor))] {
+        for may_be_swept in [false, true] {
             for block in &blocks {
                 if let Some(at) = space.place(block, may_be_swept) {
-                    let halo = if style.halo { Some(style.palette().halo) } else { halo };
+                    let halo = if style.halo {
+                        Some(style.palette().halo)
+                    } else {
+                        (may_be_swept || style.layers.graph).then_some(floor)
+                    };
                     return Some(block.texts(at, halo, style));
                 }
             }
@@ -438,12 +442,9 @@ impl Space {
             }
         }
         // Rooms that lie in or over this one are drawn above it.
-        for (i, other) in drawing.rooms.iter().enumerate() {
-            let above = other.area_m2 < room.area_m2 || (other.area_m2 == room.area_m2 && i > index);
-            if i != index && above && other.bounds.intersects(room.bounds) {
-                let rings: Vec<&[Point]> = other.rings().map(Vec::as_slice).collect();
-                raster.keep_outside(&rings);
-            }
+        for &other in &room.above {
+            let rings: Vec<&[Point]> = drawing.rooms[other].rings().map(Vec::as_slice).collect();
+            raster.keep_outside(&rings);
         }
         if style.layers.graph {
             // The node, as an octagon around it.
@@ -457,15 +458,14 @@ impl Space {
         }
         let mut swept = vec![0; raster.blocked.len()];
         if style.layers.openings {
-            for [hinge, shut, tip] in drawing.openings.iter().flat_map(|opening| opening.sweeps()) {
+            let openings = room.openings.iter().map(|&opening| &drawing.openings[opening]);
+            for [hinge, shut, tip] in openings.flat_map(|opening| opening.sweeps()) {
                 // The quarter disc as the square it lies in, less the far corner.
                 let far = shut + (tip - hinge) * 0.4;
                 let far_tip = tip + (shut - hinge) * 0.4;
                 let region = [hinge, shut, far, far_tip, tip];
-                if Bounds::of(region).intersects(room.bounds) {
-                    raster.block_along(Segment::new(hinge, tip));
-                    raster.inside(&[&region], |row, columns| swept[row * raster.width..][columns].fill(1));
-                }
+                raster.block_along(Segment::new(hinge, tip));
+                raster.inside(&[&region], |row, columns| swept[row * raster.width..][columns].fill(1));
             }
         }
         let blocked = Sums::new(&raster, |i| u32::from(raster.blocked[i]));

@@ -101,6 +101,12 @@ pub fn page(drawing: &Drawing, style: &Style, size: PageSize, furniture: Furnitu
 
     let style = &Style { text_px: name_text_px(drawing, view.px_per_m, text), ..style.clone() };
     let mut scene = drawing.scene(style, &view);
+    if style.layers.grid {
+        // Under the plan alone, a little beyond it.
+        let beyond = bounds.inflated(margin / 2.0 / view.px_per_m);
+        scene.groups.retain(|group| group.layer != Layer::Grid);
+        scene.groups.splice(0..0, super::drawing::grid(style, view.px_per_m, beyond));
+    }
     let mut items = Vec::new();
     let palette = style.palette();
     let mut baseline = margin;
