@@ -323,7 +323,11 @@ pub fn cases() -> Vec<Case> {
         ),
         case!(
             wall_ends_freely,
-            flat!(|draft| { draft.wall((2.0, 0.0), (2.0, 4.0)) }),
+            flat!(|draft| {
+                draft.wall((2.0, 0.0), (2.0, 4.0));
+                let column = [(1.0, 1.0), (1.0, 1.4)].map(|at| draft.corner(at));
+                draft.builder.wall(column[0], column[1], 0.4);
+            }),
             flat!(|draft| { draft.wall((2.0, 0.0), (2.0, 3.0)) })
         ),
         case!(
