@@ -16,5 +16,6 @@ pub mod formats;
 pub mod geometry;
 pub mod labels;
 pub mod plan;
+pub mod random;
 pub mod store;
 pub mod topology;
