@@ -1,3 +1,8 @@
 //! Classifiers: from features to labels.
 
+mod distribution;
 pub mod naive;
+mod numbers;
+pub mod tree;
+
+pub use distribution::Distribution;
