@@ -3,6 +3,7 @@
 mod distribution;
 pub mod naive;
 mod numbers;
+pub mod rules;
 pub mod tree;
 
 pub use distribution::Distribution;
