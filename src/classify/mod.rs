@@ -3,6 +3,7 @@
 pub mod calibration;
 mod distribution;
 pub mod knn;
+pub mod mlp;
 pub mod naive;
 mod neighbours;
 mod numbers;
