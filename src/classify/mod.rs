@@ -4,6 +4,7 @@ pub mod calibration;
 mod classifier;
 mod distribution;
 mod evaluate;
+pub mod explain;
 pub mod knn;
 pub mod mlp;
 pub mod naive;

@@ -1,7 +1,6 @@
 //! Numbers that people read: thresholds with few digits, features in words.
 
 use crate::dataset::table::FEATURES;
-use crate::features::Features;
 
 /// The number with the fewest decimals in `low..high` (the upper end excluded), nearest to the middle.
 /// So a threshold between 12.331 and 12.452 reads 12.4, and one between 2 and 3 openings reads 2.
@@ -64,11 +63,6 @@ pub(super) fn percent(probability: f64) -> String {
     } else {
         format!("{percent} %")
     }
-}
-
-/// The index of a feature by its name in [`Features::NAMES`].
-pub(super) fn feature_index(name: &str) -> Option<usize> {
-    Features::NAMES.iter().position(|feature| *feature == name)
 }
 
 #[cfg(test)]

@@ -46,6 +46,8 @@ pub struct Condition {
 pub enum Bound {
     AtMost(f64),
     AtLeast(f64),
+    /// More than this. Rules are written without; a path down a tree comes to it.
+    Over(f64),
 }
 
 impl Condition {
@@ -53,6 +55,7 @@ impl Condition {
         match self.bound {
             Bound::AtMost(most) => values[self.feature] <= most,
             Bound::AtLeast(least) => values[self.feature] >= least,
+            Bound::Over(less) => values[self.feature] > less,
         }
     }
 }
@@ -125,10 +128,12 @@ impl RuleList {
     pub fn from_rules(rules: Vec<Rule>) -> Option<Self> {
         let ends_well = rules.last().is_some_and(|rule| rule.conditions.is_empty());
         let sound = rules.iter().flat_map(|rule| &rule.conditions).all(|condition| {
-            let (Bound::AtMost(bound) | Bound::AtLeast(bound)) = condition.bound;
+            let (Bound::AtMost(bound) | Bound::AtLeast(bound) | Bound::Over(bound)) = condition.bound;
             condition.feature < FEATURES && bound.is_finite()
         });
-        (ends_well && sound).then_some(Self { rules })
+        let counts_fit =
+            |rule: &Rule| rule.counts.iter().map(|&count| u64::from(count)).sum::<u64>() <= u32::MAX.into();
+        (ends_well && sound && rules.iter().all(counts_fit)).then_some(Self { rules })
     }
 
     /// All rules in order; the last has no condition.
