@@ -7,6 +7,7 @@ mod evaluate;
 pub mod explain;
 pub mod knn;
 pub mod mlp;
+pub mod model_file;
 pub mod naive;
 mod neighbours;
 mod numbers;

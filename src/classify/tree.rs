@@ -76,7 +76,10 @@ impl Tree {
                     && behind.contains(&split.no)
             })
         };
-        (!nodes.is_empty() && nodes.iter().enumerate().all(fits)).then_some(Self { nodes })
+        let counts_fit =
+            |node: &Node| node.counts.iter().map(|&count| u64::from(count)).sum::<u64>() <= u32::MAX.into();
+        let sound = !nodes.is_empty() && nodes.iter().all(counts_fit) && nodes.iter().enumerate().all(fits);
+        sound.then_some(Self { nodes })
     }
 
     /// All nodes, the root first, children behind their parent.
