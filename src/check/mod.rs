@@ -18,7 +18,7 @@ pub use names::{OpeningName, RoomName};
 
 use crate::features::Analysis;
 use crate::labels::Schemes;
-use crate::plan::{ElementId, Plan};
+use crate::plan::Plan;
 
 /// Declares the checks: their modules, and one variant a check in [`Finding`].
 macro_rules! checks {
@@ -138,12 +138,5 @@ impl std::fmt::Display for Finding {
             write!(f, " at ({:.2}, {:.2})", at.x, at.y)?;
         }
         write!(f, ": {}", self.remedy())
-    }
-}
-
-impl Finding {
-    /// The elements concerned, for a selection.
-    pub fn elements(&self) -> Vec<ElementId> {
-        self.place().elements
     }
 }
