@@ -421,10 +421,10 @@ fn wrapped(name: &str) -> Vec<Vec<String>> {
     ways
 }
 
-/// A name cut off with an ellipsis, longest first, at least three letters long.
+/// A name cut off with an ellipsis, longest first, at least four letters long: fewer say nothing.
 fn shortened(name: &str) -> Vec<String> {
     let letters: Vec<char> = name.chars().collect();
-    [12, 9, 7, 5, 4, 3]
+    [12, 9, 7, 5, 4]
         .into_iter()
         .filter(|&kept| kept + 1 < letters.len())
         .map(|kept| letters[..kept].iter().collect::<String>().trim_end().to_owned() + "…")
