@@ -43,9 +43,10 @@ impl Subcommand for ImportCommand {
         let jobs = jobs(&self.inputs, &self.output)?;
         std::fs::create_dir_all(&self.output)
             .map_err(|error| CliError::new(format!("{}: {error}; choose another folder", self.output.display())))?;
-        let mut files = Vec::with_capacity(jobs.len());
+        let total = jobs.len();
+        let mut files = Vec::with_capacity(total);
         for (done, job) in jobs.into_iter().enumerate() {
-            progress(terminal, done, &job.path)?;
+            progress(terminal, done + 1, total, &job.path)?;
             files.push(read(job));
         }
         clear_progress(terminal)?;
@@ -320,9 +321,9 @@ impl File {
 }
 
 /// Shows how far the import is, on a terminal only.
-fn progress(terminal: &mut Terminal, done: usize, path: &Path) -> Result<(), CliError> {
+fn progress(terminal: &mut Terminal, nth: usize, total: usize, path: &Path) -> Result<(), CliError> {
     if terminal.is_interactive {
-        write!(terminal.err, "\r\x1b[K{done} files read, {}", path.display())?;
+        write!(terminal.err, "\r\x1b[K{nth}/{total} {}", path.display())?;
     }
     Ok(())
 }
@@ -341,7 +342,7 @@ const fn kind_name(kind: NoteKind) -> &'static str {
     }
 }
 
-/// Every note as `path:line: kind: element: what`.
+/// Every note as `path:line: kind: element: what`, then an empty line.
 fn list_notes(files: &[File], terminal: &mut Terminal) -> Result<(), CliError> {
     for file in files {
         for note in file.notes() {
@@ -355,6 +356,9 @@ fn list_notes(files: &[File], terminal: &mut Terminal) -> Result<(), CliError> {
         if let Content::Foreign(kind) = &file.content {
             writeln!(terminal.out, "{}: passed over: {kind}", file.job.path.display())?;
         }
+    }
+    if files.iter().any(|file| !file.notes().is_empty() || matches!(file.content, Content::Foreign(_))) {
+        writeln!(terminal.out)?;
     }
     Ok(())
 }

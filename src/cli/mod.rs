@@ -1,14 +1,16 @@
 //! The command line. One file a subcommand, one line in [`SUBCOMMANDS`] to register it.
 
+mod check;
 mod dataset;
 mod export;
 mod features;
 mod import;
 mod inputs;
+mod open;
 mod render;
 
 use std::io::{IsTerminal as _, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{ArgMatches, Args, Command};
 
@@ -19,6 +21,7 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<features::FeaturesCommand>(),
     entry::<dataset::DatasetCommand>(),
     entry::<export::ExportCommand>(),
+    entry::<check::CheckCommand>(),
     entry::<render::RenderCommand>(),
 ];
 
@@ -157,7 +160,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>, terminal: &m
             Some(entry) => (entry.run)(matches, terminal),
             None => Err(CliError::new(format!("unknown subcommand {name}"))),
         },
-        None => open_window(matches.get_one::<PathBuf>("plan").map(PathBuf::as_path), terminal),
+        None => open::open(matches.get_one::<PathBuf>("plan").map(PathBuf::as_path), terminal),
     };
     let flushed = terminal.out.flush().map_err(CliError::from);
     match result.and_then(|outcome| flushed.map(|()| outcome)) {
@@ -169,9 +172,4 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>, terminal: &m
             1
         }
     }
-}
-
-/// Opens the window; where there is no display, does the same job headless.
-fn open_window(_plan: Option<&Path>, _terminal: &mut Terminal) -> Result<Outcome, CliError> {
-    Ok(Outcome::Done)
 }

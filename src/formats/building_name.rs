@@ -4,7 +4,7 @@
 /// What follows from the name of a storey's file or drawing.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StoreyName {
-    /// The name without what tells the storey.
+    /// The name without what tells the storey; empty when nothing else is in the name.
     pub building: String,
     /// The storey ('ground floor', '2'); empty when the name tells none.
     pub storey: String,
@@ -53,7 +53,7 @@ const LEAST_LETTERS: usize = 3;
 ///   letters and digits): a word for which storey alone (`LOWER`), `P0`, `F1`, `L2`, `2f`, `PT`;
 /// - a number of one or two digits, if the word it ends has no other digits.
 ///
-/// At least three letters must be left; else the name stays whole. A trailing `updated` is no part of
+/// Nothing or at least three letters must be left; else the name stays whole. A trailing `updated` is no part of
 /// a name: the authors' collection has it. When in doubt the number is taken for a storey: two
 /// buildings taken for one cost a little data in cross-validation, one building taken for two makes
 /// its figures too good.
@@ -66,6 +66,9 @@ pub fn split(name: &str) -> StoreyName {
     let whole = || StoreyName { building: tidy(&name[..end]), storey: String::new() };
     let Some((length, storey)) = storey_at_end(&letters) else { return whole() };
     let rest = &letters[..letters.len() - length];
+    if rest.is_empty() {
+        return StoreyName { building: String::new(), storey };
+    }
     if rest.iter().filter(|letter| letter.lower.is_alphabetic()).count() < LEAST_LETTERS {
         return whole();
     }
@@ -232,6 +235,9 @@ mod tests {
             ("Library level 3", "Library", "level 3"),
             ("Rossi piano terra", "Rossi", "piano terra"),
             ("Hospital12", "Hospital", "12"),
+            ("ground floor", "", "ground floor"),
+            ("P0", "", "p0"),
+            ("2", "", "2"),
         ] {
             assert_eq!(split(name), StoreyName { building: building.to_owned(), storey: storey.to_owned() }, "{name}");
         }
@@ -241,7 +247,6 @@ mod tests {
     fn other_names_stay_whole() {
         for (name, building) in [
             ("ED21", "ED21"),
-            ("P0", "P0"),
             ("OfficePlan", "OfficePlan"),
             ("SKF_FloorPlan_updated", "SKF FloorPlan"),
             ("stjoseph'scatholichighschool_updated", "stjoseph'scatholichighschool"),

@@ -233,7 +233,11 @@ impl<'a> Parser<'a> {
                 }
                 Err(error) => {
                     let at = usize::try_from(self.reader.error_position()).unwrap_or(at);
-                    return self.fail(at, format!("is not well-formed XML: {error}"), DAMAGED_HINT);
+                    let why = match error {
+                        quick_xml::Error::IllFormed(error) => error.to_string(),
+                        error => error.to_string(),
+                    };
+                    return self.fail(at, format!("is not well-formed XML: {why}"), DAMAGED_HINT);
                 }
             };
             match event {
@@ -383,6 +387,7 @@ impl<'a> Parser<'a> {
 
     fn file(&mut self) -> Result<Document> {
         let document = loop {
+            let at = self.position();
             match self.next()? {
                 Token::Start(start, at) if start.name().as_ref() == "building" => break self.building(&start, at)?,
                 Token::Start(start, at) => {
@@ -391,7 +396,7 @@ impl<'a> Parser<'a> {
                     return self.fail(at, what, "a plan starts with <building>");
                 }
                 Token::Text(text) if text.trim().is_empty() => {}
-                _ => return self.fail(self.position(), "is not XML", "a plan starts with <building>"),
+                _ => return self.fail(at, "is not XML", "a plan starts with <building>"),
             }
         };
         loop {

@@ -116,7 +116,7 @@ fn import(text: &str, document: &Document, stem: &str) -> Result<Import, ReadErr
         let times = if count == 1 { String::new() } else { format!(" ({count} times)") };
         notes.push(NoteKind::Skipped, Some(at), format!("<{name}>"), format!("is no known element{times}; left out"));
     }
-    let mut meta = meta_of(document, stem);
+    let mut meta = meta_of(document, stem, &mut notes);
     meta.scale = found.scale;
     let mut plans = Vec::new();
     for (index, floor) in document.floors.iter().enumerate().filter(|(_, floor)| !floor.spaces.is_empty()) {
@@ -131,7 +131,7 @@ fn import(text: &str, document: &Document, stem: &str) -> Result<Import, ReadErr
 }
 
 /// What is known of the building.
-fn meta_of(document: &Document, stem: &str) -> Meta {
+fn meta_of(document: &Document, stem: &str, notes: &mut Notes<'_>) -> Meta {
     // The path of a picture on another machine, of either kind of system.
     let name = document.name.rsplit(['/', '\\']).find(|part| !part.trim().is_empty()).unwrap_or_default().trim();
     let by_name = building_name::split(name);
@@ -140,14 +140,18 @@ fn meta_of(document: &Document, stem: &str) -> Meta {
     // plans1 and plans2); the drawing's name has the nicer spelling.
     let is_same = building_name::key(&by_name.building) == building_name::key(&by_stem.building);
     let (building, storey) = match () {
-        () if by_stem.building.is_empty() => (by_name.building, by_name.storey),
+        () if by_stem.building.is_empty() && by_stem.storey.is_empty() => (by_name.building, by_name.storey),
+        () if by_stem.building.is_empty() => (by_name.building, by_stem.storey),
         () if is_same && by_stem.storey.is_empty() => (by_name.building, by_name.storey),
         () if is_same => (by_name.building, by_stem.storey),
         () => (by_stem.building, by_stem.storey),
     };
     let mut extra = Map::new();
     keep(&mut extra, "authors_id", &document.id);
-    let groups: Vec<Value> = document.floors.iter().flat_map(|floor| &floor.groups).map(group_value).collect();
+    let rooms: BTreeSet<&str> =
+        document.floors.iter().flat_map(|floor| &floor.spaces).map(|space| space.id.as_str()).collect();
+    let groups = document.floors.iter().flat_map(|floor| &floor.groups);
+    let groups: Vec<Value> = groups.map(|group| group_value(group, &rooms, notes)).collect();
     if !groups.is_empty() {
         extra.insert("authors_groups".to_owned(), Value::Array(groups));
     }
@@ -162,12 +166,22 @@ fn meta_of(document: &Document, stem: &str) -> Meta {
     }
 }
 
-fn group_value(group: &document::Group) -> Value {
+/// A group with the ids of its rooms in the file, which are their [`Room::source_id`].
+fn group_value(group: &document::Group, rooms: &BTreeSet<&str>, notes: &mut Notes<'_>) -> Value {
+    let mut members = Vec::new();
+    for space in &group.spaces {
+        if rooms.contains(space.as_str()) {
+            members.push(Value::String(space.clone()));
+        } else {
+            let what = format!("its member '{space}' is no room of the file; left out");
+            notes.push(NoteKind::Skipped, Some(group.at), format!("group {}", group.id), what);
+        }
+    }
     let mut value = Map::new();
     keep(&mut value, "id", &group.id);
     keep(&mut value, "name", &group.name);
     keep(&mut value, "type", &group.kind);
-    value.insert("rooms".to_owned(), group.spaces.iter().cloned().map(Value::String).collect());
+    value.insert("rooms".to_owned(), Value::Array(members));
     Value::Object(value)
 }
 
@@ -203,7 +217,6 @@ impl<'a> Storey<'a, '_> {
     fn plan(mut self, meta: Meta) -> Result<Plan, ReadError> {
         let by_id = self.rooms_by_id()?;
         let joined = self.joined(&by_id);
-        self.report_groups(&by_id);
         let portal_factor = self.portal_factor();
         let points: Vec<Option<Point>> = self.opening_points(&joined, portal_factor);
 
@@ -255,16 +268,6 @@ impl<'a> Storey<'a, '_> {
             }
         }
         Ok(by_id)
-    }
-
-    /// Reports members of groups that are no rooms.
-    fn report_groups(&mut self, by_id: &BTreeMap<&'a str, usize>) {
-        for group in &self.floor.groups {
-            for space in group.spaces.iter().filter(|space| !by_id.contains_key(space.as_str())) {
-                let what = format!("its member '{space}' is no room of the file; kept as text only");
-                self.notes.push(NoteKind::Skipped, Some(group.at), format!("group {}", group.id), what);
-            }
-        }
     }
 
     /// The factor from portals' coordinates to those of the rooms.

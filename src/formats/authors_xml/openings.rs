@@ -80,10 +80,7 @@ pub fn place(rings: &[Ring<'_>], point: Point) -> Option<Placed> {
             let at_m = wanted_m.clamp(0.0, length_m);
             let is_shared = rings.iter().enumerate().all(|(other, ring)| {
                 other == which
-                    || ring.edges().any(|other| {
-                        is_parallel(edge.vector(), other.vector())
-                            && other.distance(point) <= nearest_m + THICKEST_WALL_M
-                    })
+                    || ring.edges().any(|other| runs_alongside(other, edge, at_m, nearest_m + THICKEST_WALL_M))
             });
             let cost_m = off_m + (at_m - foot_m).abs() + lacking_m + if is_shared { 0.0 } else { 1.0 };
             // Compared by the millimetre: equal up to rounding is equal.
@@ -116,6 +113,18 @@ pub fn likely_point(rings: &[Ring<'_>]) -> Option<Point> {
                 .map(|edge| edge.nearest_point(middle))
         }
     }
+}
+
+/// Whether an edge is parallel to the wall that an opening lies in, at most `most_m` away from it, and
+/// beside at least half of it.
+fn runs_alongside(other: Segment, wall: Segment, at_m: f64, most_m: f64) -> bool {
+    let Some(direction) = wall.vector().unit().filter(|_| is_parallel(wall.vector(), other.vector())) else {
+        return false;
+    };
+    let along = |point: Point| (point - wall.a).dot(direction) - at_m;
+    let (from_m, to_m) = (along(other.a).min(along(other.b)), along(other.a).max(along(other.b)));
+    let beside_m = to_m.min(DEFAULT_DOOR_WIDTH_M / 2.0) - from_m.max(-DEFAULT_DOOR_WIDTH_M / 2.0);
+    beside_m >= DEFAULT_DOOR_WIDTH_M / 2.0 && other.distance(wall.a + direction * at_m) <= most_m
 }
 
 /// The angle in radians between two directions.
