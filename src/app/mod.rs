@@ -1,1 +1,3 @@
 //! The window: canvas, commands, tools, panels, theme.
+
+pub mod raster;
