@@ -1,12 +1,16 @@
 //! The command line. One file a subcommand, one line in [`SUBCOMMANDS`] to register it.
 
+mod dataset;
+mod features;
+mod inputs;
+
 use std::io::{IsTerminal as _, Write};
 use std::path::{Path, PathBuf};
 
-use clap::{ArgMatches, Args, Command, FromArgMatches as _};
+use clap::{ArgMatches, Args, Command};
 
 /// All subcommands, in the order of the help.
-const SUBCOMMANDS: &[Entry] = &[];
+const SUBCOMMANDS: &[Entry] = &[entry::<features::FeaturesCommand>(), entry::<dataset::DatasetCommand>()];
 
 /// A subcommand: its arguments (a clap `Args`) and what it does with them.
 pub trait Subcommand: Args {

@@ -2,14 +2,18 @@
 //!
 //! A reader never guesses silently: what it mends or leaves out becomes a [`Note`] with its place.
 
+mod json_text;
+pub mod plan_json;
+
 use std::fmt;
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use crate::labels::Schemes;
 use crate::plan::Plan;
 
 /// Every known format, in the order in which they are tried.
-pub const FORMATS: &[&dyn Format] = &[];
+pub const FORMATS: &[&dyn Format] = &[&plan_json::PlanJson];
 
 /// A file format for plans.
 pub trait Format: Sync {
@@ -137,20 +141,34 @@ pub const FILE_LIMIT_BYTES: u64 = 256 << 20;
 /// When the file cannot be opened, is larger than [`FILE_LIMIT_BYTES`], is of no known format, or its
 /// format's reader refuses it.
 pub fn read_file(path: &Path) -> Result<Import, FileError> {
-    let fail = |what: String, hint: &str| FileError {
-        path: path.to_owned(),
-        error: ReadError { place: Place::default(), what, hint: hint.to_owned() },
-    };
-    let size = std::fs::metadata(path).map_err(|error| fail(error.to_string(), "check the path"))?.len();
-    if size > FILE_LIMIT_BYTES {
-        return Err(fail(format!("has {size} bytes; the limit is {FILE_LIMIT_BYTES}"), "split it into storeys"));
-    }
-    let bytes = std::fs::read(path).map_err(|error| fail(error.to_string(), "check the path"))?;
+    let bytes = read_bytes(path)?;
     let file_name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let format = find_format(&file_name, &bytes).ok_or_else(|| {
-        fail("is of no known plan format".to_owned(), "known are plan.json, the authors' XML, and GeoJSON")
+        fail_file(path, "is of no known plan format", "known are plan.json, the authors' XML, and GeoJSON")
     })?;
     format.read(&bytes, stem(&file_name, format)).map_err(|error| FileError { path: path.to_owned(), error })
+}
+
+/// The bytes of a file that is not too large.
+///
+/// # Errors
+/// When the file cannot be opened, or is larger than [`FILE_LIMIT_BYTES`].
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
+    let fail = |what: String| fail_file(path, what, "check the path");
+    let file = std::fs::File::open(path).map_err(|error| fail(error.to_string()))?;
+    let mut bytes = Vec::new();
+    // A pipe tells no size, and a file may grow while it is read.
+    file.take(FILE_LIMIT_BYTES + 1).read_to_end(&mut bytes).map_err(|error| fail(error.to_string()))?;
+    if bytes.len() as u64 > FILE_LIMIT_BYTES {
+        let what = format!("is larger than the limit of {} MB", FILE_LIMIT_BYTES >> 20);
+        return Err(fail_file(path, what, "split it into storeys"));
+    }
+    Ok(bytes)
+}
+
+fn fail_file(path: &Path, what: impl Into<String>, hint: &str) -> FileError {
+    let error = ReadError { place: Place::default(), what: what.into(), hint: hint.to_owned() };
+    FileError { path: path.to_owned(), error }
 }
 
 /// The format of a file: by its content, then by its name.

@@ -122,8 +122,8 @@ pub fn axes<R: AsRef<[Point]>>(outer: &[Point], holes: &[R]) -> Option<Axes> {
     if longest <= 0.0 {
         return None;
     }
-    // Equal up to a tenth of a millimetre, the grid of stored lengths.
-    let candidates = all.iter().filter(|run| run.length_m() >= longest - super::GRID_M);
+    // Equal up to a millimetre: the 0.1 mm grid moves both ends of a turned wall a little.
+    let candidates = all.iter().filter(|run| run.length_m() >= longest - 1e-3);
     candidates
         .map(|run| {
             let perpendicular = all

@@ -62,9 +62,12 @@ impl Builder {
         id
     }
 
-    /// A room. `key` is its identity in the source (a UUID, 'R12'); with an empty key the identity
-    /// comes from its boundary.
-    pub fn room(&mut self, key: &str, room: Room) -> RoomId {
+    /// A room. `key` is its identity in the source (a UUID, 'R12') and becomes its
+    /// [`Room::source_id`]; with an empty key the identity comes from its boundary.
+    pub fn room(&mut self, key: &str, mut room: Room) -> RoomId {
+        if !key.is_empty() {
+            room.source_id = key.to_owned();
+        }
         let id = new_room_id(&self.plan, key, &room);
         self.plan.rooms.insert(id, Arc::new(room));
         id
@@ -72,7 +75,10 @@ impl Builder {
 
     /// An opening; `key` as for [`Builder::room`].
     pub fn opening(&mut self, key: &str, opening: Opening) -> OpeningId {
-        let opening = opening.trimmed();
+        let mut opening = opening.trimmed();
+        if !key.is_empty() {
+            opening.source_id = key.to_owned();
+        }
         let id = new_opening_id(&self.plan, key, &opening);
         self.plan.openings.insert(id, Arc::new(opening));
         id
