@@ -1,6 +1,7 @@
 //! The command line. One file a subcommand, one line in [`SUBCOMMANDS`] to register it.
 
 mod dataset;
+mod export;
 mod features;
 mod inputs;
 
@@ -10,7 +11,12 @@ use std::path::{Path, PathBuf};
 use clap::{ArgMatches, Args, Command};
 
 /// All subcommands, in the order of the help.
-const SUBCOMMANDS: &[Entry] = &[entry::<features::FeaturesCommand>(), entry::<dataset::DatasetCommand>()];
+#[rustfmt::skip] // one line each
+const SUBCOMMANDS: &[Entry] = &[
+    entry::<features::FeaturesCommand>(),
+    entry::<dataset::DatasetCommand>(),
+    entry::<export::ExportCommand>(),
+];
 
 /// A subcommand: its arguments (a clap `Args`) and what it does with them.
 pub trait Subcommand: Args {
@@ -90,8 +96,11 @@ const fn entry<S: Subcommand>() -> Entry {
     Entry {
         name: S::NAME,
         command: || {
-            let command = Command::new(S::NAME).about(S::ABOUT).after_help(format!("Example:\n  {}", S::EXAMPLE));
-            S::augment_args(command)
+            // After `augment_args`, which sets the type's docstring.
+            S::augment_args(Command::new(S::NAME))
+                .about(S::ABOUT)
+                .long_about(None)
+                .after_help(format!("Example:\n  {}", S::EXAMPLE))
         },
         run: |matches, terminal| {
             // The matches come from the command built from the same type: they always fit, and if

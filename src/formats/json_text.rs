@@ -1,5 +1,7 @@
 //! What the readers of JSON formats share: from bytes to text, and from an error to its place.
 
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
 use super::{Place, ReadError};
 
 /// The text of a JSON file. A byte order mark is dropped.
@@ -58,4 +60,25 @@ pub(super) fn message_of(error: &serde_json::Error) -> String {
     let text = error.to_string();
     let place = format!(" at line {} column {}", error.line(), error.column());
     text.strip_suffix(&place).unwrap_or(&text).to_owned()
+}
+
+/// A number that prints without a trailing '.0'.
+#[derive(Clone, Copy)]
+pub(super) struct Number(pub f64);
+
+impl Serialize for Number {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        // Every whole number below 2^53 is itself an f64.
+        if self.0.fract() == 0.0 && self.0.abs() < 9_007_199_254_740_992.0 {
+            serializer.serialize_i64(self.0 as i64)
+        } else {
+            serializer.serialize_f64(self.0)
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Number {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        f64::deserialize(deserializer).map(Self)
+    }
 }

@@ -2,6 +2,7 @@
 //!
 //! A reader never guesses silently: what it mends or leaves out becomes a [`Note`] with its place.
 
+pub mod geojson;
 mod json_text;
 pub mod plan_json;
 
@@ -13,7 +14,7 @@ use crate::labels::Schemes;
 use crate::plan::Plan;
 
 /// Every known format, in the order in which they are tried.
-pub const FORMATS: &[&dyn Format] = &[&plan_json::PlanJson];
+pub const FORMATS: &[&dyn Format] = &[&plan_json::PlanJson, &geojson::GeoJson];
 
 /// A file format for plans.
 pub trait Format: Sync {
@@ -34,6 +35,11 @@ pub trait Format: Sync {
 
     /// Writes a plan, or `None` where the format can only be read.
     fn write(&self, plan: &Plan, schemes: &Schemes) -> Option<Vec<u8>>;
+
+    /// Whether [`Format::write`] gives anything.
+    fn can_write(&self) -> bool {
+        self.write(&Plan::default(), &Schemes::default()).is_some()
+    }
 }
 
 /// What a file gave.
@@ -202,4 +208,12 @@ fn stem<'a>(file_name: &'a str, format: &dyn Format) -> &'a str {
         Some(extension) => &file_name[..file_name.len() - extension.len() - 1],
         None => file_name,
     }
+}
+
+/// A file's name without the ending of a known format; the whole name where it has none.
+pub fn file_stem(file_name: &str) -> &str {
+    FORMATS
+        .iter()
+        .find(|format| extension_of(file_name, **format).is_some())
+        .map_or(file_name, |format| stem(file_name, *format))
 }

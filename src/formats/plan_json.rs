@@ -12,7 +12,7 @@ use serde::de::{Error as _, IgnoredAny};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Map, Value};
 
-use super::json_text::{decode, id_on_line, line_of_id, message_of};
+use super::json_text::{Number, decode, id_on_line, line_of_id, message_of};
 use super::{Format, Import, Place, ReadError};
 use crate::geometry::{Point, trim_m};
 use crate::labels::{Label, Schemes, Typology};
@@ -171,27 +171,6 @@ impl<'de> Deserialize<'de> for Metres {
         } else {
             Err(D::Error::custom(format_args!("{metres:?} m lies beyond ±{COORDINATE_LIMIT_M} m")))
         }
-    }
-}
-
-/// A number that prints without a trailing '.0'.
-#[derive(Clone, Copy)]
-struct Number(f64);
-
-impl Serialize for Number {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        // Every whole number below 2^53 is itself an f64.
-        if self.0.fract() == 0.0 && self.0.abs() < 9_007_199_254_740_992.0 {
-            serializer.serialize_i64(self.0 as i64)
-        } else {
-            serializer.serialize_f64(self.0)
-        }
-    }
-}
-
-impl<'de> Deserialize<'de> for Number {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        f64::deserialize(deserializer).map(Self)
     }
 }
 
@@ -366,7 +345,7 @@ struct DiskOpening {
 macro_rules! disk_words {
     ($disk:ident for $live:ident { $($variant:ident = $word:literal),+ $(,)? }) => {
         #[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
-        enum $disk {
+        pub(super) enum $disk {
             $(#[serde(rename = $word)] $variant,)+
         }
 
@@ -410,7 +389,7 @@ impl DiskScaleOrigin {
 /// Which end of its segment carries a door's hinge.
 #[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-enum DiskHinge {
+pub(super) enum DiskHinge {
     Start,
     End,
 }
