@@ -1,5 +1,5 @@
 use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::formats::{FORMATS, Format};
@@ -47,7 +47,7 @@ impl Subcommand for ExportCommand {
             for (storey, plan) in import.plans.iter().enumerate() {
                 let target = match single {
                     Some(_) => self.output.clone(),
-                    None => self.output.join(target_name(file, storey, ending)),
+                    None => self.output.join(inputs::target_name(file, storey, ending)),
                 };
                 if written.contains(&target) {
                     return Err(CliError::new(format!(
@@ -81,12 +81,4 @@ fn writable_format(file_name: &str) -> Option<(&'static dyn Format, &'static str
 fn endings() -> String {
     let all = FORMATS.iter().filter(|format| format.can_write()).flat_map(|format| format.extensions());
     all.map(|ending| format!(".{ending}")).collect::<Vec<_>>().join(", ")
-}
-
-/// The exported file's name: the source's up to its first known ending; later storeys of one file
-/// are numbered from 2.
-fn target_name(file: &Path, storey: usize, ending: &str) -> String {
-    let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let stem = crate::formats::file_stem(&name);
-    if storey == 0 { format!("{stem}.{ending}") } else { format!("{stem}-{}.{ending}", storey + 1) }
 }

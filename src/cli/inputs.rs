@@ -79,3 +79,11 @@ pub fn write_result(output: Option<&Path>, bytes: &[u8], terminal: &mut Terminal
         None => Ok(terminal.out.write_all(bytes)?),
     }
 }
+
+/// The exported file's name: the source's up to its first known ending; later storeys of one file
+/// are numbered from 2.
+pub fn target_name(file: &Path, storey: usize, ending: &str) -> String {
+    let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let stem = formats::file_stem(&name);
+    if storey == 0 { format!("{stem}.{ending}") } else { format!("{stem}-{}.{ending}", storey + 1) }
+}

@@ -1,12 +1,15 @@
 //! The command line. One file a subcommand, one line in [`SUBCOMMANDS`] to register it.
 
+mod check;
 mod dataset;
 mod export;
 mod features;
 mod inputs;
+mod open;
+mod render;
 
 use std::io::{IsTerminal as _, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{ArgMatches, Args, Command};
 
@@ -16,6 +19,8 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<features::FeaturesCommand>(),
     entry::<dataset::DatasetCommand>(),
     entry::<export::ExportCommand>(),
+    entry::<check::CheckCommand>(),
+    entry::<render::RenderCommand>(),
 ];
 
 /// A subcommand: its arguments (a clap `Args`) and what it does with them.
@@ -153,7 +158,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>, terminal: &m
             Some(entry) => (entry.run)(matches, terminal),
             None => Err(CliError::new(format!("unknown subcommand {name}"))),
         },
-        None => open_window(matches.get_one::<PathBuf>("plan").map(PathBuf::as_path), terminal),
+        None => open::open(matches.get_one::<PathBuf>("plan").map(PathBuf::as_path), terminal),
     };
     let flushed = terminal.out.flush().map_err(CliError::from);
     match result.and_then(|outcome| flushed.map(|()| outcome)) {
@@ -165,9 +170,4 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>, terminal: &m
             1
         }
     }
-}
-
-/// Opens the window; where there is no display, does the same job headless.
-fn open_window(_plan: Option<&Path>, _terminal: &mut Terminal) -> Result<Outcome, CliError> {
-    Ok(Outcome::Done)
 }

@@ -1,11 +1,13 @@
+use std::collections::BTreeMap;
+
 use super::openings::OpeningDrawing;
 use super::scene::{Frame, Group, Item, Layer, Length, Scene, View};
 use super::walls::{self, Faces, Walls};
-use super::{Fill, Style, names};
+use super::{Fill, Rgba, Style, names};
 use crate::features::{Analysis, RoomStatus};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::labels::normalised_function;
-use crate::plan::{Joint, Meta, OpeningId, Plan, RoomId};
+use crate::plan::{Joint, Meta, Plan, RoomId};
 
 /// A plan as shapes, before zoom and colours: made once a plan, asked for a [`Scene`] once a view.
 pub struct Drawing {
@@ -62,7 +64,6 @@ pub(super) struct WallDrawing {
 
 /// A way from room to room, or out, through an opening.
 pub(super) struct GraphEdge {
-    pub opening: OpeningId,
     pub from: Point,
     pub through: Point,
     /// The other room's centre; without one it leads outside, this way.
@@ -142,7 +143,8 @@ impl Drawing {
             Layer::Boundaries if layers.walls => self.boundary_lines(style),
             Layer::Walls if layers.walls => self.wall_fills(style, view),
             Layer::Openings if layers.openings => {
-                self.openings.iter().map(|opening| opening.group(style, view)).collect()
+                let floors = self.fills(style);
+                self.openings.iter().map(|opening| opening.group(style, view, &floors)).collect()
             }
             Layer::Graph if layers.graph => self.graph_marks(style),
             Layer::Names if layers.names || layers.areas => names::groups(self, style, view),
@@ -177,9 +179,13 @@ impl Drawing {
         vec![Group::new(Layer::Grid, Frame::Plan, items)]
     }
 
-    fn room_fills(&self, style: &Style) -> Vec<Group> {
+    /// The colours of the rooms' fills.
+    fn fills(&self, style: &Style) -> Vec<Rgba> {
         let palette = style.palette();
-        let functions = palette.functions(self.rooms.iter().map(|room| room.function.as_str()));
+        let functions = match style.fill {
+            Fill::Function => palette.functions(self.rooms.iter().map(|room| room.function.as_str())),
+            Fill::Label | Fill::None => BTreeMap::new(),
+        };
         let fill = |room: &RoomDrawing| match style.fill {
             Fill::None => palette.paper,
             Fill::Label => palette.status(room.status),
@@ -187,6 +193,11 @@ impl Drawing {
                 functions.get(&normalised_function(&room.function)).copied().unwrap_or(palette.unlabelled)
             }
         };
+        self.rooms.iter().map(|room| fill(room).faded(style.fill_opacity)).collect()
+    }
+
+    fn room_fills(&self, style: &Style) -> Vec<Group> {
+        let fills = self.fills(style);
         // Large rooms first: one that lies in or over another is seen.
         let mut order: Vec<usize> = (0..self.rooms.len()).filter(|&i| !self.rooms[i].outer.is_empty()).collect();
         order.sort_by(|&p, &q| self.rooms[q].area_m2.total_cmp(&self.rooms[p].area_m2).then(p.cmp(&q)));
@@ -194,8 +205,7 @@ impl Drawing {
             .into_iter()
             .map(|i| {
                 let room = &self.rooms[i];
-                let colour = fill(room).faded(style.fill_opacity);
-                let polygon = Item::Polygon { outer: room.outer.clone(), holes: room.holes.clone(), colour };
+                let polygon = Item::Polygon { outer: room.outer.clone(), holes: room.holes.clone(), colour: fills[i] };
                 Group {
                     element: room.id.to_string(),
                     title: room_title(room),
@@ -354,7 +364,7 @@ fn graph_edges(analysis: &Analysis, rooms: &[RoomDrawing], openings: &[OpeningDr
             let normal = opening.normal();
             if (first.centre - opening.centre).dot(normal) > 0.0 { -normal } else { normal }
         });
-        edges.push(GraphEdge { opening: opening.id, from: first.centre, through: opening.centre, to });
+        edges.push(GraphEdge { from: first.centre, through: opening.centre, to });
     }
     edges
 }

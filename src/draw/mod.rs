@@ -16,8 +16,11 @@ pub mod font;
 mod names;
 mod openings;
 pub mod palette;
+pub mod png;
 pub mod scene;
+pub mod sheet;
 mod style;
+pub mod svg;
 mod walls;
 
 pub use colour::Rgba;

@@ -1,10 +1,10 @@
 //! Doors, passages and windows as an architect draws them: cut out of the wall they stand in, doors
 //! with their leaf and the arc it swings through.
 
-use super::Style;
 use super::drawing::RoomDrawing;
 use super::scene::{Dash, Frame, Group, Item, Layer, Length, View};
 use super::walls::{self, Faces};
+use super::{Rgba, Style};
 use crate::features::{Analysis, RoomStatus};
 use crate::geometry::polygon::Location;
 use crate::geometry::{Bounds, Point, Vector};
@@ -24,6 +24,8 @@ pub(super) struct OpeningDrawing {
     faces: (f64, f64),
     /// The piece of wall taken out; `None` where it stands in no wall.
     pub cut: Option<Vec<[f64; 2]>>,
+    /// The rooms on both sides, left first, as indices of the drawing's: whose floor shows in the cut.
+    pub sides: [Option<usize>; 2],
     leaves: Vec<Leaf>,
 }
 
@@ -64,7 +66,8 @@ impl OpeningDrawing {
         let mut drawn: Vec<Self> = Vec::new();
         for (id, opening) in plan.openings() {
             let Some(mut seated) = Self::seated(plan, id, opening, faces) else { continue };
-            seated.hang(opening, analysis, rooms, faces, &drawn);
+            seated.sides = [1.0, -1.0].map(|side| seated.room_beside(side, analysis));
+            seated.hang(opening, rooms, faces, &drawn);
             drawn.push(seated);
         }
         drawn
@@ -105,12 +108,27 @@ impl OpeningDrawing {
             let (u, v) = (along * half_width, normal * (half_depth + CUT_BEYOND_M));
             walls::ring(&[centre - u - v, centre + u - v, centre + u + v, centre - u + v])
         });
-        let leaves = Vec::new();
-        Some(Self { id, kind: opening.kind, centre, along, half_width, faces: (-half_depth, half_depth), cut, leaves })
+        Some(Self {
+            id,
+            kind: opening.kind,
+            centre,
+            along,
+            half_width,
+            faces: (-half_depth, half_depth),
+            cut,
+            sides: [None; 2],
+            leaves: Vec::new(),
+        })
+    }
+
+    /// The room that begins just off a face: left for a positive side, else right.
+    fn room_beside(&self, side: f64, analysis: &Analysis) -> Option<usize> {
+        let offset = if side > 0.0 { self.faces.1 } else { self.faces.0 };
+        analysis.shapes.at(self.centre + self.normal() * (offset + side * BESIDE_M)).first().copied()
     }
 
     /// Hangs a door's leaves: as the plan says, else as an architect would.
-    fn hang(&mut self, opening: &Opening, analysis: &Analysis, rooms: &[RoomDrawing], faces: &Faces, others: &[Self]) {
+    fn hang(&mut self, opening: &Opening, rooms: &[RoomDrawing], faces: &Faces, others: &[Self]) {
         let width = 2.0 * self.half_width;
         let leaf_count = match self.kind {
             OpeningKind::Door if width <= WIDEST_LEAF_M => 1.0,
@@ -121,12 +139,7 @@ impl OpeningDrawing {
             self.leaves = self.leaves(leaf_count, swing.hinge_at_start, swing.side);
             return;
         }
-        let side_room = |side: f64| {
-            let offset = if side > 0.0 { self.faces.1 } else { self.faces.0 };
-            let inside = self.centre + self.normal() * (offset + side * OFF_FACE_M * 3.0);
-            analysis.shapes.at(inside).first().map(|&index| &rooms[index])
-        };
-        let (left, right) = (side_room(1.0), side_room(-1.0));
+        let [left, right] = self.sides.map(|side| side.map(|index| &rooms[index]));
         let mut best: Option<(f64, Vec<Leaf>)> = None;
         for (side, room, other) in [(LeafSide::Left, left, right), (LeafSide::Right, right, left)] {
             for hinge_at_start in [true, false] {
@@ -196,13 +209,36 @@ impl OpeningDrawing {
     }
 
     /// Its shapes.
-    pub fn group(&self, style: &Style, view: &View) -> Group {
+    ///
+    /// `floors` are the colours of the rooms' fills.
+    pub fn group(&self, style: &Style, view: &View, floors: &[Rgba]) -> Group {
         let palette = style.palette();
         let fine = Length::Px(1.0);
         let mut items = Vec::new();
         let at = |u: f64, v: f64| self.centre + self.along * (u * self.half_width) + self.normal() * v;
         let line = |points: Vec<Point>, colour, width| Item::Line { points, closed: false, colour, width, dash: None };
         let (right, left) = self.faces;
+        if self.cut.is_some() && style.layers.rooms && self.kind.is_passable() {
+            // The floor of either room reaches to the middle of the wall; of a single one, through.
+            let [on_left, on_right] = self.sides.map(|side| side.map(|index| floors[index]));
+            let halves = match (on_left, on_right) {
+                (Some(colour), Some(other)) if colour != other => {
+                    [Some((0.0, left, colour)), Some((right, 0.0, other))]
+                }
+                (Some(colour), _) | (None, Some(colour)) => [Some((right, left, colour)), None],
+                (None, None) => [None; 2],
+            };
+            for (from, to, colour) in halves.into_iter().flatten() {
+                let outer = vec![at(-1.0, from), at(1.0, from), at(1.0, to), at(-1.0, to)];
+                items.push(Item::Polygon { outer, holes: Vec::new(), colour });
+            }
+            // The threshold of a door to the outside.
+            for (side, face) in [(on_left, left), (on_right, right)] {
+                if side.is_none() && self.kind != OpeningKind::Passage {
+                    items.push(line(vec![at(-1.0, face), at(1.0, face)], palette.boundary, fine));
+                }
+            }
+        }
         match self.kind {
             OpeningKind::Window => {
                 for v in [right, left] {
@@ -252,8 +288,21 @@ impl OpeningDrawing {
                             width: fine,
                         });
                     }
-                    let width = Length::Px((LEAF_M * view.px_per_m).max(1.3));
-                    items.push(line(vec![leaf.hinge, leaf.tip], palette.leaf, width));
+                    let thickness_px = LEAF_M * view.px_per_m;
+                    if thickness_px < THINNEST_HOLLOW_PX {
+                        items.push(line(vec![leaf.hinge, leaf.tip], palette.leaf, Length::Px(1.5)));
+                    } else {
+                        let back = (leaf.shut - leaf.hinge) * (LEAF_M / leaf.hinge.distance(leaf.shut));
+                        let outer = vec![leaf.hinge, leaf.tip, leaf.tip + back, leaf.hinge + back];
+                        items.push(Item::Polygon { outer: outer.clone(), holes: Vec::new(), colour: palette.paper });
+                        items.push(Item::Line {
+                            points: outer,
+                            closed: true,
+                            colour: palette.leaf,
+                            width: fine,
+                            dash: None,
+                        });
+                    }
                 }
             }
         }
@@ -269,11 +318,17 @@ impl OpeningDrawing {
 /// Thickness of a door's leaf in metres.
 const LEAF_M: f64 = 0.04;
 
+/// A leaf at least so thick in pixels is drawn hollow.
+const THINNEST_HOLLOW_PX: f64 = 3.0;
+
 /// Below this radius in pixels a swing is a blot: only the leaf is drawn.
 const SMALLEST_SWING_PX: f64 = 5.0;
 
 /// Just off a wall's face, in metres.
 const OFF_FACE_M: f64 = 0.03;
+
+/// Off a wall's face as far as rooms that should meet it may stop short, in metres.
+const BESIDE_M: f64 = 0.1;
 
 /// A cut reaches this far beyond the faces, in metres, to leave no skin.
 const CUT_BEYOND_M: f64 = 0.01;
@@ -304,7 +359,7 @@ fn swing_cost(
             let inside = room.bounds.contains(point)
                 && crate::geometry::polygon::locate(&room.outer, &room.holes, point) != Location::Outside;
             if !inside {
-                cost += 5.0 * share;
+                cost += 14.0 * share;
             }
             let in_the_way = hung.iter().flat_map(|opening| &opening.leaves).any(|hung| {
                 let (open, shut) = (hung.tip - hung.hinge, hung.shut - hung.hinge);
@@ -312,7 +367,7 @@ fn swing_cost(
                 from.dot(open) > 0.0 && from.dot(shut) > 0.0 && from.length() < open.length()
             });
             if in_the_way {
-                cost += 6.0 * share;
+                cost += 7.0 * share;
             }
         }
     }

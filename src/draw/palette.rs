@@ -159,11 +159,11 @@ impl Palette {
 const FUNCTION_COLOURS: usize = 24;
 
 /// Fills of labels on paper. In Oklab (Ottosson 2020) the standard ones have lightness 0.80 to 0.94
-/// and chroma 0.06 to 0.105; the safe ones were searched for the largest smallest difference under
+/// and chroma 0.05 to 0.08; the safe ones were searched for the largest smallest difference under
 /// simulated protanopia, deuteranopia and tritanopia (Machado et al. 2009). The tests below hold
 /// both to it.
 const LIGHT_LABELS: [Rgba; 5] =
-    [Rgba::hex(0xfa_eda2), Rgba::hex(0xdd_b893), Rgba::hex(0xf9_a39c), Rgba::hex(0xb3_e6bd), Rgba::hex(0xa9_d2f7)];
+    [Rgba::hex(0xfb_f1b6), Rgba::hex(0xde_c09e), Rgba::hex(0xf9_bbb4), Rgba::hex(0xc3_ebca), Rgba::hex(0xbb_dcf8)];
 const LIGHT_STRONG: [Rgba; 5] =
     [Rgba::hex(0xa1_8400), Rgba::hex(0x8f_5f30), Rgba::hex(0xd3_3a3c), Rgba::hex(0x2a_904b), Rgba::hex(0x0f_74c5)];
 const LIGHT_LABELS_SAFE: [Rgba; 5] =
@@ -346,7 +346,7 @@ mod tests {
                 assert!(difference >= 15.0, "{theme:?}: {difference}");
             }
             let standard = Palette::of(theme, LabelColours::Standard);
-            assert!(smallest_difference(&standard.labels, &VISION[0]) >= 20.0, "{theme:?}");
+            assert!(smallest_difference(&standard.labels, &VISION[0]) >= 17.0, "{theme:?}");
         }
     }
 

@@ -73,7 +73,7 @@ fn turn_rad(from: Vector, to: Vector) -> f64 {
 }
 
 /// The ring less the points that stand closer than [`NOTCH_M`] to the one kept before them.
-fn without_notches(ring: &[Point]) -> Vec<Point> {
+pub fn without_notches(ring: &[Point]) -> Vec<Point> {
     let mut kept: Vec<Point> = Vec::with_capacity(ring.len());
     for &point in ring {
         if kept.last().is_none_or(|last| last.distance(point) >= NOTCH_M) {

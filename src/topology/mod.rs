@@ -1,7 +1,14 @@
-//! Which rooms an opening joins, and the graph of rooms that follows.
+//! Which rooms an opening joins, the graph of rooms that follows, and the faces that walls enclose.
 
+mod arrangement;
+mod exact;
+mod faces;
 mod graph;
 mod shapes;
+mod snap;
 
-pub use graph::{Connection, Graph};
+pub use arrangement::{Arrangement, ArrangementError, NodeIndex};
+pub use faces::{Face, faces};
+pub use graph::{Connection, Graph, sides_by_geometry};
 pub use shapes::{RoomShape, RoomShapes};
+pub use snap::{PASSINGS_LIMIT, TESTS_LIMIT};

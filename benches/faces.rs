@@ -1,0 +1,127 @@
+//! Faces of segments, ours beside GEOS through shapely, in the same run:
+//!
+//!     cargo bench --bench faces                      # the table of docs/figures.md
+//!     cargo bench --bench faces -- --reference       # the rows of tests/faces/reference.csv
+//!
+//! Needs python3 with shapely for the comparison; without it, says so and measures ours alone.
+#![expect(clippy::disallowed_methods, reason = "a benchmark reads the clock and writes scratch files")]
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a failing benchmark may stop; it prints to a terminal")]
+
+#[path = "../tests/faces/families.rs"]
+mod families;
+#[path = "../tests/faces/sums.rs"]
+mod sums;
+
+use std::process::Command;
+use std::time::Instant;
+
+use enfilade::topology::{Arrangement, faces};
+use families::FAMILIES;
+
+/// How often each measurement is taken; the median counts.
+const RUNS: usize = 5;
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let reference = arguments.iter().any(|argument| argument == "--reference");
+    let only: Vec<&String> = arguments.iter().filter(|argument| !argument.starts_with("--")).collect();
+    let sizes: &[usize] = if reference { &[100, 1_000, 10_000] } else { &[1_000, 10_000, 100_000] };
+    let scratch = tempfile::tempdir().unwrap();
+    if !reference {
+        println!(
+            "{:<9} {:>8} {:>8} {:>7} | {:>9} {:>11} | {:>9} {:>6} | {:>10} {:>6} | same",
+            "family", "segments", "faces", "holes", "ours ms", "ns/seg", "GEOS ms", "ratio", "snapped ms", "ratio"
+        );
+    }
+    let mut header = reference;
+    for family in &FAMILIES {
+        if !only.is_empty() && !only.iter().any(|name| *name == family.name) {
+            continue;
+        }
+        for &count in sizes {
+            let ends = families::segments(family, count);
+            let path = scratch.path().join(format!("{}-{count}", family.name));
+            let bytes: Vec<u8> = ends.iter().flatten().flat_map(|value| value.to_le_bytes()).collect();
+            std::fs::write(&path, bytes).unwrap();
+            let segments = sums::in_metres(&ends);
+            let mut millis: Vec<f64> = Vec::new();
+            let mut ours = String::new();
+            for _ in 0..RUNS {
+                let start = Instant::now();
+                let arrangement = Arrangement::new(&segments).unwrap();
+                let found = faces(&arrangement);
+                let polygons: Vec<_> = found.iter().map(|face| face.positions(&arrangement)).collect();
+                millis.push(start.elapsed().as_secs_f64() * 1e3);
+                assert_eq!(polygons.len(), found.len());
+                if ours.is_empty() {
+                    ours = sums::summary(&arrangement, &found);
+                }
+            }
+            let millis = median(&mut millis);
+            let geos = if count <= family.geos_limit {
+                geos(&format!("{}:{}", family.name, path.display()), if count < 100_000 { 5 } else { 3 })
+            } else if reference {
+                continue;
+            } else {
+                None
+            };
+            if reference {
+                let Some((versions, columns, row)) = geos else {
+                    println!("python3 with shapely is needed");
+                    return;
+                };
+                if std::mem::take(&mut header) {
+                    println!("{versions}\n{}", without_times(&columns, 3));
+                }
+                println!("{}", without_times(&row, 3));
+                continue;
+            }
+            let fields: Vec<&str> = ours.split(',').collect();
+            print!(
+                "{:<9} {count:>8} {:>8} {:>7} | {millis:>9.2} {:>11.0}",
+                family.name,
+                fields[0],
+                fields[1],
+                millis * 1e6 / count as f64
+            );
+            match geos {
+                Some((_, _, row)) => {
+                    let theirs: Vec<&str> = row.split(',').collect();
+                    let (plain, snapped): (f64, f64) = (theirs[7].parse().unwrap(), theirs[8].parse().unwrap());
+                    let same = if theirs[2..7] == fields[..] {
+                        "yes".to_owned()
+                    } else {
+                        format!("NO: {ours} against {}", theirs[2..7].join(","))
+                    };
+                    println!(
+                        " | {plain:>9.2} {:>6.1} | {snapped:>10.2} {:>6.1} | {same}",
+                        plain / millis,
+                        snapped / millis
+                    );
+                }
+                None if count > family.geos_limit => println!(" | too much for GEOS"),
+                None => println!(" | python3 with shapely not found"),
+            }
+        }
+    }
+}
+
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+/// A row without its last columns.
+fn without_times(row: &str, columns: usize) -> String {
+    let fields: Vec<&str> = row.split(',').collect();
+    fields[..fields.len() - columns].join(",")
+}
+
+/// The versions, the columns' names and the row that GEOS gives for a file.
+fn geos(file: &str, times: usize) -> Option<(String, String, String)> {
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/faces_geos.py");
+    let output = Command::new("python3").args([script, file, "--times", &times.to_string()]).output().ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    let mut lines = text.lines().map(str::to_owned);
+    Some((lines.next()?, lines.next()?, lines.next()?))
+}

@@ -1,0 +1,334 @@
+//! A scene as pixels, by tiny-skia on the CPU. The same bytes on every x86-64 machine: no machine's
+//! sine or font rasteriser takes part, and tiny-skia uses the same vector instructions on all of them
+//! (SSE2, unless compiled for a newer processor).
+
+use std::collections::HashMap;
+use std::fmt;
+
+use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, StrokeDash, Transform};
+
+use super::Rgba;
+use super::font::{Font, Step};
+use super::scene::{Anchor, Dash, Frame, Group, Item, Length, Scene, Text, View, Weight};
+use crate::geometry::{Bounds, Point};
+
+/// No picture has more pixels a side: 256 MiB of memory while painting.
+pub const LARGEST_SIDE_PX: u32 = 8192;
+
+/// A picture that cannot be painted, in words that say what to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PictureError(String);
+
+impl fmt::Display for PictureError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for PictureError {}
+
+/// The scene as a PNG file's bytes.
+///
+/// # Errors
+/// As [`paint`].
+pub fn png(scene: &Scene) -> Result<Vec<u8>, PictureError> {
+    encode(&paint(scene)?)
+}
+
+/// A pixmap as a PNG file's bytes: 8 bits a channel, without alpha where all is opaque. Compressed for
+/// speed: large areas of one colour shrink well anyway.
+///
+/// # Errors
+/// When the encoder fails, which it does for no picture made here.
+pub fn encode(pixmap: &Pixmap) -> Result<Vec<u8>, PictureError> {
+    let failed = |error: png::EncodingError| PictureError(format!("cannot encode the picture: {error}"));
+    let opaque = pixmap.data().chunks_exact(4).all(|pixel| pixel[3] == 255);
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, pixmap.width(), pixmap.height());
+    encoder.set_color(if opaque { png::ColorType::Rgb } else { png::ColorType::Rgba });
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder.set_compression(png::Compression::Fast);
+    encoder.set_filter(png::Filter::Up);
+    let mut writer = encoder.write_header().map_err(failed)?;
+    let data: Vec<u8> = if opaque {
+        pixmap.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
+    } else {
+        pixmap
+            .pixels()
+            .iter()
+            .flat_map(|pixel| {
+                let pixel = pixel.demultiply();
+                [pixel.red(), pixel.green(), pixel.blue(), pixel.alpha()]
+            })
+            .collect()
+    };
+    writer.write_image_data(&data).map_err(failed)?;
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
+}
+
+/// The scene painted.
+///
+/// # Errors
+/// When its view has no pixels or more than [`LARGEST_SIDE_PX`] a side.
+pub fn paint(scene: &Scene) -> Result<Pixmap, PictureError> {
+    let view = &scene.view;
+    let side = |px: f64| {
+        let px = (px * view.pixel_ratio).round();
+        (px >= 1.0 && px <= f64::from(LARGEST_SIDE_PX)).then_some(px as u32)
+    };
+    let pixmap = side(view.width_px).zip(side(view.height_px)).and_then(|(width, height)| Pixmap::new(width, height));
+    let Some(mut pixmap) = pixmap else {
+        return Err(PictureError(format!(
+            "a picture of {} x {} pixels cannot be painted: each side must be 1 to {LARGEST_SIDE_PX}",
+            view.width_px * view.pixel_ratio,
+            view.height_px * view.pixel_ratio
+        )));
+    };
+    pixmap.fill(colour(scene.background));
+    let mut painter = Painter { pixmap, view: *view, glyphs: HashMap::new() };
+    for group in &scene.groups {
+        painter.group(group);
+    }
+    Ok(painter.pixmap)
+}
+
+fn colour(rgba: Rgba) -> Color {
+    Color::from_rgba8(rgba.r, rgba.g, rgba.b, rgba.a)
+}
+
+fn paint_of(rgba: Rgba) -> Paint<'static> {
+    let mut paint = Paint { anti_alias: true, ..Paint::default() };
+    paint.set_color(colour(rgba));
+    paint
+}
+
+struct Painter {
+    pixmap: Pixmap,
+    view: View,
+    glyphs: HashMap<(Weight, char), Vec<Step>>,
+}
+
+impl Painter {
+    fn group(&mut self, group: &Group) {
+        for item in &group.items {
+            match item {
+                Item::Polygon { outer, holes, colour } => self.polygon(group.frame, outer, holes, *colour),
+                Item::Line { points, closed, colour, width, dash } => {
+                    self.line(group.frame, points, *closed, *colour, *width, *dash);
+                }
+                Item::Arc { centre, from, to, colour, width } => {
+                    self.arc(group.frame, *centre, *from, *to, *colour, *width);
+                }
+                Item::Disc { centre, radius, fill, outline } => {
+                    let (centre, radius) = (self.at(group.frame, *centre), self.px(*radius));
+                    let Some(circle) = PathBuilder::from_circle(centre.x as f32, centre.y as f32, radius as f32) else {
+                        continue;
+                    };
+                    if let Some(fill) = fill {
+                        self.fill(&circle, *fill, FillRule::Winding);
+                    }
+                    if let Some((colour, width)) = outline {
+                        let stroke = Stroke { width: self.px(*width) as f32, ..Stroke::default() };
+                        self.stroke(&circle, *colour, &stroke);
+                    }
+                }
+                Item::Text(text) => self.text(group.frame, text),
+            }
+        }
+    }
+
+    /// A point in physical pixels.
+    fn at(&self, frame: Frame, point: Point) -> Point {
+        let screen = match frame {
+            Frame::Plan => self.view.screen_from_plan(point),
+            Frame::Screen => point,
+        };
+        Point::new(screen.x * self.view.pixel_ratio, screen.y * self.view.pixel_ratio)
+    }
+
+    /// A length in physical pixels.
+    fn px(&self, length: Length) -> f64 {
+        self.view.px(length) * self.view.pixel_ratio
+    }
+
+    fn fill(&mut self, path: &Path, colour: Rgba, rule: FillRule) {
+        self.pixmap.fill_path(path, &paint_of(colour), rule, Transform::identity(), None);
+    }
+
+    fn stroke(&mut self, path: &Path, colour: Rgba, stroke: &Stroke) {
+        self.pixmap.stroke_path(path, &paint_of(colour), stroke, Transform::identity(), None);
+    }
+
+    /// Whether a box in physical pixels, grown by `margin`, meets the picture.
+    fn is_seen(&self, bounds: Bounds, margin: f64) -> bool {
+        let page = Bounds {
+            min: Point::default(),
+            max: Point::new(f64::from(self.pixmap.width()), f64::from(self.pixmap.height())),
+        };
+        bounds.inflated(margin).intersects(page)
+    }
+
+    fn polygon(&mut self, frame: Frame, outer: &[Point], holes: &[Vec<Point>], colour: Rgba) {
+        let mut builder = PathBuilder::new();
+        let mut bounds = Bounds::EMPTY;
+        for (i, ring) in std::iter::once(outer).chain(holes.iter().map(Vec::as_slice)).enumerate() {
+            for (j, &point) in ring.iter().enumerate() {
+                let at = self.at(frame, point);
+                if i == 0 {
+                    bounds = bounds.with(at);
+                }
+                if j == 0 {
+                    builder.move_to(at.x as f32, at.y as f32);
+                } else {
+                    builder.line_to(at.x as f32, at.y as f32);
+                }
+            }
+            builder.close();
+        }
+        if self.is_seen(bounds, 1.0)
+            && let Some(path) = builder.finish()
+        {
+            self.fill(&path, colour, FillRule::EvenOdd);
+        }
+    }
+
+    fn line(&mut self, frame: Frame, points: &[Point], closed: bool, colour: Rgba, width: Length, dash: Option<Dash>) {
+        let width_px = self.px(width);
+        let mut points: Vec<Point> = points.iter().map(|&point| self.at(frame, point)).collect();
+        if !self.is_seen(Bounds::of(points.iter().copied()), 4.0 * width_px) {
+            return;
+        }
+        if let (Length::Px(_), [a, b]) = (width, points.as_mut_slice()) {
+            sharpen(a, b, width_px);
+        }
+        let mut builder = PathBuilder::new();
+        for (i, point) in points.iter().enumerate() {
+            if i == 0 {
+                builder.move_to(point.x as f32, point.y as f32);
+            } else {
+                builder.line_to(point.x as f32, point.y as f32);
+            }
+        }
+        if closed {
+            builder.close();
+        }
+        let Some(path) = builder.finish() else { return };
+        let dash =
+            dash.and_then(|dash| StrokeDash::new(vec![self.px(dash.dash) as f32, self.px(dash.gap) as f32], 0.0));
+        let stroke = Stroke {
+            width: width_px as f32,
+            line_cap: LineCap::Butt,
+            line_join: LineJoin::Miter,
+            dash,
+            ..Stroke::default()
+        };
+        self.stroke(&path, colour, &stroke);
+    }
+
+    fn arc(&mut self, frame: Frame, centre: Point, from: Point, to: Point, colour: Rgba, width: Length) {
+        // Two pieces: each of at most a quarter of a turn, where one cubic is exact to 0.03 %.
+        let points = super::scene::arc_points(centre, from, to, 1);
+        let centre = self.at(frame, centre);
+        let points: Vec<Point> = points.iter().map(|&point| self.at(frame, point)).collect();
+        let width_px = self.px(width);
+        if !self.is_seen(Bounds::of(points.iter().copied()), width_px + centre.distance(points[0])) {
+            return;
+        }
+        let mut builder = PathBuilder::new();
+        builder.move_to(points[0].x as f32, points[0].y as f32);
+        for pair in points.windows(2) {
+            let (p, q) = (pair[0] - centre, pair[1] - centre);
+            let (length, turn) = (p.length(), p.cross(q));
+            if length <= 0.0 {
+                return;
+            }
+            // Control points at 4/3 tan(angle/4) of the radius along the tangents; the tangent by half
+            // angles, square roots being the same on every machine.
+            let half = ((1.0 + p.dot(q) / (length * length)) / 2.0).clamp(0.0, 1.0).sqrt();
+            let reach = 4.0 / 3.0 * ((1.0 - half) / (1.0 + half)).sqrt() * turn.signum();
+            let (c1, c2) = (pair[0] + p.left() * reach, pair[1] - q.left() * reach);
+            builder.cubic_to(c1.x as f32, c1.y as f32, c2.x as f32, c2.y as f32, pair[1].x as f32, pair[1].y as f32);
+        }
+        if let Some(path) = builder.finish() {
+            self.stroke(&path, colour, &Stroke { width: width_px as f32, ..Stroke::default() });
+        }
+    }
+
+    fn text(&mut self, frame: Frame, text: &Text) {
+        let ratio = self.view.pixel_ratio;
+        let size = text.size_px * ratio;
+        let font = Font::of(text.weight);
+        let width = font.width_px(&text.content, size);
+        let anchor = self.at(frame, text.at) + text.offset_px * ratio;
+        let back = match text.anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => width / 2.0,
+            Anchor::End => width,
+        };
+        // On whole pixels: letters of the same word look the same, and their feet stand on a pixel's rim.
+        let (start_x, start_y) = if text.upright { (anchor.x, anchor.y + back) } else { (anchor.x - back, anchor.y) };
+        let (start_x, start_y) = (start_x.round(), start_y.round());
+        let bounds = Bounds::of([Point::new(start_x, start_y)]);
+        if !self.is_seen(bounds, width + size) {
+            return;
+        }
+        let place = |pen: f32, x: f32, y: f32| {
+            let (along, up) = (pen + x * size as f32, y * size as f32);
+            if text.upright {
+                (start_x as f32 - up, start_y as f32 - along)
+            } else {
+                (start_x as f32 + along, start_y as f32 - up)
+            }
+        };
+        let mut builder = PathBuilder::new();
+        let mut pen = 0.0_f32;
+        for character in text.content.chars() {
+            let steps = self.glyphs.entry((text.weight, character)).or_insert_with(|| font.outline(character));
+            for step in steps.iter() {
+                match *step {
+                    Step::Move(x, y) => {
+                        let (x, y) = place(pen, x, y);
+                        builder.move_to(x, y);
+                    }
+                    Step::Line(x, y) => {
+                        let (x, y) = place(pen, x, y);
+                        builder.line_to(x, y);
+                    }
+                    Step::Quad(x1, y1, x, y) => {
+                        let ((x1, y1), (x, y)) = (place(pen, x1, y1), place(pen, x, y));
+                        builder.quad_to(x1, y1, x, y);
+                    }
+                    Step::Cubic(x1, y1, x2, y2, x, y) => {
+                        let ((x1, y1), (x2, y2), (x, y)) = (place(pen, x1, y1), place(pen, x2, y2), place(pen, x, y));
+                        builder.cubic_to(x1, y1, x2, y2, x, y);
+                    }
+                    Step::Close => builder.close(),
+                }
+            }
+            pen += font.advance(character) * size as f32;
+        }
+        let Some(path) = builder.finish() else { return };
+        if let Some(halo) = text.halo {
+            let stroke = Stroke { width: (size * 0.28) as f32, line_join: LineJoin::Round, ..Stroke::default() };
+            self.stroke(&path, halo, &stroke);
+        }
+        self.fill(&path, text.colour, FillRule::Winding);
+    }
+}
+
+/// Moves a level or upright line of a width in physical pixels so that its sides fall on pixels' rims.
+fn sharpen(a: &mut Point, b: &mut Point, width_px: f64) {
+    const STRAIGHT_PX: f64 = 0.01;
+    let middle = |place: f64| {
+        if (width_px.round() as i64) % 2 == 1 { place.floor() + 0.5 } else { place.round() }
+    };
+    if (a.x - b.x).abs() < STRAIGHT_PX {
+        a.x = middle(a.x);
+        b.x = a.x;
+    } else if (a.y - b.y).abs() < STRAIGHT_PX {
+        a.y = middle(a.y);
+        b.y = a.y;
+    }
+}
