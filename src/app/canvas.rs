@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use egui::epaint::{Mesh, PathShape, PathStroke, StrokeKind, Vertex};
+use egui::epaint::{Mesh, StrokeKind, Vertex};
 use egui::{
     Color32, ColorImage, Context, CursorIcon, EventFilter, Id, Key, MouseWheelUnit, Painter, PointerButton, Pos2, Rect,
     Response, Role, Sense, Shape, Stroke, TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2,
@@ -11,7 +11,7 @@ use egui::{
 
 use super::App;
 use super::document::{Derived, Document, Picked};
-use super::scene_painter::{ScenePainter, earcut, on_screen, polygon_mesh};
+use super::scene_painter::{ScenePainter, earcut, on_screen, outline_mesh, polygon_mesh};
 use super::theme;
 use crate::draw::{self, Layers, Palette, Style, View};
 use crate::geometry::{Bounds, Point, Vector};
@@ -488,13 +488,8 @@ impl Canvas {
                     }
                 }
                 for ring in shape.rings() {
-                    let points = ring.iter().map(|&point| on_screen(rect, view, point)).collect();
-                    painter.add(Shape::Path(PathShape {
-                        points,
-                        closed: true,
-                        fill: Color32::TRANSPARENT,
-                        stroke: PathStroke::new(mark.width, mark.line),
-                    }));
+                    let stroke = Stroke::new(mark.width, mark.line);
+                    painter.add(Shape::mesh(outline_mesh(rect, view, ring, stroke)));
                 }
             }
             Picked::Opening(id) => {

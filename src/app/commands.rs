@@ -80,6 +80,20 @@ const fn command(
 }
 
 impl Command {
+    /// Its first shortcut as people write it ('Ctrl+Shift+S', '+'); empty without one.
+    pub fn keys_text(&self, context: &Context) -> String {
+        let Some(shortcut) = self.shortcuts.first() else { return String::new() };
+        let modifiers = context.format_modifiers(shortcut.modifiers);
+        let plus = if modifiers.is_empty() { "" } else { "+" };
+        let key = match shortcut.logical_key {
+            Key::PageUp => "Page up",
+            Key::PageDown => "Page down",
+            Key::Escape => "Esc",
+            key => key.symbol_or_name(),
+        };
+        format!("{modifiers}{plus}{key}")
+    }
+
     const fn keys(self, shortcuts: &'static [KeyboardShortcut]) -> Self {
         Self { shortcuts, ..self }
     }

@@ -2,7 +2,7 @@
 
 use std::hash::Hasher as _;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
@@ -15,24 +15,17 @@ use crate::labels::Schemes;
 use crate::plan::{History, OpeningId, Plan, RoomId};
 use crate::store;
 
-/// A plan that comes with the program.
-#[derive(Debug)]
-pub struct BundledPlan {
-    /// Its file's name without the ending.
-    pub stem: &'static str,
-    /// What it is, for lists.
-    pub title: &'static str,
-    /// The bytes of its `*.plan.json`.
-    pub bytes: &'static [u8],
+/// The plans that come with the program, each with its file's name, the one shown first in front.
+pub(super) fn bundled() -> &'static [(&'static str, Plan)] {
+    static PLANS: OnceLock<Vec<(&str, Plan)>> = OnceLock::new();
+    // They read, or the tests fail; were one broken, there would be no samples.
+    PLANS.get_or_init(|| store::bundled_plans().unwrap_or_default())
 }
-
-/// The plans that come with the program, the one shown first at the top.
-pub const BUNDLED_PLANS: &[BundledPlan] = &[];
 
 /// Where a plan came from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Origin {
-    /// One of [`BUNDLED_PLANS`], by its index.
+    /// One of [`bundled`], by its index.
     Bundled(usize),
     /// A file; `storey` counts the plans in it from 0.
     File { path: PathBuf, storey: usize },
@@ -55,7 +48,7 @@ impl Origin {
     /// What it is called in lists and titles.
     pub(super) fn title(&self) -> String {
         match self {
-            Self::Bundled(index) => BUNDLED_PLANS.get(*index).map_or("", |plan| plan.title).to_owned(),
+            Self::Bundled(index) => bundled().get(*index).map_or("", |(_, plan)| &plan.meta().name).to_owned(),
             Self::File { path, .. } => file_name(path),
         }
     }
@@ -63,8 +56,10 @@ impl Origin {
     /// Its file's name without the ending.
     pub(super) fn stem(&self) -> String {
         match self {
-            Self::Bundled(index) => BUNDLED_PLANS.get(*index).map_or("plan", |plan| plan.stem).to_owned(),
-            Self::File { path, .. } => formats::plan_stem(&file_name(path)).to_owned(),
+            Self::Bundled(index) => {
+                formats::file_stem(bundled().get(*index).map_or("plan", |(name, _)| name)).to_owned()
+            }
+            Self::File { path, .. } => formats::file_stem(&file_name(path)).to_owned(),
         }
     }
 }
@@ -92,9 +87,7 @@ pub(super) struct Opened {
 pub(super) fn open(origin: Origin) -> Result<Opened, FileError> {
     let (storeys, notes, stamp) = match &origin {
         Origin::Bundled(index) => {
-            let bytes = BUNDLED_PLANS.get(*index).map_or(&[][..], |plan| plan.bytes);
-            let plan = formats::plan_json::from_bytes(bytes)
-                .map_err(|error| FileError { path: origin.title().into(), error })?;
+            let plan = bundled().get(*index).map(|(_, plan)| plan.clone()).unwrap_or_default();
             (vec![plan], Vec::new(), None)
         }
         Origin::File { path, storey } if path.is_dir() => {

@@ -65,7 +65,8 @@ impl App {
             context.send_viewport_cmd(ViewportCommand::CancelClose);
             self.request(Intent::Quit);
         }
-        if self.quitting {
+        if self.quitting && !self.is_close_sent {
+            self.is_close_sent = true;
             context.send_viewport_cmd(ViewportCommand::Close);
         }
     }

@@ -24,7 +24,7 @@ use std::sync::Arc;
 
 use egui::{Context, Ui};
 
-pub use document::{BUNDLED_PLANS, BundledPlan, Picked};
+pub use document::Picked;
 pub use icons::Icon;
 pub use offscreen::{Control, NotSettled, Offscreen, OffscreenOptions};
 pub use raster::{Picture, Raster};
@@ -36,6 +36,7 @@ use canvas::Canvas;
 use dialogs::{Answer, Dialogs};
 use document::{Derived, Document, Opened, Origin, SaveFailure, Stamp};
 use panels::Panels;
+use panels::welcome::Samples;
 use plan_list::PlanList;
 
 use crate::draw::Fill;
@@ -58,6 +59,7 @@ pub struct App {
     layers: LayerSettings,
     theme: ThemeChoice,
     panels: Panels,
+    samples: Samples,
     messages: Vec<Message>,
     /// What was just done, for the status line.
     status: String,
@@ -65,6 +67,7 @@ pub struct App {
     background: Background<Done>,
     dialogs: Dialogs,
     quitting: bool,
+    is_close_sent: bool,
     shown_title: String,
     /// How many documents have been shown.
     documents: u64,
@@ -164,12 +167,14 @@ impl App {
             layers: LayerSettings::default(),
             theme: ThemeChoice::default(),
             panels: Panels::default(),
+            samples: Samples::default(),
             messages: Vec::new(),
             status: String::new(),
             question: None,
             background: Background::new(mode),
             dialogs,
             quitting: false,
+            is_close_sent: false,
             shown_title: String::new(),
             documents: 0,
         }
@@ -279,10 +284,12 @@ impl App {
     }
 
     fn take_shortcuts(&mut self, context: &Context) {
-        if self.question.is_some() || self.panels.is_dialog_open() || context.any_popup_open() {
+        let is_typing = context.text_edit_focused();
+        // An open menu has the keys to itself; the list under a text field leaves them to the text.
+        let is_menu_open = egui::Popup::is_any_open(context) && !is_typing;
+        if self.question.is_some() || self.panels.is_dialog_open() || is_menu_open {
             return;
         }
-        let is_typing = context.text_edit_focused();
         for command in context.input_mut(|input| commands::take_pressed(input, is_typing)) {
             self.run_command(command.id, context);
         }

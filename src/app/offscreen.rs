@@ -13,12 +13,12 @@ use egui::{
     TouchPhase, Vec2, ViewportCommand, ViewportId, vec2,
 };
 
+use super::App;
 use super::background::Mode;
 use super::dialogs::Dialogs;
-use super::document::Origin;
+use super::document::{Origin, bundled};
 use super::raster::{Picture, Raster};
 use super::theme::Motion;
-use super::{App, BUNDLED_PLANS};
 
 /// Seconds from frame to frame.
 const FRAME_SECS: f64 = 1.0 / 60.0;
@@ -81,6 +81,7 @@ pub struct Offscreen {
     /// What the last frame gave.
     output: Option<FullOutput>,
     tree: Option<accesskit::TreeUpdate>,
+    is_closing: bool,
     is_closed: bool,
     copied: Option<String>,
 }
@@ -103,6 +104,7 @@ impl Offscreen {
             hovered_files: Vec::new(),
             output: None,
             tree: None,
+            is_closing: false,
             is_closed: false,
             copied: None,
         }
@@ -118,10 +120,10 @@ impl Offscreen {
         self.app.open(Origin::File { path: path.to_owned(), storey: 0 });
     }
 
-    /// Opens a plan that comes with the program, by its [`super::BundledPlan::stem`]. Gives whether
-    /// there is such a plan.
+    /// Opens a plan that comes with the program, by its file's name without the ending.
+    /// Gives whether there is such a plan.
     pub fn open_bundled(&mut self, stem: &str) -> bool {
-        let index = BUNDLED_PLANS.iter().position(|plan| plan.stem == stem);
+        let index = bundled().iter().position(|(name, _)| crate::formats::file_stem(name) == stem);
         if let Some(index) = index {
             self.app.open(Origin::Bundled(index));
         }
@@ -269,7 +271,7 @@ impl Offscreen {
                 .as_ref()
                 .and_then(|output| output.viewport_output.get(&ViewportId::ROOT))
                 .map(|viewport| viewport.repaint_delay);
-            if delay.is_none_or(|delay| delay.as_secs_f64() > FRAME_SECS) {
+            if self.is_closed || (!self.is_closing && delay.is_none_or(|delay| delay.as_secs_f64() > FRAME_SECS)) {
                 return Ok(());
             }
         }
@@ -277,6 +279,10 @@ impl Offscreen {
     }
 
     fn frame(&mut self, events: Vec<Event>, dropped_files: Vec<egui::DroppedFileHandle>, close: bool) {
+        if self.is_closed {
+            return;
+        }
+        let close = close || self.is_closing;
         let size = vec2(self.options.width as f32, self.options.height as f32);
         let mut input = RawInput {
             screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)),
@@ -309,9 +315,9 @@ impl Offscreen {
         }
         let commands = output.viewport_output.get(&ViewportId::ROOT).map(|viewport| viewport.commands.as_slice());
         let commands = commands.unwrap_or_default();
-        if commands.contains(&ViewportCommand::Close) && !commands.contains(&ViewportCommand::CancelClose) {
-            self.is_closed = true;
-        }
+        // As a window system does it: a wish to close can be refused in the frame that hears of it.
+        self.is_closed |= close && !commands.contains(&ViewportCommand::CancelClose);
+        self.is_closing = commands.contains(&ViewportCommand::Close);
         if let Some(tree) = output.platform_output.accesskit_update.take() {
             self.tree = Some(tree);
         }

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 
-use super::document::{BUNDLED_PLANS, Origin};
+use super::document::{Origin, bundled};
 use crate::formats;
 
 /// What the panel on the left lists.
@@ -22,7 +22,7 @@ impl PlanList {
 
     /// How many plans are listed, bundled ones included.
     pub(super) fn len(&self) -> usize {
-        self.files.len() + BUNDLED_PLANS.len()
+        self.files.len() + bundled().len()
     }
 
     /// The plan `step` places after the current one, in the list from top to bottom.
@@ -36,7 +36,7 @@ impl PlanList {
             Some(path) => Some(Origin::File { path: path.clone(), storey: 0 }),
             None => {
                 let index = next.checked_sub(self.files.len())?;
-                (index < BUNDLED_PLANS.len()).then_some(Origin::Bundled(index))
+                (index < bundled().len()).then_some(Origin::Bundled(index))
             }
         }
     }

@@ -3,9 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use egui::epaint::{
-    CircleShape, Mesh, PathShape, PathStroke, TessellationOptions, Tessellator, TextShape, Vertex, WHITE_UV,
-};
+use egui::epaint::{CircleShape, Mesh, TessellationOptions, Tessellator, TextShape, Vertex, WHITE_UV};
 use egui::{Color32, FontFamily, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
 
 use super::document::Derived;
@@ -23,6 +21,9 @@ const CHUNK_VERTICES: usize = 20_000;
 /// A scene with more corners is not made anew for every frame of a zoom but scaled until the zoom
 /// rests: making it would take longer than a frame.
 const HEAVY_VERTICES: usize = 60_000;
+
+/// The cosine of the turn, 120 degrees, up to which corners of lines are mitred.
+const SHARPEST_MITRE: f32 = -0.5;
 
 /// With more rooms, names are not placed anew for every frame of a gesture.
 const MANY_NAMES: usize = 60;
@@ -223,6 +224,16 @@ pub(super) fn polygon_mesh(
     mesh
 }
 
+/// The outline of a ring as a mesh, for marks over the plan.
+pub(super) fn outline_mesh(rect: Rect, view: &View, ring: &[Point], stroke: Stroke) -> Mesh {
+    let mut writer = Writer::new(view);
+    let points = ring.iter().map(|&point| writer.place(point)).collect();
+    writer.path(points, true, stroke);
+    let mut mesh = writer.mesh;
+    mesh.translate(on_screen(rect, view, view.centre).to_vec2());
+    mesh
+}
+
 /// Writes shapes as triangles with feathered edges. Coordinates are egui's points from the view's
 /// centre.
 struct Writer<'a> {
@@ -289,7 +300,9 @@ impl<'a> Writer<'a> {
                             self.path(points, false, stroke);
                         } else {
                             for shape in Shape::dashed_line(&points, stroke, length, gap.max(self.feather)) {
-                                self.tessellator.tessellate_shape(shape, &mut self.mesh);
+                                if let Shape::LineSegment { points, stroke } = shape {
+                                    self.path(points.to_vec(), false, stroke);
+                                }
                             }
                         }
                     }
@@ -320,9 +333,59 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn path(&mut self, points: Vec<Pos2>, closed: bool, stroke: Stroke) {
-        let shape = PathShape { points, closed, fill: Color32::TRANSPARENT, stroke: PathStroke::from(stroke) };
-        self.tessellator.tessellate_path(&shape, &mut self.mesh);
+    /// A line along points, with soft sides. Corners are mitred; sharp ones, and the hairpins that
+    /// joined walls may have, are cut off.
+    fn path(&mut self, mut points: Vec<Pos2>, closed: bool, stroke: Stroke) {
+        if stroke.width <= 0.0 || stroke.color == Color32::TRANSPARENT {
+            return;
+        }
+        // Points closer than a hundredth of a pixel give no direction.
+        points.dedup_by(|p, q| p.distance(*q) < self.feather * 0.01);
+        let closed = closed && points.len() > 2;
+        if closed && points.first().zip(points.last()).is_some_and(|(p, q)| p.distance(*q) < self.feather * 0.01) {
+            points.pop();
+        }
+        let n = points.len();
+        if n < 2 {
+            return;
+        }
+        // What is thinner than a pixel is as wide and fainter.
+        let colour = stroke.color.gamma_multiply((stroke.width / self.feather).min(1.0));
+        let outer = stroke.width.max(self.feather) / 2.0 + self.feather / 2.0;
+        let inner = outer - self.feather;
+        let normal = |i: usize| (points[(i + 1) % n] - points[i % n]).normalized().rot90();
+        let first = self.mesh.vertices.len() as u32;
+        let mut stations = 0;
+        let mut station = |mesh: &mut Mesh, at: Pos2, across: Vec2| {
+            for (distance, color) in
+                [(-outer, Color32::TRANSPARENT), (-inner, colour), (inner, colour), (outer, Color32::TRANSPARENT)]
+            {
+                mesh.vertices.push(Vertex { pos: at + across * distance, uv: WHITE_UV, color });
+            }
+            stations += 1;
+        };
+        for (i, &point) in points.iter().enumerate() {
+            let (before, after) = match (closed, i) {
+                (false, 0) => (normal(0), normal(0)),
+                (false, i) if i == n - 1 => (normal(i - 1), normal(i - 1)),
+                (_, i) => (normal(i + n - 1), normal(i)),
+            };
+            let cosine = before.dot(after);
+            if cosine > SHARPEST_MITRE {
+                station(&mut self.mesh, point, (before + after) / (1.0 + cosine));
+            } else {
+                station(&mut self.mesh, point, before);
+                station(&mut self.mesh, point, after);
+            }
+        }
+        let pieces = if closed { stations } else { stations - 1 };
+        for piece in 0..pieces {
+            let (p, q) = (first + 4 * piece, first + 4 * ((piece + 1) % stations));
+            for strip in 0..3 {
+                let (a, b) = (p + strip, q + strip);
+                self.mesh.indices.extend([a, b, a + 1, a + 1, b, b + 1]);
+            }
+        }
     }
 
     /// A filled polygon: its triangles, drawn half a pixel in, and a rim that fades out.
@@ -476,6 +539,20 @@ mod tests {
             let expected = 39.0 * 39.0 - 21.0 * 21.0;
             assert_eq!(twice_solid_area(&chunks[0].mesh) / 2.0, expected, "{reversed}");
         }
+    }
+
+    #[test]
+    fn lines_are_as_wide_as_they_say_and_hairpins_do_not_shoot_out() {
+        let mut writer = Writer::new(&view());
+        writer.path(vec![pos2(0.0, 0.0), pos2(10.0, 0.0)], false, Stroke::new(3.0, Color32::WHITE));
+        // The solid core is a pixel less wide than the line with its two soft sides.
+        assert_eq!(twice_solid_area(&writer.mesh) / 2.0, 10.0 * 2.0);
+        let mut writer = Writer::new(&view());
+        let hairpin = vec![pos2(0.0, 0.0), pos2(10.0, 0.0), pos2(0.0, 1e-4), pos2(0.0, 5.0)];
+        writer.path(hairpin, true, Stroke::new(2.0, Color32::WHITE));
+        assert!(Rect::from_min_max(pos2(-3.0, -3.0), pos2(13.0, 8.0)).contains_rect(writer.mesh.calc_bounds()));
+        writer.path(vec![pos2(1.0, 1.0); 5], true, Stroke::new(2.0, Color32::WHITE));
+        assert!(writer.mesh.vertices.iter().all(|vertex| vertex.pos.is_finite()));
     }
 
     #[test]

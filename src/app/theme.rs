@@ -204,7 +204,7 @@ fn style(colours: &Colours, dark: bool, motion: Motion) -> Style {
     spacing.icon_spacing = 6.0;
     spacing.tooltip_width = 320.0;
     spacing.scroll = ScrollStyle { bar_width: 8.0, floating_width: 4.0, ..ScrollStyle::floating() };
-    spacing.scroll.fade.strength = 0.0;
+    spacing.scroll.fade.size = 16.0;
     style.interaction.selectable_labels = false;
     style.interaction.tooltip_delay = 0.45;
     style.wrap_mode = None;

@@ -54,9 +54,7 @@ pub(super) fn strong(text: impl Into<String>, size: f32) -> RichText {
 /// The title of a section of a panel.
 pub(super) fn section(ui: &mut Ui, title: &str) {
     let colour = colours(ui).text_weak;
-    ui.add_space(2.0);
     ui.label(strong(title, theme::SMALL).color(colour));
-    ui.add_space(-1.0);
 }
 
 /// Small secondary text that wraps.
@@ -67,7 +65,7 @@ pub(super) fn caption(ui: &mut Ui, text: impl Into<String>) -> Response {
 
 /// A hairline across a panel, edge to edge.
 pub(super) fn hairline(ui: &mut Ui) {
-    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 9.0), Sense::hover());
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 15.0), Sense::hover());
     let x = ui.clip_rect().x_range();
     ui.painter().hline(x, rect.center().y, Stroke::new(1.0, colours(ui).border));
 }
@@ -77,7 +75,9 @@ pub(super) fn icon_button(ui: &mut Ui, icon: Icon, name: &str, is_on: Option<boo
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(ROW), Sense::click());
     if ui.is_rect_visible(rect) {
         let colours = colours(ui);
-        let ground = if response.is_pointer_button_down_on() {
+        let ground = if !ui.is_enabled() {
+            Color32::TRANSPARENT
+        } else if response.is_pointer_button_down_on() {
             colours.pressed
         } else if is_on == Some(true) {
             colours.accent_soft
@@ -350,6 +350,11 @@ pub(super) fn severity_colours(ui: &Ui, severity: super::Severity) -> (Icon, Col
         super::Severity::Warning => (Icon::Warning, colours.warning, colours.warning_soft),
         super::Severity::Error => (Icon::Warning, colours.error, colours.error_soft),
     }
+}
+
+/// The frame of a dialog.
+pub(super) fn dialog_frame(ui: &Ui) -> egui::Frame {
+    egui::Frame::window(ui.style()).inner_margin(egui::Margin::same(22))
 }
 
 /// Lays out what follows from right to left in what is left of the line.

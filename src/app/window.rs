@@ -5,11 +5,11 @@ use std::path::PathBuf;
 
 use egui::{Ui, ViewportBuilder, vec2};
 
+use super::App;
 use super::background::Mode;
 use super::dialogs::Dialogs;
-use super::document::Origin;
+use super::document::{Origin, bundled};
 use super::theme::Motion;
-use super::{App, BUNDLED_PLANS};
 
 /// What the window opens with.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -60,7 +60,7 @@ pub fn run_window(options: WindowOptions) -> Result<(), WindowError> {
         let mut app = App::new(context, mode, Dialogs::System { is_open: false }, Motion::Smooth);
         let first = match options.plan {
             Some(path) => Some(Origin::File { path, storey: 0 }),
-            None => (!BUNDLED_PLANS.is_empty()).then_some(Origin::Bundled(0)),
+            None => (!bundled().is_empty()).then_some(Origin::Bundled(0)),
         };
         if let Some(origin) = first {
             app.open(origin);

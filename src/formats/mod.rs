@@ -194,14 +194,6 @@ pub fn is_plan_file_name(file_name: &str) -> bool {
     FORMATS.iter().any(|format| extension_of(file_name, *format).is_some())
 }
 
-/// A file's name without the ending of a known plan format, or without its last ending.
-pub fn plan_stem(file_name: &str) -> &str {
-    match FORMATS.iter().find_map(|format| extension_of(file_name, *format)) {
-        Some(extension) => &file_name[..file_name.len() - extension.len() - 1],
-        None => file_name.rsplit_once('.').map_or(file_name, |(stem, _)| stem),
-    }
-}
-
 fn extension_of(file_name: &str, format: &dyn Format) -> Option<&'static str> {
     let lower = file_name.to_lowercase();
     format

@@ -273,6 +273,7 @@ impl Inspected<'_> {
             caption(ui, "No opening leads here.");
         }
         let mut act = None;
+        ui.add_space(-2.0);
         ui.spacing_mut().item_spacing.y = 0.0;
         unindented(ui, |ui| {
             for (opening_id, joint) in neighbours {
@@ -454,8 +455,10 @@ fn header(
             None => (colours(ui).field, colours(ui).text),
         };
         ui.painter().rect_filled(rect, 8.0, ground);
+        let rim = egui::Stroke::new(1.0, colours(ui).text.gamma_multiply(0.12));
+        ui.painter().rect_stroke(rect, 8.0, rim, egui::epaint::StrokeKind::Inside);
         if let Some((_, letter, _)) = tile {
-            let font = egui::FontId::unique(theme::TITLE, theme::semibold());
+            let font = egui::FontId::new(theme::TITLE, theme::semibold());
             ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, letter, font, ink);
         }
         if let Some(icon) = icon {
@@ -493,7 +496,7 @@ fn features(ui: &mut Ui, analysed: &RoomAnalysis) {
     feature(ui, "Openings", names[2], &features.doors.to_string(), features.doors == 0, None);
     for label in Label::ALL {
         let number = features.doors_to(label);
-        let name = format!("to a {}", label.name());
+        let name = format!("to {}s", label.name());
         feature(ui, &name, names[3 + label.index()], &number.to_string(), number == 0, None);
     }
     if let Some(temporary) = analysed.temporary {
@@ -518,7 +521,7 @@ fn feature(ui: &mut Ui, name: &str, symbol: &str, number: &str, is_zero: bool, h
     let drawn = painter.text(at, egui::Align2::LEFT_CENTER, letter, small, colours.text_weak);
     let tiny = egui::FontId::proportional(9.0);
     painter.text(drawn.right_center() + vec2(1.0, 3.0), egui::Align2::LEFT_CENTER, index, tiny, colours.text_weak);
-    let font = if is_zero { body } else { egui::FontId::unique(theme::BODY, theme::semibold()) };
+    let font = if is_zero { body } else { egui::FontId::new(theme::BODY, theme::semibold()) };
     painter.text(rect.right_center(), egui::Align2::RIGHT_CENTER, number, font, colour);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {number}")));
     if let Some(help) = help {

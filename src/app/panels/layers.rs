@@ -33,13 +33,13 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     }
     hairline(ui);
     section(ui, "Layers");
+    ui.add_space(2.0);
     ui.spacing_mut().item_spacing.y = 0.0;
     for command in COMMANDS.iter().filter(|command| command.menu == Some(LAYERS)) {
         let is_on = command.is_on.is_some_and(|is_on| is_on(app));
-        let shortcut = command.shortcuts.first().map(|keys| context.format_shortcut(keys)).unwrap_or_default();
+        let shortcut = command.keys_text(&context);
         let is_available = (command.is_available)(app);
-        let lead = if is_on { Lead::Eye(true) } else { Lead::Eye(false) };
-        let row = Row::new(lead, command.title).trail(&shortcut).on(is_on);
+        let row = Row::new(Lead::Eye(is_on), command.title).trail(&shortcut).on(is_on);
         let response = ui.add_enabled_ui(is_available, |ui| row.button(ui, Role::CheckBox)).inner;
         if response.on_hover_text(command.help).clicked() {
             app.run_command(command.id, &context);

@@ -3,7 +3,7 @@
 use egui::{Frame, Label, Margin, Rect, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
 
 use crate::app::icons::Icon;
-use crate::app::widgets::{ICON, colours, icon_button, right, severity_colours, strong};
+use crate::app::widgets::{ICON, ROW, colours, icon_button, severity_colours, strong};
 use crate::app::{App, Message, Remedy, Severity, theme};
 
 /// More messages are not shown at once; the newest ones are.
@@ -37,9 +37,9 @@ fn bar(ui: &mut Ui, message: &Message) -> Option<Act> {
         ui.set_width(ui.available_width());
         ui.horizontal_top(|ui| {
             ui.spacing_mut().item_spacing.x = 10.0;
-            let (square, _) = ui.allocate_exact_size(vec2(ICON, 28.0), Sense::hover());
+            let (square, _) = ui.allocate_exact_size(vec2(ICON, ROW), Sense::hover());
             icon.paint(ui.painter(), Rect::from_center_size(square.center(), Vec2::splat(ICON)), mark);
-            let width = ui.available_width() - 38.0;
+            let width = ui.available_width() - ROW - 10.0;
             ui.vertical(|ui| {
                 ui.set_width(width);
                 ui.spacing_mut().item_spacing.y = 2.0;
@@ -57,12 +57,9 @@ fn bar(ui: &mut Ui, message: &Message) -> Option<Act> {
                 }
                 ui.add_space(5.0);
             });
-            right(ui, |ui| {
-                ui.set_height(28.0);
-                if icon_button(ui, Icon::Close, "Dismiss message", None).on_hover_text("Dismiss").clicked() {
-                    act = Some(Act::Dismiss);
-                }
-            });
+            if icon_button(ui, Icon::Close, "Dismiss message", None).on_hover_text("Dismiss").clicked() {
+                act = Some(Act::Dismiss);
+            }
         });
     });
     let rect = shown.response.rect;

@@ -8,7 +8,7 @@ mod plans;
 mod questions;
 mod status;
 mod top_bar;
-mod welcome;
+pub(super) mod welcome;
 
 use egui::{CentralPanel, Frame, Margin, Panel, Ui};
 

@@ -2,7 +2,7 @@
 
 use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
-use crate::app::widgets::{caption, colours, right, strong, text_button};
+use crate::app::widgets::{caption, colours, dialog_frame, right, strong, text_button};
 use crate::app::{App, theme};
 use crate::formats::{Note, NoteKind};
 
@@ -20,7 +20,7 @@ pub(in crate::app) fn summary(notes: &[Note]) -> String {
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let Some(document) = app.document.as_ref().filter(|_| app.panels.notes) else { return };
-    let response = Modal::new(Id::unique("import notes")).show(ui.ctx(), |ui| {
+    let response = Modal::new(Id::unique("import notes")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
         ui.set_width(620.0_f32.min(ui.ctx().content_rect().width() - 80.0));
         ui.label(strong("Import notes", theme::TITLE));
         caption(ui, format!("{}: {}", document.origin.title(), summary(&document.notes)));

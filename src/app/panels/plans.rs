@@ -4,7 +4,7 @@ use std::path::Path;
 
 use egui::{Role, ScrollArea, Ui};
 
-use crate::app::document::{BUNDLED_PLANS, Origin, file_name};
+use crate::app::document::{Origin, bundled, file_name};
 use crate::app::icons::Icon;
 use crate::app::widgets::{Lead, ROW, Row, icon_button, right, section};
 use crate::app::{App, commands};
@@ -21,6 +21,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     ui.horizontal(|ui| {
         section(ui, "Plans");
         right(ui, |ui| {
+            ui.spacing_mut().item_spacing.x = 0.0;
             if let Some(command) = commands::find("open")
                 && icon_button(ui, Icon::Plus, command.title, None).on_hover_text(command.help).clicked()
             {
@@ -80,11 +81,11 @@ fn entries(app: &App) -> Vec<Entry> {
             }
         }
     }
-    if !BUNDLED_PLANS.is_empty() {
+    if !bundled().is_empty() {
         entries.push(Entry::Title("Samples".to_owned()));
     }
-    for (index, plan) in BUNDLED_PLANS.iter().enumerate() {
-        entries.push(Entry::Plan { origin: Origin::Bundled(index), text: plan.title.to_owned() });
+    for (index, (_, plan)) in bundled().iter().enumerate() {
+        entries.push(Entry::Plan { origin: Origin::Bundled(index), text: plan.meta().name.clone() });
     }
     entries
 }

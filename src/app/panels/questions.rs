@@ -3,7 +3,7 @@
 use egui::{Id, Key, Modal, Ui};
 
 use crate::app::document::{Expected, file_name};
-use crate::app::widgets::{right, strong, text_button};
+use crate::app::widgets::{dialog_frame, right, strong, text_button};
 use crate::app::{App, Intent, Question, theme};
 
 /// What a button of a question does.
@@ -43,7 +43,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             vec![("Save as…", Answer::Elsewhere), ("Replace", Answer::Yes), ("Cancel", Answer::Cancel)],
         ),
     };
-    let response = Modal::new(Id::unique("question")).show(ui.ctx(), |ui| {
+    let response = Modal::new(Id::unique("question")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
         ui.set_width(400.0);
         ui.label(strong(&title, theme::TITLE));
         ui.add_space(2.0);

@@ -55,7 +55,12 @@ fn left_text(app: &App) -> String {
         return app.status.clone();
     }
     let plan = document.plan();
-    format!("{}  ·  {}", count(plan.rooms().len(), "room"), count(plan.openings().len(), "opening"))
+    let passable = plan.openings().filter(|(_, opening)| opening.kind.is_passable()).count();
+    let mut text = format!("{}  ·  {}", count(plan.rooms().len(), "room"), count(passable, "opening"));
+    if plan.openings().len() > passable {
+        text.push_str(&format!("  ·  {}", count(plan.openings().len() - passable, "window")));
+    }
+    text
 }
 
 /// A number of things, in words.

@@ -6,7 +6,7 @@ use egui::{
 };
 
 use crate::app::commands::{COMMANDS, Command, Menu};
-use crate::app::widgets::{Lead, Row, colours, icon_button};
+use crate::app::widgets::{Lead, Row, colours, icon_button, strong};
 use crate::app::{App, theme};
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
@@ -31,7 +31,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
 }
 
 fn menu_entries(app: &mut App, ui: &mut Ui, menu: Menu) {
-    ui.set_min_width(250.0);
+    ui.set_width(260.0);
     ui.spacing_mut().item_spacing.y = 0.0;
     let mut section = None;
     for command in COMMANDS {
@@ -41,7 +41,7 @@ fn menu_entries(app: &mut App, ui: &mut Ui, menu: Menu) {
         }
         section = Some(this);
         let is_available = (command.is_available)(app);
-        let shortcut = command.shortcuts.first().map(|keys| ui.ctx().format_shortcut(keys)).unwrap_or_default();
+        let shortcut = command.keys_text(ui.ctx());
         let is_on = command.is_on.is_some_and(|is_on| is_on(app));
         let row = Row::new(Lead::Tick(is_on), command.title).trail(&shortcut);
         let response = ui.add_enabled_ui(is_available, |ui| row.button(ui, Role::MenuItem)).inner;
@@ -78,9 +78,15 @@ fn show_tools(app: &mut App, ui: &mut Ui) {
 
 /// A command's title, shortcut and help under the pointer.
 fn with_tooltip(response: Response, context: &Context, command: &Command) -> Response {
-    let shortcut = command.shortcuts.first().map(|keys| format!("   {}", context.format_shortcut(keys)));
-    let text = format!("{}{}\n{}", command.title, shortcut.unwrap_or_default(), command.help);
-    response.on_hover_text(&text).on_disabled_hover_text(&text)
+    let keys = command.keys_text(context);
+    let show = |ui: &mut Ui| {
+        ui.horizontal(|ui| {
+            ui.label(strong(command.title, theme::BODY));
+            ui.label(egui::RichText::new(&keys).color(colours(ui).text_weak));
+        });
+        ui.label(command.help);
+    };
+    response.on_hover_ui(show).on_disabled_hover_ui(show)
 }
 
 /// The plan's title in the middle of the window, as far as there is space.
@@ -92,7 +98,7 @@ fn title(app: &App, ui: &Ui, left: f32, right: f32) {
     if document.is_changed() {
         text.insert_str(0, "• ");
     }
-    let font = FontId::unique(theme::BODY, theme::semibold());
+    let font = FontId::new(theme::BODY, theme::semibold());
     let mut job = egui::text::LayoutJob::simple_singleline(text.clone(), font, colours.text);
     let meta = document.plan().meta();
     if !meta.storey.is_empty() && !document.title().contains(&meta.storey) {
