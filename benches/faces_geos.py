@@ -4,8 +4,8 @@
 Usage: faces_geos.py FAMILY:FILE... [--times N]
 
 Each FILE holds 32-bit little-endian integers, four a segment (x, y, x, y) in steps of the 0.1 mm grid.
-Prints a line of comma-separated values for each, see COLUMNS. Times are medians over N runs (default 1)
-of `unary_union` and `polygonize` together, with the segments already in shapely's form.
+Prints a line of comma-separated values for each, see COLUMNS. Times are processor times, medians over N runs
+(default 1) of `unary_union` and `polygonize` together, with the segments already in shapely's form.
 
 - plain: `unary_union`, nodes in full precision. Its faces differ from ours by slivers below the grid.
 - snapped: `unary_union(grid_size=1)`, nodes snap-rounded to the grid as ours are. Coordinates are whole,
@@ -54,10 +54,10 @@ def doubled_area(points):
 
 
 def faces_of(lines, grid_size):
-    start = time.perf_counter()
+    start = time.process_time()
     union = shapely.unary_union(lines, grid_size=grid_size)
     faces = shapely.polygonize([union])
-    return time.perf_counter() - start, faces
+    return time.process_time() - start, faces
 
 
 def main():

@@ -192,3 +192,18 @@ proptest! {
         prop_assert_eq!(kinds(&upright), kinds(&turned));
     }
 }
+
+#[test]
+fn thin_partitions_are_no_gaps_in_a_plan_that_draws_its_walls() {
+    let plan = |wall_m: f64| {
+        let mut draft = Draft::empty(|point| point);
+        for i in 0..4 {
+            let left = (4.0 + wall_m) * f64::from(i);
+            draft.room("garden", &draft::rectangle((left, 0.0), (left + 4.0, 4.0)));
+        }
+        draft.room("garden", &draft::rectangle((0.0, 4.03), (4.0, 8.0)));
+        draft.plan()
+    };
+    assert_eq!(kinds(&plan(0.0)).get("rooms_leave_a_gap"), Some(&1));
+    assert_eq!(kinds(&plan(0.15)).get("rooms_leave_a_gap"), None);
+}

@@ -1,3 +1,4 @@
+use std::cmp::Ordering;
 use std::fmt;
 
 use super::{Context, RoomName};
@@ -61,7 +62,7 @@ pub struct Place<'a> {
 pub trait Check: Sized {
     const KIND: Kind;
 
-    /// All findings of this kind, by element; at least up to [`super::FINDINGS_LIMIT`] of them.
+    /// All findings of this kind; where there are more than [`super::FINDINGS_LIMIT`], at least as many.
     fn find(context: &Context) -> Vec<Self>;
 
     /// Where it is.
@@ -75,8 +76,27 @@ pub trait Check: Sized {
         Vec::new()
     }
 
+    /// How large the fault is, to list the worst first, in a measure of the kind's own.
+    fn size(&self) -> f64 {
+        0.0
+    }
+
     /// How bad it is: as its kind, unless the figures say otherwise.
     fn severity(&self) -> Severity {
         Self::KIND.severity
     }
+}
+
+/// The order in which findings of a kind are listed: the worst first, then as one reads the drawing,
+/// from the top left, then by element.
+pub(super) fn worst_first<C: Check>(one: &C, other: &C) -> Ordering {
+    let (place, other_place) = (one.place(), other.place());
+    let reading = |place: &Place| place.at.map_or((f64::INFINITY, 0.0), |at| (-at.y, at.x));
+    let ((down, right), (other_down, other_right)) = (reading(&place), reading(&other_place));
+    other
+        .size()
+        .total_cmp(&one.size())
+        .then_with(|| down.total_cmp(&other_down))
+        .then_with(|| right.total_cmp(&other_right))
+        .then_with(|| place.elements.cmp(&other_place.elements))
 }

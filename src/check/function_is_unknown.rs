@@ -22,7 +22,7 @@ impl Check for FunctionIsUnknown {
         name: "function_is_unknown",
         title: "Function is not in the label scheme",
         severity: Severity::Warning,
-        remedy: "correct the function, give the rooms a label, or add it to a label scheme (--scheme)",
+        remedy: "correct it, label the rooms themselves, or add it to a scheme (--scheme)",
     };
 
     fn find(context: &Context) -> Vec<Self> {
@@ -45,6 +45,10 @@ impl Check for FunctionIsUnknown {
                 rooms,
             })
             .collect()
+    }
+
+    fn size(&self) -> f64 {
+        self.rooms.len() as f64
     }
 
     fn place(&self) -> Place<'_> {

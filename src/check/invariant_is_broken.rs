@@ -13,7 +13,7 @@ impl Check for InvariantIsBroken {
         name: "invariant_is_broken",
         title: "An invariant of the model is broken",
         severity: Severity::Error,
-        remedy: "restore the file from an earlier version, or delete the element; if Enfilade wrote it, report the bug",
+        remedy: "restore the file from an earlier version; if Enfilade wrote it so, report the bug",
     };
 
     fn find(context: &Context) -> Vec<Self> {

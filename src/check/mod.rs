@@ -18,7 +18,7 @@ pub use names::{OpeningName, RoomName};
 
 use crate::features::Analysis;
 use crate::labels::Schemes;
-use crate::plan::{ElementId, Plan};
+use crate::plan::Plan;
 
 /// Declares the checks: their modules, and one variant a check in [`Finding`].
 macro_rules! checks {
@@ -70,6 +70,7 @@ macro_rules! checks {
             let mut found = Vec::new();
             $({
                 let mut of_kind = $finding::find(context);
+                of_kind.sort_by(finding::worst_first);
                 of_kind.truncate(FINDINGS_LIMIT);
                 found.extend(of_kind.into_iter().map(Finding::$finding));
             })*
@@ -118,7 +119,8 @@ checks! {
 pub const FINDINGS_LIMIT: usize = 1000;
 
 /// Everything that is wrong with a plan, or worth a look: errors first, then by kind in the order of
-/// [`Finding::KINDS`], then by element. The same plan always gives the same findings.
+/// [`Finding::KINDS`], then the worst of a kind first, then as one reads, from the top left. The same
+/// plan always gives the same findings.
 ///
 /// `analysis` is that of the plan under the same schemes.
 pub fn check(plan: &Plan, analysis: &Analysis, schemes: &Schemes) -> Vec<Finding> {
@@ -136,12 +138,5 @@ impl std::fmt::Display for Finding {
             write!(f, " at ({:.2}, {:.2})", at.x, at.y)?;
         }
         write!(f, ": {}", self.remedy())
-    }
-}
-
-impl Finding {
-    /// The elements concerned, for a selection.
-    pub fn elements(&self) -> Vec<ElementId> {
-        self.place().elements
     }
 }

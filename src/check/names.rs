@@ -88,3 +88,9 @@ pub fn first_of<T: fmt::Display>(names: &[T]) -> String {
     }
     text
 }
+
+/// 'a school', 'an office'.
+pub fn with_article(noun: &str) -> String {
+    let vowel = noun.starts_with(['a', 'e', 'i', 'o', 'u']);
+    format!("{} {noun}", if vowel { "an" } else { "a" })
+}

@@ -19,7 +19,7 @@ impl Check for OpeningContradictsItsPlace {
         name: "opening_contradicts_its_place",
         title: "Opening leads elsewhere than stated",
         severity: Severity::Warning,
-        remedy: "move the opening between the rooms it joins, or unpin it so that they follow from its place",
+        remedy: "move it between the rooms it joins, or unpin it: they then follow from its place",
     };
 
     fn find(context: &Context) -> Vec<Self> {

@@ -20,7 +20,7 @@ impl Check for OpeningIsFarFromItsRooms {
         name: "opening_is_far_from_its_rooms",
         title: "Opening is far from the room it leads to",
         severity: Severity::Warning,
-        remedy: "move the opening to the room's wall, or unpin it so that its rooms follow from its place",
+        remedy: "move it to the room's wall, or unpin it: its rooms then follow from its place",
     };
 
     fn find(context: &Context) -> Vec<Self> {
@@ -44,6 +44,10 @@ impl Check for OpeningIsFarFromItsRooms {
             }
         }
         found
+    }
+
+    fn size(&self) -> f64 {
+        self.distance_m.unwrap_or(LOOK_M)
     }
 
     fn place(&self) -> Place<'_> {

@@ -46,6 +46,10 @@ impl Check for OpeningIsWiderThanItsWall {
         found
     }
 
+    fn size(&self) -> f64 {
+        self.excess_m
+    }
+
     fn place(&self) -> Place<'_> {
         Place { elements: vec![ElementId::Opening(self.opening.id)], rooms: Vec::new(), at: Some(self.at) }
     }

@@ -18,7 +18,7 @@ impl Check for OpeningJoinsARoomToItself {
         name: "opening_joins_a_room_to_itself",
         title: "Opening joins a room to itself",
         severity: Severity::Warning,
-        remedy: "divide the room at the opening, move the opening to the room's boundary, or delete it",
+        remedy: "divide the room there, move the opening to the room's boundary, or delete it",
     };
 
     fn find(context: &Context) -> Vec<Self> {

@@ -1,8 +1,8 @@
 use super::edges::{SegmentIndex, are_parallel, common_stretch};
 use super::{Check, Context, FINDINGS_LIMIT, Kind, OpeningName, Place, Severity};
-use crate::geometry::Point;
 use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
-use crate::plan::{DEFAULT_WALL_THICKNESS_M, ElementId};
+use crate::geometry::{GRID_M, Point, Segment};
+use crate::plan::{DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, ElementId};
 
 /// Two openings in the same place: a doorway drawn twice counts twice in the features of its rooms.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,9 +13,22 @@ pub struct OpeningsOverlap {
     pub at: Point,
 }
 
-/// Openings that share at least this much of the narrower one stand in each other's way. Less is
-/// two neighbouring doors drawn a little wide, or points to which a usual width was given.
+/// Openings that share more than this of the narrower one stand in each other's way. Less is two
+/// neighbouring doors drawn a little wide.
 const LEAST_SHARE: f64 = 0.5;
+
+/// A door of exactly the usual width may be one that its source draws as a point; the doors of two
+/// stalls beside each other are half as wide.
+const LEAST_OF_USUAL_WIDTH: f64 = 0.5;
+
+/// What an opening occupies for certain.
+fn certain_part(segment: Segment) -> Segment {
+    if (segment.length() - DEFAULT_DOOR_WIDTH_M).abs() > GRID_M {
+        return segment;
+    }
+    let middle = segment.midpoint();
+    Segment::new(middle.lerp(segment.a, LEAST_OF_USUAL_WIDTH), middle.lerp(segment.b, LEAST_OF_USUAL_WIDTH))
+}
 
 impl Check for OpeningsOverlap {
     const KIND: Kind = Kind {
@@ -27,9 +40,9 @@ impl Check for OpeningsOverlap {
 
     fn find(context: &Context) -> Vec<Self> {
         let mut found = Vec::new();
-        let index = SegmentIndex::new(context.openings.iter().map(|placed| placed.segment).collect());
+        let index = SegmentIndex::new(context.openings.iter().map(|placed| certain_part(placed.segment)).collect());
         for (i, placed) in context.openings.iter().enumerate() {
-            let segment = placed.segment;
+            let segment = index.get(i);
             let mut near: Vec<usize> =
                 index.near(segment.bounds().inflated(DEFAULT_WALL_THICKNESS_M)).filter(|&j| j > i).collect();
             near.sort_unstable();
@@ -51,6 +64,10 @@ impl Check for OpeningsOverlap {
             }
         }
         found
+    }
+
+    fn size(&self) -> f64 {
+        self.overlap_m
     }
 
     fn place(&self) -> Place<'_> {

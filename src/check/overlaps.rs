@@ -1,10 +1,12 @@
 //! What two areas have in common.
 
 use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay::Overlay;
 use i_overlay::core::overlay_rule::OverlayRule;
-use i_overlay::float::single::SingleFloatOverlay as _;
+use i_overlay::i_float::int::point::IntPoint;
 
 use crate::geometry::{Point, polygon};
+use crate::plan::COORDINATE_LIMIT_M;
 
 /// An area, as the thickness and place of its thickest piece and the area of all pieces.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,16 +34,28 @@ pub fn outside<'a>(
     overlay(one, other, OverlayRule::Difference)
 }
 
+/// Steps of the grid on which areas are cut, a metre: a hundred to the 0.1 mm grid of corners, so
+/// that rounding the corners of what is cut out does not show.
+const STEPS_PER_M: f64 = 1e6;
+
+/// Points further than this from each other, in metres, are no part of a plan, which reaches
+/// [`COORDINATE_LIMIT_M`] both ways.
+const FARTHEST_M: f64 = 2.0 * COORDINATE_LIMIT_M;
+
 fn overlay<'a>(
     one: impl IntoIterator<Item = &'a Vec<Point>>,
     other: impl IntoIterator<Item = &'a Vec<Point>>,
     rule: OverlayRule,
 ) -> Option<Region> {
-    let [one, other] = [contours(one), contours(other)];
+    let (one, other): (Vec<_>, Vec<_>) = (one.into_iter().collect(), other.into_iter().collect());
+    let origin = *one.first()?.first()?;
+    let (one, other) = (on_grid(&one, origin)?, on_grid(&other, origin)?);
     let mut all: Option<Region> = None;
-    for shape in one.overlay(&other, rule, FillRule::EvenOdd) {
-        let rings: Vec<Vec<Point>> =
-            shape.iter().map(|ring| ring.iter().map(|&[x, y]| Point::new(x, y)).collect()).collect();
+    for shape in Overlay::<i64>::from_subj_and_clip(&one, &other).overlay(rule, FillRule::EvenOdd) {
+        let point = |point: &IntPoint<i64>| {
+            Point::new(origin.x + point.x as f64 / STEPS_PER_M, origin.y + point.y as f64 / STEPS_PER_M)
+        };
+        let rings: Vec<Vec<Point>> = shape.iter().map(|ring| ring.iter().map(point).collect()).collect();
         let Some((outer, holes)) = rings.split_first() else { continue };
         let area_m2 = polygon::area(outer, holes);
         let depth_m = thickness_m(area_m2, rings.iter().map(|ring| polygon::perimeter(ring)).sum());
@@ -54,8 +68,12 @@ fn overlay<'a>(
     all
 }
 
-fn contours<'a>(rings: impl IntoIterator<Item = &'a Vec<Point>>) -> Vec<Vec<[f64; 2]>> {
-    rings.into_iter().map(|ring| ring.iter().map(|point| [point.x, point.y]).collect()).collect()
+/// Rings in steps of the grid from `origin`; `None` where a point is not within [`FARTHEST_M`] of
+/// it, which the invariants exclude.
+fn on_grid(rings: &[&Vec<Point>], origin: Point) -> Option<Vec<Vec<IntPoint<i64>>>> {
+    let step = |length_m: f64| (length_m.abs() <= FARTHEST_M).then(|| (length_m * STEPS_PER_M).round() as i64);
+    let point = |point: &Point| Some(IntPoint::new(step(point.x - origin.x)?, step(point.y - origin.y)?));
+    rings.iter().map(|ring| ring.iter().map(point).collect()).collect()
 }
 
 /// How thick a piece is, in metres: the shorter side of the rectangle with its area and perimeter.

@@ -1,4 +1,5 @@
-use super::sizes::usual_area;
+use super::names::{printable, with_article};
+use super::sizes::{tolerated_factors, usual_area};
 use super::{Check, Context, Kind, Place, RoomName, Severity};
 use crate::geometry::Point;
 use crate::labels::{Label, Typology};
@@ -17,11 +18,6 @@ pub struct RoomAreaIsUnusual {
     pub at: Point,
 }
 
-/// Rooms are reported from this factor beyond what is usual for their label: three deviations of
-/// the logarithm of areas within a plan, which is 0.5 to 0.7 for rooms (measured on the authors'
-/// floors), is a factor of 5 to 8.
-const UNUSUAL_FACTOR: f64 = 6.0;
-
 impl Check for RoomAreaIsUnusual {
     const KIND: Kind = Kind {
         name: "room_area_is_unusual",
@@ -38,10 +34,15 @@ impl Check for RoomAreaIsUnusual {
         let mut found = Vec::new();
         for (index, shape) in context.shapes().iter().enumerate() {
             let area_m2 = shape.area_m2();
-            let Some(label) = context.status(index).label().filter(|_| area_m2 > 0.0) else { continue };
+            let Some(label) = context.status(index).label() else { continue };
+            // The area of what encloses nothing or crosses itself is another finding.
+            if area_m2 <= 0.0 || !context.ring_faults[index].crossings.is_empty() {
+                continue;
+            }
             let Some(usual) = usual_area(Some(typology), label) else { continue };
             let factor = usual.factor(area_m2 / area_factor);
-            if !(1.0 / UNUSUAL_FACTOR..=UNUSUAL_FACTOR).contains(&factor) {
+            let (smaller, larger) = tolerated_factors(label);
+            if factor < 1.0 / smaller || factor > larger {
                 found.push(Self {
                     room: context.name(index),
                     label,
@@ -55,6 +56,11 @@ impl Check for RoomAreaIsUnusual {
         found
     }
 
+    fn size(&self) -> f64 {
+        let [from, to] = self.usual_m2;
+        (self.area_m2 / to).max(from / self.area_m2)
+    }
+
     fn place(&self) -> Place<'_> {
         Place { elements: vec![ElementId::Room(self.room.id)], rooms: vec![&self.room], at: Some(self.at) }
     }
@@ -62,11 +68,11 @@ impl Check for RoomAreaIsUnusual {
     fn what(&self) -> String {
         let [from, to] = self.usual_m2;
         format!(
-            "{} has {:.1} m²; a {} of a {} of this scale usually has {from:.0} to {to:.0} m²",
+            "{} has {:.1} m²; a {} in {} of this scale usually has {from:.0} to {to:.0} m²",
             self.room,
             self.area_m2,
             self.label,
-            super::names::printable(self.typology.as_str()),
+            with_article(&printable(self.typology.as_str())),
         )
     }
 

@@ -1,3 +1,4 @@
+use super::overlaps::shared;
 use super::{Check, Context, Kind, Place, RoomName, Severity};
 use crate::geometry::Point;
 use crate::plan::ElementId;
@@ -8,7 +9,15 @@ pub struct RoomBoundaryCrossesItself {
     pub room: RoomName,
     /// Where, in the order of the boundary; at least one.
     pub crossings: Vec<Point>,
+    /// By how much its area, computed as for any room, differs from what its boundary encloses.
+    pub area_error_m2: f64,
+    /// The same as a share of what its boundary encloses.
+    pub area_error: f64,
 }
+
+/// A crossing that changes the room's area by less than this share is a warning: a thousandth is how
+/// exactly areas are computed and compared.
+const TOLERATED_AREA_ERROR: f64 = 0.001;
 
 impl Check for RoomBoundaryCrossesItself {
     const KIND: Kind = Kind {
@@ -22,8 +31,24 @@ impl Check for RoomBoundaryCrossesItself {
         let faults = context.ring_faults.iter().enumerate();
         faults
             .filter(|(_, faults)| !faults.crossings.is_empty())
-            .map(|(index, faults)| Self { room: context.name(index), crossings: faults.crossings.clone() })
+            .map(|(index, faults)| {
+                let shape = &context.shapes()[index];
+                let (min, max) = (shape.bounds.min, shape.bounds.max);
+                let around = vec![min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
+                let enclosed_m2 = shared(shape.rings(), [&around]).map_or(0.0, |region| region.area_m2);
+                let area_error_m2 = (enclosed_m2 - shape.area_m2()).abs();
+                let area_error = if enclosed_m2 > 0.0 { area_error_m2 / enclosed_m2 } else { 0.0 };
+                Self { room: context.name(index), crossings: faults.crossings.clone(), area_error_m2, area_error }
+            })
             .collect()
+    }
+
+    fn severity(&self) -> Severity {
+        if self.area_error > TOLERATED_AREA_ERROR { Severity::Error } else { Severity::Warning }
+    }
+
+    fn size(&self) -> f64 {
+        self.area_error_m2
     }
 
     fn place(&self) -> Place<'_> {
@@ -35,13 +60,15 @@ impl Check for RoomBoundaryCrossesItself {
     }
 
     fn what(&self) -> String {
-        match self.crossings.len() {
-            1 => format!("the boundary of {} crosses itself", self.room),
-            count => format!("the boundary of {} crosses itself in {count} places", self.room),
-        }
+        let places = if self.crossings.len() == 1 { String::new() } else { format!(" in {} places", self.crossings.len()) };
+        format!("the boundary of {} crosses itself{places}; its area is {:.2} m² off", self.room, self.area_error_m2)
     }
 
     fn figures(&self) -> Vec<(&'static str, f64)> {
-        vec![("crossings", self.crossings.len() as f64)]
+        vec![
+            ("crossings", self.crossings.len() as f64),
+            ("area_error_m2", self.area_error_m2),
+            ("area_error", self.area_error),
+        ]
     }
 }

@@ -16,8 +16,7 @@ impl Check for RoomBoundaryTouchesItself {
         name: "room_boundary_touches_itself",
         title: "Room's boundary touches itself",
         severity: Severity::Warning,
-        remedy: "delete the corners of the spike; make two rooms of two parts that meet in a point, and a hole of an \
-                 island",
+        remedy: "delete the spike's corners; make an island a hole, and two parts two rooms",
     };
 
     fn find(context: &Context) -> Vec<Self> {
@@ -27,6 +26,10 @@ impl Check for RoomBoundaryTouchesItself {
             .filter(|(_, faults)| faults.crossings.is_empty() && !faults.touches.is_empty())
             .map(|(index, faults)| Self { room: context.name(index), touches: faults.touches.clone() })
             .collect()
+    }
+
+    fn size(&self) -> f64 {
+        self.touches.len() as f64
     }
 
     fn place(&self) -> Place<'_> {

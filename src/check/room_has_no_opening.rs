@@ -15,7 +15,7 @@ impl Check for RoomHasNoOpening {
         name: "room_has_no_opening",
         title: "Nothing leads to the room",
         severity: Severity::Warning,
-        remedy: "draw its door or passage; give a shaft or a void a function that is not classified",
+        remedy: "draw its door; give a shaft or a void a function that is not classified",
     };
 
     fn find(context: &Context) -> Vec<Self> {

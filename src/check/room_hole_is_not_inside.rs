@@ -35,6 +35,10 @@ impl Check for RoomHoleIsNotInside {
         found
     }
 
+    fn size(&self) -> f64 {
+        self.area_outside_m2
+    }
+
     fn place(&self) -> Place<'_> {
         Place { elements: vec![ElementId::Room(self.room.id)], rooms: vec![&self.room], at: Some(self.at) }
     }

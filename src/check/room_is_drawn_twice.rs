@@ -41,6 +41,10 @@ impl Check for RoomIsDrawnTwice {
         .collect()
     }
 
+    fn size(&self) -> f64 {
+        self.area_m2
+    }
+
     fn place(&self) -> Place<'_> {
         Place {
             elements: self.rooms.iter().map(|room| ElementId::Room(room.id)).collect(),

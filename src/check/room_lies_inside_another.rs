@@ -29,7 +29,7 @@ impl Check for RoomLiesInsideAnother {
         name: "room_lies_inside_another",
         title: "Room lies inside another",
         severity: Severity::Warning,
-        remedy: "cut the outer room out around it (a hole or a notch), or delete the inner one if it is furniture",
+        remedy: "cut the outer room out around it, or delete the inner one",
     };
 
     fn find(context: &Context) -> Vec<Self> {
@@ -43,6 +43,10 @@ impl Check for RoomLiesInsideAnother {
                 at: overlap.region.at,
             })
             .collect()
+    }
+
+    fn size(&self) -> f64 {
+        self.area_m2
     }
 
     fn place(&self) -> Place<'_> {

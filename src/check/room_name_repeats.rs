@@ -36,6 +36,10 @@ impl Check for RoomNameRepeats {
             .collect()
     }
 
+    fn size(&self) -> f64 {
+        self.rooms.len() as f64
+    }
+
     fn place(&self) -> Place<'_> {
         Place {
             elements: self.rooms.iter().map(|room| ElementId::Room(room.id)).collect(),

@@ -5,16 +5,17 @@ use super::{Check, Context, Kind, Place, RoomName, Severity};
 use crate::labels::normalised_function;
 use crate::plan::{ElementId, Joint};
 
-/// Rooms that are joined among themselves, but not to the outside, to stairs, or to the rest of the
-/// storey.
+/// Rooms that are joined among themselves, but not to the outside, an entrance, stairs, or the rest
+/// of the storey.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomsAreCutOff {
     /// The rooms, by id; at least two.
     pub rooms: Vec<RoomName>,
 }
 
-/// Functions of rooms through which one comes from another storey: words of the bundled schemes.
-const FROM_OTHER_STOREYS: [&str; 4] = ["elevator", "stair", "staircase", "stairs"];
+/// Functions of rooms through which one comes in from outside or from another storey: words of the
+/// bundled schemes. Many plans draw the entrance, but not its door.
+const WAYS_IN: [&str; 5] = ["elevator", "entrance", "stair", "staircase", "stairs"];
 
 impl Check for RoomsAreCutOff {
     const KIND: Kind = Kind {
@@ -37,7 +38,7 @@ impl Check for RoomsAreCutOff {
             }
         }
         for (index, (_, room)) in context.plan.rooms().enumerate() {
-            leads_out[index] |= FROM_OTHER_STOREYS.contains(&normalised_function(&room.function).as_str());
+            leads_out[index] |= WAYS_IN.contains(&normalised_function(&room.function).as_str());
         }
         let mut members: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for room in 0..shapes.len() {
@@ -59,6 +60,10 @@ impl Check for RoomsAreCutOff {
             .filter(|(_, rooms)| rooms.iter().any(|&room| context.is_classified(room)))
             .map(|(_, rooms)| Self { rooms: rooms.iter().map(|&room| context.name(room)).collect() })
             .collect()
+    }
+
+    fn size(&self) -> f64 {
+        self.rooms.len() as f64
     }
 
     fn place(&self) -> Place<'_> {

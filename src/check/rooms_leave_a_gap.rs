@@ -4,10 +4,12 @@ use super::edges::{are_parallel, common_stretch};
 use super::{Check, Context, Kind, Place, RoomName, Severity};
 use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
 use crate::geometry::{Point, Segment};
-use crate::plan::ElementId;
+use crate::plan::{ElementId, THICKEST_WALL_M};
 
 /// Two rooms whose sides face each other across a gap too wide to be how they were drawn and too
-/// thin to be a wall: they were meant to meet.
+/// thin to be a wall: they were meant to meet. Only in plans whose rooms meet on the whole, their
+/// sides drawn on the walls' centre lines: in one that draws its walls as what is left between
+/// rooms, a thin gap is a thin partition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomsLeaveAGap {
     pub rooms: [RoomName; 2],
@@ -36,25 +38,40 @@ impl Check for RoomsLeaveAGap {
     };
 
     fn find(context: &Context) -> Vec<Self> {
+        let tolerance_m = context.drawing_tolerance_m;
         // By pair of rooms: the gap's length, its width where it is widest, and where that is.
         let mut pairs: BTreeMap<(usize, usize), (f64, f64, Point)> = BTreeMap::new();
+        let (mut meeting_m, mut walled_m) = (0.0, 0.0);
         let edges = &context.edges;
         for (i, &edge) in edges.index.all().iter().enumerate() {
             if edge.length() < LEAST_PIECE_M {
                 continue;
             }
-            for j in edges.index.near(edge.bounds().inflated(THINNEST_WALL_M)) {
+            for j in edges.index.near(edge.bounds().inflated(THICKEST_WALL_M)) {
                 let (room, other_room) = (edges.rooms[i], edges.rooms[j]);
                 if other_room <= room {
                     continue;
                 }
-                let Some(gap) = gap_between(edge, edges.index.get(j), context.drawing_tolerance_m) else { continue };
-                let entry = pairs.entry((room, other_room)).or_insert((0.0, 0.0, gap.at));
-                entry.0 += gap.length_m;
-                if gap.width_m > entry.1 {
-                    (entry.1, entry.2) = (gap.width_m, gap.at);
+                let Some(facing) = facing(edge, edges.index.get(j)) else { continue };
+                if facing.least_m >= -tolerance_m && facing.most_m <= tolerance_m {
+                    meeting_m += facing.length_m;
+                } else if facing.least_m >= THINNEST_WALL_M && facing.most_m <= THICKEST_WALL_M {
+                    walled_m += facing.length_m;
+                } else if facing.least_m >= -tolerance_m
+                    && (facing.least_m + facing.most_m) / 2.0 > tolerance_m
+                    && facing.most_m < THINNEST_WALL_M
+                {
+                    let entry = pairs.entry((room, other_room)).or_insert((0.0, 0.0, facing.at));
+                    entry.0 += facing.length_m;
+                    if facing.most_m > entry.1 {
+                        (entry.1, entry.2) = (facing.most_m, facing.at);
+                    }
                 }
             }
+        }
+        // A plan whose rooms stand apart by their walls shows its thin partitions too.
+        if walled_m > meeting_m {
+            return Vec::new();
         }
         pairs
             .into_iter()
@@ -66,6 +83,10 @@ impl Check for RoomsLeaveAGap {
                 at,
             })
             .collect()
+    }
+
+    fn size(&self) -> f64 {
+        self.length_m
     }
 
     fn place(&self) -> Place<'_> {
@@ -86,14 +107,20 @@ impl Check for RoomsLeaveAGap {
     }
 }
 
-struct Gap {
+/// Two sides of rooms that face each other.
+struct Facing {
+    /// Length of the stretch along which they do, in metres.
     length_m: f64,
-    width_m: f64,
+    /// How far apart they are where they are nearest and where they are farthest, in metres; below 0
+    /// where the rooms overlap.
+    least_m: f64,
+    most_m: f64,
+    /// Between the middles of both.
     at: Point,
 }
 
-/// The gap between two sides, each with its room on its left, if they face each other across one.
-fn gap_between(edge: Segment, other: Segment, tolerance_m: f64) -> Option<Gap> {
+/// How two sides, each with its room on its left, face each other, if they do.
+fn facing(edge: Segment, other: Segment) -> Option<Facing> {
     if other.length() < LEAST_PIECE_M
         || edge.vector().dot(other.vector()) >= 0.0
         || !are_parallel(edge, other, ANGLE_TOLERANCE_RAD)
@@ -106,19 +133,19 @@ fn gap_between(edge: Segment, other: Segment, tolerance_m: f64) -> Option<Gap> {
     }
     let direction = edge.vector().unit()?;
     let outward = -direction.left();
-    // How far outward the other side lies at both ends of the stretch.
-    let width_at = |along_m: f64| {
+    // How far outward the other side lies at a distance along this one.
+    let apart_m = |along_m: f64| {
         let at = edge.a + direction * along_m;
         let across = other.vector();
         let t = (at - other.a).dot(direction) / across.dot(direction);
         (other.a + across * t - at).dot(outward)
     };
-    let (one, two) = (width_at(from), width_at(to));
-    let width_m = one.max(two);
-    let meets_nowhere = one.min(two) >= -tolerance_m && (one + two) / 2.0 > tolerance_m;
-    (meets_nowhere && width_m < THINNEST_WALL_M).then(|| Gap {
+    let (one, two) = (apart_m(from), apart_m(to));
+    let middle = edge.a + direction * ((from + to) / 2.0);
+    Some(Facing {
         length_m: to - from,
-        width_m,
-        at: edge.a + direction * ((from + to) / 2.0) + outward * (width_m / 2.0),
+        least_m: one.min(two),
+        most_m: one.max(two),
+        at: middle + outward * ((one + two) / 4.0),
     })
 }

@@ -31,7 +31,7 @@ impl Check for ScaleIsImplausible {
         name: "scale_is_implausible",
         title: "The plan's scale is implausible",
         severity: Severity::Warning,
-        remedy: "measure a known length (a door is about 0.9 m wide) and set the scale anew",
+        remedy: "measure something of known length and set the scale anew",
     };
 
     fn find(context: &Context) -> Vec<Self> {
@@ -62,14 +62,15 @@ impl Check for ScaleIsImplausible {
     fn what(&self) -> String {
         let mut reasons = Vec::new();
         if let Some(width_m) = self.door_width_m {
-            reasons.push(format!("its doors are {width_m:.2} m wide (usual {DEFAULT_DOOR_WIDTH_M} m)"));
+            reasons.push(format!("its doors are {width_m:.2} m wide instead of {DEFAULT_DOOR_WIDTH_M}"));
         }
         if let Some(factor) = self.rooms_factor {
-            reasons.push(format!("its rooms' sides are {factor:.2} times as long as usual for their labels"));
+            let areas = factor * factor;
+            reasons.push(format!("its rooms have {areas:.1} times the area usual for their labels"));
         }
+        let (factor, way) = if self.factor > 1.0 { (self.factor, "long") } else { (1.0 / self.factor, "short") };
         format!(
-            "lengths seem {:.2} times too long: {} (scale {})",
-            self.factor,
+            "lengths seem {factor:.1} times too {way}: {} (scale {})",
             reasons.join(", "),
             self.origin.name()
         )

@@ -67,6 +67,19 @@ impl Usual {
     }
 }
 
+/// How many times smaller and larger than what is usual a room of a label may be. Beyond lies about
+/// one room in 200 of the real plans (the authors' schools and offices, the Japanese dwellings), in
+/// the measure of its own plan: big rooms go up to gymnasiums, halls down to porches.
+pub const fn tolerated_factors(label: Label) -> (f64, f64) {
+    match label {
+        Label::SmallRoom => (8.0, 6.0),
+        Label::MediumRoom => (6.0, 4.0),
+        Label::BigRoom => (6.0, 10.0),
+        Label::Corridor => (8.0, 7.0),
+        Label::Hall => (20.0, 5.0),
+    }
+}
+
 /// Fewer rooms than this say nothing of a scale: the areas of rooms of one label deviate from their
 /// middle by a factor of about 2.2 (measured: deviation of the logarithm 0.8 in schools and
 /// offices), a median of five by a factor of about 1.5, the length by 1.25.

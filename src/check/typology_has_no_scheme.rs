@@ -1,3 +1,4 @@
+use super::names::{printable, with_article};
 use super::{Check, Context, Kind, Place, Severity};
 use crate::labels::Typology;
 
@@ -30,6 +31,6 @@ impl Check for TypologyHasNoScheme {
     }
 
     fn what(&self) -> String {
-        format!("no scheme says what label a function has in a {}", super::names::printable(self.typology.as_str()))
+        format!("no scheme says what label a function has in {}", with_article(&printable(self.typology.as_str())))
     }
 }

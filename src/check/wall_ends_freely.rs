@@ -13,6 +13,10 @@ pub struct WallEndsFreely {
     pub at: Point,
 }
 
+/// A wall that stands free at both ends and is at most this many times as long as it is thick is a
+/// column, a pier or a chimney: drawn so on purpose. A fireplace is 1.5 m by 0.6 m.
+const PIER_RATIO: f64 = 3.0;
+
 impl Check for WallEndsFreely {
     const KIND: Kind = Kind {
         name: "wall_ends_freely",
@@ -30,8 +34,8 @@ impl Check for WallEndsFreely {
         }
         let mut found = Vec::new();
         for (id, wall) in plan.walls() {
-            for corner in [wall.from, wall.to] {
-                let Some(at) = plan.position(corner).filter(|_| uses.get(&corner) == Some(&1)) else { continue };
+            let free_ends = [wall.from, wall.to].into_iter().filter_map(|corner| {
+                let at = plan.position(corner).filter(|_| uses.get(&corner) == Some(&1))?;
                 let around = Bounds::of([at]).inflated(TOUCH_M);
                 let walls = &context.walls;
                 let meets_wall = walls
@@ -39,9 +43,13 @@ impl Check for WallEndsFreely {
                     .near(around)
                     .any(|other| walls.ids[other] != id && walls.index.get(other).distance(at) <= TOUCH_M);
                 let edges = &context.edges.index;
-                if !meets_wall && !edges.near(around).any(|edge| edges.get(edge).distance(at) <= TOUCH_M) {
-                    found.push(Self { wall: id, corner, at });
-                }
+                let meets_room = edges.near(around).any(|edge| edges.get(edge).distance(at) <= TOUCH_M);
+                (!meets_wall && !meets_room).then_some(Self { wall: id, corner, at })
+            });
+            let free_ends: Vec<Self> = free_ends.collect();
+            let length_m = plan.wall_segment(wall).map_or(0.0, |line| line.length());
+            if free_ends.len() < 2 || length_m > PIER_RATIO * wall.thickness_m {
+                found.extend(free_ends);
             }
         }
         found

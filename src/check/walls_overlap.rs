@@ -48,6 +48,10 @@ impl Check for WallsOverlap {
         found
     }
 
+    fn size(&self) -> f64 {
+        self.overlap_m
+    }
+
     fn place(&self) -> Place<'_> {
         Place { elements: self.walls.map(ElementId::Wall).to_vec(), rooms: Vec::new(), at: Some(self.at) }
     }

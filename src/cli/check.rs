@@ -180,6 +180,8 @@ impl Group {
                 None if x_wide > 0 => " ".repeat(x_wide + y_wide + 6),
                 None => String::new(),
             };
+            // Whatever a file says must not move the terminal's cursor.
+            let what = what.replace(char::is_control, " ");
             let _ = writeln!(text, "           {place}{what}");
         }
         if shown.len() < self.items.len() {

@@ -4,6 +4,7 @@ mod check;
 mod dataset;
 mod export;
 mod features;
+mod import;
 mod inputs;
 mod open;
 mod render;
@@ -16,6 +17,7 @@ use clap::{ArgMatches, Args, Command};
 /// All subcommands, in the order of the help.
 #[rustfmt::skip] // one line each
 const SUBCOMMANDS: &[Entry] = &[
+    entry::<import::ImportCommand>(),
     entry::<features::FeaturesCommand>(),
     entry::<dataset::DatasetCommand>(),
     entry::<export::ExportCommand>(),

@@ -56,7 +56,7 @@ fn headless(plan: Option<&Path>, terminal: &mut Terminal) -> Result<Outcome, Cli
     let mut left_out = LeftOut::default();
     for (name, plan) in &plans {
         let analysis = analyse(plan, &schemes, NeighbourLabels::True);
-        let style = Style { text_px: sheet::page_text_px(PICTURE_PX), ..Style::default() };
+        let style = Style::default();
         let furniture = Furniture { title: true, legend: true, scale: true };
         let scene = sheet::page(&Drawing::new(plan, &analysis), &style, PageSize::Longest(PICTURE_PX), furniture);
         save_bytes_fast(&folder.join(format!("{name}.png")), &png::png(&scene)?)?;

@@ -100,10 +100,6 @@ impl Subcommand for RenderCommand {
 
 impl RenderCommand {
     fn style(&self) -> Style {
-        let longest = match self.size {
-            PageSize::Longest(longest) => longest,
-            PageSize::Exact(width, height) => width.max(height),
-        };
         // The parser let only names of the tables through.
         Style {
             theme: Theme::ALL.into_iter().find(|theme| theme.name() == self.theme).unwrap_or_default(),
@@ -112,7 +108,6 @@ impl RenderCommand {
                 .find(|colours| colours.name() == self.palette)
                 .unwrap_or_default(),
             fill: Fill::ALL.into_iter().find(|fill| fill.name() == self.colour).unwrap_or_default(),
-            text_px: sheet::page_text_px(longest),
             layers: Layers {
                 graph: self.graph,
                 grid: self.grid,

@@ -1,3 +1,4 @@
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use super::openings::OpeningDrawing;
@@ -34,12 +35,21 @@ pub(super) struct RoomDrawing {
     pub bounds: Bounds,
     /// The middle of the room where it is widest: where its name and its node go.
     pub centre: Point,
+    /// Indices of the rooms painted over it: smaller ones that reach into its box.
+    pub above: Vec<usize>,
+    /// Indices of the openings that reach into its box.
+    pub openings: Vec<usize>,
 }
 
 impl RoomDrawing {
     /// All rings, the outer one first.
     pub fn rings(&self) -> impl Iterator<Item = &Vec<Point>> {
         std::iter::once(&self.outer).chain(&self.holes)
+    }
+
+    /// Whether it is a lift, whose doors slide.
+    pub fn is_lift(&self) -> bool {
+        normalised_function(&self.function).split(' ').any(|word| matches!(word, "lift" | "elevator"))
     }
 
     /// Whether it lies under the open sky, so that it is no part of the building's mass: by its
@@ -55,6 +65,11 @@ const OPEN_AIR: [&str; 12] = [
     "balcony", "terrace", "loggia", "veranda", "patio", "garden", "yard", "deck", "outdoor", "outside", "court",
     "porch",
 ];
+
+/// The order of painting: large rooms first, so that one that lies in or over another is seen.
+fn painting_order(rooms: &[RoomDrawing], one: usize, other: usize) -> Ordering {
+    rooms[other].area_m2.total_cmp(&rooms[one].area_m2).then(one.cmp(&other))
+}
 
 /// A connected piece of wall.
 pub(super) struct WallDrawing {
@@ -73,7 +88,7 @@ pub(super) struct GraphEdge {
 impl Drawing {
     /// The shapes of a plan. `analysis` must be that of the same plan.
     pub fn new(plan: &Plan, analysis: &Analysis) -> Self {
-        let rooms: Vec<RoomDrawing> = plan
+        let mut rooms: Vec<RoomDrawing> = plan
             .rooms()
             .zip(&analysis.rooms)
             .zip(analysis.shapes.all())
@@ -87,11 +102,23 @@ impl Drawing {
                 holes: shape.holes.clone(),
                 bounds: shape.bounds,
                 centre: names::centre(&shape.outer, &shape.holes),
+                above: Vec::new(),
+                openings: Vec::new(),
             })
             .collect();
+        for i in 0..rooms.len() {
+            // Less a centimetre: neighbours meet at most along an edge.
+            let near = analysis.shapes.near(rooms[i].bounds.inflated(-0.01));
+            rooms[i].above = near.into_iter().filter(|&j| painting_order(&rooms, j, i).is_gt()).collect();
+        }
         let walls = Walls::new(plan, &rooms);
         let faces = Faces::new(&walls.solid);
         let openings = OpeningDrawing::all(plan, analysis, &rooms, &faces);
+        for (i, opening) in openings.iter().enumerate() {
+            for room in analysis.shapes.near(opening.bounds()) {
+                rooms[room].openings.push(i);
+            }
+        }
         let cuts: Vec<_> = openings.iter().filter_map(|opening| opening.cut.clone()).collect();
         let solid = walls::without(walls.solid, &cuts);
         // From here on what is left of the walls bounds the rooms for their names.
@@ -107,12 +134,13 @@ impl Drawing {
             walls_drawn.iter().fold(plan.bounds(), |bounds, wall| bounds.union(Bounds::of(wall.outer.iter().copied())));
         let bounds = openings.iter().fold(bounds, |bounds, opening| bounds.union(opening.bounds()));
         let graph = graph_edges(analysis, &rooms, &openings);
+        let boundaries = without_openings(walls.boundaries, &openings);
         Self {
             meta: plan.meta().clone(),
             rooms,
             walls: walls_drawn,
             wall_lines: walls.lines,
-            boundaries: walls.boundaries,
+            boundaries,
             openings,
             graph,
             faces,
@@ -138,7 +166,7 @@ impl Drawing {
     pub fn layer(&self, layer: Layer, style: &Style, view: &View) -> Vec<Group> {
         let layers = &style.layers;
         match layer {
-            Layer::Grid if layers.grid => self.grid(style, view),
+            Layer::Grid if layers.grid => grid(style, view.px_per_m, view.bounds()),
             Layer::Rooms if layers.rooms => self.room_fills(style),
             Layer::Boundaries if layers.walls => self.boundary_lines(style),
             Layer::Walls if layers.walls => self.wall_fills(style, view),
@@ -152,35 +180,8 @@ impl Drawing {
         }
     }
 
-    fn grid(&self, style: &Style, view: &View) -> Vec<Group> {
-        let palette = style.palette();
-        let Some(step_m) = grid_step_m(view.px_per_m) else { return Vec::new() };
-        let seen = view.bounds();
-        let mut items = Vec::new();
-        let mut line = |from: Point, to: Point, index: i64| {
-            let colour = if index % 10 == 0 { palette.grid_major } else { palette.grid };
-            items.push(Item::Line {
-                points: vec![from, to],
-                closed: false,
-                colour,
-                width: Length::Px(1.0),
-                dash: None,
-            });
-        };
-        let indices = |low: f64, high: f64| (low / step_m).ceil() as i64..=(high / step_m).floor() as i64;
-        for i in indices(seen.min.x, seen.max.x) {
-            let x = i as f64 * step_m;
-            line(Point::new(x, seen.min.y), Point::new(x, seen.max.y), i);
-        }
-        for i in indices(seen.min.y, seen.max.y) {
-            let y = i as f64 * step_m;
-            line(Point::new(seen.min.x, y), Point::new(seen.max.x, y), i);
-        }
-        vec![Group::new(Layer::Grid, Frame::Plan, items)]
-    }
-
     /// The colours of the rooms' fills.
-    fn fills(&self, style: &Style) -> Vec<Rgba> {
+    pub(super) fn fills(&self, style: &Style) -> Vec<Rgba> {
         let palette = style.palette();
         let functions = match style.fill {
             Fill::Function => palette.functions(self.rooms.iter().map(|room| room.function.as_str())),
@@ -198,9 +199,8 @@ impl Drawing {
 
     fn room_fills(&self, style: &Style) -> Vec<Group> {
         let fills = self.fills(style);
-        // Large rooms first: one that lies in or over another is seen.
         let mut order: Vec<usize> = (0..self.rooms.len()).filter(|&i| !self.rooms[i].outer.is_empty()).collect();
-        order.sort_by(|&p, &q| self.rooms[q].area_m2.total_cmp(&self.rooms[p].area_m2).then(p.cmp(&q)));
+        order.sort_by(|&p, &q| painting_order(&self.rooms, p, q));
         order
             .into_iter()
             .map(|i| {
@@ -332,6 +332,27 @@ pub fn grid_step_m(px_per_m: f64) -> Option<f64> {
     [0.1, 1.0, 10.0, 100.0, 1000.0].into_iter().find(|step| step * px_per_m >= 12.0)
 }
 
+/// The grid over a part of the plan.
+pub(super) fn grid(style: &Style, px_per_m: f64, seen: Bounds) -> Vec<Group> {
+    let palette = style.palette();
+    let Some(step_m) = grid_step_m(px_per_m) else { return Vec::new() };
+    let mut items = Vec::new();
+    let mut line = |from: Point, to: Point, index: i64| {
+        let colour = if index % 10 == 0 { palette.grid_major } else { palette.grid };
+        items.push(Item::Line { points: vec![from, to], closed: false, colour, width: Length::Px(1.0), dash: None });
+    };
+    let indices = |low: f64, high: f64| (low / step_m).ceil() as i64..=(high / step_m).floor() as i64;
+    for i in indices(seen.min.x, seen.max.x) {
+        let x = i as f64 * step_m;
+        line(Point::new(x, seen.min.y), Point::new(x, seen.max.y), i);
+    }
+    for i in indices(seen.min.y, seen.max.y) {
+        let y = i as f64 * step_m;
+        line(Point::new(seen.min.x, y), Point::new(seen.max.x, y), i);
+    }
+    vec![Group::new(Layer::Grid, Frame::Plan, items)]
+}
+
 /// What a room is, in a line: 'Library: reading room, big room, 84.2 m²'.
 fn room_title(room: &RoomDrawing) -> String {
     let label = match room.status {
@@ -347,6 +368,35 @@ fn room_title(room: &RoomDrawing) -> String {
         (false, false) => format!("{}: {}", room.name, normalised_function(&room.function)),
     };
     format!("{head}, {label}, {}", names::area_text(room.area_m2))
+}
+
+/// The pieces of boundaries that are left beside openings that stand in no wall.
+fn without_openings(mut boundaries: Vec<Segment>, openings: &[OpeningDrawing]) -> Vec<Segment> {
+    // An opening given for a boundary lies on it but for rounding.
+    const ON_IT_M: f64 = 0.05;
+    for opening in openings.iter().filter(|opening| opening.cut.is_none()) {
+        let gap = opening.segment();
+        let mut left = Vec::with_capacity(boundaries.len() + 1);
+        for boundary in boundaries {
+            let length = boundary.length();
+            let (p, q) = (boundary.nearest_fraction(gap.a), boundary.nearest_fraction(gap.b));
+            let (from, to) = (p.min(q), p.max(q));
+            let middle = boundary.a.lerp(boundary.b, (from + to) / 2.0);
+            let along = gap.vector().cross(boundary.vector()).abs() <= ON_IT_M * gap.length() * length;
+            if !along || (to - from) * length < ON_IT_M || gap.distance(middle) > ON_IT_M {
+                left.push(boundary);
+                continue;
+            }
+            if from * length > ON_IT_M {
+                left.push(Segment::new(boundary.a, boundary.a.lerp(boundary.b, from)));
+            }
+            if (1.0 - to) * length > ON_IT_M {
+                left.push(Segment::new(boundary.a.lerp(boundary.b, to), boundary.b));
+            }
+        }
+        boundaries = left;
+    }
+    boundaries
 }
 
 fn graph_edges(analysis: &Analysis, rooms: &[RoomDrawing], openings: &[OpeningDrawing]) -> Vec<GraphEdge> {

@@ -4,7 +4,7 @@
 use super::drawing::{Drawing, NODE_RADIUS_PX, RoomDrawing};
 use super::font::{self, Font};
 use super::scene::{Anchor, Frame, Group, Item, Layer, Text, View, Weight};
-use super::{SMALLEST_TEXT_PX, Style};
+use super::{Rgba, SMALLEST_TEXT_PX, Style};
 use crate::geometry::{Bounds, Point, Segment, Vector, polygon};
 
 /// An area for people: '12.4 m²', one decimal as on architects' plans, none from 1000 m² on.
@@ -224,7 +224,6 @@ struct Line {
     text: String,
     size_px: f64,
     weight: Weight,
-    muted: bool,
 }
 
 impl Block {
@@ -245,21 +244,21 @@ impl Block {
     }
 
     /// The texts, centred on a point of the plan.
-    fn texts(self, at: Point, style: &Style) -> Vec<Item> {
+    fn texts(&self, at: Point, halo: Option<Rgba>, style: &Style) -> Vec<Item> {
         let palette = style.palette();
         let upright = self.upright;
         let mut baseline = -self.height_px / 2.0;
         let mut items = Vec::new();
-        for (i, line) in self.lines.into_iter().enumerate() {
+        for (i, line) in self.lines.iter().enumerate() {
             baseline += line.size_px * if i == 0 { font::CAP_HEIGHT } else { font::LINE_HEIGHT };
             items.push(Item::Text(Text {
                 at,
                 offset_px: if upright { Vector::new(baseline, 0.0) } else { Vector::new(0.0, baseline) },
-                content: line.text,
+                content: line.text.clone(),
                 size_px: line.size_px,
                 weight: line.weight,
-                colour: if line.muted { palette.ink_muted } else { palette.ink },
-                halo: style.halo.then_some(palette.halo),
+                colour: palette.ink,
+                halo,
                 anchor: Anchor::Middle,
                 upright,
             }));
@@ -277,12 +276,13 @@ const AREA_SIZE: f64 = 0.88;
 /// The names of all rooms that are seen.
 pub(super) fn groups(drawing: &Drawing, style: &Style, view: &View) -> Vec<Group> {
     let seen = view.bounds();
+    let floors = drawing.fills(style);
     let mut groups = Vec::new();
     for (i, room) in drawing.rooms.iter().enumerate() {
         if room.outer.is_empty() || !room.bounds.intersects(seen) {
             continue;
         }
-        if let Some(items) = place(drawing, i, style, view) {
+        if let Some(items) = place(drawing, i, style, view, floors[i]) {
             groups.push(Group { element: room.id.to_string(), ..Group::new(Layer::Names, Frame::Plan, items) });
         }
     }
@@ -290,7 +290,7 @@ pub(super) fn groups(drawing: &Drawing, style: &Style, view: &View) -> Vec<Group
 }
 
 /// The text of a room where it fits best; `None` where it fits nowhere.
-fn place(drawing: &Drawing, index: usize, style: &Style, view: &View) -> Option<Vec<Item>> {
+fn place(drawing: &Drawing, index: usize, style: &Style, view: &View, floor: Rgba) -> Option<Vec<Item>> {
     let room = &drawing.rooms[index];
     // The least text there is does not fit into the box: done.
     let (width_px, height_px) = (room.bounds.width() * view.px_per_m, room.bounds.height() * view.px_per_m);
@@ -298,16 +298,27 @@ fn place(drawing: &Drawing, index: usize, style: &Style, view: &View) -> Option<
         return None;
     }
     let space = Space::new(drawing, index, style, view);
-    for block in blocks(room, style) {
-        if let Some(at) = space.place(&block) {
-            return Some(block.texts(at, style));
+    for blocks in blocks(room, style) {
+        // Off the doors' ways if it can be; else the letters stand clear of the arcs by a halo.
+        for may_be_swept in [false, true] {
+            for block in &blocks {
+                if let Some(at) = space.place(block, may_be_swept) {
+                    let halo = if style.halo {
+                        Some(style.palette().halo)
+                    } else {
+                        (may_be_swept || style.layers.graph).then_some(floor)
+                    };
+                    return Some(block.texts(at, halo, style));
+                }
+            }
         }
     }
     None
 }
 
-/// What may be written in a room, the best first.
-fn blocks(room: &RoomDrawing, style: &Style) -> Vec<Block> {
+/// What may be written in a room, the best first: with everything, with the name alone, with a part of
+/// the name.
+fn blocks(room: &RoomDrawing, style: &Style) -> [Vec<Block>; 3] {
     let name = if !style.layers.names {
         String::new()
     } else if room.name.is_empty() {
@@ -324,16 +335,13 @@ fn blocks(room: &RoomDrawing, style: &Style) -> Vec<Block> {
             sizes.push(size);
         }
     }
-    let line =
-        |text: &str, size_px: f64| Line { text: text.to_owned(), size_px, weight: Weight::SemiBold, muted: false };
+    let line = |text: &str, size_px: f64| Line { text: text.to_owned(), size_px, weight: Weight::SemiBold };
     let area_line = |size: f64| Line {
         text: area.clone(),
         size_px: (size * AREA_SIZE).max(SMALLEST_TEXT_PX.min(style.text_px)),
         weight: Weight::Regular,
-        muted: false,
     };
-    let mut blocks = Vec::new();
-    let mut add = |names: &[String], size: f64, with_area: bool, upright: bool| {
+    let add = |blocks: &mut Vec<Block>, names: &[String], size: f64, with_area: bool, upright: bool| {
         let mut lines: Vec<Line> = names.iter().map(|name| line(name, size)).collect();
         if with_area && !area.is_empty() {
             lines.push(area_line(size));
@@ -342,32 +350,26 @@ fn blocks(room: &RoomDrawing, style: &Style) -> Vec<Block> {
             blocks.push(Block::new(lines, upright));
         }
     };
-    for &size in &sizes {
-        for names in &wraps {
-            add(names, size, true, false);
-        }
-    }
-    // Tall and narrow: reads from bottom to top.
-    if room.bounds.height() > 2.0 * room.bounds.width() {
-        for &size in &sizes {
-            add(&wraps[0], size, true, true);
-        }
-    }
-    if !name.is_empty() {
+    // Tall and narrow: may read from bottom to top.
+    let is_tall = room.bounds.height() > 1.8 * room.bounds.width();
+    let all = |with_area: bool| {
+        let mut blocks = Vec::new();
         for &size in &sizes {
             for names in &wraps {
-                add(names, size, false, false);
+                add(&mut blocks, names, size, with_area, false);
             }
         }
-        let least = sizes.last().copied().unwrap_or(style.text_px);
-        if room.bounds.height() > 1.5 * room.bounds.width() {
-            add(&wraps[0], least, false, true);
+        for &size in sizes.iter().filter(|_| is_tall) {
+            add(&mut blocks, &wraps[0], size, with_area, true);
         }
-        for short in shortened(&name) {
-            add(&[short], least, false, false);
-        }
+        blocks
+    };
+    let mut short = Vec::new();
+    let least = sizes.last().copied().unwrap_or(style.text_px);
+    for name in shortened(&name) {
+        add(&mut short, &[name], least, false, false);
     }
-    blocks
+    [all(true), if name.is_empty() { Vec::new() } else { all(false) }, short]
 }
 
 /// A name in one line, and broken at its words into two and three lines of most even width.
@@ -440,12 +442,9 @@ impl Space {
             }
         }
         // Rooms that lie in or over this one are drawn above it.
-        for (i, other) in drawing.rooms.iter().enumerate() {
-            let above = other.area_m2 < room.area_m2 || (other.area_m2 == room.area_m2 && i > index);
-            if i != index && above && other.bounds.intersects(room.bounds) {
-                let rings: Vec<&[Point]> = other.rings().map(Vec::as_slice).collect();
-                raster.keep_outside(&rings);
-            }
+        for &other in &room.above {
+            let rings: Vec<&[Point]> = drawing.rooms[other].rings().map(Vec::as_slice).collect();
+            raster.keep_outside(&rings);
         }
         if style.layers.graph {
             // The node, as an octagon around it.
@@ -459,14 +458,14 @@ impl Space {
         }
         let mut swept = vec![0; raster.blocked.len()];
         if style.layers.openings {
-            for [hinge, shut, tip] in drawing.openings.iter().flat_map(|opening| opening.sweeps()) {
+            let openings = room.openings.iter().map(|&opening| &drawing.openings[opening]);
+            for [hinge, shut, tip] in openings.flat_map(|opening| opening.sweeps()) {
                 // The quarter disc as the square it lies in, less the far corner.
                 let far = shut + (tip - hinge) * 0.4;
                 let far_tip = tip + (shut - hinge) * 0.4;
                 let region = [hinge, shut, far, far_tip, tip];
-                if Bounds::of(region).intersects(room.bounds) {
-                    raster.inside(&[&region], |row, columns| swept[row * raster.width..][columns].fill(1));
-                }
+                raster.block_along(Segment::new(hinge, tip));
+                raster.inside(&[&region], |row, columns| swept[row * raster.width..][columns].fill(1));
             }
         }
         let blocked = Sums::new(&raster, |i| u32::from(raster.blocked[i]));
@@ -474,8 +473,9 @@ impl Space {
         Self { raster, blocked, swept, px_per_m: view.px_per_m, target: room.centre }
     }
 
-    /// The middle of the best place for a block: free, near the room's middle, off the doors' ways.
-    fn place(&self, block: &Block) -> Option<Point> {
+    /// The middle of the best place for a block: free, near the room's middle, off the doors' ways as far
+    /// as it may not, or need not, stand there.
+    fn place(&self, block: &Block, may_be_swept: bool) -> Option<Point> {
         let (width_px, height_px) = block.extent_px();
         let cell_px = self.raster.cell * self.px_per_m;
         let cells = |length_px: f64| ((length_px + 2.0 * PADDING_PX) / cell_px).ceil() as usize;
@@ -494,6 +494,9 @@ impl Space {
                 let corner = Vector::new(column as f64 * self.raster.cell, row as f64 * self.raster.cell);
                 let at = self.raster.origin + corner + half;
                 let swept = f64::from(self.swept.of(column, row, columns, rows)) / area;
+                if swept > 0.0 && !may_be_swept {
+                    continue;
+                }
                 // A text wholly on a door's way may as well stand ten lines off.
                 let cost = at.distance(self.target) * self.px_per_m + swept * 10.0 * height_px;
                 if best.is_none_or(|(least, _)| cost < least - 1e-9) {
@@ -505,11 +508,11 @@ impl Space {
         // Cells are coarse: where the very middle serves, it is taken.
         let offset = self.target - at;
         let within = offset.x.abs() <= self.raster.cell && offset.y.abs() <= self.raster.cell;
-        Some(if within && self.fits_at(self.target, columns, rows) { self.target } else { at })
+        Some(if within && self.fits_at(self.target, columns, rows, may_be_swept) { self.target } else { at })
     }
 
     /// Whether a box of so many cells, and one more for being off the raster, is free about a point.
-    fn fits_at(&self, middle: Point, columns: usize, rows: usize) -> bool {
+    fn fits_at(&self, middle: Point, columns: usize, rows: usize, may_be_swept: bool) -> bool {
         let start = |place: f64, count: usize| place - count as f64 / 2.0;
         let (left, bottom) =
             (start(self.raster.column(middle.x), columns).floor(), start(self.raster.row(middle.y), rows).floor());
@@ -518,6 +521,7 @@ impl Space {
             && left as usize + columns < self.raster.width
             && bottom as usize + rows < self.raster.height
             && self.blocked.of(left as usize, bottom as usize, columns + 1, rows + 1) == 0
+            && (may_be_swept || self.swept.of(left as usize, bottom as usize, columns + 1, rows + 1) == 0)
     }
 }
 

@@ -7,9 +7,9 @@ use super::walls::{self, Faces};
 use super::{Rgba, Style};
 use crate::features::{Analysis, RoomStatus};
 use crate::geometry::polygon::Location;
-use crate::geometry::{Bounds, Point, Vector};
+use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::labels::Label;
-use crate::plan::{LeafSide, Opening, OpeningId, OpeningKind, Plan};
+use crate::plan::{LeafSide, Opening, OpeningId, OpeningKind, Plan, THICKEST_WALL_M};
 
 /// An opening as drawn.
 pub(super) struct OpeningDrawing {
@@ -81,11 +81,19 @@ impl OpeningDrawing {
         let normal = along.left();
         let mut half_width = segment.length() / 2.0;
         let mut middle = segment.midpoint();
-        // The thinnest wall seen at three places: one may look along a wall that ends here.
-        let wall = [0.0, -0.5, 0.5]
+        // Looked for at three places: one may look along a wall that ends here. The thinnest is the
+        // wall; where it widens along the opening, the whole of it is taken.
+        let seen: Vec<(f64, f64)> = [0.0, -0.8, 0.8]
             .into_iter()
             .filter_map(|place| faces.wall_at(middle + along * (place * half_width), normal, SEAT_REACH_M))
-            .min_by(|p, q| (p.1 - p.0).total_cmp(&(q.1 - q.0)));
+            .collect();
+        let wall = seen.iter().copied().min_by(|p, q| (p.1 - p.0).total_cmp(&(q.1 - q.0))).map(|thinnest| {
+            seen.iter().fold(thinnest, |(right, left), other| {
+                let (low, high) = (right.min(other.0), left.max(other.1));
+                let meets = other.0 <= left && other.1 >= right;
+                if meets && high - low <= THICKEST_WALL_M { (low, high) } else { (right, left) }
+            })
+        });
         let (right, left) = wall.unwrap_or((-NO_WALL_M / 2.0, NO_WALL_M / 2.0));
         if wall.is_some() {
             // Just off both faces, how far until another wall stands in the way.
@@ -135,6 +143,10 @@ impl OpeningDrawing {
             OpeningKind::DoubleDoor if width <= 2.0 * WIDEST_LEAF_M => 2.0,
             _ => return,
         };
+        let is_lift = |side: Option<usize>| side.is_some_and(|index| rooms[index].is_lift());
+        if opening.swing.is_none() && self.sides.into_iter().any(is_lift) {
+            return;
+        }
         if let Some(swing) = opening.swing {
             self.leaves = self.leaves(leaf_count, swing.hinge_at_start, swing.side);
             return;
@@ -198,14 +210,19 @@ impl OpeningDrawing {
 
     /// The box of all that is drawn of it.
     pub fn bounds(&self) -> Bounds {
-        let u = self.along * self.half_width;
-        let ends = [self.centre - u, self.centre + u];
-        Bounds::of(ends.into_iter().chain(self.leaves.iter().map(|leaf| leaf.tip)))
+        let Segment { a, b } = self.segment();
+        Bounds::of([a, b].into_iter().chain(self.leaves.iter().map(|leaf| leaf.tip)))
     }
 
-    /// The regions leaves swing through: corner points of each.
+    /// The regions leaves swing through: the hinge, the closed leaf's end, the open leaf's end of each.
     pub fn sweeps(&self) -> impl Iterator<Item = [Point; 3]> + '_ {
         self.leaves.iter().map(|leaf| [leaf.hinge, leaf.shut, leaf.tip])
+    }
+
+    /// Its segment as drawn.
+    pub fn segment(&self) -> Segment {
+        let u = self.along * self.half_width;
+        Segment::new(self.centre - u, self.centre + u)
     }
 
     /// Its shapes.
@@ -218,7 +235,11 @@ impl OpeningDrawing {
         let at = |u: f64, v: f64| self.centre + self.along * (u * self.half_width) + self.normal() * v;
         let line = |points: Vec<Point>, colour, width| Item::Line { points, closed: false, colour, width, dash: None };
         let (right, left) = self.faces;
-        if self.cut.is_some() && style.layers.rooms && self.kind.is_passable() {
+        if self.cut.is_some() && self.kind == OpeningKind::Window {
+            // Whatever rooms reach into the wall: a window is glass, not floor.
+            let outer = vec![at(-1.0, right), at(1.0, right), at(1.0, left), at(-1.0, left)];
+            items.push(Item::Polygon { outer, holes: Vec::new(), colour: palette.paper.faded(style.fill_opacity) });
+        } else if self.cut.is_some() && style.layers.rooms {
             // The floor of either room reaches to the middle of the wall; of a single one, through.
             let [on_left, on_right] = self.sides.map(|side| side.map(|index| floors[index]));
             let halves = match (on_left, on_right) {
@@ -255,7 +276,8 @@ impl OpeningDrawing {
             }
             OpeningKind::Passage => {
                 let dash = Some(Dash { dash: Length::Px(4.0), gap: Length::Px(3.0) });
-                for v in [right, left] {
+                let lintels = if self.cut.is_some() { vec![right, left] } else { vec![0.0] };
+                for v in lintels {
                     items.push(Item::Line {
                         points: vec![at(-1.0, v), at(1.0, v)],
                         closed: false,

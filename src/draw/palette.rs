@@ -172,7 +172,7 @@ const LIGHT_LABELS_SAFE: [Rgba; 5] =
 const LIGHT_STRONG_SAFE: [Rgba; 5] =
     [Rgba::hex(0xa8_9c00), Rgba::hex(0xe6_9f00), Rgba::hex(0xb8_4a00), Rgba::hex(0x00_7a59), Rgba::hex(0x38_9fdc)];
 const DARK_LABELS: [Rgba; 5] =
-    [Rgba::hex(0x68_5b19), Rgba::hex(0x5e_432c), Rgba::hex(0x74_2729), Rgba::hex(0x23_5535), Rgba::hex(0x1a_4672)];
+    [Rgba::hex(0x63_5a28), Rgba::hex(0x4f_3a2a), Rgba::hex(0x74_343a), Rgba::hex(0x29_523a), Rgba::hex(0x25_4a72)];
 const DARK_STRONG: [Rgba; 5] =
     [Rgba::hex(0xe8_cf4a), Rgba::hex(0xc9_966a), Rgba::hex(0xf0_6a66), Rgba::hex(0x5f_c97f), Rgba::hex(0x5a_a9f0)];
 const DARK_LABELS_SAFE: [Rgba; 5] =
@@ -216,9 +216,9 @@ const DARK: Palette = Palette {
     ink: Rgba::hex(0xee_f1f5),
     ink_muted: Rgba::hex(0xb4_bbc6),
     halo: Rgba::hex(0x15_181d).with_alpha(0xd8),
-    wall: Rgba::hex(0xc3_c9d2),
+    wall: Rgba::hex(0xb6_bdc8),
     boundary: Rgba::hex(0x7d_8591),
-    leaf: Rgba::hex(0xc3_c9d2),
+    leaf: Rgba::hex(0xb6_bdc8),
     swing: Rgba::hex(0x86_8e9a),
     glass: Rgba::hex(0x7f_bfe8),
     grid: Rgba::hex(0x21_252c),

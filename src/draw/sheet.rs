@@ -35,14 +35,22 @@ impl Default for Furniture {
 /// A page whose longer side is shorter than this, in pixels, shows the plan alone.
 const SMALLEST_PAGE_PX: f64 = 320.0;
 
-/// The font size for a page in pixels: an eightieth of an inch at a hand's breadth; it grows with the
-/// page, so that a picture made larger shows the same, finer.
-pub fn page_text_px(longest_px: f64) -> f64 {
+/// The font size of title block and legend in pixels: it grows with the page, so that a picture made
+/// larger shows the same, finer.
+fn sheet_text_px(longest_px: f64) -> f64 {
     (longest_px / 130.0).clamp(11.0, 64.0)
 }
 
-/// The scene of a plan on a page. The style's `text_px` is the size of all text but the title; see
-/// [`page_text_px`].
+/// The font size of rooms' names in pixels: where the rooms are large on the page the names are, too.
+fn name_text_px(drawing: &Drawing, px_per_m: f64, sheet_text_px: f64) -> f64 {
+    let mut sides_px: Vec<f64> = drawing.rooms.iter().map(|room| room.area_m2.sqrt() * px_per_m).collect();
+    sides_px.sort_by(f64::total_cmp);
+    let median_px = sides_px.get(sides_px.len() / 2).copied().unwrap_or(0.0);
+    // Ten letters take a third of a room's width.
+    (median_px / 16.0).clamp(sheet_text_px, 1.5 * sheet_text_px).round()
+}
+
+/// The scene of a plan on a page. The page decides the size of text itself, not the style.
 pub fn page(drawing: &Drawing, style: &Style, size: PageSize, furniture: Furniture) -> Scene {
     let longest = match size {
         PageSize::Longest(longest) => longest,
@@ -50,7 +58,7 @@ pub fn page(drawing: &Drawing, style: &Style, size: PageSize, furniture: Furnitu
     };
     let furniture =
         if longest < SMALLEST_PAGE_PX { Furniture { title: false, legend: false, scale: false } } else { furniture };
-    let text = style.text_px;
+    let text = sheet_text_px(longest);
     let bare = !(furniture.title || furniture.legend || furniture.scale);
     let margin = if bare { (longest * 0.03).max(2.0) } else { 2.0 * text };
     let bounds = drawing.bounds();
@@ -91,7 +99,14 @@ pub fn page(drawing: &Drawing, style: &Style, size: PageSize, furniture: Furnitu
     let centre = fitted.centre + Vector::new(shift.x, -shift.y) * (1.0 / fitted.px_per_m);
     let view = View { width_px: width, height_px: height, centre, ..fitted };
 
+    let style = &Style { text_px: name_text_px(drawing, view.px_per_m, text), ..style.clone() };
     let mut scene = drawing.scene(style, &view);
+    if style.layers.grid {
+        // Under the plan alone, a little beyond it.
+        let beyond = bounds.inflated(margin / 2.0 / view.px_per_m);
+        scene.groups.retain(|group| group.layer != Layer::Grid);
+        scene.groups.splice(0..0, super::drawing::grid(style, view.px_per_m, beyond));
+    }
     let mut items = Vec::new();
     let palette = style.palette();
     let mut baseline = margin;

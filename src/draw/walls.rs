@@ -43,7 +43,7 @@ const OUTER_WALL_M: [f64; 2] = [0.10, 0.25];
 /// Sides of a room of usual size in metres: imports whose median room is far from it have a doubtful
 /// scale (`data`: the median classroom of a school ranges from 24 to 255 m²), and their walls
 /// are drawn as much thicker or thinner as the rooms are larger or smaller, within limits.
-const USUAL_ROOM_M: f64 = 3.5;
+const USUAL_ROOM_M: f64 = 3.0;
 
 impl Walls {
     pub fn new(plan: &Plan, rooms: &[RoomDrawing]) -> Self {
@@ -260,13 +260,20 @@ impl Derived {
         }
         areas.sort_by(f64::total_cmp);
         let median_m2 = areas.get(areas.len() / 2).copied().unwrap_or(USUAL_ROOM_M * USUAL_ROOM_M);
-        let scale = (median_m2.sqrt() / USUAL_ROOM_M).clamp(0.3, 1.5);
+        let scale = (median_m2.sqrt() / USUAL_ROOM_M).clamp(0.5, 1.5);
 
         let rooms_area: Shapes = indoors.simplify_shape(FillRule::NonZero);
-        // Closing (grown, then shrunk by the same) fills what is narrower than the thickest wall.
+        // Closing (grown, then shrunk by the same) fills what is narrower than the thickest wall:
+        // between rooms, and between them and balconies.
         let reach = THICKEST_WALL_M / 2.0 * scale.min(1.0);
-        let building = grown(&grown(&rooms_area, reach), -reach);
-        let gaps = building.overlay(&rooms_area, OverlayRule::Difference, FillRule::NonZero);
+        let closed = |shapes: &Shapes| grown(&grown(shapes, reach), -reach);
+        let building = closed(&rooms_area);
+        let gaps = if outdoors.is_empty() {
+            building.overlay(&rooms_area, OverlayRule::Difference, FillRule::NonZero)
+        } else {
+            let all: Vec<Ring> = indoors.iter().chain(&outdoors).cloned().collect();
+            closed(&all.simplify_shape(FillRule::NonZero)).overlay(&all, OverlayRule::Difference, FillRule::NonZero)
+        };
         // Rooms drawn to the faces of walls leave much of the building to walls; rooms that meet on
         // centre lines leave none.
         let (gaps_m2, length_m) = (area_m2(&gaps), indoors.iter().map(|ring| polygon::perimeter(&points(ring))).sum());
@@ -275,7 +282,13 @@ impl Derived {
         let shell = grown(&building, outer).overlay(&building, OverlayRule::Difference, FillRule::NonZero);
         let partitions = indoors
             .stroke(StrokeStyle::new(2.0 * HALF_PARTITION_M * scale).line_join(LineJoin::Miter(SHARPEST_RAD)), true);
-        let all: Vec<Ring> = gaps.into_iter().chain(shell).chain(partitions).flatten().collect();
+        // Where neighbours were drawn over each other by less than a wall, the wall is: what is covered
+        // twice but not once, less what is wide (a room drawn within another).
+        let overlaps =
+            rooms_area.overlay(&indoors.simplify_shape(FillRule::EvenOdd), OverlayRule::Difference, FillRule::NonZero);
+        let wide = grown(&grown(&overlaps, -reach), reach);
+        let overlaps = overlaps.overlay(&wide, OverlayRule::Difference, FillRule::NonZero);
+        let all: Vec<Ring> = gaps.into_iter().chain(shell).chain(partitions).chain(overlaps).flatten().collect();
         let mut solid: Shapes = all.simplify_shape(FillRule::NonZero);
         if !outdoors.is_empty() {
             solid = solid.overlay(&outdoors, OverlayRule::Difference, FillRule::NonZero);

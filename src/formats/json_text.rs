@@ -1,13 +1,15 @@
 //! What the readers of JSON formats share: from bytes to text, and from an error to its place.
 
+use std::fmt;
+
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{Place, ReadError};
 
-/// The text of a JSON file. A byte order mark is dropped.
+/// The text of a file that holds a JSON object. A byte order mark is dropped.
 ///
 /// # Errors
-/// When the file is empty or not UTF-8; UTF-16 is named as such.
+/// When the file is empty, not UTF-8 (UTF-16 is named as such), or starts like no object.
 pub(super) fn decode(bytes: &[u8]) -> Result<&str, ReadError> {
     let fail = |line, what: &str, hint: &str| ReadError {
         place: Place { line, element: String::new() },
@@ -23,10 +25,17 @@ pub(super) fn decode(bytes: &[u8]) -> Result<&str, ReadError> {
     if body.starts_with(b"\xff\xfe") || body.starts_with(b"\xfe\xff") || body.iter().take(2).any(|&byte| byte == 0) {
         return Err(fail(None, "is UTF-16 or UTF-32, not UTF-8", "save it again as UTF-8"));
     }
-    std::str::from_utf8(body).map_err(|error| {
+    let text = std::str::from_utf8(body).map_err(|error| {
         let line = line_of(body, error.valid_up_to());
         fail(Some(line), "is not UTF-8", "save it again as UTF-8")
-    })
+    })?;
+    match text.trim_start().chars().next() {
+        Some('{') => Ok(text),
+        other => {
+            let start = other.map(String::from).unwrap_or_default();
+            Err(fail(None, &format!("is no JSON object: it starts with '{start}'"), "check that it is the right file"))
+        }
+    }
 }
 
 /// The line, from 1, of a byte of a text.
@@ -55,11 +64,38 @@ pub(super) fn id_on_line(text: &str, line: usize) -> Option<&str> {
     (!id.is_empty() && id.len() <= 80 && !id.contains('\\')).then_some(id)
 }
 
-/// What `serde_json` says, without the place that it appends.
-pub(super) fn message_of(error: &serde_json::Error) -> String {
-    let text = error.to_string();
+/// An error of the JSON reader: what is wrong, and what to do where that is plain.
+pub(super) struct JsonFault {
+    pub what: String,
+    pub hint: Option<&'static str>,
+}
+
+/// Puts an error of `serde_json` in words; `text` is what it read.
+pub(super) fn json_fault(text: &str, error: &serde_json::Error) -> JsonFault {
+    let line = error.line().checked_sub(1).and_then(|index| text.split('\n').nth(index)).unwrap_or_default();
+    if ["<<<<<<<", "=======", ">>>>>>>"].iter().any(|mark| line.starts_with(mark)) {
+        return JsonFault {
+            what: "holds a merge conflict of git".to_owned(),
+            hint: Some("resolve the conflict, then open the file again"),
+        };
+    }
+    if error.is_eof() {
+        return JsonFault {
+            what: "ends in the middle of a value".to_owned(),
+            hint: Some("the file is cut off: restore it from a copy or from version control"),
+        };
+    }
+    // `serde_json` appends the place, which our errors carry apart.
+    let full = error.to_string();
     let place = format!(" at line {} column {}", error.line(), error.column());
-    text.strip_suffix(&place).unwrap_or(&text).to_owned()
+    let message = full.strip_suffix(&place).unwrap_or(&full);
+    let what = match message {
+        "expected value" | "expected ident" => format!("is no JSON at column {}", error.column()),
+        "recursion limit exceeded" => "lists or objects are nested too deeply".to_owned(),
+        "number out of range" => "a number is out of range".to_owned(),
+        other => other.to_owned(),
+    };
+    JsonFault { what, hint: None }
 }
 
 /// A number that prints without a trailing '.0'.
@@ -79,6 +115,26 @@ impl Serialize for Number {
 
 impl<'de> Deserialize<'de> for Number {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        f64::deserialize(deserializer).map(Self)
+        struct NumberVisitor;
+        impl serde::de::Visitor<'_> for NumberVisitor {
+            type Value = Number;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a number")
+            }
+
+            fn visit_f64<E>(self, number: f64) -> Result<Number, E> {
+                Ok(Number(number))
+            }
+
+            fn visit_i64<E>(self, number: i64) -> Result<Number, E> {
+                Ok(Number(number as f64))
+            }
+
+            fn visit_u64<E>(self, number: u64) -> Result<Number, E> {
+                Ok(Number(number as f64))
+            }
+        }
+        deserializer.deserialize_f64(NumberVisitor)
     }
 }

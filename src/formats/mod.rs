@@ -2,6 +2,8 @@
 //!
 //! A reader never guesses silently: what it mends or leaves out becomes a [`Note`] with its place.
 
+pub mod authors_xml;
+pub mod building_name;
 pub mod geojson;
 mod json_text;
 pub mod plan_json;
@@ -14,7 +16,7 @@ use crate::labels::Schemes;
 use crate::plan::Plan;
 
 /// Every known format, in the order in which they are tried.
-pub const FORMATS: &[&dyn Format] = &[&plan_json::PlanJson, &geojson::GeoJson];
+pub const FORMATS: &[&dyn Format] = &[&plan_json::PlanJson, &authors_xml::AuthorsXml, &geojson::GeoJson];
 
 /// A file format for plans.
 pub trait Format: Sync {
@@ -26,6 +28,12 @@ pub trait Format: Sync {
 
     /// Whether a file that starts with `head` (up to 4 KiB) is probably of this format.
     fn recognises(&self, head: &[u8]) -> bool;
+
+    /// What kind of other file this is ('XML with the root <svg>'), when its head says that it is
+    /// certainly no plan although its name ends like one: the import of a folder passes it over.
+    fn foreign(&self, _head: &[u8]) -> Option<String> {
+        None
+    }
 
     /// Reads a file's bytes. `stem` is the file's name without its ending, for plans without a name.
     ///
@@ -147,12 +155,34 @@ pub const FILE_LIMIT_BYTES: u64 = 256 << 20;
 /// When the file cannot be opened, is larger than [`FILE_LIMIT_BYTES`], is of no known format, or its
 /// format's reader refuses it.
 pub fn read_file(path: &Path) -> Result<Import, FileError> {
-    let bytes = read_bytes(path)?;
-    let file_name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let format = find_format(&file_name, &bytes).ok_or_else(|| {
+    read_from(path, &read_bytes(path)?)
+}
+
+/// Reads a plan of any known format from a file's bytes.
+///
+/// # Errors
+/// When they are of no known format, or its format's reader refuses them.
+pub fn read_from(path: &Path, bytes: &[u8]) -> Result<Import, FileError> {
+    let file_name = file_name(path);
+    let format = find_format(&file_name, bytes).ok_or_else(|| {
         fail_file(path, "is of no known plan format", "known are plan.json, the authors' XML, and GeoJSON")
     })?;
-    format.read(&bytes, stem(&file_name, format)).map_err(|error| FileError { path: path.to_owned(), error })
+    format.read(bytes, stem(&file_name, format)).map_err(|error| FileError { path: path.to_owned(), error })
+}
+
+/// What kind of other file this is, when no format recognises it and one is sure that it is no plan
+/// although its name ends like one, see [`Format::foreign`].
+pub fn foreign_kind(path: &Path, bytes: &[u8]) -> Option<String> {
+    let head = &bytes[..bytes.len().min(4096)];
+    if FORMATS.iter().any(|format| format.recognises(head)) {
+        return None;
+    }
+    let named = FORMATS.iter().filter(|format| extension_of(&file_name(path), **format).is_some());
+    named.filter_map(|format| format.foreign(head)).next()
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
 /// The bytes of a file that is not too large.

@@ -12,7 +12,7 @@ use serde::de::{Error as _, IgnoredAny};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Map, Value};
 
-use super::json_text::{Number, decode, id_on_line, line_of_id, message_of};
+use super::json_text::{Number, decode, id_on_line, json_fault, line_of_id};
 use super::{Format, Import, Place, ReadError};
 use crate::geometry::{Point, trim_m};
 use crate::labels::{Label, Schemes, Typology};
@@ -70,32 +70,26 @@ impl Format for PlanJson {
 pub fn from_bytes(bytes: &[u8]) -> Result<Plan, ReadError> {
     let text = decode(bytes)?;
     let head: DiskHead = serde_json::from_str(text).map_err(|error| refuse_json(text, &error))?;
-    if head.format.as_deref() != Some(FORMAT) {
+    if head.format.as_ref().and_then(Value::as_str) != Some(FORMAT) {
         return Err(ReadError {
             place: Place::default(),
             what: format!("is JSON, but not a plan file: it lacks \"format\": \"{FORMAT}\""),
             hint: "open a file that ends in .plan.json".to_owned(),
         });
     }
+    let refuse_version = |what: String, hint: String| Err(ReadError { place: Place::default(), what, hint });
+    let current = format!("the current one is written \"version\": {VERSION}");
     match head.version {
-        Some(1) => {}
-        Some(version) if version > VERSION => {
-            return Err(ReadError {
-                place: Place::default(),
-                what: format!("was saved by a newer Enfilade (file version {version}; this one reads up to {VERSION})"),
-                hint: "update Enfilade".to_owned(),
-            });
-        }
-        other => {
-            return Err(ReadError {
-                place: Place::default(),
-                what: match other {
-                    Some(version) => format!("has the file version {version}, which never existed"),
-                    None => "has no file version".to_owned(),
-                },
-                hint: format!("the current one is written \"version\": {VERSION}"),
-            });
-        }
+        None => return refuse_version("has no file version".to_owned(), current),
+        Some(version) => match version.as_u64() {
+            Some(1) => {}
+            Some(newer) if newer > VERSION => {
+                let what =
+                    format!("was saved by a newer Enfilade (file version {newer}; this one reads up to {VERSION})");
+                return refuse_version(what, "update Enfilade".to_owned());
+            }
+            _ => return refuse_version(format!("has the file version {version}, which never existed"), current),
+        },
     }
     let disk: DiskPlan = serde_json::from_str(text).map_err(|error| refuse_json(text, &error))?;
     live(text, disk)
@@ -165,7 +159,7 @@ impl Serialize for Metres {
 
 impl<'de> Deserialize<'de> for Metres {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let metres = f64::deserialize(deserializer)?;
+        let Number(metres) = Number::deserialize(deserializer)?;
         if metres.is_finite() && metres.abs() <= COORDINATE_LIMIT_M {
             Ok(Self(trim_m(metres)))
         } else {
@@ -205,11 +199,12 @@ impl<'de, T: FromStr<Err: Display>> Deserialize<'de> for Text<T> {
 /// What is read first, to refuse other files and newer versions before anything else is understood.
 #[derive(Deserialize)]
 struct DiskHead {
-    format: Option<String>,
-    version: Option<u64>,
+    format: Option<Value>,
+    version: Option<Value>,
 }
 
 #[derive(Deserialize)]
+#[serde(expecting = "a plan")]
 struct DiskPlan {
     #[serde(rename = "format")]
     _format: IgnoredAny,
@@ -231,6 +226,7 @@ struct DiskPlan {
 }
 
 #[derive(Default, Serialize, Deserialize)]
+#[serde(expecting = "an object")]
 struct DiskMeta {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     name: String,
@@ -255,6 +251,7 @@ struct DiskMeta {
 }
 
 #[derive(Serialize, Deserialize)]
+#[serde(expecting = "a backdrop")]
 struct DiskBackdrop {
     path: String,
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -271,6 +268,7 @@ struct DiskBackdrop {
 }
 
 #[derive(Serialize, Deserialize)]
+#[serde(expecting = "a corner")]
 struct DiskCorner {
     id: Text<CornerId>,
     x: Metres,
@@ -280,6 +278,7 @@ struct DiskCorner {
 }
 
 #[derive(Serialize, Deserialize)]
+#[serde(expecting = "a wall")]
 struct DiskWall {
     id: Text<WallId>,
     from: Text<CornerId>,
@@ -290,6 +289,7 @@ struct DiskWall {
 }
 
 #[derive(Serialize, Deserialize)]
+#[serde(expecting = "a room")]
 struct DiskRoom {
     id: Text<RoomId>,
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -313,6 +313,7 @@ struct DiskRoom {
 }
 
 #[derive(Serialize, Deserialize)]
+#[serde(expecting = "an opening")]
 struct DiskOpening {
     id: Text<OpeningId>,
     kind: DiskOpeningKind,
@@ -320,7 +321,7 @@ struct DiskOpening {
     #[serde(skip_serializing_if = "Option::is_none")]
     on: Option<[Text<CornerId>; 2]>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    at: Option<Metres>,
+    at: Option<Number>,
     #[serde(skip_serializing_if = "Option::is_none")]
     width: Option<Metres>,
     /// The ends of a free opening.
@@ -504,7 +505,7 @@ impl DiskOpening {
         match opening.place {
             OpeningPlace::Hosted { from, to, at_m, width_m } => {
                 disk.on = Some([Text(from), Text(to)]);
-                disk.at = Some(Metres(at_m));
+                disk.at = Some(Number(at_m));
                 disk.width = Some(Metres(width_m));
             }
             OpeningPlace::Free { from, to } => {
@@ -553,7 +554,7 @@ fn live(text: &str, disk: DiskPlan) -> Result<Plan, ReadError> {
     for opening in disk.openings {
         let id = opening.id.0;
         let element = ElementId::Opening(id);
-        let opening = opening.live().map_err(|what| refuse(text, element, 0, what, OPENING_HINT))?;
+        let opening = opening.live().map_err(|(what, hint)| refuse(text, element, 0, what, hint))?;
         if plan.openings.insert(id, Arc::new(opening)).is_some() {
             return Err(twice(element));
         }
@@ -570,8 +571,9 @@ fn live(text: &str, disk: DiskPlan) -> Result<Plan, ReadError> {
     }
 }
 
-const OPENING_HINT: &str =
-    "an opening has either \"on\", \"at\" and \"width\", or \"from\" and \"to\"; \"hinge\" and \"opens\" come together";
+/// What an opening's fields must be.
+const PLACE_HINT: &str = "an opening has either \"on\", \"at\" and \"width\", or \"from\" and \"to\"";
+const SWING_HINT: &str = "\"hinge\" and \"opens\" come together";
 
 fn kept(extra: Map<String, Value>) -> Extra {
     (!extra.is_empty()).then(|| Arc::new(extra))
@@ -631,21 +633,21 @@ impl DiskRoom {
 }
 
 impl DiskOpening {
-    fn live(self) -> Result<Opening, &'static str> {
+    fn live(self) -> Result<Opening, (&'static str, &'static str)> {
         let place = match (self.on, self.at, self.width, self.from, self.to) {
             (Some([from, to]), Some(at), Some(width), None, None) => {
-                OpeningPlace::Hosted { from: from.0, to: to.0, at_m: at.0, width_m: width.0 }
+                OpeningPlace::Hosted { from: from.0, to: to.0, at_m: trim_m(at.0), width_m: width.0 }
             }
             (None, None, None, Some([x0, y0]), Some([x1, y1])) => {
                 OpeningPlace::Free { from: Point::new(x0.0, y0.0), to: Point::new(x1.0, y1.0) }
             }
-            (None, None, None, None, None) => return Err("has no place"),
-            _ => return Err("its place is incomplete or stated twice"),
+            (None, None, None, None, None) => return Err(("has no place", PLACE_HINT)),
+            _ => return Err(("its place is incomplete or stated twice", PLACE_HINT)),
         };
         let swing = match (self.hinge, self.opens) {
             (Some(hinge), Some(side)) => Some(Swing { hinge_at_start: hinge == DiskHinge::Start, side: side.into() }),
             (None, None) => None,
-            _ => return Err("its swing is incomplete"),
+            _ => return Err(("its swing is incomplete", SWING_HINT)),
         };
         let joint = |room: Option<Text<RoomId>>| room.map_or(Joint::Outside, |room| Joint::Room(room.0));
         Ok(Opening {
@@ -684,10 +686,8 @@ fn refuse(text: &str, element: ElementId, nth: usize, what: &str, hint: &str) ->
 fn refuse_json(text: &str, error: &serde_json::Error) -> ReadError {
     let line = (error.line() > 0).then_some(error.line());
     let element = line.and_then(|line| id_on_line(text, line)).map(element_name).unwrap_or_default();
-    let hint = if error.is_eof() {
-        "the file is cut off: restore it from a copy or from version control"
-    } else {
-        "correct it by hand (docs/plan-file.md describes the file), or restore it from a copy"
-    };
-    ReadError { place: Place { line, element }, what: message_of(error), hint: hint.to_owned() }
+    let fault = json_fault(text, error);
+    let hint =
+        fault.hint.unwrap_or("correct it by hand (docs/plan-file.md describes the file), or restore it from a copy");
+    ReadError { place: Place { line, element }, what: fault.what, hint: hint.to_owned() }
 }

@@ -88,12 +88,9 @@ fn save(path: &Path, bytes: &[u8], care: Care) -> Result<(), SaveError> {
 /// error here does, removes it.
 fn replace(target: &Path, old: Option<&fs::Metadata>, bytes: &[u8], care: Care) -> io::Result<()> {
     let folder = folder_of(target);
-    let name = target.file_name().ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "no file name"))?;
-    let mut prefix = std::ffi::OsString::from(".");
-    prefix.push(name);
-    prefix.push(".");
     let mut builder = tempfile::Builder::new();
-    builder.prefix(&prefix).suffix(".tmp");
+    // Without the file's own name, which may be as long as the system allows.
+    builder.prefix(".enfilade-").suffix(".tmp");
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt as _;

@@ -50,15 +50,15 @@ pub fn cases() -> Vec<Case> {
     vec![
         case!(
             invariant_is_broken,
-            flat!(|draft| {}),
+            |make| make(),
             flat!(|draft| {
                 draft.room("garden", &[(12.0, 0.0), (14.0, 0.0)]);
             })
         ),
-        case!(plan_has_no_rooms, flat!(|draft| {}), only!(|draft| { draft.wall((0.0, 0.0), (3.0, 0.0)) })),
+        case!(plan_has_no_rooms, |make| make(), only!(|draft| { draft.wall((0.0, 0.0), (3.0, 0.0)) })),
         case!(
             room_has_no_boundary,
-            flat!(|draft| {}),
+            |make| make(),
             flat!(|draft| {
                 draft.builder.room("R6", Room { function: "garden".into(), ..Room::default() });
             })
@@ -219,7 +219,7 @@ pub fn cases() -> Vec<Case> {
         ),
         case!(
             plan_has_no_openings,
-            flat!(|draft| {}),
+            |make| make(),
             only!(|draft| {
                 draft.room("bedroom", &rectangle((0.0, 0.0), (4.0, 4.0)));
                 draft.room("living room", &rectangle((4.0, 0.0), (9.0, 4.0)));
@@ -249,7 +249,7 @@ pub fn cases() -> Vec<Case> {
                 draft.door((16.0, 1.0), (16.0, 1.85));
             })
         ),
-        case!(plan_has_no_typology, flat!(|draft| {}), flat!(|draft| { draft.set_meta(|meta| meta.typology = None) })),
+        case!(plan_has_no_typology, |make| make(), flat!(|draft| { draft.set_meta(|meta| meta.typology = None) })),
         case!(
             typology_has_no_scheme,
             flat!(|draft| { draft.set_meta(|meta| meta.typology = None) }),
@@ -323,7 +323,11 @@ pub fn cases() -> Vec<Case> {
         ),
         case!(
             wall_ends_freely,
-            flat!(|draft| { draft.wall((2.0, 0.0), (2.0, 4.0)) }),
+            flat!(|draft| {
+                draft.wall((2.0, 0.0), (2.0, 4.0));
+                let column = [(1.0, 1.0), (1.0, 1.4)].map(|at| draft.corner(at));
+                draft.builder.wall(column[0], column[1], 0.4);
+            }),
             flat!(|draft| { draft.wall((2.0, 0.0), (2.0, 3.0)) })
         ),
         case!(

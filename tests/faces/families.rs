@@ -69,16 +69,21 @@ fn short(count: usize, random: &mut Random) -> Vec<Ends> {
         .collect()
 }
 
-/// A square grid of 3 m whose lines are broken at every node, each end moved on its own by up to
-/// 0.3 mm: what should meet misses or crosses by a hair. A tenth of the segments is missing.
+/// A square grid of 3 m whose lines are broken at every node. Each end is moved on its own by up to
+/// 0.3 mm across its line, and along it from 0.2 mm short to 2 mm beyond the node: what should meet
+/// crosses near the node, or misses it by a hair. A tenth of the segments is missing.
 fn grid(count: usize, random: &mut Random) -> Vec<Ends> {
     let side = root(count * 5 / 8) as i32 + 2;
     let mut made = Vec::new();
     for row in 0..side {
         for column in 0..side {
             for (right, up) in [(1, 0), (0, 1)] {
-                let mut end = |x: i32, y: i32| (x * 30_000 + random.within(-3, 3), y * 30_000 + random.within(-3, 3));
-                let ((ax, ay), (bx, by)) = (end(column, row), end(column + right, row + up));
+                let mut end = |x: i32, y: i32, outward: i32| {
+                    let (along, across) = (outward * random.within(-2, 20), random.within(-3, 3));
+                    (x * 30_000 + right * along + up * across, y * 30_000 + up * along + right * across)
+                };
+                let (ax, ay) = end(column, row, -1);
+                let (bx, by) = end(column + right, row + up, 1);
                 if random.within(0, 9) > 0 {
                     made.push([ax, ay, bx, by]);
                 }

@@ -1,3 +1,6 @@
+use proptest::prelude::*;
+
+use crate::generated::plans;
 use crate::golden::assert_golden;
 use enfilade::formats::plan_json::{from_bytes, to_bytes};
 use enfilade::geometry::Point;
@@ -8,7 +11,7 @@ use enfilade::plan::{
 };
 
 /// A plan that uses every field of the model.
-fn full_plan() -> Plan {
+pub fn full_plan() -> Plan {
     let mut builder = Builder::new(Meta {
         name: "Ground floor \"A\"".to_owned(),
         building: "Villa Ö".to_owned(),
@@ -78,4 +81,79 @@ fn a_plan_reads_back_as_it_was() {
 fn the_file_looks_as_documented() {
     let text = String::from_utf8(to_bytes(&full_plan())).unwrap();
     assert_golden("every_field.plan.json", &text);
+}
+
+/// Every object of the file, and the file itself, with fields that this version does not know.
+#[test]
+fn unknown_fields_survive_in_their_order() {
+    let text = String::from_utf8(to_bytes(&full_plan())).unwrap();
+    let unknown = r#""zebra":{"b":1.50001,"a":[null,-0.0,1e-7]},"aardvark":18446744073709551615"#;
+    let lines: Vec<String> = text
+        .lines()
+        .map(|line| match line.strip_suffix("},").or_else(|| line.strip_suffix('}')) {
+            Some(object) if line.starts_with(['{', '"']) && object.len() > 1 => {
+                format!("{object},{unknown}{}", &line[object.len()..])
+            }
+            _ => line.to_owned(),
+        })
+        .collect();
+    let text = lines.join("\n");
+    let text = text.replace("\"CC0\"\n}", "\"CC0\",\n\"wing\": \"north\",\n\"annex\": [1,2]\n}");
+    let text = text.strip_suffix("\n}").unwrap().to_owned() + ",\n\"zones\": [{\"id\":\"z1\"}],\n\"authors\": []\n}\n";
+    let plan = from_bytes(text.as_bytes()).map_err(|error| error.to_string()).unwrap();
+    assert_eq!(String::from_utf8(to_bytes(&plan)).unwrap(), text);
+    assert_eq!(text.matches("aardvark").count(), 14, "8 corners, a wall, 2 rooms, 2 openings, a backdrop");
+}
+
+#[test]
+fn lengths_are_rounded_to_a_tenth_of_a_millimetre() {
+    let text = String::from_utf8(to_bytes(&full_plan())).unwrap();
+    let (before, after) = text.split_once("\"x\":6,").unwrap();
+    for (written, read) in
+        [("6.00004", "6"), ("6.00006", "6.0001"), ("60000e-4", "6"), ("-0.00001", "0"), ("-0.0", "0")]
+    {
+        let plan = from_bytes(format!("{before}\"x\":{written},{after}").as_bytes()).unwrap();
+        let expected = format!("{before}\"x\":{read},{after}");
+        assert_eq!(String::from_utf8(to_bytes(&plan)).unwrap(), expected, "{written}");
+    }
+}
+
+#[test]
+fn line_ends_and_order_of_other_systems_and_tools_are_read() {
+    let plan = full_plan();
+    let text = String::from_utf8(to_bytes(&plan)).unwrap();
+    let windows = format!("\u{feff}{}", text.replace('\n', "\r\n"));
+    assert_eq!(from_bytes(windows.as_bytes()).unwrap(), plan);
+    let mut value: serde_json::Value = serde_json::from_str(&text).unwrap();
+    for list in ["corners", "rooms", "openings"] {
+        value[list].as_array_mut().unwrap().reverse();
+    }
+    assert_eq!(from_bytes(serde_json::to_string_pretty(&value).unwrap().as_bytes()).unwrap(), plan);
+}
+
+proptest! {
+    #[test]
+    fn any_plan_reads_back_as_it_was(plan in plans()) {
+        let bytes = to_bytes(&plan);
+        let read = from_bytes(&bytes).map_err(|error| TestCaseError::fail(error.to_string()))?;
+        prop_assert_eq!(&read, &plan);
+        prop_assert_eq!(to_bytes(&read), bytes);
+    }
+
+    #[test]
+    fn one_object_a_line_sorted_and_short_numbers(plan in plans()) {
+        let text = String::from_utf8(to_bytes(&plan)).unwrap();
+        let ids: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("{\"id\":\"")?.get(..13)).collect();
+        prop_assert_eq!(ids.len(), plan.corners().len() + plan.walls().len() + plan.rooms().len() + plan.openings().len());
+        for kind in ['c', 'w', 'r', 'o'] {
+            let of_kind: Vec<&&str> = ids.iter().filter(|id| id.starts_with(kind)).collect();
+            prop_assert!(of_kind.is_sorted());
+        }
+        for line in text.lines().filter(|line| line.starts_with("{\"id\":\"c")) {
+            for number in line.split(['"', ':', ',', '}']).filter(|part| part.starts_with(|c: char| c == '-' || c.is_ascii_digit())) {
+                let decimals = number.split_once('.').map_or("1", |(_, decimals)| decimals);
+                prop_assert!(decimals.len() <= 4 && !decimals.ends_with('0') && !number.contains('e'), "{}", number);
+            }
+        }
+    }
 }

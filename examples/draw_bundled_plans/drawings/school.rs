@@ -14,14 +14,19 @@ pub fn draw() -> Result<Plan, String> {
 
     // The hall. Its west side and that of the court follow the turned wing.
     let court = vec![(5.6, 4.2), (14.4, 4.2), (14.4, 12.6), (3.15, 12.6)];
-    school.room_around("1.01 Hall", "hall", &[(0.0, 0.0), (19.2, 0.0), (19.2, 16.8), (-4.9, 16.8)], &[court.clone()]);
+    school.room_around(
+        "1.01 Hall",
+        "hall",
+        &[(0.0, 0.0), (19.2, 0.0), (19.2, 16.8), (-4.9, 16.8)],
+        std::slice::from_ref(&court),
+    );
     school.outdoors("Court", "courtyard", &court);
-    school.room("1.02 Entrance", "entrance", &rect(1.2, -2.4, 4.8, 0.0));
+    school.room("1.02 Entrance", "entrance", &rect(1.2, -3.0, 4.8, 0.0));
 
     // Administration, beside the entrance.
     school.room("1.03 Office", "small administrative", &rect(6.0, -3.6, 12.0, 0.0));
-    school.room("1.04 Head", "small administrative", &rect(6.0, -7.2, 9.6, -3.6));
-    school.room("1.05 First aid", "sick room", &rect(9.6, -7.2, 12.0, -3.6));
+    school.room("1.04 Head", "small administrative", &rect(6.0, -7.2, 9.0, -3.6));
+    school.room("1.05 First aid", "sick room", &rect(9.0, -7.2, 12.0, -3.6));
     school.room(
         "1.06 Staff room",
         "staff room",
@@ -43,10 +48,10 @@ pub fn draw() -> Result<Plan, String> {
     school.room("1.11 Corridor", "corridor", &rect(19.2, 7.0, 36.0, 9.8));
     school.room("1.12 Library", "library", &rect(19.2, 0.0, 32.4, 7.0));
     school.room("1.13 Stairs", "stairs", &rect(32.4, 0.0, 36.0, 7.0));
-    school.room("1.14 WC", "washroom", &rect(19.2, 9.8, 21.6, 12.2));
-    school.room("1.15 Lift", "elevator", &rect(19.2, 12.2, 21.6, 14.5));
-    school.room("1.16 Cleaner", "closet", &rect(19.2, 14.5, 21.6, 16.8));
-    school.room("1.17 Laboratory", "lab", &rect(21.6, 9.8, 33.6, 16.8));
+    school.room("1.14 WC", "washroom", &rect(19.2, 9.8, 21.9, 12.2));
+    school.room("1.15 Lift", "elevator", &rect(19.2, 12.2, 21.9, 14.5));
+    school.room("1.16 Cleaner", "closet", &rect(19.2, 14.5, 21.9, 16.8));
+    school.room("1.17 Laboratory", "lab", &rect(21.9, 9.8, 33.6, 16.8));
     school.room("1.18 Preparation", "small", &rect(33.6, 9.8, 36.0, 16.8));
 
     // The west wing: classrooms, drawn in its own frame.
@@ -108,14 +113,14 @@ pub fn draw() -> Result<Plan, String> {
     school.wall_line(0.24, &[(32.4, 0.0), (32.4, 7.0)]);
     school.wall_line(0.3, &[court[0], court[1], court[2], court[3], court[0]]);
 
-    // Columns between the turned wing and the court.
-    for fraction in [0.02, 0.34, 0.66, 0.98] {
-        let (x, y) = between((1.6, 4.2), (-0.85, 12.6), fraction);
+    // Columns along the court's turned side, a metre and a half from it and in line with its piers.
+    for fraction in [0.06, 0.353, 0.647, 0.94] {
+        let (x, y) = between((4.16, 3.78), (1.71, 12.18), fraction);
         school.pier(0.35, (x + 0.049, y - 0.168), (x - 0.049, y + 0.168));
     }
 
     // Ways in and out.
-    school.double_door((3.0, -2.4), 1.8, OUTSIDE);
+    school.double_door((3.0, -3.0), 1.8, OUTSIDE);
     school.double_door((3.0, 0.0), 1.8, "1.02 Entrance");
     school.double_door((36.0, 8.4), 1.8, OUTSIDE);
     school.double_door((13.2, 25.8), 1.8, OUTSIDE);
@@ -143,7 +148,7 @@ pub fn draw() -> Result<Plan, String> {
     school.door((20.4, 9.8), 0.9, "1.14 WC", West);
     school.passage((19.2, 13.35), 1.1);
     school.door((19.2, 15.65), 0.9, "1.16 Cleaner", North);
-    school.door((22.8, 9.8), 1.0, "1.17 Laboratory", West);
+    school.door((23.1, 9.8), 1.0, "1.17 Laboratory", West);
     school.door((33.6, 11.2), 0.9, "1.18 Preparation", South);
 
     // Glass round the court.
@@ -154,8 +159,8 @@ pub fn draw() -> Result<Plan, String> {
     school.windows((4.0, 12.6), (13.6, 12.6), 4, 1.9);
     school.windows(between(court[0], court[3], 0.06), between(court[0], court[3], 0.94), 3, 2.1);
     // South.
-    school.windows((6.4, -7.2), (9.2, -7.2), 1, 1.8);
-    school.window((10.8, -7.2), 1.2);
+    school.windows((6.1, -7.2), (8.9, -7.2), 1, 1.8);
+    school.window((10.5, -7.2), 1.8);
     school.windows((14.2, -7.2), (18.8, -7.2), 2, 1.8);
     school.window((6.0, -1.8), 1.8);
     school.windows((19.2, -6.8), (19.2, -0.4), 2, 1.8);
@@ -168,7 +173,7 @@ pub fn draw() -> Result<Plan, String> {
     school.window((14.8, 25.8), 0.8);
     school.window(between(apse[2], apse[3], 0.5), 3.4);
     school.window((19.2, 19.5), 3.6);
-    school.windows((22.0, 16.8), (33.2, 16.8), 5, 1.8);
+    school.windows((22.2, 16.8), (33.3, 16.8), 5, 1.8);
     school.window((34.8, 16.8), 1.2);
 
     school.finish()

@@ -42,8 +42,8 @@ impl<'de> Deserialize<'de> for Position {
             }
 
             fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Position, A::Error> {
-                let x = items.next_element()?.ok_or_else(|| A::Error::custom(TOO_SHORT))?;
-                finish_position(x, items)
+                let x: Number = items.next_element()?.ok_or_else(|| A::Error::custom(TOO_SHORT))?;
+                finish_position(x.0, items)
             }
         }
         deserializer.deserialize_seq(PositionVisitor)
@@ -54,9 +54,9 @@ const TOO_SHORT: &str = "a position has fewer than two numbers";
 
 /// The position that starts with `x`, which has been taken from `items`.
 fn finish_position<'de, A: SeqAccess<'de>>(x: f64, mut items: A) -> Result<Position, A::Error> {
-    let y = items.next_element()?.ok_or_else(|| A::Error::custom(TOO_SHORT))?;
-    while items.next_element::<f64>()?.is_some() {}
-    Ok(Position(Point::new(x, y)))
+    let y: Number = items.next_element()?.ok_or_else(|| A::Error::custom(TOO_SHORT))?;
+    while items.next_element::<Number>()?.is_some() {}
+    Ok(Position(Point::new(x, y.0)))
 }
 
 /// What stands in a list of coordinates: its first member tells what the others must be.

@@ -48,6 +48,7 @@ pub(super) struct DiskMeta {
 }
 
 #[derive(Serialize, Deserialize)]
+#[serde(expecting = "a feature")]
 pub(super) struct DiskFeature {
     #[serde(rename = "type", default)]
     pub kind: Words,
@@ -59,6 +60,7 @@ pub(super) struct DiskFeature {
 }
 
 #[derive(Serialize, Deserialize)]
+#[serde(expecting = "a geometry")]
 pub(super) struct DiskGeometry {
     #[serde(rename = "type", default)]
     pub kind: Words,
@@ -66,6 +68,7 @@ pub(super) struct DiskGeometry {
 }
 
 #[derive(Default, Serialize, Deserialize)]
+#[serde(expecting = "an object of properties")]
 pub(super) struct DiskProperties {
     #[serde(default, skip_serializing_if = "Words::is_empty")]
     pub kind: Words,
@@ -107,6 +110,7 @@ pub(super) struct DiskProperties {
 
 /// The edge an opening lies on.
 #[derive(Serialize, Deserialize)]
+#[serde(expecting = "an edge with from, to, at_m and width_m")]
 pub(super) struct DiskHost {
     pub from: Position,
     pub to: Position,

@@ -8,7 +8,7 @@ use serde_json::{Map, Value};
 use super::KEPT;
 use super::coordinates::{Coordinates, Position};
 use super::disk::{DiskCollection, DiskFeature, DiskHost, DiskMeta, DiskProperties, Words};
-use crate::formats::json_text::{decode, id_on_line, message_of};
+use crate::formats::json_text::{decode, id_on_line, json_fault};
 use crate::formats::plan_json::DiskHinge;
 use crate::formats::{Import, Note, NoteKind, Place, ReadError};
 use crate::geometry::{Bounds, Point, Segment, polygon, trim_m};
@@ -27,7 +27,6 @@ const HOST_TOLERANCE_M: f64 = 1e-3;
 /// in metres, and half a degree is 50 km.
 const SMALLEST_PLAN_M: f64 = 0.5;
 
-const CUT_OFF: &str = "the file is cut off: restore it from a copy";
 const DAMAGED: &str = "correct it by hand (docs/geojson.md describes the properties), or export it again";
 const NOT_METRES: &str = "project it to metres first, and say \"units\": \"m\" at the top of the file";
 
@@ -181,9 +180,9 @@ fn check_units(collection: &DiskCollection, items: &[Item]) -> Result<Option<Not
 
 /// What a file says of the plan as a whole.
 fn meta_of(disk: &DiskMeta, stem: &str) -> Meta {
-    let sentence = disk.scale.0.trim();
+    let sentence = disk.scale.as_str();
     let stated = ScaleOrigin::ALL.into_iter().find(|origin| origin.name() == disk.scale_origin.0);
-    let lower = sentence.to_lowercase();
+    let lower = sentence.trim_start().to_lowercase();
     let opening_word = ScaleOrigin::ALL.into_iter().find(|origin| lower.starts_with(origin.name()));
     // Metres without a word on how they came about are still the file's statement.
     let origin = stated.or(opening_word).unwrap_or(ScaleOrigin::Imported);
@@ -231,7 +230,7 @@ impl Reader {
             }
             match role {
                 Role::Room => self.add_room(item)?,
-                Role::Wall => self.add_wall(item)?,
+                Role::Wall => self.add_wall(item),
                 Role::Opening => openings.push(item),
                 Role::Other => {
                     let what = match item.stated_kind() {
@@ -242,9 +241,11 @@ impl Reader {
                 }
             }
         }
-        let edges = Edges::new(&self.builder);
-        for item in openings {
-            self.add_opening(item, &edges)?;
+        if !openings.is_empty() {
+            let edges = Edges::new(&self.builder);
+            for item in openings {
+                self.add_opening(item, &edges);
+            }
         }
         // Openings came last above; notes follow the file.
         self.notes.sort_by_key(|note| note.place.line);
@@ -336,17 +337,17 @@ impl Reader {
         Some(self.builder.ring(points))
     }
 
-    fn add_wall(&mut self, item: Item) -> Result<(), ReadError> {
+    fn add_wall(&mut self, item: Item) {
         let place = item.place();
         let Some(Coordinates::Line(line)) = item.coordinates() else {
             self.note(NoteKind::Skipped, place, "a wall is a LineString");
-            return Ok(());
+            return;
         };
         let mut points: Vec<Point> = line.iter().map(|position| position.0.trimmed()).collect();
         points.dedup();
         if points.len() < 2 {
             self.note(NoteKind::Skipped, place, "the wall has no length");
-            return Ok(());
+            return;
         }
         let properties = item.feature.properties.unwrap_or_default();
         let stated_m = properties.thickness_m.map(|number| number.0);
@@ -366,20 +367,19 @@ impl Reader {
             };
             self.builder.wall_as(item.feature.id.0.parse().ok(), wall);
         }
-        Ok(())
     }
 
-    fn add_opening(&mut self, item: Item, edges: &Edges) -> Result<(), ReadError> {
+    fn add_opening(&mut self, item: Item, edges: &Edges) {
         let place = item.place();
         let (a, b) = match item.coordinates() {
             Some(Coordinates::Line(line)) => match (line.first(), line.last()) {
                 (Some(a), Some(b)) => (a.0.trimmed(), b.0.trimmed()),
-                _ => return Ok(()),
+                _ => return,
             },
             Some(Coordinates::Position(point)) => (point.0.trimmed(), point.0.trimmed()),
             _ => {
                 self.note(NoteKind::Skipped, place, "an opening is a LineString or a Point");
-                return Ok(());
+                return;
             }
         };
         let (a, b) = if a == b {
@@ -425,7 +425,6 @@ impl Reader {
             extra: kept(properties.other),
         };
         self.builder.opening(item.feature.id.as_str(), opening);
-        Ok(())
     }
 
     /// The sides that a file states; `None` with a note when they cannot be resolved.
@@ -556,8 +555,8 @@ impl Edges {
 fn refuse_json(text: &str, error: &serde_json::Error) -> ReadError {
     let line = (error.line() > 0).then_some(error.line());
     let element = line.and_then(|line| id_on_line(text, line)).map(|id| format!("feature {id}")).unwrap_or_default();
-    let hint = if error.is_eof() { CUT_OFF } else { DAMAGED };
-    ReadError { place: Place { line, element }, what: message_of(error), hint: hint.to_owned() }
+    let fault = json_fault(text, error);
+    ReadError { place: Place { line, element }, what: fault.what, hint: fault.hint.unwrap_or(DAMAGED).to_owned() }
 }
 
 /// An error of the JSON reader in a feature that starts on a line.
@@ -567,7 +566,7 @@ fn refuse_feature(raw: &str, line: usize, index: usize, error: &serde_json::Erro
         .map_or_else(|| format!("feature number {}", index + 1), |id| format!("feature {id}"));
     ReadError {
         place: Place { line: Some(line + error.line().saturating_sub(1)), element },
-        what: message_of(error),
+        what: json_fault(raw, error).what,
         hint: DAMAGED.to_owned(),
     }
 }
