@@ -532,7 +532,8 @@ mod tests {
             }
             let holes = vec![hole];
             let triangles = earcut(&outer, &holes);
-            let mut writer = Writer::new(&view());
+            let view = view();
+            let mut writer = Writer::new(&view);
             writer.polygon(&outer, &holes, &triangles, Color32::WHITE);
             let chunks = writer.finish();
             // 40 by 40 points less 20 by 20, each side drawn in by half a point.
@@ -543,11 +544,12 @@ mod tests {
 
     #[test]
     fn lines_are_as_wide_as_they_say_and_hairpins_do_not_shoot_out() {
-        let mut writer = Writer::new(&view());
+        let view = view();
+        let mut writer = Writer::new(&view);
         writer.path(vec![pos2(0.0, 0.0), pos2(10.0, 0.0)], false, Stroke::new(3.0, Color32::WHITE));
         // The solid core is a pixel less wide than the line with its two soft sides.
         assert_eq!(twice_solid_area(&writer.mesh) / 2.0, 10.0 * 2.0);
-        let mut writer = Writer::new(&view());
+        let mut writer = Writer::new(&view);
         let hairpin = vec![pos2(0.0, 0.0), pos2(10.0, 0.0), pos2(0.0, 1e-4), pos2(0.0, 5.0)];
         writer.path(hairpin, true, Stroke::new(2.0, Color32::WHITE));
         assert!(Rect::from_min_max(pos2(-3.0, -3.0), pos2(13.0, 8.0)).contains_rect(writer.mesh.calc_bounds()));

@@ -79,7 +79,7 @@ mod tests {
     fn boasting_is_cooled_down() {
         // Right in 3 of 4, said with 99 %: an honest temperature brings that to 75 %.
         let boast = Distribution::from_weights([0.99, 0.01, 0.0, 0.0, 0.0]);
-        let truth = |i: usize| if i % 4 == 0 { Label::MediumRoom } else { Label::SmallRoom };
+        let truth = |i: usize| if i.is_multiple_of(4) { Label::MediumRoom } else { Label::SmallRoom };
         let temperature = fitted_temperature((0..400).map(|i| (boast, truth(i))));
         let told = boast.at_temperature(temperature).probability(Label::SmallRoom);
         assert!((told - 0.75).abs() < 0.01, "{temperature} gives {told}");

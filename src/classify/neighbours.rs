@@ -134,10 +134,7 @@ fn divide(points: &[Point], order: &mut [u32], from: u32, nodes: &mut Vec<Node>)
 
 /// A sum over the features, four side by side: what a vector register holds.
 fn sum_of_parts(part: impl Fn(usize) -> f32) -> f32 {
-    let mut four = [0.0; FEATURES / 2];
-    for i in 0..FEATURES / 2 {
-        four[i] = part(i) + part(i + FEATURES / 2);
-    }
+    let four: [f32; FEATURES / 2] = std::array::from_fn(|i| part(i) + part(i + FEATURES / 2));
     (four[0] + four[1]) + (four[2] + four[3])
 }
 
