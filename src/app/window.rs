@@ -68,8 +68,8 @@ pub fn run_window(options: WindowOptions) -> Result<(), WindowError> {
         Ok(Box::new(Window { app }) as Box<dyn eframe::App>)
     };
     eframe::run_native("enfilade", native, Box::new(create)).map_err(|error| match error {
-        eframe::Error::WinitEventLoop(error) => WindowError::NoDisplay(error.to_string()),
-        eframe::Error::Winit(error) => WindowError::NoDisplay(error.to_string()),
+        eframe::Error::WinitEventLoop(error) => WindowError::NoDisplay(reason(&error.to_string())),
+        eframe::Error::Winit(error) => WindowError::NoDisplay(reason(&error.to_string())),
         error => WindowError::Graphics(error.to_string()),
     })
 }
@@ -86,4 +86,10 @@ impl eframe::App for Window {
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
         visuals.panel_fill.to_normalized_gamma_f32()
     }
+}
+
+/// What winit says, without the line of its own source that it puts in front.
+fn reason(what: &str) -> String {
+    let behind_place = what.split_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
+    behind_place.map_or(what, |(_, reason)| reason).trim_end_matches('.').to_owned()
 }
