@@ -1,7 +1,9 @@
 //! Rows of labelled rooms, collected from many plans.
 
 pub mod csv;
+pub mod folds;
 mod statistics;
+pub mod table;
 
 use std::collections::BTreeMap;
 

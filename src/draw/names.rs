@@ -20,14 +20,17 @@ pub fn sentence_case(function: &str) -> String {
 }
 
 /// The middle of a polygon where it is widest: the middle of the largest inscribed circle, and where
-/// many are nearly as large (a corridor), the one nearest to the centre of area. On a raster of 64
-/// cells a side, which is fine enough for a name.
+/// many are nearly as large (a corridor), the one nearest to the centre of area. On a raster of 40
+/// cells along the longer side, which is fine enough for a name. Of a convex polygon the centre of area.
 pub(super) fn centre(outer: &[Point], holes: &[Vec<Point>]) -> Point {
     let bounds = polygon::bounds(outer);
     if bounds.is_empty() {
         return Point::default();
     }
-    let cell = bounds.width().max(bounds.height()) / 64.0;
+    if holes.is_empty() && is_convex(outer) {
+        return polygon::centroid(outer);
+    }
+    let cell = bounds.width().max(bounds.height()) / 40.0;
     if cell <= 0.0 {
         return bounds.center();
     }
@@ -59,6 +62,18 @@ pub(super) fn centre(outer: &[Point], holes: &[Vec<Point>]) -> Point {
         Some((_, at)) => at,
         None => middle,
     }
+}
+
+/// Whether a ring turns one way only, once around.
+fn is_convex(ring: &[Point]) -> bool {
+    let n = ring.len();
+    let turns = || (0..n).map(|i| polygon::orientation(ring[i], ring[(i + 1) % n], ring[(i + 2) % n]));
+    let one_way = turns().all(|turn| turn >= 0.0) || turns().all(|turn| turn <= 0.0);
+    // Once around it goes right once and left once; a star, drawn in one go, more often.
+    let rightward: Vec<bool> =
+        polygon::edges(ring).map(|edge| edge.b.x - edge.a.x).filter(|&x| x != 0.0).map(|x| x > 0.0).collect();
+    let reversals = (0..rightward.len()).filter(|&i| rightward[i] != rightward[(i + 1) % rightward.len()]).count();
+    one_way && reversals == 2
 }
 
 /// Square cells over a box, each free or not, each with a price for standing there.
@@ -406,10 +421,10 @@ fn wrapped(name: &str) -> Vec<Vec<String>> {
     ways
 }
 
-/// A name cut off with an ellipsis, longest first, at least three letters long.
+/// A name cut off with an ellipsis, longest first, at least four letters long: fewer say nothing.
 fn shortened(name: &str) -> Vec<String> {
     let letters: Vec<char> = name.chars().collect();
-    [12, 9, 7, 5, 4, 3]
+    [12, 9, 7, 5, 4]
         .into_iter()
         .filter(|&kept| kept + 1 < letters.len())
         .map(|kept| letters[..kept].iter().collect::<String>().trim_end().to_owned() + "…")

@@ -4,7 +4,7 @@ use super::drawing::Drawing;
 use super::font::{CAP_HEIGHT, Font, LINE_HEIGHT};
 use super::names::sentence_case;
 use super::scene::{Anchor, Frame, Group, Item, Layer, Length, Scene, Text, View, Weight};
-use super::{Fill, Palette, Rgba, Style};
+use super::{Fill, Layers, Palette, Rgba, Style};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::labels::{Label, normalised_function};
 
@@ -34,6 +34,9 @@ impl Default for Furniture {
 
 /// A page whose longer side is shorter than this, in pixels, shows the plan alone.
 const SMALLEST_PAGE_PX: f64 = 320.0;
+
+/// A page whose longer side is shorter than this, in pixels, shows no names.
+const SMALLEST_NAMED_PAGE_PX: f64 = 200.0;
 
 /// The font size of title block and legend in pixels: it grows with the page, so that a picture made
 /// larger shows the same, finer.
@@ -68,11 +71,8 @@ pub fn page(drawing: &Drawing, style: &Style, size: PageSize, furniture: Furnitu
     let top = if title.is_empty() { margin } else { margin + title_height(&title, text) + 0.9 * text };
     let entries = if furniture.legend { legend_entries(drawing, style) } else { Vec::new() };
     let bottom = |width: f64| {
-        let rows = legend_rows(&entries, width, margin, text, furniture.scale).len() as f64;
-        let legend = rows * ROW * text;
-        let scale = if furniture.scale { SCALE_HEIGHT * text } else { 0.0 };
-        let band = legend.max(scale);
-        if band > 0.0 { band + 1.2 * text + margin } else { margin }
+        let band = Band::new(&entries, width, margin, text, furniture.scale);
+        if band.height > 0.0 { band.height + 1.2 * text + margin } else { margin }
     };
 
     let (width, height) = match size {
@@ -91,6 +91,7 @@ pub fn page(drawing: &Drawing, style: &Style, size: PageSize, furniture: Furnitu
             }
         }
     };
+    let band = Band::new(&entries, width, margin, text, furniture.scale);
     let bottom = bottom(width);
     let free = Bounds { min: Point::new(margin, top), max: Point::new(width - margin, height - bottom) };
     let fitted = View::fitting(bounds, free.width().max(1.0), free.height().max(1.0), 0.0);
@@ -99,7 +100,13 @@ pub fn page(drawing: &Drawing, style: &Style, size: PageSize, furniture: Furnitu
     let centre = fitted.centre + Vector::new(shift.x, -shift.y) * (1.0 / fitted.px_per_m);
     let view = View { width_px: width, height_px: height, centre, ..fitted };
 
-    let style = &Style { text_px: name_text_px(drawing, view.px_per_m, text), ..style.clone() };
+    // On a thumbnail names would be scraps.
+    let layers = if longest < SMALLEST_NAMED_PAGE_PX {
+        Layers { names: false, areas: false, ..style.layers }
+    } else {
+        style.layers
+    };
+    let style = &Style { text_px: name_text_px(drawing, view.px_per_m, text), layers, ..style.clone() };
     let mut scene = drawing.scene(style, &view);
     if style.layers.grid {
         // Under the plan alone, a little beyond it.
@@ -122,7 +129,7 @@ pub fn page(drawing: &Drawing, style: &Style, size: PageSize, furniture: Furnitu
         items.extend(scale_bar(palette, &view, Point::new(margin, foot), text));
         items.extend(north_arrow(palette, Point::new(margin + SCALE_WIDTH * text + 2.2 * text, foot), text));
     }
-    items.extend(legend(palette, &entries, width, margin, foot, text, furniture.scale));
+    items.extend(legend(palette, &entries, &band, width - margin, foot, text));
     if !items.is_empty() {
         scene.groups.push(Group::new(Layer::Sheet, Frame::Screen, items));
     }
@@ -248,16 +255,38 @@ fn entry_width(entry: &str, text: f64) -> f64 {
     1.9 * text + Font::of(Weight::Regular).width_px(entry, text) + 1.5 * text
 }
 
-/// Where the legend begins.
-fn legend_left(width: f64, margin: f64, text: f64, beside_scale: bool) -> f64 {
-    let scale = if beside_scale { (SCALE_WIDTH + 5.5) * text } else { 0.0 };
-    // On a narrow page it takes what there is, at least a third.
-    margin + scale.min((width - 2.0 * margin) * 0.66)
+/// Where scale and legend stand below the plan: beside each other, or on a narrow page the legend above
+/// the scale.
+struct Band {
+    height: f64,
+    /// Left end of the legend.
+    left: f64,
+    /// The legend's last line stands so far above the foot of the page.
+    lift: f64,
+    /// The legend's entries, as indices, by row.
+    rows: Vec<Vec<usize>>,
+}
+
+impl Band {
+    fn new(entries: &[Entry], width: f64, margin: f64, text: f64, has_scale: bool) -> Self {
+        let scale_width = if has_scale { (SCALE_WIDTH + 5.5) * text } else { 0.0 };
+        let scale_height = if has_scale { SCALE_HEIGHT * text } else { 0.0 };
+        // Room for an entry or two, or not.
+        let is_stacked = has_scale && !entries.is_empty() && width - 2.0 * margin - scale_width < 22.0 * text;
+        let left = if is_stacked { margin } else { margin + scale_width };
+        let rows = legend_rows(entries, width - margin - left, text);
+        let legend_height = rows.len() as f64 * ROW * text;
+        if is_stacked {
+            let lift = scale_height + 0.8 * text;
+            Self { height: legend_height + lift, left, lift, rows }
+        } else {
+            Self { height: legend_height.max(scale_height), left, lift: 0.0, rows }
+        }
+    }
 }
 
 /// The entries' indices by row.
-fn legend_rows(entries: &[Entry], width: f64, margin: f64, text: f64, beside_scale: bool) -> Vec<Vec<usize>> {
-    let free = width - margin - legend_left(width, margin, text, beside_scale);
+fn legend_rows(entries: &[Entry], free: f64, text: f64) -> Vec<Vec<usize>> {
     let mut rows: Vec<Vec<usize>> = Vec::new();
     let mut used = f64::INFINITY;
     for (i, entry) in entries.iter().enumerate() {
@@ -278,27 +307,19 @@ fn legend_rows(entries: &[Entry], width: f64, margin: f64, text: f64, beside_sca
     rows
 }
 
-/// The legend, its last row standing on `foot`, flush right.
-fn legend(
-    palette: &Palette,
-    entries: &[Entry],
-    width: f64,
-    margin: f64,
-    foot: f64,
-    text: f64,
-    beside_scale: bool,
-) -> Vec<Item> {
-    let rows = legend_rows(entries, width, margin, text, beside_scale);
+/// The legend, flush right, or from the left where it stands above the scale.
+fn legend(palette: &Palette, entries: &[Entry], band: &Band, right: f64, foot: f64, text: f64) -> Vec<Item> {
+    let rows = &band.rows;
     let shown: usize = rows.iter().map(Vec::len).sum();
     let widest = rows
         .iter()
         .map(|row| row.iter().map(|&i| entry_width(&entries[i].text, text)).sum::<f64>() - 1.5 * text)
         .fold(0.0, f64::max);
-    let left = (width - margin - widest).max(legend_left(width, margin, text, beside_scale));
+    let left = if band.lift > 0.0 { band.left } else { (right - widest).max(band.left) };
     let mut items = Vec::new();
     let last_row = rows.len().saturating_sub(1);
     for (i, row) in rows.iter().enumerate() {
-        let baseline = foot - (last_row - i) as f64 * ROW * text - 0.2 * text;
+        let baseline = foot - band.lift - (last_row - i) as f64 * ROW * text - 0.2 * text;
         let mut x = left;
         for (j, &index) in row.iter().enumerate() {
             let entry = &entries[index];

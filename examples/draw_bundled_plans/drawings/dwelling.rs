@@ -46,7 +46,7 @@ pub fn draw() -> Result<Plan, String> {
     house.room("Dressing", "dressing room", &rect(2.6, 0.5, 4.5, 2.2));
     house.room("Main bedroom", "bedroom", &rect(0.0, -3.4, 6.1, 0.5));
 
-    let garden_edge = [(6.1, 0.5), (10.4, 0.5), (19.1, 4.6), (19.1, 7.8)];
+    let garden_edge = [(6.1, 0.5), (10.4, 0.5), (18.7, 4.5), (18.7, 7.8)];
     house.outdoors("Terrace", "terrace", &[garden_edge[0], garden_edge[1], garden_edge[2], garden_edge[3], (6.1, 7.8)]);
 
     // Bearing walls.

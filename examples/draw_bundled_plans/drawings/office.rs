@@ -51,7 +51,7 @@ pub fn draw() -> Result<Plan, String> {
         &[(0.0, 12.3), (8.4, 12.3), (8.4, 17.4), (4.2, 17.4), (4.2, 16.2), (0.0, 16.2)],
     );
     office.room("Kitchen", "kitchen", &rect(4.2, 17.4, 8.4, 20.4));
-    office.outdoors("Terrace", "terrace", &rect(0.0, 16.2, 4.2, 20.4));
+    office.outdoors("Terrace", "terrace", &rect(0.4, 16.2, 4.2, 20.0));
 
     // North.
     let mut x = 8.4;
@@ -127,8 +127,8 @@ pub fn draw() -> Result<Plan, String> {
     office.door((8.4, 8.0), 0.9, "Team 1", South);
     office.double_door((8.4, 13.65), 1.6, "Cafeteria");
     office.passage((6.3, 17.4), 1.8);
-    office.double_door((2.1, 16.2), 1.8, OUTSIDE);
-    office.passage((0.0, 18.3), 1.2);
+    office.double_door((2.3, 16.2), 1.8, OUTSIDE);
+    office.passage((0.4, 18.1), 1.2);
 
     // North.
     office.door((11.3, 15.0), 0.9, "Room 1.03", East);

@@ -14,7 +14,12 @@ pub fn draw() -> Result<Plan, String> {
 
     // The hall. Its west side and that of the court follow the turned wing.
     let court = vec![(5.6, 4.2), (14.4, 4.2), (14.4, 12.6), (3.15, 12.6)];
-    school.room_around("1.01 Hall", "hall", &[(0.0, 0.0), (19.2, 0.0), (19.2, 16.8), (-4.9, 16.8)], &[court.clone()]);
+    school.room_around(
+        "1.01 Hall",
+        "hall",
+        &[(0.0, 0.0), (19.2, 0.0), (19.2, 16.8), (-4.9, 16.8)],
+        std::slice::from_ref(&court),
+    );
     school.outdoors("Court", "courtyard", &court);
     school.room("1.02 Entrance", "entrance", &rect(1.2, -3.0, 4.8, 0.0));
 

@@ -17,7 +17,7 @@ const SAME_POINT_M: f64 = 1e-3;
 
 /// What remains visible of a wall between an opening and a wall that meets its own: room for the
 /// frame.
-pub const REVEAL_M: f64 = 0.1;
+const REVEAL_M: f64 = 0.1;
 
 /// Where a door opens to that opens outwards.
 pub const OUTSIDE: &str = "";
