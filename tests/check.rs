@@ -83,6 +83,15 @@ fn names_are_those_of_the_files() {
     }
 }
 
+#[test]
+fn every_check_is_documented() {
+    let docs = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/checks.md")).unwrap();
+    for kind in Finding::KINDS {
+        let row = format!("| `{}` | {} |", kind.name, kind.severity);
+        assert!(docs.contains(&row), "docs/checks.md has no row '{row}'");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
 
