@@ -238,7 +238,7 @@ mod tests {
                     .iter()
                     .enumerate()
                     .filter(|&(index, _)| index as u32 != without)
-                    .map(|(_, point)| metric.distance((0..FEATURES).map(|a| metric.part(point[a] - query[a])).sum()))
+                    .map(|(_, point)| metric.distance(sum_of_parts(|axis| metric.part(point[axis] - query[axis]))))
                     .collect();
                 all.sort_by(f32::total_cmp);
                 let distances: Vec<f32> = found.iter().map(|found| found.distance).collect();
