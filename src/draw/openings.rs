@@ -96,18 +96,17 @@ impl OpeningDrawing {
         });
         let (right, left) = wall.unwrap_or((-NO_WALL_M / 2.0, NO_WALL_M / 2.0));
         if wall.is_some() {
-            // Just off both faces, how far until another wall stands in the way.
-            let free = |direction: Vector| {
-                [right - OFF_FACE_M, left + OFF_FACE_M]
-                    .into_iter()
-                    .map(|offset| faces.free(middle + normal * offset, direction, 2.0 * half_width))
-                    .fold(f64::INFINITY, f64::min)
-            };
-            let (ahead, back) = (free(along), free(-along));
-            // In a corner that is too narrow both ways, as it is: better seen than lost.
-            if ahead + back > half_width {
-                half_width = half_width.min((ahead + back) / 2.0);
-                middle = middle + along * ((half_width - back).max(0.0) - (half_width - ahead).max(0.0));
+            // Just off both faces: from where to where no other wall stands in the way.
+            let open = [right - OFF_FACE_M, left + OFF_FACE_M]
+                .map(|offset| faces.open_at(middle + normal * offset, along, 4.0 * half_width));
+            if let [Some(one), Some(other)] = open {
+                let (from, to) = (one.0.max(other.0), one.1.min(other.1));
+                // Where there is hardly any, as it was given: better seen than lost.
+                if to - from > half_width {
+                    half_width = half_width.min((to - from) / 2.0);
+                    // Not `clamp`: by rounding the bounds may have passed each other.
+                    middle = middle + along * 0.0_f64.max(from + half_width).min(to - half_width);
+                }
             }
         }
         let centre = middle + normal * ((left + right) / 2.0);
@@ -239,8 +238,9 @@ impl OpeningDrawing {
             // Whatever rooms reach into the wall: a window is glass, not floor.
             let outer = vec![at(-1.0, right), at(1.0, right), at(1.0, left), at(-1.0, left)];
             items.push(Item::Polygon { outer, holes: Vec::new(), colour: palette.paper.faded(style.fill_opacity) });
-        } else if self.cut.is_some() && style.layers.rooms {
-            // The floor of either room reaches to the middle of the wall; of a single one, through.
+        } else if self.cut.is_some() && style.layers.rooms && style.fill_opacity >= 1.0 {
+            // The floor of either room reaches to the middle of the wall; of a single one, through. (Rooms
+            // may reach into the wall: translucent floors would show twice.)
             let [on_left, on_right] = self.sides.map(|side| side.map(|index| floors[index]));
             let halves = match (on_left, on_right) {
                 (Some(colour), Some(other)) if colour != other => {

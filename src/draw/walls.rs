@@ -380,6 +380,25 @@ impl Faces {
         self.crossings(origin, direction, 0.0, reach).first().map_or(reach, |&(distance, _)| distance)
     }
 
+    /// The stretch without walls at or nearest to `origin` along the unit vector `direction`, looked for
+    /// within `reach` metres both ways; `None` where all is wall.
+    pub fn open_at(&self, origin: Point, direction: Vector, reach: f64) -> Option<(f64, f64)> {
+        let crossings = self.crossings(origin, direction, reach, reach);
+        let mut stretches = Vec::new();
+        // It begins in the open unless the first crossing leaves a wall.
+        let mut open_from = crossings.first().is_none_or(|&(_, enters)| enters).then_some(-reach);
+        for (distance, enters) in crossings {
+            if enters {
+                stretches.extend(open_from.take().map(|from| (from, distance)));
+            } else {
+                open_from = Some(distance);
+            }
+        }
+        stretches.extend(open_from.map(|from| (from, reach)));
+        let distance = |&(from, to): &(f64, f64)| if from <= 0.0 && to >= 0.0 { 0.0 } else { from.abs().min(to.abs()) };
+        stretches.into_iter().min_by(|p, q| distance(p).total_cmp(&distance(q)))
+    }
+
     /// The faces that meet a box.
     pub fn near(&self, bounds: crate::geometry::Bounds) -> impl Iterator<Item = Segment> + '_ {
         let near = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
