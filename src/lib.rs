@@ -15,6 +15,8 @@ pub mod features;
 pub mod formats;
 pub mod geometry;
 pub mod labels;
+pub mod parallel;
 pub mod plan;
+pub mod random;
 pub mod store;
 pub mod topology;

@@ -1,1 +1,142 @@
 //! Everything that can be wrong with a plan: one file a check, named as its finding.
+//!
+//! [`check`] is a pure function that returns all findings, typed, each with its place and what to do.
+//! A new check is a file and one line in the list below. What each says, and how often it fires on
+//! real plans, is in `docs/checks.md`.
+
+mod context;
+mod edges;
+mod finding;
+mod names;
+mod overlaps;
+mod rings;
+mod sizes;
+
+pub use context::Context;
+pub use finding::{Check, Kind, Place, Severity};
+pub use names::{OpeningName, RoomName};
+
+use crate::features::Analysis;
+use crate::labels::Schemes;
+use crate::plan::Plan;
+
+/// Declares the checks: their modules, and one variant a check in [`Finding`].
+macro_rules! checks {
+    ($($module:ident :: $finding:ident),* $(,)?) => {
+        $(mod $module; pub use $module::$finding;)*
+
+        /// Something that is wrong with a plan, or worth a look.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Finding {
+            $(#[doc = concat!("See [`", stringify!($finding), "`].")] $finding($finding),)*
+        }
+
+        impl Finding {
+            /// Every kind of finding, in the order in which they are reported.
+            pub const KINDS: &[&Kind] = &[$(&$finding::KIND),*];
+
+            /// What kind of finding it is.
+            pub fn kind(&self) -> &'static Kind {
+                match self { $(Self::$finding(_) => &$finding::KIND,)* }
+            }
+
+            /// How bad it is.
+            pub fn severity(&self) -> Severity {
+                match self { $(Self::$finding(finding) => finding.severity(),)* }
+            }
+
+            /// Where it is.
+            pub fn place(&self) -> Place<'_> {
+                match self { $(Self::$finding(finding) => finding.place(),)* }
+            }
+
+            /// What was found, in words, without a full stop.
+            pub fn what(&self) -> String {
+                match self { $(Self::$finding(finding) => finding.what(),)* }
+            }
+
+            /// What to do about it, in words, without a full stop.
+            pub fn remedy(&self) -> &'static str {
+                self.kind().remedy
+            }
+
+            /// The measured figures with their unit in the name, for machines.
+            pub fn figures(&self) -> Vec<(&'static str, f64)> {
+                match self { $(Self::$finding(finding) => finding.figures(),)* }
+            }
+        }
+
+        fn find_all(context: &Context) -> Vec<Finding> {
+            let mut found = Vec::new();
+            $({
+                let mut of_kind = $finding::find(context);
+                of_kind.sort_by(finding::worst_first);
+                of_kind.truncate(FINDINGS_LIMIT);
+                found.extend(of_kind.into_iter().map(Finding::$finding));
+            })*
+            found
+        }
+    };
+}
+
+checks! {
+    invariant_is_broken::InvariantIsBroken,
+    plan_has_no_rooms::PlanHasNoRooms,
+    room_has_no_boundary::RoomHasNoBoundary,
+    room_boundary_encloses_nothing::RoomBoundaryEnclosesNothing,
+    room_boundary_crosses_itself::RoomBoundaryCrossesItself,
+    room_boundary_touches_itself::RoomBoundaryTouchesItself,
+    room_hole_is_not_inside::RoomHoleIsNotInside,
+    room_holes_overlap::RoomHolesOverlap,
+    room_is_drawn_twice::RoomIsDrawnTwice,
+    room_lies_inside_another::RoomLiesInsideAnother,
+    rooms_overlap::RoomsOverlap,
+    rooms_leave_a_gap::RoomsLeaveAGap,
+    opening_joins_nothing::OpeningJoinsNothing,
+    opening_joins_a_room_to_itself::OpeningJoinsARoomToItself,
+    opening_is_far_from_its_rooms::OpeningIsFarFromItsRooms,
+    opening_contradicts_its_place::OpeningContradictsItsPlace,
+    opening_is_wider_than_its_wall::OpeningIsWiderThanItsWall,
+    openings_overlap::OpeningsOverlap,
+    plan_has_no_openings::PlanHasNoOpenings,
+    room_has_no_opening::RoomHasNoOpening,
+    rooms_are_cut_off::RoomsAreCutOff,
+    plan_has_no_typology::PlanHasNoTypology,
+    typology_has_no_scheme::TypologyHasNoScheme,
+    function_is_unknown::FunctionIsUnknown,
+    room_has_no_function::RoomHasNoFunction,
+    scale_is_implausible::ScaleIsImplausible,
+    room_area_is_unusual::RoomAreaIsUnusual,
+    room_name_repeats::RoomNameRepeats,
+    wall_has_no_length::WallHasNoLength,
+    walls_overlap::WallsOverlap,
+    wall_ends_freely::WallEndsFreely,
+    corners_nearly_coincide::CornersNearlyCoincide,
+}
+
+/// At most so many findings of a kind are returned for a plan, so that a damaged file (a thousand
+/// rooms in one place) costs neither memory nor patience. The real plans have at most a few dozen.
+pub const FINDINGS_LIMIT: usize = 1000;
+
+/// Everything that is wrong with a plan, or worth a look: errors first, then by kind in the order of
+/// [`Finding::KINDS`], then the worst of a kind first, then as one reads, from the top left. The same
+/// plan always gives the same findings.
+///
+/// `analysis` is that of the plan under the same schemes.
+pub fn check(plan: &Plan, analysis: &Analysis, schemes: &Schemes) -> Vec<Finding> {
+    let mut found = find_all(&Context::new(plan, analysis, schemes));
+    // Stable: within a severity the order of the checks stays.
+    found.sort_by_key(|finding| std::cmp::Reverse(finding.severity()));
+    found
+}
+
+impl std::fmt::Display for Finding {
+    /// The sentence: what was found, where, and what to do.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.what())?;
+        if let Some(at) = self.place().at {
+            write!(f, " at ({:.2}, {:.2})", at.x, at.y)?;
+        }
+        write!(f, ": {}", self.remedy())
+    }
+}

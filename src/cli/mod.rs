@@ -1,12 +1,29 @@
 //! The command line. One file a subcommand, one line in [`SUBCOMMANDS`] to register it.
 
-use std::io::{IsTerminal as _, Write};
-use std::path::{Path, PathBuf};
+mod check;
+mod dataset;
+mod export;
+mod features;
+mod import;
+mod inputs;
+mod open;
+mod render;
 
-use clap::{ArgMatches, Args, Command, FromArgMatches as _};
+use std::io::{IsTerminal as _, Write};
+use std::path::PathBuf;
+
+use clap::{ArgMatches, Args, Command};
 
 /// All subcommands, in the order of the help.
-const SUBCOMMANDS: &[Entry] = &[];
+#[rustfmt::skip] // one line each
+const SUBCOMMANDS: &[Entry] = &[
+    entry::<import::ImportCommand>(),
+    entry::<features::FeaturesCommand>(),
+    entry::<dataset::DatasetCommand>(),
+    entry::<export::ExportCommand>(),
+    entry::<check::CheckCommand>(),
+    entry::<render::RenderCommand>(),
+];
 
 /// A subcommand: its arguments (a clap `Args`) and what it does with them.
 pub trait Subcommand: Args {
@@ -86,8 +103,11 @@ const fn entry<S: Subcommand>() -> Entry {
     Entry {
         name: S::NAME,
         command: || {
-            let command = Command::new(S::NAME).about(S::ABOUT).after_help(format!("Example:\n  {}", S::EXAMPLE));
-            S::augment_args(command)
+            // After `augment_args`, which sets the type's docstring.
+            S::augment_args(Command::new(S::NAME))
+                .about(S::ABOUT)
+                .long_about(None)
+                .after_help(format!("Example:\n  {}", S::EXAMPLE))
         },
         run: |matches, terminal| {
             // The matches come from the command built from the same type: they always fit, and if
@@ -140,7 +160,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>, terminal: &m
             Some(entry) => (entry.run)(matches, terminal),
             None => Err(CliError::new(format!("unknown subcommand {name}"))),
         },
-        None => open_window(matches.get_one::<PathBuf>("plan").map(PathBuf::as_path), terminal),
+        None => open::open(matches.get_one::<PathBuf>("plan").map(PathBuf::as_path), terminal),
     };
     let flushed = terminal.out.flush().map_err(CliError::from);
     match result.and_then(|outcome| flushed.map(|()| outcome)) {
@@ -152,9 +172,4 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>, terminal: &m
             1
         }
     }
-}
-
-/// Opens the window; where there is no display, does the same job headless.
-fn open_window(_plan: Option<&Path>, _terminal: &mut Terminal) -> Result<Outcome, CliError> {
-    Ok(Outcome::Done)
 }

@@ -1,7 +1,17 @@
 //! Rows of labelled rooms, collected from many plans.
 
-use crate::features::Features;
-use crate::labels::{Label, Typology};
+pub mod csv;
+pub mod folds;
+mod statistics;
+pub mod table;
+
+use std::collections::BTreeMap;
+
+pub use statistics::{LabelStatistics, Moments, Statistics};
+
+use crate::features::{Features, NeighbourLabels, RoomStatus, analyse};
+use crate::labels::{Label, Schemes, Typology};
+use crate::plan::{Plan, RoomId};
 
 /// One labelled room of a dataset.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,10 +21,124 @@ pub struct Row {
     /// Its building: the unit that cross-validation must never split.
     pub building: String,
     pub typology: Option<Typology>,
-    /// The room's id or name in its plan.
+    /// What the room is called, see [`room_keys`].
     pub room: String,
     pub function: String,
     /// The true label.
     pub label: Label,
     pub features: Features,
+}
+
+/// Why rooms of plans did not become rows.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Rooms whose function the scheme leaves blank.
+    pub not_classified: usize,
+    /// Rooms without a label and without a function.
+    pub without_function: usize,
+    /// Rooms that enclose no area.
+    pub without_area: usize,
+    /// Functions that the plan's scheme does not know, by typology (empty when unknown) and
+    /// function as written, with their number of rooms.
+    pub unknown_functions: BTreeMap<(String, String), usize>,
+}
+
+impl LeftOut {
+    /// Number of rooms left out, whatever the reason.
+    pub fn total(&self) -> usize {
+        let unknown: usize = self.unknown_functions.values().sum();
+        self.not_classified + self.without_function + self.without_area + unknown
+    }
+}
+
+/// The labelled rooms of a plan as rows, in the order of [`room_keys`]; what is left out is counted
+/// in `left_out`.
+pub fn rows(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels, left_out: &mut LeftOut) -> Vec<Row> {
+    let analysis = analyse(plan, schemes, neighbours);
+    let typology = plan.meta().typology.as_ref();
+    let mut rows = Vec::new();
+    for (id, key) in room_keys(plan) {
+        let (Some(room), Some(result)) = (plan.room(id), analysis.room(id)) else { continue };
+        let label = match result.status {
+            RoomStatus::Labelled(label) => label,
+            RoomStatus::NotClassified => {
+                left_out.not_classified += 1;
+                continue;
+            }
+            RoomStatus::Unlabelled if room.function.is_empty() => {
+                left_out.without_function += 1;
+                continue;
+            }
+            RoomStatus::Unlabelled => {
+                let typology = typology.map(Typology::as_str).unwrap_or_default().to_owned();
+                *left_out.unknown_functions.entry((typology, room.function.clone())).or_default() += 1;
+                continue;
+            }
+        };
+        let Some(features) = result.features else {
+            left_out.without_area += 1;
+            continue;
+        };
+        rows.push(Row {
+            plan: plan.meta().name.clone(),
+            building: plan.meta().building.clone(),
+            typology: typology.cloned(),
+            room: key,
+            function: room.function.clone(),
+            label,
+            features,
+        });
+    }
+    rows
+}
+
+/// What to call each room of a plan in a table: its name where no other room has the same, else what
+/// it is called in its source, else its id. Sorted so that 'Room 2' comes before 'Room 10'.
+pub fn room_keys(plan: &Plan) -> Vec<(RoomId, String)> {
+    let mut names: BTreeMap<&str, usize> = BTreeMap::new();
+    for (_, room) in plan.rooms() {
+        *names.entry(room.name.as_str()).or_default() += 1;
+    }
+    let mut keys: Vec<(RoomId, String)> = plan
+        .rooms()
+        .map(|(id, room)| {
+            let key = if !room.name.is_empty() && names.get(room.name.as_str()) == Some(&1) {
+                room.name.clone()
+            } else if room.source_id.is_empty() {
+                id.to_string()
+            } else {
+                room.source_id.clone()
+            };
+            (id, key)
+        })
+        .collect();
+    keys.sort_by_cached_key(|(id, key)| (natural_key(key), *id));
+    keys
+}
+
+/// A key by which texts sort as people sort them: runs of digits compare as numbers.
+fn natural_key(text: &str) -> Vec<(String, u64)> {
+    let mut parts: Vec<(String, u64)> = Vec::new();
+    let mut rest = text;
+    while !rest.is_empty() {
+        let digits_from = rest.find(|c: char| c.is_ascii_digit()).unwrap_or(rest.len());
+        let (word, tail) = rest.split_at(digits_from);
+        let digits_to = tail.find(|c: char| !c.is_ascii_digit()).unwrap_or(tail.len());
+        let (digits, after) = tail.split_at(digits_to);
+        parts.push((word.to_owned(), digits.parse().unwrap_or(u64::MAX)));
+        rest = after;
+    }
+    parts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::natural_key;
+
+    #[test]
+    fn numbers_sort_as_numbers() {
+        let mut keys = ["R10", "R2", "R1a", "R1", "Hall", "99999999999999999999999", "2.10", "2.9"];
+        keys.sort_by_cached_key(|key| natural_key(key));
+        assert_eq!(keys, ["2.9", "2.10", "99999999999999999999999", "Hall", "R1", "R1a", "R2", "R10"]);
+    }
 }

@@ -1,2 +1,38 @@
 //! A scene of shapes with units and colours, and its painters: PNG and SVG. The window paints the
 //! same scene.
+//!
+//! ```text
+//! Plan + Analysis ─> Drawing (walls joined, openings cut, symbols; no zoom, no colours)
+//!                      │ + Style + View
+//!                      v
+//!                    Scene ─> PNG, SVG, the window
+//! ```
+//!
+//! A [`Drawing`] is made once a plan; a [`Scene`] once a view.
+
+mod colour;
+mod drawing;
+pub mod font;
+mod names;
+mod openings;
+pub mod palette;
+pub mod png;
+pub mod scene;
+pub mod sheet;
+mod style;
+pub mod svg;
+mod walls;
+
+pub use colour::Rgba;
+pub use drawing::{Drawing, grid_step_m};
+pub use palette::{LabelColours, Palette, Theme};
+pub use scene::{Anchor, Dash, Frame, Group, Item, Layer, Length, Scene, Text, View, Weight};
+pub use style::{Fill, Layers, SMALLEST_TEXT_PX, Style};
+
+use crate::features::Analysis;
+use crate::plan::Plan;
+
+/// The scene of a plan in a view: a [`Drawing`] and its [`Drawing::scene`] in one go.
+pub fn plan_scene(plan: &Plan, analysis: &Analysis, style: &Style, view: &View) -> Scene {
+    Drawing::new(plan, analysis).scene(style, view)
+}

@@ -45,9 +45,10 @@ pub struct RoomAnalysis {
     pub status: RoomStatus,
     /// The major and minor axis; `None` for a room that encloses no area.
     pub axes: Option<Axes>,
-    /// `F_r`; `None` for a room that encloses no area, and for one that is not classified.
+    /// `F_r`; `None` for a room that encloses no area.
     pub features: Option<Features>,
-    /// The naive classifier's label from `<a, rt, d>`; `None` where there are no features.
+    /// The naive classifier's label from `<a, rt, d>`; `None` where there are no features, and for a
+    /// room that is not classified.
     pub temporary: Option<Label>,
 }
 
@@ -92,13 +93,14 @@ pub fn analyse(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels) -> A
             let status = RoomStatus::of(plan, schemes, room);
             let axes = runs::axes(&shape.outer, &shape.holes);
             let area_m2 = shape.area_m2();
-            let features = axes.filter(|_| area_m2 > 0.0 && status != RoomStatus::NotClassified).map(|axes| Features {
+            let features = axes.filter(|_| area_m2 > 0.0).map(|axes| Features {
                 area_m2,
                 axes_ratio: axes.ratio(),
                 doors: graph.of_room(index).len() as u32,
                 doors_to: [0; 5],
             });
             let temporary = features
+                .filter(|_| status != RoomStatus::NotClassified)
                 .map(|features| naive::classify(typology, features.area_m2, features.axes_ratio, features.doors));
             RoomAnalysis { id, status, axes, features, temporary }
         })
@@ -106,7 +108,6 @@ pub fn analyse(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels) -> A
     let seen: Vec<Option<Label>> = rooms
         .iter()
         .map(|room| match neighbours {
-            _ if room.status == RoomStatus::NotClassified => None,
             NeighbourLabels::True => room.status.label().or(room.temporary),
             NeighbourLabels::Temporary => room.temporary,
         })

@@ -73,7 +73,7 @@ fn turn_rad(from: Vector, to: Vector) -> f64 {
 }
 
 /// The ring less the points that stand closer than [`NOTCH_M`] to the one kept before them.
-fn without_notches(ring: &[Point]) -> Vec<Point> {
+pub fn without_notches(ring: &[Point]) -> Vec<Point> {
     let mut kept: Vec<Point> = Vec::with_capacity(ring.len());
     for &point in ring {
         if kept.last().is_none_or(|last| last.distance(point) >= NOTCH_M) {
@@ -122,8 +122,8 @@ pub fn axes<R: AsRef<[Point]>>(outer: &[Point], holes: &[R]) -> Option<Axes> {
     if longest <= 0.0 {
         return None;
     }
-    // Equal up to a tenth of a millimetre, the grid of stored lengths.
-    let candidates = all.iter().filter(|run| run.length_m() >= longest - super::GRID_M);
+    // Equal up to a millimetre: the 0.1 mm grid moves both ends of a turned wall a little.
+    let candidates = all.iter().filter(|run| run.length_m() >= longest - 1e-3);
     candidates
         .map(|run| {
             let perpendicular = all

@@ -57,14 +57,25 @@ impl Builder {
 
     /// A wall between two corners.
     pub fn wall(&mut self, from: CornerId, to: CornerId, thickness_m: f64) -> WallId {
-        let id = new_wall_id(&self.plan, from, to);
-        self.plan.walls.insert(id, Wall { from, to, thickness_m: trim_m(thickness_m), extra: None });
+        self.wall_as(None, Wall { from, to, thickness_m, extra: None })
+    }
+
+    /// A wall; `id` is its identity where that is known and not taken.
+    pub fn wall_as(&mut self, id: Option<WallId>, mut wall: Wall) -> WallId {
+        let known = id.filter(|id| !self.plan.walls.contains_key(id));
+        let id = known.unwrap_or_else(|| new_wall_id(&self.plan, wall.from, wall.to));
+        wall.thickness_m = trim_m(wall.thickness_m);
+        self.plan.walls.insert(id, wall);
         id
     }
 
-    /// A room. `key` is its identity in the source (a UUID, 'R12'); with an empty key the identity
-    /// comes from its boundary.
-    pub fn room(&mut self, key: &str, room: Room) -> RoomId {
+    /// A room. `key` is its identity in the source (a UUID, 'R12') and becomes its
+    /// [`Room::source_id`]; a key that is a [`RoomId`]'s text is that identity itself; with an empty
+    /// key the identity comes from its boundary.
+    pub fn room(&mut self, key: &str, mut room: Room) -> RoomId {
+        if !key.is_empty() && key.parse::<RoomId>().is_err() {
+            room.source_id = key.to_owned();
+        }
         let id = new_room_id(&self.plan, key, &room);
         self.plan.rooms.insert(id, Arc::new(room));
         id
@@ -72,7 +83,10 @@ impl Builder {
 
     /// An opening; `key` as for [`Builder::room`].
     pub fn opening(&mut self, key: &str, opening: Opening) -> OpeningId {
-        let opening = opening.trimmed();
+        let mut opening = opening.trimmed();
+        if !key.is_empty() && key.parse::<OpeningId>().is_err() {
+            opening.source_id = key.to_owned();
+        }
         let id = new_opening_id(&self.plan, key, &opening);
         self.plan.openings.insert(id, Arc::new(opening));
         id
@@ -108,15 +122,27 @@ pub(super) fn new_wall_id(plan: &Plan, from: CornerId, to: CornerId) -> WallId {
 }
 
 pub(super) fn new_room_id(plan: &Plan, key: &str, room: &Room) -> RoomId {
+    let taken = |id| plan.rooms.contains_key(&id);
+    if let Ok(id) = key.parse()
+        && !taken(id)
+    {
+        return id;
+    }
     let parts: Vec<u64> = if key.is_empty() {
         room.rings().flat_map(|ring| ring.iter().map(|corner| corner.bits())).collect()
     } else {
         vec![super::id::name_bits(key)]
     };
-    RoomId::derive(&parts, |id| plan.rooms.contains_key(&id))
+    RoomId::derive(&parts, taken)
 }
 
 pub(super) fn new_opening_id(plan: &Plan, key: &str, opening: &Opening) -> OpeningId {
+    let taken = |id| plan.openings.contains_key(&id);
+    if let Ok(id) = key.parse()
+        && !taken(id)
+    {
+        return id;
+    }
     let parts: Vec<u64> = if key.is_empty() {
         use super::Place;
         let kind = opening.kind as u64;
@@ -129,5 +155,5 @@ pub(super) fn new_opening_id(plan: &Plan, key: &str, opening: &Opening) -> Openi
     } else {
         vec![super::id::name_bits(key)]
     };
-    OpeningId::derive(&parts, |id| plan.openings.contains_key(&id))
+    OpeningId::derive(&parts, taken)
 }

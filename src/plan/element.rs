@@ -38,6 +38,9 @@ pub struct Room {
     /// What is written in the room ('1.23', 'Library'); empty when unnamed.
     pub name: String,
     pub note: String,
+    /// What the room is called in the file it was imported from (a UUID, 'R12'); empty when drawn
+    /// here. Lets a row of a dataset be found in its source.
+    pub source_id: String,
     pub extra: Extra,
 }
 
@@ -126,6 +129,8 @@ pub struct Opening {
     /// The two sides it joins, where a file or a person states them; `None` when they follow from
     /// geometry.
     pub pinned: Option<[Joint; 2]>,
+    /// As [`Room::source_id`].
+    pub source_id: String,
     pub extra: Extra,
 }
 
@@ -199,7 +204,7 @@ pub struct Backdrop {
 impl Opening {
     /// An opening of a kind at a place; nothing pinned, its swing left to the drawing.
     pub const fn new(kind: OpeningKind, place: Place) -> Self {
-        Self { kind, place, swing: None, pinned: None, extra: None }
+        Self { kind, place, swing: None, pinned: None, source_id: String::new(), extra: None }
     }
 
     /// The same opening with its lengths on the 0.1 mm grid.

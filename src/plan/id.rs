@@ -67,6 +67,12 @@ macro_rules! id_type {
                 }
             }
 
+            /// What an import makes of a key in its source: a key that is an id of this kind is
+            /// that id (Enfilade wrote the file), any other ('R12') gives one made from it.
+            pub fn of_key(key: &str) -> Self {
+                key.parse().unwrap_or_else(|_| Self::derive(&[name_bits(key)], |_| false))
+            }
+
             /// The 60 bits, to derive other ids from.
             pub const fn bits(self) -> u64 {
                 self.0

@@ -21,7 +21,7 @@ pub use element::{
     Backdrop, Corner, Joint, LabelOrigin, LeafSide, Opening, OpeningKind, Place, Room, RoomLabel, Swing, Wall,
 };
 pub use history::{History, Step};
-pub use id::{CornerId, ElementId, IdError, OpeningId, RoomId, WallId};
+pub use id::{CornerId, ElementId, IdError, OpeningId, RoomId, WallId, name_bits};
 pub use invariants::Violation;
 pub use meta::{Meta, Scale, ScaleOrigin};
 

@@ -107,3 +107,86 @@ fn room_along(shapes: &RoomShapes, origin: Point, direction: Vector) -> Joint {
 /// A stretch shorter than this is an overlap of two boundaries, not a room: imported rooms are drawn
 /// one by one and overlap by a few centimetres (`data` of the paper's authors).
 const SLIVER_M: f64 = 0.05;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::{Builder, Meta, OpeningKind, Place, Room, RoomId};
+
+    fn rectangle(builder: &mut Builder, key: &str, x: (f64, f64), y: (f64, f64)) -> RoomId {
+        let ring = [(x.0, y.0), (x.1, y.0), (x.1, y.1), (x.0, y.1)].map(|(x, y)| Point::new(x, y));
+        let outer = builder.ring(ring);
+        builder.room(key, Room { outer, ..Room::default() })
+    }
+
+    fn free(from: (f64, f64), to: (f64, f64), kind: OpeningKind) -> Opening {
+        Opening::new(kind, Place::Free { from: Point::new(from.0, from.1), to: Point::new(to.0, to.1) })
+    }
+
+    fn sides(builder: Builder) -> Vec<[Joint; 2]> {
+        let plan = builder.finish().expect("a valid plan");
+        let shapes = RoomShapes::new(&plan);
+        Graph::new(&plan, &shapes).connections().iter().map(|connection| connection.sides).collect()
+    }
+
+    /// Two rooms `gap_m` apart (negative: overlapping) with a door in the middle between them.
+    fn across(gap_m: f64) -> (Vec<[Joint; 2]>, [Joint; 2]) {
+        let mut builder = Builder::new(Meta::default());
+        let left = rectangle(&mut builder, "left", (0.0, 4.0), (0.0, 3.0));
+        let right = rectangle(&mut builder, "right", (4.0 + gap_m, 9.0), (0.0, 3.0));
+        let x = 4.0 + gap_m / 2.0;
+        builder.opening("", free((x, 1.0), (x, 1.9), OpeningKind::Door));
+        (sides(builder), [Joint::Room(left), Joint::Room(right)])
+    }
+
+    #[test]
+    fn rooms_are_neighbours_across_a_wall_or_a_small_overlap() {
+        for gap_m in [0.0, 0.1, 0.6, 1.19, -0.04, -0.3] {
+            let (found, expected) = across(gap_m);
+            assert_eq!(found, [expected], "gap of {gap_m} m");
+        }
+        let (found, _) = across(1.3);
+        assert_eq!(found, [[Joint::Outside; 2]], "no wall is that thick");
+    }
+
+    #[test]
+    fn a_door_on_one_rooms_boundary_reaches_the_other_through_the_wall() {
+        let mut builder = Builder::new(Meta::default());
+        let left = rectangle(&mut builder, "left", (0.0, 4.0), (0.0, 3.0));
+        let right = rectangle(&mut builder, "right", (4.4, 9.0), (0.0, 3.0));
+        builder.opening("", free((4.0, 1.9), (4.0, 1.0), OpeningKind::Door));
+        assert_eq!(sides(builder), [[Joint::Room(right), Joint::Room(left)]]);
+    }
+
+    #[test]
+    fn free_sides_lead_outside_and_windows_join_nothing() {
+        let mut builder = Builder::new(Meta::default());
+        let room = rectangle(&mut builder, "room", (0.0, 4.0), (0.0, 3.0));
+        builder.opening("door", free((1.0, 0.0), (2.0, 0.0), OpeningKind::Door));
+        builder.opening("window", free((1.0, 3.0), (2.0, 3.0), OpeningKind::Window));
+        assert_eq!(sides(builder), [[Joint::Room(room), Joint::Outside]]);
+    }
+
+    #[test]
+    fn what_a_file_states_comes_before_geometry() {
+        let mut builder = Builder::new(Meta::default());
+        rectangle(&mut builder, "left", (0.0, 4.0), (0.0, 3.0));
+        let far = rectangle(&mut builder, "far", (20.0, 24.0), (0.0, 3.0));
+        let mut door = free((4.0, 1.0), (4.0, 1.9), OpeningKind::Door);
+        door.pinned = Some([Joint::Outside, Joint::Room(far)]);
+        builder.opening("", door);
+        assert_eq!(sides(builder), [[Joint::Outside, Joint::Room(far)]]);
+    }
+
+    #[test]
+    fn an_opening_within_a_room_joins_it_with_itself_once() {
+        let mut builder = Builder::new(Meta::default());
+        let room = rectangle(&mut builder, "room", (0.0, 4.0), (0.0, 3.0));
+        builder.opening("", free((2.0, 1.0), (2.0, 1.9), OpeningKind::Door));
+        let plan = builder.finish().expect("a valid plan");
+        let shapes = RoomShapes::new(&plan);
+        let graph = Graph::new(&plan, &shapes);
+        assert!(graph.connections()[0].joins_nothing());
+        assert_eq!(graph.of_room(shapes.index_of(room).expect("exists")).len(), 1);
+    }
+}

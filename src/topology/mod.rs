@@ -11,6 +11,6 @@ mod snap;
 pub use arrangement::{Arrangement, ArrangementError, NodeIndex};
 pub use faces::{Face, faces};
 pub use fill::{Filled, PlanFace, PlanFaces, SLIVER_WIDTH_M, fill_all, fill_at};
-pub use graph::{Connection, Graph};
+pub use graph::{Connection, Graph, sides_by_geometry};
 pub use shapes::{RoomShape, RoomShapes};
 pub use snap::{PASSINGS_LIMIT, TESTS_LIMIT};

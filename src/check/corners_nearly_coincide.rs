@@ -1,0 +1,82 @@
+use std::collections::{BTreeMap, BTreeSet};
+
+use rstar::primitives::GeomWithData;
+use rstar::{AABB, RTree};
+
+use super::{Check, Context, FINDINGS_LIMIT, Kind, Place, Severity};
+use crate::geometry::Point;
+use crate::plan::{CornerId, ElementId};
+
+/// Two corners of different walls or rooms so near each other that they were meant to be one: moving
+/// one of them moves only a part of what meets there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CornersNearlyCoincide {
+    pub corners: [CornerId; 2],
+    pub distance_m: f64,
+    pub at: Point,
+}
+
+/// Corners nearer than this, in metres, are meant to be one: less than any finish of a wall is
+/// thick, more than rounding leaves.
+const NEAR_M: f64 = 0.01;
+
+impl Check for CornersNearlyCoincide {
+    const KIND: Kind = Kind {
+        name: "corners_nearly_coincide",
+        title: "Corners nearly coincide",
+        severity: Severity::Info,
+        remedy: "weld them",
+    };
+
+    fn find(context: &Context) -> Vec<Self> {
+        let plan = context.plan;
+        // What each corner belongs to: a fine detail within one room is its own business.
+        let mut owners: BTreeMap<CornerId, BTreeSet<ElementId>> = BTreeMap::new();
+        for (id, room) in plan.rooms() {
+            for corner in room.rings().flat_map(|ring| ring.iter()) {
+                owners.entry(*corner).or_default().insert(ElementId::Room(id));
+            }
+        }
+        for (id, wall) in plan.walls() {
+            for corner in [wall.from, wall.to] {
+                owners.entry(corner).or_default().insert(ElementId::Wall(id));
+            }
+        }
+        let corners: Vec<(CornerId, Point)> =
+            owners.keys().filter_map(|&id| Some((id, plan.position(id)?))).collect();
+        let points = corners.iter().map(|&(id, at)| GeomWithData::new([at.x, at.y], id)).collect();
+        let tree: RTree<GeomWithData<[f64; 2], CornerId>> = RTree::bulk_load(points);
+        let mut found = Vec::new();
+        for &(id, at) in &corners {
+            let box_around = AABB::from_corners([at.x - NEAR_M, at.y - NEAR_M], [at.x + NEAR_M, at.y + NEAR_M]);
+            let mut near: Vec<(CornerId, f64)> = tree
+                .locate_in_envelope(box_around)
+                .map(|other| (other.data, at.distance(Point::new(other.geom()[0], other.geom()[1]))))
+                .filter(|&(other, distance_m)| other > id && distance_m <= NEAR_M)
+                .collect();
+            near.sort_by_key(|&(other, _)| other);
+            for (other, distance_m) in near {
+                if owners[&id].is_disjoint(&owners[&other]) {
+                    found.push(Self { corners: [id, other], distance_m, at });
+                }
+                if found.len() >= FINDINGS_LIMIT {
+                    return found;
+                }
+            }
+        }
+        found
+    }
+
+    fn place(&self) -> Place<'_> {
+        Place { elements: self.corners.map(ElementId::Corner).to_vec(), rooms: Vec::new(), at: Some(self.at) }
+    }
+
+    fn what(&self) -> String {
+        let [one, other] = self.corners;
+        format!("corners {one} and {other} lie {:.1} mm apart", 1000.0 * self.distance_m)
+    }
+
+    fn figures(&self) -> Vec<(&'static str, f64)> {
+        vec![("distance_m", self.distance_m)]
+    }
+}

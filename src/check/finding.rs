@@ -1,0 +1,102 @@
+use std::cmp::Ordering;
+use std::fmt;
+
+use super::{Context, RoomName};
+use crate::geometry::Point;
+use crate::plan::ElementId;
+
+/// How bad a finding is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// Nothing is wrong for certain; worth a look.
+    Info,
+    /// Probably a mistake: what is computed from the plan still means something.
+    Warning,
+    /// A mistake: something that is computed from the plan is wrong or missing.
+    Error,
+}
+
+impl Severity {
+    pub const ALL: [Self; 3] = [Self::Error, Self::Warning, Self::Info];
+
+    /// The word for files and for people.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Info => "info",
+            Self::Warning => "warning",
+            Self::Error => "error",
+        }
+    }
+}
+
+impl fmt::Display for Severity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// A kind of finding.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Kind {
+    /// Its name for machines: that of its source file.
+    pub name: &'static str,
+    /// Its name for people, to stand above several findings.
+    pub title: &'static str,
+    pub severity: Severity,
+    /// What to do about it.
+    pub remedy: &'static str,
+}
+
+/// Where a finding is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Place<'a> {
+    /// The elements concerned, the ones to change first.
+    pub elements: Vec<ElementId>,
+    /// The rooms concerned, by name.
+    pub rooms: Vec<&'a RoomName>,
+    /// A point to look at, in metres.
+    pub at: Option<Point>,
+}
+
+/// A check: a type of finding and how to find it.
+pub trait Check: Sized {
+    const KIND: Kind;
+
+    /// All findings of this kind; where there are more than [`super::FINDINGS_LIMIT`], at least as many.
+    fn find(context: &Context) -> Vec<Self>;
+
+    /// Where it is.
+    fn place(&self) -> Place<'_>;
+
+    /// What was found, in words, without a full stop.
+    fn what(&self) -> String;
+
+    /// The measured figures with their unit in the name.
+    fn figures(&self) -> Vec<(&'static str, f64)> {
+        Vec::new()
+    }
+
+    /// How large the fault is, to list the worst first, in a measure of the kind's own.
+    fn size(&self) -> f64 {
+        0.0
+    }
+
+    /// How bad it is: as its kind, unless the figures say otherwise.
+    fn severity(&self) -> Severity {
+        Self::KIND.severity
+    }
+}
+
+/// The order in which findings of a kind are listed: the worst first, then as one reads the drawing,
+/// from the top left, then by element.
+pub(super) fn worst_first<C: Check>(one: &C, other: &C) -> Ordering {
+    let (place, other_place) = (one.place(), other.place());
+    let reading = |place: &Place| place.at.map_or((f64::INFINITY, 0.0), |at| (-at.y, at.x));
+    let ((down, right), (other_down, other_right)) = (reading(&place), reading(&other_place));
+    other
+        .size()
+        .total_cmp(&one.size())
+        .then_with(|| down.total_cmp(&other_down))
+        .then_with(|| right.total_cmp(&other_right))
+        .then_with(|| place.elements.cmp(&other_place.elements))
+}

@@ -1,0 +1,89 @@
+use super::edges::{SegmentIndex, are_parallel, common_stretch};
+use super::{Check, Context, FINDINGS_LIMIT, Kind, OpeningName, Place, Severity};
+use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
+use crate::geometry::{GRID_M, Point, Segment};
+use crate::plan::{DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, ElementId};
+
+/// Two openings in the same place: a doorway drawn twice counts twice in the features of its rooms.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OpeningsOverlap {
+    pub openings: [OpeningName; 2],
+    /// Length in metres that both occupy.
+    pub overlap_m: f64,
+    pub at: Point,
+}
+
+/// Openings that share more than this of the narrower one stand in each other's way. Less is two
+/// neighbouring doors drawn a little wide.
+const LEAST_SHARE: f64 = 0.5;
+
+/// A door of exactly the usual width may be one that its source draws as a point; the doors of two
+/// stalls beside each other are half as wide.
+const LEAST_OF_USUAL_WIDTH: f64 = 0.5;
+
+/// What an opening occupies for certain.
+fn certain_part(segment: Segment) -> Segment {
+    if (segment.length() - DEFAULT_DOOR_WIDTH_M).abs() > GRID_M {
+        return segment;
+    }
+    let middle = segment.midpoint();
+    Segment::new(middle.lerp(segment.a, LEAST_OF_USUAL_WIDTH), middle.lerp(segment.b, LEAST_OF_USUAL_WIDTH))
+}
+
+impl Check for OpeningsOverlap {
+    const KIND: Kind = Kind {
+        name: "openings_overlap",
+        title: "Openings overlap",
+        severity: Severity::Warning,
+        remedy: "delete the one that is drawn twice, or move them apart",
+    };
+
+    fn find(context: &Context) -> Vec<Self> {
+        let mut found = Vec::new();
+        let index = SegmentIndex::new(context.openings.iter().map(|placed| certain_part(placed.segment)).collect());
+        for (i, placed) in context.openings.iter().enumerate() {
+            let segment = index.get(i);
+            let mut near: Vec<usize> =
+                index.near(segment.bounds().inflated(DEFAULT_WALL_THICKNESS_M)).filter(|&j| j > i).collect();
+            near.sort_unstable();
+            for j in near {
+                let (other, other_segment) = (&context.openings[j], index.get(j));
+                let (from, to) = common_stretch(segment, other_segment);
+                let least_m = LEAST_SHARE * segment.length().min(other_segment.length());
+                if to - from <= least_m || !are_parallel(segment, other_segment, ANGLE_TOLERANCE_RAD) {
+                    continue;
+                }
+                let at = segment.a.lerp(segment.b, (from + to) / 2.0 / segment.length());
+                if other_segment.distance(at) > DEFAULT_WALL_THICKNESS_M {
+                    continue;
+                }
+                found.push(Self { openings: [placed.name(), other.name()], overlap_m: to - from, at });
+                if found.len() >= FINDINGS_LIMIT {
+                    return found;
+                }
+            }
+        }
+        found
+    }
+
+    fn size(&self) -> f64 {
+        self.overlap_m
+    }
+
+    fn place(&self) -> Place<'_> {
+        Place {
+            elements: self.openings.iter().map(|opening| ElementId::Opening(opening.id)).collect(),
+            rooms: Vec::new(),
+            at: Some(self.at),
+        }
+    }
+
+    fn what(&self) -> String {
+        let [one, other] = &self.openings;
+        format!("{one} and {other} share {:.2} m of the same wall", self.overlap_m)
+    }
+
+    fn figures(&self) -> Vec<(&'static str, f64)> {
+        vec![("overlap_m", self.overlap_m)]
+    }
+}

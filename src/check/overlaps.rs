@@ -1,0 +1,124 @@
+//! What two areas have in common.
+
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay::Overlay;
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::i_float::int::point::IntPoint;
+
+use crate::geometry::{Point, polygon};
+use crate::plan::COORDINATE_LIMIT_M;
+
+/// An area, as the thickness and place of its thickest piece and the area of all pieces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Region {
+    pub area_m2: f64,
+    /// Thickness in metres of the thickest piece, see [`thickness_m`].
+    pub depth_m: f64,
+    /// The middle of that piece.
+    pub at: Point,
+}
+
+/// What two areas, given by their rings, share; `None` when nothing.
+pub fn shared<'a>(
+    one: impl IntoIterator<Item = &'a Vec<Point>>,
+    other: impl IntoIterator<Item = &'a Vec<Point>>,
+) -> Option<Region> {
+    overlay(one, other, OverlayRule::Intersect)
+}
+
+/// What of the first area lies outside the second; `None` when nothing.
+pub fn outside<'a>(
+    one: impl IntoIterator<Item = &'a Vec<Point>>,
+    other: impl IntoIterator<Item = &'a Vec<Point>>,
+) -> Option<Region> {
+    overlay(one, other, OverlayRule::Difference)
+}
+
+/// Steps of the grid on which areas are cut, a metre: a hundred to the 0.1 mm grid of corners, so
+/// that rounding the corners of what is cut out does not show.
+const STEPS_PER_M: f64 = 1e6;
+
+/// Points further than this from each other, in metres, are no part of a plan, which reaches
+/// [`COORDINATE_LIMIT_M`] both ways.
+const FARTHEST_M: f64 = 2.0 * COORDINATE_LIMIT_M;
+
+fn overlay<'a>(
+    one: impl IntoIterator<Item = &'a Vec<Point>>,
+    other: impl IntoIterator<Item = &'a Vec<Point>>,
+    rule: OverlayRule,
+) -> Option<Region> {
+    let (one, other): (Vec<_>, Vec<_>) = (one.into_iter().collect(), other.into_iter().collect());
+    let origin = *one.first()?.first()?;
+    let (one, other) = (on_grid(&one, origin)?, on_grid(&other, origin)?);
+    let mut all: Option<Region> = None;
+    for shape in Overlay::<i64>::from_subj_and_clip(&one, &other).overlay(rule, FillRule::EvenOdd) {
+        let point = |point: &IntPoint<i64>| {
+            Point::new(origin.x + point.x as f64 / STEPS_PER_M, origin.y + point.y as f64 / STEPS_PER_M)
+        };
+        let rings: Vec<Vec<Point>> = shape.iter().map(|ring| ring.iter().map(point).collect()).collect();
+        let Some((outer, holes)) = rings.split_first() else { continue };
+        let area_m2 = polygon::area(outer, holes);
+        let depth_m = thickness_m(area_m2, rings.iter().map(|ring| polygon::perimeter(ring)).sum());
+        let region = all.get_or_insert(Region { area_m2: 0.0, depth_m: -1.0, at: Point::default() });
+        region.area_m2 += area_m2;
+        if depth_m > region.depth_m {
+            (region.depth_m, region.at) = (depth_m, polygon::centroid(outer));
+        }
+    }
+    all
+}
+
+/// Rings in steps of the grid from `origin`; `None` where a point is not within [`FARTHEST_M`] of
+/// it, which the invariants exclude.
+fn on_grid(rings: &[&Vec<Point>], origin: Point) -> Option<Vec<Vec<IntPoint<i64>>>> {
+    let step = |length_m: f64| (length_m.abs() <= FARTHEST_M).then(|| (length_m * STEPS_PER_M).round() as i64);
+    let point = |point: &Point| Some(IntPoint::new(step(point.x - origin.x)?, step(point.y - origin.y)?));
+    rings.iter().map(|ring| ring.iter().map(point).collect()).collect()
+}
+
+/// How thick a piece is, in metres: the shorter side of the rectangle with its area and perimeter.
+/// For a strip along several walls of a room that is the strip's width, where the width of its hull
+/// would be that of the room; for a compact piece that no rectangle matches, the square's side.
+pub fn thickness_m(area_m2: f64, perimeter_m: f64) -> f64 {
+    let half = perimeter_m / 2.0;
+    let discriminant = half * half - 4.0 * area_m2;
+    if discriminant <= 0.0 {
+        return area_m2.max(0.0).sqrt();
+    }
+    // The smaller root of x² - half x + area, in the form that keeps its digits for thin strips.
+    2.0 * area_m2 / (half + discriminant.sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Vec<Point> {
+        [(x, y), (x + width, y), (x + width, y + height), (x, y + height)].map(|(x, y)| Point::new(x, y)).to_vec()
+    }
+
+    #[test]
+    fn a_strip_has_its_width_as_depth() {
+        let region = shared([&rectangle(0.0, 0.0, 5.0, 4.0)], [&rectangle(4.8, 0.0, 5.0, 4.0)]).expect("they overlap");
+        assert!((region.area_m2 - 0.8).abs() < 1e-6, "{region:?}");
+        assert!((region.depth_m - 0.2).abs() < 1e-6, "{region:?}");
+        assert!(region.at.distance(Point::new(4.9, 2.0)) < 1e-6, "{region:?}");
+    }
+
+    #[test]
+    fn a_strip_round_a_corner_has_its_width_as_depth() {
+        // Two rooms, one shifted against the other's notch by 10 cm both ways.
+        let angle = [(0.0, 0.0), (5.0, 0.0), (5.0, 0.1), (0.1, 0.1), (0.1, 4.0), (0.0, 4.0)];
+        let angle: Vec<Point> = angle.map(|(x, y)| Point::new(x, y)).to_vec();
+        let region = shared([&angle], [&rectangle(-1.0, -1.0, 9.0, 9.0)]).expect("they overlap");
+        assert!((region.depth_m - 0.1).abs() < 0.01, "{region:?}");
+    }
+
+    #[test]
+    fn what_only_touches_shares_nothing() {
+        let left = rectangle(0.0, 0.0, 5.0, 4.0);
+        assert_eq!(shared([&left], [&rectangle(5.0, 0.0, 5.0, 4.0)]), None);
+        assert_eq!(outside([&rectangle(1.0, 1.0, 1.0, 1.0)], [&left]), None);
+        assert!(outside([&rectangle(4.5, 1.0, 1.0, 1.0)], [&left]).is_some_and(|region| region.area_m2 > 0.49));
+    }
+}

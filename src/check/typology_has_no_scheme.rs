@@ -1,0 +1,36 @@
+use super::names::{printable, with_article};
+use super::{Check, Context, Kind, Place, Severity};
+use crate::labels::Typology;
+
+/// A plan of a typology for which there is no label scheme.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TypologyHasNoScheme {
+    pub typology: Typology,
+}
+
+/// The plan's typology if there is no scheme for it.
+pub(super) fn typology_without_scheme<'a>(context: &Context<'a>) -> Option<&'a Typology> {
+    let typology = context.plan.meta().typology.as_ref()?;
+    context.schemes.typologies().all(|known| known != typology).then_some(typology)
+}
+
+impl Check for TypologyHasNoScheme {
+    const KIND: Kind = Kind {
+        name: "typology_has_no_scheme",
+        title: "There is no label scheme for the plan's typology",
+        severity: Severity::Warning,
+        remedy: "correct the typology, or give a label scheme for it (--scheme)",
+    };
+
+    fn find(context: &Context) -> Vec<Self> {
+        typology_without_scheme(context).map(|typology| Self { typology: typology.clone() }).into_iter().collect()
+    }
+
+    fn place(&self) -> Place<'_> {
+        Place::default()
+    }
+
+    fn what(&self) -> String {
+        format!("no scheme says what label a function has in {}", with_article(&printable(self.typology.as_str())))
+    }
+}

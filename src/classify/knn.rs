@@ -1,0 +1,161 @@
+//! k nearest neighbours: standardised features; scaling, metric, k and the weight of distance are
+//! chosen by leaving rooms out of the training set in turn.
+
+use super::calibration::{brier, fitted_temperature};
+use super::neighbours::{Found, KdTree, Metric, Point};
+use super::scale::{Scale, Transform};
+use super::{Distribution, Trained};
+use crate::dataset::table::{Table, Values};
+use crate::random::Random;
+
+/// Numbers of neighbours tried.
+const NUMBERS: [usize; 8] = [1, 3, 5, 7, 9, 12, 16, 20];
+const MOST: usize = NUMBERS[NUMBERS.len() - 1];
+
+/// Rooms left out in turn to choose between settings: so many at random, or all if there are fewer.
+const LEFT_OUT: usize = 400;
+
+/// Laplace's correction in rooms: the labels' shares in training count as much as this many neighbours.
+const PRIOR_ROOMS: f64 = 1.0;
+
+/// Weighted by distance, a neighbour counts 1 / (distance + this): two that are nearly the same room
+/// do not outvote everyone. In standard deviations.
+const CLOSEST: f64 = 0.05;
+
+/// How neighbours vote.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Settings {
+    pub transform: Transform,
+    pub metric: Metric,
+    /// Number of neighbours.
+    pub k: usize,
+    /// Whether nearer neighbours count more.
+    pub by_distance: bool,
+}
+
+/// The training rooms, ready to be searched.
+#[derive(Clone, Debug)]
+pub struct Neighbours {
+    settings: Settings,
+    scale: Scale,
+    tree: KdTree,
+    table: Table,
+    prior: Distribution,
+}
+
+/// A training room near the one in question.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Neighbour {
+    /// Its row in [`Neighbours::table`].
+    pub row: usize,
+    /// How far, in standard deviations.
+    pub distance: f64,
+}
+
+impl Neighbours {
+    /// Chooses settings and keeps the rooms. The same seed gives the same choice.
+    pub fn train(table: &Table, seed: u64) -> Trained<Self> {
+        let mut left_out: Vec<usize> = (0..table.len()).collect();
+        Random::new(seed).shuffle(&mut left_out);
+        left_out.truncate(LEFT_OUT);
+        let prior = prior_of(table);
+        let mut best: Option<Trial> = None;
+        for transform in [Transform::Identity, Transform::Logarithm] {
+            let (points, tree) = arranged(table, &Scale::of(table.values(), transform));
+            for metric in Metric::ALL {
+                let neighbours: Vec<Vec<Found>> = left_out
+                    .iter()
+                    .map(|&row| {
+                        let mut found = Vec::with_capacity(MOST);
+                        tree.nearest(&points[row], MOST, metric, Some(row as u32), &mut found);
+                        found
+                    })
+                    .collect();
+                for (k, by_distance) in NUMBERS.into_iter().flat_map(|k| [(k, false), (k, true)]) {
+                    let settings = Settings { transform, metric, k, by_distance };
+                    let predictions: Vec<Distribution> =
+                        neighbours.iter().map(|found| vote(found, table, &prior, &settings)).collect();
+                    // Of the proper scores the one that follows accuracy most closely.
+                    let loss =
+                        predictions.iter().zip(&left_out).map(|(p, &row)| brier(p, table.labels()[row])).sum::<f64>();
+                    if best.as_ref().is_none_or(|best| loss < best.loss) {
+                        best = Some(Trial { loss, settings, predictions });
+                    }
+                }
+            }
+        }
+        let Trial { settings, predictions, .. } = best.unwrap_or(Trial {
+            loss: 0.0,
+            settings: Settings { transform: Transform::Logarithm, metric: Metric::Euclidean, k: 5, by_distance: true },
+            predictions: Vec::new(),
+        });
+        let truths = left_out.iter().map(|&row| table.labels()[row]);
+        let temperature = fitted_temperature(predictions.into_iter().zip(truths));
+        Trained { model: Self::new(table.clone(), settings), temperature }
+    }
+
+    /// These rooms, to be searched with these settings; `k` is brought within 1 and their number.
+    pub fn new(table: Table, settings: Settings) -> Self {
+        let scale = Scale::of(table.values(), settings.transform);
+        let tree = arranged(&table, &scale).1;
+        let prior = prior_of(&table);
+        Self { settings: Settings { k: settings.k.clamp(1, table.len()), ..settings }, scale, tree, table, prior }
+    }
+
+    pub fn settings(&self) -> Settings {
+        self.settings
+    }
+
+    /// The training rooms.
+    pub fn table(&self) -> &Table {
+        &self.table
+    }
+
+    /// The nearest training rooms, nearest first.
+    pub fn nearest(&self, values: &Values) -> Vec<Neighbour> {
+        let neighbour = |found: &Found| Neighbour { row: found.index as usize, distance: f64::from(found.distance) };
+        self.found(values).iter().map(neighbour).collect()
+    }
+
+    fn found(&self, values: &Values) -> Vec<Found> {
+        let mut found = Vec::with_capacity(self.settings.k);
+        self.tree.nearest(&self.scale.apply(values), self.settings.k, self.settings.metric, None, &mut found);
+        found
+    }
+
+    /// The votes of the nearest training rooms, with Laplace's correction towards the labels' shares.
+    pub fn predict(&self, values: &Values) -> Distribution {
+        vote(&self.found(values), &self.table, &self.prior, &self.settings)
+    }
+}
+
+/// Settings that were tried.
+struct Trial {
+    loss: f64,
+    settings: Settings,
+    predictions: Vec<Distribution>,
+}
+
+fn prior_of(table: &Table) -> Distribution {
+    Distribution::from_weights(table.label_counts().map(|count| count as f64))
+}
+
+fn arranged(table: &Table, scale: &Scale) -> (Vec<Point>, KdTree) {
+    let points: Vec<Point> = table.values().iter().map(|values| scale.apply(values)).collect();
+    let tree = KdTree::new(&points);
+    (points, tree)
+}
+
+/// The votes of the first `k` of those found. Weights by distance are brought to the sum `k`.
+fn vote(found: &[Found], table: &Table, prior: &Distribution, settings: &Settings) -> Distribution {
+    let found = &found[..settings.k.min(found.len())];
+    let mut votes = [0.0; 5];
+    let mut sum = 0.0;
+    for found in found {
+        let weight = if settings.by_distance { 1.0 / (f64::from(found.distance) + CLOSEST) } else { 1.0 };
+        votes[table.labels()[found.index as usize].index()] += weight;
+        sum += weight;
+    }
+    let share = if sum > 0.0 { found.len() as f64 / sum } else { 0.0 };
+    Distribution::smoothed(votes.map(|vote| vote * share), prior, PRIOR_ROOMS)
+}

@@ -1,0 +1,274 @@
+//! A multilayer perceptron: one hidden layer with leaky rectifiers, softmax and cross-entropy, trained
+//! with Adam (Kingma and Ba 2015), decoupled weight decay (Loshchilov and Hutter 2019) and early
+//! stopping on rooms kept apart.
+
+use super::calibration::fitted_temperature;
+use super::scale::{Scale, Transform};
+use super::{Distribution, Trained};
+use crate::dataset::folds::Folds;
+use crate::dataset::table::{FEATURES, Table, Values};
+use crate::labels::Label;
+use crate::random::Random;
+
+/// Hidden units: more have not been seen to help, and it is a whole number of vector registers.
+pub const HIDDEN: usize = 16;
+
+const LABELS: usize = Label::ALL.len();
+
+/// One part in so many of the training rooms is kept apart to tell when to stop.
+const KEPT_APART: usize = 8;
+
+/// With fewer rooms than this nothing is kept apart: too few would say too little.
+const LEAST_TO_KEEP_APART: usize = 40;
+
+/// Rooms a step.
+const BATCH: usize = 32;
+
+/// Step size at the start; it falls to zero along a half cosine.
+const STEP: f32 = 0.02;
+
+/// Share of the step by which each weight decays.
+const DECAY: f32 = 0.02;
+
+/// Rooms to look at in all, which sets the number of rounds over the training rooms...
+const VISITS: usize = 120_000;
+
+/// ...within these bounds.
+const ROUNDS: std::ops::RangeInclusive<usize> = 16..=80;
+
+/// Training ends when so many rounds in a row bring nothing.
+const PATIENCE: usize = 12;
+
+/// Slope of a hidden unit for negative sums: it never dies.
+const LEAK: f32 = 0.1;
+
+/// A trained net.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Perceptron {
+    scale: Scale,
+    weights: Weights,
+    /// The median of each feature over the training rooms: what explanations compare with.
+    typical: Values,
+}
+
+/// The weights of a net; gradients and the optimiser's averages have the same shape.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Weights {
+    /// To each hidden unit from each input, the last row the biases.
+    pub hidden: [[f32; HIDDEN]; FEATURES + 1],
+    /// To each label from each hidden unit.
+    pub output: [[f32; HIDDEN]; LABELS],
+    pub output_bias: [f32; LABELS],
+}
+
+/// What a net makes of one room.
+struct Pass {
+    /// What the hidden units give.
+    given: [f32; HIDDEN],
+    /// Their slope.
+    slope: [f32; HIDDEN],
+    probabilities: [f32; LABELS],
+}
+
+impl Weights {
+    const ZERO: Self =
+        Self { hidden: [[0.0; HIDDEN]; FEATURES + 1], output: [[0.0; HIDDEN]; LABELS], output_bias: [0.0; LABELS] };
+
+    /// Small random weights, uniform with the deviation that keeps sums neither small nor large
+    /// (Glorot and Bengio 2010).
+    fn random(random: &mut Random) -> Self {
+        let mut uniform = |range: f64| ((2.0 * random.unit() - 1.0) * range) as f32;
+        let mut weights = Self::ZERO;
+        let range = (6.0 / (FEATURES + HIDDEN) as f64).sqrt();
+        weights.hidden[..FEATURES].as_flattened_mut().iter_mut().for_each(|weight| *weight = uniform(range));
+        // Units bend at different places from the start.
+        weights.hidden[FEATURES].iter_mut().for_each(|bias| *bias = uniform(1.0));
+        let range = (6.0 / (HIDDEN + LABELS) as f64).sqrt();
+        weights.output.as_flattened_mut().iter_mut().for_each(|weight| *weight = uniform(range));
+        weights
+    }
+
+    fn parts(&self) -> [&[f32]; 3] {
+        [self.hidden.as_flattened(), self.output.as_flattened(), &self.output_bias]
+    }
+
+    fn parts_mut(&mut self) -> [&mut [f32]; 3] {
+        [self.hidden.as_flattened_mut(), self.output.as_flattened_mut(), &mut self.output_bias]
+    }
+
+    fn pass(&self, inputs: &[f32; FEATURES]) -> Pass {
+        let mut sums = self.hidden[FEATURES];
+        for (input, weights) in inputs.iter().zip(&self.hidden) {
+            for (sum, weight) in sums.iter_mut().zip(weights) {
+                *sum += input * weight;
+            }
+        }
+        let slope = sums.map(|sum| if sum > 0.0 { 1.0 } else { LEAK });
+        let given = std::array::from_fn(|unit| sums[unit] * slope[unit]);
+        let scores = std::array::from_fn(|label| self.output_bias[label] + dot(&self.output[label], &given));
+        Pass { given, slope, probabilities: softmax(scores) }
+    }
+
+    /// Adds the gradient of one room's cross-entropy to `gradient`.
+    fn add_gradient(&self, inputs: &[f32; FEATURES], label: usize, gradient: &mut Self) {
+        let Pass { given, slope, probabilities: mut error } = self.pass(inputs);
+        error[label] -= 1.0;
+        let mut back = [0.0; HIDDEN];
+        for (label, &error) in error.iter().enumerate() {
+            gradient.output_bias[label] += error;
+            for unit in 0..HIDDEN {
+                gradient.output[label][unit] += error * given[unit];
+                back[unit] += error * self.output[label][unit];
+            }
+        }
+        for unit in 0..HIDDEN {
+            back[unit] *= slope[unit];
+        }
+        for (row, input) in gradient.hidden.iter_mut().zip(inputs.iter().chain(&[1.0])) {
+            for (sum, back) in row.iter_mut().zip(&back) {
+                *sum += input * back;
+            }
+        }
+    }
+}
+
+/// Four sums side by side, which is what a vector register holds.
+fn dot(p: &[f32; HIDDEN], q: &[f32; HIDDEN]) -> f32 {
+    let mut four = [0.0; 4];
+    for (p, q) in p.chunks_exact(4).zip(q.chunks_exact(4)) {
+        for i in 0..4 {
+            four[i] += p[i] * q[i];
+        }
+    }
+    (four[0] + four[1]) + (four[2] + four[3])
+}
+
+fn softmax(scores: [f32; LABELS]) -> [f32; LABELS] {
+    let most = scores.into_iter().fold(f32::NEG_INFINITY, f32::max);
+    let weights = scores.map(|score| (score - most).exp());
+    let sum: f32 = weights.iter().sum();
+    weights.map(|weight| weight / sum)
+}
+
+/// Adam's state.
+struct Optimiser {
+    mean: Weights,
+    square: Weights,
+    /// The powers of the two rates below, for the correction of the averages' start at zero.
+    mean_power: f32,
+    square_power: f32,
+}
+
+/// Rates at which Adam's averages forget, and the term that keeps it from dividing by zero; its
+/// authors' defaults.
+const MEAN_RATE: f32 = 0.9;
+const SQUARE_RATE: f32 = 0.999;
+const EPSILON: f32 = 1e-8;
+
+impl Optimiser {
+    const fn new() -> Self {
+        Self { mean: Weights::ZERO, square: Weights::ZERO, mean_power: 1.0, square_power: 1.0 }
+    }
+
+    /// One step against the gradient of `rooms` rooms.
+    fn step(&mut self, weights: &mut Weights, gradient: &Weights, rooms: usize, step: f32) {
+        self.mean_power *= MEAN_RATE;
+        self.square_power *= SQUARE_RATE;
+        let share = 1.0 / rooms as f32;
+        let mean_step = step / (1.0 - self.mean_power);
+        let square_share = 1.0 / (1.0 - self.square_power);
+        let decay = step * DECAY;
+        let averages = self.mean.parts_mut().into_iter().zip(self.square.parts_mut());
+        for ((weights, gradient), (means, squares)) in
+            weights.parts_mut().into_iter().zip(gradient.parts()).zip(averages)
+        {
+            for (((weight, gradient), mean), square) in weights.iter_mut().zip(gradient).zip(means).zip(squares) {
+                let slope = gradient * share;
+                *mean = MEAN_RATE * *mean + (1.0 - MEAN_RATE) * slope;
+                *square = SQUARE_RATE * *square + (1.0 - SQUARE_RATE) * slope * slope;
+                *weight -= mean_step * *mean / ((*square * square_share).sqrt() + EPSILON) + decay * *weight;
+            }
+        }
+    }
+}
+
+impl Perceptron {
+    /// Learns a net. The same seed gives the same net.
+    pub fn train(table: &Table, seed: u64) -> Trained<Self> {
+        let mut random = Random::new(seed);
+        // Logarithms: what counts of an area is how many times it is another, all the more as the scale
+        // of real plans is doubtful.
+        let scale = Scale::of(table.values(), Transform::Logarithm);
+        let inputs: Vec<[f32; FEATURES]> = table.values().iter().map(|values| scale.apply(values)).collect();
+        let labels: Vec<usize> = table.labels().iter().map(|label| label.index()).collect();
+        let apart = Some(table.len())
+            .filter(|&rows| rows >= LEAST_TO_KEEP_APART)
+            .and_then(|_| Folds::stratified(table.labels(), KEPT_APART, random.bits()).ok());
+        let (mut learn, check) = match &apart {
+            Some(folds) => (folds.training_rows(0), folds.test_rows(0)),
+            None => ((0..table.len()).collect(), Vec::new()),
+        };
+
+        let mut weights = Weights::random(&mut random);
+        let mut optimiser = Optimiser::new();
+        let rounds = (VISITS / learn.len()).clamp(*ROUNDS.start(), *ROUNDS.end());
+        let mut best = (f64::INFINITY, weights.clone(), 0);
+        for round in 0..rounds {
+            let step = STEP * 0.5 * (1.0 + (std::f32::consts::PI * round as f32 / rounds as f32).cos());
+            random.shuffle(&mut learn);
+            for rooms in learn.chunks(BATCH) {
+                let mut gradient = Weights::ZERO;
+                for &room in rooms {
+                    weights.add_gradient(&inputs[room], labels[room], &mut gradient);
+                }
+                optimiser.step(&mut weights, &gradient, rooms.len(), step);
+            }
+            let loss =
+                |&room: &usize| -f64::from(weights.pass(&inputs[room]).probabilities[labels[room]].max(1e-9)).ln();
+            let loss: f64 = check.iter().map(loss).sum();
+            if loss < best.0 || check.is_empty() {
+                best = (loss, weights.clone(), round);
+            } else if round - best.2 >= PATIENCE {
+                break;
+            }
+        }
+        let model = Self { scale, weights: best.1, typical: medians(table.values()) };
+        let temperature =
+            fitted_temperature(check.iter().map(|&room| (model.predict(&table.values()[room]), table.labels()[room])));
+        Trained { model, temperature }
+    }
+
+    /// A net of these parts; `None` if a number is not one.
+    pub fn from_parts(scale: Scale, weights: Weights, typical: Values) -> Option<Self> {
+        let sound = scale.is_sound()
+            && weights.parts().into_iter().flatten().all(|weight| weight.is_finite())
+            && typical.iter().all(|value| value.is_finite());
+        sound.then_some(Self { scale, weights, typical })
+    }
+
+    pub fn scale(&self) -> &Scale {
+        &self.scale
+    }
+
+    pub fn weights(&self) -> &Weights {
+        &self.weights
+    }
+
+    /// The median of each feature over the training rooms.
+    pub fn typical(&self) -> &Values {
+        &self.typical
+    }
+
+    pub fn predict(&self, values: &Values) -> Distribution {
+        Distribution::from_weights(self.weights.pass(&self.scale.apply(values)).probabilities.map(f64::from))
+    }
+}
+
+/// The median of each feature, the lower of the two middle ones.
+fn medians(rows: &[Values]) -> Values {
+    std::array::from_fn(|feature| {
+        let mut values: Vec<f64> = rows.iter().map(|row| row[feature]).collect();
+        let middle = values.len().saturating_sub(1) / 2;
+        if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
+    })
+}

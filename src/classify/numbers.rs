@@ -1,0 +1,101 @@
+//! Numbers that people read: thresholds with few digits, features in words.
+
+use crate::dataset::table::FEATURES;
+
+/// The number with the fewest decimals in `low..high` (the upper end excluded), nearest to the middle.
+/// So a threshold between 12.331 and 12.452 reads 12.4, and one between 2 and 3 openings reads 2.
+pub(super) fn readable_between(low: f64, high: f64) -> f64 {
+    let middle = low + (high - low) / 2.0;
+    // Beyond nine decimals of a square metre the two ends differ by rounding only.
+    for decimals in 0..9 {
+        let unit = 10f64.powi(-decimals);
+        for step in [(middle / unit).round(), (middle / unit).floor()] {
+            // Dividing by the inverse keeps 12.4 from becoming 12.400000000000002.
+            let number = step / 10f64.powi(decimals);
+            if low <= number && number < high {
+                return number;
+            }
+        }
+    }
+    low
+}
+
+/// What each feature is called in a sentence, in the order of [`Features::NAMES`].
+pub(super) const IN_WORDS: [&str; FEATURES] = [
+    "area",
+    "axes ratio",
+    "openings",
+    "openings to small rooms",
+    "openings to medium rooms",
+    "openings to big rooms",
+    "openings to corridors",
+    "openings to halls",
+];
+
+/// A feature's value with its unit, short: `12.4 m²`, `1.9`, `3`.
+pub(super) fn value_in_words(feature: usize, value: f64) -> String {
+    match feature {
+        0 => format!("{} m²", rounded(value)),
+        1 => rounded(value),
+        _ => value.to_string(),
+    }
+}
+
+/// At most two decimals, fewer for large numbers, without trailing zeros.
+fn rounded(value: f64) -> String {
+    let unit = if value.abs() >= 100.0 {
+        1.0
+    } else if value.abs() >= 10.0 {
+        10.0
+    } else {
+        100.0
+    };
+    ((value * unit).round() / unit).to_string()
+}
+
+/// A probability as people say it: `88 %`, never `100 %` of what is not certain.
+pub(super) fn percent(probability: f64) -> String {
+    let percent = (probability * 100.0).round();
+    if percent >= 100.0 && probability < 1.0 {
+        "over 99 %".to_owned()
+    } else if percent <= 0.0 && probability > 0.0 {
+        "under 1 %".to_owned()
+    } else {
+        format!("{percent} %")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thresholds_have_few_digits() {
+        for (low, high, expected) in [
+            (2.0, 3.0, 2.0),
+            (12.331, 12.452, 12.4),
+            (0.0, 1.0, 0.0),
+            (9.9, 10.2, 10.0),
+            (1.234_567, 1.234_568, 1.234_567),
+            (99.0, 151.0, 125.0),
+        ] {
+            let threshold = readable_between(low, high);
+            assert!(low <= threshold && threshold < high);
+            assert_eq!(threshold, expected);
+        }
+        // Neighbouring floating-point numbers leave the lower one.
+        assert_eq!(readable_between(1.0, 1.0 + f64::EPSILON), 1.0);
+    }
+
+    #[test]
+    fn values_are_short() {
+        assert_eq!(value_in_words(0, 12.4499), "12.4 m²");
+        assert_eq!(value_in_words(0, 1234.5), "1235 m²");
+        assert_eq!(value_in_words(1, 1.9), "1.9");
+        assert_eq!(value_in_words(2, 3.0), "3");
+        assert_eq!(
+            (percent(0.876).as_str(), percent(0.999).as_str(), percent(1.0).as_str()),
+            ("88 %", "over 99 %", "100 %")
+        );
+    }
+}

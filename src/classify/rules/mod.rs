@@ -1,0 +1,180 @@
+//! Rule induction: RIPPER (Cohen 1995), in the form of Weka's JRip.
+//!
+//! Labels are learned from the rarest to the most frequent, each against those that come later; the
+//! last needs no rule. A rule is grown condition by condition with FOIL's gain, pruned on rooms kept
+//! apart, and stays if the description gets shorter by it; two passes then replace or revise each
+//! rule in the light of the others.
+
+mod bits;
+mod grow;
+mod induce;
+mod length;
+
+use super::Distribution;
+use super::numbers::readable_between;
+use crate::dataset::table::{FEATURES, Table, Values};
+use crate::labels::Label;
+use crate::random::Random;
+use bits::Bits;
+use grow::{RankCondition, Ranked};
+use induce::{Task, possible_conditions};
+
+/// An ordered list of rules: the first that covers a room decides.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RuleList {
+    rules: Vec<Rule>,
+}
+
+/// If all conditions hold, then the label. The last rule of a list has no condition.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rule {
+    pub conditions: Vec<Condition>,
+    /// Training rooms of each label that this rule decides, in the order of the labels.
+    pub counts: [u32; 5],
+}
+
+/// A bound on one feature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Condition {
+    /// Index of the feature.
+    pub feature: usize,
+    pub bound: Bound,
+}
+
+/// Which values a condition admits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bound {
+    AtMost(f64),
+    AtLeast(f64),
+    /// More than this. Rules are written without; a path down a tree comes to it.
+    Over(f64),
+}
+
+impl Condition {
+    fn holds(&self, values: &Values) -> bool {
+        match self.bound {
+            Bound::AtMost(most) => values[self.feature] <= most,
+            Bound::AtLeast(least) => values[self.feature] >= least,
+            Bound::Over(less) => values[self.feature] > less,
+        }
+    }
+}
+
+impl Rule {
+    /// Whether all conditions hold.
+    pub fn covers(&self, values: &Values) -> bool {
+        self.conditions.iter().all(|condition| condition.holds(values))
+    }
+
+    /// The shares of the labels among the training rooms it decides, with Laplace's correction.
+    pub fn distribution(&self) -> Distribution {
+        Distribution::smoothed(self.counts.map(f64::from), &Distribution::UNIFORM, 5.0)
+    }
+
+    /// The label it gives: that of most training rooms it decides.
+    pub fn label(&self) -> Label {
+        self.distribution().label()
+    }
+}
+
+impl RuleList {
+    /// Learns rules. The same seed gives the same rules.
+    pub fn train(table: &Table, seed: u64) -> Self {
+        let ranked = Ranked::new(table);
+        let possible_conditions = possible_conditions(&ranked);
+        let mut random = Random::new(seed);
+        let mut order: Vec<Label> = Label::ALL.to_vec();
+        let counts = table.label_counts();
+        order.sort_by_key(|label| counts[label.index()]);
+        order.retain(|label| counts[label.index()] > 0);
+
+        let mut rooms = Bits::of(table.len(), |_| true);
+        let mut drafts: Vec<Vec<RankCondition>> = Vec::new();
+        for (index, &label) in order.iter().enumerate().take(order.len().saturating_sub(1)) {
+            let from_here: usize = order[index..].iter().map(|label| counts[label.index()]).sum();
+            let task = Task {
+                ranked: &ranked,
+                labels: table.labels(),
+                label: Bits::of(table.len(), |row| table.labels()[row] == label),
+                rooms: rooms.clone(),
+                share: counts[label.index()] as f64 / from_here as f64,
+                possible_conditions,
+            };
+            for rule in task.rules(&mut random) {
+                rooms.subtract(&rule.covers);
+                drafts.push(rule.conditions);
+            }
+        }
+        drafts.push(Vec::new());
+
+        let mut rules: Vec<Rule> =
+            drafts.iter().map(|draft| Rule { conditions: readable(draft, &ranked), counts: [0; 5] }).collect();
+        for (values, label) in table.values().iter().zip(table.labels()) {
+            if let Some(rule) = rules.iter_mut().find(|rule| rule.covers(values)) {
+                rule.counts[label.index()] += 1;
+            }
+        }
+        // A rule that later ones made idle says nothing. The last decides whatever is left.
+        let last = rules.len() - 1;
+        let mut index = 0;
+        rules.retain(|rule| {
+            index += 1;
+            index > last || rule.counts != [0; 5]
+        });
+        Self { rules }
+    }
+
+    /// A list of these rules; `None` unless the last has no condition, so that every room is decided.
+    pub fn from_rules(rules: Vec<Rule>) -> Option<Self> {
+        let ends_well = rules.last().is_some_and(|rule| rule.conditions.is_empty());
+        let sound = rules.iter().flat_map(|rule| &rule.conditions).all(|condition| {
+            let (Bound::AtMost(bound) | Bound::AtLeast(bound) | Bound::Over(bound)) = condition.bound;
+            condition.feature < FEATURES && bound.is_finite()
+        });
+        let counts_fit =
+            |rule: &Rule| rule.counts.iter().map(|&count| u64::from(count)).sum::<u64>() <= u32::MAX.into();
+        (ends_well && sound && rules.iter().all(counts_fit)).then_some(Self { rules })
+    }
+
+    /// All rules in order; the last has no condition.
+    pub fn rules(&self) -> &[Rule] {
+        &self.rules
+    }
+
+    /// The index of the rule that decides a room.
+    pub fn deciding(&self, values: &Values) -> usize {
+        self.rules.iter().position(|rule| rule.covers(values)).unwrap_or(self.rules.len() - 1)
+    }
+
+    /// The shares of the labels among the training rooms that the same rule decides, with Laplace's
+    /// correction.
+    pub fn predict(&self, values: &Values) -> Distribution {
+        self.rules[self.deciding(values)].distribution()
+    }
+}
+
+/// Conditions with thresholds that people can read, in the order of the features; of several bounds
+/// the same way on one feature, the tightest.
+fn readable(draft: &[RankCondition], ranked: &Ranked) -> Vec<Condition> {
+    let mut conditions = Vec::new();
+    for feature in 0..FEATURES {
+        let values = &ranked.values[feature];
+        let bounds = |at_most: bool| {
+            draft
+                .iter()
+                .filter(move |condition| condition.feature == feature && condition.at_most == at_most)
+                .map(|condition| condition.rank as usize)
+        };
+        if let Some(rank) = bounds(false).max() {
+            let below = rank.checked_sub(1).map_or(values[rank], |below| values[below]);
+            // The mirror image: above the value below, at most the value itself.
+            let bound = Bound::AtLeast(-readable_between(-values[rank], -below));
+            conditions.push(Condition { feature, bound });
+        }
+        if let Some(rank) = bounds(true).min() {
+            let above = values.get(rank + 1).copied().unwrap_or(values[rank]);
+            conditions.push(Condition { feature, bound: Bound::AtMost(readable_between(values[rank], above)) });
+        }
+    }
+    conditions
+}

@@ -1,0 +1,81 @@
+//! Features brought to one scale: what neighbours' distances and the perceptron work on.
+
+use crate::dataset::table::{FEATURES, Values};
+
+/// What is done to a feature before it is standardised.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Transform {
+    /// As it is.
+    Identity,
+    /// ln(value + offset) per feature: a room of twice the area is as far from one of the same as
+    /// another of half of it, which is what sizes are like and what a doubtful scale asks for.
+    Logarithm,
+}
+
+impl Transform {
+    /// The word for files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Identity => "identity",
+            Self::Logarithm => "logarithm",
+        }
+    }
+
+    /// The transform of a word of [`Transform::name`].
+    pub fn from_name(name: &str) -> Option<Self> {
+        [Self::Identity, Self::Logarithm].into_iter().find(|transform| transform.name() == name)
+    }
+
+    fn apply(self, feature: usize, value: f64) -> f64 {
+        match self {
+            Self::Identity => value,
+            // A tenth of a square metre and of a ratio keep zero finite; counts start at one.
+            Self::Logarithm => (value + if feature < 2 { 0.1 } else { 1.0 }).ln(),
+        }
+    }
+}
+
+/// Transform, then mean 0 and deviation 1 over the training rooms.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scale {
+    pub transform: Transform,
+    /// Mean of each transformed feature.
+    pub means: Values,
+    /// Standard deviation of each; 1 for one that never varies.
+    pub deviations: Values,
+}
+
+/// Standardised values beyond this many deviations are cut: an area of a square kilometre must not
+/// drown everything else.
+const FARTHEST: f64 = 10.0;
+
+impl Scale {
+    /// The scale of training rooms.
+    pub fn of(rows: &[Values], transform: Transform) -> Self {
+        let n = rows.len().max(1) as f64;
+        let transformed = |feature: usize| rows.iter().map(move |row| transform.apply(feature, row[feature]));
+        let means: Values = std::array::from_fn(|feature| transformed(feature).sum::<f64>() / n);
+        let deviations = std::array::from_fn(|feature| {
+            let variance = transformed(feature).map(|value| (value - means[feature]).powi(2)).sum::<f64>() / n;
+            let deviation = variance.sqrt();
+            // Rounding alone gives a constant feature a deviation of about 1e-16.
+            if deviation > 1e-9 * (1.0 + means[feature].abs()) { deviation } else { 1.0 }
+        });
+        Self { transform, means, deviations }
+    }
+
+    /// Whether the numbers can be worked with.
+    pub fn is_sound(&self) -> bool {
+        self.means.iter().all(|mean| mean.is_finite())
+            && self.deviations.iter().all(|deviation| deviation.is_finite() && *deviation > 0.0)
+    }
+
+    /// The standardised values of a room; 0 (the mean) for what is not a number.
+    pub fn apply(&self, values: &Values) -> [f32; FEATURES] {
+        std::array::from_fn(|feature| {
+            let value = self.transform.apply(feature, values[feature]);
+            let standard = (value - self.means[feature]) / self.deviations[feature];
+            if standard.is_nan() { 0.0 } else { standard.clamp(-FARTHEST, FARTHEST) as f32 }
+        })
+    }
+}

@@ -1,0 +1,357 @@
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Map, Value, json};
+
+use super::{CliError, Outcome, Subcommand, Terminal, inputs};
+use crate::check::{Finding, Severity, check};
+use crate::features::{NeighbourLabels, analyse};
+use crate::formats::{self, Import, Note, NoteKind};
+use crate::geometry::Point;
+use crate::labels::Schemes;
+use crate::plan::Plan;
+
+/// `enfilade check`: everything that is wrong with plans.
+#[derive(clap::Args)]
+pub struct CheckCommand {
+    /// Plans, or folders of plans, of any known format
+    #[arg(required = true, value_name = "PLAN")]
+    plans: Vec<PathBuf>,
+    /// List all findings of a kind in a plan, not only the first three
+    #[arg(long)]
+    all: bool,
+    /// Leave out findings that are less severe
+    #[arg(long, value_name = "SEVERITY", default_value = "info", value_parser = severity)]
+    least: Severity,
+    /// Exit with 1 for warnings too, not only for errors
+    #[arg(long)]
+    strict: bool,
+    /// Print JSON (docs/checks.md describes it)
+    #[arg(long)]
+    json: bool,
+    /// Label scheme that extends the bundled ones (may be given several times)
+    #[arg(long, value_name = "FILE.scheme.toml")]
+    scheme: Vec<PathBuf>,
+}
+
+fn severity(word: &str) -> Result<Severity, String> {
+    Severity::ALL.into_iter().find(|severity| severity.name() == word).ok_or_else(|| {
+        let words: Vec<&str> = Severity::ALL.into_iter().map(Severity::name).collect();
+        format!("use one of {}", words.join(", "))
+    })
+}
+
+/// So many findings of a kind in a plan are listed without `--all`: enough to see what is meant.
+const LISTED: usize = 3;
+
+impl Subcommand for CheckCommand {
+    const NAME: &'static str = "check";
+    const ABOUT: &'static str = "List what is wrong with plans, where, and what to do";
+    const EXAMPLE: &'static str = "enfilade check plans";
+
+    fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
+        let schemes = inputs::schemes(&self.scheme)?;
+        let files = inputs::plan_files(&self.plans)?;
+        let mut totals = Totals::default();
+        let mut json_files = Vec::new();
+        for path in &files {
+            totals.files += 1;
+            let import = match formats::read_file(path) {
+                Ok(import) => import,
+                Err(error) => {
+                    totals.unreadable += 1;
+                    if self.json {
+                        let file = path.display().to_string();
+                        json_files
+                            .push(json!({ "file": file, "error": error.error.to_string(), "notes": [], "plans": [] }));
+                    } else {
+                        writeln!(terminal.err, "enfilade: {error}")?;
+                    }
+                    continue;
+                }
+            };
+            let checked: Vec<(&Plan, Vec<Finding>)> =
+                import.plans.iter().map(|plan| (plan, self.findings(plan, &schemes))).collect();
+            totals.add(&checked, &import.notes, self.least);
+            if self.json {
+                json_files.push(json_file(path, &import, &checked));
+            } else {
+                let text = self.text(path, &import, &checked);
+                terminal.out.write_all(text.as_bytes())?;
+            }
+        }
+        if self.json {
+            let report = json!({ "version": 1, "files": json_files, "totals": totals.json() });
+            serde_json::to_writer_pretty(&mut terminal.out, &report)?;
+            writeln!(terminal.out)?;
+        } else {
+            terminal.out.write_all(totals.text().as_bytes())?;
+        }
+        let worst = if self.strict { Severity::Warning } else { Severity::Error };
+        let wrong = totals.unreadable > 0 || totals.by_severity(worst) + totals.by_severity(Severity::Error) > 0;
+        Ok(if wrong { Outcome::InputWrong } else { Outcome::Done })
+    }
+}
+
+impl CheckCommand {
+    fn findings(&self, plan: &Plan, schemes: &Schemes) -> Vec<Finding> {
+        let analysis = analyse(plan, schemes, NeighbourLabels::default());
+        let mut found = check(plan, &analysis, schemes);
+        found.retain(|finding| finding.severity() >= self.least);
+        found
+    }
+
+    /// What was found in one file, for people; empty when nothing was.
+    fn text(&self, path: &Path, import: &Import, checked: &[(&Plan, Vec<Finding>)]) -> String {
+        let mut text = String::new();
+        let notes = note_groups(&import.notes, self.least);
+        for (place, (plan, findings)) in checked.iter().enumerate() {
+            let mut groups: Vec<Group> = if place == 0 { notes.clone() } else { Vec::new() };
+            for finding in findings {
+                let kind = finding.kind();
+                let item = (finding.place().at, finding.what());
+                match groups.last_mut() {
+                    Some(group) if group.title == kind.title && group.severity == finding.severity() => {
+                        group.items.push(item);
+                    }
+                    _ => groups.push(Group {
+                        severity: finding.severity(),
+                        title: kind.title,
+                        remedy: kind.remedy,
+                        items: vec![item],
+                    }),
+                }
+            }
+            if groups.is_empty() {
+                continue;
+            }
+            // Stable: what the reader says comes first within its severity.
+            groups.sort_by_key(|group| std::cmp::Reverse(group.severity));
+            let _ = writeln!(text, "{}", heading(path, plan, checked.len()));
+            for group in &groups {
+                group.write(&mut text, if self.all { usize::MAX } else { LISTED });
+            }
+            text.push('\n');
+        }
+        text
+    }
+}
+
+/// 'school.xml: school, 31 rooms, 40 openings'
+fn heading(path: &Path, plan: &Plan, plans_in_file: usize) -> String {
+    let mut heading = path.display().to_string();
+    if plans_in_file > 1 {
+        let _ = write!(heading, " [{}]", plan.meta().name);
+    }
+    let typology = plan.meta().typology.as_ref().map_or("no typology", |typology| typology.as_str());
+    let (rooms, openings) = (plan.rooms().len(), plan.openings().len());
+    let _ = write!(heading, ": {typology}, {}, {}", counted(rooms, "room"), counted(openings, "opening"));
+    heading
+}
+
+fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
+/// Findings of a kind in a plan.
+#[derive(Clone)]
+struct Group {
+    severity: Severity,
+    title: &'static str,
+    remedy: &'static str,
+    items: Vec<(Option<Point>, String)>,
+}
+
+impl Group {
+    fn write(&self, text: &mut String, listed: usize) {
+        let count = if self.items.len() > 1 { format!(" ({})", self.items.len()) } else { String::new() };
+        let _ = writeln!(text, "  {:<7}  {}{count}: {}", self.severity, self.title, self.remedy);
+        // All in one column: the widest coordinates of those shown decide.
+        let shown = &self.items[..listed.min(self.items.len())];
+        let places: Vec<Option<(String, String)>> =
+            shown.iter().map(|(at, _)| at.map(|at| (format!("{:.2}", at.x), format!("{:.2}", at.y)))).collect();
+        let wide = |of: fn(&(String, String)) -> usize| places.iter().flatten().map(of).max().unwrap_or(0);
+        let (x_wide, y_wide) = (wide(|place| place.0.len()), wide(|place| place.1.len()));
+        for ((_, what), place) in shown.iter().zip(&places) {
+            let place = match place {
+                Some((x, y)) => format!("({x:>x_wide$}, {y:>y_wide$})  "),
+                None if x_wide > 0 => " ".repeat(x_wide + y_wide + 6),
+                None => String::new(),
+            };
+            // Whatever a file says must not move the terminal's cursor.
+            let what = what.replace(char::is_control, " ");
+            let _ = writeln!(text, "           {place}{what}");
+        }
+        if shown.len() < self.items.len() {
+            let _ = writeln!(text, "           and {} more: --all lists them", self.items.len() - shown.len());
+        }
+    }
+}
+
+/// What the reader left out is a warning, what it mended is for information.
+const fn note_severity(kind: NoteKind) -> Severity {
+    match kind {
+        NoteKind::Skipped => Severity::Warning,
+        NoteKind::Healed => Severity::Info,
+    }
+}
+
+const fn note_title(kind: NoteKind) -> &'static str {
+    match kind {
+        NoteKind::Skipped => "Left out when reading the file",
+        NoteKind::Healed => "Mended when reading the file",
+    }
+}
+
+fn note_groups(notes: &[Note], least: Severity) -> Vec<Group> {
+    [(NoteKind::Skipped, "mend it in the source, or draw it here"), (NoteKind::Healed, "look whether it is right")]
+        .into_iter()
+        .filter_map(|(kind, remedy)| {
+            let of_kind = notes.iter().filter(|note| note.kind == kind);
+            let items: Vec<_> = of_kind.map(|note| (None, format!("{}: {}", note.place, note.what))).collect();
+            let shown = !items.is_empty() && note_severity(kind) >= least;
+            shown.then_some(Group { severity: note_severity(kind), title: note_title(kind), remedy, items })
+        })
+        .collect()
+}
+
+/// What all files gave.
+#[derive(Default)]
+struct Totals {
+    files: usize,
+    unreadable: usize,
+    plans: usize,
+    plans_without_findings: usize,
+    /// Findings, and plans with such, by severity (the worst first), place in the list of kinds, and
+    /// title.
+    kinds: BTreeMap<(std::cmp::Reverse<Severity>, usize, &'static str), (usize, usize)>,
+}
+
+impl Totals {
+    fn add(&mut self, checked: &[(&Plan, Vec<Finding>)], notes: &[Note], least: Severity) {
+        for group in note_groups(notes, least) {
+            let total = self.kinds.entry((std::cmp::Reverse(group.severity), 0, group.title)).or_default();
+            total.0 += group.items.len();
+            total.1 += 1;
+        }
+        for (_, findings) in checked {
+            self.plans += 1;
+            self.plans_without_findings += usize::from(findings.is_empty());
+            let mut in_plan: BTreeMap<_, usize> = BTreeMap::new();
+            for finding in findings {
+                let kind = finding.kind();
+                let place = Finding::KINDS.iter().position(|known| known.name == kind.name).unwrap_or(usize::MAX - 1);
+                *in_plan.entry((std::cmp::Reverse(finding.severity()), place + 1, kind.title)).or_default() += 1;
+            }
+            for (key, count) in in_plan {
+                let total = self.kinds.entry(key).or_default();
+                total.0 += count;
+                total.1 += 1;
+            }
+        }
+    }
+
+    fn by_severity(&self, severity: Severity) -> usize {
+        self.kinds.iter().filter(|((key, ..), _)| key.0 == severity).map(|(_, (findings, _))| findings).sum()
+    }
+
+    fn json(&self) -> Value {
+        let mut totals = Map::new();
+        for (name, count) in [("files", self.files), ("unreadable", self.unreadable), ("plans", self.plans)] {
+            totals.insert(name.to_owned(), count.into());
+        }
+        for severity in Severity::ALL {
+            totals.insert(severity.name().to_owned(), self.by_severity(severity).into());
+        }
+        totals.into()
+    }
+
+    fn text(&self) -> String {
+        let mut text = String::new();
+        if !self.kinds.is_empty() {
+            let wide = self.kinds.keys().map(|(.., title)| title.chars().count()).max().unwrap_or(0);
+            let _ = writeln!(text, "  {:<7}  {:<wide$}  findings  plans", "", "");
+            for ((severity, _, title), (findings, plans)) in &self.kinds {
+                let _ = writeln!(text, "  {:<7}  {title:<wide$}  {findings:>8}  {plans:>5}", severity.0);
+            }
+            text.push('\n');
+        }
+        let _ = write!(
+            text,
+            "{} checked: {}, {}, {}",
+            counted(self.plans, "plan"),
+            counted(self.by_severity(Severity::Error), "error"),
+            counted(self.by_severity(Severity::Warning), "warning"),
+            counted(self.by_severity(Severity::Info), "remark"),
+        );
+        let _ = write!(text, "; {} without findings", self.plans_without_findings);
+        if self.unreadable > 0 {
+            let _ = write!(text, "; {} unreadable", counted(self.unreadable, "file"));
+        }
+        text.push('\n');
+        text
+    }
+}
+
+fn json_file(path: &Path, import: &Import, checked: &[(&Plan, Vec<Finding>)]) -> Value {
+    let notes: Vec<Value> = import
+        .notes
+        .iter()
+        .map(|note| {
+            let kind = match note.kind {
+                NoteKind::Healed => "healed",
+                NoteKind::Skipped => "skipped",
+            };
+            json!({ "kind": kind, "line": note.place.line, "element": note.place.element, "what": note.what })
+        })
+        .collect();
+    let plans: Vec<Value> = checked
+        .iter()
+        .map(|(plan, findings)| {
+            json!({
+                "name": plan.meta().name,
+                "typology": plan.meta().typology.as_ref().map(|typology| typology.as_str()),
+                "rooms": plan.rooms().len(),
+                "openings": plan.openings().len(),
+                "findings": findings.iter().map(json_finding).collect::<Vec<_>>(),
+            })
+        })
+        .collect();
+    json!({ "file": path.display().to_string(), "error": null, "notes": notes, "plans": plans })
+}
+
+fn json_finding(finding: &Finding) -> Value {
+    let place = finding.place();
+    let rooms: Vec<Value> = place
+        .rooms
+        .iter()
+        .map(|room| {
+            json!({
+                "id": room.id.to_string(),
+                "source_id": room.source_id,
+                "name": room.name,
+                "function": room.function,
+            })
+        })
+        .collect();
+    let figures: Map<String, Value> =
+        finding.figures().into_iter().map(|(name, value)| (name.to_owned(), rounded(value))).collect();
+    json!({
+        "kind": finding.kind().name,
+        "severity": finding.severity().name(),
+        "what": finding.what(),
+        "remedy": finding.remedy(),
+        "at": place.at.map(|at| json!({ "x": rounded(at.x), "y": rounded(at.y) })),
+        "elements": place.elements.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "rooms": rooms,
+        "figures": figures,
+    })
+}
+
+/// A figure for machines: at most four decimals, a whole number without a decimal point.
+fn rounded(value: f64) -> Value {
+    let value = crate::geometry::trim_m(value);
+    if value.fract() == 0.0 && value.abs() < 1e15 { (value as i64).into() } else { value.into() }
+}

@@ -1,0 +1,631 @@
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use super::{CliError, Outcome, Subcommand, Terminal};
+use crate::formats::plan_json::PlanJson;
+use crate::formats::{self, Format as _, Note, NoteKind, Place, building_name};
+use crate::labels::{Schemes, Typology};
+use crate::plan::{Meta, Plan, edit};
+use crate::store::save_bytes_fast;
+
+/// How the files that are written end.
+const ENDING: &str = "plan.json";
+
+/// `enfilade import`: files of any known format to plan files.
+#[derive(clap::Args)]
+pub struct ImportCommand {
+    /// Files of any known format, or folders of them
+    #[arg(required = true, value_name = "FILE|DIR")]
+    inputs: Vec<PathBuf>,
+    /// Folder to write the plans to; the folders of a DIR are made again in it
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Replace plans that are there already and differ
+    #[arg(long)]
+    force: bool,
+    /// List each thing that was mended or left out with its place, instead of a summary
+    #[arg(short, long)]
+    verbose: bool,
+    /// Print the whole report as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Subcommand for ImportCommand {
+    const NAME: &'static str = "import";
+    const ABOUT: &'static str = "Read plans of other programs, mend them, and save them as plan files";
+    const EXAMPLE: &'static str = "enfilade import annotated -o plans   # every plan below the folder 'annotated'";
+
+    fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
+        let jobs = jobs(&self.inputs, &self.output)?;
+        std::fs::create_dir_all(&self.output)
+            .map_err(|error| CliError::new(format!("{}: {error}; choose another folder", self.output.display())))?;
+        let total = jobs.len();
+        let mut files = Vec::with_capacity(total);
+        for (done, job) in jobs.into_iter().enumerate() {
+            progress(terminal, done + 1, total, &job.path)?;
+            files.push(read(job));
+        }
+        clear_progress(terminal)?;
+        same_buildings(&mut files);
+        let mut targets = BTreeSet::new();
+        for file in &mut files {
+            if let Content::Plans { plans, .. } = &mut file.content {
+                let count = plans.len();
+                for (index, plan) in plans.iter_mut().enumerate() {
+                    plan.target = target(&self.output, &file.job.target, (count > 1).then_some(index), &mut targets);
+                    plan.state = save(plan, self.force);
+                }
+            }
+            file.report_errors(terminal)?;
+        }
+        if self.json {
+            serde_json::to_writer_pretty(&mut terminal.out, &Report::new(&files))?;
+            writeln!(terminal.out)?;
+        } else {
+            if self.verbose {
+                list_notes(&files, terminal)?
+            } else {
+                summarise_notes(&files, terminal)?
+            }
+            print_table(&files, terminal)?;
+            print_outcome(&files, &self.output, terminal)?;
+        }
+        let is_wrong = files.iter().any(File::is_wrong);
+        Ok(if is_wrong { Outcome::InputWrong } else { Outcome::Done })
+    }
+}
+
+/// A file to import.
+struct Job {
+    path: PathBuf,
+    /// The folder it is counted under.
+    folder: PathBuf,
+    /// Where its plan goes in the output folder, without the ending.
+    target: PathBuf,
+    /// Whether the user named it; else it was found in a folder, where it may be no plan.
+    is_named: bool,
+}
+
+/// A file and what became of it.
+struct File {
+    job: Job,
+    content: Content,
+}
+
+enum Content {
+    Plans {
+        plans: Vec<ImportedPlan>,
+        notes: Vec<Note>,
+    },
+    /// No plan, although its name ends like one: passed over.
+    Foreign(String),
+    Failed(formats::FileError),
+}
+
+struct ImportedPlan {
+    plan: Plan,
+    target: PathBuf,
+    state: State,
+}
+
+/// What became of a plan's file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum State {
+    Waiting,
+    Written,
+    /// The same plan was there.
+    Unchanged,
+    /// Another plan was there, and stays.
+    Kept,
+    NotSaved(String),
+}
+
+impl State {
+    const fn name(&self) -> &'static str {
+        match self {
+            Self::Waiting => "waiting",
+            Self::Written => "written",
+            Self::Unchanged => "unchanged",
+            Self::Kept => "kept",
+            Self::NotSaved(_) => "not saved",
+        }
+    }
+}
+
+/// The files that the inputs name, in their order; those of a folder sorted by path.
+fn jobs(inputs: &[PathBuf], output: &Path) -> Result<Vec<Job>, CliError> {
+    let mut jobs = Vec::new();
+    let output = output.canonicalize().ok();
+    let is_output = |path: &Path| output.is_some() && path.canonicalize().ok() == output;
+    for input in inputs {
+        if !input.is_dir() {
+            let folder = input.parent().unwrap_or(Path::new("")).to_owned();
+            let target = stem_of(input);
+            jobs.push(Job { path: input.clone(), folder, target, is_named: true });
+            continue;
+        }
+        // With several folders each keeps its name, so that equal paths in them do not collide.
+        let prefix = match input.canonicalize() {
+            Ok(input) if inputs.len() > 1 => input.file_name().map(PathBuf::from).unwrap_or_default(),
+            _ => PathBuf::new(),
+        };
+        // Plans that an earlier import wrote beside their sources are no sources.
+        let writes_beside = is_output(input);
+        let before = jobs.len();
+        let walk = walkdir::WalkDir::new(input).follow_links(true).sort_by_file_name().into_iter();
+        let walk = walk.filter_entry(|entry| {
+            let is_hidden = entry.file_name().to_string_lossy().starts_with('.');
+            entry.depth() == 0 || !(is_hidden || (entry.file_type().is_dir() && is_output(entry.path())))
+        });
+        for entry in walk {
+            let entry = entry?;
+            let name = entry.file_name().to_string_lossy();
+            let is_plan = formats::is_plan_file_name(&name);
+            if !entry.file_type().is_file() || !is_plan || (writes_beside && name.ends_with(ENDING)) {
+                continue;
+            }
+            let within = entry.path().strip_prefix(input).unwrap_or(entry.path());
+            let below = within.parent().unwrap_or(Path::new(""));
+            jobs.push(Job {
+                path: entry.path().to_owned(),
+                folder: input.join(below).components().collect(),
+                target: prefix.join(below).join(stem_of(within)),
+                is_named: false,
+            });
+        }
+        if jobs.len() == before {
+            return Err(CliError::new(format!("{}: no plan files in this folder", input.display())));
+        }
+    }
+    Ok(jobs)
+}
+
+/// A file's name without the ending of its format.
+fn stem_of(path: &Path) -> PathBuf {
+    let name = path.file_name().unwrap_or_default();
+    // Only names that are text have a known ending.
+    name.to_str().map_or_else(|| PathBuf::from(name), |name| PathBuf::from(formats::file_stem(name)))
+}
+
+fn read(job: Job) -> File {
+    let content = match formats::read_bytes(&job.path) {
+        Err(error) => Content::Failed(error),
+        Ok(bytes) => match formats::foreign_kind(&job.path, &bytes) {
+            Some(kind) if !job.is_named => Content::Foreign(kind),
+            _ => match formats::read_from(&job.path, &bytes) {
+                Err(error) => Content::Failed(error),
+                Ok(import) => {
+                    let waiting = |plan| ImportedPlan { plan, target: PathBuf::new(), state: State::Waiting };
+                    Content::Plans { plans: import.plans.into_iter().map(waiting).collect(), notes: import.notes }
+                }
+            },
+        },
+    };
+    File { job, content }
+}
+
+/// Gives plans of one building the same name of it, where spellings differ: the longest, since a
+/// letter is more often left out than added.
+fn same_buildings(files: &mut [File]) {
+    let key_of =
+        |meta: &Meta| -> (Option<Typology>, String) { (meta.typology.clone(), building_name::key(&meta.building)) };
+    let mut spellings: BTreeMap<(Option<Typology>, String), String> = BTreeMap::new();
+    for plan in files.iter().flat_map(File::plans) {
+        let meta = plan.plan.meta();
+        let rank = |name: &str| (std::cmp::Reverse(name.chars().count()), name.to_owned());
+        let spelling = spellings.entry(key_of(meta)).or_insert_with(|| meta.building.clone());
+        if rank(&meta.building) < rank(spelling) {
+            spelling.clone_from(&meta.building);
+        }
+    }
+    for file in files {
+        let Content::Plans { plans, notes } = &mut file.content else { continue };
+        for plan in plans {
+            let meta = plan.plan.meta();
+            let Some(spelling) = spellings.get(&key_of(meta)).filter(|spelling| **spelling != meta.building) else {
+                continue;
+            };
+            let what = format!("its building '{}' is spelled '{spelling}' elsewhere; taken as that", meta.building);
+            notes.insert(0, Note { kind: NoteKind::Healed, place: Place::default(), what });
+            plan.plan = edit::set_meta(&plan.plan, Meta { building: spelling.clone(), ..meta.clone() });
+        }
+    }
+}
+
+/// A path in the output folder that no other plan of this import has, also where upper and lower
+/// case are the same.
+fn target(output: &Path, target: &Path, index: Option<usize>, taken: &mut BTreeSet<String>) -> PathBuf {
+    let stem = target.file_name().unwrap_or_default();
+    for nth in 1.. {
+        let mut name = stem.to_owned();
+        if let Some(index) = index {
+            name.push(format!("-{}", index + 1));
+        }
+        if nth > 1 {
+            name.push(format!("-{nth}"));
+        }
+        name.push(".");
+        name.push(ENDING);
+        let path = output.join(target.with_file_name(name));
+        if taken.insert(path.to_string_lossy().to_lowercase()) {
+            return path;
+        }
+    }
+    output.join(target)
+}
+
+fn save(plan: &ImportedPlan, force: bool) -> State {
+    let Some(bytes) = PlanJson.write(&plan.plan, &Schemes::default()) else {
+        return State::NotSaved("cannot be written as a plan file".to_owned());
+    };
+    match std::fs::read(&plan.target) {
+        Ok(there) if there == bytes => return State::Unchanged,
+        Ok(_) if !force => return State::Kept,
+        _ => {}
+    }
+    if let Some(folder) = plan.target.parent()
+        && let Err(error) = std::fs::create_dir_all(folder)
+    {
+        return State::NotSaved(format!("{}: {error}", folder.display()));
+    }
+    // The source is still there: no need to wait for the disk.
+    match save_bytes_fast(&plan.target, &bytes) {
+        Ok(()) => State::Written,
+        Err(error) => State::NotSaved(error.to_string()),
+    }
+}
+
+impl File {
+    fn plans(&self) -> &[ImportedPlan] {
+        match &self.content {
+            Content::Plans { plans, .. } => plans,
+            Content::Foreign(_) | Content::Failed(_) => &[],
+        }
+    }
+
+    fn notes(&self) -> &[Note] {
+        match &self.content {
+            Content::Plans { notes, .. } => notes,
+            Content::Foreign(_) | Content::Failed(_) => &[],
+        }
+    }
+
+    /// Whether it could not be read, or a plan of it could not be saved.
+    fn is_wrong(&self) -> bool {
+        matches!(self.content, Content::Failed(_))
+            || self.plans().iter().any(|plan| matches!(plan.state, State::Kept | State::NotSaved(_)))
+    }
+
+    fn report_errors(&self, terminal: &mut Terminal) -> Result<(), CliError> {
+        if let Content::Failed(error) = &self.content {
+            writeln!(terminal.err, "enfilade: {error}")?;
+        }
+        for plan in self.plans() {
+            match &plan.state {
+                State::Kept => writeln!(
+                    terminal.err,
+                    "enfilade: {}: kept: it differs from what {} gives; --force replaces it",
+                    plan.target.display(),
+                    self.job.path.display()
+                )?,
+                State::NotSaved(why) => writeln!(terminal.err, "enfilade: {why}")?,
+                State::Waiting | State::Written | State::Unchanged => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Shows how far the import is, on a terminal only.
+fn progress(terminal: &mut Terminal, nth: usize, total: usize, path: &Path) -> Result<(), CliError> {
+    if terminal.is_interactive {
+        write!(terminal.err, "\r\x1b[K{nth}/{total} {}", path.display())?;
+    }
+    Ok(())
+}
+
+fn clear_progress(terminal: &mut Terminal) -> Result<(), CliError> {
+    if terminal.is_interactive {
+        write!(terminal.err, "\r\x1b[K")?;
+    }
+    Ok(())
+}
+
+const fn kind_name(kind: NoteKind) -> &'static str {
+    match kind {
+        NoteKind::Healed => "healed",
+        NoteKind::Skipped => "skipped",
+    }
+}
+
+/// Every note as `path:line: kind: element: what`, then an empty line.
+fn list_notes(files: &[File], terminal: &mut Terminal) -> Result<(), CliError> {
+    for file in files {
+        for note in file.notes() {
+            write!(terminal.out, "{}", place(file, note))?;
+            write!(terminal.out, ": {}: ", kind_name(note.kind))?;
+            if !note.place.element.is_empty() {
+                write!(terminal.out, "{}: ", note.place.element)?;
+            }
+            writeln!(terminal.out, "{}", note.what)?;
+        }
+        if let Content::Foreign(kind) = &file.content {
+            writeln!(terminal.out, "{}: passed over: {kind}", file.job.path.display())?;
+        }
+    }
+    if files.iter().any(|file| !file.notes().is_empty() || matches!(file.content, Content::Foreign(_))) {
+        writeln!(terminal.out)?;
+    }
+    Ok(())
+}
+
+fn place(file: &File, note: &Note) -> String {
+    let path = file.job.path.display();
+    note.place.line.map_or_else(|| path.to_string(), |line| format!("{path}:{line}"))
+}
+
+/// One line for notes that say the same but for names and numbers, with their number and the first.
+fn summarise_notes(files: &[File], terminal: &mut Terminal) -> Result<(), CliError> {
+    /// Notes of one kind and text.
+    struct Group<'a> {
+        count: usize,
+        first: (&'a File, &'a Note),
+    }
+    let mut groups: BTreeMap<(NoteKind, String), Group<'_>> = BTreeMap::new();
+    for file in files {
+        for note in file.notes() {
+            let group = groups.entry((note.kind, masked(&note.what)));
+            group.or_insert(Group { count: 0, first: (file, note) }).count += 1;
+        }
+    }
+    if groups.is_empty() {
+        return Ok(());
+    }
+    writeln!(terminal.out, "Mended and left out, with the first place of each (-v lists all):")?;
+    let mut groups: Vec<((NoteKind, String), Group<'_>)> = groups.into_iter().collect();
+    groups.sort_by(|((a_kind, _), a), ((b_kind, _), b)| a_kind.cmp(b_kind).then(b.count.cmp(&a.count)));
+    for ((kind, what), Group { count, first: (file, note) }) in groups {
+        let what = if count == 1 { &note.what } else { &what };
+        writeln!(terminal.out, "  {:7} {count:5} x  {what}", kind_name(kind))?;
+        writeln!(terminal.out, "                   {}", place(file, note))?;
+    }
+    writeln!(terminal.out)?;
+    Ok(())
+}
+
+/// A text with '…' for what is in quotes and for numbers.
+fn masked(what: &str) -> String {
+    let mut masked = String::new();
+    let mut rest = what;
+    while let Some(letter) = rest.chars().next() {
+        let (length, mark) = if letter == '\'' && rest[1..].contains('\'') {
+            // A quoted name ends before a space, a comma or the end, and may hold an apostrophe.
+            let end = rest[1..].match_indices('\'').map(|(at, _)| at + 2);
+            let closing = end.into_iter().find(|&end| !rest[end..].starts_with(char::is_alphanumeric));
+            (closing.unwrap_or(1), "'…'")
+        } else if letter.is_ascii_digit() {
+            let end = rest.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(rest.len());
+            (rest[..end].trim_end_matches('.').len(), "…")
+        } else {
+            (letter.len_utf8(), "")
+        };
+        masked.push_str(if mark.is_empty() { &rest[..length] } else { mark });
+        rest = &rest[length..];
+    }
+    masked
+}
+
+/// What the table counts.
+#[derive(Clone, Copy, Default, Serialize)]
+struct Counts {
+    files: usize,
+    plans: usize,
+    rooms: usize,
+    openings: usize,
+    healed: usize,
+    skipped: usize,
+    failed: usize,
+}
+
+impl Counts {
+    const NAMES: [&'static str; 7] = ["files", "plans", "rooms", "openings", "healed", "skipped", "failed"];
+
+    const fn values(&self) -> [usize; 7] {
+        [self.files, self.plans, self.rooms, self.openings, self.healed, self.skipped, self.failed]
+    }
+
+    fn add(&mut self, file: &File) {
+        let count = |kind| file.notes().iter().filter(|note| note.kind == kind).count();
+        match file.content {
+            Content::Foreign(_) => return,
+            Content::Failed(_) => self.failed += 1,
+            Content::Plans { .. } => {}
+        }
+        self.files += 1;
+        self.plans += file.plans().len();
+        self.rooms += file.plans().iter().map(|plan| plan.plan.rooms().len()).sum::<usize>();
+        self.openings += file.plans().iter().map(|plan| plan.plan.openings().len()).sum::<usize>();
+        self.healed += count(NoteKind::Healed);
+        self.skipped += count(NoteKind::Skipped);
+    }
+}
+
+/// The counts of each folder, in the order of its first file, and of all.
+fn counts(files: &[File]) -> (Vec<(String, Counts)>, Counts) {
+    let mut folders: Vec<(String, Counts)> = Vec::new();
+    let mut index_of: BTreeMap<&Path, usize> = BTreeMap::new();
+    let mut total = Counts::default();
+    for file in files {
+        let index = *index_of.entry(&file.job.folder).or_insert_with(|| {
+            let name = file.job.folder.display().to_string();
+            folders.push((if name.is_empty() { ".".to_owned() } else { name }, Counts::default()));
+            folders.len() - 1
+        });
+        folders[index].1.add(file);
+        total.add(file);
+    }
+    folders.retain(|(_, counts)| counts.files > 0);
+    (folders, total)
+}
+
+fn print_table(files: &[File], terminal: &mut Terminal) -> Result<(), CliError> {
+    let (folders, total) = counts(files);
+    let rows = folders.iter().map(|(name, counts)| (name.as_str(), *counts));
+    let rows: Vec<(&str, Counts)> = rows.chain((folders.len() != 1).then_some(("total", total))).collect();
+    let width = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0).max("folder".len());
+    write!(terminal.out, "{:width$}", "folder")?;
+    for name in Counts::NAMES {
+        write!(terminal.out, " {name:>8}")?;
+    }
+    writeln!(terminal.out)?;
+    for (name, counts) in rows {
+        write!(terminal.out, "{name:width$}")?;
+        for value in counts.values() {
+            write!(terminal.out, " {value:>8}")?;
+        }
+        writeln!(terminal.out)?;
+    }
+    Ok(())
+}
+
+fn print_outcome(files: &[File], output: &Path, terminal: &mut Terminal) -> Result<(), CliError> {
+    let count = |name: &str| files.iter().flat_map(File::plans).filter(|plan| plan.state.name() == name).count();
+    let parts: Vec<String> = ["written", "unchanged", "kept", "not saved"]
+        .into_iter()
+        .filter_map(|name| {
+            let count = count(name);
+            (count > 0).then(|| format!("{count} {name}"))
+        })
+        .collect();
+    if !parts.is_empty() {
+        writeln!(terminal.out, "Plans in {}: {}.", output.display(), parts.join(", "))?;
+    }
+    let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+    for file in files {
+        if let Content::Foreign(kind) = &file.content {
+            *kinds.entry(kind).or_default() += 1;
+        }
+    }
+    for (kind, count) in kinds {
+        writeln!(terminal.out, "Passed over as no plans: {count} x {kind}.")?;
+    }
+    Ok(())
+}
+
+/// The report for machines.
+#[derive(Serialize)]
+struct Report {
+    total: Counts,
+    folders: Vec<FolderReport>,
+    files: Vec<FileReport>,
+}
+
+#[derive(Serialize)]
+struct FolderReport {
+    folder: String,
+    #[serde(flatten)]
+    counts: Counts,
+}
+
+#[derive(Serialize)]
+struct FileReport {
+    path: String,
+    /// `read`, `failed` or `passed over`.
+    state: &'static str,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    plans: Vec<PlanReport>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    notes: Vec<NoteReport>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<ErrorReport>,
+    /// What a file is that was passed over.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    is: Option<String>,
+}
+
+#[derive(Serialize)]
+struct PlanReport {
+    path: String,
+    /// `written`, `unchanged`, `kept` or `not saved`.
+    state: &'static str,
+    name: String,
+    building: String,
+    storey: String,
+    rooms: usize,
+    openings: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    why: Option<String>,
+}
+
+#[derive(Serialize)]
+struct NoteReport {
+    kind: &'static str,
+    line: Option<usize>,
+    element: String,
+    what: String,
+}
+
+#[derive(Serialize)]
+struct ErrorReport {
+    line: Option<usize>,
+    element: String,
+    what: String,
+    hint: String,
+}
+
+impl Report {
+    fn new(files: &[File]) -> Self {
+        let (folders, total) = counts(files);
+        let folders = folders.into_iter().map(|(folder, counts)| FolderReport { folder, counts }).collect();
+        Self { total, folders, files: files.iter().map(FileReport::new).collect() }
+    }
+}
+
+impl FileReport {
+    fn new(file: &File) -> Self {
+        let plans = file.plans().iter().map(|plan| PlanReport {
+            path: plan.target.display().to_string(),
+            state: plan.state.name(),
+            name: plan.plan.meta().name.clone(),
+            building: plan.plan.meta().building.clone(),
+            storey: plan.plan.meta().storey.clone(),
+            rooms: plan.plan.rooms().len(),
+            openings: plan.plan.openings().len(),
+            why: match &plan.state {
+                State::NotSaved(why) => Some(why.clone()),
+                _ => None,
+            },
+        });
+        let notes = file.notes().iter().map(|note| NoteReport {
+            kind: kind_name(note.kind),
+            line: note.place.line,
+            element: note.place.element.clone(),
+            what: note.what.clone(),
+        });
+        let (state, error, is) = match &file.content {
+            Content::Plans { .. } => ("read", None, None),
+            Content::Foreign(kind) => ("passed over", None, Some(kind.clone())),
+            Content::Failed(formats::FileError { error, .. }) => {
+                let report = ErrorReport {
+                    line: error.place.line,
+                    element: error.place.element.clone(),
+                    what: error.what.clone(),
+                    hint: error.hint.clone(),
+                };
+                ("failed", Some(report), None)
+            }
+        };
+        Self {
+            path: file.job.path.display().to_string(),
+            state,
+            plans: plans.collect(),
+            notes: notes.collect(),
+            error,
+            is,
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! `enfilade` without a subcommand: the window, or where there is no display the same job headless.
+
+use std::io::Write as _;
+use std::path::Path;
+
+use super::{CliError, Outcome, Terminal};
+use crate::dataset::{self, LeftOut, Row, Statistics};
+use crate::draw::sheet::{self, Furniture, PageSize};
+use crate::draw::{Drawing, Style, png, svg};
+use crate::features::{NeighbourLabels, analyse};
+use crate::formats;
+use crate::labels::Schemes;
+use crate::plan::Plan;
+use crate::store::{bundled_plans, save_bytes_fast};
+
+/// Where the headless job writes, below the current folder.
+const OUTPUT: &str = "enfilade-out";
+
+/// The longer side of the headless job's pictures in pixels.
+const PICTURE_PX: f64 = 1600.0;
+
+/// Opens the window on a plan, or on a bundled one; without a display does the job headless.
+pub fn open(plan: Option<&Path>, terminal: &mut Terminal) -> Result<Outcome, CliError> {
+    let why = match window(plan) {
+        None => return Ok(Outcome::Done),
+        Some(why) => why,
+    };
+    writeln!(terminal.err, "{why}: doing the same job without a window, in ./{OUTPUT}")?;
+    headless(plan, terminal)
+}
+
+#[cfg(feature = "gui")]
+fn window(plan: Option<&Path>) -> Option<String> {
+    let options = crate::app::WindowOptions { plan: plan.map(Path::to_owned) };
+    crate::app::run_window(options).err().map(|error| error.to_string())
+}
+
+#[cfg(not(feature = "gui"))]
+fn window(_plan: Option<&Path>) -> Option<String> {
+    Some("this build has no window (cargo feature 'gui')".to_owned())
+}
+
+/// Reads the plans, and writes for each its pictures, and for all their features as a dataset.
+fn headless(plan: Option<&Path>, terminal: &mut Terminal) -> Result<Outcome, CliError> {
+    let plans: Vec<(String, Plan)> = match plan {
+        Some(path) => {
+            let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            let stem = formats::file_stem(&name).to_owned();
+            let import = formats::read_file(path)?;
+            for note in &import.notes {
+                writeln!(terminal.err, "{}: {note}", path.display())?;
+            }
+            let several = import.plans.len() > 1;
+            let name = |storey: usize| if several { format!("{stem}-{}", storey + 1) } else { stem.clone() };
+            import.plans.into_iter().enumerate().map(|(storey, plan)| (name(storey), plan)).collect()
+        }
+        None => bundled_plans()?.into_iter().map(|(name, plan)| (formats::file_stem(name).to_owned(), plan)).collect(),
+    };
+    let folder = Path::new(OUTPUT);
+    std::fs::create_dir_all(folder)?;
+    let schemes = Schemes::bundled();
+    let mut rows: Vec<Row> = Vec::new();
+    let mut left_out = LeftOut::default();
+    for (name, plan) in &plans {
+        let analysis = analyse(plan, &schemes, NeighbourLabels::True);
+        let style = Style::default();
+        let furniture = Furniture { title: true, legend: true, scale: true };
+        let scene = sheet::page(&Drawing::new(plan, &analysis), &style, PageSize::Longest(PICTURE_PX), furniture);
+        save_bytes_fast(&folder.join(format!("{name}.png")), &png::png(&scene)?)?;
+        save_bytes_fast(&folder.join(format!("{name}.svg")), svg::svg(&scene).as_bytes())?;
+        let (rooms, openings) = (plan.rooms().len(), plan.openings().len());
+        writeln!(terminal.out, "{OUTPUT}/{name}.png, .svg: {rooms} rooms, {openings} openings")?;
+        rows.extend(dataset::rows(plan, &schemes, NeighbourLabels::True, &mut left_out));
+    }
+    let mut table = Vec::new();
+    dataset::csv::write(&mut table, &rows)?;
+    save_bytes_fast(&folder.join("rooms.csv"), &table)?;
+    writeln!(terminal.out, "{OUTPUT}/rooms.csv: F_r and label of {} rooms", rows.len())?;
+    super::dataset::report_left_out(&left_out, terminal)?;
+    writeln!(terminal.out, "\n{}", Statistics::of(&rows).table("All rooms").trim_end())?;
+    Ok(Outcome::Done)
+}

@@ -1,0 +1,154 @@
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use clap::builder::PossibleValuesParser;
+
+use super::{CliError, Outcome, Subcommand, Terminal, inputs};
+use crate::draw::sheet::{self, Furniture, PageSize};
+use crate::draw::{Drawing, Fill, LabelColours, Layers, Scene, Style, Theme, png, svg};
+use crate::features::{NeighbourLabels, analyse};
+use crate::labels::Schemes;
+use crate::plan::Plan;
+
+/// `enfilade render`: plans as pictures.
+#[derive(clap::Args)]
+pub struct RenderCommand {
+    /// Plans, or folders of plans, of any known format
+    #[arg(required = true, value_name = "PLAN")]
+    plans: Vec<PathBuf>,
+    /// The picture to write, .png or .svg; with several plans the folder to write to
+    #[arg(short, long, value_name = "FILE|DIR")]
+    output: PathBuf,
+    /// Pixels of the longer side, or WIDTHxHEIGHT
+    #[arg(long, value_name = "PIXELS", default_value = "1600", value_parser = page_size)]
+    size: PageSize,
+    /// What the rooms are coloured by
+    #[arg(long, alias = "color", value_name = "BY", default_value = "label",
+          value_parser = PossibleValuesParser::new(Fill::ALL.map(Fill::name)))]
+    colour: String,
+    /// Draw the graph of rooms and openings over the plan
+    #[arg(long)]
+    graph: bool,
+    /// Draw a grid of metres under the plan
+    #[arg(long)]
+    grid: bool,
+    /// Dark ink on light paper, or the other way round
+    #[arg(long, value_name = "THEME", default_value = "light",
+          value_parser = PossibleValuesParser::new(Theme::ALL.map(Theme::name)))]
+    theme: String,
+    /// The five colours of the labels
+    #[arg(long, value_name = "PALETTE", default_value = "standard",
+          value_parser = PossibleValuesParser::new(LabelColours::ALL.map(LabelColours::name)))]
+    palette: String,
+    /// Leave out the rooms' names and areas
+    #[arg(long)]
+    no_names: bool,
+    /// Leave out title, legend, scale bar and north arrow
+    #[arg(long)]
+    bare: bool,
+    /// The ending of the pictures to write into a folder
+    #[arg(long, value_name = "ENDING", default_value = "png", value_parser = ["png", "svg"])]
+    format: String,
+    /// Label scheme that extends the bundled ones (may be given several times)
+    #[arg(long, value_name = "FILE.scheme.toml")]
+    scheme: Vec<PathBuf>,
+}
+
+impl Subcommand for RenderCommand {
+    const NAME: &'static str = "render";
+    const ABOUT: &'static str = "Draw plans as pictures, PNG or SVG";
+    const EXAMPLE: &'static str = "enfilade render plans/office.plan.json -o office.png --size 2000 --graph";
+
+    fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
+        let schemes = inputs::schemes(&self.scheme)?;
+        let files = inputs::plan_files(&self.plans)?;
+        let style = self.style();
+        let single = picture_ending(&self.output).filter(|_| !self.output.is_dir());
+        if single.is_none() && self.output.extension().is_some() && !self.output.is_dir() {
+            return Err(CliError::new(format!(
+                "{}: neither a folder nor a picture; pictures end in .png or .svg",
+                self.output.display()
+            )));
+        }
+        let ending = single.unwrap_or(&self.format);
+        let mut written: Vec<PathBuf> = Vec::new();
+        let failed = inputs::for_each_plan(&files, terminal, |file, import, terminal| {
+            for (storey, plan) in import.plans.iter().enumerate() {
+                let target = match single {
+                    Some(_) => self.output.clone(),
+                    None => self.output.join(inputs::target_name(file, storey, ending)),
+                };
+                if written.contains(&target) {
+                    return Err(CliError::new(format!(
+                        "{}: would be written twice; give a folder, and each file its own name",
+                        target.display()
+                    )));
+                }
+                let bytes = self.picture(plan, &schemes, &style, ending)?;
+                if let (None, Some(folder)) = (single, target.parent()) {
+                    std::fs::create_dir_all(folder)?;
+                }
+                crate::store::save_bytes_fast(&target, &bytes)?;
+                writeln!(terminal.out, "{}", target.display())?;
+                written.push(target);
+            }
+            Ok(())
+        })?;
+        Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
+    }
+}
+
+impl RenderCommand {
+    fn style(&self) -> Style {
+        // The parser let only names of the tables through.
+        Style {
+            theme: Theme::ALL.into_iter().find(|theme| theme.name() == self.theme).unwrap_or_default(),
+            label_colours: LabelColours::ALL
+                .into_iter()
+                .find(|colours| colours.name() == self.palette)
+                .unwrap_or_default(),
+            fill: Fill::ALL.into_iter().find(|fill| fill.name() == self.colour).unwrap_or_default(),
+            layers: Layers {
+                graph: self.graph,
+                grid: self.grid,
+                names: !self.no_names,
+                areas: !self.no_names,
+                ..Layers::default()
+            },
+            ..Style::default()
+        }
+    }
+
+    fn picture(&self, plan: &Plan, schemes: &Schemes, style: &Style, ending: &str) -> Result<Vec<u8>, CliError> {
+        let analysis = analyse(plan, schemes, NeighbourLabels::True);
+        let furniture = Furniture { title: !self.bare, legend: !self.bare, scale: !self.bare };
+        let scene: Scene = sheet::page(&Drawing::new(plan, &analysis), style, self.size, furniture);
+        Ok(if ending == "svg" { svg::svg(&scene).into_bytes() } else { png::png(&scene)? })
+    }
+}
+
+/// The ending of a picture's file name, if it has one.
+fn picture_ending(path: &Path) -> Option<&'static str> {
+    let extension = path.extension()?.to_string_lossy().to_lowercase();
+    ["png", "svg"].into_iter().find(|known| *known == extension)
+}
+
+/// Reads `1600` or `2000x1500`.
+fn page_size(text: &str) -> Result<PageSize, String> {
+    let (least, most) = (SMALLEST_SIDE_PX, png::LARGEST_SIDE_PX);
+    let side = |text: &str| {
+        let side: u32 = text.trim().parse().map_err(|_| format!("'{text}' is no number of pixels"))?;
+        if (least..=most).contains(&side) {
+            Ok(f64::from(side))
+        } else {
+            Err(format!("{side} pixels are outside {least} to {most}"))
+        }
+    };
+    match text.split_once(['x', 'X', '×']) {
+        Some((width, height)) => Ok(PageSize::Exact(side(width)?, side(height)?)),
+        None => Ok(PageSize::Longest(side(text)?)),
+    }
+}
+
+/// A picture of fewer pixels a side shows nothing.
+const SMALLEST_SIDE_PX: u32 = 16;

@@ -1,0 +1,147 @@
+//! Datasets as CSV (RFC 4180, UTF-8).
+
+use std::fmt;
+use std::io::{Read, Write};
+
+use super::Row;
+use crate::features::Features;
+use crate::labels::Typology;
+
+/// The columns of a dataset file, in order.
+pub const COLUMNS: [&str; 14] =
+    ["plan", "building", "typology", "room", "function", "label", "a", "rt", "d", "l_S", "l_M", "l_B", "l_C", "l_H"];
+
+/// Writes rows with a header.
+///
+/// # Errors
+/// When the writer fails.
+pub fn write(out: impl Write, rows: &[Row]) -> Result<(), csv::Error> {
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record(COLUMNS)?;
+    for row in rows {
+        let typology = row.typology.as_ref().map(Typology::as_str).unwrap_or_default();
+        let head = [&row.plan, &row.building, typology, &row.room, &row.function, row.label.letter()];
+        writer.write_record(head.into_iter().map(str::to_owned).chain(feature_cells(&row.features)))?;
+    }
+    writer.flush()?;
+    Ok(())
+}
+
+/// The eight features as cells: at most six decimals, no trailing zeros.
+pub fn feature_cells(features: &Features) -> [String; 8] {
+    features.values().map(|value| ((value * 1e6).round() / 1e6).to_string())
+}
+
+/// Why a dataset file could not be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CsvError {
+    /// Line from 1; 0 when it is the whole file.
+    pub line: u64,
+    pub what: String,
+}
+
+impl fmt::Display for CsvError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line {
+            0 => f.write_str(&self.what),
+            line => write!(f, "line {line}: {}", self.what),
+        }
+    }
+}
+
+impl std::error::Error for CsvError {}
+
+/// Reads rows written by [`write`]; columns may come in any order and others are passed over.
+/// `plan`, `building`, `typology`, `room` and `function` may be missing.
+///
+/// # Errors
+/// When a needed column is missing, a label is unknown, or a number is not finite or negative; with
+/// the line and column.
+pub fn read(input: impl Read) -> Result<Vec<Row>, CsvError> {
+    let mut reader = csv::ReaderBuilder::new().flexible(false).trim(csv::Trim::All).from_reader(input);
+    let fail = |line: u64, what: String| CsvError { line, what };
+    let headers = reader.headers().map_err(|error| fail(0, error.to_string()))?.clone();
+    let column = |name: &str| headers.iter().position(|header| header.trim_start_matches('\u{feff}') == name);
+    let needed = |name: &str| {
+        column(name)
+            .ok_or_else(|| fail(1, format!("no column '{name}'; a dataset has the columns {}", COLUMNS.join(","))))
+    };
+    let texts = ["plan", "building", "typology", "room", "function"].map(column);
+    let label = needed("label")?;
+    let mut numbers = [0; 8];
+    for (index, name) in Features::NAMES.into_iter().enumerate() {
+        numbers[index] = needed(name)?;
+    }
+    let mut rows = Vec::new();
+    for record in reader.records() {
+        let record =
+            record.map_err(|error| fail(error.position().map_or(0, csv::Position::line), error.to_string()))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let text = |index: Option<usize>| index.and_then(|index| record.get(index)).unwrap_or_default().to_owned();
+        let mut values = [0.0; 8];
+        for (name, (&index, value)) in Features::NAMES.into_iter().zip(numbers.iter().zip(&mut values)) {
+            let cell = record.get(index).unwrap_or_default();
+            *value = cell
+                .parse()
+                .ok()
+                .filter(|number: &f64| number.is_finite() && *number >= 0.0)
+                .ok_or_else(|| fail(line, format!("column '{name}': '{cell}' is not a number from 0 up")))?;
+            // `d` and `l_s` are counts.
+            if !matches!(name, "a" | "rt") && (value.fract() != 0.0 || *value > f64::from(u32::MAX)) {
+                return Err(fail(line, format!("column '{name}': '{cell}' is not a whole number")));
+            }
+        }
+        let count = |index: usize| values[index] as u32;
+        rows.push(Row {
+            plan: text(texts[0]),
+            building: text(texts[1]),
+            typology: Typology::new(&text(texts[2])),
+            room: text(texts[3]),
+            function: text(texts[4]),
+            label: text(Some(label)).parse().map_err(|error| fail(line, format!("column 'label': {error}")))?,
+            features: Features {
+                area_m2: values[0],
+                axes_ratio: values[1],
+                doors: count(2),
+                doors_to: [count(3), count(4), count(5), count(6), count(7)],
+            },
+        });
+    }
+    Ok(rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_written_is_read() {
+        let rows = vec![Row {
+            plan: "Casa \"Rossi\", piano 1".to_owned(),
+            building: "b".to_owned(),
+            typology: Typology::new("house"),
+            room: "R1".to_owned(),
+            function: "bath,room".to_owned(),
+            label: crate::labels::Label::SmallRoom,
+            features: Features { area_m2: 12.25, axes_ratio: 1.333333, doors: 3, doors_to: [0, 1, 0, 2, 0] },
+        }];
+        let mut bytes = Vec::new();
+        write(&mut bytes, &rows).expect("writing to memory");
+        assert_eq!(read(bytes.as_slice()), Ok(rows));
+    }
+
+    #[test]
+    fn errors_name_line_and_column() {
+        let head = "label,a,rt,d,l_S,l_M,l_B,l_C,l_H\n";
+        for (text, expected) in [
+            ("label,a\n", "line 1: no column 'rt'"),
+            (&format!("{head}S,1,1,1,0,0,0,0,0\nX,1,1,1,0,0,0,0,0\n"), "line 3: column 'label': unknown label 'X'"),
+            (&format!("{head}S,NaN,1,1,0,0,0,0,0\n"), "line 2: column 'a': 'NaN' is not a number from 0 up"),
+            (&format!("{head}S,1,1,1.5,0,0,0,0,0\n"), "line 2: column 'd': '1.5' is not a whole number"),
+            (&format!("{head}S,1\n"), "line 2: "),
+        ] {
+            let error = read(text.as_bytes()).expect_err(text).to_string();
+            assert!(error.starts_with(expected), "{error:?}");
+        }
+    }
+}

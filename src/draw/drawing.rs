@@ -1,0 +1,420 @@
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+use super::openings::OpeningDrawing;
+use super::scene::{Frame, Group, Item, Layer, Length, Scene, View};
+use super::walls::{self, Faces, Walls};
+use super::{Fill, Rgba, Style, names};
+use crate::features::{Analysis, RoomStatus};
+use crate::geometry::{Bounds, Point, Segment};
+use crate::labels::normalised_function;
+use crate::plan::{Joint, Meta, Plan, RoomId};
+
+/// A plan as shapes, before zoom and colours: made once a plan, asked for a [`Scene`] once a view.
+pub struct Drawing {
+    pub(super) meta: Meta,
+    pub(super) rooms: Vec<RoomDrawing>,
+    pub(super) walls: Vec<WallDrawing>,
+    pub(super) wall_lines: Vec<Segment>,
+    pub(super) boundaries: Vec<Segment>,
+    pub(super) openings: Vec<OpeningDrawing>,
+    pub(super) graph: Vec<GraphEdge>,
+    pub(super) faces: Faces,
+    bounds: Bounds,
+}
+
+/// A room as drawn.
+pub(super) struct RoomDrawing {
+    pub id: RoomId,
+    pub name: String,
+    pub function: String,
+    pub status: RoomStatus,
+    pub area_m2: f64,
+    pub outer: Vec<Point>,
+    pub holes: Vec<Vec<Point>>,
+    pub bounds: Bounds,
+    /// The middle of the room where it is widest: where its name and its node go.
+    pub centre: Point,
+    /// Indices of the rooms painted over it: smaller ones that reach into its box.
+    pub above: Vec<usize>,
+    /// Indices of the openings that reach into its box.
+    pub openings: Vec<usize>,
+}
+
+impl RoomDrawing {
+    /// All rings, the outer one first.
+    pub fn rings(&self) -> impl Iterator<Item = &Vec<Point>> {
+        std::iter::once(&self.outer).chain(&self.holes)
+    }
+
+    /// Whether it is a lift, whose doors slide.
+    pub fn is_lift(&self) -> bool {
+        normalised_function(&self.function).split(' ').any(|word| matches!(word, "lift" | "elevator"))
+    }
+
+    /// Whether it lies under the open sky, so that it is no part of the building's mass: by its
+    /// function, and only where the scheme leaves that blank.
+    pub fn is_open_air(&self) -> bool {
+        self.status == RoomStatus::NotClassified
+            && OPEN_AIR.iter().any(|word| normalised_function(&self.function).contains(word))
+    }
+}
+
+/// Words in functions of what lies under the open sky.
+const OPEN_AIR: [&str; 12] = [
+    "balcony", "terrace", "loggia", "veranda", "patio", "garden", "yard", "deck", "outdoor", "outside", "court",
+    "porch",
+];
+
+/// The order of painting: large rooms first, so that one that lies in or over another is seen.
+fn painting_order(rooms: &[RoomDrawing], one: usize, other: usize) -> Ordering {
+    rooms[other].area_m2.total_cmp(&rooms[one].area_m2).then(one.cmp(&other))
+}
+
+/// A connected piece of wall.
+pub(super) struct WallDrawing {
+    pub outer: Vec<Point>,
+    pub holes: Vec<Vec<Point>>,
+}
+
+/// A way from room to room, or out, through an opening.
+pub(super) struct GraphEdge {
+    pub from: Point,
+    pub through: Point,
+    /// The other room's centre; without one it leads outside, this way.
+    pub to: Result<Point, crate::geometry::Vector>,
+}
+
+impl Drawing {
+    /// The shapes of a plan. `analysis` must be that of the same plan.
+    pub fn new(plan: &Plan, analysis: &Analysis) -> Self {
+        let mut rooms: Vec<RoomDrawing> = plan
+            .rooms()
+            .zip(&analysis.rooms)
+            .zip(analysis.shapes.all())
+            .map(|(((id, room), analysed), shape)| RoomDrawing {
+                id,
+                name: room.name.trim().to_owned(),
+                function: room.function.trim().to_owned(),
+                status: analysed.status,
+                area_m2: shape.area_m2(),
+                outer: shape.outer.clone(),
+                holes: shape.holes.clone(),
+                bounds: shape.bounds,
+                centre: names::centre(&shape.outer, &shape.holes),
+                above: Vec::new(),
+                openings: Vec::new(),
+            })
+            .collect();
+        for i in 0..rooms.len() {
+            // Less a centimetre: neighbours meet at most along an edge.
+            let near = analysis.shapes.near(rooms[i].bounds.inflated(-0.01));
+            rooms[i].above = near.into_iter().filter(|&j| painting_order(&rooms, j, i).is_gt()).collect();
+        }
+        let walls = Walls::new(plan, &rooms);
+        let faces = Faces::new(&walls.solid);
+        let openings = OpeningDrawing::all(plan, analysis, &rooms, &faces);
+        for (i, opening) in openings.iter().enumerate() {
+            for room in analysis.shapes.near(opening.bounds()) {
+                rooms[room].openings.push(i);
+            }
+        }
+        let cuts: Vec<_> = openings.iter().filter_map(|opening| opening.cut.clone()).collect();
+        let solid = walls::without(walls.solid, &cuts);
+        // From here on what is left of the walls bounds the rooms for their names.
+        let faces = Faces::new(&solid);
+        let walls_drawn: Vec<WallDrawing> = solid
+            .iter()
+            .filter_map(|shape| {
+                let (outer, holes) = shape.split_first()?;
+                Some(WallDrawing { outer: walls::points(outer), holes: holes.iter().map(walls::points).collect() })
+            })
+            .collect();
+        let bounds =
+            walls_drawn.iter().fold(plan.bounds(), |bounds, wall| bounds.union(Bounds::of(wall.outer.iter().copied())));
+        let bounds = openings.iter().fold(bounds, |bounds, opening| bounds.union(opening.bounds()));
+        let graph = graph_edges(analysis, &rooms, &openings);
+        let boundaries = without_openings(walls.boundaries, &openings);
+        Self {
+            meta: plan.meta().clone(),
+            rooms,
+            walls: walls_drawn,
+            wall_lines: walls.lines,
+            boundaries,
+            openings,
+            graph,
+            faces,
+            bounds,
+        }
+    }
+
+    /// The box of all that is drawn of the plan, in metres.
+    pub fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+
+    /// The scene in a view. Nothing is left out for lying outside the view but names: panning within
+    /// one zoom only moves the rest.
+    pub fn scene(&self, style: &Style, view: &View) -> Scene {
+        let palette = style.palette();
+        let groups = Layer::ALL.into_iter().flat_map(|layer| self.layer(layer, style, view)).collect();
+        Scene { view: *view, background: palette.paper, groups }
+    }
+
+    /// One layer of the scene; empty when the style leaves it out. [`Layer::Sheet`] is not the
+    /// plan's but the page's, see [`super::sheet`].
+    pub fn layer(&self, layer: Layer, style: &Style, view: &View) -> Vec<Group> {
+        let layers = &style.layers;
+        match layer {
+            Layer::Grid if layers.grid => grid(style, view.px_per_m, view.bounds()),
+            Layer::Rooms if layers.rooms => self.room_fills(style),
+            Layer::Boundaries if layers.walls => self.boundary_lines(style),
+            Layer::Walls if layers.walls => self.wall_fills(style, view),
+            Layer::Openings if layers.openings => {
+                let floors = self.fills(style);
+                self.openings.iter().map(|opening| opening.group(style, view, &floors)).collect()
+            }
+            Layer::Graph if layers.graph => self.graph_marks(style),
+            Layer::Names if layers.names || layers.areas => names::groups(self, style, view),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The colours of the rooms' fills.
+    pub(super) fn fills(&self, style: &Style) -> Vec<Rgba> {
+        let palette = style.palette();
+        let functions = match style.fill {
+            Fill::Function => palette.functions(self.rooms.iter().map(|room| room.function.as_str())),
+            Fill::Label | Fill::None => BTreeMap::new(),
+        };
+        let fill = |room: &RoomDrawing| match style.fill {
+            Fill::None => palette.paper,
+            Fill::Label => palette.status(room.status),
+            Fill::Function => {
+                functions.get(&normalised_function(&room.function)).copied().unwrap_or(palette.unlabelled)
+            }
+        };
+        self.rooms.iter().map(|room| fill(room).faded(style.fill_opacity)).collect()
+    }
+
+    fn room_fills(&self, style: &Style) -> Vec<Group> {
+        let fills = self.fills(style);
+        let mut order: Vec<usize> = (0..self.rooms.len()).filter(|&i| !self.rooms[i].outer.is_empty()).collect();
+        order.sort_by(|&p, &q| painting_order(&self.rooms, p, q));
+        order
+            .into_iter()
+            .map(|i| {
+                let room = &self.rooms[i];
+                let polygon = Item::Polygon { outer: room.outer.clone(), holes: room.holes.clone(), colour: fills[i] };
+                Group {
+                    element: room.id.to_string(),
+                    title: room_title(room),
+                    ..Group::new(Layer::Rooms, Frame::Plan, vec![polygon])
+                }
+            })
+            .collect()
+    }
+
+    fn boundary_lines(&self, style: &Style) -> Vec<Group> {
+        let items: Vec<Item> = self
+            .boundaries
+            .iter()
+            .map(|segment| Item::Line {
+                points: vec![segment.a, segment.b],
+                closed: false,
+                colour: style.palette().boundary,
+                width: Length::Px(1.0),
+                dash: None,
+            })
+            .collect();
+        if items.is_empty() { Vec::new() } else { vec![Group::new(Layer::Boundaries, Frame::Plan, items)] }
+    }
+
+    fn wall_fills(&self, style: &Style, view: &View) -> Vec<Group> {
+        let colour = style.palette().wall;
+        let mut items: Vec<Item> = Vec::new();
+        for wall in &self.walls {
+            items.push(Item::Polygon { outer: wall.outer.clone(), holes: wall.holes.clone(), colour });
+        }
+        // Walls that are too thin to see at this zoom get a rim.
+        let rim_px = THINNEST_WALL_PX - TYPICAL_WALL_M * view.px_per_m;
+        if rim_px > 0.0 {
+            for ring in self.walls.iter().flat_map(|wall| std::iter::once(&wall.outer).chain(&wall.holes)) {
+                items.push(Item::Line {
+                    points: ring.clone(),
+                    closed: true,
+                    colour,
+                    width: Length::Px(rim_px),
+                    dash: None,
+                });
+            }
+        }
+        for segment in &self.wall_lines {
+            items.push(Item::Line {
+                points: vec![segment.a, segment.b],
+                closed: false,
+                colour,
+                width: Length::Px(THINNEST_WALL_PX),
+                dash: None,
+            });
+        }
+        if items.is_empty() { Vec::new() } else { vec![Group::new(Layer::Walls, Frame::Plan, items)] }
+    }
+
+    fn graph_marks(&self, style: &Style) -> Vec<Group> {
+        let palette = style.palette();
+        let mut items = Vec::new();
+        let line = |points: Vec<Point>| Item::Line {
+            points,
+            closed: false,
+            colour: palette.graph_edge,
+            width: Length::Px(1.5),
+            dash: None,
+        };
+        for edge in &self.graph {
+            match edge.to {
+                Ok(to) => items.push(line(vec![edge.from, edge.through, to])),
+                Err(outward) => {
+                    let end = edge.through + outward * STUB_M;
+                    items.push(line(vec![edge.from, edge.through, end]));
+                    items.push(Item::Disc {
+                        centre: end,
+                        radius: Length::Px(3.5),
+                        fill: Some(palette.paper),
+                        outline: Some((palette.graph_edge, Length::Px(1.5))),
+                    });
+                }
+            }
+        }
+        for room in self.rooms.iter().filter(|room| !room.outer.is_empty()) {
+            let fill = match room.status {
+                RoomStatus::Labelled(label) => palette.label_strong(label),
+                RoomStatus::NotClassified | RoomStatus::Unlabelled => palette.ink_muted,
+            };
+            items.push(Item::Disc {
+                centre: room.centre,
+                radius: Length::Px(NODE_RADIUS_PX),
+                fill: Some(fill),
+                outline: Some((palette.paper, Length::Px(1.5))),
+            });
+        }
+        vec![Group::new(Layer::Graph, Frame::Plan, items)]
+    }
+
+    /// Number of rooms with each label, those without one, and those not classified.
+    pub fn counts(&self) -> ([usize; 5], usize, usize) {
+        let mut counts = ([0; 5], 0, 0);
+        for room in &self.rooms {
+            match room.status {
+                RoomStatus::Labelled(label) => counts.0[label.index()] += 1,
+                RoomStatus::Unlabelled => counts.1 += 1,
+                RoomStatus::NotClassified => counts.2 += 1,
+            }
+        }
+        counts
+    }
+}
+
+/// Radius of a graph's node in pixels.
+pub(super) const NODE_RADIUS_PX: f64 = 5.0;
+
+/// How far an edge that leads outside goes on beyond its opening, in metres: past the wall.
+const STUB_M: f64 = 0.9;
+
+/// No wall is drawn thinner than this, in pixels.
+const THINNEST_WALL_PX: f64 = 1.5;
+
+/// Thickness in metres of the thinner walls seen: a wall of it is as thick on the screen as drawn.
+const TYPICAL_WALL_M: f64 = 0.1;
+
+/// Distance of the grid's lines in metres: the least of 0.1, 1, 10, … that keeps them 12 pixels apart.
+pub fn grid_step_m(px_per_m: f64) -> Option<f64> {
+    [0.1, 1.0, 10.0, 100.0, 1000.0].into_iter().find(|step| step * px_per_m >= 12.0)
+}
+
+/// The grid over a part of the plan.
+pub(super) fn grid(style: &Style, px_per_m: f64, seen: Bounds) -> Vec<Group> {
+    let palette = style.palette();
+    let Some(step_m) = grid_step_m(px_per_m) else { return Vec::new() };
+    let mut items = Vec::new();
+    let mut line = |from: Point, to: Point, index: i64| {
+        let colour = if index % 10 == 0 { palette.grid_major } else { palette.grid };
+        items.push(Item::Line { points: vec![from, to], closed: false, colour, width: Length::Px(1.0), dash: None });
+    };
+    let indices = |low: f64, high: f64| (low / step_m).ceil() as i64..=(high / step_m).floor() as i64;
+    for i in indices(seen.min.x, seen.max.x) {
+        let x = i as f64 * step_m;
+        line(Point::new(x, seen.min.y), Point::new(x, seen.max.y), i);
+    }
+    for i in indices(seen.min.y, seen.max.y) {
+        let y = i as f64 * step_m;
+        line(Point::new(seen.min.x, y), Point::new(seen.max.x, y), i);
+    }
+    vec![Group::new(Layer::Grid, Frame::Plan, items)]
+}
+
+/// What a room is, in a line: 'Library: reading room, big room, 84.2 m²'.
+fn room_title(room: &RoomDrawing) -> String {
+    let label = match room.status {
+        RoomStatus::Labelled(label) => label.name(),
+        RoomStatus::NotClassified => "not classified",
+        RoomStatus::Unlabelled => "no label",
+    };
+    let function = names::sentence_case(&room.function);
+    let head = match (room.name.is_empty(), function.is_empty()) {
+        (true, true) => "Room".to_owned(),
+        (true, false) => function,
+        (false, true) => room.name.clone(),
+        (false, false) => format!("{}: {}", room.name, normalised_function(&room.function)),
+    };
+    format!("{head}, {label}, {}", names::area_text(room.area_m2))
+}
+
+/// The pieces of boundaries that are left beside openings that stand in no wall.
+fn without_openings(mut boundaries: Vec<Segment>, openings: &[OpeningDrawing]) -> Vec<Segment> {
+    // An opening given for a boundary lies on it but for rounding.
+    const ON_IT_M: f64 = 0.05;
+    for opening in openings.iter().filter(|opening| opening.cut.is_none()) {
+        let gap = opening.segment();
+        let mut left = Vec::with_capacity(boundaries.len() + 1);
+        for boundary in boundaries {
+            let length = boundary.length();
+            let (p, q) = (boundary.nearest_fraction(gap.a), boundary.nearest_fraction(gap.b));
+            let (from, to) = (p.min(q), p.max(q));
+            let middle = boundary.a.lerp(boundary.b, (from + to) / 2.0);
+            let along = gap.vector().cross(boundary.vector()).abs() <= ON_IT_M * gap.length() * length;
+            if !along || (to - from) * length < ON_IT_M || gap.distance(middle) > ON_IT_M {
+                left.push(boundary);
+                continue;
+            }
+            if from * length > ON_IT_M {
+                left.push(Segment::new(boundary.a, boundary.a.lerp(boundary.b, from)));
+            }
+            if (1.0 - to) * length > ON_IT_M {
+                left.push(Segment::new(boundary.a.lerp(boundary.b, to), boundary.b));
+            }
+        }
+        boundaries = left;
+    }
+    boundaries
+}
+
+fn graph_edges(analysis: &Analysis, rooms: &[RoomDrawing], openings: &[OpeningDrawing]) -> Vec<GraphEdge> {
+    let room = |joint: Joint| rooms.get(analysis.shapes.index_of(joint.room()?)?).filter(|room| !room.outer.is_empty());
+    let mut edges = Vec::new();
+    for connection in analysis.graph.connections() {
+        let Some(opening) = openings.iter().find(|opening| opening.id == connection.opening) else { continue };
+        let (first, second) = match connection.sides.map(room) {
+            [Some(first), Some(second)] if first.id == second.id => continue,
+            [Some(first), second] => (first, second),
+            [None, Some(second)] => (second, None),
+            [None, None] => continue,
+        };
+        let to = second.map(|second| second.centre).ok_or_else(|| {
+            let normal = opening.normal();
+            if (first.centre - opening.centre).dot(normal) > 0.0 { -normal } else { normal }
+        });
+        edges.push(GraphEdge { from: first.centre, through: opening.centre, to });
+    }
+    edges
+}

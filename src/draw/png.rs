@@ -1,0 +1,465 @@
+//! A scene as pixels, by tiny-skia on the CPU. The same bytes on every x86-64 machine: no machine's
+//! sine or font rasteriser takes part, and tiny-skia uses the same vector instructions on all of them
+//! (SSE2, unless compiled for a newer processor).
+
+use std::collections::HashMap;
+use std::fmt;
+
+use tiny_skia::{
+    Color, FillRule, LineCap, LineJoin, Mask, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, StrokeDash, Transform,
+};
+
+use super::Rgba;
+use super::font::{Font, Step};
+use super::scene::{Anchor, Dash, Frame, Group, Item, Layer, Length, Scene, Text, View, Weight};
+use crate::geometry::polygon::edges;
+use crate::geometry::{Bounds, Point, Vector};
+
+/// No picture has more pixels a side: 256 MiB of memory while painting.
+pub const LARGEST_SIDE_PX: u32 = 8192;
+
+/// A picture that cannot be painted, in words that say what to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PictureError(String);
+
+impl fmt::Display for PictureError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for PictureError {}
+
+/// The scene as a PNG file's bytes.
+///
+/// # Errors
+/// As [`paint`].
+pub fn png(scene: &Scene) -> Result<Vec<u8>, PictureError> {
+    encode(&paint(scene)?)
+}
+
+/// A pixmap as a PNG file's bytes: 8 bits a channel, without alpha where all is opaque. Compressed for
+/// speed: large areas of one colour shrink well anyway.
+///
+/// # Errors
+/// When the encoder fails, which it does for no picture made here.
+pub fn encode(pixmap: &Pixmap) -> Result<Vec<u8>, PictureError> {
+    let failed = |error: png::EncodingError| PictureError(format!("cannot encode the picture: {error}"));
+    let opaque = pixmap.data().chunks_exact(4).all(|pixel| pixel[3] == 255);
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, pixmap.width(), pixmap.height());
+    encoder.set_color(if opaque { png::ColorType::Rgb } else { png::ColorType::Rgba });
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    encoder.set_compression(png::Compression::Fast);
+    encoder.set_filter(png::Filter::Up);
+    let mut writer = encoder.write_header().map_err(failed)?;
+    let data: Vec<u8> = if opaque {
+        pixmap.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
+    } else {
+        pixmap
+            .pixels()
+            .iter()
+            .flat_map(|pixel| {
+                let pixel = pixel.demultiply();
+                [pixel.red(), pixel.green(), pixel.blue(), pixel.alpha()]
+            })
+            .collect()
+    };
+    writer.write_image_data(&data).map_err(failed)?;
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
+}
+
+/// The scene painted.
+///
+/// # Errors
+/// When its view has no pixels or more than [`LARGEST_SIDE_PX`] a side.
+pub fn paint(scene: &Scene) -> Result<Pixmap, PictureError> {
+    let view = &scene.view;
+    let side = |px: f64| {
+        let px = (px * view.pixel_ratio).round();
+        (px >= 1.0 && px <= f64::from(LARGEST_SIDE_PX)).then_some(px as u32)
+    };
+    let pixmap = side(view.width_px).zip(side(view.height_px)).and_then(|(width, height)| Pixmap::new(width, height));
+    let Some(mut pixmap) = pixmap else {
+        return Err(PictureError(format!(
+            "a picture of {} x {} pixels cannot be painted: each side must be 1 to {LARGEST_SIDE_PX}",
+            view.width_px * view.pixel_ratio,
+            view.height_px * view.pixel_ratio
+        )));
+    };
+    pixmap.fill(colour(scene.background));
+    let mut painter = Painter { pixmap, view: *view, glyphs: HashMap::new(), advances: HashMap::new() };
+    for group in &scene.groups {
+        painter.group(group);
+    }
+    Ok(painter.pixmap)
+}
+
+fn colour(rgba: Rgba) -> Color {
+    Color::from_rgba8(rgba.r, rgba.g, rgba.b, rgba.a)
+}
+
+fn paint_of(rgba: Rgba) -> Paint<'static> {
+    let mut paint = Paint { anti_alias: true, ..Paint::default() };
+    paint.set_color(colour(rgba));
+    paint
+}
+
+struct Painter {
+    pixmap: Pixmap,
+    view: View,
+    glyphs: HashMap<GlyphKey, Option<Glyph>>,
+    advances: HashMap<(Weight, char), f64>,
+}
+
+impl Painter {
+    fn group(&mut self, group: &Group) {
+        for item in &group.items {
+            match item {
+                Item::Polygon { outer, holes, colour } => self.polygon(group, outer, holes, *colour),
+                Item::Line { points, closed, colour, width, dash } => {
+                    self.line(group.frame, points, *closed, *colour, *width, *dash);
+                }
+                Item::Arc { centre, from, to, colour, width } => {
+                    self.arc(group.frame, *centre, *from, *to, *colour, *width);
+                }
+                Item::Disc { centre, radius, fill, outline } => {
+                    let (centre, radius) = (self.at(group.frame, *centre), self.px(*radius));
+                    let Some(circle) = PathBuilder::from_circle(centre.x as f32, centre.y as f32, radius as f32) else {
+                        continue;
+                    };
+                    if let Some(fill) = fill {
+                        self.fill(&circle, *fill, FillRule::Winding);
+                    }
+                    if let Some((colour, width)) = outline {
+                        let stroke = Stroke { width: self.px(*width) as f32, ..Stroke::default() };
+                        self.stroke(&circle, *colour, &stroke);
+                    }
+                }
+                Item::Text(text) => self.text(group.frame, text),
+            }
+        }
+    }
+
+    /// A point in physical pixels.
+    fn at(&self, frame: Frame, point: Point) -> Point {
+        let screen = match frame {
+            Frame::Plan => self.view.screen_from_plan(point),
+            Frame::Screen => point,
+        };
+        Point::new(screen.x * self.view.pixel_ratio, screen.y * self.view.pixel_ratio)
+    }
+
+    /// A length in physical pixels.
+    fn px(&self, length: Length) -> f64 {
+        self.view.px(length) * self.view.pixel_ratio
+    }
+
+    fn fill(&mut self, path: &Path, colour: Rgba, rule: FillRule) {
+        self.pixmap.fill_path(path, &paint_of(colour), rule, Transform::identity(), None);
+    }
+
+    fn stroke(&mut self, path: &Path, colour: Rgba, stroke: &Stroke) {
+        self.pixmap.stroke_path(path, &paint_of(colour), stroke, Transform::identity(), None);
+    }
+
+    /// Whether a box in physical pixels, grown by `margin`, meets the picture.
+    fn is_seen(&self, bounds: Bounds, margin: f64) -> bool {
+        let page = Bounds {
+            min: Point::default(),
+            max: Point::new(f64::from(self.pixmap.width()), f64::from(self.pixmap.height())),
+        };
+        bounds.inflated(margin).intersects(page)
+    }
+
+    /// Fills a polygon. One with level and upright sides only is put on whole pixels: crisp, without
+    /// seams between neighbours, and fast. Not so for walls, whose thickness would become uneven.
+    fn polygon(&mut self, group: &Group, outer: &[Point], holes: &[Vec<Point>], colour: Rgba) {
+        let rings: Vec<Vec<Point>> = std::iter::once(outer)
+            .chain(holes.iter().map(Vec::as_slice))
+            .map(|ring| ring.iter().map(|&point| self.at(group.frame, point)).collect())
+            .collect();
+        if !self.is_seen(Bounds::of(rings[0].iter().copied()), 1.0) {
+            return;
+        }
+        let is_level = group.layer != Layer::Walls
+            && rings.iter().flat_map(|ring| edges(ring)).all(|edge| {
+                let along = edge.vector();
+                along.x.abs() < STRAIGHT_PX || along.y.abs() < STRAIGHT_PX
+            });
+        let place = |point: Point| if is_level { Point::new(point.x.round(), point.y.round()) } else { point };
+        if is_level && holes.is_empty() && outer.len() == 4 {
+            let bounds = Bounds::of(rings[0].iter().copied().map(place));
+            self.rectangle(bounds, colour);
+            return;
+        }
+        let mut builder = PathBuilder::new();
+        for ring in &rings {
+            for (i, &point) in ring.iter().enumerate() {
+                let at = place(point);
+                if i == 0 {
+                    builder.move_to(at.x as f32, at.y as f32);
+                } else {
+                    builder.line_to(at.x as f32, at.y as f32);
+                }
+            }
+            builder.close();
+        }
+        if let Some(path) = builder.finish() {
+            let paint = Paint { anti_alias: !is_level, ..paint_of(colour) };
+            self.pixmap.fill_path(&path, &paint, FillRule::EvenOdd, Transform::identity(), None);
+        }
+    }
+
+    /// Fills a box of whole physical pixels.
+    fn rectangle(&mut self, bounds: Bounds, colour: Rgba) {
+        let (min, max) = (bounds.min, bounds.max);
+        if let Some(rect) = Rect::from_ltrb(min.x as f32, min.y as f32, max.x as f32, max.y as f32) {
+            let paint = Paint { anti_alias: false, ..paint_of(colour) };
+            self.pixmap.fill_rect(rect, &paint, Transform::identity(), None);
+        }
+    }
+
+    fn line(&mut self, frame: Frame, points: &[Point], closed: bool, colour: Rgba, width: Length, dash: Option<Dash>) {
+        let width_px = self.px(width);
+        let mut points: Vec<Point> = points.iter().map(|&point| self.at(frame, point)).collect();
+        if !self.is_seen(Bounds::of(points.iter().copied()), 4.0 * width_px) {
+            return;
+        }
+        if let (Length::Px(_), [a, b]) = (width, points.as_mut_slice())
+            && sharpen(a, b, width_px)
+            && dash.is_none()
+            && width_px.fract() == 0.0
+        {
+            let half = width_px / 2.0;
+            let across = if a.x == b.x { Vector::new(half, 0.0) } else { Vector::new(0.0, half) };
+            let corners = [*a - across, *a + across, *b - across, *b + across];
+            self.rectangle(Bounds::of(corners.map(|corner| Point::new(corner.x.round(), corner.y.round()))), colour);
+            return;
+        }
+        let mut builder = PathBuilder::new();
+        for (i, point) in points.iter().enumerate() {
+            if i == 0 {
+                builder.move_to(point.x as f32, point.y as f32);
+            } else {
+                builder.line_to(point.x as f32, point.y as f32);
+            }
+        }
+        if closed {
+            builder.close();
+        }
+        let Some(path) = builder.finish() else { return };
+        let dash =
+            dash.and_then(|dash| StrokeDash::new(vec![self.px(dash.dash) as f32, self.px(dash.gap) as f32], 0.0));
+        let stroke = Stroke {
+            width: width_px as f32,
+            line_cap: LineCap::Butt,
+            line_join: LineJoin::Miter,
+            dash,
+            ..Stroke::default()
+        };
+        self.stroke(&path, colour, &stroke);
+    }
+
+    fn arc(&mut self, frame: Frame, centre: Point, from: Point, to: Point, colour: Rgba, width: Length) {
+        // Two pieces: each of at most a quarter of a turn, where one cubic is exact to 0.03 %.
+        let points = super::scene::arc_points(centre, from, to, 1);
+        let centre = self.at(frame, centre);
+        let points: Vec<Point> = points.iter().map(|&point| self.at(frame, point)).collect();
+        let width_px = self.px(width);
+        if !self.is_seen(Bounds::of(points.iter().copied()), width_px + centre.distance(points[0])) {
+            return;
+        }
+        let mut builder = PathBuilder::new();
+        builder.move_to(points[0].x as f32, points[0].y as f32);
+        for pair in points.windows(2) {
+            let (p, q) = (pair[0] - centre, pair[1] - centre);
+            let (length, turn) = (p.length(), p.cross(q));
+            if length <= 0.0 {
+                return;
+            }
+            // Control points at 4/3 tan(angle/4) of the radius along the tangents; the tangent by half
+            // angles, square roots being the same on every machine.
+            let half = ((1.0 + p.dot(q) / (length * length)) / 2.0).clamp(0.0, 1.0).sqrt();
+            let reach = 4.0 / 3.0 * ((1.0 - half) / (1.0 + half)).sqrt() * turn.signum();
+            let (c1, c2) = (pair[0] + p.left() * reach, pair[1] - q.left() * reach);
+            builder.cubic_to(c1.x as f32, c1.y as f32, c2.x as f32, c2.y as f32, pair[1].x as f32, pair[1].y as f32);
+        }
+        if let Some(path) = builder.finish() {
+            self.stroke(&path, colour, &Stroke { width: width_px as f32, ..Stroke::default() });
+        }
+    }
+
+    fn text(&mut self, frame: Frame, text: &Text) {
+        let ratio = self.view.pixel_ratio;
+        let size = text.size_px * ratio;
+        let font = Font::of(text.weight);
+        let width = font.width_px(&text.content, size);
+        let anchor = self.at(frame, text.at) + text.offset_px * ratio;
+        let back = match text.anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => width / 2.0,
+            Anchor::End => width,
+        };
+        // On whole pixels: letters of the same word look the same, and their feet stand on a pixel's rim.
+        let (start_x, start_y) = if text.upright { (anchor.x, anchor.y + back) } else { (anchor.x - back, anchor.y) };
+        let (start_x, start_y) = (start_x.round(), start_y.round());
+        let bounds = Bounds::of([Point::new(start_x, start_y)]);
+        if !self.is_seen(bounds, width + size) {
+            return;
+        }
+        let mut pens = Vec::with_capacity(text.content.len());
+        let mut pen = if text.upright { -start_y } else { start_x };
+        for character in text.content.chars() {
+            pens.push((character, pen));
+            let key = (text.weight, character);
+            pen += size * *self.advances.entry(key).or_insert_with(|| f64::from(font.advance(character)));
+        }
+        // All halos first: none covers the letter before it.
+        let halo = text.halo.map(|halo| (halo, Some(size * HALO)));
+        for (colour, halo_px) in halo.into_iter().chain([(text.colour, None)]) {
+            for &(character, pen) in &pens {
+                let (whole, place) = (pen.floor(), ((pen - pen.floor()) * PLACES).floor());
+                let key = GlyphKey {
+                    weight: text.weight,
+                    character,
+                    size_bits: size.to_bits(),
+                    place: place as u8,
+                    upright: text.upright,
+                    is_halo: halo_px.is_some(),
+                };
+                let glyph = self.glyphs.entry(key).or_insert_with(|| key.rasterised(font, size, halo_px));
+                if let Some(glyph) = glyph {
+                    let (x, y) = if text.upright { (start_x, -whole) } else { (whole, start_y) };
+                    glyph.blend(&mut self.pixmap, x as i64, y as i64, colour);
+                }
+            }
+        }
+    }
+}
+
+/// Width of a halo as a fraction of the font size: a ring of half of it around the letters.
+const HALO: f64 = 0.28;
+
+/// Places within a pixel, along a line of text, at which a letter is kept rasterised: finer is not seen.
+const PLACES: f64 = 4.0;
+
+/// What a rasterised letter looks like.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct GlyphKey {
+    weight: Weight,
+    character: char,
+    size_bits: u64,
+    /// Place within a pixel along the line, of [`PLACES`].
+    place: u8,
+    upright: bool,
+    is_halo: bool,
+}
+
+/// A letter's coverage.
+struct Glyph {
+    /// From the pen's pixel to the mask's upper left one.
+    left: i64,
+    top: i64,
+    mask: Mask,
+}
+
+impl GlyphKey {
+    /// The letter as pixels; `None` for one that leaves none.
+    fn rasterised(self, font: &Font, size: f64, halo_px: Option<f64>) -> Option<Glyph> {
+        let shift = ((f64::from(self.place) + 0.5) / PLACES) as f32;
+        let size = size as f32;
+        // Upright: along the line is up the screen, up from the baseline is to the left.
+        let at = |x: f32, y: f32| {
+            let (along, up) = (shift + x * size, y * size);
+            if self.upright { (-up, -along) } else { (along, -up) }
+        };
+        let mut builder = PathBuilder::new();
+        for step in font.outline(self.character) {
+            match step {
+                Step::Move(x, y) => {
+                    let (x, y) = at(x, y);
+                    builder.move_to(x, y);
+                }
+                Step::Line(x, y) => {
+                    let (x, y) = at(x, y);
+                    builder.line_to(x, y);
+                }
+                Step::Quad(x1, y1, x, y) => {
+                    let ((x1, y1), (x, y)) = (at(x1, y1), at(x, y));
+                    builder.quad_to(x1, y1, x, y);
+                }
+                Step::Cubic(x1, y1, x2, y2, x, y) => {
+                    let ((x1, y1), (x2, y2), (x, y)) = (at(x1, y1), at(x2, y2), at(x, y));
+                    builder.cubic_to(x1, y1, x2, y2, x, y);
+                }
+                Step::Close => builder.close(),
+            }
+        }
+        let mut path = builder.finish()?;
+        if let Some(width) = halo_px {
+            let stroke = Stroke { width: width as f32, line_join: LineJoin::Round, ..Stroke::default() };
+            path = path.stroke(&stroke, 1.0)?;
+        }
+        let bounds = path.bounds();
+        let (left, top) = (bounds.left().floor(), bounds.top().floor());
+        let extent = |length: f32| (length.ceil() as u32).saturating_add(1);
+        let mut mask = Mask::new(extent(bounds.right() - left), extent(bounds.bottom() - top))?;
+        mask.fill_path(&path, FillRule::Winding, true, Transform::from_translate(-left, -top));
+        Some(Glyph { left: left as i64, top: top as i64, mask })
+    }
+}
+
+impl Glyph {
+    /// Lays a colour over the picture where the letter covers it, its pen's pixel at (`x`, `y`).
+    fn blend(&self, pixmap: &mut Pixmap, x: i64, y: i64, colour: Rgba) {
+        let (width, height) = (i64::from(pixmap.width()), i64::from(pixmap.height()));
+        let (left, top) = (x + self.left, y + self.top);
+        let data = pixmap.data_mut();
+        for (row, coverage) in self.mask.data().chunks_exact(self.mask.width() as usize).enumerate() {
+            let y = top + row as i64;
+            if y < 0 || y >= height {
+                continue;
+            }
+            for (column, &coverage) in coverage.iter().enumerate() {
+                let x = left + column as i64;
+                if coverage == 0 || x < 0 || x >= width {
+                    continue;
+                }
+                // Premultiplied 'source over' in whole numbers, rounded.
+                let alpha = u32::from(coverage) * u32::from(colour.a);
+                let pixel = (y * width + x) as usize * 4;
+                let sources = [colour.r, colour.g, colour.b, 255];
+                for (under, source) in data[pixel..pixel + 4].iter_mut().zip(sources) {
+                    let sum = u32::from(source) * alpha + u32::from(*under) * (OPAQUE - alpha);
+                    *under = ((sum + OPAQUE / 2) / OPAQUE) as u8;
+                }
+            }
+        }
+    }
+}
+
+/// Full coverage by an opaque colour.
+const OPAQUE: u32 = 255 * 255;
+
+/// A line counts as level or upright up to this difference of its ends, in pixels.
+const STRAIGHT_PX: f64 = 0.01;
+
+/// Moves a level or upright line of a width in physical pixels so that its sides fall on pixels' rims;
+/// says whether it is one.
+fn sharpen(a: &mut Point, b: &mut Point, width_px: f64) -> bool {
+    let middle = |place: f64| if (width_px.round() as i64) % 2 == 1 { place.floor() + 0.5 } else { place.round() };
+    if (a.x - b.x).abs() < STRAIGHT_PX {
+        a.x = middle(a.x);
+        b.x = a.x;
+        true
+    } else if (a.y - b.y).abs() < STRAIGHT_PX {
+        a.y = middle(a.y);
+        b.y = a.y;
+        true
+    } else {
+        false
+    }
+}

@@ -1,0 +1,216 @@
+//! A scene as SVG: real text, one group a room and an opening with its id and a title, numbers no
+//! longer than they need be. The same bytes for the same scene.
+
+use std::fmt::Write as _;
+
+use super::Rgba;
+use super::scene::{Anchor, Dash, Frame, Group, Item, Layer, Length, Scene, Text, View, Weight};
+use crate::geometry::Point;
+
+/// The fonts to look for: the bundled one, then what is metrically near.
+const FONTS: &str = "Inter,'Helvetica Neue',Helvetica,Arial,sans-serif";
+
+/// The scene as an SVG document.
+pub fn svg(scene: &Scene) -> String {
+    let view = &scene.view;
+    let (width, height) = (number(view.width_px), number(view.height_px));
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
+         font-family=\"{FONTS}\">\n"
+    );
+    if scene.background.a > 0 {
+        let _ = writeln!(out, "<rect width=\"{width}\" height=\"{height}\"{}/>", fill(scene.background));
+    }
+    for layer in Layer::ALL {
+        let mut groups = scene.groups.iter().filter(|group| group.layer == layer && !group.items.is_empty()).peekable();
+        if groups.peek().is_none() {
+            continue;
+        }
+        let _ = writeln!(out, "<g id=\"{}\">", layer.name());
+        for group in groups {
+            write_group(&mut out, view, group);
+        }
+        out.push_str("</g>\n");
+    }
+    out.push_str("</svg>\n");
+    out
+}
+
+fn write_group(out: &mut String, view: &View, group: &Group) {
+    let named = !group.element.is_empty();
+    if named {
+        // A room has a group in two layers: the name's says whose it is.
+        let attribute = if group.layer == Layer::Names { "data-room" } else { "id" };
+        let _ = write!(out, "<g {attribute}=\"{}\">", escaped(&group.element));
+        if !group.title.is_empty() {
+            let _ = write!(out, "<title>{}</title>", escaped(&group.title));
+        }
+        out.push('\n');
+    }
+    for item in &group.items {
+        write_item(out, view, group.frame, item);
+    }
+    if named {
+        out.push_str("</g>\n");
+    }
+}
+
+fn write_item(out: &mut String, view: &View, frame: Frame, item: &Item) {
+    let at = |point: Point| match frame {
+        Frame::Plan => view.screen_from_plan(point),
+        Frame::Screen => point,
+    };
+    // Writing to a string does not fail.
+    let _ = match item {
+        Item::Polygon { outer, holes, colour } => {
+            let mut data = String::new();
+            for ring in std::iter::once(outer).chain(holes) {
+                push_points(&mut data, ring.iter().map(|&point| at(point)));
+                data.push('Z');
+            }
+            let rule = if holes.is_empty() { "" } else { " fill-rule=\"evenodd\"" };
+            writeln!(out, "<path d=\"{data}\"{}{rule}/>", fill(*colour))
+        }
+        Item::Line { points, closed, colour, width, dash } => {
+            let mut data = String::new();
+            push_points(&mut data, points.iter().map(|&point| at(point)));
+            if *closed {
+                data.push('Z');
+            }
+            writeln!(out, "<path d=\"{data}\"{}{}/>", stroke(view, *colour, *width), dashes(view, *dash))
+        }
+        Item::Arc { centre, from, to, colour, width } => {
+            let (centre, from, to) = (at(*centre), at(*from), at(*to));
+            let radius = number(centre.distance(from));
+            let sweep = u8::from((from - centre).cross(to - centre) > 0.0);
+            writeln!(
+                out,
+                "<path d=\"M{} {}A{radius} {radius} 0 0 {sweep} {} {}\"{}/>",
+                number(from.x),
+                number(from.y),
+                number(to.x),
+                number(to.y),
+                stroke(view, *colour, *width)
+            )
+        }
+        Item::Disc { centre, radius, fill: inside, outline } => {
+            let centre = at(*centre);
+            let inside = inside.map_or_else(|| " fill=\"none\"".to_owned(), fill);
+            let outline = outline.map_or_else(String::new, |(colour, width)| {
+                stroke(view, colour, width).replacen(" fill=\"none\"", "", 1)
+            });
+            writeln!(
+                out,
+                "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"{inside}{outline}/>",
+                number(centre.x),
+                number(centre.y),
+                number(view.px(*radius))
+            )
+        }
+        Item::Text(text) => write_text(out, at(text.at), text),
+    };
+}
+
+fn write_text(out: &mut String, at: Point, text: &Text) -> std::fmt::Result {
+    let at = at + text.offset_px;
+    let (x, y) = (number(at.x), number(at.y));
+    let anchor = match text.anchor {
+        Anchor::Start => "",
+        Anchor::Middle => " text-anchor=\"middle\"",
+        Anchor::End => " text-anchor=\"end\"",
+    };
+    let weight = match text.weight {
+        Weight::Regular => "",
+        Weight::SemiBold => " font-weight=\"600\"",
+    };
+    let turn = if text.upright { format!(" transform=\"rotate(-90 {x} {y})\"") } else { String::new() };
+    let halo = text.halo.map_or_else(String::new, |halo| {
+        format!(
+            " stroke=\"{}\"{} stroke-width=\"{}\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
+            halo.css(),
+            opacity("stroke-opacity", halo),
+            number(text.size_px * 0.28)
+        )
+    });
+    writeln!(
+        out,
+        "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\"{weight}{anchor}{turn}{}{halo}>{}</text>",
+        number(text.size_px),
+        fill(text.colour),
+        escaped(&text.content)
+    )
+}
+
+/// `M` and the points, spaces between; each number to a hundredth of a pixel.
+fn push_points(data: &mut String, points: impl Iterator<Item = Point>) {
+    for (i, point) in points.enumerate() {
+        data.push_str(match i {
+            0 => "M",
+            1 => "L",
+            _ => " ",
+        });
+        let _ = write!(data, "{} {}", number(point.x), number(point.y));
+    }
+}
+
+fn fill(colour: Rgba) -> String {
+    format!(" fill=\"{}\"{}", colour.css(), opacity("fill-opacity", colour))
+}
+
+fn stroke(view: &View, colour: Rgba, width: Length) -> String {
+    format!(
+        " fill=\"none\" stroke=\"{}\"{} stroke-width=\"{}\"",
+        colour.css(),
+        opacity("stroke-opacity", colour),
+        number(view.px(width))
+    )
+}
+
+fn dashes(view: &View, dash: Option<Dash>) -> String {
+    dash.map_or_else(String::new, |dash| {
+        format!(" stroke-dasharray=\"{} {}\"", number(view.px(dash.dash)), number(view.px(dash.gap)))
+    })
+}
+
+fn opacity(attribute: &str, colour: Rgba) -> String {
+    if colour.a == 255 { String::new() } else { format!(" {attribute}=\"{}\"", number(f64::from(colour.a) / 255.0)) }
+}
+
+/// A number to two decimals, without trailing zeros.
+fn number(value: f64) -> String {
+    // `+ 0.0` turns -0.0 into 0.0.
+    let text = format!("{:.2}", (value * 100.0).round() / 100.0 + 0.0);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// Text for XML 1.0: markup escaped, characters it does not allow replaced.
+fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for character in text.chars() {
+        match character {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\t' | '\n' | '\r' => out.push(' '),
+            '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
+            _ => out.push(character),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!([number(1.0), number(0.125), number(-0.001), number(100.0)], ["1", "0.13", "0", "100"]);
+    }
+
+    #[test]
+    fn text_is_escaped() {
+        assert_eq!(escaped("A&B <\"C\">\u{1}\n"), "A&amp;B &lt;&quot;C&quot;&gt;\u{fffd} ");
+    }
+}

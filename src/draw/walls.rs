@@ -1,0 +1,409 @@
+//! The cut through the walls: the area an architect fills black. Drawn walls are joined with mitres;
+//! rooms of an import that came without walls get walls along their boundaries, so that the building
+//! reads as one.
+
+use std::collections::BTreeMap;
+
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::float::simplify::SimplifyShape as _;
+use i_overlay::float::single::SingleFloatOverlay as _;
+use i_overlay::mesh::float::outline::offset::OutlineOffset as _;
+use i_overlay::mesh::float::stroke::offset::StrokeOffset as _;
+use i_overlay::mesh::float::style::{LineJoin, OutlineStyle, StrokeStyle};
+use rstar::primitives::{GeomWithData, Line};
+use rstar::{AABB, RTree};
+
+use super::drawing::RoomDrawing;
+use crate::geometry::{Point, Segment, Vector, polygon};
+use crate::plan::{CornerId, Plan, THICKEST_WALL_M};
+
+/// A ring as the polygon library takes it.
+type Ring = Vec<[f64; 2]>;
+/// Polygons, each an outer ring (counter-clockwise) and its holes (clockwise).
+pub(super) type Shapes = Vec<Vec<Ring>>;
+
+/// The walls of a plan before openings are cut.
+pub(super) struct Walls {
+    pub solid: Shapes,
+    /// Walls without thickness.
+    pub lines: Vec<Segment>,
+    /// Where rooms end and no wall stands.
+    pub boundaries: Vec<Segment>,
+}
+
+/// Half the thickness in metres of the wall drawn along a boundary that came without walls: a light
+/// partition of 0.1 m, so that where rooms meet on the wall's centre line little of them is covered.
+const HALF_PARTITION_M: f64 = 0.05;
+
+/// How far the outermost wall of an import reaches beyond its rooms, in metres, where rooms meet on
+/// centre lines, and where they are drawn to the walls' faces.
+const OUTER_WALL_M: [f64; 2] = [0.10, 0.25];
+
+/// Sides of a room of usual size in metres: imports whose median room is far from it have a doubtful
+/// scale (`data`: the median classroom of a school ranges from 24 to 255 m²), and their walls
+/// are drawn as much thicker or thinner as the rooms are larger or smaller, within limits.
+const USUAL_ROOM_M: f64 = 3.0;
+
+impl Walls {
+    pub fn new(plan: &Plan, rooms: &[RoomDrawing]) -> Self {
+        let index = WallIndex::new(plan);
+        let mut boundaries = Vec::new();
+        let mut unwalled = Vec::new();
+        for (i, room) in rooms.iter().enumerate() {
+            let open = index.uncovered(room);
+            // Touched by no wall anywhere: it came without walls.
+            if open.whole && !room.outer.is_empty() {
+                unwalled.push(i);
+            } else {
+                boundaries.extend(open.pieces);
+            }
+        }
+        let mut rings = index.rings(plan);
+        let mut solid = if rings.is_empty() { Shapes::new() } else { rings.simplify_shape(FillRule::NonZero) };
+        if !unwalled.is_empty() {
+            let derived = Derived::new(rooms, &unwalled);
+            boundaries.extend(derived.railings);
+            rings = solid.drain(..).chain(derived.solid).flatten().collect();
+            solid = rings.simplify_shape(FillRule::NonZero);
+        }
+        Self { solid, lines: index.lines, boundaries }
+    }
+}
+
+/// `shapes` less the given counter-clockwise rings.
+pub(super) fn without(shapes: Shapes, cuts: &[Ring]) -> Shapes {
+    if cuts.is_empty() || shapes.is_empty() {
+        return shapes;
+    }
+    shapes.overlay(&cuts, OverlayRule::Difference, FillRule::NonZero)
+}
+
+/// Points as a counter-clockwise ring.
+pub(super) fn ring(points: &[Point]) -> Ring {
+    directed(points, true)
+}
+
+fn directed(points: &[Point], counter_clockwise: bool) -> Ring {
+    let ring = points.iter().map(|point| [point.x, point.y]);
+    if (polygon::signed_area(points) >= 0.0) == counter_clockwise { ring.collect() } else { ring.rev().collect() }
+}
+
+/// A ring as points.
+pub(super) fn points(ring: &Ring) -> Vec<Point> {
+    ring.iter().map(|&[x, y]| Point::new(x, y)).collect()
+}
+
+/// The drawn walls by place.
+struct WallIndex {
+    tree: RTree<GeomWithData<Line<[f64; 2]>, f64>>,
+    lines: Vec<Segment>,
+}
+
+/// The pieces of a room's boundary that no wall covers.
+struct Uncovered {
+    pieces: Vec<Segment>,
+    whole: bool,
+}
+
+impl WallIndex {
+    fn new(plan: &Plan) -> Self {
+        let mut lines = Vec::new();
+        let mut entries = Vec::new();
+        for (_, wall) in plan.walls() {
+            let Some(segment) = plan.wall_segment(wall).filter(|segment| segment.length() > 0.0) else { continue };
+            if wall.thickness_m <= 0.0 {
+                lines.push(segment);
+            }
+            let line = Line::new([segment.a.x, segment.a.y], [segment.b.x, segment.b.y]);
+            entries.push(GeomWithData::new(line, wall.thickness_m / 2.0));
+        }
+        Self { tree: RTree::bulk_load(entries), lines }
+    }
+
+    /// A rectangle for each wall, and at each corner the mitre that closes the joint on its outer
+    /// side. Together, by the non-zero rule, they are the walls.
+    fn rings(&self, plan: &Plan) -> Vec<Ring> {
+        let mut rings = Vec::new();
+        let mut ends: BTreeMap<CornerId, Vec<(Vector, f64)>> = BTreeMap::new();
+        for (_, wall) in plan.walls() {
+            let Some(segment) = plan.wall_segment(wall) else { continue };
+            let (Some(along), half) = (segment.vector().unit(), wall.thickness_m / 2.0) else { continue };
+            if half <= 0.0 {
+                continue;
+            }
+            rings.push(rectangle(segment, half));
+            ends.entry(wall.from).or_default().push((along, half));
+            ends.entry(wall.to).or_default().push((-along, half));
+        }
+        for (corner, mut walls) in ends {
+            let Some(at) = plan.position(corner).filter(|_| walls.len() > 1) else { continue };
+            walls.sort_by(|p, q| p.0.angle_rad().total_cmp(&q.0.angle_rad()));
+            for (i, &(a, half_a)) in walls.iter().enumerate() {
+                let (b, half_b) = walls[(i + 1) % walls.len()];
+                rings.extend(mitre(at, (a, half_a), (b, half_b)));
+            }
+        }
+        rings
+    }
+
+    /// The pieces of a room's boundary that lie on no wall.
+    fn uncovered(&self, room: &RoomDrawing) -> Uncovered {
+        let mut uncovered = Uncovered { pieces: Vec::new(), whole: true };
+        for edge in room.rings().flat_map(|ring| polygon::edges(ring)) {
+            let length = edge.length();
+            let Some(along) = edge.vector().unit() else { continue };
+            let mut covered: Vec<(f64, f64)> = Vec::new();
+            // Within a wall's thickness, and at most the thickest plausible wall's half away.
+            let bounds = edge.bounds().inflated(THICKEST_WALL_M);
+            let near = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
+            for wall in self.tree.locate_in_envelope_intersecting(near) {
+                let reach = wall.data + COVER_TOLERANCE_M;
+                let axis = Segment::new(
+                    Point::new(wall.geom().from[0], wall.geom().from[1]),
+                    Point::new(wall.geom().to[0], wall.geom().to[1]),
+                );
+                covered.extend(stretch_within(edge, along, length, axis, reach));
+            }
+            uncovered.whole &= covered.iter().all(|(from, to)| to - from < 0.5 * length.min(1.0));
+            covered.sort_by(|p, q| p.0.total_cmp(&q.0));
+            let mut reached = 0.0;
+            for (from, to) in covered.into_iter().chain([(length, length)]) {
+                if from - reached > SHORTEST_BOUNDARY_M {
+                    uncovered.pieces.push(Segment::new(edge.a + along * reached, edge.a + along * from));
+                }
+                reached = f64::max(reached, to);
+            }
+        }
+        uncovered
+    }
+}
+
+/// A boundary counts as lying on a wall up to this distance from its faces, in metres.
+const COVER_TOLERANCE_M: f64 = 0.02;
+
+/// Pieces of a boundary shorter than this are what is left between walls that nearly meet.
+const SHORTEST_BOUNDARY_M: f64 = 0.05;
+
+/// The stretch of `edge`, as distances from its start, that lies within `reach` of the axis of a
+/// wall, its ends included.
+fn stretch_within(edge: Segment, along: Vector, length: f64, axis: Segment, reach: f64) -> Option<(f64, f64)> {
+    let axis_along = axis.vector().unit()?;
+    let offset = edge.a - axis.a;
+    // Both the distance from the axis and the place along it are linear in the place on the edge.
+    let (from, to) = linear_within(axis_along.cross(offset), axis_along.cross(along), -reach, reach, length)?;
+    let (place, rate) = (axis_along.dot(offset), axis_along.dot(along));
+    let (first, last) = linear_within(place, rate, -reach, axis.length() + reach, length)?;
+    let (from, to) = (from.max(first), to.min(last));
+    (from < to).then_some((from, to))
+}
+
+/// Where in 0..=`length` the value `start + rate * s` lies within `low..=high`.
+fn linear_within(start: f64, rate: f64, low: f64, high: f64, length: f64) -> Option<(f64, f64)> {
+    if rate.abs() < 1e-12 {
+        return (low..=high).contains(&start).then_some((0.0, length));
+    }
+    let (p, q) = ((low - start) / rate, (high - start) / rate);
+    let (from, to) = (p.min(q).max(0.0), p.max(q).min(length));
+    (from < to).then_some((from, to))
+}
+
+/// The rectangle of a wall.
+fn rectangle(segment: Segment, half: f64) -> Ring {
+    let Some(left) = segment.vector().left().unit().map(|left| left * half) else { return Ring::new() };
+    ring(&[segment.a - left, segment.b - left, segment.b + left, segment.a + left])
+}
+
+/// What closes the joint between two walls that leave `at` along `a` and `b`, `b` next
+/// counter-clockwise after `a`: nothing unless the angle between them is more than half a turn.
+fn mitre(at: Point, (a, half_a): (Vector, f64), (b, half_b): (Vector, f64)) -> Option<Ring> {
+    // Left of a, right of b: the faces on the far side of the joint.
+    let (face_a, face_b) = (at + a.left() * half_a, at - b.left() * half_b);
+    let turn = a.cross(b);
+    if turn >= -1e-9 {
+        return None;
+    }
+    // Where the two faces' lines meet.
+    let tip = face_a + a * ((face_b - face_a).cross(b) / turn);
+    let corner = if at.distance(tip) <= MITRE_LIMIT * half_a.max(half_b) {
+        ring(&[at, face_a, tip, face_b])
+    } else {
+        ring(&[at, face_a, face_b])
+    };
+    Some(corner)
+}
+
+/// A joint sharper than this many half thicknesses is cut off, as in SVG's `stroke-miterlimit`.
+const MITRE_LIMIT: f64 = 4.0;
+
+/// Walls made up for rooms that came without any.
+struct Derived {
+    solid: Shapes,
+    railings: Vec<Segment>,
+}
+
+impl Derived {
+    fn new(rooms: &[RoomDrawing], unwalled: &[usize]) -> Self {
+        let mut indoors: Vec<Ring> = Vec::new();
+        let mut outdoors: Vec<Ring> = Vec::new();
+        let mut railings = Vec::new();
+        let mut areas: Vec<f64> = Vec::new();
+        for room in unwalled.iter().map(|&i| &rooms[i]) {
+            let rings = room.rings().enumerate().map(|(i, points)| directed(points, i == 0));
+            if room.is_open_air() {
+                outdoors.extend(rings);
+                railings.extend(polygon::edges(&room.outer));
+            } else {
+                indoors.extend(rings);
+                areas.push(room.area_m2);
+            }
+        }
+        areas.sort_by(f64::total_cmp);
+        let median_m2 = areas.get(areas.len() / 2).copied().unwrap_or(USUAL_ROOM_M * USUAL_ROOM_M);
+        let scale = (median_m2.sqrt() / USUAL_ROOM_M).clamp(0.5, 1.5);
+
+        let rooms_area: Shapes = indoors.simplify_shape(FillRule::NonZero);
+        // Closing (grown, then shrunk by the same) fills what is narrower than the thickest wall:
+        // between rooms, and between them and balconies.
+        let reach = THICKEST_WALL_M / 2.0 * scale.min(1.0);
+        let closed = |shapes: &Shapes| grown(&grown(shapes, reach), -reach);
+        let building = closed(&rooms_area);
+        let gaps = if outdoors.is_empty() {
+            building.overlay(&rooms_area, OverlayRule::Difference, FillRule::NonZero)
+        } else {
+            let all: Vec<Ring> = indoors.iter().chain(&outdoors).cloned().collect();
+            closed(&all.simplify_shape(FillRule::NonZero)).overlay(&all, OverlayRule::Difference, FillRule::NonZero)
+        };
+        // Rooms drawn to the faces of walls leave much of the building to walls; rooms that meet on
+        // centre lines leave none.
+        let (gaps_m2, length_m) = (area_m2(&gaps), indoors.iter().map(|ring| polygon::perimeter(&points(ring))).sum());
+        let to_faces = gaps_m2 > SHARE_OF_FACES_M * f64::max(length_m, 1.0);
+        let outer = OUTER_WALL_M[usize::from(to_faces)] * scale;
+        let shell = grown(&building, outer).overlay(&building, OverlayRule::Difference, FillRule::NonZero);
+        let partitions = indoors
+            .stroke(StrokeStyle::new(2.0 * HALF_PARTITION_M * scale).line_join(LineJoin::Miter(SHARPEST_RAD)), true);
+        // Where neighbours were drawn over each other by less than a wall, the wall is: what is covered
+        // twice but not once, less what is wide (a room drawn within another).
+        let overlaps =
+            rooms_area.overlay(&indoors.simplify_shape(FillRule::EvenOdd), OverlayRule::Difference, FillRule::NonZero);
+        let wide = grown(&grown(&overlaps, -reach), reach);
+        let overlaps = overlaps.overlay(&wide, OverlayRule::Difference, FillRule::NonZero);
+        let all: Vec<Ring> = gaps.into_iter().chain(shell).chain(partitions).chain(overlaps).flatten().collect();
+        let mut solid: Shapes = all.simplify_shape(FillRule::NonZero);
+        if !outdoors.is_empty() {
+            solid = solid.overlay(&outdoors, OverlayRule::Difference, FillRule::NonZero);
+        }
+        Self { solid, railings }
+    }
+}
+
+/// The joint of a made-up wall is mitred down to this angle in radians (30 degrees), else cut off.
+const SHARPEST_RAD: f64 = std::f64::consts::PI / 6.0;
+
+/// Gaps between rooms amount to this many metres of thickness along all boundaries when rooms are
+/// drawn to the walls' faces: each side of a wall of 0.1 m has half of it, and part of the boundaries
+/// is on the outside.
+const SHARE_OF_FACES_M: f64 = 0.03;
+
+/// Shapes grown (or shrunk, when negative) by a distance in metres.
+fn grown(shapes: &Shapes, by_m: f64) -> Shapes {
+    shapes.outline(&OutlineStyle::new(by_m).line_join(LineJoin::Miter(SHARPEST_RAD)))
+}
+
+fn area_m2(shapes: &Shapes) -> f64 {
+    shapes.iter().flatten().map(|ring| polygon::signed_area(&points(ring))).sum::<f64>().abs()
+}
+
+/// The faces of solid walls by place, to look along rays.
+pub(super) struct Faces {
+    tree: RTree<Line<[f64; 2]>>,
+}
+
+impl Faces {
+    pub fn new(solid: &Shapes) -> Self {
+        let mut lines = Vec::new();
+        for ring in solid.iter().flatten() {
+            for (i, &from) in ring.iter().enumerate() {
+                lines.push(Line::new(from, ring[(i + 1) % ring.len()]));
+            }
+        }
+        Self { tree: RTree::bulk_load(lines) }
+    }
+
+    /// Where the line through `origin` along the unit vector `direction` meets faces within
+    /// `-back..=ahead` metres: distances in order, and whether it enters a wall there (else it leaves
+    /// one).
+    fn crossings(&self, origin: Point, direction: Vector, back: f64, ahead: f64) -> Vec<(f64, bool)> {
+        let bounds = Segment::new(origin - direction * back, origin + direction * ahead).bounds();
+        let near = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
+        let mut found = Vec::new();
+        for line in self.tree.locate_in_envelope_intersecting(near) {
+            let (a, b) = (Point::new(line.from[0], line.from[1]), Point::new(line.to[0], line.to[1]));
+            let (side_a, side_b) = (direction.cross(a - origin), direction.cross(b - origin));
+            // Half open, so that a line through a shared end crosses once.
+            if (side_a > 0.0) == (side_b > 0.0) {
+                continue;
+            }
+            let at = a.lerp(b, side_a / (side_a - side_b));
+            let distance = (at - origin).dot(direction);
+            if (-back..=ahead).contains(&distance) {
+                // A wall lies to the left of its faces.
+                found.push((distance, side_a > side_b));
+            }
+        }
+        found.sort_by(|p, q| p.0.total_cmp(&q.0));
+        found
+    }
+
+    /// The wall that stands at or nearest to `origin` along the unit vector `direction`, within
+    /// `reach` metres of it: from where to where.
+    pub fn wall_at(&self, origin: Point, direction: Vector, reach: f64) -> Option<(f64, f64)> {
+        let far = reach + THICKEST_WALL_M;
+        let crossings = self.crossings(origin, direction, far, far);
+        let mut best: Option<(f64, (f64, f64))> = None;
+        for pair in crossings.windows(2) {
+            let ((from, enters), (to, enters_again)) = (pair[0], pair[1]);
+            if !enters || enters_again {
+                continue;
+            }
+            let distance = if from <= 0.0 && to >= 0.0 { 0.0 } else { from.abs().min(to.abs()) };
+            if distance <= reach && best.is_none_or(|(nearest, _)| distance < nearest) {
+                best = Some((distance, (from, to)));
+            }
+        }
+        best.map(|(_, wall)| wall)
+    }
+
+    /// How far one sees from `origin`, which is in the open, along the unit vector `direction`, at
+    /// most `reach` metres.
+    pub fn free(&self, origin: Point, direction: Vector, reach: f64) -> f64 {
+        self.crossings(origin, direction, 0.0, reach).first().map_or(reach, |&(distance, _)| distance)
+    }
+
+    /// The stretch without walls at or nearest to `origin` along the unit vector `direction`, looked for
+    /// within `reach` metres both ways; `None` where all is wall.
+    pub fn open_at(&self, origin: Point, direction: Vector, reach: f64) -> Option<(f64, f64)> {
+        let crossings = self.crossings(origin, direction, reach, reach);
+        let mut stretches = Vec::new();
+        // It begins in the open unless the first crossing leaves a wall.
+        let mut open_from = crossings.first().is_none_or(|&(_, enters)| enters).then_some(-reach);
+        for (distance, enters) in crossings {
+            if enters {
+                stretches.extend(open_from.take().map(|from| (from, distance)));
+            } else {
+                open_from = Some(distance);
+            }
+        }
+        stretches.extend(open_from.map(|from| (from, reach)));
+        let distance = |&(from, to): &(f64, f64)| if from <= 0.0 && to >= 0.0 { 0.0 } else { from.abs().min(to.abs()) };
+        stretches.into_iter().min_by(|p, q| distance(p).total_cmp(&distance(q)))
+    }
+
+    /// The faces that meet a box.
+    pub fn near(&self, bounds: crate::geometry::Bounds) -> impl Iterator<Item = Segment> + '_ {
+        let near = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
+        self.tree
+            .locate_in_envelope_intersecting(near)
+            .map(|line| Segment::new(Point::new(line.from[0], line.from[1]), Point::new(line.to[0], line.to[1])))
+    }
+}

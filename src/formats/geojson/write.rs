@@ -1,0 +1,212 @@
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use super::KEPT;
+use super::coordinates::{Coordinates, Position};
+use super::disk::{DiskFeature, DiskGeometry, DiskHost, DiskMeta, DiskProperties, Words};
+use crate::features::RoomStatus;
+use crate::formats::json_text::Number;
+use crate::formats::plan_json::DiskHinge;
+use crate::geometry::Point;
+use crate::labels::Schemes;
+use crate::plan::{
+    CornerId, Extra, Joint, Meta, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, Wall, WallId,
+};
+use crate::topology::{Graph, RoomShapes};
+
+/// The origin of a label that follows from the room's function by the label scheme.
+pub(super) const FROM_SCHEME: &str = "scheme";
+
+/// The word for an opening's kind.
+pub(super) const fn opening_word(kind: OpeningKind) -> &'static str {
+    match kind {
+        OpeningKind::Door => "door",
+        OpeningKind::DoubleDoor => "double_door",
+        OpeningKind::Passage => "passage",
+        OpeningKind::Window => "window",
+    }
+}
+
+/// Members that Enfilade writes itself: kept properties of these names are not written twice.
+const OWN: &[&str] = &[
+    "type",
+    "features",
+    "crs",
+    "units",
+    "name",
+    "building",
+    "storey",
+    "typology",
+    "scale",
+    "scale_origin",
+    "metres_per_unit",
+    "source",
+    "licence",
+    "kind",
+    "function",
+    "label",
+    "label_origin",
+    "note",
+    "opening",
+    "rooms",
+    "pinned",
+    "host",
+    "free",
+    "hinge",
+    "opens",
+    "thickness_m",
+    "source_id",
+];
+
+/// The whole file: one feature a line; rooms, walls, openings, each by id.
+pub(super) fn write(plan: &Plan, schemes: &Schemes) -> Vec<u8> {
+    let mut file = String::from("{\n\"type\": \"FeatureCollection\",\n\"units\": \"m\",\n");
+    let meta = serde_json::to_value(meta_of(plan)).unwrap_or_default();
+    for (key, value) in meta.as_object().into_iter().flatten() {
+        file.push_str(&format!("{}: {},\n", json(key), json(value)));
+    }
+    file.push_str("\"features\": [");
+    let shapes = RoomShapes::new(plan);
+    let graph = Graph::new(plan, &shapes);
+    let rooms = plan.rooms().map(|(id, room)| room_feature(plan, schemes, id, room));
+    let walls = plan.walls().map(|(id, wall)| wall_feature(plan, id, wall));
+    let openings = plan.openings().map(|(id, opening)| {
+        // The graph leaves windows out; its connections are by opening, as the plan's are.
+        let found = graph.connections().binary_search_by_key(&id, |connection| connection.opening).ok();
+        opening_feature(plan, id, opening, found.map(|index| graph.connections()[index].sides))
+    });
+    for (i, feature) in rooms.chain(walls).chain(openings).enumerate() {
+        file.push_str(if i == 0 { "\n" } else { ",\n" });
+        file.push_str(&json(&feature));
+    }
+    file.push_str("\n]\n}\n");
+    file.into_bytes()
+}
+
+/// Compact JSON of a value. None of the disk types can fail: their keys are strings.
+fn json<T: Serialize + ?Sized>(value: &T) -> String {
+    serde_json::to_string(value).unwrap_or_default()
+}
+
+fn meta_of(plan: &Plan) -> DiskMeta {
+    let Meta { name, building, storey, typology, scale, source, licence, extra: _ } = plan.meta();
+    DiskMeta {
+        name: name.as_str().into(),
+        building: building.as_str().into(),
+        storey: storey.as_str().into(),
+        typology: typology.as_ref().map(|typology| typology.as_str().into()).unwrap_or_default(),
+        scale: scale.note.as_str().into(),
+        scale_origin: scale.origin.name().into(),
+        metres_per_unit: scale.metres_per_unit.map(Number),
+        source: source.as_str().into(),
+        licence: licence.as_str().into(),
+        other: kept(&plan.extra),
+    }
+}
+
+/// The properties that an import kept, without those that Enfilade writes itself.
+fn kept(extra: &Extra) -> Map<String, Value> {
+    let properties = extra.as_ref().and_then(|extra| extra.get(KEPT)).and_then(Value::as_object);
+    properties
+        .into_iter()
+        .flatten()
+        .filter(|(key, _)| !OWN.contains(&key.as_str()))
+        .map(|(key, value)| (key.clone(), value.clone()))
+        .collect()
+}
+
+/// The feature's id and its property `source_id`. The id is the source's own where reading it gives
+/// the same identity again; else it is ours.
+fn names<T: Copy + PartialEq + ToString>(id: T, source_id: &str, of_key: fn(&str) -> T) -> (Words, Words) {
+    if !source_id.is_empty() && of_key(source_id) == id {
+        (source_id.into(), Words::default())
+    } else {
+        (Words(id.to_string()), source_id.into())
+    }
+}
+
+fn room_names(id: RoomId, room: &Room) -> (Words, Words) {
+    names(id, &room.source_id, RoomId::of_key)
+}
+
+fn feature(id: Words, kind: &str, coordinates: Option<Coordinates>, properties: DiskProperties) -> DiskFeature {
+    let geometry = coordinates.map(|coordinates| DiskGeometry { kind: kind.into(), coordinates: Some(coordinates) });
+    DiskFeature { kind: "Feature".into(), id, geometry, properties: Some(properties) }
+}
+
+fn room_feature(plan: &Plan, schemes: &Schemes, id: RoomId, room: &Room) -> DiskFeature {
+    // GeoJSON repeats the first position at the end of a ring.
+    let ring = |ring: &std::sync::Arc<[CornerId]>| -> Vec<Position> {
+        let points = plan.ring_points(ring);
+        points.iter().chain(points.first()).copied().map(Position).collect()
+    };
+    let (label, label_origin) = match (room.label, RoomStatus::of(plan, schemes, room).label()) {
+        (Some(given), _) => (given.label.name(), given.origin.name()),
+        (None, Some(label)) => (label.name(), FROM_SCHEME),
+        (None, None) => ("", ""),
+    };
+    let (feature_id, source_id) = room_names(id, room);
+    let properties = DiskProperties {
+        kind: "room".into(),
+        function: room.function.as_str().into(),
+        label: label.into(),
+        label_origin: label_origin.into(),
+        name: room.name.as_str().into(),
+        note: room.note.as_str().into(),
+        source_id,
+        other: kept(&room.extra),
+        ..DiskProperties::default()
+    };
+    let coordinates = room.has_boundary().then(|| Coordinates::Rings(room.rings().map(ring).collect()));
+    feature(feature_id, "Polygon", coordinates, properties)
+}
+
+fn line(a: Point, b: Point) -> Option<Coordinates> {
+    Some(Coordinates::Line(vec![Position(a.trimmed()), Position(b.trimmed())]))
+}
+
+fn wall_feature(plan: &Plan, id: WallId, wall: &Wall) -> DiskFeature {
+    let segment = plan.wall_segment(wall);
+    let properties = DiskProperties {
+        kind: "wall".into(),
+        thickness_m: Some(Number(wall.thickness_m)),
+        other: kept(&wall.extra),
+        ..DiskProperties::default()
+    };
+    feature(Words(id.to_string()), "LineString", segment.and_then(|segment| line(segment.a, segment.b)), properties)
+}
+
+/// `found` are the sides the opening joins, stated or by geometry; none for a window.
+fn opening_feature(plan: &Plan, id: OpeningId, opening: &Opening, found: Option<[Joint; 2]>) -> DiskFeature {
+    let joint = |joint: Joint| Some(room_names(joint.room()?, plan.room(joint.room()?)?).0);
+    let sides = opening.pinned.or(found);
+    let (feature_id, source_id) = names(id, &opening.source_id, OpeningId::of_key);
+    let host = match opening.place {
+        Place::Free { .. } => None,
+        Place::Hosted { from, to, at_m, width_m } => plan.position(from).zip(plan.position(to)).map(|(from, to)| {
+            DiskHost { from: Position(from), to: Position(to), at_m: Number(at_m), width_m: Number(width_m) }
+        }),
+    };
+    // The source's own word, while it still means the same.
+    let word = opening
+        .extra
+        .as_ref()
+        .and_then(|extra| extra.get(KEPT)?.get("opening")?.as_str())
+        .filter(|word| super::read::opening_kind(word) == Some(opening.kind))
+        .unwrap_or(opening_word(opening.kind));
+    let properties = DiskProperties {
+        kind: "opening".into(),
+        opening: word.into(),
+        rooms: sides.map(|sides| sides.map(joint).to_vec()),
+        pinned: (opening.pinned.is_none() && sides.is_some()).then_some(false),
+        host,
+        free: matches!(opening.place, Place::Free { .. }).then_some(true),
+        hinge: opening.swing.map(|swing| if swing.hinge_at_start { DiskHinge::Start } else { DiskHinge::End }),
+        opens: opening.swing.map(|swing| swing.side.into()),
+        source_id,
+        other: kept(&opening.extra),
+        ..DiskProperties::default()
+    };
+    let segment = plan.opening_segment(opening);
+    feature(feature_id, "LineString", segment.and_then(|segment| line(segment.a, segment.b)), properties)
+}

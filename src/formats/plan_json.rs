@@ -1,0 +1,693 @@
+//! `*.plan.json`: Enfilade's own file, described for outsiders in `docs/plan-file.md`.
+//!
+//! The disk form has types of its own, apart from the live ones. They are flat, so that every object
+//! keeps the fields it does not know. Writing a plan that was read gives the same bytes: elements are
+//! sorted by id, one object a line, lengths on the 0.1 mm grid.
+
+use std::fmt::Display;
+use std::str::FromStr;
+use std::sync::Arc;
+
+use serde::de::{Error as _, IgnoredAny};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::{Map, Value};
+
+use super::json_text::{Number, decode, id_on_line, json_fault, line_of_id};
+use super::{Format, Import, Place, ReadError};
+use crate::geometry::{Point, trim_m};
+use crate::labels::{Label, Schemes, Typology};
+use crate::plan::{
+    Backdrop, COORDINATE_LIMIT_M, Corner, CornerId, ElementId, Extra, Joint, LabelOrigin, LeafSide, Meta, Opening,
+    OpeningId, OpeningKind, Place as OpeningPlace, Plan, Room, RoomId, RoomLabel, Scale, ScaleOrigin, Swing, Wall,
+    WallId,
+};
+
+/// The newest version of the file that this program reads, and the one it writes.
+pub const VERSION: u64 = 1;
+
+/// The value of the member `format`, which tells the file from other JSON.
+const FORMAT: &str = "enfilade plan";
+
+/// Enfilade's own plan file.
+pub struct PlanJson;
+
+impl Format for PlanJson {
+    fn name(&self) -> &'static str {
+        "Enfilade plan"
+    }
+
+    fn extensions(&self) -> &'static [&'static str] {
+        &["plan.json"]
+    }
+
+    fn recognises(&self, head: &[u8]) -> bool {
+        let head = String::from_utf8_lossy(head);
+        head.split("\"format\"").skip(1).any(|rest| {
+            let value = rest.trim_start().strip_prefix(':').unwrap_or_default().trim_start();
+            value.strip_prefix('"').is_some_and(|value| value.starts_with(FORMAT))
+        })
+    }
+
+    fn read(&self, bytes: &[u8], stem: &str) -> Result<Import, ReadError> {
+        let mut plan = from_bytes(bytes)?;
+        if plan.meta().name.is_empty() && !stem.is_empty() {
+            let meta = Meta { name: stem.to_owned(), ..plan.meta().clone() };
+            plan = crate::plan::edit::set_meta(&plan, meta);
+        }
+        Ok(Import { plans: vec![plan], notes: Vec::new() })
+    }
+
+    fn write(&self, plan: &Plan, _schemes: &Schemes) -> Option<Vec<u8>> {
+        Some(to_bytes(plan))
+    }
+}
+
+/// Reads a plan. Lengths are rounded to the 0.1 mm grid.
+///
+/// # Errors
+/// When the bytes are not a plan file of a known version, or what they hold breaks an invariant of
+/// the model: with the line and the element where it can be told.
+pub fn from_bytes(bytes: &[u8]) -> Result<Plan, ReadError> {
+    let text = decode(bytes)?;
+    let head: DiskHead = serde_json::from_str(text).map_err(|error| refuse_json(text, &error))?;
+    if head.format.as_ref().and_then(Value::as_str) != Some(FORMAT) {
+        return Err(ReadError {
+            place: Place::default(),
+            what: format!("is JSON, but not a plan file: it lacks \"format\": \"{FORMAT}\""),
+            hint: "open a file that ends in .plan.json".to_owned(),
+        });
+    }
+    let refuse_version = |what: String, hint: String| Err(ReadError { place: Place::default(), what, hint });
+    let current = format!("the current one is written \"version\": {VERSION}");
+    match head.version {
+        None => return refuse_version("has no file version".to_owned(), current),
+        Some(version) => match version.as_u64() {
+            Some(1) => {}
+            Some(newer) if newer > VERSION => {
+                let what =
+                    format!("was saved by a newer Enfilade (file version {newer}; this one reads up to {VERSION})");
+                return refuse_version(what, "update Enfilade".to_owned());
+            }
+            _ => return refuse_version(format!("has the file version {version}, which never existed"), current),
+        },
+    }
+    let disk: DiskPlan = serde_json::from_str(text).map_err(|error| refuse_json(text, &error))?;
+    live(text, disk)
+}
+
+/// The complete bytes of a plan's file.
+pub fn to_bytes(plan: &Plan) -> Vec<u8> {
+    let mut file = String::with_capacity(200 + 60 * plan.corners().len() + 400 * plan.rooms().len());
+    file.push_str("{\n\"format\": ");
+    file.push_str(&json(FORMAT));
+    file.push_str(",\n\"version\": ");
+    file.push_str(&VERSION.to_string());
+    file.push_str(",\n\"meta\": {");
+    let meta = serde_json::to_value(DiskMeta::of(plan.meta())).unwrap_or_default();
+    for (i, (key, value)) in meta.as_object().into_iter().flatten().enumerate() {
+        file.push_str(if i == 0 { "\n" } else { ",\n" });
+        file.push_str(&json(key));
+        file.push_str(": ");
+        file.push_str(&json(value));
+    }
+    file.push_str("\n}");
+    if let Some(backdrop) = plan.backdrop() {
+        file.push_str(",\n\"backdrop\": ");
+        file.push_str(&json(&DiskBackdrop::of(backdrop)));
+    }
+    push_list(&mut file, "corners", plan.corners().map(|(id, corner)| DiskCorner::of(id, corner)));
+    push_list(&mut file, "walls", plan.walls().map(|(id, wall)| DiskWall::of(id, wall)));
+    push_list(&mut file, "rooms", plan.rooms().map(|(id, room)| DiskRoom::of(id, room)));
+    push_list(&mut file, "openings", plan.openings().map(|(id, opening)| DiskOpening::of(id, opening)));
+    for (key, value) in plan.extra.iter().flat_map(|extra| extra.iter()) {
+        file.push_str(",\n");
+        file.push_str(&json(key));
+        file.push_str(": ");
+        file.push_str(&json(value));
+    }
+    file.push_str("\n}\n");
+    file.into_bytes()
+}
+
+fn push_list<T: Serialize>(file: &mut String, name: &str, elements: impl Iterator<Item = T>) {
+    file.push_str(",\n\"");
+    file.push_str(name);
+    file.push_str("\": [");
+    for (i, element) in elements.enumerate() {
+        file.push_str(if i == 0 { "\n" } else { ",\n" });
+        file.push_str(&json(&element));
+    }
+    file.push_str("\n]");
+}
+
+/// Compact JSON of a value. None of the disk types can fail: their keys are strings.
+fn json<T: Serialize + ?Sized>(value: &T) -> String {
+    serde_json::to_string(value).unwrap_or_default()
+}
+
+// The disk form.
+
+/// A length in metres: rounded to the 0.1 mm grid, refused beyond ±100 km.
+#[derive(Clone, Copy)]
+struct Metres(f64);
+
+impl Serialize for Metres {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Number(self.0).serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Metres {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let Number(metres) = Number::deserialize(deserializer)?;
+        if metres.is_finite() && metres.abs() <= COORDINATE_LIMIT_M {
+            Ok(Self(trim_m(metres)))
+        } else {
+            Err(D::Error::custom(format_args!("{metres:?} m lies beyond ±{COORDINATE_LIMIT_M} m")))
+        }
+    }
+}
+
+/// Something written as its `Display` text and read by its `FromStr`: ids and labels.
+#[derive(Clone, Copy)]
+struct Text<T>(T);
+
+impl<T: Display> Serialize for Text<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(&self.0)
+    }
+}
+
+impl<'de, T: FromStr<Err: Display>> Deserialize<'de> for Text<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Visitor<T>(std::marker::PhantomData<T>);
+        impl<T: FromStr<Err: Display>> serde::de::Visitor<'_> for Visitor<T> {
+            type Value = Text<T>;
+
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("a text")
+            }
+
+            fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Text<T>, E> {
+                text.parse().map(Text).map_err(E::custom)
+            }
+        }
+        deserializer.deserialize_str(Visitor(std::marker::PhantomData))
+    }
+}
+
+/// What is read first, to refuse other files and newer versions before anything else is understood.
+#[derive(Deserialize)]
+struct DiskHead {
+    format: Option<Value>,
+    version: Option<Value>,
+}
+
+#[derive(Deserialize)]
+#[serde(expecting = "a plan")]
+struct DiskPlan {
+    #[serde(rename = "format")]
+    _format: IgnoredAny,
+    #[serde(rename = "version")]
+    _version: IgnoredAny,
+    #[serde(default)]
+    meta: DiskMeta,
+    backdrop: Option<DiskBackdrop>,
+    #[serde(default)]
+    corners: Vec<DiskCorner>,
+    #[serde(default)]
+    walls: Vec<DiskWall>,
+    #[serde(default)]
+    rooms: Vec<DiskRoom>,
+    #[serde(default)]
+    openings: Vec<DiskOpening>,
+    #[serde(flatten)]
+    extra: Map<String, Value>,
+}
+
+#[derive(Default, Serialize, Deserialize)]
+#[serde(expecting = "an object")]
+struct DiskMeta {
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    name: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    building: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    storey: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    typology: String,
+    #[serde(default, skip_serializing_if = "DiskScaleOrigin::is_unknown")]
+    scale_origin: DiskScaleOrigin,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    metres_per_unit: Option<Number>,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    scale_note: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    source: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    licence: String,
+    #[serde(flatten)]
+    extra: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(expecting = "a backdrop")]
+struct DiskBackdrop {
+    path: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    content_hash: String,
+    x: Number,
+    y: Number,
+    metres_per_pixel: Number,
+    #[serde(default = "zero", skip_serializing_if = "is_zero")]
+    rotation_rad: Number,
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    opacity: Number,
+    #[serde(flatten)]
+    extra: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(expecting = "a corner")]
+struct DiskCorner {
+    id: Text<CornerId>,
+    x: Metres,
+    y: Metres,
+    #[serde(flatten)]
+    extra: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(expecting = "a wall")]
+struct DiskWall {
+    id: Text<WallId>,
+    from: Text<CornerId>,
+    to: Text<CornerId>,
+    thickness: Metres,
+    #[serde(flatten)]
+    extra: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(expecting = "a room")]
+struct DiskRoom {
+    id: Text<RoomId>,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    name: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    function: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    label: Option<Text<Label>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    label_origin: Option<DiskLabelOrigin>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    outer: Vec<Text<CornerId>>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    holes: Vec<Vec<Text<CornerId>>>,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    note: String,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    source_id: String,
+    #[serde(flatten)]
+    extra: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(expecting = "an opening")]
+struct DiskOpening {
+    id: Text<OpeningId>,
+    kind: DiskOpeningKind,
+    /// The edge of a hosted opening.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    on: Option<[Text<CornerId>; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at: Option<Number>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    width: Option<Metres>,
+    /// The ends of a free opening.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    from: Option<[Metres; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    to: Option<[Metres; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    hinge: Option<DiskHinge>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    opens: Option<DiskSide>,
+    /// Pinned sides; null is the outside.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    joins: Option<[Option<Text<RoomId>>; 2]>,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    source_id: String,
+    #[serde(flatten)]
+    extra: Map<String, Value>,
+}
+
+/// A disk form of an enum: its words are the format's, whatever the live type calls them one day.
+macro_rules! disk_words {
+    ($disk:ident for $live:ident { $($variant:ident = $word:literal),+ $(,)? }) => {
+        #[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
+        pub(super) enum $disk {
+            $(#[serde(rename = $word)] $variant,)+
+        }
+
+        impl From<$live> for $disk {
+            fn from(live: $live) -> Self {
+                match live { $($live::$variant => Self::$variant,)+ }
+            }
+        }
+
+        impl From<$disk> for $live {
+            fn from(disk: $disk) -> Self {
+                match disk { $($disk::$variant => Self::$variant,)+ }
+            }
+        }
+    };
+}
+
+disk_words!(DiskScaleOrigin for ScaleOrigin {
+    Unknown = "unknown", Drawn = "drawn", Measured = "measured", Imported = "imported", Estimated = "estimated",
+});
+disk_words!(DiskLabelOrigin for LabelOrigin {
+    Person = "person", Imported = "imported", AcceptedPrediction = "accepted prediction",
+});
+disk_words!(DiskOpeningKind for OpeningKind {
+    Door = "door", DoubleDoor = "double door", Passage = "passage", Window = "window",
+});
+disk_words!(DiskSide for LeafSide { Left = "left", Right = "right" });
+
+impl Default for DiskScaleOrigin {
+    fn default() -> Self {
+        ScaleOrigin::default().into()
+    }
+}
+
+impl DiskScaleOrigin {
+    fn is_unknown(&self) -> bool {
+        *self == Self::Unknown
+    }
+}
+
+/// Which end of its segment carries a door's hinge.
+#[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum DiskHinge {
+    Start,
+    End,
+}
+
+fn zero() -> Number {
+    Number(0.0)
+}
+
+fn one() -> Number {
+    Number(1.0)
+}
+
+fn is_zero(number: &Number) -> bool {
+    number.0 == 0.0
+}
+
+fn is_one(number: &Number) -> bool {
+    number.0 == 1.0
+}
+
+// From live to disk.
+
+fn fields(extra: &Extra) -> Map<String, Value> {
+    extra.as_deref().cloned().unwrap_or_default()
+}
+
+impl DiskMeta {
+    fn of(meta: &Meta) -> Self {
+        Self {
+            name: meta.name.clone(),
+            building: meta.building.clone(),
+            storey: meta.storey.clone(),
+            typology: meta.typology.as_ref().map(|typology| typology.as_str().to_owned()).unwrap_or_default(),
+            scale_origin: meta.scale.origin.into(),
+            metres_per_unit: meta.scale.metres_per_unit.map(Number),
+            scale_note: meta.scale.note.clone(),
+            source: meta.source.clone(),
+            licence: meta.licence.clone(),
+            extra: fields(&meta.extra),
+        }
+    }
+}
+
+impl DiskBackdrop {
+    fn of(backdrop: &Backdrop) -> Self {
+        Self {
+            path: backdrop.path.clone(),
+            content_hash: backdrop.content_hash.clone(),
+            x: Number(backdrop.origin.x),
+            y: Number(backdrop.origin.y),
+            metres_per_pixel: Number(backdrop.metres_per_pixel),
+            rotation_rad: Number(backdrop.rotation_rad),
+            opacity: Number(backdrop.opacity),
+            extra: fields(&backdrop.extra),
+        }
+    }
+}
+
+impl DiskCorner {
+    fn of(id: CornerId, corner: &Corner) -> Self {
+        let Point { x, y } = corner.position;
+        Self { id: Text(id), x: Metres(x), y: Metres(y), extra: fields(&corner.extra) }
+    }
+}
+
+impl DiskWall {
+    fn of(id: WallId, wall: &Wall) -> Self {
+        Self {
+            id: Text(id),
+            from: Text(wall.from),
+            to: Text(wall.to),
+            thickness: Metres(wall.thickness_m),
+            extra: fields(&wall.extra),
+        }
+    }
+}
+
+impl DiskRoom {
+    fn of(id: RoomId, room: &Room) -> Self {
+        let ring = |ring: &Arc<[CornerId]>| ring.iter().copied().map(Text).collect();
+        Self {
+            id: Text(id),
+            name: room.name.clone(),
+            function: room.function.clone(),
+            label: room.label.map(|given| Text(given.label)),
+            label_origin: room.label.map(|given| given.origin.into()),
+            outer: ring(&room.outer),
+            holes: room.holes.iter().map(ring).collect(),
+            note: room.note.clone(),
+            source_id: room.source_id.clone(),
+            extra: fields(&room.extra),
+        }
+    }
+}
+
+impl DiskOpening {
+    fn of(id: OpeningId, opening: &Opening) -> Self {
+        let mut disk = Self {
+            id: Text(id),
+            kind: opening.kind.into(),
+            on: None,
+            at: None,
+            width: None,
+            from: None,
+            to: None,
+            hinge: opening.swing.map(|swing| if swing.hinge_at_start { DiskHinge::Start } else { DiskHinge::End }),
+            opens: opening.swing.map(|swing| swing.side.into()),
+            joins: opening.pinned.map(|sides| sides.map(|side| side.room().map(Text))),
+            source_id: opening.source_id.clone(),
+            extra: fields(&opening.extra),
+        };
+        match opening.place {
+            OpeningPlace::Hosted { from, to, at_m, width_m } => {
+                disk.on = Some([Text(from), Text(to)]);
+                disk.at = Some(Number(at_m));
+                disk.width = Some(Metres(width_m));
+            }
+            OpeningPlace::Free { from, to } => {
+                disk.from = Some([from.x, from.y].map(Metres));
+                disk.to = Some([to.x, to.y].map(Metres));
+            }
+        }
+        disk
+    }
+}
+
+// From disk to live.
+
+/// The plan that a file describes.
+fn live(text: &str, disk: DiskPlan) -> Result<Plan, ReadError> {
+    let mut plan = Plan {
+        meta: Arc::new(disk.meta.live()),
+        backdrop: disk.backdrop.map(|backdrop| Arc::new(backdrop.live())),
+        extra: kept(disk.extra),
+        ..Plan::default()
+    };
+    let twice = |element: ElementId| {
+        refuse(text, element, 1, "is in the file twice", "remove one of the two, or give it an id of its own")
+    };
+    for corner in disk.corners {
+        let id = corner.id.0;
+        let position = Point::new(corner.x.0, corner.y.0);
+        if plan.corners.insert(id, Corner { position, extra: kept(corner.extra) }).is_some() {
+            return Err(twice(ElementId::Corner(id)));
+        }
+    }
+    for wall in disk.walls {
+        let id = wall.id.0;
+        let extra = kept(wall.extra);
+        let wall = Wall { from: wall.from.0, to: wall.to.0, thickness_m: wall.thickness.0, extra };
+        if plan.walls.insert(id, wall).is_some() {
+            return Err(twice(ElementId::Wall(id)));
+        }
+    }
+    for room in disk.rooms {
+        let id = room.id.0;
+        if plan.rooms.insert(id, Arc::new(room.live())).is_some() {
+            return Err(twice(ElementId::Room(id)));
+        }
+    }
+    for opening in disk.openings {
+        let id = opening.id.0;
+        let element = ElementId::Opening(id);
+        let opening = opening.live().map_err(|(what, hint)| refuse(text, element, 0, what, hint))?;
+        if plan.openings.insert(id, Arc::new(opening)).is_some() {
+            return Err(twice(element));
+        }
+    }
+    match plan.violations().into_iter().next() {
+        None => Ok(plan),
+        Some(violation) => Err(refuse(
+            text,
+            violation.element,
+            0,
+            &violation.what,
+            "correct it by hand, or restore the file from a copy or from version control",
+        )),
+    }
+}
+
+/// What an opening's fields must be.
+const PLACE_HINT: &str = "an opening has either \"on\", \"at\" and \"width\", or \"from\" and \"to\"";
+const SWING_HINT: &str = "\"hinge\" and \"opens\" come together";
+
+fn kept(extra: Map<String, Value>) -> Extra {
+    (!extra.is_empty()).then(|| Arc::new(extra))
+}
+
+impl DiskMeta {
+    fn live(self) -> Meta {
+        Meta {
+            name: self.name,
+            building: self.building,
+            storey: self.storey,
+            typology: Typology::new(&self.typology),
+            scale: Scale {
+                origin: self.scale_origin.into(),
+                metres_per_unit: self.metres_per_unit.map(|number| number.0),
+                note: self.scale_note,
+            },
+            source: self.source,
+            licence: self.licence,
+            extra: kept(self.extra),
+        }
+    }
+}
+
+impl DiskBackdrop {
+    fn live(self) -> Backdrop {
+        Backdrop {
+            path: self.path,
+            content_hash: self.content_hash,
+            origin: Point::new(self.x.0, self.y.0),
+            metres_per_pixel: self.metres_per_pixel.0,
+            rotation_rad: self.rotation_rad.0,
+            opacity: self.opacity.0,
+            extra: kept(self.extra),
+        }
+    }
+}
+
+impl DiskRoom {
+    fn live(self) -> Room {
+        let ring = |ring: Vec<Text<CornerId>>| ring.into_iter().map(|corner| corner.0).collect();
+        Room {
+            outer: ring(self.outer),
+            holes: self.holes.into_iter().map(ring).collect(),
+            function: self.function,
+            label: self.label.map(|label| RoomLabel {
+                label: label.0,
+                // A label that another program wrote without saying whose it is.
+                origin: self.label_origin.map_or(LabelOrigin::Imported, LabelOrigin::from),
+            }),
+            name: self.name,
+            note: self.note,
+            source_id: self.source_id,
+            extra: kept(self.extra),
+        }
+    }
+}
+
+impl DiskOpening {
+    fn live(self) -> Result<Opening, (&'static str, &'static str)> {
+        let place = match (self.on, self.at, self.width, self.from, self.to) {
+            (Some([from, to]), Some(at), Some(width), None, None) => {
+                OpeningPlace::Hosted { from: from.0, to: to.0, at_m: trim_m(at.0), width_m: width.0 }
+            }
+            (None, None, None, Some([x0, y0]), Some([x1, y1])) => {
+                OpeningPlace::Free { from: Point::new(x0.0, y0.0), to: Point::new(x1.0, y1.0) }
+            }
+            (None, None, None, None, None) => return Err(("has no place", PLACE_HINT)),
+            _ => return Err(("its place is incomplete or stated twice", PLACE_HINT)),
+        };
+        let swing = match (self.hinge, self.opens) {
+            (Some(hinge), Some(side)) => Some(Swing { hinge_at_start: hinge == DiskHinge::Start, side: side.into() }),
+            (None, None) => None,
+            _ => return Err(("its swing is incomplete", SWING_HINT)),
+        };
+        let joint = |room: Option<Text<RoomId>>| room.map_or(Joint::Outside, |room| Joint::Room(room.0));
+        Ok(Opening {
+            kind: self.kind.into(),
+            place,
+            swing,
+            pinned: self.joins.map(|sides| sides.map(joint)),
+            source_id: self.source_id,
+            extra: kept(self.extra),
+        })
+    }
+}
+
+// Errors.
+
+/// The kind of an element and its id, as people read it.
+fn element_name(id: &str) -> String {
+    let kind = match id.as_bytes().first() {
+        Some(b'c') => "corner",
+        Some(b'w') => "wall",
+        Some(b'r') => "room",
+        Some(b'o') => "opening",
+        _ => "element",
+    };
+    format!("{kind} {id}")
+}
+
+/// An error about an element of a file that is JSON; `nth` tells which of several with its id.
+fn refuse(text: &str, element: ElementId, nth: usize, what: &str, hint: &str) -> ReadError {
+    let id = element.to_string();
+    let place = Place { line: line_of_id(text, &id, nth), element: element_name(&id) };
+    ReadError { place, what: what.to_owned(), hint: hint.to_owned() }
+}
+
+/// An error of the JSON reader: a syntax error, or a value of the wrong kind.
+fn refuse_json(text: &str, error: &serde_json::Error) -> ReadError {
+    let line = (error.line() > 0).then_some(error.line());
+    let element = line.and_then(|line| id_on_line(text, line)).map(element_name).unwrap_or_default();
+    let fault = json_fault(text, error);
+    let hint =
+        fault.hint.unwrap_or("correct it by hand (docs/plan-file.md describes the file), or restore it from a copy");
+    ReadError { place: Place { line, element }, what: fault.what, hint: hint.to_owned() }
+}

@@ -1,0 +1,33 @@
+use std::path::Path;
+
+use super::{SaveError, save_bytes};
+use crate::formats::{self, FileError, plan_json};
+use crate::plan::Plan;
+
+/// Loads a plan from its own file (`*.plan.json`), exactly as it was saved.
+///
+/// Other formats are imported with [`formats::read_file`], which also names a plan after its file
+/// when it has no name.
+///
+/// # Errors
+/// When the file cannot be read or is not a plan file of a known version.
+pub fn load_plan(path: &Path) -> Result<Plan, FileError> {
+    let bytes = formats::read_bytes(path)?;
+    plan_json::from_bytes(&bytes).map_err(|error| FileError { path: path.to_owned(), error })
+}
+
+/// Saves a plan in its own format, see [`save_bytes`]. The bytes are read as a plan again before the
+/// old file is replaced.
+///
+/// # Errors
+/// As [`save_bytes`]; and when the plan breaks an invariant, so that the file could not be opened
+/// again.
+pub fn save_plan(path: &Path, plan: &Plan) -> Result<(), SaveError> {
+    let bytes = plan_json::to_bytes(plan);
+    let undo = "undo the last step and save again, and please report this";
+    match plan_json::from_bytes(&bytes) {
+        Ok(read) if read == *plan => save_bytes(path, &bytes),
+        Ok(_) => Err(SaveError::new(path, "the plan would read back differently", undo)),
+        Err(error) => Err(SaveError::new(path, format!("the plan could not be opened again: {error}"), undo)),
+    }
+}

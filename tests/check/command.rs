@@ -1,0 +1,90 @@
+//! The subcommand: its words, its JSON, its exit codes.
+
+use std::io::Write;
+use std::sync::{Arc, Mutex};
+
+use enfilade::cli::{Terminal, run};
+
+use super::golden::assert_golden;
+
+#[derive(Clone, Default)]
+struct Buffer(Arc<Mutex<Vec<u8>>>);
+
+impl Write for Buffer {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.lock().unwrap().write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+impl Buffer {
+    fn text(&self) -> String {
+        String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
+    }
+}
+
+/// Runs `enfilade check` and gives its exit code, stdout and stderr.
+fn enfilade_check(arguments: &[&str]) -> (u8, String, String) {
+    let (out, err) = (Buffer::default(), Buffer::default());
+    let mut terminal = Terminal { out: Box::new(out.clone()), err: Box::new(err.clone()), is_interactive: false };
+    let arguments = ["enfilade", "check"].iter().chain(arguments).map(Into::into);
+    let code = run(arguments, &mut terminal);
+    (code, out.text(), err.text())
+}
+
+const FLAT: &str = "tests/check/flat.plan.json";
+const SPOILED: &str = "tests/check/spoiled.plan.json";
+const NO_PLAN: &str = "tests/check/no_plan.json";
+
+#[test]
+fn a_sound_plan_gives_no_findings() {
+    let (code, out, err) = enfilade_check(&[FLAT]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert_golden("flat.txt", &out);
+}
+
+#[test]
+fn a_spoiled_plan_is_listed_for_people_and_for_machines() {
+    let (code, out, err) = enfilade_check(&[FLAT, SPOILED]);
+    assert_eq!((code, err.as_str()), (1, ""));
+    assert_golden("spoiled.txt", &out);
+    let (code, all, _) = enfilade_check(&[SPOILED, "--all", "--least", "warning"]);
+    assert_eq!(code, 1);
+    assert_golden("spoiled.all.txt", &all);
+    let (code, json, err) = enfilade_check(&[FLAT, SPOILED, "--json"]);
+    assert_eq!((code, err.as_str()), (1, ""));
+    assert_golden("spoiled.json", &json);
+}
+
+#[test]
+fn an_unreadable_file_does_not_stop_the_others() {
+    let (code, out, err) = enfilade_check(&[NO_PLAN, FLAT]);
+    assert_eq!(code, 1);
+    assert!(err.contains(NO_PLAN), "{err}");
+    assert!(out.contains("1 plan checked") && out.contains("1 file unreadable"), "{out}");
+    let (code, json, err) = enfilade_check(&[NO_PLAN, FLAT, "--json"]);
+    assert_eq!((code, err.as_str()), (1, ""));
+    let report: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert!(report["files"][0]["error"].is_string(), "{json}");
+    assert_eq!(report["totals"]["unreadable"], 1);
+    assert_eq!(report["files"][1]["plans"][0]["rooms"], 5);
+}
+
+#[test]
+fn warnings_fail_only_when_asked() {
+    let warned = "tests/check/warned.plan.json";
+    assert_eq!(enfilade_check(&[warned]).0, 0);
+    assert_eq!(enfilade_check(&[warned, "--strict"]).0, 1);
+    // What is not shown does not count.
+    assert_eq!(enfilade_check(&[warned, "--strict", "--least", "error"]).0, 0);
+}
+
+#[test]
+fn a_wrong_call_is_2() {
+    assert_eq!(enfilade_check(&[]).0, 2);
+    assert_eq!(enfilade_check(&[FLAT, "--least", "disaster"]).0, 2);
+    assert_eq!(enfilade_check(&["--help"]).0, 0);
+}
