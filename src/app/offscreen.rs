@@ -13,12 +13,12 @@ use egui::{
     TouchPhase, Vec2, ViewportCommand, ViewportId, vec2,
 };
 
-use super::App;
 use super::background::Mode;
 use super::dialogs::Dialogs;
 use super::document::{Origin, bundled};
-use super::raster::{Picture, Raster};
+use super::raster::Raster;
 use super::theme::Motion;
+use super::{App, Picture};
 
 /// Seconds from frame to frame.
 const FRAME_SECS: f64 = 1.0 / 60.0;
@@ -332,7 +332,12 @@ impl Offscreen {
         let scale = self.options.scale;
         let size_px = [self.options.width, self.options.height].map(|side| (side as f32 * scale).round() as u32);
         let shapes = self.output.as_ref().map(|output| output.shapes.clone()).unwrap_or_default();
+        #[allow(clippy::disallowed_methods)]
+        let t = std::time::Instant::now();
         let primitives = self.context.tessellate(shapes, scale);
+        if std::env::var_os("PROFILE").is_some() {
+            eprintln!("tessellate {:?}", t.elapsed());
+        }
         let background = self.context.global_style().visuals.panel_fill;
         self.raster.paint(&primitives, size_px, scale, background)
     }
@@ -347,7 +352,8 @@ impl Offscreen {
                 let bounds = node.bounds()?;
                 let corner = |x: f64, y: f64| Pos2::new(x as f32 / scale, y as f32 / scale);
                 Some(Control {
-                    name: node.label().unwrap_or_default().to_owned(),
+                    // Plain text carries what it says as its value.
+                    name: node.label().or(node.value()).unwrap_or_default().to_owned(),
                     role: node.role(),
                     rect: Rect::from_min_max(corner(bounds.x0, bounds.y0), corner(bounds.x1, bounds.y1)),
                     is_enabled: !node.is_disabled(),

@@ -26,15 +26,15 @@ pub(super) struct Panels {
     pub focus_name: bool,
     /// Whether the notes of the import are shown.
     pub notes: bool,
+    /// Height in points that the fill and the layers took when they were last shown.
+    layers_height: f32,
     /// Text that a person has changed and not finished.
     field: Option<Field>,
-    /// Whether functions are suggested under their field.
-    suggests: bool,
 }
 
 impl Default for Panels {
     fn default() -> Self {
-        Self { left: true, right: true, focus_name: false, notes: false, field: None, suggests: false }
+        Self { left: true, right: true, focus_name: false, notes: false, layers_height: 360.0, field: None }
     }
 }
 
@@ -74,14 +74,12 @@ impl Field {
 impl Panels {
     /// The text that is not part of the plan yet; it is taken out.
     pub(super) fn take_field(&mut self) -> Option<Field> {
-        self.suggests = false;
         self.field.take()
     }
 
     /// Forgets what belongs to the plan that was shown.
     pub(super) fn forget(&mut self) {
         self.field = None;
-        self.suggests = false;
         self.notes = false;
         self.focus_name = false;
     }
@@ -108,10 +106,18 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             .size_range(180.0..=440.0)
             .frame(frame(Margin::symmetric(8, 8)))
             .show(ui, |ui| {
-                Panel::bottom("layers")
-                    .frame(Frame::new())
-                    .show_separator_line(false)
-                    .show(ui, |ui| layers::show(app, ui));
+                // As high as what is in it, which changes with the fill: a panel that sizes itself
+                // does not grow again.
+                let given = app.panels.layers_height;
+                let layers = Panel::bottom("layers").exact_size(given).frame(Frame::new()).show_separator_line(false);
+                let taken = layers.show(ui, |ui| {
+                    layers::show(app, ui);
+                    ui.cursor().top() - ui.max_rect().top()
+                });
+                if (taken.inner - given).abs() > 0.5 {
+                    app.panels.layers_height = taken.inner;
+                    ui.request_repaint();
+                }
                 plans::show(app, ui);
                 ui.take_available_space();
             });
