@@ -10,11 +10,14 @@ mod status;
 mod top_bar;
 pub(super) mod welcome;
 
-use egui::{CentralPanel, Frame, Margin, Panel, Ui};
+use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui};
 
 use super::{App, canvas, theme};
 use crate::plan::edit::{self, EditError};
 use crate::plan::{Plan, RoomId};
+
+/// So many points at least the list of plans keeps above the layers: its title and two plans.
+const LEAST_PLANS_HEIGHT: f32 = 110.0;
 
 /// What the panels remember.
 pub(super) struct Panels {
@@ -107,14 +110,20 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             .frame(frame(Margin::symmetric(8, 8)))
             .show(ui, |ui| {
                 // As high as what is in it, which changes with the fill: a panel that sizes itself
-                // does not grow again.
-                let given = app.panels.layers_height;
+                // does not grow again. In a low window it scrolls, so that the plans keep some room.
+                let wanted = app.panels.layers_height;
+                let given = wanted.min(ui.available_height() - LEAST_PLANS_HEIGHT).max(LEAST_PLANS_HEIGHT);
                 let layers = Panel::bottom("layers").exact_size(given).frame(Frame::new()).show_separator_line(false);
                 let taken = layers.show(ui, |ui| {
-                    layers::show(app, ui);
-                    ui.cursor().top() - ui.max_rect().top()
+                    let area = ScrollArea::vertical().id_salt("layers").auto_shrink(false);
+                    let shown = area.show(ui, |ui| {
+                        let top = ui.cursor().top();
+                        layers::show(app, ui);
+                        ui.cursor().top() - top
+                    });
+                    shown.inner
                 });
-                if (taken.inner - given).abs() > 0.5 {
+                if (taken.inner - wanted).abs() > 0.5 {
                     app.panels.layers_height = taken.inner;
                     ui.request_repaint();
                 }
