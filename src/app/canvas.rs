@@ -333,17 +333,13 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     match act {
         None => {}
         Some(Act::Pick(picked)) => app.pick(picked),
+        Some(Act::PickNeighbour(step)) if app.pick_neighbour(step) => {}
         Some(Act::PickNeighbour(step)) => {
-            if !app.pick_neighbour(step) {
-                ui.memory_mut(|memory| {
-                    memory.surrender_focus(canvas_id());
-                    memory.move_focus(if step > 0 {
-                        egui::FocusDirection::Next
-                    } else {
-                        egui::FocusDirection::Previous
-                    });
-                });
-            }
+            let direction = if step > 0 { egui::FocusDirection::Next } else { egui::FocusDirection::Previous };
+            ui.memory_mut(|memory| {
+                memory.surrender_focus(canvas_id());
+                memory.move_focus(direction);
+            });
         }
         Some(Act::PickTowards(direction)) => app.pick_towards(direction),
         Some(Act::Rename) => {

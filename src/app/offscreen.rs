@@ -332,12 +332,7 @@ impl Offscreen {
         let scale = self.options.scale;
         let size_px = [self.options.width, self.options.height].map(|side| (side as f32 * scale).round() as u32);
         let shapes = self.output.as_ref().map(|output| output.shapes.clone()).unwrap_or_default();
-        #[allow(clippy::disallowed_methods)]
-        let t = std::time::Instant::now();
         let primitives = self.context.tessellate(shapes, scale);
-        if std::env::var_os("PROFILE").is_some() {
-            eprintln!("tessellate {:?}", t.elapsed());
-        }
         let background = self.context.global_style().visuals.panel_fill;
         self.raster.paint(&primitives, size_px, scale, background)
     }
