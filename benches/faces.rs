@@ -21,6 +21,13 @@ use families::FAMILIES;
 /// How often each measurement is taken; the median counts.
 const RUNS: usize = 5;
 
+/// The head of tests/faces/reference.csv.
+const REFERENCE_HEAD: &str = "\
+# The faces of the segments of tests/faces/families.rs by GEOS, ring by ring. Made with
+#     cargo bench --bench faces -- --reference > tests/faces/reference.csv
+# which gives the segments to benches/faces_geos.py; its head explains the columns. The family 'pixels' is
+# snap-rounded in rational arithmetic before GEOS polygonizes it.";
+
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let reference = arguments.iter().any(|argument| argument == "--reference");
@@ -29,8 +36,18 @@ fn main() {
     let scratch = tempfile::tempdir().unwrap();
     if !reference {
         println!(
-            "{:<9} {:>8} {:>8} {:>7} | {:>9} {:>11} | {:>9} {:>6} | {:>10} {:>6} | same",
-            "family", "segments", "faces", "holes", "ours ms", "ns/seg", "GEOS ms", "ratio", "snapped ms", "ratio"
+            "{:<9} {:>8} {:>8} {:>7} | {:>9} {:>11} | {:>9} {:>6} | {:>10} {:>6} | {:>8} | same",
+            "family",
+            "segments",
+            "faces",
+            "holes",
+            "ours ms",
+            "ns/seg",
+            "GEOS ms",
+            "ratio",
+            "snapped ms",
+            "ratio",
+            "plain"
         );
     }
     let mut header = reference;
@@ -44,6 +61,10 @@ fn main() {
             let bytes: Vec<u8> = ends.iter().flatten().flat_map(|value| value.to_le_bytes()).collect();
             std::fs::write(&path, bytes).unwrap();
             let segments = sums::in_metres(&ends);
+            if let Err(error) = Arrangement::new(&segments) {
+                println!("{:<9} {count:>8} refused: {error}", family.name);
+                continue;
+            }
             let work = || {
                 let arrangement = Arrangement::new(&segments).unwrap();
                 let found = faces(&arrangement);
@@ -57,7 +78,8 @@ fn main() {
             let mut millis: Vec<f64> = (0..RUNS).map(|_| cpu_ms(|| drop(work()))).collect();
             let millis = median(&mut millis);
             let geos = if count <= family.geos_limit {
-                geos(&format!("{}:{}", family.name, path.display()), if count < 100_000 { 5 } else { 3 })
+                let file = format!("{}:{}", family.name, path.display());
+                geos(&file, if count < 100_000 { 5 } else { 3 }, family.by_rationals)
             } else if reference {
                 continue;
             } else {
@@ -69,7 +91,7 @@ fn main() {
                     return;
                 };
                 if std::mem::take(&mut header) {
-                    println!("{versions}\n{}", without_times(&columns, 3));
+                    println!("{REFERENCE_HEAD}\n{versions}\n{}", without_times(&columns, 3));
                 }
                 println!("{}", without_times(&row, 3));
                 continue;
@@ -92,9 +114,10 @@ fn main() {
                         format!("NO: {ours} against {}", theirs[2..7].join(","))
                     };
                     println!(
-                        " | {plain:>9.2} {:>6.1} | {snapped:>10.2} {:>6.1} | {same}",
+                        " | {plain:>9.2} {:>6.1} | {snapped:>10.2} {:>6.1} | {:>8} | {same}",
                         plain / millis,
-                        snapped / millis
+                        snapped / millis,
+                        theirs[9]
                     );
                 }
                 None if count > family.geos_limit => println!(" | too much for GEOS"),
@@ -137,9 +160,14 @@ fn without_times(row: &str, columns: usize) -> String {
 }
 
 /// The versions, the columns' names and the row that GEOS gives for a file.
-fn geos(file: &str, times: usize) -> Option<(String, String, String)> {
+fn geos(file: &str, times: usize, by_rationals: bool) -> Option<(String, String, String)> {
     let script = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/faces_geos.py");
-    let output = Command::new("python3").args([script, file, "--times", &times.to_string()]).output().ok()?;
+    let mut command = Command::new("python3");
+    command.args([script, file, "--times", &times.to_string()]);
+    if by_rationals {
+        command.arg("--exact");
+    }
+    let output = command.output().ok()?;
     let text = String::from_utf8(output.stdout).ok()?;
     let mut lines = text.lines().map(str::to_owned);
     Some((lines.next()?, lines.next()?, lines.next()?))

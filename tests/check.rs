@@ -2,6 +2,7 @@
 //! words, and its independence of where and how a plan is drawn.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(clippy::print_stdout, reason = "a skipped test says so")]
 
 #[path = "check/cases.rs"]
 mod cases;
@@ -82,6 +83,15 @@ fn names_are_those_of_the_files() {
     }
 }
 
+#[test]
+fn every_check_is_documented() {
+    let docs = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/checks.md")).unwrap();
+    for kind in Finding::KINDS {
+        let row = format!("| `{}` | {} |", kind.name, kind.severity);
+        assert!(docs.contains(&row), "docs/checks.md has no row '{row}'");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -121,10 +131,15 @@ fn any_plan() -> impl Strategy<Value = Chaos> {
 
 type Lattice = (i32, i32);
 
+type ChaosRoom = (Vec<Lattice>, Vec<Vec<Lattice>>, usize);
+type ChaosOpening = (Lattice, Lattice, bool, usize, Option<(usize, usize)>);
+
 #[derive(Clone, Debug)]
 struct Chaos {
-    rooms: Vec<(Vec<Lattice>, Vec<Vec<Lattice>>, usize)>,
-    openings: Vec<(Lattice, Lattice, bool, usize, Option<(usize, usize)>)>,
+    /// Outer ring, holes, function.
+    rooms: Vec<ChaosRoom>,
+    /// Ends, whether free, kind, pinned rooms.
+    openings: Vec<ChaosOpening>,
     walls: Vec<(Lattice, Lattice)>,
     typology: usize,
 }

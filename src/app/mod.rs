@@ -1,1 +1,440 @@
-//! The window: canvas, commands, tools, panels, theme.
+//! The window: canvas, commands, panels, theme.
+//!
+//! [`App`] is the whole window apart from any display: it takes egui's input and gives shapes.
+//! [`run_window`] shows it on a screen; [`Offscreen`] drives the same one without.
+
+mod background;
+mod canvas;
+pub mod commands;
+mod dialogs;
+mod document;
+mod files;
+mod icons;
+mod offscreen;
+mod panels;
+mod plan_list;
+mod raster;
+mod scene_painter;
+mod theme;
+mod widgets;
+mod window;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use egui::{Context, Ui};
+
+pub use document::Picked;
+pub use icons::Icon;
+pub use offscreen::{Control, NotSettled, Offscreen, OffscreenOptions};
+pub use raster::{Picture, Raster};
+pub use theme::ThemeChoice;
+pub use window::{WindowError, WindowOptions, run_window};
+
+use background::{Background, Mode};
+use canvas::Canvas;
+use dialogs::{Answer, Dialogs};
+use document::{Derived, Document, Opened, Origin, SaveFailure, Stamp};
+use panels::Panels;
+use panels::welcome::Samples;
+use plan_list::PlanList;
+
+use crate::draw::Fill;
+use crate::features::RoomStatus;
+use crate::formats::FileError;
+use crate::geometry::Vector;
+use crate::labels::{Label, Schemes};
+use crate::plan::edit::{self, EditError};
+use crate::plan::{LabelOrigin, Plan, Room, RoomId, RoomLabel};
+
+/// The window's state, apart from any display.
+pub struct App {
+    schemes: Arc<Schemes>,
+    document: Option<Document>,
+    /// What is being read to be opened.
+    opening: Option<Origin>,
+    list: PlanList,
+    canvas: Canvas,
+    picked: Option<Picked>,
+    layers: LayerSettings,
+    theme: ThemeChoice,
+    panels: Panels,
+    samples: Samples,
+    messages: Vec<Message>,
+    /// What was just done, for the status line.
+    status: String,
+    question: Option<Question>,
+    background: Background<Done>,
+    dialogs: Dialogs,
+    quitting: bool,
+    is_close_sent: bool,
+    shown_title: String,
+    /// How many documents have been shown.
+    documents: u64,
+}
+
+/// What is shown of a plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct LayerSettings {
+    fill: Fill,
+    graph: bool,
+    names: bool,
+    backdrop: bool,
+    grid: bool,
+}
+
+impl Default for LayerSettings {
+    fn default() -> Self {
+        Self { fill: Fill::Label, graph: false, names: true, backdrop: true, grid: true }
+    }
+}
+
+/// A message that stays until it is dismissed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Message {
+    pub severity: Severity,
+    /// What happened, in a sentence.
+    pub text: String,
+    /// Where, and what to do; may be empty.
+    pub detail: String,
+    pub remedy: Option<Remedy>,
+}
+
+/// What a message offers to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Remedy {
+    /// Show what an import mended or left out.
+    ShowNotes,
+}
+
+impl Remedy {
+    const fn title(self) -> &'static str {
+        match self {
+            Self::ShowNotes => "Show notes",
+        }
+    }
+}
+
+/// How bad a message is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    Info,
+    Warning,
+    Error,
+}
+
+/// What a person wants to do that would lose unsaved work.
+#[derive(Debug)]
+enum Intent {
+    /// Show another plan, which was read meanwhile.
+    Show(Box<Opened>),
+    Close,
+    Quit,
+}
+
+/// A question that must be answered before anything else.
+#[derive(Debug)]
+enum Question {
+    /// The plan has unsaved changes: save, give up, or keep working?
+    Unsaved(Intent),
+    /// Something else stands in the file to be saved: replace it?
+    Replace { path: PathBuf, is_changed_since: bool, then: Option<Intent> },
+}
+
+/// What a background job brought.
+enum Done {
+    Opened(Origin, Box<Result<Opened, FileError>>),
+    Derived(Plan, Arc<Derived>),
+    Listed(PathBuf, Vec<PathBuf>),
+    Chosen(Answer),
+    Saved { document: u64, path: PathBuf, plan: Plan, result: Result<Option<Stamp>, SaveFailure>, then: Option<Intent> },
+    Backdrop(PathBuf, Result<egui::ColorImage, String>),
+}
+
+/// A plan with more elements is analysed off the frame's path; below, that takes a few milliseconds.
+const LARGE_PLAN_ELEMENTS: usize = 2000;
+
+impl App {
+    fn new(context: &Context, mode: Mode, dialogs: Dialogs, motion: theme::Motion) -> Self {
+        theme::install(context, motion);
+        Self {
+            schemes: Arc::new(Schemes::bundled()),
+            document: None,
+            opening: None,
+            list: PlanList::default(),
+            canvas: Canvas::default(),
+            picked: None,
+            layers: LayerSettings::default(),
+            theme: ThemeChoice::default(),
+            panels: Panels::default(),
+            samples: Samples::default(),
+            messages: Vec::new(),
+            status: String::new(),
+            question: None,
+            background: Background::new(mode),
+            dialogs,
+            quitting: false,
+            is_close_sent: false,
+            shown_title: String::new(),
+            documents: 0,
+        }
+    }
+
+    /// One frame.
+    fn frame(&mut self, ui: &mut Ui) {
+        let context = ui.ctx().clone();
+        self.take_outcomes(&context);
+        self.take_dropped_files(&context);
+        self.take_close_request(&context);
+        self.take_shortcuts(&context);
+        self.refresh();
+        panels::show(self, ui);
+        self.update_title(&context);
+        if self.background.is_busy() {
+            self.background.request_frame(&context);
+        }
+    }
+
+    /// The open plan.
+    pub fn plan(&self) -> Option<&Plan> {
+        self.document.as_ref().map(Document::plan)
+    }
+
+    /// What is picked.
+    pub fn picked(&self) -> Option<Picked> {
+        self.picked
+    }
+
+    /// What stands in the message bar, oldest first.
+    pub fn messages(&self) -> &[Message] {
+        &self.messages
+    }
+
+    /// Whether the plan has changes that are in no file.
+    pub fn has_unsaved_changes(&self) -> bool {
+        self.document.as_ref().is_some_and(Document::is_changed)
+    }
+
+    /// Whether the window is about to close, nothing standing against it.
+    pub fn is_quitting(&self) -> bool {
+        self.quitting
+    }
+
+    /// Where a point of the plan (in metres) is on the screen, in egui's points; `None` before the
+    /// first frame and without a plan.
+    pub fn screen_position(&self, x_m: f64, y_m: f64) -> Option<egui::Pos2> {
+        self.canvas.screen_position(crate::geometry::Point::new(x_m, y_m))
+    }
+
+    /// Runs a command by its id, as a menu would. Gives whether there is such a command and it could
+    /// be done.
+    pub fn run_command(&mut self, id: &str, context: &Context) -> bool {
+        let Some(command) = commands::find(id) else { return false };
+        self.commit_field();
+        let is_available = (command.is_available)(self);
+        if is_available {
+            self.status.clear();
+            (command.run)(self, context);
+        }
+        is_available
+    }
+
+    fn say(&mut self, severity: Severity, text: impl Into<String>, detail: impl Into<String>) {
+        self.add_message(Message { severity, text: text.into(), detail: detail.into(), remedy: None });
+    }
+
+    fn add_message(&mut self, message: Message) {
+        // The same thing said again moves to the end.
+        self.messages.retain(|other| *other != message);
+        self.messages.push(message);
+    }
+
+    // What happens before the panels are shown.
+
+    fn take_outcomes(&mut self, context: &Context) {
+        for outcome in self.background.take() {
+            match outcome {
+                None => self.say(
+                    Severity::Error,
+                    "Something broke inside Enfilade",
+                    "Your plan is untouched. Please report what you did.",
+                ),
+                Some(Done::Opened(origin, result)) => self.was_opened(&origin, *result),
+                Some(Done::Derived(plan, derived)) => {
+                    if let Some(document) = &mut self.document {
+                        document.set_derived(plan, derived);
+                    }
+                }
+                Some(Done::Listed(folder, files)) => self.list.set_folder(folder, files),
+                Some(Done::Chosen(answer)) => {
+                    self.dialogs.answered();
+                    self.was_chosen(answer);
+                }
+                Some(Done::Saved { document, path, plan, result, then }) => {
+                    self.was_saved(document, path, plan, result, then);
+                }
+                Some(Done::Backdrop(path, result)) => {
+                    if let Err(what) = self.canvas.set_backdrop(context, &path, result) {
+                        let text = format!("The picture under the plan is missing: {what}");
+                        self.say(Severity::Warning, text, path.display().to_string());
+                    }
+                }
+            }
+        }
+    }
+
+    fn take_shortcuts(&mut self, context: &Context) {
+        let is_typing = context.text_edit_focused();
+        // An open menu has the keys to itself; the list under a text field leaves them to the text.
+        let is_menu_open = egui::Popup::is_any_open(context) && !is_typing;
+        if self.question.is_some() || self.panels.is_dialog_open() || is_menu_open {
+            return;
+        }
+        for command in context.input_mut(|input| commands::take_pressed(input, is_typing)) {
+            self.run_command(command.id, context);
+        }
+    }
+
+    /// Starts what the plan on screen still needs: its analysis, its backdrop.
+    fn refresh(&mut self) {
+        let Some(document) = &mut self.document else { return };
+        let plan = document.plan().clone();
+        if self.picked.is_some_and(|picked| !picked.is_in(&plan)) {
+            self.picked = None;
+        }
+        if document.needs_deriving() {
+            let schemes = self.schemes.clone();
+            if plan.rooms().len() + plan.openings().len() + plan.walls().len() <= LARGE_PLAN_ELEMENTS {
+                let derived = Arc::new(Derived::new(&plan, &schemes));
+                document.set_derived(plan.clone(), derived);
+            } else {
+                document.await_derived();
+                let plan = plan.clone();
+                self.background.start(move || {
+                    let derived = Arc::new(Derived::new(&plan, &schemes));
+                    Done::Derived(plan, derived)
+                });
+            }
+        }
+        if let Some(path) = self.canvas.wanted_backdrop(plan.backdrop(), document.origin.folder()) {
+            self.background.start(move || {
+                let picture = canvas::read_picture(&path);
+                Done::Backdrop(path, picture)
+            });
+        }
+    }
+
+    // Picking.
+
+    fn pick(&mut self, picked: Option<Picked>) {
+        self.commit_field();
+        self.picked = picked;
+    }
+
+    /// The picked room.
+    fn picked_room(&self) -> Option<(RoomId, &Room)> {
+        let Some(Picked::Room(id)) = self.picked else { return None };
+        Some((id, self.plan()?.room(id)?))
+    }
+
+    /// The label of the picked room, whoever gave it.
+    fn picked_label(&self) -> Option<Label> {
+        let (_, room) = self.picked_room()?;
+        RoomStatus::of(self.plan()?, &self.schemes, room).label()
+    }
+
+    /// Picks the room that comes `step` later as one reads: from the top left, line by line. From
+    /// nothing picked, the first or the last. `false` when there is no further one.
+    fn pick_neighbour(&mut self, step: isize) -> bool {
+        let Some(derived) = self.document.as_ref().and_then(Document::derived) else { return false };
+        let order = derived.reading_order();
+        let at = match self.picked {
+            Some(Picked::Room(id)) => order.iter().position(|&room| room == id),
+            _ => None,
+        };
+        let next = match at {
+            None if step > 0 => Some(0),
+            None => order.len().checked_sub(1),
+            Some(at) => at.checked_add_signed(step),
+        };
+        let Some(&id) = next.and_then(|next| order.get(next)) else { return false };
+        self.pick(Some(Picked::Room(id)));
+        self.canvas.reveal(Picked::Room(id));
+        true
+    }
+
+    /// Picks the room nearest to the picked one in a direction of the plan; the first where none is.
+    fn pick_towards(&mut self, direction: Vector) {
+        let Some(derived) = self.document.as_ref().and_then(Document::derived) else { return };
+        let Some(Picked::Room(picked)) = self.picked else {
+            self.pick_neighbour(1);
+            return;
+        };
+        let shapes = &derived.analysis.shapes;
+        let Some(from) = shapes.get(picked).map(|shape| shape.bounds.center()) else { return };
+        let nearest = shapes
+            .all()
+            .iter()
+            .filter(|shape| shape.id != picked && !shape.bounds.is_empty())
+            .filter_map(|shape| {
+                let way = shape.bounds.center() - from;
+                let (along, across) = (way.dot(direction), way.cross(direction).abs());
+                // Within 60 degrees of the direction; what lies aside counts double.
+                (along > 0.0 && across < along * 1.75).then_some((along + 2.0 * across, shape.id))
+            })
+            .min_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+        if let Some((_, id)) = nearest {
+            self.pick(Some(Picked::Room(id)));
+            self.canvas.reveal(Picked::Room(id));
+        }
+    }
+
+    fn zoom_to_picked(&mut self) {
+        let Some((document, picked)) = self.document.as_ref().zip(self.picked) else { return };
+        if let Some(bounds) = document.bounds_of(picked) {
+            self.canvas.zoom_to(bounds);
+        }
+    }
+
+    // Editing. Every change goes through here and is a step of the history.
+
+    fn edit(&mut self, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) {
+        let Some(document) = &mut self.document else { return };
+        match change(document.plan()) {
+            Ok(plan) => document.history.push(title, plan),
+            Err(error) => self.say(Severity::Warning, format!("Nothing was changed: {error}"), ""),
+        }
+    }
+
+    /// Gives the picked room a label, or takes its own away.
+    fn label_picked(&mut self, label: Option<Label>) {
+        let Some((id, _)) = self.picked_room() else { return };
+        let given = label.map(|label| RoomLabel { label, origin: LabelOrigin::Person });
+        let title = label.map_or("Label by function".to_owned(), |label| format!("Label {label}"));
+        self.edit(&title, |plan| edit::set_label(plan, id, given));
+    }
+
+    /// Makes what stands in a text field part of the plan.
+    fn commit_field(&mut self) {
+        if let Some(field) = self.panels.take_field() {
+            self.edit(field.title(), |plan| field.apply(plan));
+        }
+    }
+
+    fn undo(&mut self) {
+        if let Some(title) = self.document.as_mut().and_then(|document| document.history.undo()) {
+            self.status = format!("Undone: {title}");
+        }
+    }
+
+    fn redo(&mut self) {
+        if let Some(title) = self.document.as_mut().and_then(|document| document.history.redo()) {
+            self.status = format!("Redone: {title}");
+        }
+    }
+
+    fn set_theme(&mut self, theme: ThemeChoice, context: &Context) {
+        self.theme = theme;
+        theme.apply(context);
+    }
+}

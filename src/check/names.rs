@@ -5,7 +5,7 @@ use crate::plan::{Opening, OpeningId, OpeningKind, Room, RoomId};
 /// Longer names are cut in reports: a line should fit a terminal.
 const LONGEST_NAME: usize = 40;
 
-/// Longer ids of a source (UUIDs) are cut to [`SHORT_ID`] characters: enough to find them by.
+/// Longer ids of a source (UUIDs, not words) are cut to [`SHORT_ID`] characters: enough to find them.
 const LONGEST_ID: usize = 13;
 
 const SHORT_ID: usize = 8;
@@ -34,7 +34,11 @@ impl fmt::Display for RoomName {
         if !name.is_empty() {
             write!(f, " '{name}'")?;
         }
-        write!(f, " {}", short_id(&self.source_id, &self.id))
+        // Some sources have no other id than the name.
+        if self.source_id.is_empty() || self.source_id != self.name {
+            write!(f, " {}", short_id(&self.source_id, &self.id))?;
+        }
+        Ok(())
     }
 }
 
@@ -62,7 +66,7 @@ fn short_id(source_id: &str, id: &dyn fmt::Display) -> String {
     let source_id = printable(source_id);
     if source_id.is_empty() {
         id.to_string()
-    } else if source_id.chars().count() > LONGEST_ID {
+    } else if source_id.chars().count() > LONGEST_ID && !source_id.contains(char::is_whitespace) {
         source_id.chars().take(SHORT_ID).chain(['…']).collect()
     } else {
         source_id

@@ -2,15 +2,15 @@ use std::collections::BTreeMap;
 
 use super::rings::TOUCH_M;
 use super::{Check, Context, Kind, Place, Severity};
-use crate::geometry::{Bounds, Point};
+use crate::geometry::{Bounds, Point, Segment};
 use crate::plan::{CornerId, ElementId, WallId};
 
 /// A wall with an end that meets nothing: it encloses no room there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WallEndsFreely {
     pub wall: WallId,
-    pub corner: CornerId,
-    pub at: Point,
+    /// The ends that meet nothing, with their places; one or both.
+    pub ends: Vec<(CornerId, Point)>,
 }
 
 /// A wall that stands free at both ends and is at most this many times as long as it is thick is a
@@ -32,35 +32,40 @@ impl Check for WallEndsFreely {
             *uses.entry(wall.from).or_default() += 1;
             *uses.entry(wall.to).or_default() += 1;
         }
+        let (walls, edges) = (&context.walls, &context.edges.index);
+        let meets_nothing = |id: WallId, at: Point| {
+            let around = Bounds::of([at]).inflated(TOUCH_M);
+            let touches = |segment: Segment| segment.distance(at) <= TOUCH_M;
+            !walls.index.near(around).any(|other| walls.ids[other] != id && touches(walls.index.get(other)))
+                && !edges.near(around).any(|edge| touches(edges.get(edge)))
+        };
         let mut found = Vec::new();
         for (id, wall) in plan.walls() {
-            let free_ends = [wall.from, wall.to].into_iter().filter_map(|corner| {
-                let at = plan.position(corner).filter(|_| uses.get(&corner) == Some(&1))?;
-                let around = Bounds::of([at]).inflated(TOUCH_M);
-                let walls = &context.walls;
-                let meets_wall = walls
-                    .index
-                    .near(around)
-                    .any(|other| walls.ids[other] != id && walls.index.get(other).distance(at) <= TOUCH_M);
-                let edges = &context.edges.index;
-                let meets_room = edges.near(around).any(|edge| edges.get(edge).distance(at) <= TOUCH_M);
-                (!meets_wall && !meets_room).then_some(Self { wall: id, corner, at })
-            });
-            let free_ends: Vec<Self> = free_ends.collect();
-            let length_m = plan.wall_segment(wall).map_or(0.0, |line| line.length());
-            if free_ends.len() < 2 || length_m > PIER_RATIO * wall.thickness_m {
-                found.extend(free_ends);
+            let ends = [wall.from, wall.to].into_iter().filter(|corner| uses.get(corner) == Some(&1));
+            let ends = ends.filter_map(|corner| Some((corner, plan.position(corner)?)));
+            let ends: Vec<(CornerId, Point)> = ends.filter(|&(_, at)| meets_nothing(id, at)).collect();
+            let length_m = plan.wall_segment(wall).map_or(0.0, Segment::length);
+            let is_pier = ends.len() == 2 && length_m <= PIER_RATIO * wall.thickness_m;
+            if !ends.is_empty() && !is_pier {
+                found.push(Self { wall: id, ends });
             }
         }
         found
     }
 
     fn place(&self) -> Place<'_> {
-        let elements = vec![ElementId::Wall(self.wall), ElementId::Corner(self.corner)];
-        Place { elements, rooms: Vec::new(), at: Some(self.at) }
+        let corners = self.ends.iter().map(|&(corner, _)| ElementId::Corner(corner));
+        Place {
+            elements: [ElementId::Wall(self.wall)].into_iter().chain(corners).collect(),
+            rooms: Vec::new(),
+            at: self.ends.first().map(|&(_, at)| at),
+        }
     }
 
     fn what(&self) -> String {
-        format!("wall {} meets nothing at its corner {}", self.wall, self.corner)
+        match self.ends.as_slice() {
+            [(corner, _)] => format!("wall {} meets nothing at its corner {corner}", self.wall),
+            _ => format!("wall {} meets nothing at either end", self.wall),
+        }
     }
 }

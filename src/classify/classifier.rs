@@ -63,6 +63,7 @@ impl FromStr for Algorithm {
 
 /// What an algorithm learned.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "there are a handful of models, and prediction is quicker without a box")]
 pub enum Model {
     Rules(RuleList),
     Tree(Tree),

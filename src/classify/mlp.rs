@@ -114,11 +114,11 @@ impl Weights {
         let Pass { given, slope, probabilities: mut error } = self.pass(inputs);
         error[label] -= 1.0;
         let mut back = [0.0; HIDDEN];
-        for label in 0..LABELS {
-            gradient.output_bias[label] += error[label];
+        for (label, &error) in error.iter().enumerate() {
+            gradient.output_bias[label] += error;
             for unit in 0..HIDDEN {
-                gradient.output[label][unit] += error[label] * given[unit];
-                back[unit] += error[label] * self.output[label][unit];
+                gradient.output[label][unit] += error * given[unit];
+                back[unit] += error * self.output[label][unit];
             }
         }
         for unit in 0..HIDDEN {

@@ -134,10 +134,7 @@ fn divide(points: &[Point], order: &mut [u32], from: u32, nodes: &mut Vec<Node>)
 
 /// A sum over the features, four side by side: what a vector register holds.
 fn sum_of_parts(part: impl Fn(usize) -> f32) -> f32 {
-    let mut four = [0.0; FEATURES / 2];
-    for i in 0..FEATURES / 2 {
-        four[i] = part(i) + part(i + FEATURES / 2);
-    }
+    let four: [f32; FEATURES / 2] = std::array::from_fn(|i| part(i) + part(i + FEATURES / 2));
     (four[0] + four[1]) + (four[2] + four[3])
 }
 
@@ -241,7 +238,7 @@ mod tests {
                     .iter()
                     .enumerate()
                     .filter(|&(index, _)| index as u32 != without)
-                    .map(|(_, point)| metric.distance((0..FEATURES).map(|a| metric.part(point[a] - query[a])).sum()))
+                    .map(|(_, point)| metric.distance(sum_of_parts(|axis| metric.part(point[axis] - query[axis]))))
                     .collect();
                 all.sort_by(f32::total_cmp);
                 let distances: Vec<f32> = found.iter().map(|found| found.distance).collect();

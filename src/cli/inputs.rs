@@ -1,6 +1,6 @@
 //! Plans named on the command line: files and folders.
 
-use std::io::Write as _;
+use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
 use super::{CliError, Terminal};
@@ -8,7 +8,7 @@ use crate::formats::{self, Import};
 use crate::labels::Schemes;
 
 /// The plan files that paths name: a file is itself, a folder all files below it that end like a
-/// known format, in the order of their paths.
+/// known format and are not for certain something else, in the order of their paths.
 ///
 /// # Errors
 /// When a path does not exist, or a folder holds no plan.
@@ -23,7 +23,8 @@ pub fn plan_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
         let before = files.len();
         for entry in walkdir::WalkDir::new(path).follow_links(true).sort_by_file_name() {
             let entry = entry?;
-            if entry.file_type().is_file() && formats::is_plan_file_name(&entry.file_name().to_string_lossy()) {
+            let is_named_so = formats::is_plan_file_name(&entry.file_name().to_string_lossy());
+            if entry.file_type().is_file() && is_named_so && !is_foreign(entry.path()) {
                 files.push(entry.into_path());
             }
         }
@@ -32,6 +33,14 @@ pub fn plan_files(paths: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
         }
     }
     Ok(files)
+}
+
+/// Whether a file's beginning shows that it is no plan, although its name ends like one. One that
+/// cannot be opened is not: reading it says why.
+fn is_foreign(path: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = std::fs::File::open(path).and_then(|file| file.take(formats::HEAD_BYTES as u64).read_to_end(&mut head));
+    read.is_ok() && formats::foreign_kind(path, &head).is_some()
 }
 
 /// Reads each file and hands its plans over, saying on stderr what could not be read. Gives the

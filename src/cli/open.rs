@@ -21,7 +21,7 @@ const PICTURE_PX: f64 = 1600.0;
 
 /// Opens the window on a plan, or on a bundled one; without a display does the job headless.
 pub fn open(plan: Option<&Path>, terminal: &mut Terminal) -> Result<Outcome, CliError> {
-    let why = match window(plan)? {
+    let why = match window(plan) {
         None => return Ok(Outcome::Done),
         Some(why) => why,
     };
@@ -29,8 +29,15 @@ pub fn open(plan: Option<&Path>, terminal: &mut Terminal) -> Result<Outcome, Cli
     headless(plan, terminal)
 }
 
-fn window(_plan: Option<&Path>) -> Result<Option<String>, CliError> {
-    Ok(Some("this build has no window (cargo feature 'gui')".to_owned()))
+#[cfg(feature = "gui")]
+fn window(plan: Option<&Path>) -> Option<String> {
+    let options = crate::app::WindowOptions { plan: plan.map(Path::to_owned) };
+    crate::app::run_window(options).err().map(|error| error.to_string())
+}
+
+#[cfg(not(feature = "gui"))]
+fn window(_plan: Option<&Path>) -> Option<String> {
+    Some("this build has no window (cargo feature 'gui')".to_owned())
 }
 
 /// Reads the plans, and writes for each its pictures, and for all their features as a dataset.

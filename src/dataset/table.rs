@@ -196,7 +196,7 @@ mod tests {
         for (area_m2, word) in [(f64::NAN, "NaN"), (f64::INFINITY, "inf"), (-1.0, "-1")] {
             let error = Table::from_rows(&[row(1.0), row(area_m2), row(f64::NAN)]).expect_err(word).to_string();
             assert!(
-                error.contains(&format!("rows, 2 with")) && error.contains(&format!("r in p, where a is {word};")),
+                error.contains("rows, 2 with") && error.contains(&format!("r in p, where a is {word};")),
                 "{error}"
             );
         }

@@ -464,7 +464,7 @@ impl Space {
         if style.layers.graph {
             // The node, as an octagon around it.
             let r = (NODE_RADIUS_PX + 1.0) / view.px_per_m;
-            let k = r * 0.7071;
+            let k = r * std::f64::consts::FRAC_1_SQRT_2;
             let node: Vec<Point> = [(r, 0.0), (k, k), (0.0, r), (-k, k), (-r, 0.0), (-k, -k), (0.0, -r), (k, -k)]
                 .into_iter()
                 .map(|(x, y)| room.centre + Vector::new(x, y))
@@ -570,7 +570,7 @@ mod tests {
         assert_eq!(wrapped("Sala riunioni grande")[1], ["Sala riunioni", "grande"]);
         assert_eq!(wrapped("Sala riunioni grande")[2], ["Sala", "riunioni", "grande"]);
         assert_eq!(wrapped("Library").len(), 1);
-        assert_eq!(shortened("Laboratory")[1], "Laborat…");
+        assert_eq!(shortened("Laboratory"), ["Laborat…", "Labor…", "Labo…"]);
         assert!(shortened("WC").is_empty());
     }
 

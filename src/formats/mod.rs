@@ -146,6 +146,9 @@ impl fmt::Display for FileError {
 
 impl std::error::Error for FileError {}
 
+/// So much of a file's beginning tells its format.
+pub const HEAD_BYTES: usize = 4096;
+
 /// The largest file that is read: the largest real plan seen has half a megabyte.
 pub const FILE_LIMIT_BYTES: u64 = 256 << 20;
 
@@ -173,7 +176,7 @@ pub fn read_from(path: &Path, bytes: &[u8]) -> Result<Import, FileError> {
 /// What kind of other file this is, when no format recognises it and one is sure that it is no plan
 /// although its name ends like one, see [`Format::foreign`].
 pub fn foreign_kind(path: &Path, bytes: &[u8]) -> Option<String> {
-    let head = &bytes[..bytes.len().min(4096)];
+    let head = &bytes[..bytes.len().min(HEAD_BYTES)];
     if FORMATS.iter().any(|format| format.recognises(head)) {
         return None;
     }
@@ -209,7 +212,7 @@ fn fail_file(path: &Path, what: impl Into<String>, hint: &str) -> FileError {
 
 /// The format of a file: by its content, then by its name.
 pub fn find_format(file_name: &str, bytes: &[u8]) -> Option<&'static dyn Format> {
-    let head = &bytes[..bytes.len().min(4096)];
+    let head = &bytes[..bytes.len().min(HEAD_BYTES)];
     let named = |format: &&dyn Format| extension_of(file_name, *format).is_some();
     FORMATS
         .iter()

@@ -20,9 +20,10 @@ use super::exact::{GridPoint, Piece};
 /// lines that all cross) is refused.
 pub const PASSINGS_LIMIT: usize = 10_000_000;
 
-/// How many tests of two pieces, or of a piece and a pixel, an arrangement may take: about 20
-/// seconds on one core, a hundred times what 100,000 walls need. Only input built for it gets there.
-pub const TESTS_LIMIT: u64 = 4_000_000_000;
+/// How many tests of two pieces, or of a piece and a pixel, an arrangement may take: about ten
+/// seconds on one core, fifty times what 100,000 walls need. Only input built for it gets there
+/// (tens of thousands of lines that leave one point within a narrow angle).
+pub const TESTS_LIMIT: u64 = 1_000_000_000;
 
 /// A cell with so few pieces is not divided further: testing all pairs costs less.
 const FEW_PIECES: usize = 24;
@@ -48,11 +49,23 @@ pub(super) struct Snapped {
     pub passings: Vec<(u32, u32)>,
 }
 
+/// What an arrangement may take.
+#[derive(Clone, Copy, Debug)]
+struct Limits {
+    passings: usize,
+    tests: u64,
+}
+
 /// Snaps pieces to the hot pixels of all of them.
 pub(super) fn snap(pieces: &[Piece]) -> Result<Snapped, ArrangementError> {
+    snap_within(pieces, Limits { passings: PASSINGS_LIMIT, tests: TESTS_LIMIT })
+}
+
+fn snap_within(pieces: &[Piece], limits: Limits) -> Result<Snapped, ArrangementError> {
     let all: Vec<u32> = (0..pieces.len() as u32).collect();
     let Some(cell) = Cell::around(pieces) else { return Ok(Snapped::default()) };
-    let mut snapper = Snapper { pieces, snapped: Snapped::default(), tests: 0, hot: Vec::new(), swept: Vec::new() };
+    let mut snapper =
+        Snapper { pieces, limits, snapped: Snapped::default(), tests: 0, hot: Vec::new(), swept: Vec::new() };
     snapper.settle(cell, &all)?;
     Ok(snapper.snapped)
 }
@@ -133,6 +146,7 @@ struct Swept {
 
 struct Snapper<'a> {
     pieces: &'a [Piece],
+    limits: Limits,
     snapped: Snapped,
     tests: u64,
     /// Scratch: the hot pixels of the cell at hand.
@@ -144,7 +158,7 @@ struct Snapper<'a> {
 impl Snapper<'_> {
     /// Settles the pixels of a cell, given all pieces that may meet one of them.
     fn settle(&mut self, cell: Cell, here: &[u32]) -> Result<(), ArrangementError> {
-        if here.len() <= FEW_PIECES || (cell.width() == 1 && cell.height() == 1) {
+        if here.len() <= FEW_PIECES {
             return self.test_all(cell, here);
         }
         let lie = self.lie(cell, here);
@@ -167,7 +181,7 @@ impl Snapper<'_> {
 
     fn count_tests(&mut self, tests: usize) -> Result<(), ArrangementError> {
         self.tests += tests as u64;
-        if self.tests > TESTS_LIMIT || self.snapped.passings.len() > PASSINGS_LIMIT {
+        if self.tests > self.limits.tests || self.snapped.passings.len() > self.limits.passings {
             return Err(ArrangementError::TooDense);
         }
         Ok(())
@@ -176,23 +190,12 @@ impl Snapper<'_> {
     /// Tests all pairs.
     fn test_all(&mut self, cell: Cell, here: &[u32]) -> Result<(), ArrangementError> {
         let pieces = self.pieces;
-        self.hot.clear();
         self.ends(cell, here);
-        // One pixel is hot or not: an end decides.
-        let decided = cell.width() == 1 && cell.height() == 1 && !self.hot.is_empty();
-        if !decided {
-            self.count_tests(here.len() * here.len() / 2)?;
-            for (i, &first) in here.iter().enumerate() {
-                let first = pieces[first as usize];
-                for &second in &here[i + 1..] {
-                    let second = pieces[second as usize];
-                    if first.boxes_meet(second)
-                        && let Some(point) = first.crossing(second)
-                        && cell.holds(point)
-                    {
-                        self.add_hot(point)?;
-                    }
-                }
+        self.count_tests(here.len() * here.len() / 2)?;
+        for (i, &first) in here.iter().enumerate() {
+            let first = pieces[first as usize];
+            for &second in &here[i + 1..] {
+                self.cross(cell, first, pieces[second as usize])?;
             }
         }
         self.hot.sort_unstable();
@@ -210,26 +213,32 @@ impl Snapper<'_> {
         self.count_tests(0)
     }
 
-    /// The ends within the cell are hot.
+    /// Starts the cell's hot pixels with the ends in it.
     fn ends(&mut self, cell: Cell, here: &[u32]) {
+        self.hot.clear();
         for &index in here {
             let piece = self.pieces[index as usize];
             self.hot.extend([piece.a, piece.b].into_iter().filter(|&end| cell.holds(end)));
         }
     }
 
-    /// Notes a crossing; drops repetitions before they fill the memory (many pieces through one
-    /// pixel).
-    fn add_hot(&mut self, point: GridPoint) -> Result<(), ArrangementError> {
-        if self.hot.len() == self.hot.capacity() && self.hot.len() > 1 << 16 {
-            self.hot.sort_unstable();
-            self.hot.dedup();
-            if self.hot.len() > PASSINGS_LIMIT {
-                return Err(ArrangementError::TooDense);
+    /// Notes the pixel where two pieces cross in the cell. Drops repetitions before they fill the
+    /// memory: many pieces may cross in one pixel.
+    fn cross(&mut self, cell: Cell, first: Piece, second: Piece) -> Result<(), ArrangementError> {
+        if first.boxes_meet(second)
+            && let Some(point) = first.crossing(second)
+            && cell.holds(point)
+        {
+            if self.hot.len() == self.hot.capacity() && self.hot.len() > 1 << 16 {
+                self.hot.sort_unstable();
+                self.hot.dedup();
+                if self.hot.len() > self.limits.passings {
+                    return Err(ArrangementError::TooDense);
+                }
+                self.hot.reserve(self.hot.len());
             }
-            self.hot.reserve(self.hot.len());
+            self.hot.push(point);
         }
-        self.hot.push(point);
         Ok(())
     }
 
@@ -279,8 +288,7 @@ impl Snapper<'_> {
         for &index in here {
             let Some([a, b]) = cell.clip(self.pieces[index as usize]) else { continue };
             let (p, q) = (dot(direction, a), dot(direction, b));
-            // A pixel reaches sqrt(1/2) from its centre.
-            self.swept.push(Swept { low: p.min(q) - 1.0, high: p.max(q) + 1.0, piece: index });
+            self.swept.push(Swept { low: p.min(q) - MARGIN, high: p.max(q) + MARGIN, piece: index });
         }
         self.swept.sort_unstable_by(|p, q| p.low.total_cmp(&q.low).then(p.piece.cmp(&q.piece)));
     }
@@ -296,20 +304,18 @@ impl Snapper<'_> {
     fn sweep(&mut self, cell: Cell, here: &[u32], direction: (f64, f64)) -> Result<(), ArrangementError> {
         let pieces = self.pieces;
         let swept = std::mem::take(&mut self.swept);
-        self.hot.clear();
         self.ends(cell, here);
+        // A single pixel is hot or not: once it is, all is known.
+        let one_pixel = cell.width() == 1 && cell.height() == 1;
         for (i, first) in swept.iter().enumerate() {
+            if one_pixel && !self.hot.is_empty() {
+                break;
+            }
             let piece = pieces[first.piece as usize];
             let mut tests = 0;
             for second in swept[i + 1..].iter().take_while(|second| second.low <= first.high) {
                 tests += 1;
-                let second = pieces[second.piece as usize];
-                if piece.boxes_meet(second)
-                    && let Some(point) = piece.crossing(second)
-                    && cell.holds(point)
-                {
-                    self.add_hot(point)?;
-                }
+                self.cross(cell, piece, pieces[second.piece as usize])?;
             }
             self.count_tests(tests)?;
         }
@@ -326,9 +332,10 @@ impl Snapper<'_> {
         along.sort_unstable_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
         for interval in &swept {
             let piece = pieces[interval.piece as usize];
-            let start = along.partition_point(|&(at, _)| at < interval.low);
+            // A pixel reaches sqrt(1/2) from its centre.
+            let start = along.partition_point(|&(at, _)| at < interval.low - 1.0);
             let mut tests = 0;
-            for &(_, node) in along[start..].iter().take_while(|&&(at, _)| at <= interval.high) {
+            for &(_, node) in along[start..].iter().take_while(|&&(at, _)| at <= interval.high + 1.0) {
                 tests += 1;
                 if piece.meets_pixel(self.snapped.nodes[node as usize]) {
                     self.snapped.passings.push((interval.piece, node));
@@ -372,6 +379,8 @@ impl Snapper<'_> {
                 }
             }
         }
+        // Placing costs about as much as eight tests each.
+        self.count_tests(8 * (here.len() + placed.len()))?;
         // Group by cell.
         let mut starts = vec![0_u32; (columns * rows) as usize + 1];
         for &(at, _) in &placed {
@@ -406,4 +415,48 @@ impl Snapper<'_> {
 
 fn dot((ax, ay): (f64, f64), (bx, by): (f64, f64)) -> f64 {
     ax * bx + ay * by
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Lines that all cross: `count` of them, at a distance of 1 m from each other.
+    fn lattice(count: i32) -> Vec<Piece> {
+        let end = count * 10_000;
+        let point = GridPoint::new;
+        (0..count)
+            .map(|i| (i % 2 == 0, i * 10_000))
+            .map(
+                |(upright, at)| if upright { (point(at, -1), point(at, end)) } else { (point(-1, at), point(end, at)) },
+            )
+            .map(|(a, b)| Piece { a, b })
+            .collect()
+    }
+
+    #[test]
+    fn too_many_crossings_or_tests_are_refused() {
+        let pieces = lattice(200);
+        let limits = Limits { passings: 30_000, tests: 10_000_000 };
+        let snapped = snap_within(&pieces, limits).unwrap();
+        // A node for each crossing and end; two lines pass through each crossing, one through each end.
+        assert_eq!((snapped.nodes.len(), snapped.passings.len()), (10_400, 20_400));
+        let refused = |limits| snap_within(&pieces, limits).unwrap_err();
+        assert_eq!(refused(Limits { passings: 20_000, ..limits }), ArrangementError::TooDense);
+        assert_eq!(refused(Limits { tests: 10_000, ..limits }), ArrangementError::TooDense);
+    }
+
+    #[test]
+    fn thousands_of_lines_side_by_side_or_through_one_point_take_few_tests() {
+        let side_by_side: Vec<Piece> = (0..10_000)
+            .map(|i| Piece { a: GridPoint::new(10 * i, 0), b: GridPoint::new(10_000_000 + 10 * i, 7_770_000) })
+            .collect();
+        let limits = Limits { passings: 30_000, tests: 1_000_000 };
+        assert_eq!(snap_within(&side_by_side, limits).unwrap().passings.len(), 20_000);
+        let fan: Vec<Piece> = (0..2_000)
+            .map(|i| Piece { a: GridPoint::new(0, 0), b: GridPoint::new(100_000, 100 * (i - 1_000)) })
+            .collect();
+        // All pairs would be 2,000,000 tests, and as many again for the pixels.
+        assert_eq!(snap_within(&fan, limits).unwrap().passings.len(), 4_000);
+    }
 }

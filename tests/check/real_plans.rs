@@ -58,3 +58,19 @@ fn no_check_fires_on_every_real_plan() {
     }
     println!("{total} real plans checked");
 }
+
+#[test]
+fn the_bundled_plans_have_no_findings() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans");
+    let mut plans = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if is_plan_file_name(&path.file_name().unwrap().to_string_lossy()) {
+            for plan in read_file(&path).unwrap().plans {
+                plans += 1;
+                assert_eq!(super::findings(&plan), Vec::new(), "{}", path.display());
+            }
+        }
+    }
+    assert!(plans >= 3, "{plans} bundled plans");
+}

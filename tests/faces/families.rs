@@ -9,17 +9,24 @@ pub struct Family {
     pub name: &'static str,
     /// The most segments that GEOS gets done: where many overlap on a line it takes time and memory
     /// (gigabytes at 10,000) in proportion to the square of their number.
+    #[allow(dead_code, reason = "of use to the benchmark only")]
     pub geos_limit: usize,
+    /// Whether its segments run through the corners of pixels, where GEOS decides by rounding: compared
+    /// with snap rounding in rational arithmetic instead.
+    #[allow(dead_code, reason = "of use to the benchmark only")]
+    pub by_rationals: bool,
     pub make: fn(usize, &mut Random) -> Vec<Ends>,
 }
 
-pub const FAMILIES: [Family; 6] = [
-    Family { name: "short", geos_limit: usize::MAX, make: short },
-    Family { name: "grid", geos_limit: usize::MAX, make: grid },
-    Family { name: "building", geos_limit: usize::MAX, make: building },
-    Family { name: "long", geos_limit: usize::MAX, make: long },
-    Family { name: "pixels", geos_limit: usize::MAX, make: pixels },
-    Family { name: "line", geos_limit: 1_000, make: line },
+pub const FAMILIES: [Family; 8] = [
+    Family { name: "short", geos_limit: usize::MAX, by_rationals: false, make: short },
+    Family { name: "grid", geos_limit: usize::MAX, by_rationals: false, make: grid },
+    Family { name: "building", geos_limit: usize::MAX, by_rationals: false, make: building },
+    Family { name: "long", geos_limit: usize::MAX, by_rationals: false, make: long },
+    Family { name: "pixels", geos_limit: usize::MAX, by_rationals: true, make: pixels },
+    Family { name: "line", geos_limit: 1_000, by_rationals: false, make: line },
+    Family { name: "parallel", geos_limit: 1_000, by_rationals: false, make: parallel },
+    Family { name: "fan", geos_limit: 1_000, by_rationals: false, make: fan },
 ];
 
 /// `count` segments of a family.
@@ -202,4 +209,33 @@ fn line(count: usize, random: &mut Random) -> Vec<Ends> {
             }
         })
         .collect()
+}
+
+/// Long sloping segments side by side, a millimetre or more apart, nine in ten; the others cross some
+/// of them.
+fn parallel(count: usize, random: &mut Random) -> Vec<Ends> {
+    (0..count as i32)
+        .map(|i| {
+            let x = 30 * i;
+            if i % 10 == 0 {
+                let y = random.within(0, 7_000_000);
+                let x = x + y / 7 * 10;
+                [x - random.within(1, 90), y + random.within(1, 90), x + random.within(1, 90), y - random.within(1, 90)]
+            } else {
+                [x, random.within(-90, 0), x + 10_000_000 + random.within(0, 9), 7_000_000 + random.within(0, 90)]
+            }
+        })
+        .collect()
+}
+
+/// Spokes from one point, and a rim: two in three segments are spokes, one in three joins the ends of
+/// neighbours.
+fn fan(count: usize, random: &mut Random) -> Vec<Ends> {
+    let spokes = count * 2 / 3 + 1;
+    let ends: Vec<(i32, i32)> = (0..spokes as i32)
+        .map(|i| (1_000_000 + random.within(0, 90), 30 * (i - spokes as i32 / 2) + random.within(-9, 9)))
+        .collect();
+    let spokes = ends.iter().map(|&(x, y)| [0, 0, x, y]);
+    let rim = ends.windows(2).step_by(2).map(|pair| [pair[0].0, pair[0].1, pair[1].0, pair[1].1]);
+    spokes.chain(rim).collect()
 }

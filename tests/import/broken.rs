@@ -37,6 +37,10 @@ fn broken_files_say_what_where_and_what_to_do() {
         .collect();
     let nested = format!("<building id=\"b\">{}", "<floor>".repeat(100_000));
     let corners: String = (0..1_000_000).map(|i| format!("<point x=\"{}\" y=\"{}\"/>", i % 1000, i / 1000)).collect();
+    let some_corners: String = corners.split_inclusive("/>").take(9000).collect();
+    let portals: String = (0..1000)
+        .map(|i| format!("<portal><linesegment>{i}</linesegment><target><id>A</id><id>B</id></target></portal>"))
+        .collect();
     let bomb = r#"<?xml version="1.0"?>
 <!DOCTYPE building [
   <!ENTITY a "aaaaaaaaaaaaaaaa">
@@ -85,6 +89,24 @@ fn broken_files_say_what_where_and_what_to_do() {
             "a million corners",
             plain_with("<point x=\"10\" y=\"10\"/>", &corners),
             "space A: the boundary has more than 10000 corners",
+        ),
+        (
+            "too many portals",
+            [
+                "<building><floor><spaces>".to_owned(),
+                ["A", "B"]
+                    .map(|id| {
+                        format!(
+                            "<space id='{id}'><bounding_polygon>{}</bounding_polygon><portals>{}</portals></space>",
+                            some_corners, portals
+                        )
+                    })
+                    .concat(),
+                "</spaces></floor></building>".to_owned(),
+            ]
+            .concat()
+            .into_bytes(),
+            "line 1: has too many portals in rooms with too many corners; simplify the boundaries",
         ),
         ("an entity bomb", bomb.as_bytes().to_vec(), "line 2: declares entities of its own, which are not read"),
         ("an unknown entity", plain_with("&amp;", "&bomb;"), "line 14: '&bomb;' stands for nothing known"),

@@ -93,7 +93,7 @@ mod tests {
         assert_eq!(subset_bits(16.0, 0.0, 0.0), 0.0);
         // One condition of 1024: ten bits and the little that the others cost, halved.
         let bits = rule_bits(1, 1024.0);
-        assert!((bits - 0.5 * (10.0 + 1.4427)).abs() < 0.01, "{bits}");
+        assert!((bits - 0.5 * (10.0 + std::f64::consts::LOG2_E)).abs() < 0.01, "{bits}");
         assert_eq!(rule_bits(0, 1024.0), 0.0);
     }
 

@@ -23,6 +23,9 @@ use crate::plan::{
 /// Notes of one file. More than that help nobody, and a hostile file must not fill the memory.
 const NOTE_LIMIT: usize = 10_000;
 
+/// Edges that are looked at to place all openings. The largest real file needs 4,431.
+const EDGE_LIMIT: usize = 10_000_000;
+
 /// A corner that is there for a portal lies at most this far from it, in pixels: the program rounds
 /// both to whole pixels, and the two rooms may differ by one.
 const PORTAL_CORNER_PX: f64 = 1.5;
@@ -217,6 +220,7 @@ impl<'a> Storey<'a, '_> {
     fn plan(mut self, meta: Meta) -> Result<Plan, ReadError> {
         let by_id = self.rooms_by_id()?;
         let joined = self.joined(&by_id);
+        self.refuse_endless_work(&joined)?;
         let portal_factor = self.portal_factor();
         let points: Vec<Option<Point>> = self.opening_points(&joined, portal_factor);
 
@@ -270,6 +274,23 @@ impl<'a> Storey<'a, '_> {
         Ok(by_id)
     }
 
+    /// Refuses a file of which the openings would take minutes to place.
+    fn refuse_endless_work(&mut self, joined: &[Joined<'a>]) -> Result<(), ReadError> {
+        let mut edges = 0;
+        for opening in joined {
+            let rooms = opening.sides.into_iter().flatten();
+            edges += rooms.map(|room| self.floor.spaces[room].boundary.len()).sum::<usize>();
+            if edges > EDGE_LIMIT {
+                return Err(ReadError {
+                    place: Place { line: Some(self.notes.line(opening.portal.at)), element: String::new() },
+                    what: "has too many portals in rooms with too many corners".to_owned(),
+                    hint: "simplify the boundaries, or split it into storeys".to_owned(),
+                });
+            }
+        }
+        Ok(())
+    }
+
     /// The factor from portals' coordinates to those of the rooms.
     ///
     /// One version of the program wrote boundaries at half the resolution of the line segments. The
@@ -288,13 +309,13 @@ impl<'a> Storey<'a, '_> {
         self.notes.push(NoteKind::Healed, None, "", what);
         let misfit = |factor: f64| -> f64 {
             let spaces = self.floor.spaces.iter().filter(|space| space.boundary.len() >= 3);
-            spaces
-                .flat_map(|space| {
-                    let ring = Ring { corners: &[], points: &space.boundary };
-                    let points = space.segments.iter().filter_map(|segment| scaled(segment.point?, factor));
-                    points.map(move |point| ring.distance(point))
-                })
-                .sum()
+            let distances = spaces.flat_map(|space| {
+                let ring = Ring { corners: &[], points: &space.boundary };
+                let points = space.segments.iter().filter_map(|segment| scaled(segment.point?, factor));
+                points.map(move |point| ring.distance(point))
+            });
+            // Enough to tell.
+            distances.take(100).sum()
         };
         if misfit(0.5) < misfit(1.0) { 0.5 } else { 1.0 }
     }
@@ -485,20 +506,20 @@ impl<'a> Storey<'a, '_> {
         if is_closed {
             ring.pop();
         }
-        let mut index = 0;
-        while index < ring.len() && ring.len() > 3 {
-            let n = ring.len();
-            let (before, here, after) = (ring[(index + n - 1) % n], ring[index], ring[(index + 1) % n]);
+        let n = ring.len();
+        let mut kept: Vec<Point> = Vec::with_capacity(n);
+        for (index, &here) in ring.iter().enumerate() {
+            let before = kept.last().copied().unwrap_or(ring[n - 1]);
+            let after = if index + 1 < n { ring[index + 1] } else { kept.first().copied().unwrap_or(here) };
             let (to, on) = (here - before, after - here);
             let is_between = to.cross(on) == 0.0 && to.dot(on) > 0.0;
-            if is_between && portals.iter().any(|portal| portal.distance(here) <= PORTAL_CORNER_PX) {
-                ring.remove(index);
-            } else {
-                index += 1;
+            let is_spare = kept.len() + n - index > 3;
+            if !(is_between && is_spare && portals.iter().any(|portal| portal.distance(here) <= PORTAL_CORNER_PX)) {
+                kept.push(here);
             }
         }
-        let mut metres: Vec<Point> = Vec::with_capacity(ring.len());
-        for &pixel in &ring {
+        let mut metres: Vec<Point> = Vec::with_capacity(kept.len());
+        for &pixel in &kept {
             let point = self.metres(pixel);
             if !(point.x.abs() <= COORDINATE_LIMIT_M && point.y.abs() <= COORDINATE_LIMIT_M) {
                 return Err(ReadError {

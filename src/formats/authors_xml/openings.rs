@@ -4,6 +4,9 @@ use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
 use crate::geometry::{Point, Segment, Vector, polygon};
 use crate::plan::{CornerId, DEFAULT_DOOR_WIDTH_M, Place, THICKEST_WALL_M};
 
+/// Edges that are tried for an opening, the nearest. Around a real one lie 2 to 8.
+const NEAR_LIMIT: usize = 32;
+
 /// The outer boundary of a room that an opening joins.
 #[derive(Clone, Copy)]
 pub struct Ring<'a> {
@@ -60,37 +63,41 @@ pub struct Placed {
 pub fn place(rings: &[Ring<'_>], point: Point) -> Option<Placed> {
     const HALF_M: f64 = DEFAULT_DOOR_WIDTH_M / 2.0;
     let nearest_m = rings.iter().map(|ring| ring.distance(point)).fold(f64::INFINITY, f64::min);
-    let mut best: Option<((i64, i64), Placed)> = None;
+    // Other edges near by may suit better; half a door is where the next wall's doors start.
+    let mut near: Vec<(f64, usize, usize)> = Vec::new();
     for (which, ring) in rings.iter().enumerate() {
-        for (index, edge) in ring.edges().enumerate() {
-            let (length_m, off_m) = (edge.length(), edge.distance(point));
-            // Other edges near by may suit better; half a door is where the next wall's doors start.
-            if length_m <= 0.0 || off_m > nearest_m + HALF_M {
-                continue;
-            }
-            let foot_m = edge.nearest_fraction(point) * length_m;
-            let before_m = foot_m + ring.straight_m(index, false, HALF_M);
-            let after_m = length_m - foot_m + ring.straight_m(index, true, HALF_M);
-            let lacking_m = (2.0 * HALF_M - before_m - after_m).max(0.0);
-            let wanted_m = if lacking_m > 0.0 {
-                foot_m + (after_m - before_m) / 2.0
-            } else {
-                foot_m + (HALF_M - before_m).max(0.0) - (HALF_M - after_m).max(0.0)
-            };
-            let at_m = wanted_m.clamp(0.0, length_m);
-            let is_shared = rings.iter().enumerate().all(|(other, ring)| {
-                other == which
-                    || ring.edges().any(|other| runs_alongside(other, edge, at_m, nearest_m + THICKEST_WALL_M))
-            });
-            let cost_m = off_m + (at_m - foot_m).abs() + lacking_m + if is_shared { 0.0 } else { 1.0 };
-            // Compared by the millimetre: equal up to rounding is equal.
-            let millimetres = |length_m: f64| (length_m * 1000.0).round() as i64;
-            let rank = (millimetres(cost_m), -millimetres(length_m));
-            if best.as_ref().is_none_or(|(best, _)| rank < *best) {
-                let to = ring.corners[(index + 1) % ring.corners.len()];
-                let place = Place::Hosted { from: ring.corners[index], to, at_m, width_m: DEFAULT_DOOR_WIDTH_M };
-                best = Some((rank, Placed { place, off_m }));
-            }
+        let edges = ring.edges().enumerate().filter(|(_, edge)| edge.length() > 0.0);
+        let with_distance = edges.map(|(index, edge)| (edge.distance(point), which, index));
+        near.extend(with_distance.filter(|&(off_m, ..)| off_m <= nearest_m + HALF_M));
+    }
+    near.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    near.truncate(NEAR_LIMIT);
+    let mut best: Option<((i64, i64), Placed)> = None;
+    for (off_m, which, index) in near {
+        let ring = &rings[which];
+        let edge = ring.edge(index);
+        let length_m = edge.length();
+        let foot_m = edge.nearest_fraction(point) * length_m;
+        let before_m = foot_m + ring.straight_m(index, false, HALF_M);
+        let after_m = length_m - foot_m + ring.straight_m(index, true, HALF_M);
+        let lacking_m = (2.0 * HALF_M - before_m - after_m).max(0.0);
+        let wanted_m = if lacking_m > 0.0 {
+            foot_m + (after_m - before_m) / 2.0
+        } else {
+            foot_m + (HALF_M - before_m).max(0.0) - (HALF_M - after_m).max(0.0)
+        };
+        let at_m = wanted_m.clamp(0.0, length_m);
+        let is_shared = rings.iter().enumerate().all(|(other, ring)| {
+            other == which || ring.edges().any(|other| runs_alongside(other, edge, at_m, nearest_m + THICKEST_WALL_M))
+        });
+        let cost_m = off_m + (at_m - foot_m).abs() + lacking_m + if is_shared { 0.0 } else { 1.0 };
+        // Compared by the millimetre: equal up to rounding is equal.
+        let millimetres = |length_m: f64| (length_m * 1000.0).round() as i64;
+        let rank = (millimetres(cost_m), -millimetres(length_m));
+        if best.as_ref().is_none_or(|(best, _)| rank < *best) {
+            let to = ring.corners[(index + 1) % ring.corners.len()];
+            let place = Place::Hosted { from: ring.corners[index], to, at_m, width_m: DEFAULT_DOOR_WIDTH_M };
+            best = Some((rank, Placed { place, off_m }));
         }
     }
     best.map(|(_, placed)| placed)

@@ -4,17 +4,17 @@ use super::document::{Document, Length, Offset};
 use crate::geometry::polygon;
 use crate::plan::{Scale, ScaleOrigin};
 
-/// A plan's scale is plausible when its median room has an area in m² within this range. In the 56
-/// files of `../shared/data/authors` the medians lie between 2 and 140 m², while a wrong unit is off
-/// by a factor of 10,000.
+/// A plan's scale is plausible when its median room has an area in m² within this range. In 56
+/// of the authors' files the medians lie between 2 and 140 m², while a wrong unit is off by a factor
+/// of 10,000.
 const PLAUSIBLE_MEDIAN_M2: std::ops::RangeInclusive<f64> = 1.0..=1000.0;
 
 /// The length of the distance is plausible when it is that of a door, in metres: used where there
 /// are no rooms to judge by.
 const PLAUSIBLE_DOOR_M: std::ops::RangeInclusive<f64> = 0.3..=3.0;
 
-/// The area of a median room in m² where no scale is stated: that of the 56 files of
-/// `../shared/data/authors`, rounded (median of the files' medians: 33).
+/// The area of a median room in m² where no scale is stated: that of 56 of the authors' files,
+/// rounded (median of the files' medians: 33).
 const MEDIAN_ROOM_M2: f64 = 30.0;
 
 /// A pixel in metres where neither a scale nor a room is there to tell: a door of 18 pixels.

@@ -1,0 +1,782 @@
+//! The canvas: the plan, seen through a view that pans and zooms, and what can be picked on it.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use egui::epaint::{Mesh, StrokeKind, Vertex};
+use egui::{
+    Color32, ColorImage, Context, CursorIcon, EventFilter, Id, Key, MouseWheelUnit, Painter, PointerButton, Pos2, Rect,
+    Response, Role, Sense, Shape, Stroke, TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2,
+};
+
+use super::App;
+use super::document::{Derived, Document, Picked};
+use super::scene_painter::{ScenePainter, earcut, on_screen, outline_mesh, polygon_mesh};
+use super::theme;
+use crate::draw::{self, Layers, Palette, Style, View};
+use crate::geometry::{Bounds, Point, Vector};
+use crate::plan::{Backdrop, Plan};
+
+/// What the canvas remembers from frame to frame.
+#[derive(Default)]
+pub(super) struct Canvas {
+    camera: Option<Camera>,
+    /// A change of the view that waits for the size of the canvas.
+    wish: Option<Wish>,
+    /// The view of the last frame and where it was on the screen.
+    seen: Option<(View, Rect)>,
+    pub hovered: Option<Picked>,
+    /// What a panel's row under the pointer stands for.
+    pub hovered_in_panel: Option<Picked>,
+    /// Where the pointer is in the plan.
+    pub pointer: Option<Point>,
+    cycle: Option<Cycle>,
+    painter: ScenePainter,
+    backdrop: BackdropState,
+    /// The triangles of the room whose fill marks it.
+    marked: Option<(Arc<Derived>, Picked, Vec<u32>)>,
+    /// Whether the last turn of a wheel came from fingers on a touch pad.
+    is_touch_pad: bool,
+    /// Whether focus came by keyboard, so that it must be seen.
+    shows_focus: bool,
+}
+
+/// Where the view stands.
+#[derive(Clone, Copy, Debug)]
+struct Camera {
+    centre: Point,
+    px_per_m: f64,
+    /// Shows the whole plan, and goes on doing so when the window changes.
+    is_fitted: bool,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Wish {
+    Fit,
+    Zoom(Bounds),
+    By(f64),
+    Reveal(Picked),
+}
+
+/// Clicks at the same place go through all that lies there.
+struct Cycle {
+    at: Pos2,
+    candidates: Vec<Picked>,
+    index: usize,
+}
+
+#[derive(Default)]
+enum BackdropState {
+    #[default]
+    None,
+    Loading(PathBuf),
+    Shown(PathBuf, TextureHandle),
+    Missing(PathBuf),
+}
+
+/// Free space around a fitted plan, in points.
+const FIT_MARGIN: f64 = 48.0;
+
+/// Half a millimetre is as wide as a pixel: nothing smaller is drawn in a plan.
+const MOST_PX_PER_M: f64 = 2000.0;
+
+/// A hundred kilometres, the whole drawing area, fit a window.
+const LEAST_PX_PER_M: f64 = 0.005;
+
+/// An opening is picked from this far away, in points.
+const PICK_REACH: f64 = 7.0;
+
+/// Clicks closer than this are at the same place, in points.
+const SAME_PLACE: f32 = 4.0;
+
+/// How strongly a wheel zooms: egui's own measure for Ctrl and wheel.
+const ZOOM_PER_POINT: f64 = 1.0 / 200.0;
+
+impl Canvas {
+    /// Forgets the plan that was shown.
+    pub(super) fn forget(&mut self) {
+        *self =
+            Self { backdrop: std::mem::take(&mut self.backdrop), is_touch_pad: self.is_touch_pad, ..Self::default() };
+    }
+
+    pub(super) fn fit(&mut self) {
+        self.wish = Some(Wish::Fit);
+    }
+
+    pub(super) fn zoom_to(&mut self, bounds: Bounds) {
+        self.wish = Some(Wish::Zoom(bounds));
+    }
+
+    pub(super) fn zoom_by(&mut self, factor: f64) {
+        self.wish = Some(Wish::By(factor));
+    }
+
+    /// Moves the view if need be, so that something is seen.
+    pub(super) fn reveal(&mut self, picked: Picked) {
+        self.wish = Some(Wish::Reveal(picked));
+    }
+
+    /// Points of the screen a metre of the plan is long.
+    pub(super) fn px_per_m(&self) -> Option<f64> {
+        self.camera.map(|camera| camera.px_per_m)
+    }
+
+    pub(super) fn screen_position(&self, point: Point) -> Option<Pos2> {
+        self.seen.map(|(view, rect)| on_screen(rect, &view, point))
+    }
+
+    // The picture under the plan.
+
+    /// The path of a picture that a plan has and that is neither shown nor being read.
+    pub(super) fn wanted_backdrop(&mut self, backdrop: Option<&Backdrop>, folder: Option<&Path>) -> Option<PathBuf> {
+        let Some(backdrop) = backdrop else {
+            self.backdrop = BackdropState::None;
+            return None;
+        };
+        let path = folder.unwrap_or(Path::new("")).join(&backdrop.path);
+        let known = match &self.backdrop {
+            BackdropState::None => None,
+            BackdropState::Loading(path) | BackdropState::Shown(path, _) | BackdropState::Missing(path) => Some(path),
+        };
+        if known == Some(&path) {
+            return None;
+        }
+        self.backdrop = BackdropState::Loading(path.clone());
+        Some(path)
+    }
+
+    /// Takes over a picture that was read.
+    ///
+    /// # Errors
+    /// Why it cannot be shown, when it is still wanted.
+    pub(super) fn set_backdrop(
+        &mut self,
+        context: &Context,
+        path: &Path,
+        result: Result<ColorImage, String>,
+    ) -> Result<(), String> {
+        if !matches!(&self.backdrop, BackdropState::Loading(wanted) if wanted == path) {
+            return Ok(());
+        }
+        match result {
+            Ok(mut image) => {
+                let limit = context.input(|input| input.max_texture_side).max(1);
+                while image.size.iter().any(|side| *side > limit) {
+                    image = halved(&image);
+                }
+                let options = TextureOptions::LINEAR.with_mipmap_mode(Some(egui::TextureFilter::Linear));
+                let texture = context.load_texture("backdrop", image, options);
+                self.backdrop = BackdropState::Shown(path.to_owned(), texture);
+                Ok(())
+            }
+            Err(what) => {
+                self.backdrop = BackdropState::Missing(path.to_owned());
+                Err(what)
+            }
+        }
+    }
+
+    // The view.
+
+    /// Where the view stands in a canvas of this size, wishes fulfilled.
+    fn update_camera(&mut self, rect: Rect, document: &Document, shown: Option<&Derived>) {
+        let (width_px, height_px) = (f64::from(rect.width()), f64::from(rect.height()));
+        let bounds = shown.map_or_else(|| document.plan().bounds(), |derived| derived.drawing.bounds());
+        let fitting = |bounds: Bounds| {
+            let view = View::fitting(bounds, width_px, height_px, FIT_MARGIN);
+            Camera { centre: view.centre, px_per_m: view.px_per_m, is_fitted: false }
+        };
+        let whole = || Camera { is_fitted: true, ..fitting(bounds) };
+        let mut camera = self.camera.filter(|camera| !camera.is_fitted).unwrap_or_else(whole);
+        match self.wish.take() {
+            None => {}
+            Some(Wish::Fit) => camera = whole(),
+            Some(Wish::Zoom(bounds)) => {
+                // A third of the surroundings stays in sight.
+                let around_m = bounds.width().max(bounds.height()) / 3.0;
+                camera = fitting(bounds.inflated(around_m));
+            }
+            Some(Wish::By(factor)) => {
+                camera = Camera { px_per_m: camera.px_per_m * factor, is_fitted: false, ..camera };
+            }
+            Some(Wish::Reveal(picked)) => {
+                let half = Vector::new(width_px, height_px) * (0.5 / camera.px_per_m);
+                let seen = Bounds::of([camera.centre + half, camera.centre + -half]);
+                if let Some(bounds) = document.bounds_of(picked)
+                    && !(seen.contains(bounds.min) && seen.contains(bounds.max))
+                {
+                    let px_per_m = camera.px_per_m.min(fitting(bounds).px_per_m);
+                    camera = Camera { centre: bounds.center(), px_per_m, is_fitted: false };
+                }
+            }
+        }
+        camera.px_per_m = camera.px_per_m.clamp(LEAST_PX_PER_M, MOST_PX_PER_M);
+        self.camera = Some(camera);
+    }
+
+    fn view(&self, rect: Rect, pixels_per_point: f32) -> View {
+        let camera = self.camera.unwrap_or(Camera { centre: Point::default(), px_per_m: 50.0, is_fitted: true });
+        let view = View {
+            width_px: f64::from(rect.width()),
+            height_px: f64::from(rect.height()),
+            px_per_m: camera.px_per_m,
+            centre: camera.centre,
+            pixel_ratio: f64::from(pixels_per_point),
+        };
+        on_whole_pixels(view, rect)
+    }
+
+    fn pan(&mut self, by: Vec2) {
+        if let Some(camera) = &mut self.camera
+            && by != Vec2::ZERO
+        {
+            let metres = Vector::new(-f64::from(by.x), f64::from(by.y)) * (1.0 / camera.px_per_m);
+            camera.centre = camera.centre + metres;
+            camera.is_fitted = false;
+        }
+    }
+
+    /// Zooms so that the point of the plan at a place of the screen stays there.
+    fn zoom_at(&mut self, view: &View, rect: Rect, at: Pos2, factor: f64) {
+        let Some(camera) = &mut self.camera else { return };
+        let px_per_m = (camera.px_per_m * factor).clamp(LEAST_PX_PER_M, MOST_PX_PER_M);
+        if px_per_m == camera.px_per_m {
+            return;
+        }
+        let fixed = plan_point(view, rect, at);
+        camera.centre = fixed + (camera.centre - fixed) * (camera.px_per_m / px_per_m);
+        camera.px_per_m = px_per_m;
+        camera.is_fitted = false;
+    }
+
+    fn take_pointer(&mut self, ui: &Ui, response: &Response, view: &View) {
+        let rect = response.rect;
+        let space = !ui.ctx().text_edit_focused() && ui.input(|input| input.key_down(Key::Space));
+        let is_panning = [PointerButton::Primary, PointerButton::Middle, PointerButton::Secondary]
+            .into_iter()
+            .any(|button| response.dragged_by(button));
+        if is_panning {
+            self.pan(response.drag_delta());
+        }
+        if response.contains_pointer() || is_panning {
+            if is_panning {
+                ui.ctx().set_cursor_icon(CursorIcon::Grabbing);
+            } else if space {
+                ui.ctx().set_cursor_icon(CursorIcon::Grab);
+            }
+        }
+        let pointer = ui.input(|input| input.pointer.hover_pos()).filter(|_| response.contains_pointer());
+        if let Some(at) = pointer {
+            let (scroll, zoom) = ui.input(|input| {
+                for event in &input.events {
+                    if let egui::Event::MouseWheel { unit, delta, .. } = event {
+                        self.is_touch_pad = is_touch_pad(*unit, *delta);
+                    }
+                }
+                (input.smooth_scroll_delta(), f64::from(input.zoom_delta()))
+            });
+            if zoom != 1.0 {
+                self.zoom_at(view, rect, at, zoom);
+            } else if self.is_touch_pad || scroll.x != 0.0 {
+                self.pan(scroll);
+            } else if scroll.y != 0.0 {
+                self.zoom_at(view, rect, at, (f64::from(scroll.y) * ZOOM_PER_POINT).exp());
+            }
+        }
+        self.pointer = pointer.map(|at| plan_point(view, rect, at));
+    }
+}
+
+/// Whether a turn of the wheel comes from fingers on a touch pad, which pan: they report points, or
+/// fractions of a line, or go sideways. A wheel turns by whole lines up and down.
+fn is_touch_pad(unit: MouseWheelUnit, delta: Vec2) -> bool {
+    match unit {
+        MouseWheelUnit::Point => true,
+        MouseWheelUnit::Line => delta.x != 0.0 || delta.y.fract() != 0.0,
+        MouseWheelUnit::Page => false,
+    }
+}
+
+fn plan_point(view: &View, rect: Rect, at: Pos2) -> Point {
+    let from_corner = at - rect.min;
+    view.plan_from_screen(Point::new(f64::from(from_corner.x), f64::from(from_corner.y)))
+}
+
+/// The view moved by less than a pixel, so that the plan's origin is on one: lines then look the same
+/// wherever the plan is dragged.
+fn on_whole_pixels(view: View, rect: Rect) -> View {
+    let origin = view.screen_from_plan(Point::default());
+    let rest = |place: f64, start: f32| {
+        let pixels = (place + f64::from(start)) * view.pixel_ratio;
+        (pixels - pixels.round()) / view.pixel_ratio
+    };
+    let (x, y) = (rest(origin.x, rect.min.x), rest(origin.y, rect.min.y));
+    View { centre: view.centre + Vector::new(x, -y) * (1.0 / view.px_per_m), ..view }
+}
+
+/// What a person did on the canvas.
+enum Act {
+    Pick(Option<Picked>),
+    /// Pick the next or previous room; leave the canvas behind the last.
+    PickNeighbour(isize),
+    /// Pick the room nearest in a direction of the plan.
+    PickTowards(Vector),
+    Rename,
+}
+
+/// Shows the canvas in all that is left of `ui`.
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    let Some(document) = &app.document else { return };
+    let mut canvas = std::mem::take(&mut app.canvas);
+    let act = canvas.show(ui, document, app);
+    app.canvas = canvas;
+    match act {
+        None => {}
+        Some(Act::Pick(picked)) => app.pick(picked),
+        Some(Act::PickNeighbour(step)) => {
+            if !app.pick_neighbour(step) {
+                ui.memory_mut(|memory| {
+                    memory.surrender_focus(canvas_id());
+                    memory.move_focus(if step > 0 {
+                        egui::FocusDirection::Next
+                    } else {
+                        egui::FocusDirection::Previous
+                    });
+                });
+            }
+        }
+        Some(Act::PickTowards(direction)) => app.pick_towards(direction),
+        Some(Act::Rename) => {
+            app.run_command("rename", ui.ctx());
+        }
+    }
+}
+
+pub(super) fn canvas_id() -> Id {
+    Id::unique("canvas")
+}
+
+impl Canvas {
+    fn show(&mut self, ui: &mut Ui, document: &Document, app: &App) -> Option<Act> {
+        let rect = ui.available_rect_before_wrap();
+        let fresh = document.derived();
+        // What was worked out for an earlier plan is better than nothing.
+        let shown = fresh.or(document.last_derived().map(|(_, derived)| derived));
+        self.update_camera(rect, document, shown.map(Arc::as_ref));
+        let response = ui.interact(rect, canvas_id(), Sense::click_and_drag());
+        self.take_pointer(ui, &response, &self.view(rect, ui.pixels_per_point()));
+        let view = self.view(rect, ui.pixels_per_point());
+        self.seen = Some((view, rect));
+
+        let at = |point: Point| fresh.map(|derived| derived.at(point, PICK_REACH / view.px_per_m)).unwrap_or_default();
+        let is_panning = response.dragged();
+        self.hovered = self.pointer.filter(|_| !is_panning).and_then(|point| at(point).first().copied());
+        let mut act = None;
+        if response.clicked()
+            && let Some(place) = response.interact_pointer_pos()
+        {
+            act = Some(Act::Pick(self.clicked(place, || at(plan_point(&view, rect, place)))));
+            response.request_focus();
+            self.shows_focus = false;
+        }
+        act = act.or(self.take_keys(ui, &response));
+
+        let style = style(app, document.plan(), ui.visuals().dark_mode);
+        let palette = style.palette();
+        let painter = ui.painter_at(rect);
+        painter.rect_filled(rect, 0.0, theme::colour(palette.paper));
+        if app.layers.backdrop
+            && let Some(backdrop) = document.plan().backdrop()
+            && let BackdropState::Shown(_, texture) = &self.backdrop
+        {
+            painter.add(Shape::mesh(backdrop_mesh(rect, &view, backdrop, texture)));
+        }
+        if let Some(derived) = shown {
+            self.painter.paint(&painter, rect, derived, &style, &view);
+        }
+        match fresh {
+            // Never a stale label as a fresh one.
+            None => {
+                painter.rect_filled(rect, 0.0, theme::colour(palette.paper).gamma_multiply(0.6));
+            }
+            Some(derived) => {
+                let hovered = self.hovered.or(self.hovered_in_panel).filter(|hovered| app.picked != Some(*hovered));
+                if let Some(hovered) = hovered {
+                    self.mark(&painter, rect, &view, document.plan(), derived, hovered, &Mark::hover(palette));
+                }
+                if let Some(picked) = app.picked {
+                    self.mark(&painter, rect, &view, document.plan(), derived, picked, &Mark::picked(palette));
+                }
+            }
+        }
+        paint_scale_bar(&painter, rect, &view, palette);
+        if response.has_focus() && self.shows_focus {
+            let colours = theme::colours(ui.visuals());
+            painter.rect_stroke(rect.shrink(1.0), 0.0, Stroke::new(2.0, colours.accent), StrokeKind::Inside);
+        }
+        let description = describe(document, app.picked);
+        response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, &description));
+        self.tell_screen_reader(ui, rect, &view, document, fresh, app.picked).or(act)
+    }
+
+    /// What a click at a place picks, having clicked there before.
+    fn clicked(&mut self, place: Pos2, candidates: impl FnOnce() -> Vec<Picked>) -> Option<Picked> {
+        match &mut self.cycle {
+            Some(cycle) if cycle.at.distance(place) <= SAME_PLACE && !cycle.candidates.is_empty() => {
+                cycle.index = (cycle.index + 1) % cycle.candidates.len();
+            }
+            _ => self.cycle = Some(Cycle { at: place, candidates: candidates(), index: 0 }),
+        }
+        self.cycle.as_ref().and_then(|cycle| cycle.candidates.get(cycle.index)).copied()
+    }
+
+    /// With the keyboard on the canvas: Tab goes from room to room, arrows to the next room that way.
+    fn take_keys(&mut self, ui: &Ui, response: &Response) -> Option<Act> {
+        if response.gained_focus() {
+            self.shows_focus = ui.input(|input| !input.pointer.any_pressed() && !input.pointer.any_released());
+        }
+        if !response.has_focus() {
+            return None;
+        }
+        let filter = EventFilter { tab: true, horizontal_arrows: true, vertical_arrows: true, escape: false };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+        if response.gained_focus() {
+            // The key that brought the focus here is used up.
+            return None;
+        }
+        ui.input(|input| {
+            input.events.iter().find_map(|event| {
+                let egui::Event::Key { key, pressed: true, modifiers, .. } = event else { return None };
+                match key {
+                    Key::Tab => Some(Act::PickNeighbour(if modifiers.shift { -1 } else { 1 })),
+                    Key::ArrowLeft => Some(Act::PickTowards(Vector::new(-1.0, 0.0))),
+                    Key::ArrowRight => Some(Act::PickTowards(Vector::new(1.0, 0.0))),
+                    Key::ArrowUp => Some(Act::PickTowards(Vector::new(0.0, 1.0))),
+                    Key::ArrowDown => Some(Act::PickTowards(Vector::new(0.0, -1.0))),
+                    Key::Enter => Some(Act::Rename),
+                    _ => None,
+                }
+            })
+        })
+    }
+
+    /// Marks a room or an opening.
+    fn mark(
+        &mut self,
+        painter: &Painter,
+        rect: Rect,
+        view: &View,
+        plan: &Plan,
+        derived: &Arc<Derived>,
+        marked: Picked,
+        mark: &Mark,
+    ) {
+        match marked {
+            Picked::Room(id) => {
+                let Some(shape) = derived.analysis.shapes.get(id).filter(|shape| !shape.outer.is_empty()) else {
+                    return;
+                };
+                if mark.fill != Color32::TRANSPARENT {
+                    let is_known =
+                        self.marked.as_ref().is_some_and(|(of, room, _)| Arc::ptr_eq(of, derived) && *room == marked);
+                    if !is_known {
+                        self.marked = Some((derived.clone(), marked, earcut(&shape.outer, &shape.holes)));
+                    }
+                    if let Some((_, _, triangles)) = &self.marked {
+                        let mesh = polygon_mesh(rect, view, &shape.outer, &shape.holes, triangles, mark.fill);
+                        painter.add(Shape::mesh(mesh));
+                    }
+                }
+                for ring in shape.rings() {
+                    let stroke = Stroke::new(mark.width, mark.line);
+                    painter.add(Shape::mesh(outline_mesh(rect, view, ring, stroke)));
+                }
+            }
+            Picked::Opening(id) => {
+                let segment = plan.opening(id).and_then(|opening| plan.opening_segment(opening));
+                let Some(segment) = segment else { return };
+                let ends = [segment.a, segment.b].map(|point| on_screen(rect, view, point));
+                let middle = ends[0] + (ends[1] - ends[0]) / 2.0;
+                let half = (ends[1] - ends[0]) / 2.0;
+                // Never so small that it is not seen.
+                let half = if half.length() < 4.0 { vec2(4.0, 0.0) } else { half };
+                let (from, to) = (middle - half, middle + half);
+                let band = mark.width + 6.0;
+                painter.line_segment([from, to], Stroke::new(band, mark.line.gamma_multiply(0.35)));
+                painter.line_segment([from, to], Stroke::new(mark.width + 1.0, mark.line));
+                for end in [from, to] {
+                    painter.circle_filled(end, mark.width + 1.5, mark.line);
+                }
+            }
+        }
+    }
+
+    /// Rooms as nodes of the accessibility tree, for screen readers and scripts. Painted things are
+    /// invisible to them otherwise. Gives what they ask for.
+    fn tell_screen_reader(
+        &self,
+        ui: &Ui,
+        rect: Rect,
+        view: &View,
+        document: &Document,
+        fresh: Option<&Arc<Derived>>,
+        picked: Option<Picked>,
+    ) -> Option<Act> {
+        if !ui.ctx().has_accesskit_node(canvas_id()) {
+            return None;
+        }
+        let mut act = None;
+        for shape in fresh?.analysis.shapes.all().iter().filter(|shape| !shape.outer.is_empty()) {
+            let corners = [shape.bounds.min, shape.bounds.max].map(|point| on_screen(rect, view, point));
+            let bounds = Rect::from_two_pos(corners[0], corners[1]);
+            if !bounds.intersects(rect) {
+                continue;
+            }
+            let this = Picked::Room(shape.id);
+            let id = canvas_id().with(shape.id);
+            let response = ui.interact(bounds.intersect(rect), id, Sense::hover());
+            let label = title_of(document.plan(), this);
+            response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, picked == Some(this), &label));
+            ui.ctx().accesskit_node_builder(id, |node| node.add_action(egui::accesskit::Action::Click));
+            if ui.input(|input| input.has_accesskit_action_request(id, egui::accesskit::Action::Click)) {
+                act = Some(Act::Pick(Some(this)));
+            }
+        }
+        act
+    }
+}
+
+/// How something is marked.
+struct Mark {
+    line: Color32,
+    width: f32,
+    fill: Color32,
+}
+
+impl Mark {
+    fn hover(palette: &Palette) -> Self {
+        Self { line: theme::colour(palette.hover), width: 2.0, fill: Color32::TRANSPARENT }
+    }
+
+    fn picked(palette: &Palette) -> Self {
+        let line = theme::colour(palette.selection);
+        Self { line, width: 2.5, fill: line.gamma_multiply(0.16) }
+    }
+}
+
+/// How the plan is drawn now.
+fn style(app: &App, plan: &Plan, is_dark: bool) -> Style {
+    let layers = app.layers;
+    let is_over_picture = layers.backdrop && plan.backdrop().is_some();
+    Style {
+        theme: if is_dark { draw::Theme::Dark } else { draw::Theme::Light },
+        fill: layers.fill,
+        // The picture must be seen through the rooms.
+        fill_opacity: if is_over_picture { 0.55 } else { 1.0 },
+        halo: is_over_picture,
+        text_px: 12.5,
+        layers: Layers {
+            grid: layers.grid,
+            rooms: !(is_over_picture && layers.fill == draw::Fill::None),
+            walls: true,
+            openings: true,
+            graph: layers.graph,
+            names: layers.names,
+            areas: layers.names,
+        },
+        ..Style::default()
+    }
+}
+
+/// What the canvas shows, in a sentence.
+fn describe(document: &Document, picked: Option<Picked>) -> String {
+    let plan = document.plan();
+    let mut text = format!("Plan {}, {} rooms", document.title(), plan.rooms().len());
+    if let Some(picked) = picked {
+        text.push_str(&format!("; picked: {}", title_of(plan, picked)));
+    }
+    text
+}
+
+/// What something on the canvas is called.
+pub(super) fn title_of(plan: &Plan, picked: Picked) -> String {
+    match picked {
+        Picked::Room(id) => plan.room(id).map_or_else(String::new, room_title),
+        Picked::Opening(id) => plan.opening(id).map_or_else(String::new, |opening| sentence(opening.kind.name())),
+    }
+}
+
+/// A room's name; without one its function.
+pub(super) fn room_title(room: &crate::plan::Room) -> String {
+    if !room.name.is_empty() {
+        room.name.clone()
+    } else if !room.function.is_empty() {
+        sentence(&crate::labels::normalised_function(&room.function))
+    } else {
+        "Unnamed room".to_owned()
+    }
+}
+
+/// A text with a capital letter.
+pub(super) fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
+}
+
+/// A bar of a round length in the lower left corner.
+fn paint_scale_bar(painter: &Painter, rect: Rect, view: &View, palette: &Palette) {
+    // 1, 2 or 5 times a power of ten, the longest that is at most as long as this, in points.
+    const LONGEST: f64 = 120.0;
+    let most_m = LONGEST / view.px_per_m;
+    let decade = 10f64.powf(most_m.log10().floor());
+    let length_m = [5.0, 2.0, 1.0]
+        .into_iter()
+        .map(|step| step * decade)
+        .find(|length| *length <= most_m * 1.0001)
+        .unwrap_or(decade);
+    let width = (length_m * view.px_per_m) as f32;
+    let left = rect.left_bottom() + vec2(16.0, -18.0);
+    let ink = theme::colour(palette.ink_muted);
+    let text = if length_m >= 1000.0 {
+        format!("{} km", length_m / 1000.0)
+    } else if length_m >= 1.0 {
+        format!("{length_m} m")
+    } else if length_m >= 0.01 {
+        format!("{:.0} cm", length_m * 100.0)
+    } else {
+        format!("{:.0} mm", length_m * 1000.0)
+    };
+    let galley = painter.layout_no_wrap(text, egui::FontId::proportional(theme::SMALL), ink);
+    let ground = Rect::from_min_max(left + vec2(-6.0, -8.0), left + vec2(width + 12.0 + galley.rect.width(), 8.0));
+    painter.rect_filled(ground, 4.0, theme::colour(palette.paper).gamma_multiply(0.85));
+    let stroke = Stroke::new(1.5, ink);
+    painter.line_segment([left, left + vec2(width, 0.0)], stroke);
+    for end in [left, left + vec2(width, 0.0)] {
+        painter.line_segment([end + vec2(0.0, -4.0), end + vec2(0.0, 4.0)], stroke);
+    }
+    let beside = left + vec2(width + 6.0, -galley.rect.height() / 2.0);
+    painter.galley(beside, galley, ink);
+}
+
+/// The picture under the plan, at its place.
+fn backdrop_mesh(rect: Rect, view: &View, backdrop: &Backdrop, texture: &TextureHandle) -> Mesh {
+    let [width, height] = texture.size().map(|side| side as f64 * backdrop.metres_per_pixel);
+    let tint = Color32::WHITE.gamma_multiply(backdrop.opacity.clamp(0.0, 1.0) as f32);
+    let mut mesh = Mesh::with_texture(texture.id());
+    for (u, v) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+        let from_origin = Vector::new(width * u, -height * v).rotated(backdrop.rotation_rad);
+        let pos = on_screen(rect, view, backdrop.origin + from_origin);
+        mesh.vertices.push(Vertex { pos, uv: pos2(u as f32, v as f32), color: tint });
+    }
+    mesh.indices = vec![0, 1, 2, 2, 1, 3];
+    mesh
+}
+
+/// No picture with more pixels is read: 16384 by 16384.
+const PICTURE_PIXELS: usize = 1 << 28;
+
+/// Reads a PNG.
+///
+/// # Errors
+/// When there is none, or it is damaged or too large, in words.
+pub(super) fn read_picture(path: &Path) -> Result<ColorImage, String> {
+    let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
+    let limits = png::Limits { bytes: 4 * PICTURE_PIXELS };
+    let mut decoder = png::Decoder::new_with_limits(std::io::BufReader::new(file), limits);
+    decoder.set_transformations(png::Transformations::normalize_to_color8());
+    let what = |error: png::DecodingError| format!("it is no readable PNG ({error})");
+    let mut reader = decoder.read_info().map_err(what)?;
+    let size = [reader.info().width as usize, reader.info().height as usize];
+    let bytes = reader.output_buffer_size().filter(|bytes| *bytes <= 4 * PICTURE_PIXELS);
+    let Some(bytes) = bytes else { return Err(format!("it has {} by {} pixels, which is too many", size[0], size[1])) };
+    let mut data = vec![0; bytes];
+    let frame = reader.next_frame(&mut data).map_err(what)?;
+    data.truncate(frame.buffer_size());
+    let pixels: Vec<Color32> = match frame.color_type {
+        png::ColorType::Grayscale => data.iter().map(|&level| Color32::from_gray(level)).collect(),
+        png::ColorType::GrayscaleAlpha => {
+            data.chunks_exact(2).map(|p| Color32::from_rgba_unmultiplied(p[0], p[0], p[0], p[1])).collect()
+        }
+        png::ColorType::Rgb | png::ColorType::Indexed => {
+            data.chunks_exact(3).map(|p| Color32::from_rgb(p[0], p[1], p[2])).collect()
+        }
+        png::ColorType::Rgba => {
+            data.chunks_exact(4).map(|p| Color32::from_rgba_unmultiplied(p[0], p[1], p[2], p[3])).collect()
+        }
+    };
+    if pixels.len() != size[0] * size[1] {
+        return Err("its pixels are incomplete".to_owned());
+    }
+    Ok(ColorImage::new(size, pixels))
+}
+
+/// A picture of half the size, each pixel the mean of four: for displays with small textures.
+fn halved(image: &ColorImage) -> ColorImage {
+    let [width, height] = image.size.map(|side| (side / 2).max(1));
+    let at = |x: usize, y: usize| image.pixels[y.min(image.size[1] - 1) * image.size[0] + x.min(image.size[0] - 1)];
+    let mean = |x: usize, y: usize| {
+        let four = [at(2 * x, 2 * y), at(2 * x + 1, 2 * y), at(2 * x, 2 * y + 1), at(2 * x + 1, 2 * y + 1)];
+        let channel = |i: usize| (four.iter().map(|c| u32::from(c.to_array()[i])).sum::<u32>() / 4) as u8;
+        Color32::from_rgba_premultiplied(channel(0), channel(1), channel(2), channel(3))
+    };
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| mean(x, y)).collect();
+    ColorImage::new([width, height], pixels)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wheels_zoom_and_fingers_pan() {
+        assert!(!is_touch_pad(MouseWheelUnit::Line, vec2(0.0, -1.0)));
+        assert!(is_touch_pad(MouseWheelUnit::Line, vec2(0.0, -0.3)));
+        assert!(is_touch_pad(MouseWheelUnit::Line, vec2(1.0, 0.0)));
+        assert!(is_touch_pad(MouseWheelUnit::Point, vec2(0.0, -12.0)));
+    }
+
+    #[test]
+    fn zooming_keeps_the_point_under_the_pointer() {
+        let rect = Rect::from_min_size(pos2(40.0, 20.0), vec2(400.0, 300.0));
+        let camera = Camera { centre: Point::new(3.0, 4.0), px_per_m: 30.0, is_fitted: true };
+        let mut canvas = Canvas { camera: Some(camera), ..Canvas::default() };
+        let at = pos2(111.0, 77.0);
+        let view = canvas.view(rect, 1.0);
+        let before = plan_point(&view, rect, at);
+        canvas.zoom_at(&view, rect, at, 2.5);
+        let after = plan_point(&canvas.view(rect, 1.0), rect, at);
+        // Half a pixel of 75 to the metre.
+        assert!(before.distance(after) <= 0.5f64.hypot(0.5) / 75.0 + 1e-9, "{before:?} {after:?}");
+        for factor in [1e9, 1e-9] {
+            canvas.zoom_at(&view, rect, at, factor);
+            let px_per_m = canvas.px_per_m().expect("has a camera");
+            assert!((LEAST_PX_PER_M..=MOST_PX_PER_M).contains(&px_per_m));
+        }
+    }
+
+    #[test]
+    fn clicking_again_cycles_and_elsewhere_starts_anew() {
+        let room = |key: &str| {
+            let mut builder = crate::plan::Builder::default();
+            Picked::Room(builder.room(key, crate::plan::Room::default()))
+        };
+        let (a, b) = (room("a"), room("b"));
+        let mut canvas = Canvas::default();
+        let here = pos2(10.0, 10.0);
+        let picks: Vec<_> = (0..3).map(|_| canvas.clicked(here, || vec![a, b])).collect();
+        assert_eq!(picks, [Some(a), Some(b), Some(a)]);
+        assert_eq!(canvas.clicked(pos2(50.0, 10.0), || vec![b]), Some(b));
+        assert_eq!(canvas.clicked(pos2(90.0, 10.0), Vec::new), None);
+        assert_eq!(canvas.clicked(pos2(90.0, 10.0), || vec![a]), Some(a));
+    }
+
+    #[test]
+    fn pictures_halve_to_the_mean() {
+        let image = ColorImage::new([2, 2], [0, 100, 100, 200].map(Color32::from_gray).to_vec());
+        assert_eq!(
+            halved(&image).pixels,
+            [Color32::from_gray(100).to_array()].map(|[r, g, b, _]| Color32::from_rgba_premultiplied(r, g, b, 255))
+        );
+        assert_eq!(halved(&ColorImage::filled([1, 9], Color32::WHITE)).size, [1, 4]);
+    }
+}

@@ -1,0 +1,99 @@
+//! Dialogs that ask for a file: the system's, or answers given beforehand where there is no screen.
+
+use std::collections::VecDeque;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use super::background::Background;
+use super::{Done, Intent};
+
+/// Who answers.
+pub(super) enum Dialogs {
+    /// The system's dialogs, one at a time.
+    System { is_open: bool },
+    /// Answers given beforehand, in order; `None` cancels, and so does having none left.
+    Given(VecDeque<Option<PathBuf>>),
+}
+
+/// What a file is wanted for.
+#[derive(Debug)]
+pub(super) enum Purpose {
+    Open,
+    Save { then: Option<Intent> },
+}
+
+/// A dialog's answer.
+#[derive(Debug)]
+pub(super) struct Answer {
+    pub purpose: Purpose,
+    /// `None` when the dialog was cancelled.
+    pub path: Option<PathBuf>,
+    /// Whether a person can have seen the dialog.
+    pub was_shown: bool,
+}
+
+/// Nobody cancels a dialog faster: it was never shown.
+const QUICKEST_CANCEL: Duration = Duration::from_millis(250);
+
+impl Dialogs {
+    /// Asks for a file; the answer comes as [`Done::Chosen`]. Does nothing while a dialog is open.
+    pub(super) fn ask(
+        &mut self,
+        purpose: Purpose,
+        folder: Option<PathBuf>,
+        name: String,
+        background: &mut Background<Done>,
+    ) {
+        match self {
+            Self::Given(answers) => {
+                let path = answers.pop_front().flatten();
+                background.start(move || Done::Chosen(Answer { purpose, path, was_shown: true }));
+            }
+            Self::System { is_open: true } => {}
+            Self::System { is_open } => {
+                *is_open = true;
+                let mut dialog = rfd::AsyncFileDialog::new();
+                if let Some(folder) = folder.filter(|folder| folder.is_dir()) {
+                    dialog = dialog.set_directory(folder);
+                }
+                // Made here, on the thread of the window, as some systems require; waited for elsewhere.
+                let chosen = match purpose {
+                    Purpose::Open => {
+                        let dialog = dialog
+                            .set_title("Open a plan")
+                            .add_filter("Plans", &["plan.json", "json", "xml", "geojson"])
+                            .add_filter("All files", &["*"]);
+                        Box::pin(dialog.pick_file()) as Waiting
+                    }
+                    Purpose::Save { .. } => {
+                        let dialog = dialog
+                            .set_title("Save the plan")
+                            .set_file_name(name)
+                            .add_filter("Enfilade plan", &["plan.json"]);
+                        Box::pin(dialog.save_file())
+                    }
+                };
+                background.start(move || {
+                    let asked = now();
+                    let path = pollster::block_on(chosen).map(|file| file.path().to_owned());
+                    let was_shown = path.is_some() || asked.elapsed() >= QUICKEST_CANCEL;
+                    Done::Chosen(Answer { purpose, path, was_shown })
+                });
+            }
+        }
+    }
+
+    /// Notes that the dialog is gone.
+    pub(super) fn answered(&mut self) {
+        if let Self::System { is_open } = self {
+            *is_open = false;
+        }
+    }
+}
+
+type Waiting = std::pin::Pin<Box<dyn Future<Output = Option<rfd::FileHandle>> + Send>>;
+
+#[expect(clippy::disallowed_methods, reason = "tells a dialog that was never shown from one that was cancelled")]
+fn now() -> Instant {
+    Instant::now()
+}

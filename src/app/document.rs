@@ -1,0 +1,359 @@
+//! The plan that is open: its history, where it came from, and what follows from it.
+
+use std::hash::Hasher as _;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+
+use rstar::{AABB, PointDistance, RTree, RTreeObject};
+
+use super::plan_list;
+use crate::draw::Drawing;
+use crate::features::{Analysis, NeighbourLabels, analyse};
+use crate::formats::{self, FileError, Note, Place, ReadError};
+use crate::geometry::{Bounds, Point, Segment};
+use crate::labels::Schemes;
+use crate::plan::{History, OpeningId, Plan, RoomId};
+use crate::store;
+
+/// The plans that come with the program, each with its file's name, the one shown first in front.
+pub(super) fn bundled() -> &'static [(&'static str, Plan)] {
+    static PLANS: OnceLock<Vec<(&str, Plan)>> = OnceLock::new();
+    // They read, or the tests fail; were one broken, there would be no samples.
+    PLANS.get_or_init(|| store::bundled_plans().unwrap_or_default())
+}
+
+/// Where a plan came from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Origin {
+    /// One of [`bundled`], by its index.
+    Bundled(usize),
+    /// A file; `storey` counts the plans in it from 0.
+    File { path: PathBuf, storey: usize },
+}
+
+impl Origin {
+    /// The file, if it is one.
+    pub(super) fn path(&self) -> Option<&Path> {
+        match self {
+            Self::Bundled(_) => None,
+            Self::File { path, .. } => Some(path),
+        }
+    }
+
+    /// The folder the file lies in.
+    pub(super) fn folder(&self) -> Option<&Path> {
+        self.path().and_then(Path::parent)
+    }
+
+    /// What it is called in lists and titles.
+    pub(super) fn title(&self) -> String {
+        match self {
+            Self::Bundled(index) => bundled().get(*index).map_or("", |(_, plan)| &plan.meta().name).to_owned(),
+            Self::File { path, .. } => file_name(path),
+        }
+    }
+
+    /// Its file's name without the ending.
+    pub(super) fn stem(&self) -> String {
+        match self {
+            Self::Bundled(index) => {
+                formats::file_stem(bundled().get(*index).map_or("plan", |(name, _)| name)).to_owned()
+            }
+            Self::File { path, .. } => formats::file_stem(&file_name(path)).to_owned(),
+        }
+    }
+}
+
+/// A path's last part.
+pub(super) fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+/// What a file or a bundled plan gave.
+#[derive(Debug)]
+pub(super) struct Opened {
+    pub origin: Origin,
+    /// All plans of the file; `origin` says which is shown.
+    pub storeys: Vec<Plan>,
+    pub notes: Vec<Note>,
+    /// What the file held when it was read; `None` for what cannot be saved in place.
+    pub stamp: Option<Stamp>,
+}
+
+/// Reads a plan from where it is.
+///
+/// # Errors
+/// When the file cannot be read; an error names the path.
+pub(super) fn open(origin: Origin) -> Result<Opened, FileError> {
+    let (storeys, notes, stamp) = match &origin {
+        Origin::Bundled(index) => {
+            let plan = bundled().get(*index).map(|(_, plan)| plan.clone()).unwrap_or_default();
+            (vec![plan], Vec::new(), None)
+        }
+        Origin::File { path, storey } if path.is_dir() => {
+            let first = plan_list::plans_in(path).into_iter().next();
+            let Some(path) = first else {
+                let what = "there is no plan in this folder".to_owned();
+                let hint = "open a plan file, the authors' XML, or GeoJSON".to_owned();
+                let error = ReadError { place: Place::default(), what, hint };
+                return Err(FileError { path: path.clone(), error });
+            };
+            return open(Origin::File { path, storey: *storey });
+        }
+        Origin::File { path, .. } => {
+            // Before the plan: a change between the two is then noticed when saving, not lost.
+            let stamp = is_own_file(path).then(|| Stamp::of(path)).flatten();
+            let import = formats::read_file(path)?;
+            (import.plans, import.notes, stamp)
+        }
+    };
+    Ok(Opened { origin, storeys, notes, stamp })
+}
+
+/// Whether a path names a file of Enfilade's own, which can be saved in place.
+pub(super) fn is_own_file(path: &Path) -> bool {
+    path.to_string_lossy().to_lowercase().ends_with(".plan.json")
+}
+
+/// What a file held at some time, to notice that somebody else changed it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Stamp(u64);
+
+impl Stamp {
+    /// The stamp of the file at a path; `None` when it cannot be read.
+    pub(super) fn of(path: &Path) -> Option<Self> {
+        let bytes = formats::read_bytes(path).ok()?;
+        // SipHash with fixed keys: the same on every run, and nobody gains by a collision.
+        let mut hasher = std::collections::hash_map::DefaultHasher::new();
+        hasher.write(&bytes);
+        Some(Self(hasher.finish()))
+    }
+}
+
+/// The open plan.
+pub(super) struct Document {
+    /// Tells documents apart that were open one after the other.
+    pub number: u64,
+    pub history: History,
+    pub origin: Origin,
+    /// All plans of the file it came from, as they were read.
+    pub storeys: Vec<Plan>,
+    pub notes: Vec<Note>,
+    /// What its file held when it was last read or written.
+    pub stamp: Option<Stamp>,
+    /// The plan as it is on the disk, or as it came.
+    saved: Plan,
+    derived: Option<(Plan, Arc<Derived>)>,
+    /// The plan for which a job is at work.
+    awaited: Option<Plan>,
+}
+
+impl Document {
+    pub(super) fn new(number: u64, opened: Opened) -> Self {
+        let Opened { origin, storeys, notes, stamp } = opened;
+        let storey = match origin {
+            Origin::Bundled(_) => 0,
+            Origin::File { storey, .. } => storey,
+        };
+        let plan = storeys.get(storey).or(storeys.first()).cloned().unwrap_or_default();
+        let history = History::new("Open", plan.clone());
+        Self { number, history, origin, storeys, notes, stamp, saved: plan, derived: None, awaited: None }
+    }
+
+    pub(super) fn plan(&self) -> &Plan {
+        self.history.plan()
+    }
+
+    /// The plan's name, or its file's.
+    pub(super) fn title(&self) -> String {
+        let name = &self.plan().meta().name;
+        if name.is_empty() { self.origin.title() } else { name.clone() }
+    }
+
+    /// Whether something would be lost by closing.
+    pub(super) fn is_changed(&self) -> bool {
+        !self.plan().is_same_value(&self.saved) && *self.plan() != self.saved
+    }
+
+    /// Notes that `plan` now stands in a file.
+    pub(super) fn was_saved(&mut self, plan: Plan, path: PathBuf, stamp: Option<Stamp>) {
+        self.saved = plan;
+        self.stamp = stamp;
+        if self.origin.path() != Some(&path) {
+            self.origin = Origin::File { path, storey: 0 };
+            self.storeys.clear();
+        }
+    }
+
+    /// What follows from the plan as it is now; `None` while that is being worked out.
+    pub(super) fn derived(&self) -> Option<&Arc<Derived>> {
+        self.derived.as_ref().filter(|(plan, _)| plan.is_same_value(self.plan())).map(|(_, derived)| derived)
+    }
+
+    /// The last plan for which everything was worked out, perhaps an earlier one: to be drawn in the
+    /// meantime, and never shown as fresh.
+    pub(super) fn last_derived(&self) -> Option<&(Plan, Arc<Derived>)> {
+        self.derived.as_ref()
+    }
+
+    /// Whether what follows from the plan is neither known nor being worked out.
+    pub(super) fn needs_deriving(&self) -> bool {
+        let is_awaited = self.awaited.as_ref().is_some_and(|plan| plan.is_same_value(self.plan()));
+        self.derived().is_none() && !is_awaited
+    }
+
+    /// Notes that a job is at work for the plan.
+    pub(super) fn await_derived(&mut self) {
+        self.awaited = Some(self.plan().clone());
+    }
+
+    /// Takes over what was worked out for a plan; dropped when the plan is another by now.
+    pub(super) fn set_derived(&mut self, plan: Plan, derived: Arc<Derived>) {
+        if plan.is_same_value(self.plan()) {
+            self.derived = Some((plan, derived));
+            self.awaited = None;
+        }
+    }
+
+    /// The box around something.
+    pub(super) fn bounds_of(&self, picked: Picked) -> Option<Bounds> {
+        let plan = self.plan();
+        let bounds = match picked {
+            Picked::Room(id) => Bounds::of(plan.ring_points(&plan.room(id)?.outer)),
+            Picked::Opening(id) => plan.opening_segment(plan.opening(id)?)?.bounds(),
+        };
+        (!bounds.is_empty()).then_some(bounds)
+    }
+}
+
+/// What follows from a plan.
+pub(super) struct Derived {
+    pub analysis: Analysis,
+    pub drawing: Drawing,
+    openings: RTree<OpeningPlace>,
+    reading_order: Vec<RoomId>,
+}
+
+#[derive(Debug)]
+struct OpeningPlace {
+    id: OpeningId,
+    segment: Segment,
+}
+
+impl RTreeObject for OpeningPlace {
+    type Envelope = AABB<[f64; 2]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        let Segment { a, b } = self.segment;
+        AABB::from_corners([a.x.min(b.x), a.y.min(b.y)], [a.x.max(b.x), a.y.max(b.y)])
+    }
+}
+
+impl PointDistance for OpeningPlace {
+    fn distance_2(&self, point: &[f64; 2]) -> f64 {
+        self.segment.distance(Point::new(point[0], point[1])).powi(2)
+    }
+}
+
+impl Derived {
+    /// Works out all that follows from a plan.
+    pub(super) fn new(plan: &Plan, schemes: &Schemes) -> Self {
+        let openings = plan
+            .openings()
+            .filter_map(|(id, opening)| Some(OpeningPlace { id, segment: plan.opening_segment(opening)? }))
+            .collect();
+        let analysis = analyse(plan, schemes, NeighbourLabels::True);
+        let drawing = Drawing::new(plan, &analysis);
+        let reading_order = reading_order(&analysis);
+        Self { analysis, drawing, openings: RTree::bulk_load(openings), reading_order }
+    }
+
+    /// The rooms with a boundary as one reads: from the top left, line by line.
+    pub(super) fn reading_order(&self) -> &[RoomId] {
+        &self.reading_order
+    }
+
+    /// What can be picked at a point: openings within `reach_m` metres, the nearest first, then rooms,
+    /// the smallest first.
+    pub(super) fn at(&self, point: Point, reach_m: f64) -> Vec<Picked> {
+        let place = [point.x, point.y];
+        let mut near: Vec<(f64, OpeningId)> = self
+            .openings
+            .locate_within_distance(place, reach_m * reach_m)
+            .map(|opening| (opening.distance_2(&place), opening.id))
+            .collect();
+        near.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+        let openings = near.into_iter().map(|(_, id)| Picked::Opening(id));
+        let shapes = &self.analysis.shapes;
+        let rooms = shapes.at(point).into_iter().map(|index| Picked::Room(shapes.all()[index].id));
+        openings.chain(rooms).collect()
+    }
+}
+
+/// Rooms from the top left, line by line. A line is as high as half a typical room.
+fn reading_order(analysis: &Analysis) -> Vec<RoomId> {
+    let mut rooms: Vec<(RoomId, Bounds)> = analysis
+        .shapes
+        .all()
+        .iter()
+        .filter(|shape| !shape.bounds.is_empty())
+        .map(|shape| (shape.id, shape.bounds))
+        .collect();
+    let mut heights: Vec<f64> = rooms.iter().map(|(_, bounds)| bounds.height()).collect();
+    heights.sort_by(f64::total_cmp);
+    let line_m = heights.get(heights.len() / 2).map_or(1.0, |height| (height / 2.0).max(0.1));
+    let line = |bounds: &Bounds| -(bounds.max.y / line_m).floor() as i64;
+    rooms.sort_by(|(p, a), (q, b)| {
+        line(a).cmp(&line(b)).then(a.min.x.total_cmp(&b.min.x)).then(b.max.y.total_cmp(&a.max.y)).then(p.cmp(q))
+    });
+    rooms.into_iter().map(|(id, _)| id).collect()
+}
+
+/// Something on the canvas that can be picked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Picked {
+    Room(RoomId),
+    Opening(OpeningId),
+}
+
+impl Picked {
+    /// Whether it is part of a plan.
+    pub(super) fn is_in(self, plan: &Plan) -> bool {
+        match self {
+            Self::Room(id) => plan.room(id).is_some(),
+            Self::Opening(id) => plan.opening(id).is_some(),
+        }
+    }
+}
+
+/// Saves a plan to a path and gives the file's stamp.
+///
+/// # Errors
+/// As [`store::save_plan`]; [`SaveFailure::ChangedOnDisk`] when the file there is not the one that
+/// `expected` stamps.
+pub(super) fn save(path: &Path, plan: &Plan, expected: Expected) -> Result<Option<Stamp>, SaveFailure> {
+    if let Expected::Stamp(stamp) = expected
+        && path.exists()
+        && Stamp::of(path) != Some(stamp)
+    {
+        return Err(SaveFailure::ChangedOnDisk);
+    }
+    store::save_plan(path, plan).map_err(SaveFailure::Store)?;
+    Ok(Stamp::of(path))
+}
+
+/// What stands at the path that a plan is saved to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Expected {
+    /// The file as it was last seen.
+    Stamp(Stamp),
+    /// Whatever: the person chose the path, or agreed to overwrite.
+    Anything,
+}
+
+/// Why a plan was not saved.
+#[derive(Debug)]
+pub(super) enum SaveFailure {
+    ChangedOnDisk,
+    Store(store::SaveError),
+}

@@ -1,0 +1,236 @@
+//! Opening, saving, closing: never losing unsaved work, never overwriting silently.
+
+use std::path::{Path, PathBuf};
+
+use egui::{Context, ViewportCommand};
+
+use super::dialogs::{Answer, Purpose};
+use super::document::{self, Document, Expected, Opened, Origin, SaveFailure, Stamp};
+use super::{App, Done, Intent, Message, Question, Remedy, Severity, plan_list};
+use crate::formats::FileError;
+use crate::plan::Plan;
+
+impl App {
+    /// Asks which plan to open.
+    pub(super) fn choose_plan(&mut self) {
+        let folder = self.document.as_ref().and_then(|document| document.origin.folder()).map(Path::to_owned);
+        self.dialogs.ask(Purpose::Open, folder, String::new(), &mut self.background);
+    }
+
+    /// Reads a plan and shows it when it is there.
+    pub(super) fn open(&mut self, origin: Origin) {
+        self.opening = Some(origin.clone());
+        self.background.start(move || {
+            let opened = document::open(origin.clone());
+            Done::Opened(origin, Box::new(opened))
+        });
+    }
+
+    pub(super) fn was_opened(&mut self, origin: &Origin, result: Result<Opened, FileError>) {
+        // Only what was asked for last counts.
+        if self.opening.as_ref() != Some(origin) {
+            return;
+        }
+        self.opening = None;
+        match result {
+            Ok(opened) => self.request(Intent::Show(Box::new(opened))),
+            Err(FileError { path, error }) => {
+                self.say(Severity::Error, format!("Could not open {}", document::file_name(&path)), {
+                    format!("{error}\n{}", path.display())
+                });
+            }
+        }
+    }
+
+    /// Opens the plan `step` places further down the list.
+    pub(super) fn open_neighbour(&mut self, step: isize) {
+        let current = self.document.as_ref().map(|document| &document.origin);
+        if let Some(origin) = self.list.neighbour(current, step) {
+            self.open(origin);
+        }
+    }
+
+    pub(super) fn take_dropped_files(&mut self, context: &Context) {
+        let dropped = context.input_mut(|input| std::mem::take(&mut input.raw.dropped_files));
+        let Some(first) = dropped.first() else { return };
+        if dropped.len() > 1 {
+            let text = format!("{} files were dropped; the first is opened", dropped.len());
+            self.say(Severity::Info, text, "Plans that lie in the same folder are in the list on the left.");
+        }
+        self.open(Origin::File { path: first.path().to_owned(), storey: 0 });
+    }
+
+    pub(super) fn take_close_request(&mut self, context: &Context) {
+        if context.input(|input| input.viewport().close_requested()) && !self.quitting {
+            context.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.request(Intent::Quit);
+        }
+        if self.quitting && !self.is_close_sent {
+            self.is_close_sent = true;
+            context.send_viewport_cmd(ViewportCommand::Close);
+        }
+    }
+
+    /// Does what a person wants, after asking where that would lose unsaved work.
+    pub(super) fn request(&mut self, intent: Intent) {
+        self.commit_field();
+        if self.has_unsaved_changes() {
+            self.question = Some(Question::Unsaved(intent));
+        } else {
+            self.perform(intent);
+        }
+    }
+
+    /// Does it, unsaved work or not.
+    pub(super) fn perform(&mut self, intent: Intent) {
+        match intent {
+            Intent::Show(opened) => self.show(*opened),
+            Intent::Close => {
+                self.document = None;
+                self.picked = None;
+                self.canvas.forget();
+            }
+            Intent::Quit => self.quitting = true,
+        }
+    }
+
+    fn show(&mut self, opened: Opened) {
+        let folder = opened.origin.folder().map(Path::to_owned);
+        self.picked = None;
+        self.canvas.forget();
+        self.panels.forget();
+        self.status.clear();
+        if !opened.notes.is_empty() {
+            let summary = super::panels::notes::summary(&opened.notes);
+            let text = format!("Imported {}: {summary}", opened.origin.title());
+            let remedy = Some(Remedy::ShowNotes);
+            self.add_message(Message { severity: Severity::Info, text, detail: String::new(), remedy });
+        }
+        self.documents += 1;
+        self.document = Some(Document::new(self.documents, opened));
+        if let Some(folder) = folder {
+            self.list_folder(folder);
+        }
+    }
+
+    fn list_folder(&mut self, folder: PathBuf) {
+        self.background.start(move || {
+            let files = plan_list::plans_in(&folder);
+            Done::Listed(folder, files)
+        });
+    }
+
+    /// Saves the plan in its file, asking for one where it has none of Enfilade's own; then does what
+    /// was to follow.
+    pub(super) fn save(&mut self, then: Option<Intent>) {
+        self.commit_field();
+        let Some(document) = &self.document else { return };
+        match document.origin.path() {
+            Some(path) if document::is_own_file(path) => {
+                let expected = document.stamp.map_or(Expected::Anything, Expected::Stamp);
+                self.save_to(path.to_owned(), expected, then);
+            }
+            _ => self.save_as(then),
+        }
+    }
+
+    pub(super) fn save_as(&mut self, then: Option<Intent>) {
+        self.commit_field();
+        let Some(document) = &self.document else { return };
+        let folder = document.origin.folder().map(Path::to_owned);
+        let name = format!("{}.plan.json", document.origin.stem());
+        self.dialogs.ask(Purpose::Save { then }, folder, name, &mut self.background);
+    }
+
+    pub(super) fn was_chosen(&mut self, answer: Answer) {
+        let Answer { purpose, path, was_shown } = answer;
+        let Some(mut path) = path else {
+            if !was_shown {
+                self.say(
+                    Severity::Warning,
+                    "This system has no dialog to choose files",
+                    "Drop a file on the window, or start Enfilade with the file's path. On Linux, dialogs come from \
+                     the desktop's portal or from zenity.",
+                );
+            }
+            // Cancel means cancel: what was to follow is forgotten.
+            return;
+        };
+        match purpose {
+            Purpose::Open => self.open(Origin::File { path, storey: 0 }),
+            Purpose::Save { then } => {
+                if document::is_own_file(&path) {
+                    // The dialog has asked whether to replace.
+                    self.save_to(path, Expected::Anything, then);
+                } else {
+                    path.as_mut_os_string().push(".plan.json");
+                    if path.exists() {
+                        self.question = Some(Question::Replace { path, is_changed_since: false, then });
+                    } else {
+                        self.save_to(path, Expected::Anything, then);
+                    }
+                }
+            }
+        }
+    }
+
+    pub(super) fn save_to(&mut self, path: PathBuf, expected: Expected, then: Option<Intent>) {
+        let Some(document) = &self.document else { return };
+        let (document, plan) = (document.number, document.plan().clone());
+        self.background.start(move || {
+            let result = document::save(&path, &plan, expected);
+            Done::Saved { document, path, plan, result, then }
+        });
+    }
+
+    pub(super) fn was_saved(
+        &mut self,
+        number: u64,
+        path: PathBuf,
+        plan: Plan,
+        result: Result<Option<Stamp>, SaveFailure>,
+        then: Option<Intent>,
+    ) {
+        match result {
+            Ok(stamp) => {
+                self.status = format!("Saved in {}", document::file_name(&path));
+                let folder = path.parent().map(Path::to_owned);
+                if let Some(document) = self.document.as_mut().filter(|document| document.number == number) {
+                    document.was_saved(plan, path, stamp);
+                }
+                if let Some(folder) = folder {
+                    self.list_folder(folder);
+                }
+                // Asks again if there were changes since.
+                if let Some(intent) = then {
+                    self.request(intent);
+                }
+            }
+            Err(SaveFailure::ChangedOnDisk) => {
+                self.question = Some(Question::Replace { path, is_changed_since: true, then });
+            }
+            Err(SaveFailure::Store(error)) => {
+                let text = format!("{} is not saved: {}", document::file_name(&path), error.what);
+                self.say(
+                    Severity::Error,
+                    text,
+                    format!("Your changes are still here; {}.\n{}", error.hint, path.display()),
+                );
+            }
+        }
+    }
+
+    pub(super) fn update_title(&mut self, context: &Context) {
+        let title = match &self.document {
+            None => "Enfilade".to_owned(),
+            Some(document) => {
+                let mark = if document.is_changed() { "• " } else { "" };
+                format!("{mark}{} – Enfilade", document.title())
+            }
+        };
+        if title != self.shown_title {
+            context.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+            self.shown_title = title;
+        }
+    }
+}

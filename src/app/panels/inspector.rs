@@ -1,0 +1,539 @@
+//! What is known of what is picked: a room, an opening, or the plan as a whole.
+
+use egui::{Id, Key, Popup, PopupCloseBehavior, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
+
+use super::status::count;
+use super::{Field, FieldKind};
+use crate::app::canvas::{room_title, sentence, title_of};
+use crate::app::document::{Derived, Document, Picked};
+use crate::app::icons::Icon;
+use crate::app::widgets::{Lead, Row, Segment, caption, colours, hairline, section, segmented, strong, value};
+use crate::app::{App, commands, theme};
+use crate::draw::{self, LabelColours, Palette};
+use crate::features::{Features, RoomAnalysis, RoomStatus};
+use crate::labels::{Label, Meaning, normalised_function};
+use crate::plan::{Joint, LabelOrigin, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, ScaleOrigin};
+
+/// What a person did in the inspector.
+enum Act {
+    Pick(Picked),
+    Label(Option<Label>),
+    Type(Field),
+    Commit,
+    Revert,
+    ShowNotes,
+}
+
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    let mut act = None;
+    let mut hovered = None;
+    ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
+        let margin = egui::Margin { left: 16, right: 16, top: 14, bottom: 16 };
+        egui::Frame::new().inner_margin(margin).show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 4.0;
+            let Some(document) = &app.document else { return };
+            let inspected = Inspected { app, document, plan: document.plan(), palette: palette(ui) };
+            act = match app.picked {
+                Some(Picked::Room(id)) => {
+                    document.plan().room(id).and_then(|room| inspected.room(ui, id, room, &mut hovered))
+                }
+                Some(Picked::Opening(id)) => {
+                    document.plan().opening(id).and_then(|opening| inspected.opening(ui, id, opening, &mut hovered))
+                }
+                None => inspected.plan(ui),
+            };
+        });
+    });
+    app.canvas.hovered_in_panel = hovered;
+    app.panels.focus_name = false;
+    match act {
+        None => {}
+        Some(Act::Pick(picked)) => {
+            app.pick(Some(picked));
+            app.canvas.reveal(picked);
+        }
+        Some(Act::Label(label)) => {
+            app.commit_field();
+            app.label_picked(label);
+        }
+        Some(Act::Type(field)) => {
+            app.panels.suggests = field.kind == FieldKind::Function;
+            app.panels.field = Some(field);
+        }
+        Some(Act::Commit) => app.commit_field(),
+        Some(Act::Revert) => drop(app.panels.take_field()),
+        Some(Act::ShowNotes) => app.panels.notes = true,
+    }
+}
+
+fn palette(ui: &Ui) -> &'static Palette {
+    let theme = if ui.visuals().dark_mode { draw::Theme::Dark } else { draw::Theme::Light };
+    Palette::of(theme, LabelColours::Standard)
+}
+
+struct Inspected<'a> {
+    app: &'a App,
+    document: &'a Document,
+    plan: &'a Plan,
+    palette: &'static Palette,
+}
+
+impl Inspected<'_> {
+    // A room.
+
+    fn room(&self, ui: &mut Ui, id: RoomId, room: &Room, hovered: &mut Option<Picked>) -> Option<Act> {
+        let derived = self.document.derived();
+        let analysed = derived.and_then(|derived| derived.analysis.room(id));
+        let status = RoomStatus::of(self.plan, &self.app.schemes, room);
+        let colour = self.palette.status(status);
+        let letter = status.label().map_or("–", Label::letter);
+        let subtitle = match status {
+            RoomStatus::Labelled(label) => sentence(label.name()),
+            RoomStatus::NotClassified => "Not classified".to_owned(),
+            RoomStatus::Unlabelled => "No label".to_owned(),
+        };
+        header(
+            ui,
+            Some((theme::colour(colour), letter, theme::colour(self.palette.ink))),
+            None,
+            &room_title(room),
+            &subtitle,
+        );
+        ui.add_space(6.0);
+        let mut act = self.field(ui, id, FieldKind::Name, &room.name, "Unnamed");
+        act = act.or(self.field(ui, id, FieldKind::Function, &room.function, "Unknown"));
+        ui.add_space(4.0);
+        act = act.or(self.label(ui, room, status));
+        hairline(ui);
+        section(ui, "Features");
+        match analysed {
+            None => drop(caption(ui, "Being worked out…")),
+            Some(analysed) => features(ui, analysed),
+        }
+        if let Some(derived) = derived {
+            hairline(ui);
+            act = act.or(self.neighbours(ui, id, derived, hovered));
+        }
+        act
+    }
+
+    /// A text of a room that can be changed.
+    fn field(&self, ui: &mut Ui, room: RoomId, kind: FieldKind, current: &str, hint: &str) -> Option<Act> {
+        let name = match kind {
+            FieldKind::Name => "Name",
+            FieldKind::Function => "Function",
+        };
+        let typed = self.app.panels.field.as_ref().filter(|field| field.room == room && field.kind == kind);
+        let mut text = typed.map_or(current, |field| &field.text).to_owned();
+        let mut act = None;
+        ui.horizontal(|ui| {
+            let (rect, _) = ui.allocate_exact_size(vec2(64.0, 28.0), Sense::hover());
+            let font = egui::FontId::proportional(theme::BODY);
+            ui.painter().text(rect.left_center(), egui::Align2::LEFT_CENTER, name, font, colours(ui).text_weak);
+            let id = Id::unique(("room field", room, name));
+            let edit = TextEdit::singleline(&mut text)
+                .id(id)
+                .hint_text(RichText::new(hint).color(colours(ui).text_weak))
+                .desired_width(ui.available_width())
+                .align(egui::Align2::LEFT_CENTER);
+            let response = ui.add(edit);
+            let response = response.accessible_name(name);
+            if kind == FieldKind::Name && self.app.panels.focus_name {
+                response.request_focus();
+            }
+            if response.changed() {
+                act = Some(Act::Type(Field { room, kind, text: text.clone() }));
+            }
+            let chosen = if kind == FieldKind::Function {
+                self.suggestions(ui, &response, &text, typed.is_some())
+            } else {
+                None
+            };
+            match chosen {
+                Some(Suggested::Chosen(function)) => {
+                    act = Some(Act::Type(Field { room, kind, text: function }));
+                    response.surrender_focus();
+                }
+                Some(Suggested::Choosing) => {}
+                None if response.lost_focus() => {
+                    let is_escape = ui.input(|input| input.key_pressed(Key::Escape));
+                    act = Some(if is_escape { Act::Revert } else { Act::Commit });
+                }
+                // A chosen function, or one whose list was left.
+                None if typed.is_some() && !response.has_focus() && act.is_none() => act = Some(Act::Commit),
+                None => {}
+            }
+        });
+        act
+    }
+
+    /// The scheme's functions under the field that is being typed in.
+    fn suggestions(&self, ui: &Ui, response: &egui::Response, text: &str, is_typed: bool) -> Option<Suggested> {
+        let typology = self.plan.meta().typology.as_ref()?;
+        let wanted = normalised_function(text);
+        // Before anything is typed, all; then those that fit.
+        let fits = |function: &str| !is_typed || (function.contains(&wanted) && function != wanted);
+        let functions: Vec<(&str, Meaning)> =
+            self.app.schemes.functions(typology).filter(|(function, _)| fits(function)).collect();
+        let id = response.id.with("suggestions");
+        let was_open = Popup::is_id_open(ui.ctx(), id);
+        let pressed_inside = was_open
+            && Popup::position_of_id(ui.ctx(), id).is_some()
+            && ui.input(|input| input.pointer.any_down() || input.pointer.any_released())
+            && ui
+                .ctx()
+                .memory(|memory| memory.area_rect(id))
+                .is_some_and(|area| ui.input(|input| input.pointer.interact_pos()).is_some_and(|at| area.contains(at)));
+        let is_open = (response.has_focus() || pressed_inside) && !functions.is_empty();
+        if is_open != was_open {
+            if is_open { Popup::open_id(ui.ctx(), id) } else { Popup::close_id(ui.ctx(), id) }
+        }
+        let mut chosen = None;
+        Popup::from_response(response)
+            .id(id)
+            .open_memory(None)
+            .width(response.rect.width())
+            .gap(4.0)
+            .close_behavior(PopupCloseBehavior::IgnoreClicks)
+            .show(|ui| {
+                ui.spacing_mut().item_spacing.y = 0.0;
+                ScrollArea::vertical().max_height(224.0).auto_shrink([false, true]).show(ui, |ui| {
+                    for (function, meaning) in functions {
+                        let status = match meaning {
+                            Meaning::Labelled(label) => RoomStatus::Labelled(label),
+                            Meaning::NotClassified => RoomStatus::NotClassified,
+                        };
+                        let colour = theme::colour(self.palette.status(status));
+                        let row = Row::new(Lead::Swatch(colour), function);
+                        if row.button(ui, Role::ListBoxOption).clicked() {
+                            chosen = Some(function.to_owned());
+                        }
+                    }
+                });
+            });
+        match chosen {
+            Some(function) => {
+                Popup::close_id(ui.ctx(), id);
+                Some(Suggested::Chosen(function))
+            }
+            None if pressed_inside => Some(Suggested::Choosing),
+            None => None,
+        }
+    }
+
+    fn label(&self, ui: &mut Ui, room: &Room, status: RoomStatus) -> Option<Act> {
+        let ids = ["label-small", "label-medium", "label-big", "label-corridor", "label-hall"];
+        let segments: Vec<Segment<'_>> = Label::ALL
+            .into_iter()
+            .zip(ids)
+            .filter_map(|(label, id)| {
+                let command = commands::find(id)?;
+                Some(Segment {
+                    text: label.letter(),
+                    name: command.title,
+                    help: command.help,
+                    is_on: status.label() == Some(label),
+                    colour: Some(theme::colour(self.palette.label(label))),
+                })
+            })
+            .collect();
+        let clicked = segmented(ui, &segments).map(|index| Act::Label(Some(Label::ALL[index])));
+        let mut act = clicked;
+        caption(ui, self.label_origin(room, status));
+        if room.label.is_some() && ui.link(RichText::new("Use the function's label").size(theme::SMALL)).clicked() {
+            act = Some(Act::Label(None));
+        }
+        act
+    }
+
+    /// Who says what the room's label is.
+    fn label_origin(&self, room: &Room, status: RoomStatus) -> String {
+        if let Some(given) = room.label {
+            return match given.origin {
+                LabelOrigin::Person => "Given by a person".to_owned(),
+                LabelOrigin::Imported => "Stated by the imported file".to_owned(),
+                LabelOrigin::AcceptedPrediction => "A prediction that was accepted".to_owned(),
+            };
+        }
+        let typology = self.plan.meta().typology.as_ref();
+        match (status, typology) {
+            (RoomStatus::Labelled(_) | RoomStatus::NotClassified, Some(typology)) => {
+                format!("From its function, by the label scheme for {typology}")
+            }
+            (_, None) => "The plan has no typology, so no scheme says what its functions mean".to_owned(),
+            (_, Some(_)) if room.function.trim().is_empty() => "No function is known".to_owned(),
+            (_, Some(typology)) => format!("The label scheme for {typology} does not know this function"),
+        }
+    }
+
+    fn neighbours(&self, ui: &mut Ui, id: RoomId, derived: &Derived, hovered: &mut Option<Picked>) -> Option<Act> {
+        let neighbours: Vec<(OpeningId, Joint)> = derived.analysis.neighbours(id).collect();
+        section(ui, "Neighbours");
+        if neighbours.is_empty() {
+            caption(ui, "No opening leads here.");
+        }
+        let mut act = None;
+        ui.add_space(-2.0);
+        ui.spacing_mut().item_spacing.y = 0.0;
+        unindented(ui, |ui| {
+            for (opening_id, joint) in neighbours {
+                let Some(opening) = self.plan.opening(opening_id) else { continue };
+                let kind = opening.kind.name();
+                let (text, target) = match joint {
+                    Joint::Room(other) if other == id => ("Itself".to_owned(), Picked::Opening(opening_id)),
+                    Joint::Room(other) => (title_of(self.plan, Picked::Room(other)), Picked::Room(other)),
+                    Joint::Outside => ("Outside".to_owned(), Picked::Opening(opening_id)),
+                };
+                let trail = match self.plan.opening_segment(opening) {
+                    Some(segment) => format!("{kind} {:.2} m", segment.length()),
+                    None => kind.to_owned(),
+                };
+                let row = Row::new(Lead::Icon(opening_icon(opening.kind)), &text).trail(&trail);
+                let response = ui.push_id(opening_id, |ui| row.button(ui, Role::Link)).inner;
+                if response.hovered() || response.has_focus() {
+                    *hovered = Some(target);
+                }
+                if response.clicked() {
+                    act = Some(Act::Pick(target));
+                }
+            }
+        });
+        act
+    }
+
+    // An opening.
+
+    fn opening(&self, ui: &mut Ui, id: OpeningId, opening: &Opening, hovered: &mut Option<Picked>) -> Option<Act> {
+        let subtitle = match opening.place {
+            Place::Hosted { .. } => "In a wall",
+            Place::Free { .. } => "At a place of its own",
+        };
+        header(ui, None, Some(opening_icon(opening.kind)), &sentence(opening.kind.name()), subtitle);
+        ui.add_space(6.0);
+        if let Some(segment) = self.plan.opening_segment(opening) {
+            value(ui, "Width", &format!("{:.2} m", segment.length()));
+        }
+        if !opening.kind.is_passable() {
+            caption(ui, "Windows are for drawing only: they join nothing.");
+            return None;
+        }
+        hairline(ui);
+        section(ui, "Joins");
+        let derived = self.document.derived()?;
+        let connection = derived.analysis.graph.connections().iter().find(|connection| connection.opening == id)?;
+        let mut act = None;
+        unindented(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 0.0;
+            for (side, joint) in connection.sides.into_iter().enumerate() {
+                match joint {
+                    Joint::Outside => drop(Row::new(Lead::Icon(Icon::Outside), "Outside").inset(8.0).show_only(ui)),
+                    Joint::Room(room) => {
+                        let target = Picked::Room(room);
+                        let status = derived.analysis.room(room).map_or(RoomStatus::Unlabelled, |room| room.status);
+                        let colour = theme::colour(self.palette.status(status));
+                        let text = title_of(self.plan, target);
+                        let row = Row::new(Lead::Swatch(colour), &text);
+                        let response = ui.push_id(side, |ui| row.button(ui, Role::Link)).inner;
+                        if response.hovered() || response.has_focus() {
+                            *hovered = Some(target);
+                        }
+                        if response.clicked() {
+                            act = Some(Act::Pick(target));
+                        }
+                    }
+                }
+            }
+        });
+        ui.add_space(4.0);
+        caption(ui, if connection.pinned { "Stated by the file or by a person" } else { "Found from where it lies" });
+        if connection.joins_nothing() {
+            ui.label(RichText::new("Both sides are the same: it joins nothing.").color(colours(ui).warning));
+        }
+        act
+    }
+
+    // The plan.
+
+    fn plan(&self, ui: &mut Ui) -> Option<Act> {
+        let meta = self.plan.meta();
+        let typology = meta.typology.as_ref().map_or("Typology unknown".to_owned(), crate::labels::Typology::title);
+        header(ui, None, Some(Icon::Plan), &self.document.title(), &typology);
+        ui.add_space(6.0);
+        let mut row = |name: &str, text: &str| {
+            if !text.is_empty() {
+                value(ui, name, text);
+            }
+        };
+        row("Building", &meta.building);
+        row("Storey", &meta.storey);
+        row("Source", &meta.source);
+        row("Licence", &meta.licence);
+        let scale = match meta.scale.origin {
+            ScaleOrigin::Unknown => "Unknown".to_owned(),
+            origin => sentence(origin.name()),
+        };
+        let response = value(ui, "Scale", &scale);
+        if !meta.scale.note.is_empty() {
+            drop(response);
+            caption(ui, &meta.scale.note);
+        }
+        hairline(ui);
+        section(ui, "Contents");
+        let plan = self.plan;
+        let doors = plan.openings().filter(|(_, opening)| opening.kind.is_passable()).count();
+        value(ui, "Rooms", &plan.rooms().len().to_string());
+        value(ui, "Openings", &doors.to_string());
+        value(ui, "Windows", &(plan.openings().len() - doors).to_string());
+        if let Some(derived) = self.document.derived() {
+            let area_m2: f64 = derived.analysis.shapes.all().iter().map(crate::topology::RoomShape::area_m2).sum();
+            value(ui, "Floor area", &format!("{area_m2:.1} m²"));
+            self.gaps(ui, derived);
+        }
+        let mut act = None;
+        if !self.document.notes.is_empty() {
+            hairline(ui);
+            section(ui, "Import");
+            caption(ui, super::notes::summary(&self.document.notes));
+            if ui.link("Show notes").clicked() {
+                act = Some(Act::ShowNotes);
+            }
+        }
+        ui.add_space(10.0);
+        caption(ui, "Click a room or a door to see what is known of it.");
+        act
+    }
+
+    /// What is missing before every room has a label.
+    fn gaps(&self, ui: &mut Ui, derived: &Derived) {
+        let unlabelled = derived.analysis.rooms.iter().filter(|room| room.status == RoomStatus::Unlabelled);
+        let mut unknown = std::collections::BTreeSet::new();
+        let mut number = 0;
+        for room in unlabelled {
+            number += 1;
+            let function = self.plan.room(room.id).map(|room| room.function.trim()).unwrap_or_default();
+            if !function.is_empty() {
+                unknown.insert(function);
+            }
+        }
+        if number == 0 {
+            return;
+        }
+        value(ui, "Without label", &count(number, "room"));
+        if !unknown.is_empty() {
+            let list: Vec<&str> = unknown.into_iter().collect();
+            caption(ui, format!("The label scheme does not know: {}", list.join(", ")));
+        }
+    }
+}
+
+/// What happened in the list of suggestions.
+enum Suggested {
+    /// The pointer is down on it.
+    Choosing,
+    Chosen(String),
+}
+
+/// Lets rows reach as far out as their ground does, so that their text is in line with the rest.
+fn unindented(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
+    let margin = egui::Margin { left: -8, right: -8, top: 0, bottom: 0 };
+    egui::Frame::new().outer_margin(margin).show(ui, contents);
+}
+
+/// A title with something coloured or drawn beside it.
+fn header(
+    ui: &mut Ui,
+    tile: Option<(egui::Color32, &str, egui::Color32)>,
+    icon: Option<Icon>,
+    title: &str,
+    subtitle: &str,
+) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 12.0;
+        let (rect, _) = ui.allocate_exact_size(vec2(36.0, 36.0), Sense::hover());
+        let (ground, ink) = match tile {
+            Some((ground, _, ink)) => (ground, ink),
+            None => (colours(ui).field, colours(ui).text),
+        };
+        ui.painter().rect_filled(rect, 8.0, ground);
+        let rim = egui::Stroke::new(1.0, colours(ui).text.gamma_multiply(0.12));
+        ui.painter().rect_stroke(rect, 8.0, rim, egui::epaint::StrokeKind::Inside);
+        if let Some((_, letter, _)) = tile {
+            let font = egui::FontId::new(theme::TITLE, theme::semibold());
+            ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, letter, font, ink);
+        }
+        if let Some(icon) = icon {
+            icon.paint(ui.painter(), egui::Rect::from_center_size(rect.center(), vec2(18.0, 18.0)), ink);
+        }
+        ui.vertical(|ui| {
+            ui.spacing_mut().item_spacing.y = 1.0;
+            let title = strong(title, theme::TITLE).color(colours(ui).text);
+            ui.add(egui::Label::new(title).truncate());
+            let subtitle = RichText::new(subtitle).color(colours(ui).text_weak);
+            ui.add(egui::Label::new(subtitle).truncate());
+        });
+    });
+}
+
+/// `F_r` with names that can be read.
+fn features(ui: &mut Ui, analysed: &RoomAnalysis) {
+    let Some(features) = &analysed.features else {
+        let why = if analysed.status == RoomStatus::NotClassified {
+            "Rooms that are not classified have none: they count like the outside."
+        } else {
+            "The room encloses no area."
+        };
+        caption(ui, why);
+        return;
+    };
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let axes = analysed.axes.map(|axes| {
+        let extent = if axes.minor_is_extent { " (extent: no wall is perpendicular)" } else { "" };
+        format!("Longest wall {:.2} m, longest wall perpendicular to it {:.2} m{extent}", axes.major_m, axes.minor_m)
+    });
+    let names = Features::NAMES;
+    feature(ui, "Area", names[0], &format!("{:.1} m²", features.area_m2), false, None);
+    feature(ui, "Axes ratio", names[1], &format!("{:.2}", features.axes_ratio), false, axes.as_deref());
+    feature(ui, "Openings", names[2], &features.doors.to_string(), features.doors == 0, None);
+    for label in Label::ALL {
+        let number = features.doors_to(label);
+        let name = format!("to {}s", label.name());
+        feature(ui, &name, names[3 + label.index()], &number.to_string(), number == 0, None);
+    }
+    if let Some(temporary) = analysed.temporary {
+        ui.add_space(4.0);
+        caption(ui, format!("By area, ratio and openings alone: {temporary}"))
+            .on_hover_text("The naive classifier's temporary label, which neighbours see while a room has none");
+    }
+}
+
+fn feature(ui: &mut Ui, name: &str, symbol: &str, number: &str, is_zero: bool, help: Option<&str>) {
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 22.0), Sense::hover());
+    let colours = colours(ui);
+    let colour = if is_zero { colours.text_weak } else { colours.text };
+    let body = egui::FontId::proportional(theme::BODY);
+    let middle = rect.center().y;
+    let painter = ui.painter();
+    painter.text(rect.left_center(), egui::Align2::LEFT_CENTER, name, body.clone(), colour);
+    // The symbol's letter with its index lowered, as the paper writes it.
+    let (letter, index) = symbol.split_once('_').unwrap_or((symbol, ""));
+    let small = egui::FontId::proportional(theme::SMALL);
+    let at = egui::pos2(rect.left() + 142.0, middle);
+    let drawn = painter.text(at, egui::Align2::LEFT_CENTER, letter, small, colours.text_weak);
+    let tiny = egui::FontId::proportional(9.0);
+    painter.text(drawn.right_center() + vec2(1.0, 3.0), egui::Align2::LEFT_CENTER, index, tiny, colours.text_weak);
+    let font = if is_zero { body } else { egui::FontId::new(theme::BODY, theme::semibold()) };
+    painter.text(rect.right_center(), egui::Align2::RIGHT_CENTER, number, font, colour);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {number}")));
+    if let Some(help) = help {
+        response.on_hover_text(help);
+    }
+}
+
+pub(super) fn opening_icon(kind: OpeningKind) -> Icon {
+    match kind {
+        OpeningKind::Door => Icon::Door,
+        OpeningKind::DoubleDoor => Icon::DoubleDoor,
+        OpeningKind::Passage => Icon::Passage,
+        OpeningKind::Window => Icon::Window,
+    }
+}

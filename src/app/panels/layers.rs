@@ -1,0 +1,94 @@
+//! What is shown of the plan, with the meaning of its colours.
+
+use egui::{Role, ScrollArea, Ui};
+
+use crate::app::commands::{self, COMMANDS, Menu};
+use crate::app::widgets::{Lead, ROW, Row, Segment, hairline, section, segmented};
+use crate::app::{App, Document, theme};
+use crate::draw::{self, Fill, LabelColours, Palette};
+use crate::features::RoomStatus;
+use crate::labels::{Label, normalised_function};
+
+/// The section of the view menu that holds the layers.
+const LAYERS: (Menu, u8) = (Menu::View, 2);
+
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    hairline(ui);
+    section(ui, "Fill");
+    let fills = [("fill-label", "Label"), ("fill-function", "Function"), ("fill-none", "None")];
+    let segments: Vec<Segment<'_>> = fills
+        .into_iter()
+        .filter_map(|(id, text)| {
+            let command = commands::find(id)?;
+            let is_on = command.is_on.is_some_and(|is_on| is_on(app));
+            Some(Segment { text, name: command.title, help: command.help, is_on, colour: None })
+        })
+        .collect();
+    let context = ui.ctx().clone();
+    if let Some(index) = segmented(ui, &segments) {
+        app.run_command(fills[index].0, &context);
+    }
+    if let Some(document) = &app.document {
+        legend(ui, document, app.layers.fill);
+    }
+    hairline(ui);
+    section(ui, "Layers");
+    ui.add_space(2.0);
+    ui.spacing_mut().item_spacing.y = 0.0;
+    for command in COMMANDS.iter().filter(|command| command.menu == Some(LAYERS)) {
+        let is_on = command.is_on.is_some_and(|is_on| is_on(app));
+        let shortcut = command.keys_text(&context);
+        let is_available = (command.is_available)(app);
+        let row = Row::new(Lead::Eye(is_on), command.title).trail(&shortcut).on(is_on);
+        let response = ui.add_enabled_ui(is_available, |ui| row.button(ui, Role::CheckBox)).inner;
+        if response.on_hover_text(command.help).clicked() {
+            app.run_command(command.id, &context);
+        }
+    }
+}
+
+/// What each colour means, and how many rooms have it.
+fn legend(ui: &mut Ui, document: &Document, fill: Fill) {
+    let Some(derived) = document.derived() else { return };
+    let theme = if ui.visuals().dark_mode { draw::Theme::Dark } else { draw::Theme::Light };
+    let palette = Palette::of(theme, LabelColours::Standard);
+    let mut rows: Vec<(draw::Rgba, String, usize)> = Vec::new();
+    match fill {
+        Fill::None => {}
+        Fill::Label => {
+            let number =
+                |status: RoomStatus| derived.analysis.rooms.iter().filter(|room| room.status == status).count();
+            for label in Label::ALL {
+                let name = crate::app::canvas::sentence(label.name());
+                rows.push((palette.label(label), name, number(RoomStatus::Labelled(label))));
+            }
+            for (status, name) in [(RoomStatus::Unlabelled, "No label"), (RoomStatus::NotClassified, "Not classified")]
+            {
+                if number(status) > 0 {
+                    rows.push((palette.status(status), name.to_owned(), number(status)));
+                }
+            }
+        }
+        Fill::Function => {
+            let functions: Vec<String> =
+                document.plan().rooms().map(|(_, room)| normalised_function(&room.function)).collect();
+            let number = |function: &str| functions.iter().filter(|other| *other == function).count();
+            for (function, colour) in palette.functions(functions.iter().map(String::as_str)) {
+                rows.push((colour, crate::app::canvas::sentence(&function), number(&function)));
+            }
+            if number("") > 0 {
+                rows.push((palette.unlabelled, "No function".to_owned(), number("")));
+            }
+        }
+    }
+    ui.spacing_mut().item_spacing.y = 0.0;
+    ui.add_space(6.0);
+    // A long legend leaves space for the list of plans.
+    let most = (ui.ctx().content_rect().height() * 0.25).max(4.0 * ROW);
+    ScrollArea::vertical().id_salt("legend").max_height(most).auto_shrink([false, true]).show(ui, |ui| {
+        for (colour, name, number) in &rows {
+            let trail = if *number == 0 { "–".to_owned() } else { number.to_string() };
+            Row::new(Lead::Swatch(theme::colour(*colour)), name).trail(&trail).indent(8.0).inset(8.0).show_only(ui);
+        }
+    });
+}

@@ -1,0 +1,71 @@
+//! The bars above the canvas: messages that stay until they are dismissed.
+
+use egui::{Frame, Label, Margin, Rect, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
+
+use crate::app::icons::Icon;
+use crate::app::widgets::{ICON, ROW, colours, icon_button, severity_colours, strong};
+use crate::app::{App, Message, Remedy, Severity, theme};
+
+/// More messages are not shown at once; the newest ones are.
+const SHOWN: usize = 3;
+
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    let first = app.messages.len().saturating_sub(SHOWN);
+    let messages: Vec<Message> = app.messages.iter().skip(first).cloned().collect();
+    for (index, message) in messages.into_iter().enumerate() {
+        let act = ui.push_id(("message", index), |ui| bar(ui, &message)).inner;
+        match act {
+            None => {}
+            Some(Act::Dismiss) => {
+                app.messages.remove(first + index);
+            }
+            Some(Act::Remedy(Remedy::ShowNotes)) => app.panels.notes = true,
+        }
+    }
+}
+
+enum Act {
+    Dismiss,
+    Remedy(Remedy),
+}
+
+fn bar(ui: &mut Ui, message: &Message) -> Option<Act> {
+    let (icon, mark, ground) = severity_colours(ui, message.severity);
+    let mut act = None;
+    let frame = Frame::new().fill(ground).inner_margin(Margin { left: 14, right: 8, top: 6, bottom: 6 });
+    let shown = frame.show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        ui.horizontal_top(|ui| {
+            ui.spacing_mut().item_spacing.x = 10.0;
+            let (square, _) = ui.allocate_exact_size(vec2(ICON, ROW), Sense::hover());
+            icon.paint(ui.painter(), Rect::from_center_size(square.center(), Vec2::splat(ICON)), mark);
+            let width = ui.available_width() - ROW - 10.0;
+            ui.vertical(|ui| {
+                ui.set_width(width);
+                ui.spacing_mut().item_spacing.y = 2.0;
+                ui.add_space(6.0);
+                let text = strong(&message.text, theme::BODY).color(colours(ui).text);
+                ui.add(Label::new(text).wrap());
+                if !message.detail.is_empty() {
+                    let detail = RichText::new(&message.detail).size(theme::SMALL).color(colours(ui).text);
+                    ui.add(Label::new(detail).wrap().selectable(true));
+                }
+                if let Some(remedy) = message.remedy
+                    && ui.link(RichText::new(remedy.title()).size(theme::SMALL)).clicked()
+                {
+                    act = Some(Act::Remedy(remedy));
+                }
+                ui.add_space(5.0);
+            });
+            if icon_button(ui, Icon::Close, "Dismiss message", None).on_hover_text("Dismiss").clicked() {
+                act = Some(Act::Dismiss);
+            }
+        });
+    });
+    let rect = shown.response.rect;
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, Stroke::new(1.0, colours(ui).border));
+    let role = if message.severity == Severity::Error { Role::Alert } else { Role::Status };
+    let said = ui.interact(rect, ui.scope_id().with("said"), Sense::hover());
+    said.widget_info(|| WidgetInfo::labeled(role, true, format!("{} {}", message.text, message.detail)));
+    act
+}

@@ -1,0 +1,138 @@
+//! The panels around the canvas, one file each.
+
+mod inspector;
+mod layers;
+mod messages;
+pub(super) mod notes;
+mod plans;
+mod questions;
+mod status;
+mod top_bar;
+pub(super) mod welcome;
+
+use egui::{CentralPanel, Frame, Margin, Panel, Ui};
+
+use super::{App, canvas, theme};
+use crate::plan::edit::{self, EditError};
+use crate::plan::{Plan, RoomId};
+
+/// What the panels remember.
+pub(super) struct Panels {
+    /// Whether the panel of plans and layers is shown.
+    pub left: bool,
+    /// Whether the inspector is shown.
+    pub right: bool,
+    /// The name's field is to take the keyboard.
+    pub focus_name: bool,
+    /// Whether the notes of the import are shown.
+    pub notes: bool,
+    /// Text that a person has changed and not finished.
+    field: Option<Field>,
+    /// Whether functions are suggested under their field.
+    suggests: bool,
+}
+
+impl Default for Panels {
+    fn default() -> Self {
+        Self { left: true, right: true, focus_name: false, notes: false, field: None, suggests: false }
+    }
+}
+
+/// A text field in the making.
+#[derive(Clone, Debug)]
+pub(super) struct Field {
+    room: RoomId,
+    kind: FieldKind,
+    text: String,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum FieldKind {
+    Name,
+    Function,
+}
+
+impl Field {
+    /// What the edit is called in the history.
+    pub(super) fn title(&self) -> &'static str {
+        match self.kind {
+            FieldKind::Name => "Rename room",
+            FieldKind::Function => "Set function",
+        }
+    }
+
+    /// # Errors
+    /// When the room is gone.
+    pub(super) fn apply(&self, plan: &Plan) -> Result<Plan, EditError> {
+        match self.kind {
+            FieldKind::Name => edit::set_name(plan, self.room, &self.text),
+            FieldKind::Function => edit::set_function(plan, self.room, &self.text),
+        }
+    }
+}
+
+impl Panels {
+    /// The text that is not part of the plan yet; it is taken out.
+    pub(super) fn take_field(&mut self) -> Option<Field> {
+        self.suggests = false;
+        self.field.take()
+    }
+
+    /// Forgets what belongs to the plan that was shown.
+    pub(super) fn forget(&mut self) {
+        self.field = None;
+        self.suggests = false;
+        self.notes = false;
+        self.focus_name = false;
+    }
+
+    /// Whether a dialog covers the window.
+    pub(super) fn is_dialog_open(&self) -> bool {
+        self.notes
+    }
+}
+
+/// Shows the window.
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    let colours = theme::colours(ui.visuals());
+    let frame = |margin: Margin| Frame::new().fill(colours.panel).inner_margin(margin);
+    app.canvas.hovered_in_panel = None;
+    Panel::top("top bar").exact_size(44.0).frame(frame(Margin::symmetric(8, 0))).show(ui, |ui| top_bar::show(app, ui));
+    Panel::bottom("status line")
+        .exact_size(30.0)
+        .frame(frame(Margin::symmetric(12, 0)))
+        .show(ui, |ui| status::show(app, ui));
+    if app.panels.left {
+        Panel::left("plans and layers")
+            .default_size(236.0)
+            .size_range(180.0..=440.0)
+            .frame(frame(Margin::symmetric(8, 8)))
+            .show(ui, |ui| {
+                Panel::bottom("layers")
+                    .frame(Frame::new())
+                    .show_separator_line(false)
+                    .show(ui, |ui| layers::show(app, ui));
+                plans::show(app, ui);
+                ui.take_available_space();
+            });
+    }
+    if app.panels.right && app.document.is_some() {
+        Panel::right("inspector")
+            .default_size(300.0)
+            .size_range(240.0..=520.0)
+            .frame(frame(Margin::ZERO))
+            .show(ui, |ui| inspector::show(app, ui));
+    }
+    CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        messages::show(app, ui);
+        if app.document.is_some() {
+            canvas::show(app, ui);
+        } else {
+            welcome::show(app, ui);
+        }
+        welcome::show_drop_target(ui);
+    });
+    notes::show(app, ui);
+    questions::show(app, ui);
+}

@@ -1,0 +1,73 @@
+//! What an import mended or left out.
+
+use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
+
+use crate::app::widgets::{caption, colours, dialog_frame, right, strong, text_button};
+use crate::app::{App, theme};
+use crate::formats::{Note, NoteKind};
+
+/// How many notes of each kind, in words: '3 things mended, 1 left out'.
+pub(in crate::app) fn summary(notes: &[Note]) -> String {
+    let number = |kind: NoteKind| notes.iter().filter(|note| note.kind == kind).count();
+    let (healed, skipped) = (number(NoteKind::Healed), number(NoteKind::Skipped));
+    let things = |number: usize| if number == 1 { "thing" } else { "things" };
+    match (healed, skipped) {
+        (0, skipped) => format!("{skipped} {} left out", things(skipped)),
+        (healed, 0) => format!("{healed} {} mended", things(healed)),
+        (healed, skipped) => format!("{healed} {} mended, {skipped} left out", things(healed)),
+    }
+}
+
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    let Some(document) = app.document.as_ref().filter(|_| app.panels.notes) else { return };
+    let response = Modal::new(Id::unique("import notes")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
+        ui.set_width(620.0_f32.min(ui.ctx().content_rect().width() - 80.0));
+        ui.label(strong("Import notes", theme::TITLE));
+        caption(ui, format!("{}: {}", document.origin.title(), summary(&document.notes)));
+        ui.add_space(8.0);
+        let height = (ui.ctx().content_rect().height() - 240.0).clamp(80.0, 420.0);
+        ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
+            for note in &document.notes {
+                let (word, colour) = match note.kind {
+                    NoteKind::Healed => ("Mended", colours(ui).text_weak),
+                    NoteKind::Skipped => ("Left out", colours(ui).warning),
+                };
+                ui.horizontal_top(|ui| {
+                    let word = strong(word, theme::SMALL).color(colour);
+                    ui.allocate_ui(vec2(64.0, 18.0), |ui| {
+                        ui.set_width(64.0);
+                        ui.label(word);
+                    });
+                    ui.vertical(|ui| {
+                        ui.spacing_mut().item_spacing.y = 1.0;
+                        ui.add(Label::new(&note.what).wrap().selectable(true));
+                        let place = RichText::new(note.place.to_string()).size(theme::SMALL);
+                        ui.add(Label::new(place.color(colours(ui).text_weak)).wrap().selectable(true));
+                    });
+                });
+                ui.add_space(4.0);
+            }
+        });
+        ui.add_space(12.0);
+        let mut is_done = false;
+        ui.horizontal(|ui| right(ui, |ui| is_done = text_button(ui, "Close", true).clicked()));
+        is_done
+    });
+    if response.inner || response.should_close() {
+        app.panels.notes = false;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formats::Place;
+
+    #[test]
+    fn summaries_read_well() {
+        let note = |kind| Note { kind, place: Place::default(), what: String::new() };
+        assert_eq!(summary(&[note(NoteKind::Healed)]), "1 thing mended");
+        assert_eq!(summary(&[note(NoteKind::Skipped), note(NoteKind::Skipped)]), "2 things left out");
+        assert_eq!(summary(&[note(NoteKind::Skipped), note(NoteKind::Healed)]), "1 thing mended, 1 left out");
+    }
+}

@@ -1,0 +1,102 @@
+//! The list of plans: those of the folder, and those that come with the program.
+
+use std::path::Path;
+
+use egui::{Role, ScrollArea, Ui};
+
+use crate::app::document::{Origin, bundled, file_name};
+use crate::app::icons::Icon;
+use crate::app::widgets::{Lead, ROW, Row, icon_button, right, section};
+use crate::app::{App, commands};
+
+/// A row of the list.
+enum Entry {
+    Title(String),
+    Plan { origin: Origin, text: String },
+    Storey { origin: Origin, text: String },
+}
+
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    let entries = entries(app);
+    ui.horizontal(|ui| {
+        section(ui, "Plans");
+        right(ui, |ui| {
+            ui.spacing_mut().item_spacing.x = 0.0;
+            if let Some(command) = commands::find("open")
+                && icon_button(ui, Icon::Plus, command.title, None).on_hover_text(command.help).clicked()
+            {
+                let context = ui.ctx().clone();
+                app.run_command(command.id, &context);
+            }
+        });
+    });
+    let current = app.document.as_ref().map(|document| document.origin.clone());
+    let mut wanted = None;
+    ui.spacing_mut().item_spacing.y = 0.0;
+    ScrollArea::vertical().auto_shrink([false, false]).show_rows(ui, ROW, entries.len(), |ui, range| {
+        for entry in &entries[range] {
+            match entry {
+                Entry::Title(text) => {
+                    ui.allocate_ui(egui::vec2(ui.available_width(), ROW), |ui| {
+                        ui.set_min_height(ROW);
+                        Row::new(Lead::None, text).muted().indent(8.0).show_only(ui);
+                    });
+                }
+                Entry::Plan { origin, text } => {
+                    let is_current = current.as_ref().is_some_and(|current| is_same_file(current, origin));
+                    let row = Row::new(Lead::Icon(Icon::Plan), text).selected(is_current);
+                    if row.button(ui, Role::ListBoxOption).clicked() && current.as_ref() != Some(origin) {
+                        wanted = Some(origin.clone());
+                    }
+                }
+                Entry::Storey { origin, text } => {
+                    let row = Row::new(Lead::None, text).indent(24.0).selected(current.as_ref() == Some(origin));
+                    if row.button(ui, Role::ListBoxOption).clicked() && current.as_ref() != Some(origin) {
+                        wanted = Some(origin.clone());
+                    }
+                }
+            }
+        }
+    });
+    if let Some(origin) = wanted {
+        app.open(origin);
+    }
+}
+
+fn entries(app: &App) -> Vec<Entry> {
+    let mut entries = Vec::new();
+    let document = app.document.as_ref();
+    if let Some(folder) = &app.list.folder
+        && !app.list.files.is_empty()
+    {
+        entries.push(Entry::Title(folder_name(folder)));
+        for path in &app.list.files {
+            let origin = Origin::File { path: path.clone(), storey: 0 };
+            let open = document.filter(|document| document.origin.path() == Some(path) && document.storeys.len() > 1);
+            entries.push(Entry::Plan { text: file_name(path), origin });
+            for (storey, plan) in open.iter().flat_map(|document| document.storeys.iter().enumerate()) {
+                let name = if plan.meta().storey.is_empty() { &plan.meta().name } else { &plan.meta().storey };
+                let text = if name.is_empty() { format!("Plan {}", storey + 1) } else { name.clone() };
+                entries.push(Entry::Storey { origin: Origin::File { path: path.clone(), storey }, text });
+            }
+        }
+    }
+    if !bundled().is_empty() {
+        entries.push(Entry::Title("Samples".to_owned()));
+    }
+    for (index, (_, plan)) in bundled().iter().enumerate() {
+        entries.push(Entry::Plan { origin: Origin::Bundled(index), text: plan.meta().name.clone() });
+    }
+    entries
+}
+
+fn is_same_file(p: &Origin, q: &Origin) -> bool {
+    match (p, q) {
+        (Origin::Bundled(p), Origin::Bundled(q)) => p == q,
+        _ => p.path().is_some() && p.path() == q.path(),
+    }
+}
+
+fn folder_name(folder: &Path) -> String {
+    if folder.as_os_str().is_empty() { "This folder".to_owned() } else { file_name(folder) }
+}

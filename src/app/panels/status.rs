@@ -1,0 +1,96 @@
+//! The line at the bottom: what is there, what was done, where the pointer is, how large.
+
+use egui::{Align, Layout, RichText, Sense, Ui, vec2};
+
+use crate::app::icons::Icon;
+use crate::app::widgets::{colours, icon_button, right};
+use crate::app::{App, commands, theme};
+
+/// Metres in a point of a screen of 96 points to the inch, which is what egui's points are meant to
+/// be.
+const METRES_PER_POINT: f64 = 0.0254 / 96.0;
+
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+        let weak = colours(ui).text_weak;
+        let small = |text: String| RichText::new(text).size(theme::SMALL).color(weak);
+        ui.label(small(left_text(app)));
+        right(ui, |ui| {
+            ui.spacing_mut().item_spacing.x = 2.0;
+            let Some(px_per_m) = app.canvas.px_per_m().filter(|_| app.document.is_some()) else { return };
+            zoom_button(app, ui, Icon::Plus, "zoom-in");
+            let scale = 1.0 / (px_per_m * METRES_PER_POINT);
+            let (rect, response) = ui.allocate_exact_size(vec2(60.0, 22.0), Sense::hover());
+            let text = format!("1:{}", thousands(scale.round().max(1.0) as u64));
+            let font = egui::FontId::proportional(theme::SMALL);
+            ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, &text, font, weak);
+            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("Scale {text}")));
+            response.on_hover_text("Scale on a screen of 96 points to the inch");
+            zoom_button(app, ui, Icon::Minus, "zoom-out");
+            ui.add_space(14.0);
+            if let Some(point) = app.canvas.pointer {
+                ui.label(small(format!("x {:.2} m    y {:.2} m", point.x, point.y)));
+            }
+        });
+    });
+}
+
+fn zoom_button(app: &mut App, ui: &mut Ui, icon: Icon, id: &str) {
+    let Some(command) = commands::find(id) else { return };
+    if icon_button(ui, icon, command.title, None).on_hover_text(command.title).clicked() {
+        let context = ui.ctx().clone();
+        app.run_command(id, &context);
+    }
+}
+
+fn left_text(app: &App) -> String {
+    if let Some(origin) = &app.opening {
+        return format!("Opening {}…", origin.title());
+    }
+    let Some(document) = &app.document else { return String::new() };
+    if document.derived().is_none() {
+        return "Working out rooms and features…".to_owned();
+    }
+    if !app.status.is_empty() {
+        return app.status.clone();
+    }
+    let plan = document.plan();
+    let passable = plan.openings().filter(|(_, opening)| opening.kind.is_passable()).count();
+    let mut text = format!("{}  ·  {}", count(plan.rooms().len(), "room"), count(passable, "opening"));
+    if plan.openings().len() > passable {
+        text.push_str(&format!("  ·  {}", count(plan.openings().len() - passable, "window")));
+    }
+    text
+}
+
+/// A number of things, in words.
+pub(super) fn count(number: usize, thing: &str) -> String {
+    let plural = if number == 1 { "" } else { "s" };
+    format!("{} {thing}{plural}", thousands(number as u64))
+}
+
+/// A number with its thousands apart.
+fn thousands(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            // A thin space that does not break, as ISO 80000 has it.
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_well() {
+        assert_eq!(count(1, "room"), "1 room");
+        assert_eq!(count(0, "room"), "0 rooms");
+        assert_eq!(count(1234567, "wall"), "1\u{202f}234\u{202f}567 walls");
+    }
+}

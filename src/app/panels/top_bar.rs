@@ -1,0 +1,125 @@
+//! The bar at the top: menus, the plan's title, tools.
+
+use egui::{
+    Align, Align2, Context, FontId, Layout, MenuBar, Response, Role, Sense, Stroke, Ui, UiBuilder, WidgetInfo, pos2,
+    vec2,
+};
+
+use crate::app::commands::{COMMANDS, Command, Menu};
+use crate::app::widgets::{Lead, Row, colours, icon_button, strong};
+use crate::app::{App, theme};
+
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    let bar = ui.max_rect();
+    let mut menus = ui.new_child(UiBuilder::new().max_rect(bar).layout(Layout::left_to_right(Align::Center)));
+    let left = MenuBar::new()
+        .ui(&mut menus, |ui| {
+            ui.spacing_mut().button_padding.x = 8.0;
+            ui.spacing_mut().item_spacing.x = 2.0;
+            let mut right = bar.left();
+            for menu in Menu::ALL {
+                right = ui.menu_button(menu.title(), |ui| menu_entries(app, ui, menu)).response.rect.right();
+            }
+            right
+        })
+        .inner;
+    let mut tools = ui.new_child(UiBuilder::new().max_rect(bar).layout(Layout::right_to_left(Align::Center)));
+    tools.spacing_mut().item_spacing.x = 2.0;
+    show_tools(app, &mut tools);
+    let right = tools.min_rect().left();
+    title(app, ui, left + 16.0, right - 16.0);
+}
+
+fn menu_entries(app: &mut App, ui: &mut Ui, menu: Menu) {
+    ui.set_width(260.0);
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let mut section = None;
+    for command in COMMANDS {
+        let Some((_, this)) = command.menu.filter(|(of, _)| *of == menu) else { continue };
+        if section.is_some_and(|section| section != this) {
+            ui.separator();
+        }
+        section = Some(this);
+        let is_available = (command.is_available)(app);
+        let shortcut = command.keys_text(ui.ctx());
+        let is_on = command.is_on.is_some_and(|is_on| is_on(app));
+        let row = Row::new(Lead::Tick(is_on), command.title).trail(&shortcut);
+        let response = ui.add_enabled_ui(is_available, |ui| row.button(ui, Role::MenuItem)).inner;
+        if response.clicked() {
+            let context = ui.ctx().clone();
+            app.run_command(command.id, &context);
+            ui.close();
+        }
+    }
+}
+
+/// The tools from the right, groups apart.
+fn show_tools(app: &mut App, ui: &mut Ui) {
+    let mut group = None;
+    for command in COMMANDS.iter().rev() {
+        let Some((icon, this)) = command.tool else { continue };
+        if group.is_some_and(|group| group != this) {
+            ui.add_space(6.0);
+            let (rect, _) = ui.allocate_exact_size(vec2(1.0, 18.0), Sense::hover());
+            ui.painter().vline(rect.center().x, rect.y_range(), Stroke::new(1.0, colours(ui).outline));
+            ui.add_space(6.0);
+        }
+        group = Some(this);
+        let is_on = command.is_on.map(|is_on| is_on(app));
+        let is_available = (command.is_available)(app);
+        let response = ui.add_enabled_ui(is_available, |ui| icon_button(ui, icon, command.title, is_on)).inner;
+        let response = with_tooltip(response, ui.ctx(), command);
+        if response.clicked() {
+            let context = ui.ctx().clone();
+            app.run_command(command.id, &context);
+        }
+    }
+}
+
+/// A command's title, shortcut and help under the pointer.
+fn with_tooltip(response: Response, context: &Context, command: &Command) -> Response {
+    let keys = command.keys_text(context);
+    let show = |ui: &mut Ui| {
+        ui.horizontal(|ui| {
+            ui.label(strong(command.title, theme::BODY));
+            ui.label(egui::RichText::new(&keys).color(colours(ui).text_weak));
+        });
+        ui.label(command.help);
+    };
+    response.on_hover_ui(show).on_disabled_hover_ui(show)
+}
+
+/// The plan's title in the middle of the window, as far as there is space.
+fn title(app: &App, ui: &Ui, left: f32, right: f32) {
+    let Some(document) = &app.document else { return };
+    let colours = colours(ui);
+    let bar = ui.max_rect();
+    let mut text = document.title();
+    if document.is_changed() {
+        text.insert_str(0, "• ");
+    }
+    let font = FontId::new(theme::BODY, theme::semibold());
+    let mut job = egui::text::LayoutJob::simple_singleline(text.clone(), font, colours.text);
+    let meta = document.plan().meta();
+    if !meta.storey.is_empty() && !document.title().contains(&meta.storey) {
+        let format = egui::TextFormat::simple(FontId::proportional(theme::BODY), colours.text_weak);
+        job.append(&meta.storey, 8.0, format);
+    }
+    job.wrap.max_width = (right - left).max(0.0);
+    job.wrap.max_rows = 1;
+    job.wrap.break_anywhere = true;
+    let galley = ui.painter().layout_job(job);
+    let size = galley.rect.size();
+    let start = (bar.center().x - size.x / 2.0).max(left).min((right - size.x).max(left));
+    let rect = Align2::LEFT_CENTER.anchor_size(pos2(start.round(), bar.center().y.round()), size);
+    let is_elided = galley.elided;
+    ui.painter().galley(rect.min, galley, colours.text);
+    let response = ui.interact(rect, ui.scope_id().with("title"), Sense::hover());
+    let name = if document.is_changed() { format!("{}, changed", document.title()) } else { document.title() };
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &name));
+    match document.origin.path() {
+        Some(path) => drop(response.on_hover_text(path.display().to_string())),
+        None if is_elided => drop(response.on_hover_text(text)),
+        None => {}
+    }
+}

@@ -1,0 +1,137 @@
+//! What is seen when no plan is open, and when a file is dragged over the window.
+
+use std::sync::Arc;
+
+use egui::emath::GuiRounding as _;
+use egui::epaint::StrokeKind;
+use egui::{
+    Align, Align2, FontId, Id, Label, LayerId, Layout, Order, Rect, Response, RichText, Role, ScrollArea, Sense,
+    Stroke, Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
+};
+
+use super::status::count;
+use crate::app::document::{Derived, Origin, bundled};
+use crate::app::scene_painter::ScenePainter;
+use crate::app::widgets::{colours, section, strong, text_button};
+use crate::app::{App, commands, theme};
+use crate::draw::{self, LabelColours, Layers, Palette, Style, View};
+use crate::labels::Schemes;
+use crate::plan::Plan;
+
+/// Size of a sample's card, in points.
+const CARD: Vec2 = vec2(208.0, 168.0);
+
+/// Space between cards.
+const GAP: f32 = 16.0;
+
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    let rect = ui.available_rect_before_wrap();
+    let palette = palette(ui);
+    ui.painter().rect_filled(rect, 0.0, theme::colour(palette.paper));
+    let samples = bundled().len();
+    let columns = ((rect.width() - 48.0 + GAP) / (CARD.x + GAP)).floor().clamp(1.0, 3.0);
+    let rows = (samples as f32 / columns).ceil();
+    let size = vec2(columns * (CARD.x + GAP) - GAP, 178.0 + rows * (CARD.y + GAP));
+    let column = Rect::from_center_size(rect.center(), size.min(rect.size())).round_to_pixels(ui.pixels_per_point());
+    let mut ui = ui.new_child(UiBuilder::new().max_rect(column).layout(Layout::top_down(Align::Min)));
+    ScrollArea::vertical().show(&mut ui, |ui| {
+        ui.label(strong("Enfilade", theme::DISPLAY));
+        ui.add_space(2.0);
+        let text = "Open a floor plan to see its rooms, the doors that join them, and what both say of each room.";
+        ui.add(Label::new(RichText::new(text).color(colours(ui).text_weak)).wrap());
+        ui.add_space(10.0);
+        ui.horizontal(|ui| {
+            let Some(command) = commands::find("open") else { return };
+            if text_button(ui, "Open a plan…", true).on_hover_text(command.help).clicked() {
+                app.choose_plan();
+            }
+            ui.add_space(4.0);
+            let hint = format!("{}, or drop a file anywhere here", command.keys_text(ui.ctx()));
+            ui.label(RichText::new(hint).color(colours(ui).text_weak));
+        });
+        ui.add_space(20.0);
+        if samples == 0 {
+            return;
+        }
+        section(ui, "Samples");
+        ui.add_space(4.0);
+        ui.spacing_mut().item_spacing = Vec2::splat(GAP);
+        ui.horizontal_wrapped(|ui| {
+            for (index, (_, plan)) in bundled().iter().enumerate() {
+                if card(app, ui, index, plan).clicked() {
+                    app.open(Origin::Bundled(index));
+                }
+            }
+        });
+    });
+}
+
+/// A sample with its picture.
+fn card(app: &mut App, ui: &mut Ui, index: usize, plan: &Plan) -> Response {
+    let (rect, response) = ui.allocate_exact_size(CARD, Sense::click());
+    let colours = colours(ui);
+    let radius = f32::from(theme::RADIUS_LARGE);
+    let ground = if response.hovered() { colours.hover } else { colours.panel };
+    ui.painter().rect_filled(rect, radius, ground);
+    let rim = if response.has_focus() { Stroke::new(2.0, colours.accent) } else { Stroke::new(1.0, colours.outline) };
+    ui.painter().rect_stroke(rect, radius, rim, StrokeKind::Inside);
+    let picture = Rect::from_min_max(rect.min + vec2(14.0, 12.0), rect.max - vec2(14.0, 50.0));
+    let sample = app.samples.get(index, plan, &app.schemes);
+    let (width_px, height_px) = (f64::from(picture.width()), f64::from(picture.height()));
+    let view = View {
+        pixel_ratio: f64::from(ui.pixels_per_point()),
+        ..View::fitting(sample.derived.drawing.bounds(), width_px, height_px, 0.0)
+    };
+    let theme = palette(ui).theme;
+    let layers = Layers { names: false, areas: false, ..Layers::default() };
+    let style = Style { theme, layers, ..Style::default() };
+    sample.painter.paint(&ui.painter_at(picture), picture, &sample.derived, &style, &view);
+    let title = FontId::new(theme::BODY, theme::semibold());
+    let at = pos2(rect.left() + 14.0, rect.bottom() - 31.0);
+    ui.painter().text(at, Align2::LEFT_CENTER, &plan.meta().name, title, colours.text);
+    let passable = plan.openings().filter(|(_, opening)| opening.kind.is_passable()).count();
+    let contents = format!("{}, {}", count(plan.rooms().len(), "room"), count(passable, "opening"));
+    let small = FontId::proportional(theme::SMALL);
+    ui.painter().text(at + vec2(0.0, 16.0), Align2::LEFT_CENTER, contents, small, colours.text_weak);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &plan.meta().name));
+    response
+}
+
+fn palette(ui: &Ui) -> &'static Palette {
+    Palette::of(if ui.visuals().dark_mode { draw::Theme::Dark } else { draw::Theme::Light }, LabelColours::Standard)
+}
+
+/// The samples' pictures, made when they are first seen.
+#[derive(Default)]
+pub(in crate::app) struct Samples(Vec<Option<Sample>>);
+
+struct Sample {
+    derived: Arc<Derived>,
+    painter: ScenePainter,
+}
+
+impl Samples {
+    fn get(&mut self, index: usize, plan: &Plan, schemes: &Schemes) -> &mut Sample {
+        if self.0.len() <= index {
+            self.0.resize_with(index + 1, || None);
+        }
+        self.0[index].get_or_insert_with(|| Sample {
+            derived: Arc::new(Derived::new(plan, schemes)),
+            painter: ScenePainter::default(),
+        })
+    }
+}
+
+/// Says that a dragged file can be let go.
+pub(super) fn show_drop_target(ui: &Ui) {
+    if ui.input(|input| input.raw.hovered_files.is_empty()) {
+        return;
+    }
+    let colours = colours(ui);
+    let rect = ui.max_rect().shrink(12.0);
+    let painter = ui.ctx().layer_painter(LayerId::new(Order::Foreground, Id::unique("drop target")));
+    painter.rect_filled(rect, f32::from(theme::RADIUS_LARGE), colours.accent_soft.gamma_multiply(0.92));
+    painter.rect_stroke(rect, f32::from(theme::RADIUS_LARGE), Stroke::new(2.0, colours.accent), StrokeKind::Inside);
+    let font = FontId::new(theme::TITLE, theme::semibold());
+    painter.text(rect.center(), Align2::CENTER_CENTER, "Drop to open", font, colours.text);
+}

@@ -1,0 +1,566 @@
+//! Paints the scene of a plan with egui: triangles made once a zoom level, moved while panning.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use egui::epaint::{CircleShape, Mesh, TessellationOptions, Tessellator, TextShape, Vertex, WHITE_UV};
+use egui::{Color32, FontFamily, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
+
+use super::document::Derived;
+use super::theme;
+use crate::draw::scene::arc_points;
+use crate::draw::{Anchor, Group, Item, Layer, Length, Rgba, Style, Text, View, Weight};
+use crate::geometry::Point;
+
+/// The layers that only move while panning, in their order.
+const SHAPE_LAYERS: [Layer; 5] = [Layer::Rooms, Layer::Boundaries, Layer::Walls, Layer::Openings, Layer::Graph];
+
+/// A piece of the scene is passed over as a whole when it lies outside the view.
+const CHUNK_VERTICES: usize = 20_000;
+
+/// A scene with more corners is not made anew for every frame of a zoom but scaled until the zoom
+/// rests: making it would take longer than a frame.
+const HEAVY_VERTICES: usize = 60_000;
+
+/// The cosine of the turn, 120 degrees, up to which corners of lines are mitred.
+const SHARPEST_MITRE: f32 = -0.5;
+
+/// With more rooms, names are not placed anew for every frame of a gesture.
+const MANY_NAMES: usize = 60;
+
+/// Zooming further than this from where the triangles were made shows the scaled edges' blur.
+const SCALED_AT_MOST: f64 = 1.6;
+
+/// Paints a plan, keeping what can be used again.
+#[derive(Default)]
+pub(super) struct ScenePainter {
+    shapes: Option<Shapes>,
+    names: Option<Names>,
+    /// Triangles of each polygon, which do not change with the zoom.
+    triangles: BTreeMap<(Layer, usize), Vec<u32>>,
+    last_view: Option<View>,
+}
+
+/// The triangles of everything but names at a zoom level.
+struct Shapes {
+    derived: Arc<Derived>,
+    style: Style,
+    view: View,
+    /// The point of the plan where the triangles' coordinates start.
+    anchor: Point,
+    chunks: Vec<Chunk>,
+    vertices: usize,
+    /// Where they were put last.
+    placed: Option<Placed>,
+}
+
+struct Chunk {
+    mesh: Mesh,
+    bounds: Rect,
+}
+
+struct Placed {
+    origin: Pos2,
+    scale: f32,
+    clip: Rect,
+    shapes: Vec<Shape>,
+}
+
+struct Names {
+    derived: Arc<Derived>,
+    style: Style,
+    view: View,
+    groups: Vec<Group>,
+}
+
+impl ScenePainter {
+    /// Paints a plan in `rect`, whose view is `view`. Asks for another frame when it has put off
+    /// something.
+    pub(super) fn paint(&mut self, painter: &Painter, rect: Rect, derived: &Arc<Derived>, style: &Style, view: &View) {
+        let is_moving = self.last_view.is_some_and(|last| last != *view);
+        self.last_view = Some(*view);
+        if is_moving {
+            painter.ctx().request_repaint();
+        }
+        self.update_shapes(derived, style, view, is_moving);
+        self.update_names(derived, style, view, is_moving);
+        for group in derived.drawing.layer(Layer::Grid, style, view) {
+            paint_grid(painter, rect, view, &group);
+        }
+        if let Some(shapes) = &mut self.shapes {
+            painter.extend(shapes.placed_in(rect, view, painter.clip_rect()).iter().cloned());
+        }
+        for group in self.names.iter().flat_map(|names| &names.groups) {
+            for item in &group.items {
+                if let Item::Text(text) = item {
+                    paint_text(painter, rect, view, text);
+                }
+            }
+        }
+    }
+
+    fn update_shapes(&mut self, derived: &Arc<Derived>, style: &Style, view: &View, is_moving: bool) {
+        if let Some(shapes) = &self.shapes {
+            let same_plan = Arc::ptr_eq(&shapes.derived, derived);
+            if !same_plan {
+                self.triangles.clear();
+            }
+            let scale = view.px_per_m / shapes.view.px_per_m;
+            let is_near = (1.0 / SCALED_AT_MOST..=SCALED_AT_MOST).contains(&scale);
+            let can_wait = is_moving && is_near && shapes.vertices > HEAVY_VERTICES;
+            let same_zoom = scale == 1.0 || can_wait;
+            let same_pixels = shapes.view.pixel_ratio == view.pixel_ratio;
+            if same_plan && shapes.style == *style && same_zoom && same_pixels {
+                return;
+            }
+        }
+        let mut writer = Writer::new(view);
+        for layer in SHAPE_LAYERS {
+            let mut polygons = 0;
+            for group in derived.drawing.layer(layer, style, view) {
+                for item in &group.items {
+                    if let Item::Polygon { outer, holes, colour } = item {
+                        let triangles = self.triangles.entry((layer, polygons)).or_insert_with(|| earcut(outer, holes));
+                        polygons += 1;
+                        writer.polygon(outer, holes, triangles, theme::colour(*colour));
+                    } else {
+                        writer.item(item);
+                    }
+                }
+            }
+        }
+        let chunks = writer.finish();
+        let vertices = chunks.iter().map(|chunk| chunk.mesh.vertices.len()).sum();
+        self.shapes = Some(Shapes {
+            derived: derived.clone(),
+            style: style.clone(),
+            view: *view,
+            anchor: view.centre,
+            chunks,
+            vertices,
+            placed: None,
+        });
+    }
+
+    fn update_names(&mut self, derived: &Arc<Derived>, style: &Style, view: &View, is_moving: bool) {
+        if let Some(names) = &self.names {
+            let can_wait = is_moving && derived.analysis.rooms.len() > MANY_NAMES;
+            let same_view = names.view == *view || can_wait;
+            if Arc::ptr_eq(&names.derived, derived) && names.style == *style && same_view {
+                return;
+            }
+        }
+        let groups = derived.drawing.layer(Layer::Names, style, view);
+        self.names = Some(Names { derived: derived.clone(), style: style.clone(), view: *view, groups });
+    }
+}
+
+impl Shapes {
+    /// The triangles at their place for a view.
+    fn placed_in(&mut self, rect: Rect, view: &View, clip: Rect) -> &[Shape] {
+        let origin = on_screen(rect, view, self.anchor);
+        let scale = (view.px_per_m / self.view.px_per_m) as f32;
+        let is_there = self
+            .placed
+            .as_ref()
+            .is_some_and(|placed| placed.origin == origin && placed.scale == scale && placed.clip == clip);
+        if !is_there {
+            let mut shapes = Vec::new();
+            for chunk in &self.chunks {
+                let bounds = Rect::from_min_max(
+                    origin + chunk.bounds.min.to_vec2() * scale,
+                    origin + chunk.bounds.max.to_vec2() * scale,
+                );
+                if bounds.intersects(clip) {
+                    let mut mesh = chunk.mesh.clone();
+                    for vertex in &mut mesh.vertices {
+                        vertex.pos = origin + vertex.pos.to_vec2() * scale;
+                    }
+                    shapes.push(Shape::mesh(mesh));
+                }
+            }
+            self.placed = Some(Placed { origin, scale, clip, shapes });
+        }
+        self.placed.as_ref().map(|placed| placed.shapes.as_slice()).unwrap_or_default()
+    }
+}
+
+/// Where a point of the plan is on the screen.
+pub(super) fn on_screen(rect: Rect, view: &View, point: Point) -> Pos2 {
+    let place = view.screen_from_plan(point);
+    rect.min + vec2(place.x as f32, place.y as f32)
+}
+
+/// The corners of a polygon's triangles, as indices into its points, rings one after the other.
+pub(super) fn earcut(outer: &[Point], holes: &[Vec<Point>]) -> Vec<u32> {
+    let mut starts: Vec<u32> = Vec::new();
+    let mut count = outer.len();
+    for hole in holes {
+        starts.push(count as u32);
+        count += hole.len();
+    }
+    let points = outer.iter().chain(holes.iter().flatten()).map(|point| [point.x, point.y]);
+    let mut triangles = Vec::new();
+    earcut::Earcut::new().earcut(points, &starts, &mut triangles);
+    triangles
+}
+
+/// A polygon with holes as a mesh with soft edges, for marks over the plan.
+pub(super) fn polygon_mesh(
+    rect: Rect,
+    view: &View,
+    outer: &[Point],
+    holes: &[Vec<Point>],
+    triangles: &[u32],
+    colour: Color32,
+) -> Mesh {
+    let mut writer = Writer::new(view);
+    writer.polygon(outer, holes, triangles, colour);
+    let mut mesh = Mesh::default();
+    for chunk in writer.finish() {
+        mesh.append(chunk.mesh);
+    }
+    mesh.translate(on_screen(rect, view, view.centre).to_vec2());
+    mesh
+}
+
+/// The outline of a ring as a mesh, for marks over the plan.
+pub(super) fn outline_mesh(rect: Rect, view: &View, ring: &[Point], stroke: Stroke) -> Mesh {
+    let mut writer = Writer::new(view);
+    let points = ring.iter().map(|&point| writer.place(point)).collect();
+    writer.path(points, true, stroke);
+    let mut mesh = writer.mesh;
+    mesh.translate(on_screen(rect, view, view.centre).to_vec2());
+    mesh
+}
+
+/// Writes shapes as triangles with feathered edges. Coordinates are egui's points from the view's
+/// centre.
+struct Writer<'a> {
+    view: &'a View,
+    tessellator: Tessellator,
+    /// Width of the soft rim along edges: a physical pixel.
+    feather: f32,
+    mesh: Mesh,
+    chunks: Vec<Chunk>,
+}
+
+impl<'a> Writer<'a> {
+    fn new(view: &'a View) -> Self {
+        let pixels_per_point = view.pixel_ratio as f32;
+        let options = TessellationOptions {
+            // The place on the screen is not known yet.
+            round_line_segments_to_pixels: false,
+            round_rects_to_pixels: false,
+            prerasterized_discs: false,
+            coarse_tessellation_culling: false,
+            ..TessellationOptions::default()
+        };
+        let tessellator = Tessellator::new(pixels_per_point, options, [1, 1], Vec::new());
+        Self { view, tessellator, feather: 1.0 / pixels_per_point, mesh: Mesh::default(), chunks: Vec::new() }
+    }
+
+    fn finish(mut self) -> Vec<Chunk> {
+        self.end_chunk();
+        self.chunks
+    }
+
+    fn end_chunk(&mut self) {
+        let mesh = std::mem::take(&mut self.mesh);
+        if !mesh.is_empty() {
+            self.chunks.push(Chunk { bounds: mesh.calc_bounds(), mesh });
+        }
+    }
+
+    fn place(&self, point: Point) -> Pos2 {
+        let from_centre = (point - self.view.centre) * self.view.px_per_m;
+        pos2(from_centre.x as f32, -from_centre.y as f32)
+    }
+
+    fn stroke(&self, width: Length, colour: Rgba) -> Stroke {
+        Stroke::new(self.view.px(width) as f32, theme::colour(colour))
+    }
+
+    fn item(&mut self, item: &Item) {
+        match item {
+            // Polygons come with their triangles, texts are painted for each frame.
+            Item::Polygon { .. } | Item::Text(_) => {}
+            Item::Line { points, closed, colour, width, dash } => {
+                let mut points: Vec<Pos2> = points.iter().map(|&point| self.place(point)).collect();
+                let stroke = self.stroke(*width, *colour);
+                match dash {
+                    None => self.path(points, *closed, stroke),
+                    Some(dash) => {
+                        if *closed {
+                            points.extend(points.first().copied());
+                        }
+                        let (length, gap) = (self.view.px(dash.dash) as f32, self.view.px(dash.gap) as f32);
+                        // Dashes shorter than a pixel are a line, not a million dashes.
+                        if length < self.feather {
+                            self.path(points, false, stroke);
+                        } else {
+                            for shape in Shape::dashed_line(&points, stroke, length, gap.max(self.feather)) {
+                                if let Shape::LineSegment { points, stroke } = shape {
+                                    self.path(points.to_vec(), false, stroke);
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+            Item::Arc { centre, from, to, colour, width } => {
+                let radius_px = centre.distance(*from) * self.view.px_per_m;
+                // Chords that stay within a tenth of a pixel of the arc: their number grows with the
+                // root of the radius.
+                let halvings = ((radius_px.max(1.0).sqrt() * 4.0).log2().ceil() as u32).clamp(2, 7);
+                let points = arc_points(*centre, *from, *to, halvings);
+                let points = points.into_iter().map(|point| self.place(point)).collect();
+                let stroke = self.stroke(*width, *colour);
+                self.path(points, false, stroke);
+            }
+            Item::Disc { centre, radius, fill, outline } => {
+                let shape = CircleShape {
+                    center: self.place(*centre),
+                    radius: self.view.px(*radius) as f32,
+                    fill: fill.map_or(Color32::TRANSPARENT, theme::colour),
+                    stroke: outline.map_or(Stroke::NONE, |(colour, width)| self.stroke(width, colour)),
+                };
+                self.tessellator.tessellate_circle(shape, &mut self.mesh);
+            }
+        }
+        if self.mesh.vertices.len() > CHUNK_VERTICES {
+            self.end_chunk();
+        }
+    }
+
+    /// A line along points, with soft sides. Corners are mitred; sharp ones, and the hairpins that
+    /// joined walls may have, are cut off.
+    fn path(&mut self, mut points: Vec<Pos2>, closed: bool, stroke: Stroke) {
+        if stroke.width <= 0.0 || stroke.color == Color32::TRANSPARENT {
+            return;
+        }
+        // Points closer than a hundredth of a pixel give no direction.
+        points.dedup_by(|p, q| p.distance(*q) < self.feather * 0.01);
+        let closed = closed && points.len() > 2;
+        if closed && points.first().zip(points.last()).is_some_and(|(p, q)| p.distance(*q) < self.feather * 0.01) {
+            points.pop();
+        }
+        let n = points.len();
+        if n < 2 {
+            return;
+        }
+        // What is thinner than a pixel is as wide and fainter.
+        let colour = stroke.color.gamma_multiply((stroke.width / self.feather).min(1.0));
+        let outer = stroke.width.max(self.feather) / 2.0 + self.feather / 2.0;
+        let inner = outer - self.feather;
+        let normal = |i: usize| (points[(i + 1) % n] - points[i % n]).normalized().rot90();
+        let first = self.mesh.vertices.len() as u32;
+        let mut stations = 0;
+        let mut station = |mesh: &mut Mesh, at: Pos2, across: Vec2| {
+            for (distance, color) in
+                [(-outer, Color32::TRANSPARENT), (-inner, colour), (inner, colour), (outer, Color32::TRANSPARENT)]
+            {
+                mesh.vertices.push(Vertex { pos: at + across * distance, uv: WHITE_UV, color });
+            }
+            stations += 1;
+        };
+        for (i, &point) in points.iter().enumerate() {
+            let (before, after) = match (closed, i) {
+                (false, 0) => (normal(0), normal(0)),
+                (false, i) if i == n - 1 => (normal(i - 1), normal(i - 1)),
+                (_, i) => (normal(i + n - 1), normal(i)),
+            };
+            let cosine = before.dot(after);
+            if cosine > SHARPEST_MITRE {
+                station(&mut self.mesh, point, (before + after) / (1.0 + cosine));
+            } else {
+                station(&mut self.mesh, point, before);
+                station(&mut self.mesh, point, after);
+            }
+        }
+        let pieces = if closed { stations } else { stations - 1 };
+        for piece in 0..pieces {
+            let (p, q) = (first + 4 * piece, first + 4 * ((piece + 1) % stations));
+            for strip in 0..3 {
+                let (a, b) = (p + strip, q + strip);
+                self.mesh.indices.extend([a, b, a + 1, a + 1, b, b + 1]);
+            }
+        }
+    }
+
+    /// A filled polygon: its triangles, drawn half a pixel in, and a rim that fades out.
+    fn polygon(&mut self, outer: &[Point], holes: &[Vec<Point>], triangles: &[u32], colour: Color32) {
+        if colour == Color32::TRANSPARENT {
+            return;
+        }
+        let first = self.mesh.vertices.len() as u32;
+        let rings = std::iter::once(outer).chain(holes.iter().map(Vec::as_slice));
+        // Inner and outer rim of a corner follow each other.
+        for (index, ring) in rings.enumerate() {
+            let points: Vec<Pos2> = ring.iter().map(|&point| self.place(point)).collect();
+            let outward = outward_normals(&points, index > 0);
+            let start = self.mesh.vertices.len() as u32;
+            for (&point, normal) in points.iter().zip(outward) {
+                let half = normal * (self.feather / 2.0);
+                self.mesh.vertices.push(Vertex { pos: point - half, uv: WHITE_UV, color: colour });
+                self.mesh.vertices.push(Vertex { pos: point + half, uv: WHITE_UV, color: Color32::TRANSPARENT });
+            }
+            let count = points.len() as u32;
+            for i in 0..count {
+                let (a, b) = (start + 2 * i, start + 2 * ((i + 1) % count));
+                self.mesh.indices.extend([a, b, a + 1, a + 1, b, b + 1]);
+            }
+        }
+        self.mesh.indices.extend(triangles.iter().map(|corner| first + 2 * corner));
+        if self.mesh.vertices.len() > CHUNK_VERTICES {
+            self.end_chunk();
+        }
+    }
+}
+
+/// For each corner of a ring the direction out of the polygon, as long as keeps the rim a pixel wide
+/// along both edges; at sharp corners at most twice that.
+fn outward_normals(ring: &[Pos2], is_hole: bool) -> Vec<Vec2> {
+    let n = ring.len();
+    let twice_area: f32 = (0..n).map(|i| cross(ring[i].to_vec2(), ring[(i + 1) % n].to_vec2())).sum();
+    // With y down, a positive area is clockwise: outside is on the left.
+    let side = if (twice_area > 0.0) == is_hole { -1.0 } else { 1.0 };
+    let edge_normal = |i: usize| {
+        let edge = ring[(i + 1) % n] - ring[i % n];
+        let length = edge.length();
+        if length > 0.0 { vec2(edge.y, -edge.x) * (side / length) } else { Vec2::ZERO }
+    };
+    (0..n)
+        .map(|i| {
+            let (before, after) = (edge_normal(i + n - 1), edge_normal(i));
+            // An edge without length has no direction: the other decides.
+            if before == Vec2::ZERO || after == Vec2::ZERO {
+                return before + after;
+            }
+            let sum = before + after;
+            sum / (1.0 + before.dot(after)).max(0.5)
+        })
+        .collect()
+}
+
+fn cross(p: Vec2, q: Vec2) -> f32 {
+    p.x * q.y - p.y * q.x
+}
+
+/// The grid's lines go along the screen's: egui puts them on whole pixels.
+fn paint_grid(painter: &Painter, rect: Rect, view: &View, group: &Group) {
+    for item in &group.items {
+        if let Item::Line { points, colour, width, .. } = item
+            && let [from, to] = points.as_slice()
+        {
+            let ends = [on_screen(rect, view, *from), on_screen(rect, view, *to)];
+            painter.line_segment(ends, Stroke::new(view.px(*width) as f32, theme::colour(*colour)));
+        }
+    }
+}
+
+fn paint_text(painter: &Painter, rect: Rect, view: &View, text: &Text) {
+    let family = match text.weight {
+        Weight::Regular => FontFamily::Proportional,
+        Weight::SemiBold => theme::semibold(),
+    };
+    let font = FontId::new(text.size_px as f32, family);
+    let galley = painter.layout_no_wrap(text.content.clone(), font, theme::colour(text.colour));
+    let baseline =
+        galley.rows.first().and_then(|row| row.glyphs.first().map(|glyph| row.pos.y + glyph.pos.y)).unwrap_or_default();
+    let width = galley.rect.width();
+    let shift = match text.anchor {
+        Anchor::Start => 0.0,
+        Anchor::Middle => width / 2.0,
+        Anchor::End => width,
+    };
+    let at = on_screen(rect, view, text.at) + vec2(text.offset_px.x as f32, text.offset_px.y as f32);
+    let pixels_per_point = view.pixel_ratio as f32;
+    let on_pixel = |value: f32| (value * pixels_per_point).round() / pixels_per_point;
+    let (corner, angle) = if text.upright {
+        (pos2(on_pixel(at.x) - baseline, at.y + shift), -std::f32::consts::FRAC_PI_2)
+    } else {
+        (pos2(at.x - shift, on_pixel(at.y) - baseline), 0.0)
+    };
+    if !painter.clip_rect().expand(width).contains(corner) {
+        return;
+    }
+    if let Some(halo) = text.halo {
+        let halo = theme::colour(halo);
+        for (x, y) in
+            [(-1.0, 0.0), (1.0, 0.0), (0.0, -1.0), (0.0, 1.0), (-0.7, -0.7), (0.7, -0.7), (-0.7, 0.7), (0.7, 0.7)]
+        {
+            let shape = TextShape::new(corner + vec2(x, y) * HALO_PX, galley.clone(), halo);
+            painter.add(shape.with_override_text_color(halo).with_angle(angle));
+        }
+    }
+    painter.add(TextShape::new(corner, galley, Color32::PLACEHOLDER).with_angle(angle));
+}
+
+/// How far the halo of a text reaches, in points.
+const HALO_PX: f32 = 1.6;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn view() -> View {
+        View { width_px: 100.0, height_px: 100.0, px_per_m: 10.0, centre: Point::default(), pixel_ratio: 1.0 }
+    }
+
+    /// Twice the area of a mesh's opaque triangles.
+    fn twice_solid_area(mesh: &Mesh) -> f32 {
+        let solid = |corner: &u32| mesh.vertices[*corner as usize].color == Color32::WHITE;
+        mesh.triangles()
+            .filter(|triangle| triangle.iter().all(solid))
+            .map(|triangle| {
+                let [a, b, c] = triangle.map(|corner| mesh.vertices[corner as usize].pos);
+                cross(b - a, c - a).abs()
+            })
+            .sum()
+    }
+
+    #[test]
+    fn a_polygon_with_a_hole_is_half_a_pixel_smaller_inside_its_soft_rim() {
+        let square =
+            |side: f64| [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)].map(|(x, y)| Point::new(x, y)).to_vec();
+        let outer = square(4.0);
+        for reversed in [false, true] {
+            let mut hole: Vec<Point> = square(2.0).iter().map(|p| Point::new(p.x + 1.0, p.y + 1.0)).collect();
+            if reversed {
+                hole.reverse();
+            }
+            let holes = vec![hole];
+            let triangles = earcut(&outer, &holes);
+            let view = view();
+            let mut writer = Writer::new(&view);
+            writer.polygon(&outer, &holes, &triangles, Color32::WHITE);
+            let chunks = writer.finish();
+            // 40 by 40 points less 20 by 20, each side drawn in by half a point.
+            let expected = 39.0 * 39.0 - 21.0 * 21.0;
+            assert_eq!(twice_solid_area(&chunks[0].mesh) / 2.0, expected, "{reversed}");
+        }
+    }
+
+    #[test]
+    fn lines_are_as_wide_as_they_say_and_hairpins_do_not_shoot_out() {
+        let view = view();
+        let mut writer = Writer::new(&view);
+        writer.path(vec![pos2(0.0, 0.0), pos2(10.0, 0.0)], false, Stroke::new(3.0, Color32::WHITE));
+        // The solid core is a pixel less wide than the line with its two soft sides.
+        assert_eq!(twice_solid_area(&writer.mesh) / 2.0, 10.0 * 2.0);
+        let mut writer = Writer::new(&view);
+        let hairpin = vec![pos2(0.0, 0.0), pos2(10.0, 0.0), pos2(0.0, 1e-4), pos2(0.0, 5.0)];
+        writer.path(hairpin, true, Stroke::new(2.0, Color32::WHITE));
+        assert!(Rect::from_min_max(pos2(-3.0, -3.0), pos2(13.0, 8.0)).contains_rect(writer.mesh.calc_bounds()));
+        writer.path(vec![pos2(1.0, 1.0); 5], true, Stroke::new(2.0, Color32::WHITE));
+        assert!(writer.mesh.vertices.iter().all(|vertex| vertex.pos.is_finite()));
+    }
+
+    #[test]
+    fn rings_with_repeated_points_stay_finite() {
+        let ring = [pos2(0.0, 0.0), pos2(0.0, 0.0), pos2(9.0, 0.0), pos2(9.0, 9.0), pos2(0.0, 0.0)];
+        assert!(outward_normals(&ring, false).iter().all(|normal| normal.is_finite() && normal.length() < 3.0));
+        assert!(outward_normals(&[], false).is_empty());
+    }
+}
