@@ -41,7 +41,7 @@ impl Picture {
     /// Where the two differ: magenta on a pale copy of this one. `None` where nothing does.
     fn difference(&self, other: &Self) -> Option<(usize, Self)> {
         if (self.width, self.height) != (other.width, other.height) {
-            let rgba = vec![255, 0, 255, 255].repeat((self.width * self.height) as usize);
+            let rgba = [255, 0, 255, 255].repeat((self.width * self.height) as usize);
             return Some(((self.width * self.height) as usize, Self { rgba, ..*self }));
         }
         let mut differing = 0;
