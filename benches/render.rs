@@ -6,7 +6,7 @@
 use std::hint::black_box;
 
 use enfilade::draw::sheet::{self, Furniture, PageSize};
-use enfilade::draw::{Drawing, Layer, Scene, Style, png, svg};
+use enfilade::draw::{Drawing, Layer, Scene, Style, View, png, svg};
 use enfilade::features::{NeighbourLabels, analyse};
 use enfilade::geometry::Point;
 use enfilade::labels::{Schemes, Typology};
@@ -14,23 +14,23 @@ use enfilade::plan::{Builder, Meta, Opening, OpeningKind, Place, Plan, Room};
 
 const FUNCTIONS: [&str; 5] = ["office", "shared office", "corridor", "washroom", "conference room"];
 
-/// A storey of 10 by 10 rooms with walls, a door and a window each.
-fn storey() -> Plan {
+/// A storey of `n` by `n` rooms with walls, a door and a window each.
+fn storey(n: i32) -> Plan {
     let meta = Meta { name: "Bench".to_owned(), typology: Typology::new("office"), ..Meta::default() };
     let mut builder = Builder::new(meta);
     let (width, depth) = (4.2, 5.4);
-    for row in 0..10 {
-        for column in 0..10 {
+    for row in 0..n {
+        for column in 0..n {
             let (x, y) = (f64::from(column) * width, f64::from(row) * depth);
             let ring = builder
                 .ring([(x, y), (x + width, y), (x + width, y + depth), (x, y + depth)].map(|(x, y)| Point::new(x, y)));
             let [a, b, c, d] = [ring[0], ring[1], ring[2], ring[3]];
             builder.wall(a, b, 0.15);
             builder.wall(d, a, 0.15);
-            if row == 9 {
+            if row + 1 == n {
                 builder.wall(c, d, 0.3);
             }
-            if column == 9 {
+            if column + 1 == n {
                 builder.wall(b, c, 0.3);
             }
             let function = FUNCTIONS[(row * 3 + column) as usize % FUNCTIONS.len()].to_owned();
@@ -68,7 +68,7 @@ fn now_s() -> f64 {
 
 #[expect(clippy::print_stdout, reason = "a bench prints what it measured")]
 fn main() {
-    let plan = storey();
+    let plan = storey(10);
     let schemes = Schemes::bundled();
     let analysis = analyse(&plan, &schemes, NeighbourLabels::True);
     let drawing = Drawing::new(&plan, &analysis);
@@ -99,4 +99,15 @@ fn main() {
             drop(black_box(png::png(&scene)));
         })
     );
+    // What the window does after an edit and after zooming, on a plan of 2,500 rooms.
+    let plan = storey(50);
+    let analysis = analyse(&plan, &schemes, NeighbourLabels::True);
+    let drawing = Drawing::new(&plan, &analysis);
+    println!("rooms {}, openings {}", plan.rooms().len(), plan.openings().len());
+    println!("drawing      {:6.2} ms", mean_ms(|| drop(black_box(Drawing::new(&plan, &analysis)))));
+    for (part, px_per_m) in [("whole", 8.0), ("a tenth", 80.0)] {
+        let view =
+            View { width_px: 1600.0, height_px: 1000.0, px_per_m, ..View::fitting(drawing.bounds(), 1.0, 1.0, 0.0) };
+        println!("scene        {:6.2} ms, {part} seen", mean_ms(|| drop(black_box(drawing.scene(&style, &view)))));
+    }
 }

@@ -403,7 +403,9 @@ fn graph_edges(analysis: &Analysis, rooms: &[RoomDrawing], openings: &[OpeningDr
     let room = |joint: Joint| rooms.get(analysis.shapes.index_of(joint.room()?)?).filter(|room| !room.outer.is_empty());
     let mut edges = Vec::new();
     for connection in analysis.graph.connections() {
-        let Some(opening) = openings.iter().find(|opening| opening.id == connection.opening) else { continue };
+        // They are in the order of their ids, as the plan's are.
+        let Ok(index) = openings.binary_search_by_key(&connection.opening, |opening| opening.id) else { continue };
+        let opening = &openings[index];
         let (first, second) = match connection.sides.map(room) {
             [Some(first), Some(second)] if first.id == second.id => continue,
             [Some(first), second] => (first, second),

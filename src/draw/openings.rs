@@ -1,6 +1,8 @@
 //! Doors, passages and windows as an architect draws them: cut out of the wall they stand in, doors
 //! with their leaf and the arc it swings through.
 
+use std::collections::BTreeMap;
+
 use super::drawing::RoomDrawing;
 use super::scene::{Dash, Frame, Group, Item, Layer, Length, View};
 use super::walls::{self, Faces};
@@ -64,10 +66,12 @@ impl OpeningDrawing {
     /// All openings by id.
     pub fn all(plan: &Plan, analysis: &Analysis, rooms: &[RoomDrawing], faces: &Faces) -> Vec<Self> {
         let mut drawn: Vec<Self> = Vec::new();
+        let mut hung = Hung::default();
         for (id, opening) in plan.openings() {
             let Some(mut seated) = Self::seated(plan, id, opening, faces) else { continue };
             seated.sides = [1.0, -1.0].map(|side| seated.room_beside(side, analysis));
-            seated.hang(opening, rooms, faces, &drawn);
+            seated.hang(opening, rooms, faces, &hung);
+            hung.add(&seated.leaves);
             drawn.push(seated);
         }
         drawn
@@ -135,7 +139,7 @@ impl OpeningDrawing {
     }
 
     /// Hangs a door's leaves: as the plan says, else as an architect would.
-    fn hang(&mut self, opening: &Opening, rooms: &[RoomDrawing], faces: &Faces, others: &[Self]) {
+    fn hang(&mut self, opening: &Opening, rooms: &[RoomDrawing], faces: &Faces, hung: &Hung) {
         let width = 2.0 * self.half_width;
         let leaf_count = match self.kind {
             OpeningKind::Door if width <= WIDEST_LEAF_M => 1.0,
@@ -155,7 +159,7 @@ impl OpeningDrawing {
         for (side, room, other) in [(LeafSide::Left, left, right), (LeafSide::Right, right, left)] {
             for hinge_at_start in [true, false] {
                 let leaves = self.leaves(leaf_count, hinge_at_start, side);
-                let cost = swing_cost(&leaves, room, other, others)
+                let cost = swing_cost(&leaves, room, other, hung)
                     + self.hinge_cost(hinge_at_start, side, faces) * f64::from(leaf_count == 1.0);
                 if best.as_ref().is_none_or(|(least, _)| cost < *least - 1e-9) {
                     best = Some((cost, leaves));
@@ -355,13 +359,42 @@ const BESIDE_M: f64 = 0.1;
 /// A cut reaches this far beyond the faces, in metres, to leave no skin.
 const CUT_BEYOND_M: f64 = 0.01;
 
+/// The leaves hung so far, by place.
+#[derive(Default)]
+struct Hung {
+    by_cell: BTreeMap<(i64, i64), Vec<Leaf>>,
+}
+
+impl Hung {
+    /// Wider than the widest leaf: what sweeps over a point hangs in its cell or one beside.
+    const CELL_M: f64 = 1.5;
+
+    fn cell(point: Point) -> (i64, i64) {
+        ((point.x / Self::CELL_M).floor() as i64, (point.y / Self::CELL_M).floor() as i64)
+    }
+
+    fn add(&mut self, leaves: &[Leaf]) {
+        for leaf in leaves {
+            self.by_cell.entry(Self::cell(leaf.hinge)).or_default().push(*leaf);
+        }
+    }
+
+    /// Whether a leaf swings over a point.
+    fn is_swept(&self, point: Point) -> bool {
+        let (column, row) = Self::cell(point);
+        let near = (column - 1..=column + 1)
+            .flat_map(|column| self.by_cell.range((column, row - 1)..=(column, row + 1)))
+            .flat_map(|(_, leaves)| leaves);
+        near.into_iter().any(|leaf| {
+            let (open, shut) = (leaf.tip - leaf.hinge, leaf.shut - leaf.hinge);
+            let from = point - leaf.hinge;
+            from.dot(open) > 0.0 && from.dot(shut) > 0.0 && from.length() < open.length()
+        })
+    }
+}
+
 /// How bad it is that leaves open into `room`, away from `other`.
-fn swing_cost(
-    leaves: &[Leaf],
-    room: Option<&RoomDrawing>,
-    other: Option<&RoomDrawing>,
-    hung: &[OpeningDrawing],
-) -> f64 {
+fn swing_cost(leaves: &[Leaf], room: Option<&RoomDrawing>, other: Option<&RoomDrawing>, hung: &Hung) -> f64 {
     let Some(room) = room else {
         // Out of the building: into the way of people outside.
         return 12.0;
@@ -383,12 +416,7 @@ fn swing_cost(
             if !inside {
                 cost += 14.0 * share;
             }
-            let in_the_way = hung.iter().flat_map(|opening| &opening.leaves).any(|hung| {
-                let (open, shut) = (hung.tip - hung.hinge, hung.shut - hung.hinge);
-                let from = point - hung.hinge;
-                from.dot(open) > 0.0 && from.dot(shut) > 0.0 && from.length() < open.length()
-            });
-            if in_the_way {
+            if hung.is_swept(point) {
                 cost += 7.0 * share;
             }
         }

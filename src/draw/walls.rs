@@ -262,17 +262,21 @@ impl Derived {
         let median_m2 = areas.get(areas.len() / 2).copied().unwrap_or(USUAL_ROOM_M * USUAL_ROOM_M);
         let scale = (median_m2.sqrt() / USUAL_ROOM_M).clamp(0.5, 1.5);
 
-        let rooms_area: Shapes = indoors.simplify_shape(FillRule::NonZero);
+        let rooms_area = cleaned(&indoors.simplify_shape(FillRule::NonZero));
         // Closing (grown, then shrunk by the same) fills what is narrower than the thickest wall:
         // between rooms, and between them and balconies.
-        let reach = THICKEST_WALL_M / 2.0 * scale.min(1.0);
+        let reach = THICKEST_DRAWN_M / 2.0 * scale.min(1.0);
         let closed = |shapes: &Shapes| grown(&grown(shapes, reach), -reach);
         let building = closed(&rooms_area);
         let gaps = if outdoors.is_empty() {
             building.overlay(&rooms_area, OverlayRule::Difference, FillRule::NonZero)
         } else {
             let all: Vec<Ring> = indoors.iter().chain(&outdoors).cloned().collect();
-            closed(&all.simplify_shape(FillRule::NonZero)).overlay(&all, OverlayRule::Difference, FillRule::NonZero)
+            closed(&cleaned(&all.simplify_shape(FillRule::NonZero))).overlay(
+                &all,
+                OverlayRule::Difference,
+                FillRule::NonZero,
+            )
         };
         // Rooms drawn to the faces of walls leave much of the building to walls; rooms that meet on
         // centre lines leave none.
@@ -286,16 +290,27 @@ impl Derived {
         // twice but not once, less what is wide (a room drawn within another).
         let overlaps =
             rooms_area.overlay(&indoors.simplify_shape(FillRule::EvenOdd), OverlayRule::Difference, FillRule::NonZero);
-        let wide = grown(&grown(&overlaps, -reach), reach);
+        let wide = grown(&grown(&cleaned(&overlaps), -reach), reach);
         let overlaps = overlaps.overlay(&wide, OverlayRule::Difference, FillRule::NonZero);
         let all: Vec<Ring> = gaps.into_iter().chain(shell).chain(partitions).chain(overlaps).flatten().collect();
         let mut solid: Shapes = all.simplify_shape(FillRule::NonZero);
         if !outdoors.is_empty() {
             solid = solid.overlay(&outdoors, OverlayRule::Difference, FillRule::NonZero);
         }
+        solid.retain(|shape| {
+            shape.first().is_some_and(|outer| polygon::signed_area(&points(outer)) >= SMALLEST_PIECE_M2 * scale * scale)
+        });
         Self { solid, railings }
     }
 }
+
+/// Gaps between rooms of an import up to this width in metres are drawn as walls: a little more than
+/// [`crate::plan::THICKEST_WALL_M`], for the masonry of old buildings with both its plasters.
+const THICKEST_DRAWN_M: f64 = 0.75;
+
+/// A made-up piece of wall of less than this, in m², that stands alone is a remnant between rooms drawn
+/// askew.
+const SMALLEST_PIECE_M2: f64 = 0.2;
 
 /// The joint of a made-up wall is mitred down to this angle in radians (30 degrees), else cut off.
 const SHARPEST_RAD: f64 = std::f64::consts::PI / 6.0;
@@ -307,7 +322,26 @@ const SHARE_OF_FACES_M: f64 = 0.03;
 
 /// Shapes grown (or shrunk, when negative) by a distance in metres.
 fn grown(shapes: &Shapes, by_m: f64) -> Shapes {
-    shapes.outline(&OutlineStyle::new(by_m).line_join(LineJoin::Miter(SHARPEST_RAD)))
+    cleaned(&shapes.outline(&OutlineStyle::new(by_m).line_join(LineJoin::Miter(SHARPEST_RAD))))
+}
+
+/// Shapes without what rounding leaves: points within a millimetre of the one before, rings of less than
+/// 10 cm². Grown again, such a splinter would become a spur as long as its mitre.
+fn cleaned(shapes: &Shapes) -> Shapes {
+    let clean_ring = |ring: &Ring| {
+        let mut kept = points(ring);
+        kept.dedup_by(|next, point| next.distance(*point) < 1e-3);
+        while kept.len() > 2 && kept[0].distance(kept[kept.len() - 1]) < 1e-3 {
+            kept.pop();
+        }
+        let is_kept = kept.len() >= 3 && polygon::signed_area(&kept).abs() >= 1e-3;
+        is_kept.then(|| kept.iter().map(|point| [point.x, point.y]).collect::<Ring>())
+    };
+    let clean_shape = |shape: &Vec<Ring>| {
+        let (outer, holes) = shape.split_first()?;
+        Some(std::iter::once(clean_ring(outer)?).chain(holes.iter().filter_map(clean_ring)).collect())
+    };
+    shapes.iter().filter_map(clean_shape).collect()
 }
 
 fn area_m2(shapes: &Shapes) -> f64 {
