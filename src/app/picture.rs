@@ -37,7 +37,10 @@ impl Picture {
         let most_bytes = most_pixels.saturating_mul(4);
         let mut decoder = png::Decoder::new_with_limits(source, png::Limits { bytes: most_bytes });
         decoder.set_transformations(png::Transformations::normalize_to_color8());
-        let what = |error: png::DecodingError| format!("it is no readable PNG ({error})");
+        let what = |error: png::DecodingError| match error {
+            png::DecodingError::LimitsExceeded => "it has too many pixels".to_owned(),
+            error => format!("it is no readable PNG ({error})"),
+        };
         let mut reader = decoder.read_info().map_err(what)?;
         let (width_px, height_px) = reader.info().size();
         let bytes = reader.output_buffer_size().filter(|_| width_px as usize * height_px as usize <= most_pixels);
