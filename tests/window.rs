@@ -1,77 +1,72 @@
-//! Pictures of the window, taken without a display.
+//! The window without a display: real pictures of it, compared pixel by pixel, and what it does when
+//! it is clicked, typed at, and told to close.
 
+#![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-use enfilade::app::{Offscreen, OffscreenOptions};
-use std::path::Path;
+#[path = "window/files.rs"]
+mod files;
+#[path = "window/golden.rs"]
+mod golden;
+#[path = "window/monkey.rs"]
+mod monkey;
+#[path = "window/pictures.rs"]
+mod pictures;
+#[path = "window/use.rs"]
+mod use_;
 
-fn save(window: &mut Offscreen, name: &str) {
-    let picture = window.picture();
-    let file =
-        std::fs::File::options().create(true).truncate(true).write(true).open(format!("/tmp/win/{name}.png")).unwrap();
-    let mut encoder = png::Encoder::new(file, picture.width_px, picture.height_px);
-    encoder.set_color(png::ColorType::Rgba);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.write_header().unwrap().write_image_data(&picture.rgba).unwrap();
+use egui::{Pos2, pos2};
+use enfilade::app::{Offscreen, OffscreenOptions, Picked};
+use enfilade::geometry::Bounds;
+use enfilade::plan::{RoomId, RoomLabel};
+
+/// A window that shows a bundled plan.
+fn window_with(stem: &str) -> Offscreen {
+    let mut window = Offscreen::new(OffscreenOptions::default());
+    assert!(window.open_bundled(stem), "{stem} is bundled");
+    window.settle().unwrap();
+    window
 }
 
-#[test]
-fn look() {
-    std::fs::create_dir_all("/tmp/win").unwrap();
-    for is_dark in [false, true] {
-        let mut window = Offscreen::new(OffscreenOptions { is_dark, ..OffscreenOptions::default() });
-        window.settle().unwrap();
-        let theme = if is_dark { "dark" } else { "light" };
-        save(&mut window, &format!("empty-{theme}"));
-        for plan in ["office", "school", "dwelling"] {
-            assert!(window.open_bundled(plan));
-            window.settle().unwrap();
-            save(&mut window, &format!("{plan}-{theme}"));
-            window.run_command("next-room");
-            window.run_command("next-room");
-            window.run_command("next-room");
-            window.run_command("next-room");
-            window.settle().unwrap();
-            save(&mut window, &format!("{plan}-{theme}-room"));
-        }
-        window.open(Path::new("/nowhere/plan.xml"));
-        window.settle().unwrap();
-        save(&mut window, &format!("error-{theme}"));
-        window.click_control("Dismiss message");
-        window.click_control("View");
-        window.settle().unwrap();
-        save(&mut window, &format!("menu-{theme}"));
-        window.key(egui::Modifiers::NONE, egui::Key::Escape);
-        window.run_command("graph");
-        window.run_command("fill-function");
-        window.settle().unwrap();
-        window.run_command("label-hall");
-        assert!(window.click_control("Function"));
-        window.settle().unwrap();
-        save(&mut window, &format!("function-{theme}"));
-        window.text("x");
-        window.settle().unwrap();
-        window.click_control("Function");
-        window.ask_to_close();
-        window.settle().unwrap();
-        save(&mut window, &format!("question-{theme}"));
-        let control = window.control("Grid").unwrap();
-        window.key(egui::Modifiers::NONE, egui::Key::Escape);
-        window.move_to(control.rect.center());
-        window.advance(1.0);
-        window.settle().unwrap();
-        save(&mut window, &format!("tooltip-{theme}"));
-        let mut window = Offscreen::new(OffscreenOptions {
-            is_dark,
-            scale: 2.0,
-            width: 1000,
-            height: 640,
-            ..OffscreenOptions::default()
-        });
-        window.open_bundled("office");
-        window.settle().unwrap();
-        window.run_command("next-room");
-        window.settle().unwrap();
-        save(&mut window, &format!("fine-{theme}"));
-    }
+/// The room of this name in the open plan.
+fn room(window: &Offscreen, name: &str) -> RoomId {
+    let plan = window.app().plan().unwrap();
+    plan.rooms().find(|(_, room)| room.name == name).map(|(id, _)| id).unwrap_or_else(|| panic!("no room {name}"))
+}
+
+/// The middle of the box around a room, on the screen.
+fn middle_of(window: &Offscreen, name: &str) -> Pos2 {
+    let plan = window.app().plan().unwrap();
+    let outer = &plan.room(room(window, name)).unwrap().outer;
+    let centre = Bounds::of(plan.ring_points(outer)).center();
+    window.app().screen_position(centre.x, centre.y).unwrap()
+}
+
+/// A place on the canvas beside the plan.
+fn beside(window: &Offscreen) -> Pos2 {
+    let bounds = window.app().plan().unwrap().bounds();
+    let corner = window.app().screen_position(bounds.min.x, bounds.max.y).unwrap();
+    pos2(corner.x - 15.0, corner.y - 15.0)
+}
+
+fn click_room(window: &mut Offscreen, name: &str) {
+    window.click(middle_of(window, name));
+    window.settle().unwrap();
+    assert_eq!(window.app().picked(), Some(Picked::Room(room(window, name))), "clicking {name}");
+}
+
+/// The label given to a room itself.
+fn own_label(window: &Offscreen, name: &str) -> Option<RoomLabel> {
+    window.app().plan().unwrap().room(room(window, name)).unwrap().label
+}
+
+/// Clicks a control that must be there.
+fn press(window: &mut Offscreen, name: &str) {
+    let names: Vec<String> = window.controls().into_iter().map(|control| control.name).collect();
+    assert!(window.click_control(name), "no control '{name}' among {names:?}");
+    window.settle().unwrap();
+}
+
+fn texts(window: &Offscreen) -> Vec<String> {
+    window.app().messages().iter().map(|message| format!("{} {}", message.text, message.detail)).collect()
 }

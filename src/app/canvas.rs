@@ -9,10 +9,10 @@ use egui::{
     Response, Role, Sense, Shape, Stroke, TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use super::App;
 use super::document::{Derived, Document, Picked};
 use super::scene_painter::{ScenePainter, earcut, on_screen, outline_mesh, polygon_mesh};
 use super::theme;
+use super::{App, Picture};
 use crate::draw::{self, Layers, Palette, Style, View};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::plan::{Backdrop, Plan};
@@ -333,17 +333,13 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     match act {
         None => {}
         Some(Act::Pick(picked)) => app.pick(picked),
+        Some(Act::PickNeighbour(step)) if app.pick_neighbour(step) => {}
         Some(Act::PickNeighbour(step)) => {
-            if !app.pick_neighbour(step) {
-                ui.memory_mut(|memory| {
-                    memory.surrender_focus(canvas_id());
-                    memory.move_focus(if step > 0 {
-                        egui::FocusDirection::Next
-                    } else {
-                        egui::FocusDirection::Previous
-                    });
-                });
-            }
+            let direction = if step > 0 { egui::FocusDirection::Next } else { egui::FocusDirection::Previous };
+            ui.memory_mut(|memory| {
+                memory.surrender_focus(canvas_id());
+                memory.move_focus(direction);
+            });
         }
         Some(Act::PickTowards(direction)) => app.pick_towards(direction),
         Some(Act::Rename) => {
@@ -368,11 +364,18 @@ impl Canvas {
         let view = self.view(rect, ui.pixels_per_point());
         self.seen = Some((view, rect));
 
-        let at = |point: Point| fresh.map(|derived| derived.at(point, PICK_REACH / view.px_per_m)).unwrap_or_default();
+        // While the plan is worked out anew after an edit, what was there before can still be picked:
+        // pressing on a room may be what ended the edit of another's name.
+        let at = |point: Point| {
+            let mut found = shown.map(|derived| derived.at(point, PICK_REACH / view.px_per_m)).unwrap_or_default();
+            found.retain(|&picked| exists(document.plan(), picked));
+            found
+        };
         let is_panning = response.dragged();
         self.hovered = self.pointer.filter(|_| !is_panning).and_then(|point| at(point).first().copied());
         let mut act = None;
-        if response.clicked()
+        // Not Space, with which egui clicks what has the keyboard.
+        if response.clicked_by(PointerButton::Primary)
             && let Some(place) = response.interact_pointer_pos()
         {
             act = Some(Act::Pick(self.clicked(place, || at(plan_point(&view, rect, place)))));
@@ -598,6 +601,14 @@ fn describe(document: &Document, picked: Option<Picked>) -> String {
     text
 }
 
+/// Whether a plan has what was picked.
+fn exists(plan: &Plan, picked: Picked) -> bool {
+    match picked {
+        Picked::Room(id) => plan.room(id).is_some(),
+        Picked::Opening(id) => plan.opening(id).is_some(),
+    }
+}
+
 /// What something on the canvas is called.
 pub(super) fn title_of(plan: &Plan, picked: Picked) -> String {
     match picked {
@@ -681,33 +692,9 @@ const PICTURE_PIXELS: usize = 1 << 28;
 /// When there is none, or it is damaged or too large, in words.
 pub(super) fn read_picture(path: &Path) -> Result<ColorImage, String> {
     let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
-    let limits = png::Limits { bytes: 4 * PICTURE_PIXELS };
-    let mut decoder = png::Decoder::new_with_limits(std::io::BufReader::new(file), limits);
-    decoder.set_transformations(png::Transformations::normalize_to_color8());
-    let what = |error: png::DecodingError| format!("it is no readable PNG ({error})");
-    let mut reader = decoder.read_info().map_err(what)?;
-    let size = [reader.info().width as usize, reader.info().height as usize];
-    let bytes = reader.output_buffer_size().filter(|bytes| *bytes <= 4 * PICTURE_PIXELS);
-    let Some(bytes) = bytes else { return Err(format!("it has {} by {} pixels, which is too many", size[0], size[1])) };
-    let mut data = vec![0; bytes];
-    let frame = reader.next_frame(&mut data).map_err(what)?;
-    data.truncate(frame.buffer_size());
-    let pixels: Vec<Color32> = match frame.color_type {
-        png::ColorType::Grayscale => data.iter().map(|&level| Color32::from_gray(level)).collect(),
-        png::ColorType::GrayscaleAlpha => {
-            data.chunks_exact(2).map(|p| Color32::from_rgba_unmultiplied(p[0], p[0], p[0], p[1])).collect()
-        }
-        png::ColorType::Rgb | png::ColorType::Indexed => {
-            data.chunks_exact(3).map(|p| Color32::from_rgb(p[0], p[1], p[2])).collect()
-        }
-        png::ColorType::Rgba => {
-            data.chunks_exact(4).map(|p| Color32::from_rgba_unmultiplied(p[0], p[1], p[2], p[3])).collect()
-        }
-    };
-    if pixels.len() != size[0] * size[1] {
-        return Err("its pixels are incomplete".to_owned());
-    }
-    Ok(ColorImage::new(size, pixels))
+    let picture = Picture::from_png(std::io::BufReader::new(file), PICTURE_PIXELS)?;
+    let size = [picture.width_px as usize, picture.height_px as usize];
+    Ok(ColorImage::from_rgba_unmultiplied(size, &picture.rgba))
 }
 
 /// A picture of half the size, each pixel the mean of four: for displays with small textures.

@@ -1,8 +1,9 @@
 //! The plan that is open: its history, where it came from, and what follows from it.
 
+use std::collections::BTreeMap;
 use std::hash::Hasher as _;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
@@ -20,6 +21,14 @@ pub(super) fn bundled() -> &'static [(&'static str, Plan)] {
     static PLANS: OnceLock<Vec<(&str, Plan)>> = OnceLock::new();
     // They read, or the tests fail; were one broken, there would be no samples.
     PLANS.get_or_init(|| store::bundled_plans().unwrap_or_default())
+}
+
+/// What follows from a bundled plan, worked out once.
+pub(super) fn derived_sample(index: usize, plan: &Plan) -> Arc<Derived> {
+    static DERIVED: Mutex<BTreeMap<usize, Arc<Derived>>> = Mutex::new(BTreeMap::new());
+    // A poisoned map only lacks an entry.
+    let mut derived = DERIVED.lock().unwrap_or_else(PoisonError::into_inner);
+    derived.entry(index).or_insert_with(|| Arc::new(Derived::new(plan, &Schemes::bundled()))).clone()
 }
 
 /// Where a plan came from.

@@ -12,6 +12,7 @@ mod files;
 mod icons;
 mod offscreen;
 mod panels;
+mod picture;
 mod plan_list;
 mod raster;
 mod scene_painter;
@@ -27,7 +28,8 @@ use egui::{Context, Ui};
 pub use document::Picked;
 pub use icons::Icon;
 pub use offscreen::{Control, NotSettled, Offscreen, OffscreenOptions};
-pub use raster::{Picture, Raster};
+pub use picture::{Difference, Picture};
+pub use raster::Raster;
 pub use theme::ThemeChoice;
 pub use window::{WindowError, WindowOptions, run_window};
 
@@ -66,6 +68,8 @@ pub struct App {
     question: Option<Question>,
     background: Background<Done>,
     dialogs: Dialogs,
+    /// Whether a text field had the keyboard when the last frame ended.
+    was_typing: bool,
     quitting: bool,
     is_close_sent: bool,
     shown_title: String,
@@ -173,6 +177,7 @@ impl App {
             question: None,
             background: Background::new(mode),
             dialogs,
+            was_typing: false,
             quitting: false,
             is_close_sent: false,
             shown_title: String::new(),
@@ -189,6 +194,7 @@ impl App {
         self.take_shortcuts(&context);
         self.refresh();
         panels::show(self, ui);
+        self.was_typing = context.text_edit_focused();
         self.update_title(&context);
         if self.background.is_busy() {
             self.background.request_frame(&context);
@@ -284,7 +290,8 @@ impl App {
     }
 
     fn take_shortcuts(&mut self, context: &Context) {
-        let is_typing = context.text_edit_focused();
+        // Escape has taken the keyboard from the text by now, but belongs to it all the same.
+        let is_typing = std::mem::take(&mut self.was_typing) || context.text_edit_focused();
         // An open menu has the keys to itself; the list under a text field leaves them to the text.
         let is_menu_open = egui::Popup::is_any_open(context) && !is_typing;
         if self.question.is_some() || self.panels.is_dialog_open() || is_menu_open {

@@ -13,12 +13,12 @@ use egui::{
     TouchPhase, Vec2, ViewportCommand, ViewportId, vec2,
 };
 
-use super::App;
 use super::background::Mode;
 use super::dialogs::Dialogs;
 use super::document::{Origin, bundled};
-use super::raster::{Picture, Raster};
+use super::raster::Raster;
 use super::theme::Motion;
+use super::{App, Picture};
 
 /// Seconds from frame to frame.
 const FRAME_SECS: f64 = 1.0 / 60.0;
@@ -347,7 +347,8 @@ impl Offscreen {
                 let bounds = node.bounds()?;
                 let corner = |x: f64, y: f64| Pos2::new(x as f32 / scale, y as f32 / scale);
                 Some(Control {
-                    name: node.label().unwrap_or_default().to_owned(),
+                    // Plain text carries what it says as its value.
+                    name: node.label().or(node.value()).unwrap_or_default().to_owned(),
                     role: node.role(),
                     rect: Rect::from_min_max(corner(bounds.x0, bounds.y0), corner(bounds.x1, bounds.y1)),
                     is_enabled: !node.is_disabled(),

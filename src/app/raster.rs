@@ -7,6 +7,7 @@
 
 use std::collections::BTreeMap;
 
+use super::Picture;
 use egui::epaint::{ClippedPrimitive, ImageData, ImageDelta, Primitive, Vertex};
 use egui::{Color32, Rect, TextureFilter, TextureId, TextureWrapMode, TexturesDelta};
 
@@ -22,21 +23,6 @@ const FAR: f32 = (1 << 28) as f32;
 
 /// Bits behind the point of an interpolated value.
 const FRACTION_BITS: u32 = 16;
-
-/// A finished picture, opaque, rows from the top.
-#[derive(Clone, PartialEq, Eq)]
-pub struct Picture {
-    pub width_px: u32,
-    pub height_px: u32,
-    /// Red, green, blue, alpha of each pixel.
-    pub rgba: Vec<u8>,
-}
-
-impl std::fmt::Debug for Picture {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "Picture({}x{})", self.width_px, self.height_px)
-    }
-}
 
 /// Keeps the textures that egui hands over and paints frames with them.
 #[derive(Default)]
@@ -167,7 +153,7 @@ struct Corner {
 impl Corner {
     fn new(vertex: &Vertex, pixels_per_point: f32) -> Self {
         // A float becomes a whole number by saturation and not-a-number becomes 0: no surprise.
-        let place = |value: f32| (value * pixels_per_point * SUBPIXELS as f32).round().clamp(-FAR, FAR) as i64;
+        let place = |value: f32| whole(f64::from((value * pixels_per_point * SUBPIXELS as f32).clamp(-FAR, FAR)));
         Self {
             x: place(vertex.pos.x),
             y: place(vertex.pos.y),
@@ -214,7 +200,62 @@ impl Clip {
 
 /// The first pixel whose centre lies at or behind a place in subpixels.
 fn first_pixel(subpixels: i64) -> i64 {
-    (subpixels - CENTRE).div_euclid(SUBPIXELS) + i64::from((subpixels - CENTRE).rem_euclid(SUBPIXELS) != 0)
+    (subpixels - CENTRE + SUBPIXELS - 1).div_euclid(SUBPIXELS)
+}
+
+/// The nearest whole number; half is rounded away from zero. (`f64::round` is a call into the C
+/// library where the processor's baseline has no such instruction.)
+fn whole(value: f64) -> i64 {
+    (if value < 0.0 { value - 0.5 } else { value + 0.5 }) as i64
+}
+
+/// A colour, premultiplied, each channel in 1/256 of a level.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Colour {
+    r: u32,
+    g: u32,
+    b: u32,
+    a: u32,
+}
+
+/// A full channel.
+const OPAQUE: u32 = 255 * 256;
+
+impl Colour {
+    const NONE: Self = Self { r: 0, g: 0, b: 0, a: 0 };
+
+    #[inline]
+    fn of_bytes(bytes: [u8; 4]) -> Self {
+        let [r, g, b, a] = bytes;
+        Self { r: u32::from(r) << 8, g: u32::from(g) << 8, b: u32::from(b) << 8, a: u32::from(a) << 8 }
+    }
+
+    /// Channel by channel.
+    #[inline]
+    fn times(self, other: Self) -> Self {
+        // Both factors are at most 65280, so the product fits.
+        Self {
+            r: self.r * other.r / OPAQUE,
+            g: self.g * other.g / OPAQUE,
+            b: self.b * other.b / OPAQUE,
+            a: self.a * other.a / OPAQUE,
+        }
+    }
+
+    /// All channels times a byte as a fraction of 255.
+    #[inline]
+    fn covered(self, by: u8) -> Self {
+        let by = u32::from(by);
+        Self { r: self.r * by / 255, g: self.g * by / 255, b: self.b * by / 255, a: self.a * by / 255 }
+    }
+
+    /// Puts it over a pixel of the picture, which stays opaque.
+    #[inline]
+    fn over(self, pixel: &mut [u8; 4]) {
+        let rest = OPAQUE - self.a.min(OPAQUE);
+        let mix = |source: u32, below: u8| ((source + u32::from(below) * rest / 255 + 128) >> 8).min(255) as u8;
+        *pixel = [mix(self.r, pixel[0]), mix(self.g, pixel[1]), mix(self.b, pixel[2]), 255];
+    }
 }
 
 struct Target {
@@ -233,8 +274,9 @@ impl Target {
         if left >= right || top >= bottom {
             return;
         }
+        let tint = Colour::of_bytes(a.color);
         if a.u == d.u && a.v == d.v {
-            let source = tint(a.color, texture.at(a.u, a.v));
+            let source = tint.times(texture.at(a.u, a.v));
             for y in top..bottom {
                 self.solid_span(y, left, right, source);
             }
@@ -243,18 +285,21 @@ impl Target {
         // Both sides have a length here: at least one pixel centre lies between them.
         let step_u = texture.fixed(d.u - a.u, texture.width) / (d.x - a.x) as f64;
         let step_v = texture.fixed(d.v - a.v, texture.height) / (d.y - a.y) as f64;
-        let start_u = texture.fixed(a.u, texture.width);
-        let start_v = texture.fixed(a.v, texture.height);
-        let color = a.color.map(|channel| i64::from(channel) << FRACTION_BITS);
+        let u = texture.fixed(a.u, texture.width) + step_u * (left * SUBPIXELS + CENTRE - a.x) as f64;
+        let v = texture.fixed(a.v, texture.height) + step_v * (top * SUBPIXELS + CENTRE - a.y) as f64;
+        let (u, v) = (whole(u), whole(v));
+        let (step_u, step_v) = (whole(step_u * SUBPIXELS as f64), whole(step_v * SUBPIXELS as f64));
+        if let Some((column, row)) = texture.aligned(u, v, step_u, step_v, right - left, bottom - top) {
+            for y in top..bottom {
+                let texels = texture.row(row + (y - top) as usize, column, (right - left) as usize);
+                glyph_span(self.span(y, left, right), texels, tint);
+            }
+            return;
+        }
         for y in top..bottom {
-            let across = (left * SUBPIXELS + CENTRE - a.x) as f64;
-            let down = (y * SUBPIXELS + CENTRE - a.y) as f64;
-            let from = Sample {
-                color,
-                u: (start_u + step_u * across).round() as i64,
-                v: (start_v + step_v * down).round() as i64,
-            };
-            let step = Sample { color: [0; 4], u: (step_u * SUBPIXELS as f64).round() as i64, v: 0 };
+            let v = v + step_v * (y - top);
+            let from = Sample { color: Interpolated::constant(a.color), u, v };
+            let step = Sample { color: Interpolated::ZERO, u: step_u, v: 0 };
             self.textured_span(texture, y, left, right, from, step);
         }
     }
@@ -277,62 +322,70 @@ impl Target {
         if left >= right || top >= bottom {
             return;
         }
-        let edges = [Edge::new(&a, &b), Edge::new(&b, &c), Edge::new(&c, &a)];
         let same_texel = a.u == b.u && a.v == b.v && a.u == c.u && a.v == c.v;
         let same_color = a.color == b.color && a.color == c.color;
-        let solid = (same_texel && same_color).then(|| tint(a.color, texture.at(a.u, a.v)));
-        let planes = match solid {
-            Some(_) => None,
-            None => Some(Planes::new(texture, &a, &b, &c, twice_area)),
+        if same_texel && same_color && a.color == [0; 4] {
+            return;
+        }
+        let paint = if same_texel && same_color {
+            Paint::Solid(Colour::of_bytes(a.color).times(texture.at(a.u, a.v)))
+        } else if same_texel {
+            Paint::Shaded(Planes::new(None, &a, &b, &c, twice_area), texture.at(a.u, a.v))
+        } else {
+            Paint::Textured(Planes::new(Some(texture), &a, &b, &c, twice_area))
         };
+        let mut edges = [Edge::new(&a, &b, top), Edge::new(&b, &c, top), Edge::new(&c, &a, top)];
         for y in top..bottom {
             let (mut from, mut to) = (left, right);
-            for edge in &edges {
-                edge.narrow(y, &mut from, &mut to);
+            for edge in &mut edges {
+                edge.narrow(&mut from, &mut to);
             }
             if from >= to {
                 continue;
             }
-            match (solid, &planes) {
-                (Some(source), _) => self.solid_span(y, from, to, source),
-                (None, Some(planes)) => {
-                    let start = planes.sample(from, y);
-                    if same_texel {
-                        self.shaded_span(y, from, to, texture.at(a.u, a.v), start.color, planes.step.color);
-                    } else {
-                        self.textured_span(texture, y, from, to, start, planes.step);
-                    }
+            match &paint {
+                Paint::Solid(source) => self.solid_span(y, from, to, *source),
+                Paint::Shaded(planes, texel) => {
+                    let start = planes.sample(from, y).color;
+                    self.shaded_span(y, from, to, *texel, start, planes.step.color);
                 }
-                (None, None) => {}
+                Paint::Textured(planes) => {
+                    self.textured_span(texture, y, from, to, planes.sample(from, y), planes.step);
+                }
             }
         }
     }
 
+    #[inline]
     fn span(&mut self, y: i64, from: i64, to: i64) -> &mut [[u8; 4]] {
         let start = y as usize * self.width;
         &mut self.pixels[start + from as usize..start + to as usize]
     }
 
-    /// Pixels of one colour, given in 1/256 of a level.
-    fn solid_span(&mut self, y: i64, from: i64, to: i64, source: [u32; 4]) {
+    /// Pixels of one colour.
+    #[inline]
+    fn solid_span(&mut self, y: i64, from: i64, to: i64, source: Colour) {
         let span = self.span(y, from, to);
-        if source[3] == OPAQUE {
-            span.fill(source.map(|channel| ((channel + 128) >> 8).min(255) as u8));
-        } else if source != [0; 4] {
+        if source.a == OPAQUE {
+            let mut pixel = [0; 4];
+            source.over(&mut pixel);
+            span.fill(pixel);
+        } else if source != Colour::NONE {
             for pixel in span {
-                blend(pixel, source);
+                source.over(pixel);
             }
         }
     }
 
     /// Pixels with an interpolated colour times one texel.
-    fn shaded_span(&mut self, y: i64, from: i64, to: i64, texel: [u32; 4], mut color: [i64; 4], step: [i64; 4]) {
+    #[inline]
+    fn shaded_span(&mut self, y: i64, from: i64, to: i64, texel: Colour, mut color: Interpolated, step: Interpolated) {
+        let is_white = texel == Colour::of_bytes([255; 4]);
         for pixel in self.span(y, from, to) {
-            let source = std::array::from_fn(|i| channel(color[i]) * texel[i] / OPAQUE);
-            blend(pixel, source);
-            for i in 0..4 {
-                color[i] += step[i];
-            }
+            let source = color.colour();
+            let source = if is_white { source } else { source.times(texel) };
+            source.over(pixel);
+            color.advance(step);
         }
     }
 
@@ -340,155 +393,229 @@ impl Target {
     fn textured_span(&mut self, texture: &Texture, y: i64, from: i64, to: i64, mut at: Sample, step: Sample) {
         for pixel in self.span(y, from, to) {
             let texel = texture.sample(at.u, at.v);
-            if texel != [0; 4] {
-                let source = std::array::from_fn(|i| channel(at.color[i]) * texel[i] / OPAQUE);
-                blend(pixel, source);
+            if texel != Colour::NONE {
+                at.color.colour().times(texel).over(pixel);
             }
-            at.advance(step);
+            at.color.advance(step.color);
+            at.u += step.u;
+            at.v += step.v;
         }
     }
 }
 
-/// A full channel in 1/256 of a level.
-const OPAQUE: u32 = 255 * 256;
-
-/// An interpolated colour channel in 1/256 of a level; rounding may have carried it out of range.
-fn channel(value: i64) -> u32 {
-    (value >> (FRACTION_BITS - 8)).clamp(0, i64::from(OPAQUE)) as u32
-}
-
-/// A vertex colour times a texel, in 1/256 of a level.
-fn tint(color: [u8; 4], texel: [u32; 4]) -> [u32; 4] {
-    std::array::from_fn(|i| u32::from(color[i]) * texel[i] / 255)
-}
-
-/// Puts a premultiplied colour, in 1/256 of a level, over a pixel.
-#[inline]
-fn blend(pixel: &mut [u8; 4], source: [u32; 4]) {
-    let rest = OPAQUE - source[3].min(OPAQUE);
-    for i in 0..3 {
-        let value = source[i] + u32::from(pixel[i]) * rest / 255;
-        pixel[i] = ((value + 128) >> 8).min(255) as u8;
+/// Pixels of one colour under texels that lie exactly on them: text, mostly. Letters are white, so
+/// that one channel says all.
+fn glyph_span(pixels: &mut [[u8; 4]], texels: &[[u8; 4]], tint: Colour) {
+    for (pixel, texel) in pixels.iter_mut().zip(texels) {
+        match *texel {
+            [0, 0, 0, 0] => {}
+            [r, g, b, a] if r == a && g == a && b == a => tint.covered(a).over(pixel),
+            texel => tint.times(Colour::of_bytes(texel)).over(pixel),
+        }
     }
-    // The picture stays opaque.
 }
 
-/// One side of a triangle: which pixels of a row lie on its inner side.
+/// What a triangle is painted with.
+enum Paint {
+    Solid(Colour),
+    /// An interpolated colour, times one texel.
+    Shaded(Planes, Colour),
+    Textured(Planes),
+}
+
+/// One side of a triangle: which pixels of a row lie on its inner side, from row to row.
 struct Edge {
-    /// A corner on the edge.
-    x: i64,
-    y: i64,
-    dx: i64,
-    dy: i64,
-    /// 0 when a centre exactly on the edge counts as inside, else -1.
-    bias: i64,
+    /// The sign of what a step to the right adds to the distance from the edge.
+    slope: i64,
+    /// Whole steps of the slope's size in the distance at column 0, and what is left of it.
+    quotient: i64,
+    rest: i64,
+    /// What a row adds to both.
+    row_quotient: i64,
+    row_rest: i64,
+    /// The slope's size; for a level edge, 1.
+    size: i64,
 }
 
 impl Edge {
-    fn new(from: &Corner, to: &Corner) -> Self {
+    fn new(from: &Corner, to: &Corner, first_row: i64) -> Self {
         let (dx, dy) = (to.x - from.x, to.y - from.y);
-        // Going round clockwise with y down, left edges go up and top edges go right.
-        let top_left = dy < 0 || (dy == 0 && dx > 0);
-        Self { x: from.x, y: from.y, dx, dy, bias: if top_left { 0 } else { -1 } }
+        // Going round clockwise with y down, left edges go up and top edges go right: a centre
+        // exactly on them counts as inside.
+        let bias = if dy < 0 || (dy == 0 && dx > 0) { 0 } else { -1 };
+        // Inside: dx * (Y - y) - dy * (X - x) + bias >= 0, with X and Y the pixel's centre.
+        let constant = dx * (first_row * SUBPIXELS + CENTRE - from.y) - dy * (CENTRE - from.x) + bias;
+        let slope = dy * SUBPIXELS;
+        let size = slope.abs().max(1);
+        Self {
+            slope: slope.signum(),
+            quotient: constant.div_euclid(size),
+            rest: constant.rem_euclid(size),
+            row_quotient: (dx * SUBPIXELS).div_euclid(size),
+            row_rest: (dx * SUBPIXELS).rem_euclid(size),
+            size,
+        }
     }
 
-    /// Narrows a row's pixels `from..to` to those inside the edge.
-    fn narrow(&self, row: i64, from: &mut i64, to: &mut i64) {
-        // Inside: dx * (Y - y) - dy * (X - x) + bias >= 0, with X and Y the pixel's centre.
-        let constant = self.dx * (row * SUBPIXELS + CENTRE - self.y) - self.dy * (CENTRE - self.x) + self.bias;
-        let slope = self.dy * SUBPIXELS;
-        match slope.signum() {
-            0 if constant < 0 => *to = *from,
+    /// Narrows the current row's pixels `from..to` to those inside, and goes on to the next row.
+    #[inline]
+    fn narrow(&mut self, from: &mut i64, to: &mut i64) {
+        match self.slope {
+            // The quotient is the distance itself.
+            0 if self.quotient < 0 => *to = *from,
             0 => {}
-            1 => *to = (*to).min(constant.div_euclid(slope) + 1),
-            // -slope * column >= -constant, rounded up.
-            _ => *from = (*from).max(-constant.div_euclid(-slope)),
+            1 => *to = (*to).min(self.quotient + 1),
+            _ => *from = (*from).max(-self.quotient),
+        }
+        self.quotient += self.row_quotient;
+        self.rest += self.row_rest;
+        if self.rest >= self.size {
+            self.rest -= self.size;
+            self.quotient += 1;
         }
     }
 }
 
-/// What is interpolated: colour channels in levels and texture coordinates in texels, all with
-/// [`FRACTION_BITS`] behind the point.
+/// Colour channels in levels, with [`FRACTION_BITS`] behind the point.
+#[derive(Clone, Copy)]
+struct Interpolated {
+    r: i64,
+    g: i64,
+    b: i64,
+    a: i64,
+}
+
+impl Interpolated {
+    const ZERO: Self = Self { r: 0, g: 0, b: 0, a: 0 };
+
+    fn constant(bytes: [u8; 4]) -> Self {
+        let [r, g, b, a] = bytes.map(|channel| i64::from(channel) << FRACTION_BITS);
+        Self { r, g, b, a }
+    }
+
+    /// Rounding may have carried a channel a little out of range.
+    #[inline]
+    fn colour(self) -> Colour {
+        let channel = |value: i64| (value >> (FRACTION_BITS - 8)).clamp(0, i64::from(OPAQUE)) as u32;
+        Colour { r: channel(self.r), g: channel(self.g), b: channel(self.b), a: channel(self.a) }
+    }
+
+    #[inline]
+    fn advance(&mut self, step: Self) {
+        self.r += step.r;
+        self.g += step.g;
+        self.b += step.b;
+        self.a += step.a;
+    }
+}
+
+/// What is interpolated: a colour, and texture coordinates in texels with [`FRACTION_BITS`].
 #[derive(Clone, Copy)]
 struct Sample {
-    color: [i64; 4],
+    color: Interpolated,
     u: i64,
     v: i64,
-}
-
-impl Sample {
-    fn advance(&mut self, step: Self) {
-        for i in 0..4 {
-            self.color[i] += step.color[i];
-        }
-        self.u += step.u;
-        self.v += step.v;
-    }
 }
 
 /// The planes through a triangle's values over the picture.
 struct Planes {
     origin: (i64, i64),
-    /// At the origin, then per subpixel to the right, then per subpixel down: four colours, u, v.
-    values: [[f64; 6]; 3],
+    /// Four colours, u, v: at the origin, what a subpixel to the right adds, and one down.
+    start: [f64; 6],
+    right: [f64; 6],
+    down: [f64; 6],
     /// Per pixel to the right.
     step: Sample,
 }
 
 impl Planes {
-    fn new(texture: &Texture, a: &Corner, b: &Corner, c: &Corner, twice_area: i64) -> Self {
+    fn new(texture: Option<&Texture>, a: &Corner, b: &Corner, c: &Corner, twice_area: i64) -> Self {
         let values = |corner: &Corner| -> [f64; 6] {
-            let color = corner.color.map(|channel| f64::from(channel) * f64::from(1 << FRACTION_BITS));
-            let u = texture.fixed(corner.u, texture.width);
-            let v = texture.fixed(corner.v, texture.height);
-            [color[0], color[1], color[2], color[3], u, v]
+            let one = f64::from(1 << FRACTION_BITS);
+            let [r, g, b, a] = corner.color;
+            let (u, v) = texture.map_or((0.0, 0.0), |texture| {
+                (texture.fixed(corner.u, texture.width), texture.fixed(corner.v, texture.height))
+            });
+            [f64::from(r) * one, f64::from(g) * one, f64::from(b) * one, f64::from(a) * one, u, v]
         };
-        let (at_a, at_b, at_c) = (values(a), values(b), values(c));
-        let area = twice_area as f64;
+        let (start, at_b, at_c) = (values(a), values(b), values(c));
+        let per_area = 1.0 / twice_area as f64;
         let (bx, by) = ((b.x - a.x) as f64, (b.y - a.y) as f64);
         let (cx, cy) = ((c.x - a.x) as f64, (c.y - a.y) as f64);
-        let right: [f64; 6] = std::array::from_fn(|i| ((at_b[i] - at_a[i]) * cy - (at_c[i] - at_a[i]) * by) / area);
-        let down: [f64; 6] = std::array::from_fn(|i| ((at_c[i] - at_a[i]) * bx - (at_b[i] - at_a[i]) * cx) / area);
-        let step = fixed_sample(right.map(|value| value * SUBPIXELS as f64));
-        Self { origin: (a.x, a.y), values: [at_a, right, down], step }
+        let (mut right, mut down, mut step) = ([0.0; 6], [0.0; 6], [0.0; 6]);
+        for i in 0..6 {
+            let (to_b, to_c) = (at_b[i] - start[i], at_c[i] - start[i]);
+            right[i] = (to_b * cy - to_c * by) * per_area;
+            down[i] = (to_c * bx - to_b * cx) * per_area;
+            step[i] = right[i] * SUBPIXELS as f64;
+        }
+        Self { origin: (a.x, a.y), start, right, down, step: fixed_sample(&step) }
     }
 
     /// The values at a pixel's centre.
+    #[inline]
     fn sample(&self, x: i64, y: i64) -> Sample {
         let across = (x * SUBPIXELS + CENTRE - self.origin.0) as f64;
         let down = (y * SUBPIXELS + CENTRE - self.origin.1) as f64;
-        let [start, right, below] = &self.values;
-        fixed_sample(std::array::from_fn(|i| start[i] + right[i] * across + below[i] * down))
+        let mut values = [0.0; 6];
+        for (i, value) in values.iter_mut().enumerate() {
+            *value = self.start[i] + self.right[i] * across + self.down[i] * down;
+        }
+        fixed_sample(&values)
     }
 }
 
-fn fixed_sample(values: [f64; 6]) -> Sample {
+fn fixed_sample(values: &[f64; 6]) -> Sample {
     // The steps of a sliver may be huge; its spans are then a pixel long and never use them.
-    let whole = values.map(|value| value.round().clamp(-1e15, 1e15) as i64);
-    Sample { color: [whole[0], whole[1], whole[2], whole[3]], u: whole[4], v: whole[5] }
+    let fixed = |value: f64| whole(value.clamp(-1e15, 1e15));
+    let [r, g, b, a, u, v] = *values;
+    let color = Interpolated { r: fixed(r), g: fixed(g), b: fixed(b), a: fixed(a) };
+    Sample { color, u: fixed(u), v: fixed(v) }
 }
 
 impl Texture {
     /// A normalised texture coordinate in texels, scaled by [`FRACTION_BITS`].
+    #[inline]
     fn fixed(&self, coordinate: f32, side: usize) -> f64 {
         f64::from(coordinate) * side as f64 * f64::from(1 << FRACTION_BITS)
     }
 
-    /// The colour at normalised coordinates, each channel in 1/256 of a level.
-    fn at(&self, u: f32, v: f32) -> [u32; 4] {
-        self.sample(self.fixed(u, self.width).round() as i64, self.fixed(v, self.height).round() as i64)
+    /// The colour at normalised coordinates.
+    fn at(&self, u: f32, v: f32) -> Colour {
+        self.sample(whole(self.fixed(u, self.width)), whole(self.fixed(v, self.height)))
     }
 
-    /// The colour at coordinates in texels (with [`FRACTION_BITS`]), each channel in 1/256 of a
-    /// level.
+    /// The column and row of the first texel, when a rectangle's texels lie exactly on its pixels.
+    fn aligned(&self, u: i64, v: i64, step_u: i64, step_v: i64, width: i64, height: i64) -> Option<(usize, usize)> {
+        const ONE: i64 = 1 << FRACTION_BITS;
+        // The weights between texels have 8 bits: what rounds to nothing there is nothing.
+        let slack = 1 << (FRACTION_BITS - 9);
+        let place = |at: i64, step: i64, count: i64| {
+            let (index, rest) = ((at + slack) >> FRACTION_BITS, (at + slack) & (ONE - 1));
+            let drift = (step - ONE).abs() * count;
+            let is_centre = (rest - ONE / 2 - slack).abs() + drift < slack;
+            (is_centre && index >= 0).then_some(index)
+        };
+        let column = place(u, step_u, width)?;
+        let row = place(v, step_v, height)?;
+        let fits = column + width <= self.width as i64 && row + height <= self.height as i64;
+        fits.then_some((column as usize, row as usize))
+    }
+
     #[inline]
-    fn sample(&self, u: i64, v: i64) -> [u32; 4] {
+    fn row(&self, row: usize, column: usize, count: usize) -> &[[u8; 4]] {
+        let start = row * self.width + column;
+        &self.texels[start..start + count]
+    }
+
+    /// The colour at coordinates in texels (with [`FRACTION_BITS`]).
+    #[inline]
+    fn sample(&self, u: i64, v: i64) -> Colour {
         if self.texels.is_empty() {
-            return [0; 4];
+            return Colour::NONE;
         }
         if self.filter == TextureFilter::Nearest {
-            let texel = self.texel(u >> FRACTION_BITS, v >> FRACTION_BITS);
-            return texel.map(|channel| u32::from(channel) << 8);
+            return Colour::of_bytes(self.texel(u >> FRACTION_BITS, v >> FRACTION_BITS));
         }
         // Texel centres lie at halves; weights of 8 bits, as GPUs have.
         let half = 1 << (FRACTION_BITS - 1);
@@ -497,15 +624,13 @@ impl Texture {
         let v = (v - half + rounding) >> (FRACTION_BITS - 8);
         let (x, y) = (u >> 8, v >> 8);
         let (right, below) = ((u & 255) as u32, (v & 255) as u32);
-        if right == 0 && below == 0 {
-            return self.texel(x, y).map(|channel| u32::from(channel) << 8);
-        }
-        let near = [self.texel(x, y), self.texel(x + 1, y)];
-        let far = [self.texel(x, y + 1), self.texel(x + 1, y + 1)];
-        std::array::from_fn(|i| {
-            let mix = |pair: &[[u8; 4]; 2]| u32::from(pair[0][i]) * (256 - right) + u32::from(pair[1][i]) * right;
-            (mix(&near) * (256 - below) + mix(&far) * below) >> 8
-        })
+        let (p, q, r, s) = (self.texel(x, y), self.texel(x + 1, y), self.texel(x, y + 1), self.texel(x + 1, y + 1));
+        let mix = |i: usize| {
+            let near = u32::from(p[i]) * (256 - right) + u32::from(q[i]) * right;
+            let far = u32::from(r[i]) * (256 - right) + u32::from(s[i]) * right;
+            (near * (256 - below) + far * below) >> 8
+        };
+        Colour { r: mix(0), g: mix(1), b: mix(2), a: mix(3) }
     }
 
     #[inline]

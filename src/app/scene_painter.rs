@@ -1,6 +1,7 @@
 //! Paints the scene of a plan with egui: triangles made once a zoom level, moved while panning.
 
 use std::collections::BTreeMap;
+use std::hash::Hasher as _;
 use std::sync::Arc;
 
 use egui::epaint::{CircleShape, Mesh, TessellationOptions, Tessellator, TextShape, Vertex, WHITE_UV};
@@ -36,8 +37,8 @@ const SCALED_AT_MOST: f64 = 1.6;
 pub(super) struct ScenePainter {
     shapes: Option<Shapes>,
     names: Option<Names>,
-    /// Triangles of each polygon, which do not change with the zoom.
-    triangles: BTreeMap<(Layer, usize), Vec<u32>>,
+    /// Triangles of each polygon, by a hash of its points: they do not change with zoom and style.
+    triangles: BTreeMap<u64, Vec<u32>>,
     last_view: Option<View>,
 }
 
@@ -116,12 +117,11 @@ impl ScenePainter {
         }
         let mut writer = Writer::new(view);
         for layer in SHAPE_LAYERS {
-            let mut polygons = 0;
             for group in derived.drawing.layer(layer, style, view) {
                 for item in &group.items {
                     if let Item::Polygon { outer, holes, colour } = item {
-                        let triangles = self.triangles.entry((layer, polygons)).or_insert_with(|| earcut(outer, holes));
-                        polygons += 1;
+                        let key = hash(outer, holes);
+                        let triangles = self.triangles.entry(key).or_insert_with(|| earcut(outer, holes));
                         writer.polygon(outer, holes, triangles, theme::colour(*colour));
                     } else {
                         writer.item(item);
@@ -203,6 +203,20 @@ pub(super) fn earcut(outer: &[Point], holes: &[Vec<Point>]) -> Vec<u32> {
     let mut triangles = Vec::new();
     earcut::Earcut::new().earcut(points, &starts, &mut triangles);
     triangles
+}
+
+/// A number that tells polygons apart.
+fn hash(outer: &[Point], holes: &[Vec<Point>]) -> u64 {
+    // SipHash with fixed keys: the same on every run, and two polygons of a plan never meet.
+    let mut hasher = std::collections::hash_map::DefaultHasher::new();
+    for ring in std::iter::once(outer).chain(holes.iter().map(Vec::as_slice)) {
+        hasher.write_usize(ring.len());
+        for point in ring {
+            hasher.write_u64(point.x.to_bits());
+            hasher.write_u64(point.y.to_bits());
+        }
+    }
+    hasher.finish()
 }
 
 /// A polygon with holes as a mesh with soft edges, for marks over the plan.

@@ -56,10 +56,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             app.commit_field();
             app.label_picked(label);
         }
-        Some(Act::Type(field)) => {
-            app.panels.suggests = field.kind == FieldKind::Function;
-            app.panels.field = Some(field);
-        }
+        Some(Act::Type(field)) => app.panels.field = Some(field),
         Some(Act::Commit) => app.commit_field(),
         Some(Act::Revert) => drop(app.panels.take_field()),
         Some(Act::ShowNotes) => app.panels.notes = true,
@@ -178,7 +175,6 @@ impl Inspected<'_> {
         let id = response.id.with("suggestions");
         let was_open = Popup::is_id_open(ui.ctx(), id);
         let pressed_inside = was_open
-            && Popup::position_of_id(ui.ctx(), id).is_some()
             && ui.input(|input| input.pointer.any_down() || input.pointer.any_released())
             && ui
                 .ctx()

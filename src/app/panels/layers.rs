@@ -85,7 +85,10 @@ fn legend(ui: &mut Ui, document: &Document, fill: Fill) {
     ui.add_space(6.0);
     // A long legend leaves space for the list of plans.
     let most = (ui.ctx().content_rect().height() * 0.25).max(4.0 * ROW);
-    ScrollArea::vertical().id_salt("legend").max_height(most).auto_shrink([false, true]).show(ui, |ui| {
+    let height = (rows.len() as f32 * 22.0).min(most);
+    // As high as it must be, however high the panel was before.
+    let area = ScrollArea::vertical().id_salt("legend").min_scrolled_height(height).max_height(height);
+    area.auto_shrink([false, true]).show(ui, |ui| {
         for (colour, name, number) in &rows {
             let trail = if *number == 0 { "–".to_owned() } else { number.to_string() };
             Row::new(Lead::Swatch(theme::colour(*colour)), name).trail(&trail).indent(8.0).inset(8.0).show_only(ui);

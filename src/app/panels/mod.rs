@@ -10,11 +10,14 @@ mod status;
 mod top_bar;
 pub(super) mod welcome;
 
-use egui::{CentralPanel, Frame, Margin, Panel, Ui};
+use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui};
 
 use super::{App, canvas, theme};
 use crate::plan::edit::{self, EditError};
 use crate::plan::{Plan, RoomId};
+
+/// So many points at least the list of plans keeps above the layers: its title and two plans.
+const LEAST_PLANS_HEIGHT: f32 = 110.0;
 
 /// What the panels remember.
 pub(super) struct Panels {
@@ -26,15 +29,15 @@ pub(super) struct Panels {
     pub focus_name: bool,
     /// Whether the notes of the import are shown.
     pub notes: bool,
+    /// Height in points that the fill and the layers took when they were last shown.
+    layers_height: f32,
     /// Text that a person has changed and not finished.
     field: Option<Field>,
-    /// Whether functions are suggested under their field.
-    suggests: bool,
 }
 
 impl Default for Panels {
     fn default() -> Self {
-        Self { left: true, right: true, focus_name: false, notes: false, field: None, suggests: false }
+        Self { left: true, right: true, focus_name: false, notes: false, layers_height: 360.0, field: None }
     }
 }
 
@@ -74,14 +77,12 @@ impl Field {
 impl Panels {
     /// The text that is not part of the plan yet; it is taken out.
     pub(super) fn take_field(&mut self) -> Option<Field> {
-        self.suggests = false;
         self.field.take()
     }
 
     /// Forgets what belongs to the plan that was shown.
     pub(super) fn forget(&mut self) {
         self.field = None;
-        self.suggests = false;
         self.notes = false;
         self.focus_name = false;
     }
@@ -108,10 +109,24 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             .size_range(180.0..=440.0)
             .frame(frame(Margin::symmetric(8, 8)))
             .show(ui, |ui| {
-                Panel::bottom("layers")
-                    .frame(Frame::new())
-                    .show_separator_line(false)
-                    .show(ui, |ui| layers::show(app, ui));
+                // As high as what is in it, which changes with the fill: a panel that sizes itself
+                // does not grow again. In a low window it scrolls, so that the plans keep some room.
+                let wanted = app.panels.layers_height;
+                let given = wanted.min(ui.available_height() - LEAST_PLANS_HEIGHT).max(LEAST_PLANS_HEIGHT);
+                let layers = Panel::bottom("layers").exact_size(given).frame(Frame::new()).show_separator_line(false);
+                let taken = layers.show(ui, |ui| {
+                    let area = ScrollArea::vertical().id_salt("layers").auto_shrink(false);
+                    let shown = area.show(ui, |ui| {
+                        let top = ui.cursor().top();
+                        layers::show(app, ui);
+                        ui.cursor().top() - top
+                    });
+                    shown.inner
+                });
+                if (taken.inner - wanted).abs() > 0.5 {
+                    app.panels.layers_height = taken.inner;
+                    ui.request_repaint();
+                }
                 plans::show(app, ui);
                 ui.take_available_space();
             });

@@ -10,12 +10,11 @@ use egui::{
 };
 
 use super::status::count;
-use crate::app::document::{Derived, Origin, bundled};
+use crate::app::document::{Derived, Origin, bundled, derived_sample};
 use crate::app::scene_painter::ScenePainter;
 use crate::app::widgets::{colours, section, strong, text_button};
 use crate::app::{App, commands, theme};
 use crate::draw::{self, LabelColours, Layers, Palette, Style, View};
-use crate::labels::Schemes;
 use crate::plan::Plan;
 
 /// Size of a sample's card, in points.
@@ -76,7 +75,7 @@ fn card(app: &mut App, ui: &mut Ui, index: usize, plan: &Plan) -> Response {
     let rim = if response.has_focus() { Stroke::new(2.0, colours.accent) } else { Stroke::new(1.0, colours.outline) };
     ui.painter().rect_stroke(rect, radius, rim, StrokeKind::Inside);
     let picture = Rect::from_min_max(rect.min + vec2(14.0, 12.0), rect.max - vec2(14.0, 50.0));
-    let sample = app.samples.get(index, plan, &app.schemes);
+    let sample = app.samples.get(index, plan);
     let (width_px, height_px) = (f64::from(picture.width()), f64::from(picture.height()));
     let view = View {
         pixel_ratio: f64::from(ui.pixels_per_point()),
@@ -111,14 +110,12 @@ struct Sample {
 }
 
 impl Samples {
-    fn get(&mut self, index: usize, plan: &Plan, schemes: &Schemes) -> &mut Sample {
+    fn get(&mut self, index: usize, plan: &Plan) -> &mut Sample {
         if self.0.len() <= index {
             self.0.resize_with(index + 1, || None);
         }
-        self.0[index].get_or_insert_with(|| Sample {
-            derived: Arc::new(Derived::new(plan, schemes)),
-            painter: ScenePainter::default(),
-        })
+        self.0[index]
+            .get_or_insert_with(|| Sample { derived: derived_sample(index, plan), painter: ScenePainter::default() })
     }
 }
 
