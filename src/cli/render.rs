@@ -90,6 +90,8 @@ impl Subcommand for RenderCommand {
                 }
                 crate::store::save_bytes_fast(&target, &bytes)?;
                 writeln!(terminal.out, "{}", target.display())?;
+                // Said at once: of many plans each takes a blink.
+                terminal.out.flush()?;
                 written.push(target);
             }
             Ok(())

@@ -37,6 +37,8 @@ pub enum Step {
 pub struct Font {
     face: Option<Face<'static>>,
     units_per_em: f32,
+    /// Advances of the ASCII characters: most of what is measured.
+    ascii: [f32; 128],
 }
 
 impl Font {
@@ -48,7 +50,9 @@ impl Font {
                 // The bundled bytes parse (tested); were they broken, text would be boxes.
                 let face = Face::parse(bytes, 0).ok();
                 let units_per_em = face.as_ref().map_or(1000.0, |face| f32::from(face.units_per_em()));
-                Font { face, units_per_em }
+                let mut font = Font { face, units_per_em, ascii: [0.0; 128] };
+                font.ascii = std::array::from_fn(|code| font.looked_up_advance(code as u8 as char));
+                font
             })
         });
         match weight {
@@ -70,6 +74,10 @@ impl Font {
 
     /// How far the pen moves for a character, in fractions of the font size.
     pub fn advance(&self, character: char) -> f32 {
+        self.ascii.get(character as usize).copied().unwrap_or_else(|| self.looked_up_advance(character))
+    }
+
+    fn looked_up_advance(&self, character: char) -> f32 {
         let advance = self.glyph(character).and_then(|glyph| self.face.as_ref()?.glyph_hor_advance(glyph));
         advance.map_or(BOX_ADVANCE, |units| f32::from(units) / self.units_per_em)
     }

@@ -199,7 +199,8 @@ impl OpeningDrawing {
         };
         // Half a door's width into the room, to look past what stands at the jamb.
         let from = self.centre + self.normal() * (offset + sign * self.half_width.max(OFF_FACE_M));
-        const FAR_M: f64 = 8.0;
+        // A wall further off is not one that a leaf rests along.
+        const FAR_M: f64 = 4.0;
         let (to_start, to_end) = (faces.free(from, -self.along, FAR_M), faces.free(from, self.along, FAR_M));
         let (near, far) = if hinge_at_start { (to_start, to_end) } else { (to_end, to_start) };
         // Steps of 5 cm, so that rounding does not choose between equals.

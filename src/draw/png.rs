@@ -90,7 +90,7 @@ pub fn paint(scene: &Scene) -> Result<Pixmap, PictureError> {
         )));
     };
     pixmap.fill(colour(scene.background));
-    let mut painter = Painter { pixmap, view: *view, glyphs: HashMap::new(), advances: HashMap::new() };
+    let mut painter = Painter { pixmap, view: *view, glyphs: HashMap::new() };
     for group in &scene.groups {
         painter.group(group);
     }
@@ -111,7 +111,6 @@ struct Painter {
     pixmap: Pixmap,
     view: View,
     glyphs: HashMap<GlyphKey, Option<Glyph>>,
-    advances: HashMap<(Weight, char), f64>,
 }
 
 impl Painter {
@@ -314,8 +313,7 @@ impl Painter {
         let mut pen = if text.upright { -start_y } else { start_x };
         for character in text.content.chars() {
             pens.push((character, pen));
-            let key = (text.weight, character);
-            pen += size * *self.advances.entry(key).or_insert_with(|| f64::from(font.advance(character)));
+            pen += size * f64::from(font.advance(character));
         }
         // All halos first: none covers the letter before it.
         let halo = text.halo.map(|halo| (halo, Some(size * HALO)));
