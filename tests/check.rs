@@ -222,3 +222,19 @@ fn thin_partitions_are_no_gaps_in_a_plan_that_draws_its_walls() {
     assert_eq!(kinds(&plan(0.0)).get("rooms_leave_a_gap"), Some(&1));
     assert_eq!(kinds(&plan(0.15)).get("rooms_leave_a_gap"), None);
 }
+
+#[test]
+fn a_room_beyond_measure_is_one_finding() {
+    // 3,000 strokes back and forth across each other: 4,500,000 crossings.
+    let mut draft = Draft::empty(|point| point);
+    let strokes: Vec<(f64, f64)> = (0..3000_u32)
+        .map(|i| {
+            let angle = f64::from(i) * 3.0;
+            (50.0 + 50.0 * angle.cos(), 50.0 + 50.0 * angle.sin())
+        })
+        .collect();
+    draft.room("garden", &strokes);
+    draft.room("garden", &draft::rectangle((0.0, 0.0), (4.0, 4.0)));
+    let found = kinds(&draft.plan());
+    assert_eq!(found.get("room_boundary_crosses_itself"), Some(&1), "{found:?}");
+}

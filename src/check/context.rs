@@ -23,7 +23,7 @@ pub struct Context<'a> {
     pub ring_faults: Vec<RingFaults>,
     /// Pairs of rooms that share more area than the drawing tolerance explains.
     pub overlaps: Vec<Overlap>,
-    /// The rooms' edges.
+    /// The edges of all rooms but the hopeless ones.
     pub edges: RoomEdges,
     /// The walls that have a length.
     pub walls: Walls,
@@ -93,14 +93,15 @@ impl<'a> Context<'a> {
             .iter()
             .zip(&analysis.rooms)
             .filter_map(|(shape, room)| Some((room.status.label()?, shape.area_m2())));
+        let ring_faults: Vec<RingFaults> = shapes.iter().map(room_faults).collect();
         Self {
             plan,
             analysis,
             schemes,
             drawing_tolerance_m,
-            ring_faults: shapes.iter().map(room_faults).collect(),
-            overlaps: overlapping_pairs(analysis, drawing_tolerance_m),
-            edges: room_edges(shapes),
+            overlaps: overlapping_pairs(analysis, &ring_faults, drawing_tolerance_m),
+            edges: room_edges(shapes, &ring_faults),
+            ring_faults,
             walls: walls(plan),
             openings: plan
                 .openings()
@@ -184,9 +185,9 @@ fn room_faults(shape: &RoomShape) -> RingFaults {
     all
 }
 
-fn room_edges(shapes: &[RoomShape]) -> RoomEdges {
+fn room_edges(shapes: &[RoomShape], faults: &[RingFaults]) -> RoomEdges {
     let (mut segments, mut rooms) = (Vec::new(), Vec::new());
-    for (room, shape) in shapes.iter().enumerate() {
+    for (room, shape) in shapes.iter().enumerate().filter(|(room, _)| !faults[*room].is_hopeless()) {
         for (place, ring) in shape.rings().enumerate() {
             let counter_clockwise = polygon::signed_area(ring) >= 0.0;
             let is_hole = place > 0;
@@ -209,12 +210,12 @@ fn walls(plan: &Plan) -> Walls {
 
 /// The pairs of rooms that share a region thicker than `tolerance_m`, by index; at most
 /// [`FINDINGS_LIMIT`] of them.
-fn overlapping_pairs(analysis: &Analysis, tolerance_m: f64) -> Vec<Overlap> {
+fn overlapping_pairs(analysis: &Analysis, faults: &[RingFaults], tolerance_m: f64) -> Vec<Overlap> {
     let shapes = analysis.shapes.all();
     let mut found = Vec::new();
-    for (index, shape) in shapes.iter().enumerate() {
+    for (index, shape) in shapes.iter().enumerate().filter(|(index, _)| !faults[*index].is_hopeless()) {
         for other in analysis.shapes.near(shape.bounds) {
-            if other <= index {
+            if other <= index || faults[other].is_hopeless() {
                 continue;
             }
             let common = intersection(shape.bounds, shapes[other].bounds);

@@ -29,8 +29,9 @@ impl Check for OpeningIsFarFromItsRooms {
             let at = placed.segment.midpoint();
             for joint in placed.opening.pinned.iter().flatten() {
                 let Some(index) = joint.room().and_then(|id| context.analysis.shapes.index_of(id)) else { continue };
-                // A room without a boundary is nowhere: that is another finding.
+                // A room without a boundary that bounds something is nowhere: that is another finding.
                 if context.shapes()[index].outer.is_empty()
+                    || context.ring_faults[index].is_hopeless()
                     || context.distance_to_room(at, index, THICKEST_WALL_M).is_some()
                 {
                     continue;

@@ -5,7 +5,7 @@ use i_overlay::core::overlay::Overlay;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
 
-use crate::geometry::{Point, polygon};
+use crate::geometry::{Bounds, Point, polygon};
 use crate::plan::COORDINATE_LIMIT_M;
 
 /// An area, as the thickness and place of its thickest piece and the area of all pieces.
@@ -18,7 +18,8 @@ pub struct Region {
     pub at: Point,
 }
 
-/// What two areas, given by their rings, share; `None` when nothing.
+/// What two areas, given by their rings, share; `None` when nothing, or when it is too much to tell
+/// (see [`CROSSINGS_LIMIT`]). Neither area may cross itself beyond measure.
 pub fn shared<'a>(
     one: impl IntoIterator<Item = &'a Vec<Point>>,
     other: impl IntoIterator<Item = &'a Vec<Point>>,
@@ -26,7 +27,7 @@ pub fn shared<'a>(
     overlay(one, other, OverlayRule::Intersect)
 }
 
-/// What of the first area lies outside the second; `None` when nothing.
+/// What of the first area lies outside the second; `None` as for [`shared`].
 pub fn outside<'a>(
     one: impl IntoIterator<Item = &'a Vec<Point>>,
     other: impl IntoIterator<Item = &'a Vec<Point>>,
@@ -49,6 +50,9 @@ fn overlay<'a>(
 ) -> Option<Region> {
     let (one, other): (Vec<_>, Vec<_>) = (one.into_iter().collect(), other.into_iter().collect());
     let origin = *one.first()?.first()?;
+    if crossings_bound(&one, &other) > CROSSINGS_LIMIT {
+        return None;
+    }
     let (one, other) = (on_grid(&one, origin)?, on_grid(&other, origin)?);
     let mut all: Option<Region> = None;
     for shape in Overlay::<i64>::from_subj_and_clip(&one, &other).overlay(rule, FillRule::EvenOdd) {
@@ -66,6 +70,22 @@ fn overlay<'a>(
         }
     }
     all
+}
+
+/// Two areas whose edges may cross more often than this are not cut: two combs of 50,000 teeth would
+/// make pieces beyond any memory. Rooms have a few hundred edges at most, so below 10^5 here.
+const CROSSINGS_LIMIT: usize = 10_000_000;
+
+/// How often the edges of two areas cross at most: only those within both areas' boxes can.
+fn crossings_bound(one: &[&Vec<Point>], other: &[&Vec<Point>]) -> usize {
+    let bounds =
+        |rings: &[&Vec<Point>]| rings.iter().fold(Bounds::EMPTY, |bounds, ring| bounds.union(polygon::bounds(ring)));
+    let (bounds_one, bounds_other) = (bounds(one), bounds(other));
+    let within = |rings: &[&Vec<Point>], other: Bounds| {
+        let edges = rings.iter().flat_map(|ring| polygon::edges(ring));
+        edges.filter(|edge| edge.bounds().intersects(other)).count()
+    };
+    within(one, bounds_other).saturating_mul(within(other, bounds_one))
 }
 
 /// Rings in steps of the grid from `origin`; `None` where a point is not within [`FARTHEST_M`] of

@@ -23,6 +23,14 @@ pub struct RingFaults {
     pub touches: Vec<Point>,
 }
 
+impl RingFaults {
+    /// Whether there are so many that the ring bounds nothing: it is not measured against others,
+    /// and not all of its faults are listed.
+    pub fn is_hopeless(&self) -> bool {
+        self.crossings.len() + self.touches.len() >= FINDINGS_LIMIT
+    }
+}
+
 /// Finds where a ring crosses or touches itself; details below
 /// [`crate::geometry::runs::NOTCH_M`] are ignored.
 pub fn ring_faults(ring: &[Point]) -> RingFaults {
@@ -83,7 +91,7 @@ pub fn ring_faults(ring: &[Point]) -> RingFaults {
             if !touches && let Some(at) = crossing(edge, other) {
                 note(&mut faults.crossings, at);
             }
-            if faults.crossings.len() + faults.touches.len() >= FINDINGS_LIMIT {
+            if faults.is_hopeless() {
                 return faults;
             }
         }

@@ -9,7 +9,8 @@ pub struct RoomBoundaryCrossesItself {
     pub room: RoomName,
     /// Where, in the order of the boundary; at least one.
     pub crossings: Vec<Point>,
-    /// By how much its area, computed as for any room, differs from what its boundary encloses.
+    /// By how much its area, computed as for any room, differs from what its boundary encloses, which
+    /// counts as nothing where it crosses itself beyond measure.
     pub area_error_m2: f64,
     /// The same as a share of what its boundary encloses.
     pub area_error: f64,
@@ -35,9 +36,10 @@ impl Check for RoomBoundaryCrossesItself {
                 let shape = &context.shapes()[index];
                 let (min, max) = (shape.bounds.min, shape.bounds.max);
                 let around = vec![min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
-                let enclosed_m2 = shared(shape.rings(), [&around]).map_or(0.0, |region| region.area_m2);
+                let enclosed = if faults.is_hopeless() { None } else { shared(shape.rings(), [&around]) };
+                let enclosed_m2 = enclosed.map_or(0.0, |region| region.area_m2);
                 let area_error_m2 = (enclosed_m2 - shape.area_m2()).abs();
-                let area_error = if enclosed_m2 > 0.0 { area_error_m2 / enclosed_m2 } else { 0.0 };
+                let area_error = if enclosed_m2 > 0.0 { area_error_m2 / enclosed_m2 } else { 1.0 };
                 Self { room: context.name(index), crossings: faults.crossings.clone(), area_error_m2, area_error }
             })
             .collect()

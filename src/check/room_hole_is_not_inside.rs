@@ -23,7 +23,8 @@ impl Check for RoomHoleIsNotInside {
 
     fn find(context: &Context) -> Vec<Self> {
         let mut found = Vec::new();
-        for (index, shape) in context.shapes().iter().enumerate() {
+        let shapes = context.shapes().iter().enumerate();
+        for (index, shape) in shapes.filter(|(index, _)| !context.ring_faults[*index].is_hopeless()) {
             for hole in &shape.holes {
                 let beyond = outside([hole], [&shape.outer])
                     .filter(|region| region.depth_m > context.drawing_tolerance_m);

@@ -24,7 +24,8 @@ impl Check for RoomHolesOverlap {
 
     fn find(context: &Context) -> Vec<Self> {
         let mut found = Vec::new();
-        for (index, shape) in context.shapes().iter().enumerate().filter(|(_, shape)| shape.holes.len() > 1) {
+        let shapes = context.shapes().iter().enumerate().filter(|(_, shape)| shape.holes.len() > 1);
+        for (index, shape) in shapes.filter(|(index, _)| !context.ring_faults[*index].is_hopeless()) {
             let boxes = ring_boxes(&shape.holes);
             for (one, hole) in shape.holes.iter().enumerate().filter(|(_, hole)| !hole.is_empty()) {
                 let Bounds { min, max } = polygon::bounds(hole);
