@@ -1,5 +1,6 @@
 //! Rows of labelled rooms, collected from many plans.
 
+mod collection;
 pub mod csv;
 pub mod folds;
 mod network;
@@ -8,6 +9,7 @@ pub mod table;
 
 use std::collections::BTreeMap;
 
+pub use collection::{Collection, RoomPlace};
 pub use network::{NetworkDoor, NetworkRoom, RoomNetwork};
 pub use statistics::{LabelStatistics, Moments, Statistics};
 
