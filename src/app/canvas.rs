@@ -611,7 +611,6 @@ fn style(app: &App, plan: &Plan, is_dark: bool) -> Style {
             names: layers.names,
             areas: layers.names,
         },
-        ..Style::default()
     }
 }
 
