@@ -18,7 +18,7 @@ use super::dialogs::Dialogs;
 use super::document::{Origin, bundled};
 use super::raster::Raster;
 use super::theme::Motion;
-use super::{App, Picture};
+use super::{App, CommandError, Executed, Picture};
 
 /// Seconds from frame to frame.
 const FRAME_SECS: f64 = 1.0 / 60.0;
@@ -133,6 +133,24 @@ impl Offscreen {
     /// Runs a command by its id. Gives whether there is such a command and it could be done.
     pub fn run_command(&mut self, id: &str) -> bool {
         self.app.run_command(id, &self.context)
+    }
+
+    /// Runs a command by its id, with arguments; as [`App::run_command_with`].
+    ///
+    /// # Errors
+    /// When there is no such command, when it cannot be done now, when an argument is wrong.
+    pub fn run_command_with(&mut self, id: &str, arguments: &[&str]) -> Result<(), CommandError> {
+        self.app.run_command_with(id, arguments, &self.context)
+    }
+
+    /// Starts or stops keeping the commands that are done; as [`App::watch_commands`].
+    pub fn watch_commands(&mut self, is_watched: bool) {
+        self.app.watch_commands(is_watched);
+    }
+
+    /// The commands done since the last call; as [`App::take_executed`].
+    pub fn take_executed(&mut self) -> Vec<Executed> {
+        self.app.take_executed()
     }
 
     /// The answer to the next dialog that asks for a file; `None` cancels it. A dialog without an

@@ -6,7 +6,7 @@ mod messages;
 pub(super) mod notes;
 mod plans;
 mod questions;
-mod status;
+pub(super) mod status;
 mod top_bar;
 pub(super) mod welcome;
 
@@ -25,8 +25,8 @@ pub(super) struct Panels {
     pub left: bool,
     /// Whether the inspector is shown.
     pub right: bool,
-    /// The name's field is to take the keyboard.
-    pub focus_name: bool,
+    /// The text of a room whose field is to take the keyboard.
+    pub focus: Option<FieldKind>,
     /// Whether the notes of the import are shown.
     pub notes: bool,
     /// Height in points that the fill and the layers took when they were last shown.
@@ -37,7 +37,7 @@ pub(super) struct Panels {
 
 impl Default for Panels {
     fn default() -> Self {
-        Self { left: true, right: true, focus_name: false, notes: false, layers_height: 360.0, field: None }
+        Self { left: true, right: true, focus: None, notes: false, layers_height: 360.0, field: None }
     }
 }
 
@@ -49,18 +49,35 @@ pub(super) struct Field {
     text: String,
 }
 
+/// A text of a room.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum FieldKind {
+pub(super) enum FieldKind {
     Name,
     Function,
+    Note,
 }
 
 impl Field {
+    pub(super) fn new(room: RoomId, kind: FieldKind, text: &str) -> Self {
+        Self { room, kind, text: text.to_owned() }
+    }
+
+    /// The id and the argument of the command that writes it.
+    pub(super) fn as_command(&self) -> (&'static str, String) {
+        let id = match self.kind {
+            FieldKind::Name => "rename",
+            FieldKind::Function => "set-function",
+            FieldKind::Note => "set-note",
+        };
+        (id, self.text.clone())
+    }
+
     /// What the edit is called in the history.
     pub(super) fn title(&self) -> &'static str {
         match self.kind {
             FieldKind::Name => "Rename room",
             FieldKind::Function => "Set function",
+            FieldKind::Note => "Write note",
         }
     }
 
@@ -70,6 +87,7 @@ impl Field {
         match self.kind {
             FieldKind::Name => edit::set_name(plan, self.room, &self.text),
             FieldKind::Function => edit::set_function(plan, self.room, &self.text),
+            FieldKind::Note => edit::change_room(plan, self.room, |room| room.note = self.text.trim().to_owned()),
         }
     }
 }
@@ -84,7 +102,7 @@ impl Panels {
     pub(super) fn forget(&mut self) {
         self.field = None;
         self.notes = false;
-        self.focus_name = false;
+        self.focus = None;
     }
 
     /// Whether a dialog covers the window.
