@@ -19,4 +19,5 @@ pub mod parallel;
 pub mod plan;
 pub mod random;
 pub mod store;
+pub mod study;
 pub mod topology;

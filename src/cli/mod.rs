@@ -1,12 +1,15 @@
 //! The command line. One file a subcommand, one line in [`SUBCOMMANDS`] to register it.
 
 mod check;
+mod collect;
 mod dataset;
+mod evaluate;
 mod export;
 mod features;
 mod import;
 mod inputs;
 mod open;
+mod progress;
 mod render;
 
 use std::io::{IsTerminal as _, Write};
@@ -23,6 +26,7 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<export::ExportCommand>(),
     entry::<check::CheckCommand>(),
     entry::<render::RenderCommand>(),
+    entry::<evaluate::EvaluateCommand>(),
 ];
 
 /// A subcommand: its arguments (a clap `Args`) and what it does with them.

@@ -108,7 +108,7 @@ pub fn analyse(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels) -> A
     let seen: Vec<Option<Label>> = rooms
         .iter()
         .map(|room| match neighbours {
-            NeighbourLabels::True => room.status.label().or(room.temporary),
+            NeighbourLabels::True | NeighbourLabels::Predicted => room.status.label().or(room.temporary),
             NeighbourLabels::Temporary => room.temporary,
         })
         .collect();
