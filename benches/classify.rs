@@ -4,6 +4,7 @@
 //!     cargo bench --bench classify -- --ours       # without Weka
 //!     cargo bench --bench classify -- --seeds 1    # one cross-validation a cell instead of three
 //!     cargo bench --bench classify -- --threads 1  # times on one thread only
+//!     cargo bench --bench classify -- --record     # the rows of tests/classify/weka.csv, no more
 //!
 //! Needs the real plans in ../shared/data, and for Weka a JDK and Debian's package `weka`
 //! (/usr/share/java/weka.jar); says so where they are not there.
@@ -15,6 +16,8 @@
     reason = "a benchmark reads the clock, writes scratch files, prints to a terminal, and may stop when it fails"
 )]
 
+#[path = "../tests/classify/generated.rs"]
+mod generated;
 #[path = "../tests/classify/real_rows.rs"]
 mod real_rows;
 
@@ -22,6 +25,7 @@ use std::fmt::Write as _;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 use enfilade::classify::{Algorithm, Classifier, Distribution, Scores, Validation, evaluate_all};
@@ -29,7 +33,16 @@ use enfilade::dataset::folds::{Folds, Grouping};
 use enfilade::dataset::table::Table;
 use enfilade::dataset::{Row, csv};
 use enfilade::parallel::Work;
+use generated::generated_rows;
 use real_rows::{SETS, real_rows};
+
+/// The head of tests/classify/weka.csv.
+const RECORD_HEAD: &str = "\
+# Weka 3.6.14 in 10-fold cross-validation: JRip, J48, IBk -K 5, MultilayerPerceptron, defaults else. The folds are those
+# of Folds::new(rows, Grouping::Room, 10, seed); the rows those of tests/classify/real_rows.rs and generated_rows(900, 1).
+# Made with
+#     cargo bench --bench classify -- --record > tests/classify/weka.csv
+set,algorithm,seed,right,rooms,log_loss,brier";
 
 const WEKA: &str = "/usr/share/java/weka.jar";
 
@@ -47,6 +60,15 @@ struct Set {
     /// For each seed from 1.
     by_room: Vec<Folds>,
     by_building: Vec<Folds>,
+}
+
+impl Set {
+    fn new(name: &'static str, rows: Vec<Row>, seeds: usize) -> Self {
+        let deal =
+            |grouping| (1..=seeds as u64).map(|seed| Folds::new(&rows, grouping, FOLDS, seed).unwrap()).collect();
+        let (by_room, by_building) = (deal(Grouping::Room), deal(Grouping::Building));
+        Self { name, table: Table::from_rows(&rows).unwrap(), rows, by_room, by_building }
+    }
 }
 
 /// Mean figures over the seeds.
@@ -73,13 +95,16 @@ fn main() {
             println!("the real plans are not in ../shared/data: nothing to measure");
             return;
         };
-        let table = Table::from_rows(&rows).unwrap();
-        let deal =
-            |grouping| (1..=seeds as u64).map(|seed| Folds::new(&rows, grouping, FOLDS, seed).unwrap()).collect();
-        let (by_room, by_building) = (deal(Grouping::Room), deal(Grouping::Building));
-        sets.push(Set { name, rows, table, by_room, by_building });
+        sets.push(Set::new(name, rows, seeds));
     }
     let weka = if arguments.iter().any(|argument| argument == "--ours") { None } else { Weka::find() };
+    if arguments.iter().any(|argument| argument == "--record") {
+        sets.push(Set::new("generated", generated_rows(900, 1), seeds));
+        let Some(weka) = weka else { return };
+        println!("{RECORD_HEAD}");
+        weka.run(&sets, seeds, cores).cells.iter().for_each(|cell| println!("{}", cell.record));
+        return;
+    }
 
     let ours = validated(&sets, |set| &set.by_room);
     let by_building = validated(&sets, |set| &set.by_building);
@@ -159,62 +184,64 @@ fn print_table(sets: &[Set], cell: impl Fn(usize, usize) -> String) {
     }
 }
 
-/// Training and cross-validation of all sixteen: wall time against wall time.
+/// Training and cross-validation of all sixteen.
 fn speed(sets: &[Set], weka: Option<&Weka>, threads: &[usize]) {
-    println!("\nTraining and {FOLDS}-fold validation of all sixteen, seconds on the clock, the fastest of {RUNS} runs");
+    println!(
+        "\nTraining and {FOLDS}-fold validation of all sixteen, seconds on the wall, ours the fastest of {RUNS} runs"
+    );
     for &threads in threads {
-        let ours = fastest(RUNS, || {
+        let ours = least(wall_s, RUNS, || {
             let validations: Vec<Validation<'_>> = Algorithm::ALL
                 .iter()
                 .flat_map(|&algorithm| {
-                    sets.iter().map(move |set| Validation {
-                        table: &set.table,
-                        folds: &set.by_room[0],
-                        algorithm,
-                        seed: 1,
-                    })
+                    let validation = move |set| validation(set, algorithm);
+                    sets.iter().map(validation)
                 })
                 .collect();
             black_box(evaluate_all(&validations, &Work::quiet().on_threads(threads)).unwrap());
         });
         print!("{threads} threads: ours {ours:.3}");
         if let Some(weka) = weka {
-            let theirs = (0..2).map(|_| weka.run(sets, 1, threads).wall_s).fold(f64::INFINITY, f64::min);
-            print!(
-                ", Weka {theirs:.2} (in a running JVM; its start and reading not counted), ratio {:.0}",
-                theirs / ours
-            );
+            let theirs = weka.run(sets, 1, threads).wall_s;
+            print!(", Weka {theirs:.2}, {:.0} times as long", theirs / ours);
         }
         println!();
     }
-    println!("by algorithm, 1 thread, ours in milliseconds");
-    print_table(sets, |algorithm, set| {
-        let (algorithm, set) = (Algorithm::ALL[algorithm], &sets[set]);
-        let validation = Validation { table: &set.table, folds: &set.by_room[0], algorithm, seed: 1 };
-        let seconds = fastest(RUNS, || {
+    println!("\nOf these by algorithm, ours, milliseconds of processor time, the least of {RUNS} runs");
+    let milliseconds = |algorithm: usize, set: usize| {
+        let validation = validation(&sets[set], Algorithm::ALL[algorithm]);
+        1e3 * least(thread_s, RUNS, || {
             black_box(evaluate_all(&[validation], &Work::quiet().on_threads(1)).unwrap());
-        });
-        format!("{:.1}", seconds * 1e3)
+        })
+    };
+    let ours: Vec<Vec<f64>> =
+        (0..4).map(|algorithm| (0..sets.len()).map(|set| milliseconds(algorithm, set)).collect()).collect();
+    print_table(sets, |algorithm, set| format!("{:.1}", ours[algorithm][set]));
+    let Some(weka) = weka else { return };
+    println!("Weka's");
+    let run = weka.run(sets, 1, 1);
+    print_table(sets, |algorithm, set| {
+        let (name, set) = (Algorithm::ALL[algorithm].name(), sets[set].name);
+        let cell = run.cells.iter().find(|cell| cell.set == set && cell.algorithm == name).unwrap();
+        format!("{:.0}", cell.cpu_ms)
     });
-    if let Some(weka) = weka {
-        println!("Weka, processor time in milliseconds");
-        let times = weka.run(sets, 1, 1).cells;
-        print_table(sets, |algorithm, set| {
-            let (name, set) = (Algorithm::ALL[algorithm].name(), sets[set].name);
-            let cell = times.iter().find(|cell| cell.set == set && cell.algorithm == name).unwrap();
-            format!("{:.0}", cell.cpu_ms)
-        });
-        println!("a JVM starts and ends in {:.2} s", weka.start_s());
-    }
+    let theirs = run.cells.iter().map(|cell| cell.cpu_ms).sum::<f64>() / 1e3;
+    let ours = ours.iter().flatten().sum::<f64>() / 1e3;
+    println!("together: ours {ours:.2} s, Weka {theirs:.2} s, {:.0} times as long", theirs / ours);
+    println!("Not counted: reading the rows, and the start of a JVM, {:.2} s with the class compiled", weka.start_s());
+}
+
+fn validation(set: &Set, algorithm: Algorithm) -> Validation<'_> {
+    Validation { table: &set.table, folds: &set.by_room[0], algorithm, seed: 1 }
 }
 
 /// How long one prediction takes.
 fn prediction(sets: &[Set]) {
-    println!("\nOne prediction, microseconds, 1 thread, model of all rows of the set asked for the same rows");
+    println!("\nOne prediction, microseconds of processor time, model of all rows of the set asked for the same rows");
     print_table(sets, |algorithm, set| {
         let table = &sets[set].table;
         let classifier = Classifier::train(Algorithm::ALL[algorithm], table, 1);
-        let seconds = fastest(RUNS, || {
+        let seconds = least(thread_s, RUNS, || {
             for values in table.values() {
                 black_box(classifier.predict(black_box(values)));
             }
@@ -223,13 +250,27 @@ fn prediction(sets: &[Set]) {
     });
 }
 
-fn fastest(runs: usize, work: impl Fn()) -> f64 {
+/// The least seconds of several runs by a clock.
+fn least(clock: fn() -> f64, runs: usize, work: impl Fn()) -> f64 {
     let time = |_| {
-        let start = Instant::now();
+        let start = clock();
         work();
-        start.elapsed().as_secs_f64()
+        clock() - start
     };
     (0..runs).map(time).fold(f64::INFINITY, f64::min)
+}
+
+/// Seconds on the wall.
+fn wall_s() -> f64 {
+    static START: OnceLock<Instant> = OnceLock::new();
+    START.get_or_init(Instant::now).elapsed().as_secs_f64()
+}
+
+/// Seconds of processor time of this thread, where the system tells it (Linux): other programs' load
+/// does not count.
+fn thread_s() -> f64 {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
+    text.split(' ').next().and_then(|word| word.parse::<f64>().ok()).map_or_else(wall_s, |ns| ns * 1e-9)
 }
 
 /// Weka, compiled and ready.
@@ -245,6 +286,8 @@ struct WekaCell {
     log_loss: f64,
     brier: f64,
     cpu_ms: f64,
+    /// All but the time, as ClassifyWeka prints it.
+    record: String,
 }
 
 struct WekaRun {
@@ -310,6 +353,7 @@ impl Weka {
                 log_loss: number(5),
                 brier: number(6),
                 cpu_ms: number(7),
+                record: cells[..7].join(","),
             });
         }
         assert!(run.wall_s.is_finite(), "Weka: {}", String::from_utf8_lossy(&output.stderr));
@@ -334,7 +378,7 @@ impl Weka {
 
     /// Seconds to start and end a JVM that does nothing.
     fn start_s(&self) -> f64 {
-        fastest(3, || {
+        least(wall_s, 3, || {
             let status =
                 Command::new("java").args(["-XX:+UseSerialGC", "-cp", &self.class_path, "ClassifyWeka", "1"]).output();
             assert!(status.unwrap().status.success());
