@@ -116,6 +116,23 @@ impl Canvas {
         self.wish = Some(Wish::Reveal(picked));
     }
 
+    /// Shows a point in the middle, so many points of the screen to the metre.
+    pub(super) fn look_at(&mut self, centre: Point, px_per_m: f64) {
+        let px_per_m = px_per_m.clamp(LEAST_PX_PER_M, MOST_PX_PER_M);
+        self.wish = None;
+        self.camera = Some(Camera { centre, px_per_m, is_fitted: false });
+    }
+
+    /// Where the canvas was in the last frame.
+    pub(super) fn seen_rect(&self) -> Option<Rect> {
+        self.seen.map(|(_, rect)| rect)
+    }
+
+    /// How far from an opening a click picks it, in metres at the present zoom.
+    pub(super) fn pick_reach_m(&self) -> f64 {
+        self.px_per_m().map_or(0.0, |px_per_m| PICK_REACH / px_per_m)
+    }
+
     /// Points of the screen a metre of the plan is long.
     pub(super) fn px_per_m(&self) -> Option<f64> {
         self.camera.map(|camera| camera.px_per_m)

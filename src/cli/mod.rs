@@ -8,6 +8,8 @@ mod import;
 mod inputs;
 mod open;
 mod render;
+#[cfg(feature = "gui")]
+mod replay;
 
 use std::io::{IsTerminal as _, Write};
 use std::path::PathBuf;
@@ -23,6 +25,8 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<export::ExportCommand>(),
     entry::<check::CheckCommand>(),
     entry::<render::RenderCommand>(),
+    #[cfg(feature = "gui")]
+    entry::<replay::ReplayCommand>(),
 ];
 
 /// A subcommand: its arguments (a clap `Args`) and what it does with them.
