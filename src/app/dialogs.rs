@@ -27,7 +27,11 @@ pub(super) struct Given {
 #[derive(Debug)]
 pub(super) enum Purpose {
     Open,
-    Save { then: Option<Intent> },
+    /// `answering`: the answer to a question that a file is chosen for.
+    Save {
+        then: Option<Intent>,
+        answering: Option<&'static str>,
+    },
 }
 
 /// A dialog's answer.

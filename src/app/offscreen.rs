@@ -17,8 +17,7 @@ use super::dialogs::{Dialogs, Given};
 use super::document::{Origin, bundled};
 use super::raster::Raster;
 use super::theme::Motion;
-use super::{App, Control, Picture, controls};
-use crate::geometry::Point;
+use super::{App, CommandError, Control, Executed, Picture, controls};
 
 /// Two clicks are a double click only when they follow within 0.3 seconds.
 const CLICK_GAP_SECS: f64 = 0.5;
@@ -127,6 +126,24 @@ impl Offscreen {
         self.app.run_command(id, &self.context)
     }
 
+    /// Runs a command by its id, with arguments; as [`App::run_command_with`].
+    ///
+    /// # Errors
+    /// When there is no such command, when it cannot be done now, when an argument is wrong.
+    pub fn run_command_with(&mut self, id: &str, arguments: &[&str]) -> Result<(), CommandError> {
+        self.app.run_command_with(id, arguments, &self.context)
+    }
+
+    /// Starts or stops keeping the commands that are done; as [`App::watch_commands`].
+    pub fn watch_commands(&mut self, is_watched: bool) {
+        self.app.watch_commands(is_watched);
+    }
+
+    /// The commands done since the last call; as [`App::take_executed`].
+    pub fn take_executed(&mut self) -> Vec<Executed> {
+        self.app.take_executed()
+    }
+
     /// The answer to the next dialog that asks for a file; `None` cancels it. A dialog without an
     /// answer is cancelled.
     pub fn answer_dialog(&mut self, path: Option<PathBuf>) {
@@ -156,12 +173,6 @@ impl Offscreen {
     /// where the folder is.
     pub fn name_paths_from(&mut self, folder: &Path) {
         self.app.named_from = Some(folder.to_owned());
-    }
-
-    /// Shows a point of the plan in the middle of the canvas, with so many logical pixels to the
-    /// metre.
-    pub fn look_at(&mut self, centre: Point, px_per_m: f64) {
-        self.app.canvas.look_at(centre, px_per_m);
     }
 
     /// Whether the window has closed.

@@ -25,8 +25,8 @@ pub(super) struct Panels {
     pub left: bool,
     /// Whether the inspector is shown.
     pub right: bool,
-    /// The name's field is to take the keyboard.
-    pub focus_name: bool,
+    /// The text of a room whose field is to take the keyboard.
+    pub focus: Option<FieldKind>,
     /// Whether the notes of the import are shown.
     pub notes: bool,
     /// Where the panel on the left and the inspector were in the last frame, as far as shown.
@@ -43,7 +43,7 @@ impl Default for Panels {
         Self {
             left: true,
             right: true,
-            focus_name: false,
+            focus: None,
             notes: false,
             left_rect: None,
             right_rect: None,
@@ -61,18 +61,35 @@ pub(super) struct Field {
     text: String,
 }
 
+/// A text of a room.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum FieldKind {
+pub(super) enum FieldKind {
     Name,
     Function,
+    Note,
 }
 
 impl Field {
+    pub(super) fn new(room: RoomId, kind: FieldKind, text: &str) -> Self {
+        Self { room, kind, text: text.to_owned() }
+    }
+
+    /// The id and the argument of the command that writes it.
+    pub(super) fn as_command(&self) -> (&'static str, String) {
+        let id = match self.kind {
+            FieldKind::Name => "rename",
+            FieldKind::Function => "set-function",
+            FieldKind::Note => "set-note",
+        };
+        (id, self.text.clone())
+    }
+
     /// What the edit is called in the history.
     pub(super) fn title(&self) -> &'static str {
         match self.kind {
             FieldKind::Name => "Rename room",
             FieldKind::Function => "Set function",
+            FieldKind::Note => "Write note",
         }
     }
 
@@ -82,6 +99,7 @@ impl Field {
         match self.kind {
             FieldKind::Name => edit::set_name(plan, self.room, &self.text),
             FieldKind::Function => edit::set_function(plan, self.room, &self.text),
+            FieldKind::Note => edit::change_room(plan, self.room, |room| room.note = self.text.trim().to_owned()),
         }
     }
 }
@@ -96,7 +114,7 @@ impl Panels {
     pub(super) fn forget(&mut self) {
         self.field = None;
         self.notes = false;
-        self.focus_name = false;
+        self.focus = None;
     }
 
     /// Whether a dialog covers the window.

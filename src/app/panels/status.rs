@@ -64,7 +64,7 @@ pub(in crate::app) fn left_text(app: &App) -> String {
 }
 
 /// A number of things, in words.
-pub(super) fn count(number: usize, thing: &str) -> String {
+pub(in crate::app) fn count(number: usize, thing: &str) -> String {
     let plural = if number == 1 { "" } else { "s" };
     format!("{} {thing}{plural}", thousands(number as u64))
 }

@@ -16,7 +16,8 @@ pub fn guide() -> String {
     }
     table(&mut text, "Places", ("place", "where it is"), FORMS.into_iter());
     table(&mut text, "Expectations", ("behind `expect`", "what must be so"), expectations());
-    let commands = COMMANDS.iter().map(|command| (command.id, command.help));
+    let commands: Vec<(String, &str)> = COMMANDS.iter().map(|command| (command.usage(), command.help)).collect();
+    let commands = commands.iter().map(|(usage, help)| (usage.as_str(), *help));
     table(&mut text, "Commands", ("step", "what it does"), commands);
     text
 }

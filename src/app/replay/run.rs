@@ -243,7 +243,7 @@ fn settle(stage: &mut Stage<'_>) -> Result<(), Fault> {
         .settle()
         .map_err(|error| Fault::new(error.to_string()).hint("something goes on without end; please report this"))?;
     if stage.window.take_unanswered() > 0 {
-        let hint = "write what it is told before this step: answer open PATH, answer save PATH, or answer cancel";
+        let hint = "write what it is told before this step: file-dialog open PATH, file-dialog save PATH, or file-dialog cancel";
         return Err(Fault::new("a dialog asks for a file and has no answer").hint(hint));
     }
     Ok(())

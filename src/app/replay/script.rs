@@ -107,7 +107,10 @@ fn step(line: &str) -> Result<Option<Act>, (String, String)> {
             act
         }
         None => match commands::find(&first.text) {
-            Some(command) => verbs::command(command, words.all()),
+            Some(command) => {
+                let usage = || format!("write: {}", command.usage());
+                verbs::command(command, words.all()).map_err(|what| (what, usage()))?
+            }
             None => {
                 let names = VERBS.iter().flat_map(|group| group.verbs).map(|verb| verb.name);
                 let all = names.chain(COMMANDS.iter().map(|command| command.id));

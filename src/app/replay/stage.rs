@@ -66,7 +66,7 @@ impl<'a> Stage<'a> {
     /// # Errors
     /// When none is open.
     pub(super) fn plan(&self) -> Result<&Plan, Fault> {
-        let hint = "open one first: sample dwelling, or load PATH";
+        let hint = "open one first: open-sample dwelling, or open PATH";
         self.window.app().plan().ok_or_else(|| Fault::new("no plan is open").hint(hint))
     }
 

@@ -195,9 +195,14 @@ pub(super) const EXPECTATIONS: &[Expectation] = &[
             let word = words.text("available or unavailable")?;
             let expected = choice(word, [("available", true), ("unavailable", false)])?;
             Ok(Box::new(move |stage| {
-                let found = (command.is_available)(stage.window.app());
-                let word = |is: bool| if is { "available" } else { "unavailable" };
-                same(&format!("the command {}", command.id), word(expected), word(found))
+                let why_not = command.why_not(stage.window.app());
+                match (expected, why_not) {
+                    (true, Some(why)) => {
+                        Err(Fault::unmet(format!("the command {}: expected available, found: {why}", command.id)))
+                    }
+                    (false, None) => same(&format!("the command {}", command.id), "unavailable", "available"),
+                    _ => Ok(()),
+                }
             }))
         },
     },

@@ -8,9 +8,9 @@ mod pointer;
 mod window;
 
 use super::script::Act;
-use super::stage::Fault;
+use super::stage::{self, Fault};
 use super::words::Words;
-use crate::app::commands::Command;
+use crate::app::commands::{ArgumentKind, Command};
 
 /// A verb of the language.
 pub(super) struct Verb {
@@ -39,15 +39,30 @@ pub(super) fn expectations() -> impl Iterator<Item = (&'static str, &'static str
     checks::EXPECTATIONS.iter().map(|expectation| (expectation.form, expectation.help))
 }
 
-/// A step that runs a command.
-pub(super) fn command(command: &'static Command, arguments: Vec<String>) -> Act {
-    Box::new(move |stage| {
-        if !arguments.is_empty() {
-            return Err(Fault::new(format!("the command {} takes nothing behind it", command.id)));
-        }
-        if stage.window.run_command(command.id) {
-            return Ok(());
-        }
-        Err(Fault::new(format!("the command {} cannot be done here ({})", command.id, command.help)))
-    })
+/// A step that runs a command. Files that it names are the script's own: copies of what it reads, and in
+/// its folder what it writes.
+///
+/// # Errors
+/// When the command takes no such arguments.
+pub(super) fn command(command: &'static Command, arguments: Vec<String>) -> Result<Act, String> {
+    let most = command.arguments.len();
+    if arguments.len() > most {
+        return Err(format!("{} stands behind {}, which takes {}", arguments.len(), command.id, stage::count(most, "argument")));
+    }
+    Ok(Box::new(move |stage| {
+        let words: Vec<String> = arguments
+            .iter()
+            .zip(command.arguments)
+            .map(|(word, argument)| {
+                let path = match argument.kind {
+                    ArgumentKind::PlanFile => stage.folders.brought_in(word)?,
+                    ArgumentKind::NewPlanFile => stage.folders.to_write(word)?,
+                    _ => return Ok(word.clone()),
+                };
+                Ok(path.to_string_lossy().into_owned())
+            })
+            .collect::<Result<_, Fault>>()?;
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        stage.window.run_command_with(command.id, &words).map_err(|error| Fault::new(error.to_string()))
+    }))
 }

@@ -4,7 +4,6 @@ use super::{Group, Verb};
 use crate::app::OffscreenOptions;
 use crate::app::replay::stage::Fault;
 use crate::app::replay::words::{Words, number, written};
-use crate::geometry::Point;
 
 pub(super) const GROUP: Group = Group {
     title: "Window and time",
@@ -43,21 +42,6 @@ pub(super) const GROUP: Group = Group {
                 Ok(Box::new(move |stage| {
                     let options = OffscreenOptions { is_dark, ..stage.window.options() };
                     stage.window.set_options(options);
-                    Ok(())
-                }))
-            },
-        },
-        Verb {
-            name: "view",
-            form: "view X,Y SCALE",
-            help: "Shows this point of the plan, in metres, in the middle of the canvas, with so many logical pixels to \
-                   the metre.",
-            parse: |words| {
-                let (x, y) = words.pair("a point of the plan")?;
-                let px_per_m = words.number("the scale in pixels per metre", 0.001, 10_000.0)?;
-                Ok(Box::new(move |stage| {
-                    stage.plan()?;
-                    stage.window.look_at(Point::new(x, y), px_per_m);
                     Ok(())
                 }))
             },
