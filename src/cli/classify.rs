@@ -1,18 +1,19 @@
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use serde_json::json;
 
 use super::collect::neighbour_labels;
 use super::train::algorithm;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
-use crate::classify::in_plan::{self, InPlan};
 use crate::classify::{Algorithm, Distribution};
-use crate::dataset::RoomNetwork;
+use crate::dataset::{NetworkRoom, RoomNetwork};
 use crate::features::NeighbourLabels;
-use crate::labels::{Label, Schemes, Typology};
-use crate::plan::{LabelOrigin, Plan, RoomId, RoomLabel, edit};
-use crate::store::{StoredModel, bundled_model, bundled_sets, load_model, save_plan};
+use crate::labels::{Label, Schemes};
+use crate::plan::{LabelOrigin, Plan, RoomLabel, edit};
+use crate::predict::{Agreement, Choice, ModelSet, Predictions, UnknownSet, choose};
+use crate::store::{StoredModel, bundled_model, load_model, save_plan, set_name};
 
 /// `enfilade classify`: labels for the rooms of plans.
 #[derive(clap::Args)]
@@ -22,8 +23,8 @@ pub struct ClassifyCommand {
     plans: Vec<PathBuf>,
     /// house, school, office, 'standard' (learned from all), or 'auto' to infer it from the plan;
     /// without it the plan's own, inferred where it has none
-    #[arg(long, value_name = "NAME")]
-    typology: Option<String>,
+    #[arg(long, value_name = "NAME", default_value = "plan", hide_default_value = true, value_parser = model_set)]
+    typology: ModelSet,
     /// rules, tree, knn or mlp
     #[arg(long, value_name = "NAME", default_value = "mlp", value_parser = algorithm)]
     algorithm: Algorithm,
@@ -51,32 +52,9 @@ pub struct ClassifyCommand {
     scheme: Vec<PathBuf>,
 }
 
-/// What is said of one room.
-struct Said {
-    id: RoomId,
-    key: String,
-    function: String,
-    /// The label that is known.
-    known: Option<Label>,
-    distribution: Distribution,
-    reason: String,
-}
-
-/// What is said of one plan.
-struct SaidOfPlan {
-    /// The typology whose model was used, and how it was chosen.
-    choice: Choice,
-    model: String,
-    neighbours: NeighbourLabels,
-    rounds: usize,
-    settled: bool,
-    rooms: Vec<Said>,
-}
-
-/// Which set of models a plan is classified by, and why.
-struct Choice {
-    set: String,
-    why: String,
+/// Which models to use, as an option's value.
+fn model_set(word: &str) -> Result<ModelSet, String> {
+    word.parse().map_err(|error: UnknownSet| error.to_string())
 }
 
 impl Subcommand for ClassifyCommand {
@@ -86,7 +64,7 @@ impl Subcommand for ClassifyCommand {
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let schemes = inputs::schemes(&self.scheme)?;
-        let own = self.model.as_deref().map(load_model).transpose()?;
+        let own = self.model.as_deref().map(load_model).transpose()?.map(Arc::new);
         let files = inputs::plan_files(&self.plans)?;
         let mut objects: Vec<serde_json::Value> = Vec::new();
         let mut total = Agreement::default();
@@ -94,15 +72,14 @@ impl Subcommand for ClassifyCommand {
         let failed = inputs::for_each_plan(&files, terminal, |file, import, terminal| {
             for (storey, plan) in import.plans.iter().enumerate() {
                 let said = self.classify(plan, &schemes, own.as_ref())?;
-                let agreement = Agreement::of(&said.rooms);
-                total.add(&agreement);
+                total.add(said.agreement());
                 if self.json {
-                    objects.push(said.json(plan, &agreement));
+                    objects.push(json(plan, &said));
                 } else {
                     if plans > 0 {
                         writeln!(terminal.out)?;
                     }
-                    said.print(plan, &agreement, terminal)?;
+                    print(plan, &said, terminal)?;
                 }
                 plans += 1;
                 if self.write {
@@ -123,63 +100,26 @@ impl Subcommand for ClassifyCommand {
 }
 
 impl ClassifyCommand {
-    fn classify(&self, plan: &Plan, schemes: &Schemes, own: Option<&StoredModel>) -> Result<SaidOfPlan, CliError> {
+    fn classify(
+        &self,
+        plan: &Plan,
+        schemes: &Schemes,
+        own: Option<&Arc<StoredModel>>,
+    ) -> Result<Predictions, CliError> {
         let network = RoomNetwork::new(plan, schemes);
         let known = if self.hide_labels { vec![None; network.rooms.len()] } else { network.known_labels() };
-        let bundled;
         let (choice, model) = match own {
             Some(model) => {
-                let set = crate::store::set_name(model.about.typology.as_ref()).to_owned();
-                (Choice { set, why: "the model's".to_owned() }, model)
+                let set = set_name(model.about.typology.as_ref()).to_owned();
+                (Choice { set, because: "the model's".to_owned() }, model.clone())
             }
             None => {
-                let choice = self.choose(&network)?;
-                bundled = bundled_model(&choice.set, self.algorithm)?;
-                (choice, &bundled)
+                let choice = choose(&network, &self.typology);
+                let model = bundled_model(&choice.set, self.algorithm)?;
+                (choice, model)
             }
         };
-        let neighbours = self.neighbours.unwrap_or(model.about.neighbours);
-        let result = in_plan::classify(&model.classifier, &network, &known, neighbours);
-        let rooms = network
-            .rooms
-            .iter()
-            .enumerate()
-            .map(|(index, room)| Said {
-                id: room.id,
-                key: room.key.clone(),
-                function: room.function.clone(),
-                known: room.label,
-                distribution: result.distributions[index],
-                reason: model.classifier.explain(&result.features[index].values()).words(),
-            })
-            .collect();
-        let InPlan { rounds, settled, .. } = result;
-        Ok(SaidOfPlan { choice, model: model.name.clone(), neighbours, rounds, settled, rooms })
-    }
-
-    /// The set of models to use for a plan.
-    fn choose(&self, network: &RoomNetwork) -> Result<Choice, CliError> {
-        let sets: Vec<&str> = bundled_sets().collect();
-        let stated = network.typology.as_ref().map(Typology::as_str);
-        match self.typology.as_deref().map(str::trim) {
-            Some(name) if name.eq_ignore_ascii_case("auto") => Ok(Self::infer(network)),
-            Some(name) => match sets.iter().find(|set| set.eq_ignore_ascii_case(name)) {
-                Some(set) => Ok(Choice { set: (*set).to_owned(), why: "as told".to_owned() }),
-                None => Err(CliError::new(format!(
-                    "there is no bundled model for the typology '{name}'; use auto or one of {}, or train one with 'enfilade train'",
-                    sets.join(", ")
-                ))),
-            },
-            None => match stated.filter(|stated| sets.contains(stated)) {
-                Some(stated) => Ok(Choice { set: stated.to_owned(), why: "the plan's".to_owned() }),
-                None => Ok(Self::infer(network)),
-            },
-        }
-    }
-
-    /// Infers the typology from the plan itself.
-    fn infer(_network: &RoomNetwork) -> Choice {
-        Choice { set: crate::study::STANDARD.to_owned(), why: "the plan has none".to_owned() }
+        Ok(Predictions::new(network, choice, model, &known, self.neighbours))
     }
 
     /// Writes the predictions of the rooms without a label into a plan file; gives the file and their number.
@@ -190,7 +130,7 @@ impl ClassifyCommand {
         storeys: usize,
         files: usize,
         plan: &Plan,
-        said: &SaidOfPlan,
+        said: &Predictions,
     ) -> Result<(PathBuf, usize), CliError> {
         let name = inputs::target_name(file, storey, "plan.json");
         let target = match &self.output {
@@ -209,9 +149,9 @@ impl ClassifyCommand {
         };
         let mut plan = plan.clone();
         let mut written = 0;
-        for room in said.rooms.iter().filter(|room| room.known.is_none()) {
-            let label = RoomLabel { label: room.distribution.label(), origin: LabelOrigin::Prediction };
-            plan = edit::set_label(&plan, room.id, Some(label))?;
+        for room in said.network.rooms.iter().filter(|room| room.label.is_none()) {
+            let label = said.label(room.id).map(|label| RoomLabel { label, origin: LabelOrigin::Prediction });
+            plan = edit::set_label(&plan, room.id, label)?;
             written += 1;
         }
         save_plan(&target, &plan)?;
@@ -219,120 +159,77 @@ impl ClassifyCommand {
     }
 }
 
-/// How predictions compare with the labels that are known.
-#[derive(Clone, Copy, Debug, Default)]
-struct Agreement {
-    known: usize,
-    right: usize,
-}
-
-impl Agreement {
-    fn of(rooms: &[Said]) -> Self {
-        let known = || rooms.iter().filter(|room| room.known.is_some());
-        let right = known().filter(|room| room.known == Some(room.distribution.label())).count();
-        Self { known: known().count(), right }
+fn print(plan: &Plan, said: &Predictions, terminal: &mut Terminal) -> Result<(), CliError> {
+    let name = if plan.meta().name.is_empty() { "Untitled plan" } else { &plan.meta().name };
+    let rooms = &said.network.rooms;
+    let width = |of: &dyn Fn(&NetworkRoom) -> usize, least: usize| {
+        rooms.iter().map(of).max().unwrap_or_default().clamp(least, 28)
+    };
+    let keys = width(&|room| room.key.chars().count(), 4);
+    let functions = width(&|room| room.function.chars().count(), 8);
+    let out = &mut terminal.out;
+    writeln!(out, "{name}: typology {} ({}), model {}", said.choice.set, said.choice.because, said.model.name)?;
+    if rooms.is_empty() {
+        return Ok(writeln!(out, "  no rooms to classify")?);
     }
-
-    fn add(&mut self, other: &Self) {
-        self.known += other.known;
-        self.right += other.right;
-    }
-}
-
-impl std::fmt::Display for Agreement {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { known, right } = self;
-        match known {
-            0 => f.write_str("no room has a label to compare with"),
-            _ => write!(
-                f,
-                "{right} of {known} labelled rooms are said to be what they are ({:.0} %)",
-                100.0 * *right as f64 / *known as f64
-            ),
-        }
-    }
-}
-
-impl SaidOfPlan {
-    fn print(&self, plan: &Plan, agreement: &Agreement, terminal: &mut Terminal) -> Result<(), CliError> {
-        let name = if plan.meta().name.is_empty() { "Untitled plan" } else { &plan.meta().name };
-        let width = |of: &dyn Fn(&Said) -> usize, least: usize| {
-            self.rooms.iter().map(of).max().unwrap_or_default().clamp(least, 28)
-        };
-        let keys = width(&|room| room.key.chars().count(), 4);
-        let functions = width(&|room| room.function.chars().count(), 8);
-        let out = &mut terminal.out;
-        writeln!(out, "{name}: typology {} ({}), model {}", self.choice.set, self.choice.why, self.model)?;
-        if self.rooms.is_empty() {
-            return Ok(writeln!(out, "  no rooms to classify")?);
-        }
+    writeln!(
+        out,
+        "  {:<keys$}  {:<functions$}  {:<11}  {:<11}  prob.  reason",
+        "room", "function", "label", "predicted"
+    )?;
+    for (room, distribution) in rooms.iter().zip(&said.result.distributions) {
+        let label = distribution.label();
+        let mark = if room.label.is_some_and(|known| known != label) { "≠" } else { " " };
         writeln!(
             out,
-            "  {:<keys$}  {:<functions$}  {:<11}  {:<11}  prob.  reason",
-            "room", "function", "label", "predicted"
+            "  {:<keys$}  {:<functions$}  {:<11}{mark} {:<11}  {:>3.0} %  {}",
+            shortened(&room.key, keys),
+            shortened(&room.function, functions),
+            room.label.map_or("–", Label::name),
+            label.name(),
+            100.0 * distribution.probability(label),
+            said.reason(room.id).unwrap_or_default()
         )?;
-        for room in &self.rooms {
-            let said = room.distribution.label();
-            let mark = if room.known.is_some_and(|known| known != said) { "≠" } else { " " };
-            writeln!(
-                out,
-                "  {:<keys$}  {:<functions$}  {:<11}{mark} {:<11}  {:>3.0} %  {}",
-                shortened(&room.key, keys),
-                shortened(&room.function, functions),
-                room.known.map_or("–", Label::name),
-                said.name(),
-                100.0 * room.distribution.probability(said),
-                room.reason
-            )?;
-        }
-        writeln!(out, "  {agreement}; neighbours' labels: {}", self.neighbours_in_words())?;
-        Ok(())
     }
+    writeln!(out, "  {}; neighbours' labels: {}", said.agreement(), said.neighbours_in_words())?;
+    Ok(())
+}
 
-    fn neighbours_in_words(&self) -> String {
-        match (self.neighbours, self.settled) {
-            (NeighbourLabels::Predicted, true) => format!("predicted, stable after {} rounds", self.rounds),
-            (NeighbourLabels::Predicted, false) => format!("predicted, not stable after {} rounds", self.rounds),
-            (mode, _) => mode.name().to_owned(),
-        }
-    }
-
-    fn json(&self, plan: &Plan, agreement: &Agreement) -> serde_json::Value {
-        let probabilities = |distribution: &Distribution| {
-            let rounded = |label: Label| (distribution.probability(label) * 1e4).round() / 1e4;
-            Label::ALL
-                .map(|label| (label.letter().to_owned(), json!(rounded(label))))
-                .into_iter()
-                .collect::<serde_json::Map<_, _>>()
-        };
-        let rooms: Vec<serde_json::Value> = self
-            .rooms
-            .iter()
-            .map(|room| {
-                json!({
-                    "room": room.key,
-                    "id": room.id.to_string(),
-                    "function": room.function,
-                    "label": room.known.map(Label::letter),
-                    "predicted": room.distribution.label().letter(),
-                    "probabilities": probabilities(&room.distribution),
-                    "reason": room.reason,
-                })
+fn json(plan: &Plan, said: &Predictions) -> serde_json::Value {
+    let probabilities = |distribution: &Distribution| -> serde_json::Map<String, serde_json::Value> {
+        let rounded = |label: Label| (distribution.probability(label) * 1e4).round() / 1e4;
+        Label::ALL.into_iter().map(|label| (label.letter().to_owned(), json!(rounded(label)))).collect()
+    };
+    let rooms: Vec<serde_json::Value> = said
+        .network
+        .rooms
+        .iter()
+        .zip(&said.result.distributions)
+        .map(|(room, distribution)| {
+            json!({
+                "room": room.key,
+                "id": room.id.to_string(),
+                "function": room.function,
+                "label": room.label.map(Label::letter),
+                "predicted": distribution.label().letter(),
+                "probabilities": probabilities(distribution),
+                "reason": said.reason(room.id),
             })
-            .collect();
-        json!({
-            "plan": plan.meta().name,
-            "typology": self.choice.set,
-            "typology_because": self.choice.why,
-            "model": self.model,
-            "neighbours": self.neighbours.name(),
-            "rounds": self.rounds,
-            "settled": self.settled,
-            "labelled_rooms": agreement.known,
-            "agreeing_rooms": agreement.right,
-            "rooms": rooms,
         })
-    }
+        .collect();
+    let agreement = said.agreement();
+    json!({
+        "plan": plan.meta().name,
+        "typology": said.choice.set,
+        "typology_because": said.choice.because,
+        "model": said.model.name,
+        "neighbours": said.neighbours.name(),
+        "rounds": said.result.rounds,
+        "settled": said.result.settled,
+        "labelled_rooms": agreement.known,
+        "agreeing_rooms": agreement.right,
+        "rooms": rooms,
+    })
 }
 
 /// A text of at most so many characters, cut with an ellipsis.

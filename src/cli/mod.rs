@@ -13,6 +13,8 @@ mod models;
 mod open;
 mod progress;
 mod render;
+#[cfg(feature = "gui")]
+mod replay;
 mod train;
 
 use std::io::{IsTerminal as _, Write};
@@ -33,6 +35,8 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<evaluate::EvaluateCommand>(),
     entry::<train::TrainCommand>(),
     entry::<models::ModelsCommand>(),
+    #[cfg(feature = "gui")]
+    entry::<replay::ReplayCommand>(),
 ];
 
 /// A subcommand: its arguments (a clap `Args`) and what it does with them.

@@ -1,4 +1,5 @@
 use std::io::Write as _;
+use std::sync::Arc;
 
 use super::{CliError, Outcome, Subcommand, Terminal};
 use crate::classify::Algorithm;
@@ -18,7 +19,7 @@ impl Subcommand for ModelsCommand {
     const EXAMPLE: &'static str = "enfilade models";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
-        let mut models: Vec<StoredModel> = Vec::new();
+        let mut models: Vec<Arc<StoredModel>> = Vec::new();
         for set in bundled_sets() {
             for algorithm in Algorithm::ALL {
                 models.push(bundled_model(set, algorithm)?);
@@ -27,12 +28,12 @@ impl Subcommand for ModelsCommand {
         let folder = models_folder();
         let (own, errors) = folder.as_deref().map(models_in).unwrap_or_default();
         let own_count = own.len();
-        models.extend(own);
+        models.extend(own.into_iter().map(Arc::new));
         for error in &errors {
             writeln!(terminal.err, "enfilade: {error}")?;
         }
         if self.json {
-            let objects: Vec<serde_json::Value> = models.iter().map(json).collect();
+            let objects: Vec<serde_json::Value> = models.iter().map(|model| json(model)).collect();
             serde_json::to_writer_pretty(&mut terminal.out, &objects)?;
             writeln!(terminal.out)?;
         } else {
@@ -66,7 +67,7 @@ fn json(model: &StoredModel) -> serde_json::Value {
     })
 }
 
-fn print(models: &[StoredModel], terminal: &mut Terminal) -> Result<(), CliError> {
+fn print(models: &[Arc<StoredModel>], terminal: &mut Terminal) -> Result<(), CliError> {
     let width = models.iter().map(|model| model.name.chars().count()).max().unwrap_or_default().max(5);
     let out = &mut terminal.out;
     writeln!(

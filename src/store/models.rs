@@ -1,4 +1,6 @@
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use etcetera::BaseStrategy as _;
 
@@ -80,13 +82,14 @@ pub fn bundled_sets() -> impl Iterator<Item = &'static str> {
     BUNDLED.iter().step_by(Algorithm::ALL.len()).map(|(set, _, _)| *set)
 }
 
-/// The bundled model of a set (a typology, or `standard`) and an algorithm.
+/// The bundled model of a set (a typology, or `standard`) and an algorithm, read once.
 ///
 /// # Errors
 /// When there is none for the set, or it cannot be read, which the tests exclude.
-pub fn bundled_model(set: &str, algorithm: Algorithm) -> Result<StoredModel, ModelFileError> {
+pub fn bundled_model(set: &str, algorithm: Algorithm) -> Result<Arc<StoredModel>, ModelFileError> {
+    static READ: Mutex<BTreeMap<(&str, Algorithm), Arc<StoredModel>>> = Mutex::new(BTreeMap::new());
     let found = BUNDLED.iter().find(|(of, by, _)| *of == set && *by == algorithm);
-    let Some((set, algorithm, text)) = found else {
+    let Some(&(set, algorithm, text)) = found else {
         let sets: Vec<&str> = bundled_sets().collect();
         return Err(ModelFileError {
             line: None,
@@ -94,8 +97,16 @@ pub fn bundled_model(set: &str, algorithm: Algorithm) -> Result<StoredModel, Mod
             hint: format!("use one of {}, or train one with 'enfilade train'", sets.join(", ")),
         });
     };
+    // A poisoned map only lacks an entry.
+    let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(model) = read.get(&(set, algorithm)) {
+        return Ok(model.clone());
+    }
     let (classifier, about) = model_file::from_bytes(text.as_bytes())?;
-    Ok(StoredModel { name: format!("{set}-{}", algorithm.name()), path: None, classifier, about })
+    let name = format!("{set}-{}", algorithm.name());
+    let model = Arc::new(StoredModel { name, path: None, classifier, about });
+    read.insert((set, algorithm), model.clone());
+    Ok(model)
 }
 
 /// The environment variable that names another folder of the user's models.
