@@ -7,12 +7,13 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use crate::classify::in_plan::{self, InPlan};
+use crate::classify::model_file::ModelFileError;
 use crate::classify::{Algorithm, Distribution};
 use crate::dataset::RoomNetwork;
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
 use crate::plan::RoomId;
-use crate::store::{StoredModel, bundled_sets};
+use crate::store::{StoredModel, bundled_model, bundled_sets};
 use crate::study::STANDARD;
 
 /// Of which typology the models are to be.
@@ -68,6 +69,41 @@ impl FromStr for ModelSet {
     fn from_str(word: &str) -> Result<Self, UnknownSet> {
         let wanted = word.trim().to_lowercase();
         Self::all().into_iter().find(|set| set.name() == wanted).ok_or_else(|| UnknownSet(word.to_owned()))
+    }
+}
+
+/// The algorithm used where nobody says which: of the four the best on buildings never seen
+/// (`docs/classifiers.md`).
+pub const DEFAULT_ALGORITHM: Algorithm = Algorithm::Mlp;
+
+/// Which bundled models are to predict.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Predictor {
+    pub set: ModelSet,
+    pub algorithm: Algorithm,
+}
+
+impl Default for Predictor {
+    fn default() -> Self {
+        Self { set: ModelSet::default(), algorithm: DEFAULT_ALGORITHM }
+    }
+}
+
+impl Predictor {
+    /// Classifies the rooms of a network. `known` holds, for each, the label that may be used where it is
+    /// a neighbour; without `neighbours`, they are taken as the model learned.
+    ///
+    /// # Errors
+    /// When a bundled model cannot be read, which the tests exclude.
+    pub fn predict(
+        &self,
+        network: RoomNetwork,
+        known: &[Option<Label>],
+        neighbours: Option<NeighbourLabels>,
+    ) -> Result<Predictions, ModelFileError> {
+        let choice = choose(&network, &self.set);
+        let model = bundled_model(&choice.set, self.algorithm)?;
+        Ok(Predictions::new(network, choice, model, known, neighbours))
     }
 }
 

@@ -77,17 +77,19 @@ pub enum Menu {
     File,
     Edit,
     Room,
+    Predict,
     View,
 }
 
 impl Menu {
-    pub const ALL: [Self; 4] = [Self::File, Self::Edit, Self::Room, Self::View];
+    pub const ALL: [Self; 5] = [Self::File, Self::Edit, Self::Room, Self::Predict, Self::View];
 
     pub const fn title(self) -> &'static str {
         match self {
             Self::File => "File",
             Self::Edit => "Edit",
             Self::Room => "Room",
+            Self::Predict => "Predict",
             Self::View => "View",
         }
     }

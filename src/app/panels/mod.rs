@@ -5,6 +5,7 @@ mod layers;
 mod messages;
 pub(super) mod notes;
 mod plans;
+mod prediction;
 mod questions;
 pub(super) mod status;
 mod top_bar;
