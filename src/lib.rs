@@ -17,6 +17,7 @@ pub mod geometry;
 pub mod labels;
 pub mod parallel;
 pub mod plan;
+pub mod predict;
 pub mod random;
 pub mod store;
 pub mod study;

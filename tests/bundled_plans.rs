@@ -107,7 +107,7 @@ fn the_rooms_are_joined_as_intended() {
         let golden = folder.join(file.replace("plan.json", "openings.txt"));
         let out = golden.with_extension("out.txt");
         let actual = openings_in_words(&plan);
-        if std::env::var_os("ENFILADE_BLESS").is_some() {
+        if std::env::var_os("UPDATE_GOLDEN").is_some() {
             std::fs::write(&golden, &actual).unwrap();
         }
         if std::fs::read_to_string(&golden).unwrap_or_default() == actual {
@@ -117,7 +117,7 @@ fn the_rooms_are_joined_as_intended() {
             different.push(out);
         }
     }
-    assert!(different.is_empty(), "look at {different:?}, then run with ENFILADE_BLESS=1");
+    assert!(different.is_empty(), "look at {different:?}, then run with UPDATE_GOLDEN=1");
 }
 
 #[test]

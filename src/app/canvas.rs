@@ -12,7 +12,7 @@ use egui::{
 use super::document::{Derived, Document, Picked};
 use super::scene_painter::{ScenePainter, earcut, on_screen, outline_mesh, polygon_mesh};
 use super::theme;
-use super::{App, Picture};
+use super::{App, Picture, commands};
 use crate::draw::{self, Layers, Palette, Style, View};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::plan::{Backdrop, Plan};
@@ -39,6 +39,8 @@ pub(super) struct Canvas {
     is_touch_pad: bool,
     /// Whether focus came by keyboard, so that it must be seen.
     shows_focus: bool,
+    /// Whether the pointer moved the view in this frame.
+    was_moved: bool,
 }
 
 /// Where the view stands.
@@ -54,6 +56,7 @@ struct Camera {
 enum Wish {
     Fit,
     Zoom(Bounds),
+    LookAt(Point, f64),
     By(f64),
     Reveal(Picked),
 }
@@ -107,6 +110,10 @@ impl Canvas {
         self.wish = Some(Wish::Zoom(bounds));
     }
 
+    pub(super) fn look_at(&mut self, centre: Point, px_per_m: f64) {
+        self.wish = Some(Wish::LookAt(centre, px_per_m));
+    }
+
     pub(super) fn zoom_by(&mut self, factor: f64) {
         self.wish = Some(Wish::By(factor));
     }
@@ -114,6 +121,16 @@ impl Canvas {
     /// Moves the view if need be, so that something is seen.
     pub(super) fn reveal(&mut self, picked: Picked) {
         self.wish = Some(Wish::Reveal(picked));
+    }
+
+    /// Where the canvas was in the last frame.
+    pub(super) fn seen_rect(&self) -> Option<Rect> {
+        self.seen.map(|(_, rect)| rect)
+    }
+
+    /// How far from an opening a click picks it, in metres at the present zoom.
+    pub(super) fn pick_reach_m(&self) -> f64 {
+        self.px_per_m().map_or(0.0, |px_per_m| PICK_REACH / px_per_m)
     }
 
     /// Points of the screen a metre of the plan is long.
@@ -196,6 +213,7 @@ impl Canvas {
                 let around_m = bounds.width().max(bounds.height()) / 3.0;
                 camera = fitting(bounds.inflated(around_m));
             }
+            Some(Wish::LookAt(centre, px_per_m)) => camera = Camera { centre, px_per_m, is_fitted: false },
             Some(Wish::By(factor)) => {
                 camera = Camera { px_per_m: camera.px_per_m * factor, is_fitted: false, ..camera };
             }
@@ -233,6 +251,7 @@ impl Canvas {
             let metres = Vector::new(-f64::from(by.x), f64::from(by.y)) * (1.0 / camera.px_per_m);
             camera.centre = camera.centre + metres;
             camera.is_fitted = false;
+            self.was_moved = true;
         }
     }
 
@@ -247,6 +266,7 @@ impl Canvas {
         camera.centre = fixed + (camera.centre - fixed) * (camera.px_per_m / px_per_m);
         camera.px_per_m = px_per_m;
         camera.is_fitted = false;
+        self.was_moved = true;
     }
 
     fn take_pointer(&mut self, ui: &Ui, response: &Response, view: &View) {
@@ -319,8 +339,8 @@ enum Act {
     Pick(Option<Picked>),
     /// Pick the next or previous room; leave the canvas behind the last.
     PickNeighbour(isize),
-    /// Pick the room nearest in a direction of the plan.
-    PickTowards(Vector),
+    /// Pick the room nearest in a direction of the plan: the argument of the command.
+    PickTowards(&'static str),
     Rename,
 }
 
@@ -329,11 +349,24 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let Some(document) = &app.document else { return };
     let mut canvas = std::mem::take(&mut app.canvas);
     let act = canvas.show(ui, document, app);
+    if std::mem::take(&mut canvas.was_moved)
+        && let Some(camera) = canvas.camera
+    {
+        let numbers = [camera.centre.x, camera.centre.y, camera.px_per_m];
+        app.note_executed("view", numbers.map(|number| number.to_string()).to_vec());
+    }
     app.canvas = canvas;
     match act {
         None => {}
-        Some(Act::Pick(picked)) => app.pick(picked),
-        Some(Act::PickNeighbour(step)) if app.pick_neighbour(step) => {}
+        Some(Act::Pick(None)) => drop(app.run_command("clear-selection", ui.ctx())),
+        Some(Act::Pick(Some(Picked::Room(room)))) => {
+            let word = app.plan().map(|plan| commands::room_word(plan, room)).unwrap_or_default();
+            app.act("pick", &[&word], ui.ctx());
+        }
+        Some(Act::Pick(Some(Picked::Opening(opening)))) => app.act("pick-opening", &[&opening.to_string()], ui.ctx()),
+        Some(Act::PickNeighbour(step)) if app.pick_neighbour(step) => {
+            app.note_executed(if step > 0 { "next-room" } else { "previous-room" }, Vec::new());
+        }
         Some(Act::PickNeighbour(step)) => {
             let direction = if step > 0 { egui::FocusDirection::Next } else { egui::FocusDirection::Previous };
             ui.memory_mut(|memory| {
@@ -341,7 +374,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
                 memory.move_focus(direction);
             });
         }
-        Some(Act::PickTowards(direction)) => app.pick_towards(direction),
+        Some(Act::PickTowards(direction)) => app.act("pick-towards", &[direction], ui.ctx()),
         Some(Act::Rename) => {
             app.run_command("rename", ui.ctx());
         }
@@ -452,10 +485,10 @@ impl Canvas {
                 let egui::Event::Key { key, pressed: true, modifiers, .. } = event else { return None };
                 match key {
                     Key::Tab => Some(Act::PickNeighbour(if modifiers.shift { -1 } else { 1 })),
-                    Key::ArrowLeft => Some(Act::PickTowards(Vector::new(-1.0, 0.0))),
-                    Key::ArrowRight => Some(Act::PickTowards(Vector::new(1.0, 0.0))),
-                    Key::ArrowUp => Some(Act::PickTowards(Vector::new(0.0, 1.0))),
-                    Key::ArrowDown => Some(Act::PickTowards(Vector::new(0.0, -1.0))),
+                    Key::ArrowLeft => Some(Act::PickTowards("left")),
+                    Key::ArrowRight => Some(Act::PickTowards("right")),
+                    Key::ArrowUp => Some(Act::PickTowards("up")),
+                    Key::ArrowDown => Some(Act::PickTowards("down")),
                     Key::Enter => Some(Act::Rename),
                     _ => None,
                 }
@@ -574,6 +607,7 @@ fn style(app: &App, plan: &Plan, is_dark: bool) -> Style {
     Style {
         theme: if is_dark { draw::Theme::Dark } else { draw::Theme::Light },
         fill: layers.fill,
+        label_colours: layers.colours,
         // The picture must be seen through the rooms.
         fill_opacity: if is_over_picture { 0.55 } else { 1.0 },
         halo: is_over_picture,
@@ -587,7 +621,6 @@ fn style(app: &App, plan: &Plan, is_dark: bool) -> Style {
             names: layers.names,
             areas: layers.names,
         },
-        ..Style::default()
     }
 }
 

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use egui::{Context, ViewportCommand};
 
+use super::commands::sample_word;
 use super::dialogs::{Answer, Purpose};
 use super::document::{self, Document, Expected, Opened, Origin, SaveFailure, Stamp};
 use super::{App, Done, Intent, Message, Question, Remedy, Severity, plan_list};
@@ -36,7 +37,7 @@ impl App {
             Ok(opened) => self.request(Intent::Show(Box::new(opened))),
             Err(FileError { path, error }) => {
                 self.say(Severity::Error, format!("Could not open {}", document::file_name(&path)), {
-                    format!("{error}\n{}", path.display())
+                    format!("{error}\n{}", self.shown_path(&path))
                 });
             }
         }
@@ -57,13 +58,24 @@ impl App {
             let text = format!("{} files were dropped; the first is opened", dropped.len());
             self.say(Severity::Info, text, "Plans that lie in the same folder are in the list on the left.");
         }
-        self.open(Origin::File { path: first.path().to_owned(), storey: 0 });
+        self.act("open", &[&first.path().to_string_lossy()], context);
+    }
+
+    /// Opens what a row of the list or a card stands for.
+    pub(super) fn open_listed(&mut self, origin: &Origin, context: &Context) {
+        match origin {
+            Origin::Bundled(index) => self.act("open-sample", &[sample_word(*index)], context),
+            Origin::File { path, storey: 0 } => self.act("open", &[&path.to_string_lossy()], context),
+            Origin::File { path, storey } => {
+                self.act("open", &[&path.to_string_lossy(), &(storey + 1).to_string()], context);
+            }
+        }
     }
 
     pub(super) fn take_close_request(&mut self, context: &Context) {
         if context.input(|input| input.viewport().close_requested()) && !self.quitting {
             context.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.request(Intent::Quit);
+            self.run_command("quit", context);
         }
         if self.quitting && !self.is_close_sent {
             self.is_close_sent = true;
@@ -120,31 +132,87 @@ impl App {
         });
     }
 
-    /// Saves the plan in its file, asking for one where it has none of Enfilade's own; then does what
-    /// was to follow.
-    pub(super) fn save(&mut self, then: Option<Intent>) {
-        self.commit_field();
-        let Some(document) = &self.document else { return };
+    /// Answers the question that is asked. `path`: the file to save in, where there must be one; the
+    /// dialog asks for it without. Gives whether it did not have to ask.
+    pub(super) fn answer(&mut self, word: &'static str, path: Option<PathBuf>) -> bool {
+        let then = match (self.question.take(), word) {
+            (Some(Question::Unsaved(intent)), "save") => {
+                if path.is_none() && self.has_own_file() {
+                    self.save(Some(intent));
+                    return true;
+                }
+                Some(intent)
+            }
+            (Some(Question::Replace { then, .. }), "elsewhere") => then,
+            (Some(Question::Unsaved(intent)), "discard") => {
+                self.perform(intent);
+                return true;
+            }
+            (Some(Question::Replace { path, then, .. }), "replace") => {
+                self.save_to(path, Expected::Anything, then);
+                return true;
+            }
+            _ => return true,
+        };
+        match path {
+            Some(path) => self.save_in(path, then),
+            None => {
+                self.ask_where_to_save(then, Some(word));
+                return false;
+            }
+        }
+        true
+    }
+
+    fn has_own_file(&self) -> bool {
+        let path = self.document.as_ref().and_then(|document| document.origin.path());
+        path.is_some_and(document::is_own_file)
+    }
+
+    /// Saves the plan in its file; then does what was to follow. Where it has none of Enfilade's own,
+    /// asks for one. Gives whether it did not have to ask.
+    pub(super) fn save(&mut self, then: Option<Intent>) -> bool {
+        let Some(document) = &self.document else { return true };
         match document.origin.path() {
             Some(path) if document::is_own_file(path) => {
                 let expected = document.stamp.map_or(Expected::Anything, Expected::Stamp);
                 self.save_to(path.to_owned(), expected, then);
+                true
             }
-            _ => self.save_as(then),
+            _ => {
+                self.ask_where_to_save(then, None);
+                false
+            }
         }
     }
 
-    pub(super) fn save_as(&mut self, then: Option<Intent>) {
-        self.commit_field();
+    /// Asks for a file to save the plan in; then does what was to follow. `answering`: the answer to
+    /// a question that led here.
+    pub(super) fn ask_where_to_save(&mut self, then: Option<Intent>, answering: Option<&'static str>) {
         let Some(document) = &self.document else { return };
         let folder = document.origin.folder().map(Path::to_owned);
         let name = format!("{}.plan.json", document.origin.stem());
-        self.dialogs.ask(Purpose::Save { then }, folder, name, &mut self.background);
+        self.dialogs.ask(Purpose::Save { then, answering }, folder, name, &mut self.background);
     }
 
-    pub(super) fn was_chosen(&mut self, answer: Answer) {
+    /// Saves the plan in a file that a person has chosen; the ending is added where it is missing.
+    pub(super) fn save_in(&mut self, mut path: PathBuf, then: Option<Intent>) {
+        if document::is_own_file(&path) {
+            // Who chose it has been asked whether to replace.
+            self.save_to(path, Expected::Anything, then);
+            return;
+        }
+        path.as_mut_os_string().push(".plan.json");
+        if path.exists() {
+            self.question = Some(Question::Replace { path, is_changed_since: false, then });
+        } else {
+            self.save_to(path, Expected::Anything, then);
+        }
+    }
+
+    pub(super) fn was_chosen(&mut self, answer: Answer, context: &Context) {
         let Answer { purpose, path, was_shown } = answer;
-        let Some(mut path) = path else {
+        let Some(path) = path else {
             if !was_shown {
                 self.say(
                     Severity::Warning,
@@ -154,22 +222,20 @@ impl App {
                 );
             }
             // Cancel means cancel: what was to follow is forgotten.
+            if let Purpose::Save { answering: Some(_), .. } = purpose {
+                self.note_executed("answer", vec!["cancel".to_owned()]);
+            }
             return;
         };
+        let word = path.to_string_lossy().into_owned();
         match purpose {
-            Purpose::Open => self.open(Origin::File { path, storey: 0 }),
-            Purpose::Save { then } => {
-                if document::is_own_file(&path) {
-                    // The dialog has asked whether to replace.
-                    self.save_to(path, Expected::Anything, then);
-                } else {
-                    path.as_mut_os_string().push(".plan.json");
-                    if path.exists() {
-                        self.question = Some(Question::Replace { path, is_changed_since: false, then });
-                    } else {
-                        self.save_to(path, Expected::Anything, then);
-                    }
+            Purpose::Open => self.act("open", &[&word], context),
+            Purpose::Save { then: None, answering: None } => self.act("save-as", &[&word], context),
+            Purpose::Save { then, answering } => {
+                if let Some(answer) = answering {
+                    self.note_executed("answer", vec![answer.to_owned(), word]);
                 }
+                self.save_in(path, then);
             }
         }
     }
@@ -214,7 +280,7 @@ impl App {
                 self.say(
                     Severity::Error,
                     text,
-                    format!("Your changes are still here; {}.\n{}", error.hint, path.display()),
+                    format!("Your changes are still here; {}.\n{}", error.hint, self.shown_path(&path)),
                 );
             }
         }

@@ -6,6 +6,7 @@
 mod background;
 mod canvas;
 pub mod commands;
+mod controls;
 mod dialogs;
 mod document;
 mod files;
@@ -15,19 +16,22 @@ mod panels;
 mod picture;
 mod plan_list;
 mod raster;
+pub mod replay;
 mod scene_painter;
 mod theme;
 mod widgets;
 mod window;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use egui::{Context, Ui};
 
+pub use commands::{CommandError, Executed};
+pub use controls::Control;
 pub use document::Picked;
 pub use icons::Icon;
-pub use offscreen::{Control, NotSettled, Offscreen, OffscreenOptions};
+pub use offscreen::{NotSettled, Offscreen, OffscreenOptions};
 pub use picture::{Difference, Picture};
 pub use raster::Raster;
 pub use theme::ThemeChoice;
@@ -37,17 +41,17 @@ use background::{Background, Mode};
 use canvas::Canvas;
 use dialogs::{Answer, Dialogs};
 use document::{Derived, Document, Opened, Origin, SaveFailure, Stamp};
-use panels::Panels;
 use panels::welcome::Samples;
+use panels::{Field, FieldKind, Panels};
 use plan_list::PlanList;
 
-use crate::draw::Fill;
+use crate::draw::{self, Fill, LabelColours, Palette};
 use crate::features::RoomStatus;
 use crate::formats::FileError;
 use crate::geometry::Vector;
 use crate::labels::{Label, Schemes};
 use crate::plan::edit::{self, EditError};
-use crate::plan::{LabelOrigin, Plan, Room, RoomId, RoomLabel};
+use crate::plan::{LabelOrigin, Meta, Plan, Room, RoomId, RoomLabel};
 
 /// The window's state, apart from any display.
 pub struct App {
@@ -73,14 +77,19 @@ pub struct App {
     quitting: bool,
     is_close_sent: bool,
     shown_title: String,
+    /// Where scripts work: paths below are shown from here.
+    named_from: Option<PathBuf>,
     /// How many documents have been shown.
     documents: u64,
+    /// The commands that were done, where a recorder wants them.
+    executed: Option<Vec<Executed>>,
 }
 
 /// What is shown of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct LayerSettings {
     fill: Fill,
+    colours: LabelColours,
     graph: bool,
     names: bool,
     backdrop: bool,
@@ -89,7 +98,14 @@ struct LayerSettings {
 
 impl Default for LayerSettings {
     fn default() -> Self {
-        Self { fill: Fill::Label, graph: false, names: true, backdrop: true, grid: true }
+        Self {
+            fill: Fill::Label,
+            colours: LabelColours::Standard,
+            graph: false,
+            names: true,
+            backdrop: true,
+            grid: true,
+        }
     }
 }
 
@@ -181,7 +197,9 @@ impl App {
             quitting: false,
             is_close_sent: false,
             shown_title: String::new(),
+            named_from: None,
             documents: 0,
+            executed: None,
         }
     }
 
@@ -232,17 +250,10 @@ impl App {
         self.canvas.screen_position(crate::geometry::Point::new(x_m, y_m))
     }
 
-    /// Runs a command by its id, as a menu would. Gives whether there is such a command and it could
-    /// be done.
-    pub fn run_command(&mut self, id: &str, context: &Context) -> bool {
-        let Some(command) = commands::find(id) else { return false };
-        self.commit_field();
-        let is_available = (command.is_available)(self);
-        if is_available {
-            self.status.clear();
-            (command.run)(self, context);
-        }
-        is_available
+    /// A path as it is shown.
+    fn shown_path(&self, path: &Path) -> String {
+        let folder = self.named_from.as_deref().unwrap_or(Path::new(""));
+        path.strip_prefix(folder).unwrap_or(path).display().to_string()
     }
 
     fn say(&mut self, severity: Severity, text: impl Into<String>, detail: impl Into<String>) {
@@ -274,7 +285,7 @@ impl App {
                 Some(Done::Listed(folder, files)) => self.list.set_folder(folder, files),
                 Some(Done::Chosen(answer)) => {
                     self.dialogs.answered();
-                    self.was_chosen(answer);
+                    self.was_chosen(answer, context);
                 }
                 Some(Done::Saved { document, path, plan, result, then }) => {
                     self.was_saved(document, path, plan, result, then);
@@ -282,7 +293,7 @@ impl App {
                 Some(Done::Backdrop(path, result)) => {
                     if let Err(what) = self.canvas.set_backdrop(context, &path, result) {
                         let text = format!("The picture under the plan is missing: {what}");
-                        self.say(Severity::Warning, text, path.display().to_string());
+                        self.say(Severity::Warning, text, self.shown_path(&path));
                     }
                 }
             }
@@ -298,7 +309,13 @@ impl App {
             return;
         }
         for command in context.input_mut(|input| commands::take_pressed(input, is_typing)) {
-            self.run_command(command.id, context);
+            match self.run_command_with(command.id, &[], context) {
+                // Escape with nothing picked needs no word.
+                Err(CommandError::NotNow { reason, .. }) if command.id != "clear-selection" => {
+                    self.status = format!("{}: {reason}", command.title.trim_end_matches('…'));
+                }
+                Ok(()) | Err(_) => {}
+            }
         }
     }
 
@@ -425,7 +442,32 @@ impl App {
     fn commit_field(&mut self) {
         if let Some(field) = self.panels.take_field() {
             self.edit(field.title(), |plan| field.apply(plan));
+            // The field's room is the picked one: picking another ends the typing first.
+            let (id, text) = field.as_command();
+            self.note_executed(id, vec![text]);
         }
+    }
+
+    /// Writes a text of the picked room.
+    fn write_field(&mut self, kind: FieldKind, text: &str) {
+        let Some((room, _)) = self.picked_room() else { return };
+        let field = Field::new(room, kind, text);
+        self.edit(field.title(), |plan| field.apply(plan));
+    }
+
+    /// Gives the keyboard to the inspector's field for a text of the picked room.
+    fn ask_for_field(&mut self, kind: FieldKind) {
+        self.panels.right = true;
+        self.panels.focus = Some(kind);
+    }
+
+    /// Changes what is known of the plan as a whole.
+    fn change_meta(&mut self, title: &str, change: impl FnOnce(&mut Meta)) {
+        self.edit(title, |plan| {
+            let mut meta = plan.meta().clone();
+            change(&mut meta);
+            Ok(edit::set_meta(plan, meta))
+        });
     }
 
     fn undo(&mut self) {
@@ -438,6 +480,12 @@ impl App {
         if let Some(title) = self.document.as_mut().and_then(|document| document.history.redo()) {
             self.status = format!("Redone: {title}");
         }
+    }
+
+    /// The colours of the plan, in the window's theme.
+    fn palette(&self, ui: &Ui) -> &'static Palette {
+        let theme = if ui.visuals().dark_mode { draw::Theme::Dark } else { draw::Theme::Light };
+        Palette::of(theme, self.layers.colours)
     }
 
     fn set_theme(&mut self, theme: ThemeChoice, context: &Context) {

@@ -34,10 +34,37 @@ pub fn study(collection: &Collection, options: Options, work: &Work<'_>) -> Resu
     let mut tasks = lab.tasks();
     Random::new(options.seed).shuffle(&mut tasks);
     let done = work.map(tasks.len(), |index| lab.perform(tasks[index]))?;
-    let mut results = Results(tasks.into_iter().zip(done).collect());
-    // Back in the order of their definition.
-    results.0.sort_by_key(|(task, _)| *task);
-    Ok(lab.gather(&results))
+    Ok(lab.gather(&Results::new(tasks, done)))
+}
+
+/// Cross-validates some algorithms on one set under some conditions, without the rest of a study.
+/// Conditions that cannot be measured are left out and named in the notes beside the cells.
+///
+/// # Errors
+/// As [`study`].
+pub fn validate(
+    collection: &Collection,
+    options: Options,
+    set: &str,
+    algorithms: &[Algorithm],
+    conditions: &[Condition],
+    work: &Work<'_>,
+) -> Result<(Vec<Cell>, Vec<String>), StudyError> {
+    let lab = Lab::new(collection, options)?;
+    let all = lab.conditions();
+    let is_wanted = |task: &Task| match *task {
+        Task::Fold { condition, set: of, algorithm, .. } => {
+            lab.sets[of].name == set
+                && algorithms.contains(&Algorithm::ALL[algorithm])
+                && conditions.contains(&all[condition])
+        }
+        Task::Foreign { .. } | Task::Point { .. } => false,
+    };
+    let tasks: Vec<Task> = lab.tasks().into_iter().filter(is_wanted).collect();
+    let done = work.map(tasks.len(), |index| lab.perform(tasks[index]))?;
+    let results = Results::new(tasks, done);
+    let cells = lab.cells(&results).into_iter().filter(|cell| cell.scores.rooms > 0).collect();
+    Ok((cells, lab.notes))
 }
 
 /// The data, prepared.
@@ -98,6 +125,7 @@ enum Done {
     Point(usize, usize, usize),
 }
 
+/// Tasks with what came of them, sorted.
 struct Results(Vec<(Task, Done)>);
 
 impl<'a> Lab<'a> {
@@ -380,7 +408,7 @@ impl<'a> Lab<'a> {
             folds: self.options.folds,
             condition: main,
             sets: self.sets.iter().map(|set| self.describe(set)).collect(),
-            accuracy: Vec::new(),
+            accuracy: self.cells(results),
             averages: Vec::new(),
             confusion: Vec::new(),
             rooms: Vec::new(),
@@ -390,30 +418,6 @@ impl<'a> Lab<'a> {
             importance: Vec::new(),
             notes: self.notes.clone(),
         };
-        // How right each set's algorithms are on each row, under the main condition.
-        let mut right: Vec<Vec<Vec<Option<bool>>>> = vec![vec![vec![None; self.rows.len()]; 4]; self.sets.len()];
-        for (index, &condition) in conditions.iter().enumerate() {
-            for (at, set) in self.sets.iter().enumerate() {
-                let Some(dealt) = set.dealt(condition.by) else { continue };
-                for (number, algorithm) in Algorithm::ALL.into_iter().enumerate() {
-                    let predictions = results.folds(index, at, number);
-                    if condition == main {
-                        for (_, row, distribution) in &predictions {
-                            right[at][number][*row] = Some(distribution.label() == self.rows[*row].label);
-                        }
-                    }
-                    let scores =
-                        Scores::of(predictions.iter().map(|(fold, row, said)| (*fold, *said, self.rows[*row].label)));
-                    study.accuracy.push(Cell {
-                        set: set.name.clone(),
-                        algorithm,
-                        condition,
-                        fold_count: dealt.count,
-                        scores,
-                    });
-                }
-            }
-        }
         for (at, set) in self.sets.iter().enumerate() {
             let of_set: Vec<&Scores> =
                 Algorithm::ALL.into_iter().filter_map(|algorithm| study.scores(&set.name, algorithm, main)).collect();
@@ -439,8 +443,39 @@ impl<'a> Lab<'a> {
                 study.importance.extend(results.importance(set, at, number, algorithm, accuracy, &conditions, main));
             }
         }
-        self.compare(results, &right, &mut study);
+        self.compare(results, &self.right(results), &mut study);
         study
+    }
+
+    /// The scores of each set, algorithm and condition.
+    fn cells(&self, results: &Results) -> Vec<Cell> {
+        let mut cells = Vec::new();
+        for (index, &condition) in self.conditions().iter().enumerate() {
+            for (at, set) in self.sets.iter().enumerate() {
+                let Some(dealt) = set.dealt(condition.by) else { continue };
+                for (number, algorithm) in Algorithm::ALL.into_iter().enumerate() {
+                    let predictions = results.folds(index, at, number);
+                    let scores =
+                        Scores::of(predictions.iter().map(|(fold, row, said)| (*fold, *said, self.rows[*row].label)));
+                    cells.push(Cell { set: set.name.clone(), algorithm, condition, fold_count: dealt.count, scores });
+                }
+            }
+        }
+        cells
+    }
+
+    /// How right each set's algorithms are on each row, under the main condition; `None` for rows that
+    /// are not of the set.
+    fn right(&self, results: &Results) -> Vec<Vec<Vec<Option<bool>>>> {
+        let main = self.conditions().iter().position(|condition| *condition == self.main_condition());
+        let of_algorithm = |set: usize, algorithm: usize| {
+            let mut right = vec![None; self.rows.len()];
+            for (_, row, said) in results.folds(main.unwrap_or_default(), set, algorithm) {
+                right[row] = Some(said.label() == self.rows[row].label);
+            }
+            right
+        };
+        (0..self.sets.len()).map(|set| (0..4).map(|algorithm| of_algorithm(set, algorithm)).collect()).collect()
     }
 
     /// The typologies' own classifiers against standard and foreign ones.
@@ -554,6 +589,12 @@ fn confusion_table(set: &str, scores: &[&Scores]) -> ConfusionTable {
 }
 
 impl Results {
+    fn new(tasks: Vec<Task>, done: Vec<Done>) -> Self {
+        let mut results: Vec<(Task, Done)> = tasks.into_iter().zip(done).collect();
+        results.sort_by_key(|(task, _)| *task);
+        Self(results)
+    }
+
     /// The predictions of all folds: fold, row, distribution.
     fn folds(&self, condition: usize, set: usize, algorithm: usize) -> Vec<(usize, usize, &Distribution)> {
         let from = Task::Fold { condition, set, algorithm, fold: 0 };

@@ -12,7 +12,7 @@ use std::fmt;
 use serde::{Serialize, Serializer};
 
 pub use comparison::Comparison;
-pub use measure::study;
+pub use measure::{study, validate};
 
 use crate::classify::{Algorithm, Confusion, Scores, TableRates};
 use crate::dataset::LabelStatistics;

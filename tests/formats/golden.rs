@@ -6,12 +6,12 @@ pub fn fixture(name: &str) -> PathBuf {
 }
 
 /// Compares a text with the golden file of this name. On a difference the text is written beside it
-/// as `….out.txt`; with `ENFILADE_BLESS=1` in the environment it becomes the golden file.
+/// as `….out.txt`; with `UPDATE_GOLDEN=1` in the environment it becomes the golden file.
 #[expect(clippy::disallowed_methods, reason = "a test's output is no user's file")]
 pub fn assert_golden(name: &str, actual: &str) {
     let golden = fixture(name);
     let out = golden.with_extension("out.txt");
-    if std::env::var_os("ENFILADE_BLESS").is_some() {
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
         std::fs::write(&golden, actual).unwrap();
     }
     if std::fs::read_to_string(&golden).unwrap_or_default() == actual {
@@ -20,7 +20,7 @@ pub fn assert_golden(name: &str, actual: &str) {
     }
     std::fs::write(&out, actual).unwrap();
     panic!(
-        "{} differs from {}; look at the difference, then run with ENFILADE_BLESS=1",
+        "{} differs from {}; look at the difference, then run with UPDATE_GOLDEN=1",
         out.display(),
         golden.display()
     );

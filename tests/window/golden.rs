@@ -12,7 +12,7 @@ pub fn fixture(name: &str) -> PathBuf {
 const MOST_BYTES: usize = 150_000;
 
 /// Compares a picture with the golden one of this name, pixel by pixel. On a difference the picture
-/// is written beside it as `….out.png`, and what differs as `….diff.png`; with `ENFILADE_BLESS=1` in
+/// is written beside it as `….out.png`, and what differs as `….diff.png`; with `UPDATE_GOLDEN=1` in
 /// the environment the picture becomes the golden one.
 #[expect(clippy::disallowed_methods, reason = "a test's output is no user's file")]
 pub fn assert_picture(name: &str, actual: &Picture) {
@@ -30,7 +30,7 @@ pub fn assert_picture(name: &str, actual: &Picture) {
         None => None,
     };
     let bytes = actual.to_png().unwrap();
-    if std::env::var_os("ENFILADE_BLESS").is_some() {
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
         assert!(bytes.len() <= MOST_BYTES, "{name}: {} bytes are too many", bytes.len());
         std::fs::write(&golden, bytes).unwrap();
         return;
@@ -43,5 +43,5 @@ pub fn assert_picture(name: &str, actual: &Picture) {
             format!("{} pixels differ, by up to {} (see {})", difference.pixels, difference.largest, diff.display())
         }
     };
-    panic!("{}: {what}; look at it, then run with ENFILADE_BLESS=1", out.display());
+    panic!("{}: {what}; look at it, then run with UPDATE_GOLDEN=1", out.display());
 }

@@ -9,7 +9,7 @@ use crate::app::document::{Derived, Document, Picked};
 use crate::app::icons::Icon;
 use crate::app::widgets::{Lead, Row, Segment, caption, colours, hairline, section, segmented, strong, value};
 use crate::app::{App, commands, theme};
-use crate::draw::{self, LabelColours, Palette};
+use crate::draw::Palette;
 use crate::features::{Features, RoomAnalysis, RoomStatus};
 use crate::labels::{Label, Meaning, normalised_function};
 use crate::plan::{Joint, LabelOrigin, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, ScaleOrigin};
@@ -32,7 +32,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         egui::Frame::new().inner_margin(margin).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 4.0;
             let Some(document) = &app.document else { return };
-            let inspected = Inspected { app, document, plan: document.plan(), palette: palette(ui) };
+            let inspected = Inspected { app, document, plan: document.plan(), palette: app.palette(ui) };
             act = match app.picked {
                 Some(Picked::Room(id)) => {
                     document.plan().room(id).and_then(|room| inspected.room(ui, id, room, &mut hovered))
@@ -45,28 +45,27 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         });
     });
     app.canvas.hovered_in_panel = hovered;
-    app.panels.focus_name = false;
+    app.panels.focus = None;
     match act {
         None => {}
-        Some(Act::Pick(picked)) => {
-            app.pick(Some(picked));
-            app.canvas.reveal(picked);
+        Some(Act::Pick(Picked::Room(room))) => {
+            let word = app.plan().map(|plan| commands::room_word(plan, room)).unwrap_or_default();
+            app.act("find-room", &[&word], ui.ctx());
         }
+        Some(Act::Pick(Picked::Opening(opening))) => app.act("pick-opening", &[&opening.to_string(), "on"], ui.ctx()),
         Some(Act::Label(label)) => {
-            app.commit_field();
-            app.label_picked(label);
+            let id = label.map_or("label-by-function", |label| LABEL_COMMANDS[label.index()]);
+            app.act(id, &[], ui.ctx());
         }
         Some(Act::Type(field)) => app.panels.field = Some(field),
         Some(Act::Commit) => app.commit_field(),
         Some(Act::Revert) => drop(app.panels.take_field()),
-        Some(Act::ShowNotes) => app.panels.notes = true,
+        Some(Act::ShowNotes) => app.act("import-notes", &["on"], ui.ctx()),
     }
 }
 
-fn palette(ui: &Ui) -> &'static Palette {
-    let theme = if ui.visuals().dark_mode { draw::Theme::Dark } else { draw::Theme::Light };
-    Palette::of(theme, LabelColours::Standard)
-}
+/// The command that gives each label, in the labels' order.
+const LABEL_COMMANDS: [&str; 5] = ["label-small", "label-medium", "label-big", "label-corridor", "label-hall"];
 
 struct Inspected<'a> {
     app: &'a App,
@@ -99,6 +98,7 @@ impl Inspected<'_> {
         ui.add_space(6.0);
         let mut act = self.field(ui, id, FieldKind::Name, &room.name, "Unnamed");
         act = act.or(self.field(ui, id, FieldKind::Function, &room.function, "Unknown"));
+        act = act.or(self.field(ui, id, FieldKind::Note, &room.note, "None"));
         ui.add_space(4.0);
         act = act.or(self.label(ui, room, status));
         hairline(ui);
@@ -119,6 +119,7 @@ impl Inspected<'_> {
         let name = match kind {
             FieldKind::Name => "Name",
             FieldKind::Function => "Function",
+            FieldKind::Note => "Note",
         };
         let typed = self.app.panels.field.as_ref().filter(|field| field.room == room && field.kind == kind);
         let mut text = typed.map_or(current, |field| &field.text).to_owned();
@@ -135,7 +136,7 @@ impl Inspected<'_> {
                 .align(egui::Align2::LEFT_CENTER);
             let response = ui.add(edit);
             let response = response.accessible_name(name);
-            if kind == FieldKind::Name && self.app.panels.focus_name {
+            if self.app.panels.focus == Some(kind) {
                 response.request_focus();
             }
             if response.changed() {
@@ -218,10 +219,9 @@ impl Inspected<'_> {
     }
 
     fn label(&self, ui: &mut Ui, room: &Room, status: RoomStatus) -> Option<Act> {
-        let ids = ["label-small", "label-medium", "label-big", "label-corridor", "label-hall"];
         let segments: Vec<Segment<'_>> = Label::ALL
             .into_iter()
-            .zip(ids)
+            .zip(LABEL_COMMANDS)
             .filter_map(|(label, id)| {
                 let command = commands::find(id)?;
                 Some(Segment {
@@ -249,6 +249,7 @@ impl Inspected<'_> {
                 LabelOrigin::Person => "Given by a person".to_owned(),
                 LabelOrigin::Imported => "Stated by the imported file".to_owned(),
                 LabelOrigin::AcceptedPrediction => "A prediction that was accepted".to_owned(),
+                LabelOrigin::Prediction => "A prediction that nobody has accepted".to_owned(),
             };
         }
         let typology = self.plan.meta().typology.as_ref();

@@ -5,7 +5,7 @@ use egui::{Role, ScrollArea, Ui};
 use crate::app::commands::{self, COMMANDS, Menu};
 use crate::app::widgets::{Lead, ROW, Row, Segment, hairline, section, segmented};
 use crate::app::{App, Document, theme};
-use crate::draw::{self, Fill, LabelColours, Palette};
+use crate::draw::{self, Fill, Palette};
 use crate::features::RoomStatus;
 use crate::labels::{Label, normalised_function};
 
@@ -20,7 +20,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         .into_iter()
         .filter_map(|(id, text)| {
             let command = commands::find(id)?;
-            let is_on = command.is_on.is_some_and(|is_on| is_on(app));
+            let is_on = command.is_on(app) == Some(true);
             Some(Segment { text, name: command.title, help: command.help, is_on, colour: None })
         })
         .collect();
@@ -29,16 +29,16 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         app.run_command(fills[index].0, &context);
     }
     if let Some(document) = &app.document {
-        legend(ui, document, app.layers.fill);
+        legend(ui, document, app.layers.fill, app.palette(ui));
     }
     hairline(ui);
     section(ui, "Layers");
     ui.add_space(2.0);
     ui.spacing_mut().item_spacing.y = 0.0;
     for command in COMMANDS.iter().filter(|command| command.menu == Some(LAYERS)) {
-        let is_on = command.is_on.is_some_and(|is_on| is_on(app));
+        let is_on = command.is_on(app) == Some(true);
         let shortcut = command.keys_text(&context);
-        let is_available = (command.is_available)(app);
+        let is_available = command.why_not(app).is_none();
         let row = Row::new(Lead::Eye(is_on), command.title).trail(&shortcut).on(is_on);
         let response = ui.add_enabled_ui(is_available, |ui| row.button(ui, Role::CheckBox)).inner;
         if response.on_hover_text(command.help).clicked() {
@@ -48,10 +48,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
 }
 
 /// What each colour means, and how many rooms have it.
-fn legend(ui: &mut Ui, document: &Document, fill: Fill) {
+fn legend(ui: &mut Ui, document: &Document, fill: Fill, palette: &Palette) {
     let Some(derived) = document.derived() else { return };
-    let theme = if ui.visuals().dark_mode { draw::Theme::Dark } else { draw::Theme::Light };
-    let palette = Palette::of(theme, LabelColours::Standard);
     let mut rows: Vec<(draw::Rgba, String, usize)> = Vec::new();
     match fill {
         Fill::None => {}

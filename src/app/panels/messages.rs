@@ -16,10 +16,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         let act = ui.push_id(("message", index), |ui| bar(ui, &message)).inner;
         match act {
             None => {}
-            Some(Act::Dismiss) => {
-                app.messages.remove(first + index);
-            }
-            Some(Act::Remedy(Remedy::ShowNotes)) => app.panels.notes = true,
+            Some(Act::Dismiss) => app.act("dismiss-message", &[&(first + index + 1).to_string()], ui.ctx()),
+            Some(Act::Remedy(Remedy::ShowNotes)) => app.act("import-notes", &["on"], ui.ctx()),
         }
     }
 }

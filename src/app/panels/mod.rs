@@ -6,7 +6,7 @@ mod messages;
 pub(super) mod notes;
 mod plans;
 mod questions;
-mod status;
+pub(super) mod status;
 mod top_bar;
 pub(super) mod welcome;
 
@@ -25,10 +25,13 @@ pub(super) struct Panels {
     pub left: bool,
     /// Whether the inspector is shown.
     pub right: bool,
-    /// The name's field is to take the keyboard.
-    pub focus_name: bool,
+    /// The text of a room whose field is to take the keyboard.
+    pub focus: Option<FieldKind>,
     /// Whether the notes of the import are shown.
     pub notes: bool,
+    /// Where the panel on the left and the inspector were in the last frame, as far as shown.
+    pub left_rect: Option<egui::Rect>,
+    pub right_rect: Option<egui::Rect>,
     /// Height in points that the fill and the layers took when they were last shown.
     layers_height: f32,
     /// Text that a person has changed and not finished.
@@ -37,7 +40,16 @@ pub(super) struct Panels {
 
 impl Default for Panels {
     fn default() -> Self {
-        Self { left: true, right: true, focus_name: false, notes: false, layers_height: 360.0, field: None }
+        Self {
+            left: true,
+            right: true,
+            focus: None,
+            notes: false,
+            left_rect: None,
+            right_rect: None,
+            layers_height: 360.0,
+            field: None,
+        }
     }
 }
 
@@ -49,18 +61,35 @@ pub(super) struct Field {
     text: String,
 }
 
+/// A text of a room.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum FieldKind {
+pub(super) enum FieldKind {
     Name,
     Function,
+    Note,
 }
 
 impl Field {
+    pub(super) fn new(room: RoomId, kind: FieldKind, text: &str) -> Self {
+        Self { room, kind, text: text.to_owned() }
+    }
+
+    /// The id and the argument of the command that writes it.
+    pub(super) fn as_command(&self) -> (&'static str, String) {
+        let id = match self.kind {
+            FieldKind::Name => "rename",
+            FieldKind::Function => "set-function",
+            FieldKind::Note => "set-note",
+        };
+        (id, self.text.clone())
+    }
+
     /// What the edit is called in the history.
     pub(super) fn title(&self) -> &'static str {
         match self.kind {
             FieldKind::Name => "Rename room",
             FieldKind::Function => "Set function",
+            FieldKind::Note => "Write note",
         }
     }
 
@@ -70,6 +99,7 @@ impl Field {
         match self.kind {
             FieldKind::Name => edit::set_name(plan, self.room, &self.text),
             FieldKind::Function => edit::set_function(plan, self.room, &self.text),
+            FieldKind::Note => edit::change_room(plan, self.room, |room| room.note = self.text.trim().to_owned()),
         }
     }
 }
@@ -84,7 +114,7 @@ impl Panels {
     pub(super) fn forget(&mut self) {
         self.field = None;
         self.notes = false;
-        self.focus_name = false;
+        self.focus = None;
     }
 
     /// Whether a dialog covers the window.
@@ -103,8 +133,9 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         .exact_size(30.0)
         .frame(frame(Margin::symmetric(12, 0)))
         .show(ui, |ui| status::show(app, ui));
+    (app.panels.left_rect, app.panels.right_rect) = (None, None);
     if app.panels.left {
-        Panel::left("plans and layers")
+        let shown = Panel::left("plans and layers")
             .default_size(236.0)
             .size_range(180.0..=440.0)
             .frame(frame(Margin::symmetric(8, 8)))
@@ -130,13 +161,15 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
                 plans::show(app, ui);
                 ui.take_available_space();
             });
+        app.panels.left_rect = Some(shown.response.rect);
     }
     if app.panels.right && app.document.is_some() {
-        Panel::right("inspector")
+        let shown = Panel::right("inspector")
             .default_size(300.0)
             .size_range(240.0..=520.0)
             .frame(frame(Margin::ZERO))
             .show(ui, |ui| inspector::show(app, ui));
+        app.panels.right_rect = Some(shown.response.rect);
     }
     CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;

@@ -54,7 +54,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         is_done
     });
     if response.inner || response.should_close() {
-        app.panels.notes = false;
+        app.act("import-notes", &["off"], ui.ctx());
     }
 }
 

@@ -59,7 +59,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         }
     });
     if let Some(origin) = wanted {
-        app.open(origin);
+        let context = ui.ctx().clone();
+        app.open_listed(&origin, &context);
     }
 }
 

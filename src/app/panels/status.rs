@@ -43,7 +43,7 @@ fn zoom_button(app: &mut App, ui: &mut Ui, icon: Icon, id: &str) {
     }
 }
 
-fn left_text(app: &App) -> String {
+pub(in crate::app) fn left_text(app: &App) -> String {
     if let Some(origin) = &app.opening {
         return format!("Opening {}…", origin.title());
     }
@@ -64,7 +64,7 @@ fn left_text(app: &App) -> String {
 }
 
 /// A number of things, in words.
-pub(super) fn count(number: usize, thing: &str) -> String {
+pub(in crate::app) fn count(number: usize, thing: &str) -> String {
     let plural = if number == 1 { "" } else { "s" };
     format!("{} {thing}{plural}", thousands(number as u64))
 }

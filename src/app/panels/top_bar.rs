@@ -40,9 +40,9 @@ fn menu_entries(app: &mut App, ui: &mut Ui, menu: Menu) {
             ui.separator();
         }
         section = Some(this);
-        let is_available = (command.is_available)(app);
+        let is_available = command.why_not(app).is_none();
         let shortcut = command.keys_text(ui.ctx());
-        let is_on = command.is_on.is_some_and(|is_on| is_on(app));
+        let is_on = command.is_on(app) == Some(true);
         let row = Row::new(Lead::Tick(is_on), command.title).trail(&shortcut);
         let response = ui.add_enabled_ui(is_available, |ui| row.button(ui, Role::MenuItem)).inner;
         if response.clicked() {
@@ -65,8 +65,8 @@ fn show_tools(app: &mut App, ui: &mut Ui) {
             ui.add_space(6.0);
         }
         group = Some(this);
-        let is_on = command.is_on.map(|is_on| is_on(app));
-        let is_available = (command.is_available)(app);
+        let is_on = command.is_on(app);
+        let is_available = command.why_not(app).is_none();
         let response = ui.add_enabled_ui(is_available, |ui| icon_button(ui, icon, command.title, is_on)).inner;
         let response = with_tooltip(response, ui.ctx(), command);
         if response.clicked() {
@@ -118,7 +118,7 @@ fn title(app: &App, ui: &Ui, left: f32, right: f32) {
     let name = if document.is_changed() { format!("{}, changed", document.title()) } else { document.title() };
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &name));
     match document.origin.path() {
-        Some(path) => drop(response.on_hover_text(path.display().to_string())),
+        Some(path) => drop(response.on_hover_text(app.shown_path(path))),
         None if is_elided => drop(response.on_hover_text(text)),
         None => {}
     }

@@ -14,7 +14,7 @@ use crate::app::document::{Derived, Origin, bundled, derived_sample};
 use crate::app::scene_painter::ScenePainter;
 use crate::app::widgets::{colours, section, strong, text_button};
 use crate::app::{App, commands, theme};
-use crate::draw::{self, LabelColours, Layers, Palette, Style, View};
+use crate::draw::{Layers, Style, View};
 use crate::plan::Plan;
 
 /// Size of a sample's card, in points.
@@ -25,7 +25,7 @@ const GAP: f32 = 16.0;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let rect = ui.available_rect_before_wrap();
-    let palette = palette(ui);
+    let palette = app.palette(ui);
     ui.painter().rect_filled(rect, 0.0, theme::colour(palette.paper));
     let samples = bundled().len();
     let columns = ((rect.width() - 48.0 + GAP) / (CARD.x + GAP)).floor().clamp(1.0, 3.0);
@@ -42,7 +42,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         ui.horizontal(|ui| {
             let Some(command) = commands::find("open") else { return };
             if text_button(ui, "Open a plan…", true).on_hover_text(command.help).clicked() {
-                app.choose_plan();
+                let context = ui.ctx().clone();
+                app.run_command(command.id, &context);
             }
             ui.add_space(4.0);
             let hint = format!("{}, or drop a file anywhere here", command.keys_text(ui.ctx()));
@@ -58,7 +59,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         ui.horizontal_wrapped(|ui| {
             for (index, (_, plan)) in bundled().iter().enumerate() {
                 if card(app, ui, index, plan).clicked() {
-                    app.open(Origin::Bundled(index));
+                    let context = ui.ctx().clone();
+                    app.open_listed(&Origin::Bundled(index), &context);
                 }
             }
         });
@@ -75,15 +77,15 @@ fn card(app: &mut App, ui: &mut Ui, index: usize, plan: &Plan) -> Response {
     let rim = if response.has_focus() { Stroke::new(2.0, colours.accent) } else { Stroke::new(1.0, colours.outline) };
     ui.painter().rect_stroke(rect, radius, rim, StrokeKind::Inside);
     let picture = Rect::from_min_max(rect.min + vec2(14.0, 12.0), rect.max - vec2(14.0, 50.0));
+    let (theme, label_colours) = (app.palette(ui).theme, app.layers.colours);
     let sample = app.samples.get(index, plan);
     let (width_px, height_px) = (f64::from(picture.width()), f64::from(picture.height()));
     let view = View {
         pixel_ratio: f64::from(ui.pixels_per_point()),
         ..View::fitting(sample.derived.drawing.bounds(), width_px, height_px, 0.0)
     };
-    let theme = palette(ui).theme;
     let layers = Layers { names: false, areas: false, ..Layers::default() };
-    let style = Style { theme, layers, ..Style::default() };
+    let style = Style { theme, label_colours, layers, ..Style::default() };
     sample.painter.paint(&ui.painter_at(picture), picture, &sample.derived, &style, &view);
     let title = FontId::new(theme::BODY, theme::semibold());
     let at = pos2(rect.left() + 14.0, rect.bottom() - 31.0);
@@ -94,10 +96,6 @@ fn card(app: &mut App, ui: &mut Ui, index: usize, plan: &Plan) -> Response {
     ui.painter().text(at + vec2(0.0, 16.0), Align2::LEFT_CENTER, contents, small, colours.text_weak);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &plan.meta().name));
     response
-}
-
-fn palette(ui: &Ui) -> &'static Palette {
-    Palette::of(if ui.visuals().dark_mode { draw::Theme::Dark } else { draw::Theme::Light }, LabelColours::Standard)
 }
 
 /// The samples' pictures, made when they are first seen.

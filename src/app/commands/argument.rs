@@ -1,0 +1,393 @@
+//! What commands take: files, rooms, functions, numbers. Each kind reads its words, and offers
+//! choices where there are any.
+
+use std::path::{Path, PathBuf};
+
+use crate::app::App;
+use crate::app::canvas::{room_title, sentence};
+use crate::app::document::bundled;
+use crate::features::RoomStatus;
+use crate::formats;
+use crate::labels::{Meaning, Typology};
+use crate::plan::{Joint, Opening, OpeningId, Plan, Room, RoomId};
+
+/// Something a command takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Argument {
+    /// In capitals, as in a command's call: 'ROOM'.
+    pub name: &'static str,
+    pub kind: ArgumentKind,
+    /// Whether the command does without.
+    pub is_optional: bool,
+    /// A phrase for the manual, and the hint where it is typed.
+    pub help: &'static str,
+}
+
+/// What an argument can be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ArgumentKind {
+    /// A file with a plan, or a folder of them.
+    PlanFile,
+    /// A file to write a plan to.
+    NewPlanFile,
+    /// Any text, empty included.
+    Text,
+    /// A number with a decimal point.
+    Number { unit: &'static str, least: f64, most: f64 },
+    /// 1, 2, 3, …
+    Count,
+    /// A room of the open plan: its name, where no other room has it, or its id.
+    Room,
+    /// An opening of the open plan: its id.
+    Opening,
+    /// What a room is for: one the plan's label scheme knows, or any other text.
+    Function,
+    /// A typology that has a label scheme, or 'unknown'.
+    Typology,
+    /// A plan that comes with the program: its file's name without the ending.
+    Sample,
+    /// 'on' or 'off'.
+    Switch,
+    /// A button of the question that is asked.
+    Answer,
+    /// One of some words, each with its title.
+    Word(&'static [(&'static str, &'static str)]),
+}
+
+/// An argument that was read.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::app) enum Value {
+    Path(PathBuf),
+    Text(String),
+    Number(f64),
+    Count(usize),
+    Room(RoomId),
+    Opening(OpeningId),
+    Typology(Option<Typology>),
+    /// Its index.
+    Sample(usize),
+    Switch(bool),
+    Word(&'static str),
+}
+
+/// The arguments of a call, read. Those left out are missing at the end.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::app) struct Values(pub(super) Vec<Value>);
+
+/// Gives the value at a place as what the command's entry in the table says it is.
+macro_rules! getter {
+    ($name:ident, $variant:ident, $type:ty) => {
+        pub(in crate::app) fn $name(&self, index: usize) -> Option<&$type> {
+            match self.0.get(index) {
+                Some(Value::$variant(value)) => Some(value),
+                _ => None,
+            }
+        }
+    };
+}
+
+impl Values {
+    getter!(path, Path, Path);
+    getter!(text, Text, str);
+    getter!(number, Number, f64);
+    getter!(count, Count, usize);
+    getter!(room, Room, RoomId);
+    getter!(opening, Opening, OpeningId);
+    getter!(typology, Typology, Option<Typology>);
+    getter!(sample, Sample, usize);
+    getter!(switch, Switch, bool);
+    getter!(word, Word, &'static str);
+}
+
+/// One of the things an argument can be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// As it is written in a call.
+    pub word: String,
+    /// As it is shown.
+    pub title: String,
+    /// What tells it from others of the same title; may be empty.
+    pub detail: String,
+    /// What a room is labelled, or a function means: for a swatch.
+    pub status: Option<RoomStatus>,
+}
+
+/// More words that may have been meant are not told.
+const MOST_SIMILAR: usize = 3;
+
+impl ArgumentKind {
+    /// What is expected, for an error message: 'a number of metres from 0 to 100'.
+    pub fn expected(self) -> String {
+        match self {
+            Self::PlanFile => "a file with a plan, or a folder".to_owned(),
+            Self::NewPlanFile => "a file to write the plan to".to_owned(),
+            Self::Text => "a text".to_owned(),
+            Self::Number { unit, least, most } => format!("a number{unit} from {least} to {most}"),
+            Self::Count => "1, 2, 3, …".to_owned(),
+            Self::Room => "the name of a room of this plan, or its id".to_owned(),
+            Self::Opening => "the id of an opening of this plan".to_owned(),
+            Self::Function => "what a room is for".to_owned(),
+            Self::Typology => "a typology, or 'unknown'".to_owned(),
+            Self::Sample => "a plan that comes with the program".to_owned(),
+            Self::Switch => "'on' or 'off'".to_owned(),
+            Self::Answer => "a button of the question".to_owned(),
+            Self::Word(words) => {
+                let words: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+                or_list(&words)
+            }
+        }
+    }
+
+    /// Reads an argument.
+    ///
+    /// # Errors
+    /// What is expected instead.
+    pub(in crate::app) fn read(self, app: &App, text: &str) -> Result<Value, String> {
+        let with_choices = |expected: String| {
+            let choices = self.choices(app).unwrap_or_default();
+            let similar = similar(text, choices.iter().map(|choice| choice.word.as_str()), MOST_SIMILAR);
+            match (similar.is_empty(), choices.len()) {
+                (false, _) => format!("{expected}; did you mean {}?", or_list(&similar)),
+                (true, 1..=8) => {
+                    let words: Vec<&str> = choices.iter().map(|choice| choice.word.as_str()).collect();
+                    format!("{expected}: {}", or_list(&words))
+                }
+                (true, _) => expected,
+            }
+        };
+        match self {
+            Self::PlanFile | Self::NewPlanFile if text.is_empty() => Err(self.expected()),
+            Self::PlanFile | Self::NewPlanFile => Ok(Value::Path(PathBuf::from(text))),
+            Self::Text | Self::Function => Ok(Value::Text(text.trim().to_owned())),
+            Self::Number { least, most, .. } => {
+                let number = text.trim().parse::<f64>().ok().filter(|number| (least..=most).contains(number));
+                number.map(Value::Number).ok_or_else(|| self.expected())
+            }
+            Self::Count => {
+                let count = text.trim().parse::<usize>().ok().filter(|count| *count > 0);
+                count.map(Value::Count).ok_or_else(|| self.expected())
+            }
+            Self::Room => {
+                let plan = app.plan().ok_or_else(|| self.expected())?;
+                room(plan, text.trim())
+                    .map(Value::Room)
+                    .map_err(|several| several.unwrap_or_else(|| with_choices(self.expected())))
+            }
+            Self::Opening => {
+                let id = text.trim().parse::<OpeningId>().ok();
+                let id = id.filter(|&id| app.plan().is_some_and(|plan| plan.opening(id).is_some()));
+                id.map(Value::Opening).ok_or_else(|| self.expected())
+            }
+            Self::Typology if text.trim().eq_ignore_ascii_case(UNKNOWN) => Ok(Value::Typology(None)),
+            Self::Typology => {
+                let wanted = text.trim();
+                let found = app.schemes.typologies().find(|typology| typology.as_str().eq_ignore_ascii_case(wanted));
+                found.cloned().map(|found| Value::Typology(Some(found))).ok_or_else(|| with_choices(self.expected()))
+            }
+            Self::Sample => {
+                let wanted = text.trim();
+                let index = bundled().iter().position(|(name, _)| formats::file_stem(name) == wanted);
+                index.map(Value::Sample).ok_or_else(|| with_choices(self.expected()))
+            }
+            Self::Switch => match text.trim() {
+                "on" => Ok(Value::Switch(true)),
+                "off" => Ok(Value::Switch(false)),
+                _ => Err(self.expected()),
+            },
+            Self::Answer => {
+                let answers = app.question.as_ref().map(crate::app::Question::answers).unwrap_or_default();
+                let found = answers.iter().find(|(word, _)| *word == text.trim());
+                found.map(|(word, _)| Value::Word(word)).ok_or_else(|| with_choices(self.expected()))
+            }
+            Self::Word(words) => {
+                let found = words.iter().find(|(word, _)| *word == text.trim());
+                found.map(|(word, _)| Value::Word(word)).ok_or_else(|| self.expected())
+            }
+        }
+    }
+
+    /// An argument as it is written in a call, so that reading it gives the same again.
+    pub(in crate::app) fn write(self, app: &App, value: &Value) -> String {
+        match value {
+            Value::Path(path) => path.to_string_lossy().into_owned(),
+            Value::Text(text) => text.clone(),
+            Value::Number(number) => number.to_string(),
+            Value::Count(count) => count.to_string(),
+            Value::Room(id) => app.plan().map_or_else(|| id.to_string(), |plan| room_word(plan, *id)),
+            Value::Opening(id) => id.to_string(),
+            Value::Typology(typology) => typology.as_ref().map_or(UNKNOWN, Typology::as_str).to_owned(),
+            Value::Sample(index) => sample_word(*index).to_owned(),
+            Value::Switch(is_on) => switch_word(*is_on).to_owned(),
+            Value::Word(word) => (*word).to_owned(),
+        }
+    }
+
+    /// Everything the argument can be; `None` where it can be anything. Rooms come as one reads them
+    /// on the plan, from the top left.
+    pub(in crate::app) fn choices(self, app: &App) -> Option<Vec<Choice>> {
+        let plain = |word: &str, title: &str| Choice {
+            word: word.to_owned(),
+            title: title.to_owned(),
+            detail: String::new(),
+            status: None,
+        };
+        Some(match self {
+            Self::PlanFile | Self::NewPlanFile | Self::Text | Self::Number { .. } | Self::Count => return None,
+            Self::Room => room_choices(app),
+            Self::Opening => opening_choices(app),
+            Self::Function => {
+                let typology = app.plan().and_then(|plan| plan.meta().typology.as_ref())?;
+                let status = |meaning| match meaning {
+                    Meaning::Labelled(label) => RoomStatus::Labelled(label),
+                    Meaning::NotClassified => RoomStatus::NotClassified,
+                };
+                let functions = app.schemes.functions(typology);
+                let choice = |(function, meaning)| Choice {
+                    status: Some(status(meaning)),
+                    detail: status(meaning).label().map_or("not classified", crate::labels::Label::name).to_owned(),
+                    ..plain(function, &sentence(function))
+                };
+                functions.map(choice).collect()
+            }
+            Self::Typology => {
+                let known = app.schemes.typologies().map(|typology| plain(typology.as_str(), &typology.title()));
+                known.chain([plain(UNKNOWN, "Unknown")]).collect()
+            }
+            Self::Sample => {
+                let choice = |(name, plan): &(&str, Plan)| Choice {
+                    detail: crate::app::panels::status::count(plan.rooms().len(), "room"),
+                    ..plain(formats::file_stem(name), &plan.meta().name)
+                };
+                bundled().iter().map(choice).collect()
+            }
+            Self::Switch => vec![plain("on", "On"), plain("off", "Off")],
+            Self::Answer => {
+                let answers = app.question.as_ref().map(crate::app::Question::answers).unwrap_or_default();
+                answers.iter().map(|(word, title)| plain(word, title)).collect()
+            }
+            Self::Word(words) => words.iter().map(|(word, title)| plain(word, title)).collect(),
+        })
+    }
+}
+
+/// The word for a plan without a typology.
+const UNKNOWN: &str = "unknown";
+
+pub(in crate::app) const fn switch_word(is_on: bool) -> &'static str {
+    if is_on { "on" } else { "off" }
+}
+
+/// The word for a plan that comes with the program.
+pub(in crate::app) fn sample_word(index: usize) -> &'static str {
+    bundled().get(index).map_or("", |(name, _)| formats::file_stem(name))
+}
+
+/// The room that a word means. `Err(Some(…))` says why a word that names several rooms means none.
+fn room(plan: &Plan, word: &str) -> Result<RoomId, Option<String>> {
+    if let Ok(id) = word.parse::<RoomId>()
+        && plan.room(id).is_some()
+    {
+        return Ok(id);
+    }
+    if word.is_empty() {
+        return Err(None);
+    }
+    let named = |is_it: &dyn Fn(&Room) -> bool| -> Vec<RoomId> {
+        plan.rooms().filter(|(_, room)| is_it(room)).map(|(id, _)| id).collect()
+    };
+    let exact = named(&|room| room.name == word);
+    let lower = word.to_lowercase();
+    let found = if exact.is_empty() { named(&|room| room.name.to_lowercase() == lower) } else { exact };
+    match found.as_slice() {
+        [] => Err(None),
+        [one] => Ok(*one),
+        several => {
+            let ids: Vec<String> = several.iter().take(MOST_SIMILAR).map(RoomId::to_string).collect();
+            let more = if several.len() > MOST_SIMILAR { ", …" } else { "" };
+            Err(Some(format!("an id, for {} rooms have this name: {}{more}", several.len(), ids.join(", "))))
+        }
+    }
+}
+
+/// The word for a room: its name, where that means no other room, or its id.
+pub(in crate::app) fn room_word(plan: &Plan, id: RoomId) -> String {
+    let name = plan.room(id).map_or("", |room| room.name.as_str());
+    if room(plan, name) == Ok(id) && is_own_word(name) { name.to_owned() } else { id.to_string() }
+}
+
+/// Whether a name is read as a name, and whole.
+fn is_own_word(name: &str) -> bool {
+    name.trim() == name && name.parse::<RoomId>().is_err()
+}
+
+fn room_choices(app: &App) -> Vec<Choice> {
+    let Some(document) = &app.document else { return Vec::new() };
+    let plan = document.plan();
+    let mut ids: Vec<RoomId> = document.derived().map(|derived| derived.reading_order().to_vec()).unwrap_or_default();
+    let is_listed: std::collections::BTreeSet<RoomId> = ids.iter().copied().collect();
+    ids.extend(plan.rooms().map(|(id, _)| id).filter(|id| !is_listed.contains(id)));
+    let mut names: std::collections::BTreeMap<String, usize> = std::collections::BTreeMap::new();
+    for (_, room) in plan.rooms() {
+        *names.entry(room.name.to_lowercase()).or_default() += 1;
+    }
+    let choice = |id: RoomId| {
+        let room = plan.room(id)?;
+        let status = RoomStatus::of(plan, &app.schemes, room);
+        let is_unique = !room.name.is_empty() && names.get(&room.name.to_lowercase()) == Some(&1);
+        // As `room_word` has it, quicker for thousands of rooms.
+        let word = if is_unique && is_own_word(&room.name) { room.name.clone() } else { id.to_string() };
+        let area = document.derived().and_then(|derived| derived.analysis.shapes.get(id));
+        let area = area.map(|shape| format!("{:.1} m²", shape.area_m2()));
+        let detail = [status.label().map(|label| label.name().to_owned()), area];
+        let detail: Vec<String> = detail.into_iter().flatten().collect();
+        Some(Choice { word, title: room_title(room), detail: detail.join(", "), status: Some(status) })
+    };
+    ids.into_iter().filter_map(choice).collect()
+}
+
+fn opening_choices(app: &App) -> Vec<Choice> {
+    let Some(document) = &app.document else { return Vec::new() };
+    let plan = document.plan();
+    let connections = document.derived().map(|derived| derived.analysis.graph.connections()).unwrap_or_default();
+    let sides: std::collections::BTreeMap<OpeningId, &[Joint; 2]> =
+        connections.iter().map(|connection| (connection.opening, &connection.sides)).collect();
+    let name = |joint: &Joint| match joint {
+        Joint::Outside => "outside".to_owned(),
+        Joint::Room(id) => plan.room(*id).map(room_title).unwrap_or_default(),
+    };
+    let choice = |(id, opening): (OpeningId, &Opening)| {
+        let detail = sides.get(&id).map(|sides| sides.each_ref().map(name).join(" – "));
+        Choice {
+            word: id.to_string(),
+            title: sentence(opening.kind.name()),
+            detail: detail.unwrap_or_default(),
+            status: None,
+        }
+    };
+    plan.openings().map(choice).collect()
+}
+
+/// The words most like one that is wrong, the likest first.
+pub(super) fn similar<'a>(wrong: &str, words: impl Iterator<Item = &'a str>, most: usize) -> Vec<&'a str> {
+    // Below, two words have hardly more in common than any two.
+    const LEAST: f64 = 0.75;
+    let wrong = wrong.trim().to_lowercase();
+    let mut found: Vec<(f64, &str)> = words
+        .map(|word| (strsim::jaro_winkler(&wrong, &word.to_lowercase()), word))
+        .filter(|(likeness, _)| *likeness >= LEAST)
+        .collect();
+    found.sort_by(|p, q| q.0.total_cmp(&p.0).then(p.1.cmp(q.1)));
+    // Next to a good guess, poor ones only distract.
+    let best = found.first().map_or(1.0, |(likeness, _)| *likeness);
+    found.retain(|(likeness, _)| *likeness >= best - 0.05);
+    found.into_iter().take(most).map(|(_, word)| word).collect()
+}
+
+/// 'a', 'b' or 'c'.
+pub(super) fn or_list(words: &[&str]) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| format!("'{word}'")).collect();
+    match quoted.as_slice() {
+        [all @ .., last] if !all.is_empty() => format!("{} or {last}", all.join(", ")),
+        _ => quoted.concat(),
+    }
+}

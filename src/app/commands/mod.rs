@@ -1,0 +1,177 @@
+//! The one table of commands: menus, tool bar, palette, tooltips, shortcuts, the manual's list and
+//! the verbs of scripts come from it.
+//!
+//! A new command is one entry. Its id is the word by which scripts call it, and never changes.
+
+mod argument;
+mod keys;
+mod run;
+mod table;
+
+use egui::{Context, KeyboardShortcut};
+
+pub use argument::{Argument, ArgumentKind, Choice};
+pub use run::{CommandError, Executed};
+pub use table::COMMANDS;
+
+pub(super) use argument::{Values, room_word, sample_word};
+pub(super) use keys::take_pressed;
+
+use super::App;
+use super::icons::Icon;
+
+/// Something a person can do.
+pub struct Command {
+    /// Its word, in lower case with hyphens.
+    pub id: &'static str,
+    /// As in a menu. Ends in '…' when it asks for something before it is done.
+    pub title: &'static str,
+    /// A sentence for tooltips and the manual.
+    pub help: &'static str,
+    /// What it takes, the optional ones last. What is missing it asks for.
+    pub arguments: &'static [Argument],
+    /// The shortcuts it comes with. The first one is shown.
+    pub shortcuts: &'static [KeyboardShortcut],
+    /// Where it stands in the menus, with the section between two lines; `None` for a verb of
+    /// scripts only.
+    pub menu: Option<(Menu, u8)>,
+    /// Its icon in the tool bar, and the group it stands in; `None` for not there.
+    pub tool: Option<(Icon, u8)>,
+    availability: fn(&App) -> Availability,
+    action: Action,
+}
+
+/// Whether a command can be done now; if not, what to do first.
+type Availability = Result<(), &'static str>;
+
+enum Action {
+    Plain(fn(&mut App, &Context)),
+    /// Something that is on or off: without an argument it becomes the other.
+    Switch {
+        is_on: fn(&App) -> bool,
+        set: fn(&mut App, bool),
+    },
+    /// One of several that are on in turn.
+    Choose {
+        is_on: fn(&App) -> bool,
+        run: fn(&mut App, &Context),
+    },
+    With {
+        run: fn(&mut App, &Values, &Context) -> Ran,
+        /// Asks for what is missing; the palette does without.
+        ask: Option<fn(&mut App, &Context)>,
+    },
+}
+
+/// What became of a command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ran {
+    Done,
+    /// It asks for something; the answer is a command of its own.
+    Asks,
+}
+
+/// A menu of the menu bar, in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Menu {
+    File,
+    Edit,
+    Room,
+    View,
+}
+
+impl Menu {
+    pub const ALL: [Self; 4] = [Self::File, Self::Edit, Self::Room, Self::View];
+
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::File => "File",
+            Self::Edit => "Edit",
+            Self::Room => "Room",
+            Self::View => "View",
+        }
+    }
+}
+
+impl Command {
+    /// Its first shortcut as people write it ('Ctrl+Shift+S', '+'); empty without one.
+    pub fn keys_text(&self, context: &Context) -> String {
+        self.shortcuts.first().map(|shortcut| keys::text(context, *shortcut)).unwrap_or_default()
+    }
+
+    /// Why it cannot be done now, as something to do: 'pick a room first'; `None` when it can.
+    pub fn why_not(&self, app: &App) -> Option<&'static str> {
+        (self.availability)(app).err()
+    }
+
+    /// For what is on or off: which it is.
+    pub fn is_on(&self, app: &App) -> Option<bool> {
+        match self.action {
+            Action::Switch { is_on, .. } | Action::Choose { is_on, .. } => Some(is_on(app)),
+            Action::Plain(_) | Action::With { .. } => None,
+        }
+    }
+
+    /// How it is called: 'open [PATH] [STOREY]'. What stands in brackets may be left out.
+    pub fn usage(&self) -> String {
+        let mut usage = self.id.to_owned();
+        for argument in self.arguments {
+            usage.push_str(&if argument.is_optional {
+                format!(" [{}]", argument.name)
+            } else {
+                format!(" {}", argument.name)
+            });
+        }
+        usage
+    }
+}
+
+/// The command with an id.
+pub fn find(id: &str) -> Option<&'static Command> {
+    COMMANDS.iter().find(|command| command.id == id)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+
+    #[test]
+    fn no_shortcut_and_no_id_is_used_twice() {
+        let mut by_key: BTreeMap<String, &str> = BTreeMap::new();
+        let mut by_id: BTreeMap<&str, &str> = BTreeMap::new();
+        for command in COMMANDS {
+            assert_eq!(by_id.insert(command.id, command.title), None, "two commands have the id {}", command.id);
+            for shortcut in command.shortcuts {
+                let keys = shortcut.format(&egui::ModifierNames::NAMES, false);
+                let before = by_key.insert(keys.clone(), command.id);
+                assert_eq!(before, None, "{keys} is the shortcut of {} too", command.id);
+            }
+        }
+    }
+
+    #[test]
+    fn every_command_is_well_described() {
+        for command in COMMANDS {
+            let id_is_word = command.id.chars().all(|c| c.is_ascii_lowercase() || c == '-');
+            assert!(id_is_word, "{}", command.id);
+            assert!(command.title.starts_with(char::is_uppercase) && !command.title.ends_with('.'), "{}", command.id);
+            assert!(command.help.starts_with(char::is_uppercase) && !command.help.ends_with('.'), "{}", command.id);
+            // What a script alone runs is found in the manual.
+            assert!(command.menu.is_some() || command.shortcuts.is_empty(), "{} has keys and no menu", command.id);
+            let first_optional = command.arguments.iter().position(|argument| argument.is_optional);
+            let after = command.arguments.iter().skip(first_optional.unwrap_or(command.arguments.len()));
+            assert!(after.clone().all(|argument| argument.is_optional), "{}: optional arguments come last", command.id);
+            let mut names: Vec<&str> = command.arguments.iter().map(|argument| argument.name).collect();
+            names.dedup();
+            assert_eq!(names.len(), command.arguments.len(), "{}", command.id);
+        }
+        // Sections of a menu stand together.
+        for menu in Menu::ALL {
+            let sections: Vec<u8> =
+                COMMANDS.iter().filter_map(|command| command.menu).filter(|m| m.0 == menu).map(|m| m.1).collect();
+            assert!(sections.is_sorted(), "{menu:?} {sections:?}");
+        }
+    }
+}

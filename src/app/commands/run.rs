@@ -1,0 +1,200 @@
+//! Running commands by their words, and telling a recorder which ran.
+
+use std::fmt;
+
+use egui::Context;
+
+use super::argument::{Values, or_list, similar, switch_word};
+use super::{Action, COMMANDS, Command, Ran, find};
+use crate::app::{App, Question, Severity};
+
+/// Why a command was not run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum CommandError {
+    /// No command has this id.
+    Unknown {
+        id: String,
+        /// Ids that are like it, the likest first; may be empty.
+        similar: Vec<&'static str>,
+    },
+    /// It cannot be done now.
+    NotNow {
+        id: &'static str,
+        /// What stands against it, as something to do: 'pick a room first'.
+        reason: String,
+    },
+    /// An argument is not what the command takes.
+    WrongArgument {
+        id: &'static str,
+        /// The argument's name: 'ROOM'.
+        argument: &'static str,
+        given: String,
+        /// What it should be, with words that are like the given one.
+        expected: String,
+    },
+    /// More arguments were given than the command takes.
+    TooManyArguments { id: &'static str, given: usize, most: usize },
+}
+
+impl fmt::Display for CommandError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unknown { id, similar } if similar.is_empty() => write!(f, "there is no command '{id}'"),
+            Self::Unknown { id, similar } => {
+                write!(f, "there is no command '{id}'; did you mean {}?", or_list(similar))
+            }
+            Self::NotNow { id, reason } => write!(f, "'{id}' cannot be done now: {reason}"),
+            Self::WrongArgument { id, argument, given, expected } => {
+                write!(f, "{argument} of '{id}' is '{given}': expected {expected}")
+            }
+            Self::TooManyArguments { id, given, most: 0 } => write!(f, "'{id}' takes no arguments, {given} are given"),
+            Self::TooManyArguments { id, given, most: 1 } => write!(f, "'{id}' takes 1 argument, {given} are given"),
+            Self::TooManyArguments { id, given, most } => write!(f, "'{id}' takes {most} arguments, {given} are given"),
+        }
+    }
+}
+
+impl std::error::Error for CommandError {}
+
+/// A command that was done, complete: running it again with these arguments does the same.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Executed {
+    pub id: &'static str,
+    pub arguments: Vec<String>,
+}
+
+impl App {
+    /// Runs a command by its id without arguments, as a menu does: what it needs it asks for. Gives
+    /// whether there is such a command and it could be done.
+    pub fn run_command(&mut self, id: &str, context: &Context) -> bool {
+        self.run_command_with(id, &[], context).is_ok()
+    }
+
+    /// Runs a command by its id. Arguments that are missing are asked for as a menu does: by a
+    /// dialog, a text field that gets the keyboard, or the palette. Nothing is done on an error.
+    ///
+    /// # Errors
+    /// When there is no such command, when it cannot be done now, when an argument is wrong.
+    pub fn run_command_with(&mut self, id: &str, arguments: &[&str], context: &Context) -> Result<(), CommandError> {
+        let command = find(id).ok_or_else(|| CommandError::Unknown {
+            id: id.to_owned(),
+            similar: similar(id, COMMANDS.iter().map(|command| command.id), 3),
+        })?;
+        self.commit_field();
+        let not_now = |reason: String| CommandError::NotNow { id: command.id, reason };
+        if let Some(question) = &self.question
+            && command.id != "answer"
+        {
+            return Err(not_now(format!("answer '{}' first", question.title(self))));
+        }
+        (command.availability)(self).map_err(|reason| not_now(reason.to_owned()))?;
+        let values = self.read_arguments(command, arguments)?;
+        self.run_with_values(command, values, context);
+        Ok(())
+    }
+
+    /// Runs a command with arguments of the window's own, and says why where that is refused.
+    pub(in crate::app) fn act(&mut self, id: &str, arguments: &[&str], context: &Context) {
+        if let Err(error) = self.run_command_with(id, arguments, context) {
+            self.say(Severity::Warning, error.to_string(), "");
+        }
+    }
+
+    fn read_arguments(&self, command: &'static Command, arguments: &[&str]) -> Result<Values, CommandError> {
+        let (id, most) = (command.id, command.arguments.len());
+        if arguments.len() > most {
+            return Err(CommandError::TooManyArguments { id, given: arguments.len(), most });
+        }
+        let read = command.arguments.iter().zip(arguments).map(|(argument, text)| {
+            argument.kind.read(self, text).map_err(|expected| {
+                let given = (*text).to_owned();
+                CommandError::WrongArgument { id, argument: argument.name, given, expected }
+            })
+        });
+        read.collect::<Result<_, _>>().map(Values)
+    }
+
+    /// Runs a command that can be done now.
+    pub(in crate::app) fn run_with_values(&mut self, command: &'static Command, values: Values, context: &Context) {
+        let is_complete = command.arguments.get(values.0.len()).is_none_or(|argument| argument.is_optional);
+        // Before the command runs: it may rename the room, or close the plan, that an argument names.
+        let written = self.write_arguments(command, &values);
+        match &command.action {
+            Action::Plain(run) | Action::Choose { run, .. } => {
+                self.status.clear();
+                run(self, context);
+                self.note_executed(command.id, written);
+            }
+            Action::Switch { is_on, set } => {
+                let wanted = match values.switch(0) {
+                    Some(&wanted) => wanted,
+                    None => !is_on(self),
+                };
+                self.status.clear();
+                set(self, wanted);
+                self.note_executed(command.id, vec![switch_word(wanted).to_owned()]);
+            }
+            Action::With { run, .. } if is_complete => {
+                self.status.clear();
+                if run(self, &values, context) == Ran::Done {
+                    self.note_executed(command.id, written);
+                }
+            }
+            Action::With { ask, .. } => {
+                self.status.clear();
+                if let Some(ask) = ask {
+                    ask(self, context);
+                }
+            }
+        }
+    }
+
+    fn write_arguments(&self, command: &Command, values: &Values) -> Vec<String> {
+        command.arguments.iter().zip(&values.0).map(|(argument, value)| argument.kind.write(self, value)).collect()
+    }
+
+    // What a recorder sees.
+
+    /// Starts or stops keeping the commands that are done, for [`App::take_executed`].
+    pub fn watch_commands(&mut self, is_watched: bool) {
+        self.executed = is_watched.then(|| self.executed.take().unwrap_or_default());
+    }
+
+    /// The commands done since the last call, in order, each with all its arguments: also those that
+    /// were asked for, what was clicked, typed into a field, and seen by panning and zooming.
+    /// Empty unless they are watched.
+    pub fn take_executed(&mut self) -> Vec<Executed> {
+        self.executed.as_mut().map(std::mem::take).unwrap_or_default()
+    }
+
+    /// Notes that something was done which the command with these arguments does.
+    pub(in crate::app) fn note_executed(&mut self, id: &'static str, arguments: Vec<String>) {
+        let Some(executed) = &mut self.executed else { return };
+        // Of a pan, only where it ends.
+        if id == "view" && executed.last().is_some_and(|last| last.id == id) {
+            executed.pop();
+        }
+        executed.push(Executed { id, arguments });
+    }
+}
+
+impl Question {
+    /// What is asked, in a sentence.
+    pub(in crate::app) fn title(&self, app: &App) -> String {
+        match self {
+            Self::Unsaved(_) => {
+                let name = app.document.as_ref().map(crate::app::Document::title).unwrap_or_default();
+                format!("Save changes to {name}?")
+            }
+            Self::Replace { path, .. } => format!("Replace {}?", crate::app::document::file_name(path)),
+        }
+    }
+
+    /// The answers there are, each with what its button says, the main one first.
+    pub(in crate::app) const fn answers(&self) -> &'static [(&'static str, &'static str)] {
+        match self {
+            Self::Unsaved(_) => &[("save", "Save"), ("discard", "Don't save"), ("cancel", "Cancel")],
+            Self::Replace { .. } => &[("elsewhere", "Save as…"), ("replace", "Replace"), ("cancel", "Cancel")],
+        }
+    }
+}
