@@ -6,6 +6,7 @@ mod distribution;
 mod evaluate;
 pub mod explain;
 pub mod in_plan;
+pub mod joint;
 pub mod knn;
 pub mod mlp;
 pub mod model_file;

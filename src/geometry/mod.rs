@@ -5,6 +5,7 @@
 
 mod bounds;
 mod point;
+pub mod hull;
 pub mod polygon;
 pub mod runs;
 mod segment;
