@@ -1,14 +1,20 @@
 //! Finding things by a few of their letters, in order: 'zts' finds 'Zoom to selection'.
 
-use nucleo_matcher::pattern::{AtomKind, CaseMatching, Normalization, Pattern};
+use nucleo_matcher::pattern::{Atom, AtomKind, CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
 
 /// What is looked for.
 pub(super) struct Search {
-    pattern: Pattern,
+    /// All its letters in order.
+    whole: Atom,
+    /// Its words, in any order.
+    words: Pattern,
     matcher: Matcher,
     is_empty: bool,
 }
+
+/// What has the words in the order that was typed comes before what has them in another.
+const IN_ORDER: u32 = 1 << 20;
 
 /// How well a text fits.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -21,10 +27,12 @@ pub(super) struct Hit {
 
 impl Search {
     pub(super) fn new(query: &str) -> Self {
-        let pattern = Pattern::new(query, CaseMatching::Ignore, Normalization::Smart, AtomKind::Fuzzy);
+        let (case, accents, kind) = (CaseMatching::Ignore, Normalization::Smart, AtomKind::Fuzzy);
+        let whole = Atom::new(query.trim(), case, accents, kind, false);
+        let words = Pattern::new(query, case, accents, kind);
         let mut config = Config::DEFAULT;
         config.prefer_prefix = true;
-        Self { pattern, matcher: Matcher::new(config), is_empty: query.trim().is_empty() }
+        Self { whole, words, matcher: Matcher::new(config), is_empty: query.trim().is_empty() }
     }
 
     /// Whether nothing is looked for, which fits everything.
@@ -37,7 +45,10 @@ impl Search {
         let mut buffer = Vec::new();
         let mut characters = Vec::new();
         let text = Utf32Str::new(text, &mut buffer);
-        let score = self.pattern.indices(text, &mut self.matcher, &mut characters)?;
+        let score = match self.whole.indices(text, &mut self.matcher, &mut characters) {
+            Some(score) => IN_ORDER + u32::from(score),
+            None => self.words.indices(text, &mut self.matcher, &mut characters)?,
+        };
         characters.sort_unstable();
         characters.dedup();
         Some(Hit { score, characters })
@@ -60,6 +71,8 @@ mod tests {
         let mut search = Search::new("na");
         assert!(search.hit("Names").unwrap().score > search.hit("Open a plan").unwrap().score);
         assert!(Search::new(" ").is_empty());
-        assert_eq!(Search::new("").hit("Names"), Some(Hit::default()));
+        assert_eq!(Search::new("").hit("Names").map(|hit| hit.characters), Some(Vec::new()));
+        let mut search = Search::new("fill by f");
+        assert!(search.hit("Fill by function").unwrap().score > search.hit("Fill by label").unwrap().score);
     }
 }

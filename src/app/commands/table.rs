@@ -370,7 +370,7 @@ pub const COMMANDS: &[Command] = &[
     .menu(Menu::Room, 0),
     with(
         "rename",
-        "Rename",
+        "Rename…",
         "Write the picked room's name",
         has_room,
         &[needed("NAME", ArgumentKind::Text, "the room's name")],
@@ -384,7 +384,7 @@ pub const COMMANDS: &[Command] = &[
     .menu(Menu::Room, 1),
     with(
         "set-function",
-        "Function",
+        "Set function…",
         "Write what the picked room is for",
         has_room,
         &[needed(
@@ -402,7 +402,7 @@ pub const COMMANDS: &[Command] = &[
     .menu(Menu::Room, 1),
     with(
         "set-note",
-        "Note",
+        "Write note…",
         "Write a note on the picked room",
         has_room,
         &[needed("TEXT", ArgumentKind::Text, "the note")],

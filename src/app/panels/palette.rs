@@ -6,6 +6,7 @@ use egui::{
     Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
+use crate::app::canvas::sentence;
 use crate::app::commands::{Argument, COMMANDS, Choice, Command};
 use crate::app::icons::Icon;
 use crate::app::search::{Hit, Search};
@@ -17,6 +18,9 @@ const WIDTH: f32 = 580.0;
 
 /// So far below the top of the window.
 const TOP: f32 = 60.0;
+
+/// Height of the line with the text field.
+const HEAD: f32 = 46.0;
 
 /// So many rows are seen at once.
 const ROWS: usize = 11;
@@ -259,56 +263,73 @@ impl Palette {
         let (hint, name) = match asked {
             Some((asking, argument)) => {
                 let name = format!("{}: {}", asking.command.plain_title(), argument.help);
-                (crate::app::canvas::sentence(argument.help), name)
+                (sentence(argument.help), name)
             }
             None => ("Find a command".to_owned(), "Find a command".to_owned()),
         };
-        ui.horizontal(|ui| {
-            ui.set_height(46.0);
-            ui.add_space(16.0);
-            if let Some(asking) = &self.asking {
-                let given = asking
-                    .given
-                    .iter()
-                    .fold(asking.command.plain_title().to_owned(), |text, word| format!("{text}  {word}"));
-                let text =
-                    RichText::new(given).font(FontId::new(theme::BODY, theme::semibold())).color(colours(ui).accent);
-                let frame = egui::Frame::new().fill(colours(ui).accent_soft).corner_radius(theme::RADIUS);
-                frame.inner_margin(egui::Margin::symmetric(8, 4)).show(ui, |ui| ui.label(text));
-                ui.add_space(10.0);
-            } else {
-                let (square, _) = ui.allocate_exact_size(vec2(ICON, ICON), Sense::hover());
-                Icon::Search.paint(ui.painter(), square, colours(ui).text_weak);
-                ui.add_space(10.0);
+        let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEAD), Sense::hover());
+        let mut left = rect.left() + 16.0;
+        let colours = colours(ui);
+        if let Some(asking) = &self.asking {
+            // What is asked for: the command, and what was given.
+            let title = FontId::new(theme::BODY, theme::semibold());
+            let mut job = LayoutJob::single_section(
+                asking.command.plain_title().to_owned(),
+                TextFormat::simple(title, colours.accent),
+            );
+            for word in &asking.given {
+                job.append(word, 8.0, TextFormat::simple(FontId::proportional(theme::BODY), colours.text));
             }
-            let edit = TextEdit::singleline(&mut self.query)
-                .id(Id::unique("command palette's text"))
-                .frame(egui::Frame::NONE)
-                .font(FontId::proportional(theme::TITLE))
-                .hint_text(RichText::new(hint).color(colours(ui).text_weak))
-                .desired_width(ui.available_width() - 16.0);
-            let response = ui.add(edit).accessible_name(name);
-            // Nothing else here takes the keyboard.
-            response.request_focus();
-            if response.changed() {
-                self.at = 0;
-                self.is_stepped = true;
-                if let Some(asking) = &mut self.asking {
-                    asking.error.clear();
-                }
+            // The field keeps half of the line.
+            job.wrap.max_width = rect.width() / 2.0;
+            job.wrap.max_rows = 1;
+            job.wrap.break_anywhere = true;
+            let galley = ui.painter().layout_job(job);
+            let size = galley.rect.size() + vec2(16.0, 10.0);
+            let chip = Rect::from_min_size(pos2(left, (rect.center().y - size.y / 2.0).round()), size);
+            ui.painter().rect_filled(chip, theme::RADIUS, colours.accent_soft);
+            ui.painter().galley(chip.min + vec2(8.0, 5.0), galley, colours.text);
+            left = chip.right() + 6.0;
+        } else {
+            let square = Rect::from_center_size(pos2(left + ICON / 2.0, rect.center().y), Vec2::splat(ICON));
+            Icon::Search.paint(ui.painter(), square, colours.text_weak);
+            left += ICON + 6.0;
+        }
+        let field = Rect::from_min_max(pos2(left, rect.top() + 8.0), pos2(rect.right() - 12.0, rect.bottom() - 8.0));
+        let edit = TextEdit::singleline(&mut self.query)
+            .id(Id::unique("command palette's text"))
+            .frame(egui::Frame::NONE)
+            .margin(egui::Margin::symmetric(4, 4))
+            .font(FontId::proportional(theme::TITLE))
+            .hint_text(RichText::new(hint).color(colours.text_weak))
+            .align(Align2::LEFT_CENTER)
+            .min_size(field.size())
+            .desired_width(field.width());
+        let mut line = ui.new_child(UiBuilder::new().max_rect(field));
+        let response = line.put(field, edit).accessible_name(name);
+        // Nothing else here takes the keyboard.
+        response.request_focus();
+        if response.changed() {
+            self.at = 0;
+            self.is_stepped = true;
+            if let Some(asking) = &mut self.asking {
+                asking.error.clear();
             }
-        });
+        }
     }
 
     fn show_list(&self, ui: &mut Ui, lines: &[Line], most_height: f32) -> Option<Act> {
         let mut act = None;
         if lines.is_empty() {
-            let is_free = self.asking.as_ref().is_some_and(Asking::is_free);
-            let text = match (is_free, self.query.trim()) {
-                (true, "") => "Type it, then press Enter".to_owned(),
-                (true, text) => format!("Enter takes ‘{text}’"),
-                (false, text) if self.asking.is_some() => format!("Nothing fits ‘{text}’"),
-                (false, text) => format!("No command fits ‘{text}’"),
+            let query = self.query.trim();
+            let text = match &self.asking {
+                None => format!("No command fits ‘{query}’"),
+                Some(asking) if asking.is_free() => {
+                    let argument = asking.argument();
+                    let name = argument.map_or("", |argument| argument.name).to_lowercase();
+                    format!("{}: {}", sentence(&name), argument.map_or("", |argument| argument.help))
+                }
+                Some(_) => format!("Nothing fits ‘{query}’"),
             };
             let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 2.0 * ROW), Sense::hover());
             let font = FontId::proportional(theme::BODY);

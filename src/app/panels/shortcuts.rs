@@ -41,7 +41,13 @@ enum Act {
 }
 
 /// Height of a line of the sheet, in points.
-const LINE: f32 = 26.0;
+const LINE: f32 = 25.0;
+
+/// Space between two menus of a column.
+const BETWEEN: f32 = 10.0;
+
+/// Commands of a menu.
+type Group = (Menu, Vec<&'static Command>);
 
 /// Width of a column, and the space between two.
 const COLUMN: f32 = 300.0;
@@ -134,9 +140,14 @@ impl Sheet {
             ui.add_space(2.0);
             self.show_said(ui);
             ui.add_space(8.0);
-            let height = (screen.height() - 220.0).max(120.0);
-            ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
-                act = self.show_columns(app, ui, COLUMNS[columns - 1]).or(act.take());
+            let height = (screen.height() - 190.0).max(120.0);
+            let columns = self.columns(app, ui, COLUMNS[columns - 1]);
+            let wanted = columns.iter().map(|column| height_of(column)).fold(LINE, f32::max);
+            let area = ScrollArea::vertical().min_scrolled_height(wanted.min(height)).max_height(height);
+            area.auto_shrink([false, true]).show(ui, |ui| {
+                // The bar lies over what it scrolls.
+                let bar = if wanted > height { 14.0 } else { 0.0 };
+                act = self.show_columns(app, ui, &columns, wanted, bar).or(act.take());
             });
             ui.add_space(10.0);
             ui.horizontal(|ui| {
@@ -162,6 +173,7 @@ impl Sheet {
         let edit = TextEdit::singleline(&mut self.query)
             .id(Id::unique("search of shortcuts"))
             .hint_text(RichText::new("Search").color(colours(ui).text_weak))
+            .align(egui::Align2::LEFT_CENTER)
             .desired_width(180.0);
         let response = ui.add(edit).accessible_name("Search shortcuts");
         if !self.is_shown {
@@ -217,48 +229,45 @@ impl Sheet {
         })
     }
 
-    fn show_columns(&self, app: &App, ui: &mut Ui, columns: &[&[Menu]]) -> Option<Act> {
+    /// The commands that are looked for, by column and menu.
+    fn columns(&self, app: &App, ui: &Ui, columns: &[&[Menu]]) -> Vec<Vec<Group>> {
         let mut search = Search::new(&self.query);
+        let mut group = |menu: &Menu| -> Option<Group> {
+            let mut is_wanted = |command: &&Command| {
+                // By its title, or its menu and keys.
+                let elsewhere = format!("{} {}", menu.title(), app.keys_text(command, ui.ctx()));
+                search.hit(command.plain_title()).is_some() || search.hit(&elsewhere).is_some()
+            };
+            let commands = COMMANDS.iter().filter(|command| command.menu.is_some_and(|(of, _)| of == *menu));
+            let commands: Vec<&'static Command> = commands.filter(|command| is_wanted(command)).collect();
+            (!commands.is_empty()).then_some((*menu, commands))
+        };
+        columns.iter().map(|menus| menus.iter().filter_map(&mut group).collect()).collect()
+    }
+
+    fn show_columns(&self, app: &App, ui: &mut Ui, columns: &[Vec<Group>], height: f32, bar: f32) -> Option<Act> {
         let mut act = None;
-        let top = ui.available_rect_before_wrap().min;
-        let width = (ui.available_width() + GAP) / columns.len() as f32 - GAP;
-        let mut bottom = top.y;
-        let mut is_anything = false;
-        for (index, menus) in columns.iter().enumerate() {
-            let min = pos2(top.x + index as f32 * (width + GAP), top.y);
-            let place = Rect::from_min_size(min, vec2(width, f32::INFINITY));
+        let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+        let width = (rect.width() - bar + GAP) / columns.len() as f32 - GAP;
+        for (index, groups) in columns.iter().enumerate() {
+            let min = pos2((rect.left() + index as f32 * (width + GAP)).round(), rect.top());
+            let place = Rect::from_min_size(min, vec2(width, height));
             let mut column = ui.new_child(UiBuilder::new().max_rect(place).id_salt(("column", index)));
             column.spacing_mut().item_spacing = Vec2::ZERO;
-            for (position, menu) in menus.iter().enumerate() {
-                let found: Vec<&'static Command> = COMMANDS
-                    .iter()
-                    .filter(|command| command.menu.is_some_and(|(of, _)| of == *menu))
-                    .filter(|command| {
-                        let keys = app.keys_text(command, ui.ctx());
-                        search.hit(command.plain_title()).is_some()
-                            || search.hit(&format!("{} {keys}", menu.title())).is_some()
-                    })
-                    .collect();
-                if found.is_empty() {
-                    continue;
-                }
-                is_anything = true;
+            for (position, (menu, commands)) in groups.iter().enumerate() {
                 if position > 0 {
-                    column.add_space(10.0);
+                    column.add_space(BETWEEN);
                 }
-                let (rect, response) = column.allocate_exact_size(vec2(width, LINE), Sense::hover());
+                let (title, response) = column.allocate_exact_size(vec2(width, LINE), Sense::hover());
                 let font = FontId::new(theme::SMALL, theme::semibold());
-                put_line(&column, menu.title(), font, colours(&column).text_weak, rect);
+                put_line(&column, menu.title(), font, colours(&column).text_weak, title);
                 response.widget_info(|| WidgetInfo::labeled(Role::Label, true, menu.title()));
-                for command in found {
+                for command in commands {
                     act = self.line(app, &mut column, command).or(act.take());
                 }
             }
-            bottom = bottom.max(column.min_rect().bottom());
         }
-        ui.allocate_space(vec2(ui.available_width(), (bottom - top.y).max(LINE)));
-        if !is_anything {
-            let rect = Rect::from_min_size(top, vec2(ui.available_width(), LINE));
+        if columns.iter().all(Vec::is_empty) {
             let text = format!("No command fits ‘{}’", self.query.trim());
             put_line(ui, &text, FontId::proportional(theme::BODY), colours(ui).text_weak, rect);
         }
@@ -357,6 +366,12 @@ impl Sheet {
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
         response
     }
+}
+
+/// Height of a column, in points.
+fn height_of(groups: &[Group]) -> f32 {
+    let lines = groups.iter().map(|(_, commands)| commands.len() + 1).sum::<usize>();
+    lines as f32 * LINE + groups.len().saturating_sub(1) as f32 * BETWEEN
 }
 
 fn is_modifier(key: Key) -> bool {

@@ -100,7 +100,9 @@ fn with_tooltip(app: &App, response: Response, context: &Context, command: &Comm
 
 /// The plan's title in the middle of the window, as far as there is space.
 fn title(app: &App, ui: &Ui, left: f32, right: f32) {
-    let Some(document) = &app.document else { return };
+    // Less than this shows no more than a letter or two.
+    const LEAST_WIDTH: f32 = 80.0;
+    let Some(document) = app.document.as_ref().filter(|_| right - left >= LEAST_WIDTH) else { return };
     let colours = colours(ui);
     let bar = ui.max_rect();
     let mut text = document.title();
