@@ -123,6 +123,16 @@ impl Canvas {
         self.wish = Some(Wish::Reveal(picked));
     }
 
+    /// Where the canvas was in the last frame.
+    pub(super) fn seen_rect(&self) -> Option<Rect> {
+        self.seen.map(|(_, rect)| rect)
+    }
+
+    /// How far from an opening a click picks it, in metres at the present zoom.
+    pub(super) fn pick_reach_m(&self) -> f64 {
+        self.px_per_m().map_or(0.0, |px_per_m| PICK_REACH / px_per_m)
+    }
+
     /// Points of the screen a metre of the plan is long.
     pub(super) fn px_per_m(&self) -> Option<f64> {
         self.camera.map(|camera| camera.px_per_m)

@@ -11,8 +11,16 @@ use super::{Done, Intent};
 pub(super) enum Dialogs {
     /// The system's dialogs, one at a time.
     System { is_open: bool },
-    /// Answers given beforehand, in order; `None` cancels, and so does having none left.
-    Given(VecDeque<Option<PathBuf>>),
+    /// Answers given beforehand.
+    Given(Given),
+}
+
+/// Answers given beforehand, in order; `None` cancels, and so does having none left.
+#[derive(Default)]
+pub(super) struct Given {
+    pub answers: VecDeque<Option<PathBuf>>,
+    /// How many dialogs had no answer left.
+    pub unanswered: usize,
 }
 
 /// What a file is wanted for.
@@ -49,8 +57,10 @@ impl Dialogs {
         background: &mut Background<Done>,
     ) {
         match self {
-            Self::Given(answers) => {
-                let path = answers.pop_front().flatten();
+            Self::Given(given) => {
+                let answer = given.answers.pop_front();
+                given.unanswered += usize::from(answer.is_none());
+                let path = answer.flatten();
                 background.start(move || Done::Chosen(Answer { purpose, path, was_shown: true }));
             }
             Self::System { is_open: true } => {}

@@ -37,7 +37,7 @@ impl App {
             Ok(opened) => self.request(Intent::Show(Box::new(opened))),
             Err(FileError { path, error }) => {
                 self.say(Severity::Error, format!("Could not open {}", document::file_name(&path)), {
-                    format!("{error}\n{}", path.display())
+                    format!("{error}\n{}", self.shown_path(&path))
                 });
             }
         }
@@ -280,7 +280,7 @@ impl App {
                 self.say(
                     Severity::Error,
                     text,
-                    format!("Your changes are still here; {}.\n{}", error.hint, path.display()),
+                    format!("Your changes are still here; {}.\n{}", error.hint, self.shown_path(&path)),
                 );
             }
         }

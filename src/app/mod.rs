@@ -6,6 +6,7 @@
 mod background;
 mod canvas;
 pub mod commands;
+mod controls;
 mod dialogs;
 mod document;
 mod files;
@@ -15,6 +16,7 @@ mod panels;
 mod picture;
 mod plan_list;
 mod raster;
+pub mod replay;
 mod scene_painter;
 mod search;
 mod settings;
@@ -22,15 +24,16 @@ mod theme;
 mod widgets;
 mod window;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use egui::{Context, Ui};
 
 pub use commands::{CommandError, Executed};
+pub use controls::Control;
 pub use document::Picked;
 pub use icons::Icon;
-pub use offscreen::{Control, NotSettled, Offscreen, OffscreenOptions};
+pub use offscreen::{NotSettled, Offscreen, OffscreenOptions};
 pub use picture::{Difference, Picture};
 pub use raster::Raster;
 pub use theme::ThemeChoice;
@@ -78,6 +81,8 @@ pub struct App {
     quitting: bool,
     is_close_sent: bool,
     shown_title: String,
+    /// Where scripts work: paths below are shown from here.
+    named_from: Option<PathBuf>,
     /// How many documents have been shown.
     documents: u64,
     /// The commands that were done, where a recorder wants them.
@@ -197,6 +202,7 @@ impl App {
             quitting: false,
             is_close_sent: false,
             shown_title: String::new(),
+            named_from: None,
             documents: 0,
             executed: None,
         }
@@ -249,6 +255,12 @@ impl App {
         self.canvas.screen_position(crate::geometry::Point::new(x_m, y_m))
     }
 
+    /// A path as it is shown.
+    fn shown_path(&self, path: &Path) -> String {
+        let folder = self.named_from.as_deref().unwrap_or(Path::new(""));
+        path.strip_prefix(folder).unwrap_or(path).display().to_string()
+    }
+
     fn say(&mut self, severity: Severity, text: impl Into<String>, detail: impl Into<String>) {
         self.add_message(Message { severity, text: text.into(), detail: detail.into(), remedy: None });
     }
@@ -286,7 +298,7 @@ impl App {
                 Some(Done::Backdrop(path, result)) => {
                     if let Err(what) = self.canvas.set_backdrop(context, &path, result) {
                         let text = format!("The picture under the plan is missing: {what}");
-                        self.say(Severity::Warning, text, path.display().to_string());
+                        self.say(Severity::Warning, text, self.shown_path(&path));
                     }
                 }
             }

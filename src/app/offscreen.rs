@@ -1,7 +1,6 @@
 //! The same window without a display: input is fed by hand, the clock stands still between frames,
 //! and a picture is painted on the CPU.
 
-use std::collections::VecDeque;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -14,11 +13,14 @@ use egui::{
 };
 
 use super::background::Mode;
-use super::dialogs::Dialogs;
+use super::dialogs::{Dialogs, Given};
 use super::document::{Origin, bundled};
 use super::raster::Raster;
 use super::theme::Motion;
-use super::{App, CommandError, Executed, Picture};
+use super::{App, CommandError, Control, Executed, Picture, controls};
+
+/// Two clicks are a double click only when they follow within 0.3 seconds.
+const CLICK_GAP_SECS: f64 = 0.5;
 
 /// Seconds from frame to frame.
 const FRAME_SECS: f64 = 1.0 / 60.0;
@@ -56,18 +58,6 @@ impl fmt::Display for NotSettled {
 
 impl std::error::Error for NotSettled {}
 
-/// A control that a screen reader would find.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Control {
-    pub name: String,
-    pub role: accesskit::Role,
-    /// In logical pixels.
-    pub rect: Rect,
-    pub is_enabled: bool,
-    /// Whether it is on, where it can be.
-    pub is_on: Option<bool>,
-}
-
 /// The window without a display.
 pub struct Offscreen {
     app: App,
@@ -78,12 +68,13 @@ pub struct Offscreen {
     pointer: Pos2,
     modifiers: Modifiers,
     hovered_files: Vec<egui::HoveredFile>,
+    /// What can be pasted: the system's clipboard.
+    clipboard: String,
     /// What the last frame gave.
     output: Option<FullOutput>,
     tree: Option<accesskit::TreeUpdate>,
     is_closing: bool,
     is_closed: bool,
-    copied: Option<String>,
 }
 
 impl Offscreen {
@@ -92,7 +83,7 @@ impl Offscreen {
         let context = Context::default();
         context.set_os(OperatingSystem::Nix);
         context.enable_accesskit();
-        let app = App::new(&context, Mode::Inline, Dialogs::Given(VecDeque::new()), Motion::Still);
+        let app = App::new(&context, Mode::Inline, Dialogs::Given(Given::default()), Motion::Still);
         Self {
             app,
             context,
@@ -102,11 +93,11 @@ impl Offscreen {
             pointer: Pos2::ZERO,
             modifiers: Modifiers::NONE,
             hovered_files: Vec::new(),
+            clipboard: String::new(),
             output: None,
             tree: None,
             is_closing: false,
             is_closed: false,
-            copied: None,
         }
     }
 
@@ -162,9 +153,32 @@ impl Offscreen {
     /// The answer to the next dialog that asks for a file; `None` cancels it. A dialog without an
     /// answer is cancelled.
     pub fn answer_dialog(&mut self, path: Option<PathBuf>) {
-        if let Dialogs::Given(answers) = &mut self.app.dialogs {
-            answers.push_back(path);
+        if let Some(given) = self.given() {
+            given.answers.push_back(path);
         }
+    }
+
+    /// How many answers no dialog has asked for yet.
+    pub fn answers_left(&mut self) -> usize {
+        self.given().map_or(0, |given| given.answers.len())
+    }
+
+    /// How many dialogs had no answer since this was last asked.
+    pub fn take_unanswered(&mut self) -> usize {
+        self.given().map_or(0, |given| std::mem::take(&mut given.unanswered))
+    }
+
+    fn given(&mut self) -> Option<&mut Given> {
+        match &mut self.app.dialogs {
+            Dialogs::Given(given) => Some(given),
+            Dialogs::System { .. } => None,
+        }
+    }
+
+    /// Names paths below a folder by what comes behind it, so that what is seen does not depend on
+    /// where the folder is.
+    pub fn name_paths_from(&mut self, folder: &Path) {
+        self.app.named_from = Some(folder.to_owned());
     }
 
     /// Whether the window has closed.
@@ -172,9 +186,25 @@ impl Offscreen {
         self.is_closed
     }
 
-    /// What was copied last.
-    pub fn copied(&self) -> Option<&str> {
-        self.copied.as_deref()
+    /// What was copied last, or put there to be pasted.
+    pub fn clipboard(&self) -> &str {
+        &self.clipboard
+    }
+
+    /// Puts a text where Ctrl+V takes it from.
+    pub fn set_clipboard(&mut self, text: &str) {
+        text.clone_into(&mut self.clipboard);
+    }
+
+    /// What the window is like now.
+    pub fn options(&self) -> OffscreenOptions {
+        self.options
+    }
+
+    /// Makes it another size, scale or theme of the system.
+    pub fn set_options(&mut self, options: OffscreenOptions) {
+        self.options = options;
+        self.frame(Vec::new(), Vec::new(), false);
     }
 
     // Input. Each is a frame of its own, as at most one thing happens in a sixtieth of a second.
@@ -182,6 +212,24 @@ impl Offscreen {
     /// Feeds an event of egui's.
     pub fn event(&mut self, event: Event) {
         self.frame(vec![event], Vec::new(), false);
+    }
+
+    /// Where the pointer is.
+    pub fn pointer(&self) -> Pos2 {
+        self.pointer
+    }
+
+    /// Holds modifier keys down, in place of those held before.
+    pub fn hold_modifiers(&mut self, modifiers: Modifiers) {
+        if self.modifiers != modifiers {
+            self.modifiers = modifiers;
+            self.event(Event::ModifiersChanged(modifiers));
+        }
+    }
+
+    /// The modifier keys held down.
+    pub fn modifiers(&self) -> Modifiers {
+        self.modifiers
     }
 
     /// Moves the pointer.
@@ -197,19 +245,33 @@ impl Offscreen {
 
     /// Clicks at a place.
     pub fn click(&mut self, at: Pos2) {
+        self.clicks(PointerButton::Primary, at, 1);
+    }
+
+    /// Clicks at a place so often in quick succession.
+    pub fn clicks(&mut self, button: PointerButton, at: Pos2, count: usize) {
         self.move_to(at);
-        self.button(PointerButton::Primary, true);
-        self.button(PointerButton::Primary, false);
-        // Two clicks are a double click only when they follow within 0.3 seconds.
-        self.advance(0.5);
+        for _ in 0..count {
+            self.button(button, true);
+            self.button(button, false);
+        }
+        // What is clicked next is no double click.
+        self.advance(CLICK_GAP_SECS);
     }
 
     /// Drags from a place to another.
     pub fn drag(&mut self, button: PointerButton, from: Pos2, to: Pos2) {
-        self.move_to(from);
-        self.button(button, true);
-        self.move_to(from + (to - from) / 2.0);
-        self.move_to(to);
+        self.drag_along(button, &[from, from + (to - from) / 2.0, to]);
+    }
+
+    /// Drags from the first of some places by way of the others to the last.
+    pub fn drag_along(&mut self, button: PointerButton, places: &[Pos2]) {
+        for (index, &place) in places.iter().enumerate() {
+            self.move_to(place);
+            if index == 0 {
+                self.button(button, true);
+            }
+        }
         self.button(button, false);
     }
 
@@ -229,13 +291,28 @@ impl Offscreen {
         self.event(Event::MouseWheel { unit, delta, phase: TouchPhase::Move, source, modifiers });
     }
 
-    /// Presses a key and lets it go.
+    /// Presses a key and lets it go, with modifiers beside those that are held down. Ctrl with C, X and
+    /// V are copy, cut and paste, as window systems have it.
     pub fn key(&mut self, modifiers: Modifiers, key: Key) {
-        self.modifiers = modifiers;
-        for pressed in [true, false] {
-            self.event(Event::Key { key, physical_key: None, pressed, repeat: false, modifiers });
+        let held = self.modifiers;
+        let modifiers = held.plus(modifiers);
+        self.hold_modifiers(modifiers);
+        let clipboard_event = match key {
+            _ if !modifiers.matches_exact(Modifiers::COMMAND) => None,
+            Key::C => Some(Event::Copy),
+            Key::X => Some(Event::Cut),
+            Key::V => Some(Event::Paste(self.clipboard.clone())),
+            _ => None,
+        };
+        match clipboard_event {
+            Some(event) => self.event(event),
+            None => {
+                for pressed in [true, false] {
+                    self.event(Event::Key { key, physical_key: None, pressed, repeat: false, modifiers });
+                }
+            }
         }
-        self.modifiers = Modifiers::NONE;
+        self.hold_modifiers(held);
     }
 
     /// Holds a key down or lets it go.
@@ -269,18 +346,26 @@ impl Offscreen {
 
     /// Changes the size of the window, in logical pixels.
     pub fn resize(&mut self, width: u32, height: u32) {
-        self.options = OffscreenOptions { width, height, ..self.options };
-        self.frame(Vec::new(), Vec::new(), false);
+        self.set_options(OffscreenOptions { width, height, ..self.options });
     }
 
     // Time.
 
-    /// Lets time pass, in seconds, frame by frame.
+    /// Lets time pass, in seconds: a frame whenever the window asks for one, and one at the end. One
+    /// that asks without end gets no more than [`NotSettled`] says, and then the last.
     pub fn advance(&mut self, secs: f64) {
-        let frames = (secs / FRAME_SECS).round().max(1.0) as usize;
-        for _ in 0..frames {
+        let end_secs = self.time_secs + secs.max(0.0);
+        for _ in 0..MOST_FRAMES {
             self.frame(Vec::new(), Vec::new(), false);
+            if self.is_closed || self.time_secs >= end_secs {
+                return;
+            }
+            // Nothing happens until the window wants to be shown again.
+            let idle_secs = self.repaint_delay_secs() - FRAME_SECS;
+            self.time_secs = (self.time_secs + idle_secs.max(0.0)).min(end_secs);
         }
+        self.time_secs = end_secs;
+        self.frame(Vec::new(), Vec::new(), false);
     }
 
     /// Runs frames until the window asks for no further one soon.
@@ -290,16 +375,17 @@ impl Offscreen {
     pub fn settle(&mut self) -> Result<(), NotSettled> {
         for _ in 0..MOST_FRAMES {
             self.frame(Vec::new(), Vec::new(), false);
-            let delay = self
-                .output
-                .as_ref()
-                .and_then(|output| output.viewport_output.get(&ViewportId::ROOT))
-                .map(|viewport| viewport.repaint_delay);
-            if self.is_closed || (!self.is_closing && delay.is_none_or(|delay| delay.as_secs_f64() > FRAME_SECS)) {
+            if self.is_closed || (!self.is_closing && self.repaint_delay_secs() > FRAME_SECS) {
                 return Ok(());
             }
         }
         Err(NotSettled)
+    }
+
+    /// Seconds until the window wants to be shown again.
+    fn repaint_delay_secs(&self) -> f64 {
+        let viewport = self.output.as_ref().and_then(|output| output.viewport_output.get(&ViewportId::ROOT));
+        viewport.map_or(f64::INFINITY, |viewport| viewport.repaint_delay.as_secs_f64())
     }
 
     fn frame(&mut self, events: Vec<Event>, dropped_files: Vec<egui::DroppedFileHandle>, close: bool) {
@@ -334,7 +420,7 @@ impl Offscreen {
         }
         for command in &output.platform_output.commands {
             if let egui::OutputCommand::CopyText(text) = command {
-                self.copied = Some(text.clone());
+                text.clone_into(&mut self.clipboard);
             }
         }
         let commands = output.viewport_output.get(&ViewportId::ROOT).map(|viewport| viewport.commands.as_slice());
@@ -351,6 +437,15 @@ impl Offscreen {
 
     // What is seen.
 
+    /// A picture of a part of the last frame, its sides rounded to pixels.
+    pub fn picture_of(&mut self, rect: Rect) -> Picture {
+        let picture = self.picture();
+        let scale = self.options.scale;
+        let side = |at: f32, limit: u32| (at * scale).round().clamp(0.0, limit as f32) as u32;
+        let corner = |at: Pos2| [side(at.x, picture.width_px), side(at.y, picture.height_px)];
+        picture.part(corner(rect.min), corner(rect.max))
+    }
+
     /// A picture of the last frame.
     pub fn picture(&mut self) -> Picture {
         let scale = self.options.scale;
@@ -361,25 +456,9 @@ impl Offscreen {
         self.raster.paint(&primitives, size_px, scale, background)
     }
 
-    /// The controls with a name that are on the screen, in the tree's order.
+    /// The controls that are on the screen, in the tree's order.
     pub fn controls(&self) -> Vec<Control> {
-        let Some(tree) = &self.tree else { return Vec::new() };
-        let scale = self.options.scale;
-        tree.nodes
-            .iter()
-            .filter_map(|(_, node)| {
-                let bounds = node.bounds()?;
-                let corner = |x: f64, y: f64| Pos2::new(x as f32 / scale, y as f32 / scale);
-                Some(Control {
-                    // Plain text carries what it says as its value.
-                    name: node.label().or(node.value()).unwrap_or_default().to_owned(),
-                    role: node.role(),
-                    rect: Rect::from_min_max(corner(bounds.x0, bounds.y0), corner(bounds.x1, bounds.y1)),
-                    is_enabled: !node.is_disabled(),
-                    is_on: node.is_selected().or(node.toggled().map(|toggled| toggled == accesskit::Toggled::True)),
-                })
-            })
-            .collect()
+        self.tree.as_ref().map(|tree| controls::of_tree(tree, self.options.scale)).unwrap_or_default()
     }
 
     /// The first control with a name.

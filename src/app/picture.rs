@@ -87,6 +87,21 @@ impl Picture {
         Ok(bytes)
     }
 
+    /// The part between two corners, in pixels; the far sides are not part of it.
+    pub(super) fn part(&self, from: [u32; 2], to: [u32; 2]) -> Self {
+        let [left, top] = [from[0].min(self.width_px), from[1].min(self.height_px)];
+        let [right, bottom] = [to[0].clamp(left, self.width_px), to[1].clamp(top, self.height_px)];
+        if (left, top, right, bottom) == (0, 0, self.width_px, self.height_px) {
+            return self.clone();
+        }
+        let row = |y: u32| {
+            let start = (y * self.width_px + left) as usize * 4;
+            &self.rgba[start..start + (right - left) as usize * 4]
+        };
+        let rgba = (top..bottom).flat_map(row).copied().collect();
+        Self { width_px: right - left, height_px: bottom - top, rgba }
+    }
+
     /// How another picture differs from this one; `None` when it does not. Pictures of different sizes
     /// differ in every pixel.
     pub fn difference(&self, other: &Self) -> Option<Difference> {

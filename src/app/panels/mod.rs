@@ -43,6 +43,9 @@ pub(super) struct Panels {
     pub sheet: Option<Sheet>,
     /// Whether it is shown what Enfilade is.
     pub about: bool,
+    /// Where the panel on the left and the inspector were in the last frame, as far as shown.
+    pub left_rect: Option<egui::Rect>,
+    pub right_rect: Option<egui::Rect>,
     /// Height in points that the fill and the layers took when they were last shown.
     layers_height: f32,
     /// Text that a person has changed and not finished.
@@ -60,6 +63,8 @@ impl Default for Panels {
             recent: Vec::new(),
             sheet: None,
             about: false,
+            left_rect: None,
+            right_rect: None,
             layers_height: 360.0,
             field: None,
         }
@@ -146,8 +151,9 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         .exact_size(30.0)
         .frame(frame(Margin::symmetric(12, 0)))
         .show(ui, |ui| status::show(app, ui));
+    (app.panels.left_rect, app.panels.right_rect) = (None, None);
     if app.panels.left {
-        Panel::left("plans and layers")
+        let shown = Panel::left("plans and layers")
             .default_size(236.0)
             .size_range(180.0..=440.0)
             .frame(frame(Margin::symmetric(8, 8)))
@@ -173,13 +179,15 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
                 plans::show(app, ui);
                 ui.take_available_space();
             });
+        app.panels.left_rect = Some(shown.response.rect);
     }
     if app.panels.right && app.document.is_some() {
-        Panel::right("inspector")
+        let shown = Panel::right("inspector")
             .default_size(300.0)
             .size_range(240.0..=520.0)
             .frame(frame(Margin::ZERO))
             .show(ui, |ui| inspector::show(app, ui));
+        app.panels.right_rect = Some(shown.response.rect);
     }
     CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;

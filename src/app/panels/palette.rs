@@ -3,7 +3,7 @@
 use egui::text::{LayoutJob, TextFormat};
 use egui::{
     Align2, Color32, FontId, Id, Key, Modal, Modifiers, Rect, Response, RichText, Role, ScrollArea, Sense, TextEdit,
-    Ui, Vec2, WidgetInfo, pos2, vec2,
+    Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use crate::app::canvas::sentence;

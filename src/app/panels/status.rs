@@ -43,7 +43,7 @@ fn zoom_button(app: &mut App, ui: &mut Ui, icon: Icon, id: &str) {
     }
 }
 
-fn left_text(app: &App) -> String {
+pub(in crate::app) fn left_text(app: &App) -> String {
     if let Some(origin) = &app.opening {
         return format!("Opening {}…", origin.title());
     }

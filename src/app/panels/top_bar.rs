@@ -129,7 +129,7 @@ fn title(app: &App, ui: &Ui, left: f32, right: f32) {
     let name = if document.is_changed() { format!("{}, changed", document.title()) } else { document.title() };
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &name));
     match document.origin.path() {
-        Some(path) => drop(response.on_hover_text(path.display().to_string())),
+        Some(path) => drop(response.on_hover_text(app.shown_path(path))),
         None if is_elided => drop(response.on_hover_text(text)),
         None => {}
     }

@@ -1,0 +1,113 @@
+//! The folders of a script. It reads what lies beside it and never changes it: every file it opens is
+//! copied to a folder of its own first, and all it saves goes there.
+
+use std::path::{Component, Path, PathBuf};
+
+use super::stage::Fault;
+use super::words::written;
+use crate::formats;
+use crate::store::save_bytes_fast;
+
+/// Where a script reads and writes.
+pub(super) struct Folders {
+    /// Where the script lies: paths in it start here.
+    pub script: PathBuf,
+    /// The script's own: copies of what it opens, and what it saves.
+    pub work: PathBuf,
+    /// Where the pictures are that its snapshots are compared with.
+    pub snapshots: PathBuf,
+    /// Where every picture is kept; nowhere without.
+    pub kept_pictures: Option<PathBuf>,
+}
+
+impl Folders {
+    /// A copy of a file or a folder of plans that a script names, in its own folder; what is there
+    /// already is used as it is.
+    ///
+    /// # Errors
+    /// When there is no such thing, or it cannot be copied.
+    pub(super) fn brought_in(&self, path: &str) -> Result<PathBuf, Fault> {
+        let target = self.work.join(inner(path).unwrap_or_else(|| last_two(Path::new(path))));
+        if target.exists() {
+            return Ok(target);
+        }
+        let source = self.script.join(path);
+        if source.is_dir() {
+            let plans = crate::app::plan_list::plans_in(&source);
+            std::fs::create_dir_all(&target).map_err(|error| cannot_copy(path, &error.to_string()))?;
+            for plan in plans {
+                copy_plan(&plan, &target.join(file_name(&plan))).map_err(|what| cannot_copy(path, &what))?;
+            }
+        } else if source.is_file() {
+            copy_plan(&source, &target).map_err(|what| cannot_copy(path, &what))?;
+        } else {
+            let what = format!("there is no file {}", written(path));
+            return Err(Fault::new(what).hint("paths start at the script's folder"));
+        }
+        Ok(target)
+    }
+
+    /// The path in the script's own folder to which it saves, its folder made.
+    ///
+    /// # Errors
+    /// When the path leads out of it.
+    pub(super) fn to_write(&self, path: &str) -> Result<PathBuf, Fault> {
+        let target = self.work.join(inner(path).ok_or_else(|| {
+            Fault::new(format!("{} leads out of the script's own folder", written(path)))
+                .hint("scripts save nowhere else; enfilade replay --out DIR keeps what they save")
+        })?);
+        if let Some(folder) = target.parent() {
+            std::fs::create_dir_all(folder).map_err(|error| Fault::new(format!("{path}: {error}")))?;
+        }
+        Ok(target)
+    }
+}
+
+fn cannot_copy(path: &str, what: &str) -> Fault {
+    Fault::new(format!("{} cannot be read: {what}", written(path)))
+}
+
+/// A relative path that stays inside of the folder it starts from.
+fn inner(path: &str) -> Option<PathBuf> {
+    let mut inner = PathBuf::new();
+    for component in Path::new(path).components() {
+        match component {
+            Component::Normal(part) => inner.push(part),
+            Component::CurDir => {}
+            _ => return None,
+        }
+    }
+    (!inner.as_os_str().is_empty()).then_some(inner)
+}
+
+fn file_name(path: &Path) -> PathBuf {
+    path.file_name().map(PathBuf::from).unwrap_or_else(|| PathBuf::from("plan"))
+}
+
+/// A path's last folder and file: files from elsewhere lie in folders of their own.
+fn last_two(path: &Path) -> PathBuf {
+    let folder = path.parent().and_then(Path::file_name).map(PathBuf::from).unwrap_or_default();
+    folder.join(file_name(path))
+}
+
+/// Copies a plan, and the picture under it if it lies beside.
+fn copy_plan(source: &Path, target: &Path) -> Result<(), String> {
+    copy(source, target)?;
+    // Whether it is a plan at all, the window says.
+    let plans = formats::read_file(source).map(|import| import.plans).unwrap_or_default();
+    for picture in plans.iter().filter_map(|plan| plan.backdrop()).filter_map(|backdrop| inner(&backdrop.path)) {
+        let beside = |path: &Path| path.parent().unwrap_or(Path::new("")).join(&picture);
+        if beside(source).is_file() {
+            copy(&beside(source), &beside(target))?;
+        }
+    }
+    Ok(())
+}
+
+fn copy(source: &Path, target: &Path) -> Result<(), String> {
+    let bytes = formats::read_bytes(source).map_err(|error| error.to_string())?;
+    if let Some(folder) = target.parent() {
+        std::fs::create_dir_all(folder).map_err(|error| error.to_string())?;
+    }
+    save_bytes_fast(target, &bytes).map_err(|error| error.to_string())
+}

@@ -1,0 +1,32 @@
+//! The language described from the tables it is understood by.
+
+use std::fmt::Write as _;
+
+use super::place::FORMS;
+use super::verbs::{VERBS, expectations};
+use crate::app::commands::COMMANDS;
+
+/// Every verb, place, expectation and command, as Markdown tables: `docs/replay.md` holds it, and a test
+/// keeps the two the same.
+pub fn guide() -> String {
+    let mut text = String::new();
+    for group in VERBS {
+        let rows = group.verbs.iter().map(|verb| (verb.form, verb.help));
+        table(&mut text, group.title, ("step", "what it does"), rows);
+    }
+    table(&mut text, "Places", ("place", "where it is"), FORMS.into_iter());
+    table(&mut text, "Expectations", ("behind `expect`", "what must be so"), expectations());
+    let commands: Vec<(String, &str)> = COMMANDS.iter().map(|command| (command.usage(), command.help)).collect();
+    let commands = commands.iter().map(|(usage, help)| (usage.as_str(), *help));
+    table(&mut text, "Commands", ("step", "what it does"), commands);
+    text
+}
+
+fn table<'a>(text: &mut String, title: &str, head: (&str, &str), rows: impl Iterator<Item = (&'a str, &'a str)>) {
+    // Writing to a string cannot fail.
+    let _ = write!(text, "### {title}\n\n| {} | {} |\n| --- | --- |\n", head.0, head.1);
+    for (form, help) in rows {
+        let _ = writeln!(text, "| `{}` | {} |", form.replace('|', "\\|"), help.replace('|', "\\|"));
+    }
+    text.push('\n');
+}

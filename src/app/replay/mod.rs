@@ -1,0 +1,21 @@
+//! Replay scripts: what a person does in the window, written down line by line, done again without a
+//! display, and looked at.
+//!
+//! A script drives the same [`App`](super::App) that a person sees, through [`Offscreen`](super::Offscreen):
+//! the same input events, a clock of its own, dialogs answered beforehand. [`find_scripts`] finds
+//! scripts, [`replay`] runs one, [`guide`] describes the language from the table of verbs.
+
+mod folders;
+mod guide;
+mod place;
+mod run;
+mod script;
+mod seen;
+mod snapshot;
+mod stage;
+mod verbs;
+mod words;
+
+pub use guide::guide;
+pub use run::{Failure, FindError, ReplayOptions, Report, ScriptFile, find_scripts, replay};
+pub use script::{LARGEST_BYTES, Script, SyntaxError};

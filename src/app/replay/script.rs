@@ -1,0 +1,135 @@
+//! A script's text as steps.
+
+use std::fmt;
+
+use super::stage::{Fault, Stage};
+use super::verbs::{self, VERBS};
+use super::words::{self, Words};
+use crate::app::commands::{self, COMMANDS};
+
+/// A script that was understood.
+pub struct Script {
+    pub(super) steps: Vec<Step>,
+}
+
+/// A line that does something.
+pub(super) struct Step {
+    /// Counted from 1.
+    pub line: usize,
+    pub act: Act,
+}
+
+/// What a step does.
+pub(super) type Act = Box<dyn Fn(&mut Stage<'_>) -> Result<(), Fault> + Send + Sync>;
+
+/// What cannot be understood in a script.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SyntaxError {
+    /// Counted from 1.
+    pub line: usize,
+    pub what: String,
+    /// What to do about it; may be empty.
+    pub hint: String,
+}
+
+impl fmt::Display for SyntaxError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.what)?;
+        if !self.hint.is_empty() {
+            write!(f, "; {}", self.hint)?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for SyntaxError {}
+
+/// A longer script was not written, nor recorded, for a purpose.
+pub const LARGEST_BYTES: usize = 4 << 20;
+
+/// So many wrong lines are told; a script that has more is something else.
+const MOST_ERRORS: usize = 10;
+
+impl Script {
+    /// Understands a script.
+    ///
+    /// # Errors
+    /// Every line that means nothing, up to [`MOST_ERRORS`], each with the nearest thing that does.
+    pub fn parse(bytes: &[u8]) -> Result<Self, Vec<SyntaxError>> {
+        let whole =
+            |what: &str, hint: &str| vec![SyntaxError { line: 1, what: what.to_owned(), hint: hint.to_owned() }];
+        if bytes.len() > LARGEST_BYTES {
+            let megabytes = LARGEST_BYTES >> 20;
+            return Err(whole(&format!("a script has at most {megabytes} MiB"), "split it, or give a script"));
+        }
+        let text = match std::str::from_utf8(bytes) {
+            Ok(text) if !text.contains('\0') => text,
+            _ => return Err(whole("this is no text", "a script is plain text in UTF-8, one step a line")),
+        };
+        let (mut steps, mut errors) = (Vec::new(), Vec::new());
+        for (index, text) in text.trim_start_matches('\u{feff}').lines().enumerate() {
+            let line = index + 1;
+            match step(text) {
+                Ok(None) => {}
+                Ok(Some(act)) => steps.push(Step { line, act }),
+                Err((what, hint)) => errors.push(SyntaxError { line, what, hint }),
+            }
+            if errors.len() == MOST_ERRORS {
+                break;
+            }
+        }
+        if errors.is_empty() { Ok(Self { steps }) } else { Err(errors) }
+    }
+
+    /// How many steps it has.
+    pub fn len(&self) -> usize {
+        self.steps.len()
+    }
+
+    /// Whether it does nothing.
+    pub fn is_empty(&self) -> bool {
+        self.steps.is_empty()
+    }
+}
+
+/// A line's step; none for a line without words. An error has a hint.
+fn step(line: &str) -> Result<Option<Act>, (String, String)> {
+    let line = words::split(line).map_err(|what| (what, String::new()))?;
+    let mut words = Words::new(&line);
+    let Some(first) = words.next() else { return Ok(None) };
+    let act = match VERBS.iter().flat_map(|group| group.verbs).find(|verb| verb.name == first.text) {
+        Some(verb) => {
+            let form = || format!("write: {}", verb.form);
+            let act = (verb.parse)(&mut words).map_err(|what| (what, form()))?;
+            if let Some(word) = words.next() {
+                return Err((format!("{} is too much", words::written(&word.text)), form()));
+            }
+            act
+        }
+        None => match commands::find(&first.text) {
+            Some(command) => {
+                let usage = || format!("write: {}", command.usage());
+                verbs::command(command, words.all()).map_err(|what| (what, usage()))?
+            }
+            None => {
+                let names = VERBS.iter().flat_map(|group| group.verbs).map(|verb| verb.name);
+                let all = names.chain(COMMANDS.iter().map(|command| command.id));
+                let hint = match words::did_you_mean(&first.text, all) {
+                    hint if hint.is_empty() => "enfilade replay --list names all verbs and commands".to_owned(),
+                    hint => hint,
+                };
+                return Err((
+                    format!("{} is neither a verb nor a command", words::written(&shortened(&first.text))),
+                    hint,
+                ));
+            }
+        },
+    };
+    Ok(Some(act))
+}
+
+/// A text that may be anything, short enough for a message.
+pub(super) fn shortened(text: &str) -> String {
+    const MOST: usize = 60;
+    if text.chars().count() <= MOST { text.to_owned() } else { text.chars().take(MOST).chain(['…']).collect() }
+}

@@ -1,0 +1,140 @@
+//! A script at work: the window it drives, the folders it lives in, and what went wrong.
+
+use std::path::PathBuf;
+
+use egui::Pos2;
+
+use super::folders::Folders;
+use super::words::{did_you_mean, in_quotes};
+use crate::app::{Control, Offscreen, OffscreenOptions};
+use crate::geometry::Point;
+use crate::plan::{Plan, RoomId};
+
+/// Why a step did not do what it says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Fault {
+    /// What was expected and what was found.
+    pub what: String,
+    /// What to do about it; may be empty.
+    pub hint: String,
+    /// What was written to look at.
+    pub files: Vec<PathBuf>,
+    /// Whether the steps that follow still mean something.
+    pub goes_on: bool,
+}
+
+impl Fault {
+    /// One after which the script cannot go on.
+    pub(super) fn new(what: impl Into<String>) -> Self {
+        Self { what: what.into(), hint: String::new(), files: Vec::new(), goes_on: false }
+    }
+
+    /// One of something that was only looked at.
+    pub(super) fn unmet(what: impl Into<String>) -> Self {
+        Self { goes_on: true, ..Self::new(what) }
+    }
+
+    pub(super) fn hint(self, hint: impl Into<String>) -> Self {
+        Self { hint: hint.into(), ..self }
+    }
+
+    pub(super) fn files(self, files: Vec<PathBuf>) -> Self {
+        Self { files, ..self }
+    }
+}
+
+/// A script at work.
+pub(super) struct Stage<'a> {
+    pub window: Offscreen,
+    pub folders: &'a Folders,
+    /// Whether what comes out becomes what is expected.
+    pub is_updating: bool,
+    pub snapshots: usize,
+    /// The references that were written.
+    pub updated: Vec<PathBuf>,
+}
+
+impl<'a> Stage<'a> {
+    pub(super) fn new(folders: &'a Folders, is_updating: bool) -> Self {
+        let mut window = Offscreen::new(OffscreenOptions::default());
+        window.name_paths_from(&folders.work);
+        Self { window, folders, is_updating, snapshots: 0, updated: Vec::new() }
+    }
+
+    /// The open plan.
+    ///
+    /// # Errors
+    /// When none is open.
+    pub(super) fn plan(&self) -> Result<&Plan, Fault> {
+        let hint = "open one first: open-sample dwelling, or open PATH";
+        self.window.app().plan().ok_or_else(|| Fault::new("no plan is open").hint(hint))
+    }
+
+    /// The room of a name or an id; of several with one name the Nth, by id.
+    ///
+    /// # Errors
+    /// When there is none, or more than one and no number says which.
+    pub(super) fn room(&self, name: &str, number: Option<usize>) -> Result<RoomId, Fault> {
+        let plan = self.plan()?;
+        if let Ok(id) = name.parse::<RoomId>()
+            && plan.room(id).is_some()
+        {
+            return Ok(id);
+        }
+        let named: Vec<RoomId> = plan.rooms().filter(|(_, room)| room.name == name).map(|(id, _)| id).collect();
+        match (named.as_slice(), number) {
+            ([], _) => {
+                let names = plan.rooms().map(|(_, room)| room.name.as_str()).filter(|name| !name.is_empty());
+                Err(Fault::new(format!("the plan has no room {}", in_quotes(name))).hint(did_you_mean(name, names)))
+            }
+            ([room], None) => Ok(*room),
+            (rooms, Some(number)) => rooms.get(number - 1).copied().ok_or_else(|| {
+                Fault::new(format!("the plan has {} of the name {}", count(rooms.len(), "room"), in_quotes(name)))
+            }),
+            (rooms, None) => {
+                let ids: Vec<String> = rooms.iter().map(RoomId::to_string).collect();
+                let what = format!("the plan has {} rooms of the name {}", rooms.len(), in_quotes(name));
+                Err(Fault::new(what).hint(format!("number them from 1, or use an id: {}", ids.join(", "))))
+            }
+        }
+    }
+
+    /// The control of a name; of several the first, or the Nth.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub(super) fn control(&self, name: &str, number: Option<usize>) -> Result<Control, Fault> {
+        let controls = self.window.controls();
+        let found = controls.iter().filter(|control| control.name == name).nth(number.unwrap_or(1) - 1);
+        found.cloned().ok_or_else(|| {
+            let (what, hint) = match controls.iter().filter(|control| control.name == name).count() {
+                0 => {
+                    let names = controls.iter().map(|control| control.name.as_str()).filter(|name| !name.is_empty());
+                    ("no control".to_owned(), did_you_mean(name, names))
+                }
+                seen => (format!("only {}", count(seen, "control")), String::new()),
+            };
+            let hint = if hint.is_empty() { "what a list has scrolled away is not there".to_owned() } else { hint };
+            Fault::new(format!("the window shows {what} {}", in_quotes(name))).hint(hint)
+        })
+    }
+
+    /// Where a point of the plan is on the screen.
+    ///
+    /// # Errors
+    /// When no plan is open, or the point is out of sight.
+    pub(super) fn plan_point_on_screen(&self, point: Point) -> Result<Pos2, Fault> {
+        self.plan()?;
+        let app = self.window.app();
+        let place = app.screen_position(point.x, point.y);
+        place.filter(|place| app.canvas_rect().is_some_and(|rect| rect.contains(*place))).ok_or_else(|| {
+            Fault::new(format!("the point {:.2},{:.2} of the plan is out of sight", point.x, point.y))
+                .hint("fit shows the whole plan; or write pixel X,Y")
+        })
+    }
+}
+
+/// A number of things, in words.
+pub(super) fn count(number: usize, thing: &str) -> String {
+    format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
+}

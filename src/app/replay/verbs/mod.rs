@@ -1,0 +1,73 @@
+//! The verbs of scripts, a file a group. A new verb is one entry: the parser, the manual and the hints
+//! come from it.
+
+mod checks;
+mod files;
+mod keyboard;
+mod pointer;
+mod window;
+
+use super::script::Act;
+use super::stage::{self, Fault};
+use super::words::Words;
+use crate::app::commands::{ArgumentKind, Command};
+
+/// A verb of the language.
+pub(super) struct Verb {
+    /// The first word of the line.
+    pub name: &'static str,
+    /// How it is written: keywords small, what is to be filled in large, what may be left out in
+    /// brackets.
+    pub form: &'static str,
+    /// What it does, in a sentence.
+    pub help: &'static str,
+    /// Understands what stands behind the verb. An error says what is wrong with it.
+    pub parse: fn(&mut Words<'_>) -> Result<Act, String>,
+}
+
+/// Verbs that belong together.
+pub(super) struct Group {
+    pub title: &'static str,
+    pub verbs: &'static [Verb],
+}
+
+/// Every verb.
+pub(super) const VERBS: &[Group] = &[pointer::GROUP, keyboard::GROUP, window::GROUP, files::GROUP, checks::GROUP];
+
+/// What can be expected, with how it is written and what it means.
+pub(super) fn expectations() -> impl Iterator<Item = (&'static str, &'static str)> {
+    checks::EXPECTATIONS.iter().map(|expectation| (expectation.form, expectation.help))
+}
+
+/// A step that runs a command. Files that it names are the script's own: copies of what it reads, and in
+/// its folder what it writes.
+///
+/// # Errors
+/// When the command takes no such arguments.
+pub(super) fn command(command: &'static Command, arguments: Vec<String>) -> Result<Act, String> {
+    let most = command.arguments.len();
+    if arguments.len() > most {
+        return Err(format!(
+            "{} stands behind {}, which takes {}",
+            arguments.len(),
+            command.id,
+            stage::count(most, "argument")
+        ));
+    }
+    Ok(Box::new(move |stage| {
+        let words: Vec<String> = arguments
+            .iter()
+            .zip(command.arguments)
+            .map(|(word, argument)| {
+                let path = match argument.kind {
+                    ArgumentKind::PlanFile => stage.folders.brought_in(word)?,
+                    ArgumentKind::NewPlanFile => stage.folders.to_write(word)?,
+                    _ => return Ok(word.clone()),
+                };
+                Ok(path.to_string_lossy().into_owned())
+            })
+            .collect::<Result<_, Fault>>()?;
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        stage.window.run_command_with(command.id, &words).map_err(|error| Fault::new(error.to_string()))
+    }))
+}

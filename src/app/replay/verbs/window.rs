@@ -1,0 +1,100 @@
+//! The window as a whole, and time.
+
+use super::{Group, Verb};
+use crate::app::OffscreenOptions;
+use crate::app::replay::stage::Fault;
+use crate::app::replay::words::{Words, number, written};
+
+pub(super) const GROUP: Group = Group {
+    title: "Window and time",
+    verbs: &[
+        Verb {
+            name: "size",
+            form: "size WIDTHxHEIGHT",
+            help: "Makes the window so large, in logical pixels; 1280x800 at first.",
+            parse: |words| {
+                let (width, height) = size(words)?;
+                Ok(Box::new(move |stage| {
+                    stage.window.resize(width, height);
+                    Ok(())
+                }))
+            },
+        },
+        Verb {
+            name: "scale",
+            form: "scale NUMBER",
+            help: "Physical pixels per logical one: `scale 2` for a display of high density.",
+            parse: |words| {
+                let scale = scale(words)?;
+                Ok(Box::new(move |stage| {
+                    let options = OffscreenOptions { scale, ..stage.window.options() };
+                    stage.window.set_options(options);
+                    Ok(())
+                }))
+            },
+        },
+        Verb {
+            name: "theme",
+            form: "theme light|dark",
+            help: "What the system asks for, which the window follows until told otherwise.",
+            parse: |words| {
+                let is_dark = is_dark(words)?;
+                Ok(Box::new(move |stage| {
+                    let options = OffscreenOptions { is_dark, ..stage.window.options() };
+                    stage.window.set_options(options);
+                    Ok(())
+                }))
+            },
+        },
+        Verb {
+            name: "close-window",
+            form: "close-window",
+            help: "Asks the window to close, as its title bar does.",
+            parse: |_| {
+                Ok(Box::new(|stage| {
+                    stage.window.ask_to_close();
+                    Ok(())
+                }))
+            },
+        },
+        Verb {
+            name: "wait",
+            form: "wait [SECONDS]",
+            help: "Waits until all work in the background is done, which every step does; or lets time pass on the \
+                   script's own clock, at most 60 seconds.",
+            parse: |words| {
+                let secs = if words.is_empty() { 0.0 } else { words.number("the time in seconds", 0.0, 60.0)? };
+                Ok(Box::new(move |stage| {
+                    stage.window.settle().map_err(|error| Fault::new(error.to_string()))?;
+                    if secs > 0.0 {
+                        stage.window.advance(secs);
+                    }
+                    Ok(())
+                }))
+            },
+        },
+    ],
+};
+
+/// The sides of a window, in logical pixels.
+pub(super) fn size(words: &mut Words<'_>) -> Result<(u32, u32), String> {
+    let text = words.text("the size")?;
+    let side = |text: &str| number(text, "a side of the window", 1.0, 8192.0).ok().filter(|side| side.fract() == 0.0);
+    let sides = text.split_once('x').and_then(|(width, height)| Some((side(width)?, side(height)?)));
+    let (width, height) = sides.ok_or_else(|| {
+        format!("a size is WIDTHxHEIGHT in whole pixels up to 8192, like 1280x800, not {}", written(text))
+    })?;
+    Ok((width as u32, height as u32))
+}
+
+pub(super) fn scale(words: &mut Words<'_>) -> Result<f32, String> {
+    Ok(words.number("the scale", 0.5, 4.0)? as f32)
+}
+
+pub(super) fn is_dark(words: &mut Words<'_>) -> Result<bool, String> {
+    match words.text("the theme")? {
+        "light" => Ok(false),
+        "dark" => Ok(true),
+        other => Err(format!("a theme is light or dark, not {}", written(other))),
+    }
+}
