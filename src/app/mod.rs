@@ -18,6 +18,8 @@ mod plan_list;
 mod raster;
 pub mod replay;
 mod scene_painter;
+mod search;
+mod settings;
 mod theme;
 mod widgets;
 mod window;
@@ -44,6 +46,7 @@ use document::{Derived, Document, Opened, Origin, SaveFailure, Stamp};
 use panels::welcome::Samples;
 use panels::{Field, FieldKind, Panels};
 use plan_list::PlanList;
+use settings::Settings;
 
 use crate::draw::{self, Fill, LabelColours, Palette};
 use crate::features::RoomStatus;
@@ -67,6 +70,7 @@ pub struct App {
     /// Which models predict.
     predictor: Predictor,
     theme: ThemeChoice,
+    settings: Settings,
     panels: Panels,
     samples: Samples,
     messages: Vec<Message>,
@@ -190,6 +194,7 @@ impl App {
             layers: LayerSettings::default(),
             predictor: Predictor::default(),
             theme: ThemeChoice::default(),
+            settings: Settings::default(),
             panels: Panels::default(),
             samples: Samples::default(),
             messages: Vec::new(),
@@ -312,11 +317,12 @@ impl App {
         if self.question.is_some() || self.panels.is_dialog_open() || is_menu_open {
             return;
         }
-        for command in context.input_mut(|input| commands::take_pressed(input, is_typing)) {
+        let pressed = context.input_mut(|input| commands::take_pressed(input, &self.settings, is_typing));
+        for command in pressed {
             match self.run_command_with(command.id, &[], context) {
                 // Escape with nothing picked needs no word.
                 Err(CommandError::NotNow { reason, .. }) if command.id != "clear-selection" => {
-                    self.status = format!("{}: {reason}", command.title.trim_end_matches('…'));
+                    self.status = format!("{}: {reason}", command.plain_title());
                 }
                 Ok(()) | Err(_) => {}
             }

@@ -70,6 +70,18 @@ pub(super) fn hairline(ui: &mut Ui) {
     ui.painter().hline(x, rect.center().y, Stroke::new(1.0, colours(ui).border));
 }
 
+/// A hairline across what it is in, without space about it.
+pub(super) fn hairline_in(ui: &mut Ui) {
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 1.0), Sense::hover());
+    ui.painter().hline(rect.x_range(), rect.center().y, Stroke::new(1.0, colours(ui).border));
+}
+
+/// A line of text at the left of a rectangle, in its middle, cut off where the rectangle ends.
+pub(super) fn put_line(ui: &Ui, text: &str, font: FontId, colour: Color32, rect: Rect) {
+    let galley = line(ui, text, font, colour, rect.width());
+    put(ui, galley, rect.left(), rect.center().y);
+}
+
 /// A square button with an icon.
 pub(super) fn icon_button(ui: &mut Ui, icon: Icon, name: &str, is_on: Option<bool>) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(ROW), Sense::click());
@@ -257,7 +269,7 @@ impl<'a> Row<'a> {
 }
 
 /// A square of a colour, of 12 points.
-fn swatch(ui: &Ui, centre: Pos2, colour: Color32) {
+pub(super) fn swatch(ui: &Ui, centre: Pos2, colour: Color32) {
     let square = Rect::from_center_size(centre, Vec2::splat(12.0));
     ui.painter().rect_filled(square, 3.0, colour);
     let rim = colours(ui).text.gamma_multiply(0.22);
@@ -281,10 +293,19 @@ pub(super) fn segmented(ui: &mut Ui, segments: &[Segment<'_>]) -> Option<usize> 
     let colours = colours(ui);
     ui.painter().rect_filled(rect, RADIUS, colours.field);
     let inner = rect.shrink(2.0);
-    let width = inner.width() / segments.len().max(1) as f32;
+    // Each as wide as its text asks for, measured when on; what is left is shared.
+    let font = |is_on: bool| {
+        if is_on { FontId::new(theme::BODY, theme::semibold()) } else { FontId::proportional(theme::BODY) }
+    };
+    let widths: Vec<f32> = segments
+        .iter()
+        .map(|segment| line(ui, segment.text, font(true), colours.text, f32::INFINITY).size().x)
+        .collect();
+    let spare = (inner.width() - widths.iter().sum::<f32>()) / segments.len().max(1) as f32;
+    let mut left = inner.left();
     let mut clicked = None;
     for (index, segment) in segments.iter().enumerate() {
-        let left = inner.left() + width * index as f32;
+        let width = (widths[index] + spare).max(0.0);
         let cell = Rect::from_min_size(pos2(left, inner.top()), vec2(width, inner.height()));
         let id = ui.scope_id().with(("segment", segment.name));
         let response = ui.interact(cell, id, Sense::click());
@@ -299,9 +320,7 @@ pub(super) fn segmented(ui: &mut Ui, segments: &[Segment<'_>]) -> Option<usize> 
         }
         let is_strong = segment.is_on;
         let colour = if is_strong { colours.text } else { colours.text_weak };
-        let font =
-            if is_strong { FontId::new(theme::BODY, theme::semibold()) } else { FontId::proportional(theme::BODY) };
-        let text = line(ui, segment.text, font, colour, cell.width() - 4.0);
+        let text = line(ui, segment.text, font(is_strong), colour, cell.width());
         let start = cell.center().x - text.rect.width() / 2.0;
         put(ui, text, start, cell.center().y);
         focus_ring(ui, cell, &response);
@@ -309,6 +328,7 @@ pub(super) fn segmented(ui: &mut Ui, segments: &[Segment<'_>]) -> Option<usize> 
         if response.on_hover_text(segment.help).clicked() {
             clicked = Some(index);
         }
+        left += width;
     }
     clicked
 }

@@ -31,6 +31,9 @@ pub(super) struct RoomDrawing {
     pub status: RoomStatus,
     /// What a classifier says it is, where one was asked.
     pub predicted: Option<Label>,
+    /// The room without a rim along its boundary, as pieces with their holes: made for a room whose
+    /// known label is not the predicted one.
+    pub within_rim: Vec<(Vec<Point>, Vec<Vec<Point>>)>,
     pub area_m2: f64,
     pub outer: Vec<Point>,
     pub holes: Vec<Vec<Point>>,
@@ -76,9 +79,12 @@ impl RoomDrawing {
     }
 }
 
-/// Width of the rim around a room whose known label is not the predicted one: half of it lies outside,
-/// mostly under the walls.
-const RIM_PX: f64 = 14.0;
+/// Width in metres of the rim within a room whose known label is not the predicted one: clear of the
+/// walls, which hide part of it.
+const RIM_M: f64 = 0.35;
+
+/// In a narrow room the rim is at most this share of its width.
+const RIM_SHARE: f64 = 0.14;
 
 /// Words in functions of what lies under the open sky.
 const OPEN_AIR: [&str; 12] = [
@@ -118,6 +124,7 @@ impl Drawing {
                 function: room.function.trim().to_owned(),
                 status: analysed.status,
                 predicted: None,
+                within_rim: Vec::new(),
                 area_m2: shape.area_m2(),
                 outer: shape.outer.clone(),
                 holes: shape.holes.clone(),
@@ -174,6 +181,11 @@ impl Drawing {
     pub fn with_predictions(mut self, labels: &BTreeMap<RoomId, Label>) -> Self {
         for room in &mut self.rooms {
             room.predicted = labels.get(&room.id).copied();
+            room.within_rim = Vec::new();
+            if room.missed_label().is_some() {
+                let narrow_m = room.bounds.width().min(room.bounds.height());
+                room.within_rim = walls::shrunk(&room.outer, &room.holes, RIM_M.min(narrow_m * RIM_SHARE));
+            }
         }
         self
     }
@@ -238,19 +250,28 @@ impl Drawing {
                 let room = &self.rooms[i];
                 let polygon = Item::Polygon { outer: room.outer.clone(), holes: room.holes.clone(), colour: fills[i] };
                 let missed = room.missed_label().filter(|_| style.fill == Fill::Prediction);
-                let rim = missed.into_iter().flat_map(|known| {
-                    room.rings().map(move |ring| Item::Line {
-                        points: ring.clone(),
-                        closed: true,
-                        colour: style.palette().label(known),
-                        width: Length::Px(RIM_PX),
-                        dash: None,
-                    })
-                });
+                let items = match missed {
+                    None => vec![polygon],
+                    Some(known) => {
+                        let colour = style.palette().label(known).faded(style.fill_opacity);
+                        let within = &room.within_rim;
+                        let rim = within.iter().fold(room.holes.clone(), |mut holes, (outer, _)| {
+                            holes.push(outer.clone());
+                            holes
+                        });
+                        let inner = within.iter().map(|(outer, holes)| Item::Polygon {
+                            outer: outer.clone(),
+                            holes: holes.clone(),
+                            colour: fills[i],
+                        });
+                        let rim = Item::Polygon { outer: room.outer.clone(), holes: rim, colour };
+                        std::iter::once(rim).chain(inner).collect()
+                    }
+                };
                 Group {
                     element: room.id.to_string(),
                     title: room_title(room),
-                    ..Group::new(Layer::Rooms, Frame::Plan, std::iter::once(polygon).chain(rim).collect())
+                    ..Group::new(Layer::Rooms, Frame::Plan, items)
                 }
             })
             .collect()

@@ -4,8 +4,8 @@
 //! counter-clockwise ring has a positive area.
 
 mod bounds;
-mod point;
 pub mod hull;
+mod point;
 pub mod polygon;
 pub mod runs;
 mod segment;

@@ -104,14 +104,16 @@ impl Inspected<'_> {
         ui.add_space(4.0);
         act = act.or(self.label(ui, room, status));
         hairline(ui);
+        if let Some(derived) = derived {
+            act = act.or(self.predicted(ui, id, status, derived));
+            hairline(ui);
+        }
         section(ui, "Features");
         match analysed {
             None => drop(caption(ui, "Being worked out…")),
             Some(analysed) => features(ui, analysed),
         }
         if let Some(derived) = derived {
-            hairline(ui);
-            act = act.or(self.predicted(ui, id, status, derived));
             hairline(ui);
             act = act.or(self.neighbours(ui, id, derived, hovered));
         }

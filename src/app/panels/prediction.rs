@@ -1,6 +1,6 @@
 //! What a classifier says of the rooms, and which models are asked.
 
-use egui::{Align2, ComboBox, FontId, Rect, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, ComboBox, FontId, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
 use crate::app::canvas::sentence;
 use crate::app::commands::{self, COMMANDS, Menu};
@@ -126,6 +126,8 @@ fn bar(ui: &mut Ui, palette: &Palette, label: Label, probability: f64, is_said: 
     let filled = track.with_max_x(track.left() + track.width() * probability as f32);
     if filled.width() >= 1.0 {
         painter.rect_filled(filled, 4, theme::colour(palette.label(label)));
+        let rim = Stroke::new(1.0, colours.outline);
+        painter.rect_stroke(filled, 4, rim, StrokeKind::Inside);
     }
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{}: {percent}", sentence(label.name()))));
 }
