@@ -8,6 +8,7 @@ pub mod explain;
 pub mod in_plan;
 pub mod joint;
 pub mod knn;
+mod method;
 pub mod mlp;
 pub mod model_file;
 pub mod naive;
@@ -21,6 +22,7 @@ pub mod tree;
 pub use classifier::{Algorithm, Classifier, Model, UnknownAlgorithm};
 pub use distribution::Distribution;
 pub use evaluate::{Validated, Validation, evaluate, evaluate_all, test};
+pub use method::{Method, PlanClassifier};
 pub use neighbours::Metric;
 pub use scores::{Confusion, FoldScore, LabelCounts, ReliabilityBin, Scores, TableRates};
 

@@ -5,14 +5,14 @@ use std::sync::Arc;
 use serde_json::json;
 
 use super::collect::neighbour_labels;
-use super::train::algorithm;
+use super::train::method;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
-use crate::classify::{Algorithm, Distribution};
+use crate::classify::{Distribution, Method};
 use crate::dataset::{NetworkRoom, RoomNetwork};
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Schemes};
 use crate::plan::{LabelOrigin, Plan, RoomLabel, edit};
-use crate::predict::{Agreement, Choice, DEFAULT_ALGORITHM, ModelSet, Predictions, Predictor, UnknownSet};
+use crate::predict::{Agreement, Choice, DEFAULT_METHOD, ModelSet, Predictions, Predictor, UnknownSet};
 use crate::store::{StoredModel, load_model, save_plan, set_name};
 
 /// `enfilade classify`: labels for the rooms of plans.
@@ -54,14 +54,14 @@ pub struct PredictorOptions {
     /// without it the plan's own, inferred where it has none
     #[arg(long, value_name = "NAME", default_value = "plan", hide_default_value = true, value_parser = model_set)]
     typology: ModelSet,
-    /// rules, tree, knn or mlp
-    #[arg(long, value_name = "NAME", default_value = DEFAULT_ALGORITHM.name(), value_parser = algorithm)]
-    algorithm: Algorithm,
+    /// rules, tree, knn or mlp, each room by itself; or joint, all rooms of a plan together
+    #[arg(long, value_name = "NAME", default_value = DEFAULT_METHOD.name(), value_parser = method)]
+    algorithm: Method,
 }
 
 impl PredictorOptions {
     pub fn predictor(&self) -> Predictor {
-        Predictor { set: self.typology.clone(), algorithm: self.algorithm }
+        Predictor { set: self.typology.clone(), method: self.algorithm }
     }
 }
 

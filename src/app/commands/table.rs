@@ -11,7 +11,7 @@ use crate::app::panels::palette::Palette;
 use crate::app::panels::shortcuts::Sheet;
 use crate::app::theme::ThemeChoice;
 use crate::app::{App, Intent, Origin, Picked};
-use crate::classify::Algorithm;
+use crate::classify::{Algorithm, Method};
 use crate::draw::{Fill, LabelColours};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::labels::Label;
@@ -554,8 +554,8 @@ pub const COMMANDS: &[Command] = &[
         "Rule induction",
         "Predict by rules that can be read",
         always,
-        |app| app.predictor.algorithm == Algorithm::Rules,
-        |app, _| app.predictor.algorithm = Algorithm::Rules,
+        |app| app.predictor.method == Method::Each(Algorithm::Rules),
+        |app, _| app.predictor.method = Method::Each(Algorithm::Rules),
     )
     .menu(Menu::Predict, 1),
     choose(
@@ -563,8 +563,8 @@ pub const COMMANDS: &[Command] = &[
         "Decision tree",
         "Predict by a decision tree",
         always,
-        |app| app.predictor.algorithm == Algorithm::Tree,
-        |app, _| app.predictor.algorithm = Algorithm::Tree,
+        |app| app.predictor.method == Method::Each(Algorithm::Tree),
+        |app, _| app.predictor.method = Method::Each(Algorithm::Tree),
     )
     .menu(Menu::Predict, 1),
     choose(
@@ -572,8 +572,8 @@ pub const COMMANDS: &[Command] = &[
         "Nearest neighbours",
         "Predict by the most similar rooms of the training set",
         always,
-        |app| app.predictor.algorithm == Algorithm::Knn,
-        |app, _| app.predictor.algorithm = Algorithm::Knn,
+        |app| app.predictor.method == Method::Each(Algorithm::Knn),
+        |app, _| app.predictor.method = Method::Each(Algorithm::Knn),
     )
     .menu(Menu::Predict, 1),
     choose(
@@ -581,8 +581,17 @@ pub const COMMANDS: &[Command] = &[
         "Perceptron",
         "Predict by a multilayer perceptron",
         always,
-        |app| app.predictor.algorithm == Algorithm::Mlp,
-        |app, _| app.predictor.algorithm = Algorithm::Mlp,
+        |app| app.predictor.method == Method::Each(Algorithm::Mlp),
+        |app, _| app.predictor.method = Method::Each(Algorithm::Mlp),
+    )
+    .menu(Menu::Predict, 1),
+    choose(
+        "predict-by-joint",
+        "All rooms together",
+        "Predict by a classifier that looks at all rooms of the plan in relation to each other",
+        always,
+        |app| app.predictor.method == Method::Joint,
+        |app, _| app.predictor.method = Method::Joint,
     )
     .menu(Menu::Predict, 1),
     command(
