@@ -38,7 +38,8 @@ pub const FEATURES: &[(Group, &str)] = &[
     (Group::Labels, "area against the plan's halls"),
 ];
 
-/// How much of a room's doubt in a label the plan must hold for that label to have a mean area there.
+/// The other rooms of a plan must together believe this much in a label, in rooms, for it to have a mean
+/// area there.
 const LEAST_WEIGHT: f64 = 0.05;
 
 /// The features of every room from the first opinions and what is known of the others: lists as long as
@@ -99,9 +100,9 @@ struct Sums {
 impl Sums {
     fn add(&mut self, believed: &[f64; 5], log_area: f64, times: f64) {
         self.rooms += times;
-        for label in 0..5 {
-            self.weights[label] += times * believed[label];
-            self.areas[label] += times * believed[label] * log_area;
+        for ((weight, area), believed) in self.weights.iter_mut().zip(&mut self.areas).zip(believed) {
+            *weight += times * believed;
+            *area += times * believed * log_area;
         }
     }
 
