@@ -13,7 +13,7 @@ use crate::dataset::RoomNetwork;
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
 use crate::plan::RoomId;
-use crate::store::{StoredModel, bundled_model, bundled_sets};
+use crate::store::{StoredModel, bundled_model, bundled_sets, bundled_typologies};
 use crate::study::STANDARD;
 
 /// Of which typology the models are to be.
@@ -113,23 +113,43 @@ pub struct Choice {
     pub set: String,
     /// Where that comes from, in a few words: 'the plan's'.
     pub because: String,
+    /// Where it was inferred: the probability of each typology, the most probable first, 0..=1.
+    pub posterior: Vec<(Typology, f64)>,
+    /// Where it was inferred: what speaks for it, the strongest first.
+    pub reasons: Vec<String>,
+}
+
+impl Choice {
+    /// A choice that needs no inference.
+    pub fn stated(set: &str, because: &str) -> Self {
+        Self { set: set.to_owned(), because: because.to_owned(), posterior: Vec::new(), reasons: Vec::new() }
+    }
 }
 
 /// Chooses the set of models for a plan.
 pub fn choose(network: &RoomNetwork, wanted: &ModelSet) -> Choice {
     let has_models = |typology: &&Typology| bundled_sets().any(|set| set == typology.as_str());
     match (wanted, network.typology.as_ref().filter(has_models)) {
-        (ModelSet::Named(name), _) => Choice { set: name.clone(), because: "as told".to_owned() },
-        (ModelSet::OfPlan, Some(stated)) => {
-            Choice { set: stated.as_str().to_owned(), because: "the plan's".to_owned() }
-        }
+        (ModelSet::Named(name), _) => Choice::stated(name, "as told"),
+        (ModelSet::OfPlan, Some(stated)) => Choice::stated(stated.as_str(), "the plan's"),
         (ModelSet::OfPlan | ModelSet::Auto, _) => infer(network),
     }
 }
 
 /// Infers the typology from the plan itself.
-fn infer(_network: &RoomNetwork) -> Choice {
-    Choice { set: STANDARD.to_owned(), because: "the plan has none".to_owned() }
+fn infer(network: &RoomNetwork) -> Choice {
+    let Some(model) = bundled_typologies().filter(|_| !network.rooms.is_empty()) else {
+        return Choice::stated(STANDARD, "nothing tells the typology");
+    };
+    // Where the plan states a typology, its labels follow from functions by that typology's scheme: they
+    // would only say it again.
+    let known = if network.typology.is_none() { network.known_labels() } else { Vec::new() };
+    let posterior = model.posterior(network, &known);
+    let Some((typology, probability)) = posterior.first().cloned() else {
+        return Choice::stated(STANDARD, "nothing tells the typology");
+    };
+    let because = format!("inferred, {:.0} %", 100.0 * probability);
+    Choice { set: typology.as_str().to_owned(), because, posterior, reasons: model.reasons(network, &known) }
 }
 
 /// What a model says of a plan's rooms.

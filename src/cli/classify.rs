@@ -124,8 +124,8 @@ impl ClassifyCommand {
         let Some(model) = own else {
             return Ok(self.predictor.predictor().predict(network, &known, self.neighbours)?);
         };
-        let set = set_name(model.about.typology.as_ref()).to_owned();
-        let choice = Choice { set, because: "the model's".to_owned() };
+        let set = set_name(model.about.typology.as_ref());
+        let choice = Choice::stated(set, "the model's");
         Ok(Predictions::new(network, choice, model.clone(), &known, self.neighbours))
     }
 
@@ -176,6 +176,9 @@ fn print(plan: &Plan, said: &Predictions, terminal: &mut Terminal) -> Result<(),
     let functions = width(&|room| room.function.chars().count(), 8);
     let out = &mut terminal.out;
     writeln!(out, "{name}: typology {} ({}), model {}", said.choice.set, said.choice.because, said.model.name)?;
+    if !said.choice.reasons.is_empty() {
+        writeln!(out, "  {} because of {}", said.choice.set, said.choice.reasons.join("; "))?;
+    }
     if rooms.is_empty() {
         return Ok(writeln!(out, "  no rooms to classify")?);
     }
@@ -225,10 +228,18 @@ fn json(plan: &Plan, said: &Predictions) -> serde_json::Value {
         })
         .collect();
     let agreement = said.agreement();
+    let posterior: serde_json::Map<String, serde_json::Value> = said
+        .choice
+        .posterior
+        .iter()
+        .map(|(typology, probability)| (typology.as_str().to_owned(), json!((probability * 1e4).round() / 1e4)))
+        .collect();
     json!({
         "plan": plan.meta().name,
         "typology": said.choice.set,
         "typology_because": said.choice.because,
+        "typology_posterior": posterior,
+        "typology_reasons": said.choice.reasons,
         "model": said.model.name,
         "neighbours": said.neighbours.name(),
         "rounds": said.result.rounds,

@@ -7,6 +7,7 @@ use super::progress::with_progress;
 use super::{CliError, Outcome, Subcommand, Terminal};
 use crate::classify::joint::{self, Joint};
 use crate::classify::model_file::{self, About, DataSummary, ScoreSummary};
+use crate::classify::typology::TypologyModel;
 use crate::classify::{Algorithm, Classifier, Method, PlanClassifier, Scores, in_plan};
 use crate::dataset::folds::Grouping;
 use crate::dataset::table::Table;
@@ -104,6 +105,16 @@ impl Subcommand for TrainCommand {
                     .collect();
                 let told = if told.is_empty() { "not validated".to_owned() } else { told.join(", ") };
                 writeln!(terminal.out, "{}: {set}, {method}: {told}", path.display())?;
+            }
+        }
+        if !is_file && self.typology.is_none() && parts.len() > 1 {
+            let networks: Vec<&RoomNetwork> = collection.networks().iter().collect();
+            if let Ok(model) = TypologyModel::train(&networks) {
+                let path = self.output.join("typologies.json");
+                let mut bytes = serde_json::to_vec_pretty(&model.to_value())?;
+                bytes.push(b'\n');
+                write_model(&path, &bytes)?;
+                writeln!(terminal.out, "{}: what tells the typologies apart", path.display())?;
             }
         }
         Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })

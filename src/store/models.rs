@@ -1,10 +1,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use etcetera::BaseStrategy as _;
 
 use crate::classify::model_file::{self, About, ModelFileError};
+use crate::classify::typology::TypologyModel;
 use crate::classify::{Algorithm, Method, PlanClassifier};
 use crate::labels::Typology;
 
@@ -108,6 +109,17 @@ pub fn bundled_model(set: &str, method: Method) -> Result<Arc<StoredModel>, Mode
     let model = Arc::new(StoredModel { name, path: None, classifier, about });
     read.insert((set, method), model.clone());
     Ok(model)
+}
+
+/// What tells typologies apart, as it comes with the program; `None` if it does not read, which the tests
+/// exclude.
+pub fn bundled_typologies() -> Option<&'static TypologyModel> {
+    static READ: OnceLock<Option<TypologyModel>> = OnceLock::new();
+    let read = || {
+        let text = include_str!("../../assets/models/typologies.json");
+        TypologyModel::from_value(&serde_json::from_str(text).ok()?).ok()
+    };
+    READ.get_or_init(read).as_ref()
 }
 
 /// The environment variable that names another folder of the user's models.

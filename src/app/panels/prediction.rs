@@ -81,7 +81,10 @@ fn models(ui: &mut Ui, app: &App, predictions: &Predictions) -> Option<&'static 
     let learned = format!("{} rooms of {} buildings", about.data.rooms, about.data.buildings);
     let set = &predictions.choice;
     let because = if set.because == "as told" { String::new() } else { format!(" ({})", set.because) };
-    caption(ui, format!("{} models{because}, learned from {learned}", sentence(&set.set)));
+    let response = caption(ui, format!("{} models{because}, learned from {learned}", sentence(&set.set)));
+    if !set.reasons.is_empty() {
+        response.on_hover_text(format!("{} because of {}", sentence(&set.set), set.reasons.join("; ")));
+    }
     asked
 }
 
