@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use super::collect::{CollectOptions, collect, neighbour_labels};
+use super::collect::{CollectOptions, Collected, collect, neighbour_labels};
 use super::progress::with_progress;
 use super::{CliError, Outcome, Subcommand, Terminal};
 use crate::classify::joint::{self, Joint};
@@ -62,7 +62,7 @@ impl Subcommand for TrainCommand {
     const EXAMPLE: &'static str = "enfilade train schools --algorithm tree --typology school -o school.model.json";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
-        let (collection, failed) = collect(&self.collect, self.seed, terminal)?;
+        let Collected { collection, failed, .. } = collect(&self.collect, self.seed, terminal)?;
         let parts = self.parts(&collection)?;
         let methods: Vec<Method> = match (self.algorithm, &collection) {
             (Some(Method::Joint), Collection::Rows(_)) => {
