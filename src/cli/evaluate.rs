@@ -14,7 +14,7 @@ pub struct EvaluateCommand {
     #[command(flatten)]
     collect: CollectOptions,
     /// Folds of each cross-validation
-    #[arg(long, value_name = "N", default_value_t = 10)]
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = folds)]
     folds: usize,
     /// What is dealt to folds: 'room', as in the paper, or 'building', which none is tested on that was
     /// learned from
@@ -36,6 +36,11 @@ pub struct EvaluateCommand {
     /// Print the report's JSON as well
     #[arg(long)]
     json: bool,
+}
+
+/// A number of folds, as an option's value.
+fn folds(word: &str) -> Result<usize, String> {
+    word.parse().ok().filter(|&folds| folds >= 2).ok_or_else(|| "use a whole number from 2 up".to_owned())
 }
 
 /// What is dealt to folds, as an option's value.
