@@ -9,8 +9,10 @@ use crate::dataset::RoomNetwork;
 use crate::dataset::table::{RoomSource, Table, Values};
 use crate::labels::Label;
 
-/// Predicts the label behind an opening. For each label of the room on this side a decision tree on its
-/// `F_r`, in which the opening counts in `d` and leads nowhere yet.
+/// Predicts the label behind an opening. For each label of the room on this side a perceptron on its `F_r`,
+/// in which the opening counts in `d` and leads nowhere yet. (Of the four algorithms the best at it: with
+/// folds by building, five folds, 47.1 % of the openings of the authors' schools and offices, against 43.9 by
+/// nearest neighbours, 41.7 by a decision tree, and 39.1 by the most frequent label.)
 #[derive(Clone, Debug)]
 pub struct Unknown {
     /// By the label of the room on this side, in the order of [`Label::ALL`]; `None` where too few
@@ -52,7 +54,7 @@ impl Unknown {
                 of_label().map(|opening| opening.behind).collect(),
                 of_label().map(|opening| opening.source.clone()).collect(),
             );
-            Some(Classifier::train(Algorithm::Tree, &table.ok()?, seed))
+            Some(Classifier::train(Algorithm::Mlp, &table.ok()?, seed))
         });
         Some(Self { by_label, anywhere: Distribution::smoothed(counts, &Distribution::UNIFORM, 5.0) })
     }
