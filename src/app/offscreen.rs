@@ -134,6 +134,12 @@ impl Offscreen {
         self.app.run_command_with(id, arguments, &self.context)
     }
 
+    /// Keeps settings in a file from now on, and takes over what it holds. Without, none are read or
+    /// kept.
+    pub fn use_settings(&mut self, file: &Path) {
+        self.app.use_settings(file.to_owned());
+    }
+
     /// Starts or stops keeping the commands that are done; as [`App::watch_commands`].
     pub fn watch_commands(&mut self, is_watched: bool) {
         self.app.watch_commands(is_watched);
@@ -453,6 +459,12 @@ impl Offscreen {
     /// The controls that are on the screen, in the tree's order.
     pub fn controls(&self) -> Vec<Control> {
         self.tree.as_ref().map(|tree| controls::of_tree(tree, self.options.scale)).unwrap_or_default()
+    }
+
+    /// The control that has the keyboard.
+    pub fn focused(&self) -> Option<Control> {
+        let focus = self.tree.as_ref()?.focus;
+        self.controls().into_iter().find(|control| control.id == focus)
     }
 
     /// The first control with a name.

@@ -38,8 +38,15 @@ fn put(ui: &Ui, galley: Arc<Galley>, left: f32, middle: f32) {
     ui.painter().galley(at, galley, Color32::PLACEHOLDER);
 }
 
+/// Brings what the keyboard has gone to into sight.
+pub(super) fn follow_focus(response: &Response) {
+    if response.gained_focus() {
+        response.scroll_to_me(None);
+    }
+}
+
 /// The ring around what has the keyboard.
-fn focus_ring(ui: &Ui, rect: Rect, response: &Response) {
+pub(super) fn focus_ring(ui: &Ui, rect: Rect, response: &Response) {
     if response.has_focus() {
         let stroke = Stroke::new(2.0, colours(ui).accent);
         ui.painter().rect_stroke(rect, CornerRadius::same(RADIUS), stroke, StrokeKind::Inside);
@@ -68,6 +75,18 @@ pub(super) fn hairline(ui: &mut Ui) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 15.0), Sense::hover());
     let x = ui.clip_rect().x_range();
     ui.painter().hline(x, rect.center().y, Stroke::new(1.0, colours(ui).border));
+}
+
+/// A hairline across what it is in, without space about it.
+pub(super) fn hairline_in(ui: &mut Ui) {
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 1.0), Sense::hover());
+    ui.painter().hline(rect.x_range(), rect.center().y, Stroke::new(1.0, colours(ui).border));
+}
+
+/// A line of text at the left of a rectangle, in its middle, cut off where the rectangle ends.
+pub(super) fn put_line(ui: &Ui, text: &str, font: FontId, colour: Color32, rect: Rect) {
+    let galley = line(ui, text, font, colour, rect.width());
+    put(ui, galley, rect.left(), rect.center().y);
 }
 
 /// A square button with an icon.
@@ -177,11 +196,22 @@ impl<'a> Row<'a> {
     fn show(self, ui: &mut Ui, height: f32, role: Option<Role>) -> Response {
         let sense = if role.is_some() { Sense::click() } else { Sense::hover() };
         let (rect, mut response) = ui.allocate_exact_size(vec2(ui.available_width(), height), sense);
+        let is_enabled = ui.is_enabled();
+        match role {
+            Some(role) => {
+                response.widget_info(|| {
+                    WidgetInfo::selected(role, is_enabled, self.is_on.unwrap_or(self.is_selected), self.text)
+                });
+            }
+            None => response.widget_info(|| {
+                WidgetInfo::labeled(Role::Label, is_enabled, format!("{} {}", self.text, self.trail).trim())
+            }),
+        }
+        follow_focus(&response);
         if !ui.is_rect_visible(rect) {
             return response;
         }
         let colours = colours(ui);
-        let is_enabled = ui.is_enabled();
         if role.is_some() {
             let ground = if self.is_selected {
                 colours.accent_soft
@@ -239,16 +269,6 @@ impl<'a> Row<'a> {
         let is_elided = text.elided;
         put(ui, text, left, middle);
         focus_ring(ui, rect, &response);
-        match role {
-            Some(role) => {
-                response.widget_info(|| {
-                    WidgetInfo::selected(role, is_enabled, self.is_on.unwrap_or(self.is_selected), self.text)
-                });
-            }
-            None => response.widget_info(|| {
-                WidgetInfo::labeled(Role::Label, is_enabled, format!("{} {}", self.text, self.trail).trim())
-            }),
-        }
         if is_elided {
             response = response.on_hover_text(self.text);
         }
@@ -257,7 +277,7 @@ impl<'a> Row<'a> {
 }
 
 /// A square of a colour, of 12 points.
-fn swatch(ui: &Ui, centre: Pos2, colour: Color32) {
+pub(super) fn swatch(ui: &Ui, centre: Pos2, colour: Color32) {
     let square = Rect::from_center_size(centre, Vec2::splat(12.0));
     ui.painter().rect_filled(square, 3.0, colour);
     let rim = colours(ui).text.gamma_multiply(0.22);
@@ -281,10 +301,19 @@ pub(super) fn segmented(ui: &mut Ui, segments: &[Segment<'_>]) -> Option<usize> 
     let colours = colours(ui);
     ui.painter().rect_filled(rect, RADIUS, colours.field);
     let inner = rect.shrink(2.0);
-    let width = inner.width() / segments.len().max(1) as f32;
+    // Each as wide as its text asks for, measured when on; what is left is shared.
+    let font = |is_on: bool| {
+        if is_on { FontId::new(theme::BODY, theme::semibold()) } else { FontId::proportional(theme::BODY) }
+    };
+    let widths: Vec<f32> = segments
+        .iter()
+        .map(|segment| line(ui, segment.text, font(true), colours.text, f32::INFINITY).size().x)
+        .collect();
+    let spare = (inner.width() - widths.iter().sum::<f32>()) / segments.len().max(1) as f32;
+    let mut left = inner.left();
     let mut clicked = None;
     for (index, segment) in segments.iter().enumerate() {
-        let left = inner.left() + width * index as f32;
+        let width = (widths[index] + spare).max(0.0);
         let cell = Rect::from_min_size(pos2(left, inner.top()), vec2(width, inner.height()));
         let id = ui.scope_id().with(("segment", segment.name));
         let response = ui.interact(cell, id, Sense::click());
@@ -299,9 +328,7 @@ pub(super) fn segmented(ui: &mut Ui, segments: &[Segment<'_>]) -> Option<usize> 
         }
         let is_strong = segment.is_on;
         let colour = if is_strong { colours.text } else { colours.text_weak };
-        let font =
-            if is_strong { FontId::new(theme::BODY, theme::semibold()) } else { FontId::proportional(theme::BODY) };
-        let text = line(ui, segment.text, font, colour, cell.width() - 4.0);
+        let text = line(ui, segment.text, font(is_strong), colour, cell.width());
         let start = cell.center().x - text.rect.width() / 2.0;
         put(ui, text, start, cell.center().y);
         focus_ring(ui, cell, &response);
@@ -309,6 +336,7 @@ pub(super) fn segmented(ui: &mut Ui, segments: &[Segment<'_>]) -> Option<usize> 
         if response.on_hover_text(segment.help).clicked() {
             clicked = Some(index);
         }
+        left += width;
     }
     clicked
 }
@@ -339,7 +367,12 @@ pub(super) fn text_button(ui: &mut Ui, text: &str, is_main: bool) -> Response {
     };
     let text = RichText::new(text).color(colour);
     let text = if is_main { text.font(FontId::new(theme::BODY, theme::semibold())) } else { text };
-    ui.add(egui::Button::new(text).fill(fill).stroke(Stroke::new(1.0, stroke)).min_size(vec2(72.0, 30.0)))
+    let button = egui::Button::new(text).fill(fill).stroke(Stroke::new(1.0, stroke)).min_size(vec2(72.0, 30.0));
+    let response = ui.add(button);
+    // Outside of a button that has the ring's colour.
+    let around = if is_main { response.rect.expand(3.0) } else { response.rect };
+    focus_ring(ui, around, &response);
+    response
 }
 
 /// The colour of a message's mark, and of its ground.

@@ -1,7 +1,7 @@
 use std::io::Write as _;
 use std::path::PathBuf;
 
-use super::collect::{CollectOptions, collect, neighbour_labels};
+use super::collect::{CollectOptions, Collected, collect, neighbour_labels};
 use super::progress::with_progress;
 use super::{CliError, Outcome, Subcommand, Terminal};
 use crate::dataset::folds::Grouping;
@@ -14,7 +14,7 @@ pub struct EvaluateCommand {
     #[command(flatten)]
     collect: CollectOptions,
     /// Folds of each cross-validation
-    #[arg(long, value_name = "N", default_value_t = 10)]
+    #[arg(long, value_name = "N", default_value_t = 10, value_parser = folds)]
     folds: usize,
     /// What is dealt to folds: 'room', as in the paper, or 'building', which none is tested on that was
     /// learned from
@@ -38,6 +38,11 @@ pub struct EvaluateCommand {
     json: bool,
 }
 
+/// A number of folds, as an option's value.
+fn folds(word: &str) -> Result<usize, String> {
+    word.parse().ok().filter(|&folds| folds >= 2).ok_or_else(|| "use a whole number from 2 up".to_owned())
+}
+
 /// What is dealt to folds, as an option's value.
 pub fn grouping(word: &str) -> Result<Grouping, String> {
     let words: Vec<&str> = Grouping::ALL.into_iter().map(Grouping::name).collect();
@@ -51,9 +56,10 @@ impl Subcommand for EvaluateCommand {
     const EXAMPLE: &'static str = "enfilade evaluate schools offices houses --most-rooms 2000 -o study";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
-        let (collection, failed) = collect(&self.collect, self.seed, terminal)?;
+        let Collected { collection, blind, failed } = collect(&self.collect, self.seed, terminal)?;
         let options = Options { folds: self.folds, grouping: self.by, neighbours: self.neighbours, seed: self.seed };
-        let study = with_progress("evaluating", self.threads, terminal, |work| study(&collection, options, work))?;
+        let study =
+            with_progress("evaluating", self.threads, terminal, |work| study(&collection, &blind, options, work))?;
         let files = report::files(&study)?;
         std::fs::create_dir_all(&self.output)
             .map_err(|error| CliError::new(format!("{}: {error}; choose another folder", self.output.display())))?;

@@ -7,8 +7,11 @@ use egui::{Context, Key, KeyboardShortcut, Modifiers};
 use super::{Action, Argument, ArgumentKind, Availability, Command, Menu, Ran, Values};
 use crate::app::icons::Icon;
 use crate::app::panels::FieldKind;
+use crate::app::panels::palette::Palette;
+use crate::app::panels::shortcuts::Sheet;
 use crate::app::theme::ThemeChoice;
 use crate::app::{App, Intent, Origin, Picked};
+use crate::classify::{Algorithm, Method};
 use crate::draw::{Fill, LabelColours};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::labels::Label;
@@ -167,6 +170,18 @@ fn has_own_label(app: &App) -> Availability {
     when(has, "the room has no label of its own")
 }
 
+fn has_prediction(app: &App) -> Availability {
+    has_room(app)?;
+    when(app.prediction_of_picked().is_some(), "the room is not one that is predicted")
+}
+
+fn has_unlabelled(app: &App) -> Availability {
+    has_plan(app)?;
+    let has =
+        app.predictions().is_some_and(|predictions| predictions.network.rooms.iter().any(|room| room.label.is_none()));
+    when(has, "every room has a label")
+}
+
 fn has_several_plans(app: &App) -> Availability {
     when(app.list.len() > 1, "there is only one plan in the list")
 }
@@ -185,6 +200,10 @@ fn has_notes(app: &App) -> Availability {
 
 fn has_messages(app: &App) -> Availability {
     when(!app.messages.is_empty(), "there is no message")
+}
+
+fn has_changed_keys(app: &App) -> Availability {
+    when(app.settings.is_any_changed(), "no shortcut was changed")
 }
 
 fn is_asked(app: &App) -> Availability {
@@ -324,7 +343,11 @@ pub const COMMANDS: &[Command] = &[
             app.change_meta("Rename plan", |meta| meta.name = values.text(0).unwrap_or_default().to_owned());
             Ran::Done
         },
-        None,
+        Some(|app, _| {
+            let name = app.plan().map(|plan| plan.meta().name.clone()).unwrap_or_default();
+            let asking = super::find("rename-plan").map(|command| Palette::asking(command, Vec::new()));
+            app.panels.palette = asking.map(|palette| palette.with_text(&name));
+        }),
     )
     .menu(Menu::Edit, 2),
     with(
@@ -360,7 +383,7 @@ pub const COMMANDS: &[Command] = &[
     .menu(Menu::Room, 0),
     with(
         "rename",
-        "Rename",
+        "Rename…",
         "Write the picked room's name",
         has_room,
         &[needed("NAME", ArgumentKind::Text, "the room's name")],
@@ -374,7 +397,7 @@ pub const COMMANDS: &[Command] = &[
     .menu(Menu::Room, 1),
     with(
         "set-function",
-        "Function",
+        "Set function…",
         "Write what the picked room is for",
         has_room,
         &[needed(
@@ -392,7 +415,7 @@ pub const COMMANDS: &[Command] = &[
     .menu(Menu::Room, 1),
     with(
         "set-note",
-        "Note",
+        "Write note…",
         "Write a note on the picked room",
         has_room,
         &[needed("TEXT", ArgumentKind::Text, "the note")],
@@ -471,6 +494,124 @@ pub const COMMANDS: &[Command] = &[
     })
     .keys(&[key(Key::OpenBracket)])
     .menu(Menu::Room, 3),
+    // Predict.
+    choose(
+        "models-plan",
+        "Of the plan",
+        "Predict by models of the plan's own typology, inferred where it has none",
+        always,
+        |app| app.predictor.set.name() == "plan",
+        |app, _| app.predict_by_set("plan"),
+    )
+    .menu(Menu::Predict, 0),
+    choose(
+        "models-auto",
+        "Inferred",
+        "Predict by models of the typology that is inferred from the plan, whatever it says of itself",
+        always,
+        |app| app.predictor.set.name() == "auto",
+        |app, _| app.predict_by_set("auto"),
+    )
+    .menu(Menu::Predict, 0),
+    choose(
+        "models-house",
+        "House",
+        "Predict by models that learned from houses",
+        always,
+        |app| app.predictor.set.name() == "house",
+        |app, _| app.predict_by_set("house"),
+    )
+    .menu(Menu::Predict, 0),
+    choose(
+        "models-school",
+        "School",
+        "Predict by models that learned from schools",
+        always,
+        |app| app.predictor.set.name() == "school",
+        |app, _| app.predict_by_set("school"),
+    )
+    .menu(Menu::Predict, 0),
+    choose(
+        "models-office",
+        "Office",
+        "Predict by models that learned from offices",
+        always,
+        |app| app.predictor.set.name() == "office",
+        |app, _| app.predict_by_set("office"),
+    )
+    .menu(Menu::Predict, 0),
+    choose(
+        "models-standard",
+        "Standard",
+        "Predict by models that learned from all typologies",
+        always,
+        |app| app.predictor.set.name() == "standard",
+        |app, _| app.predict_by_set("standard"),
+    )
+    .menu(Menu::Predict, 0),
+    choose(
+        "predict-by-rules",
+        "Rule induction",
+        "Predict by rules that can be read",
+        always,
+        |app| app.predictor.method == Method::Each(Algorithm::Rules),
+        |app, _| app.predictor.method = Method::Each(Algorithm::Rules),
+    )
+    .menu(Menu::Predict, 1),
+    choose(
+        "predict-by-tree",
+        "Decision tree",
+        "Predict by a decision tree",
+        always,
+        |app| app.predictor.method == Method::Each(Algorithm::Tree),
+        |app, _| app.predictor.method = Method::Each(Algorithm::Tree),
+    )
+    .menu(Menu::Predict, 1),
+    choose(
+        "predict-by-knn",
+        "Nearest neighbours",
+        "Predict by the most similar rooms of the training set",
+        always,
+        |app| app.predictor.method == Method::Each(Algorithm::Knn),
+        |app, _| app.predictor.method = Method::Each(Algorithm::Knn),
+    )
+    .menu(Menu::Predict, 1),
+    choose(
+        "predict-by-mlp",
+        "Perceptron",
+        "Predict by a multilayer perceptron",
+        always,
+        |app| app.predictor.method == Method::Each(Algorithm::Mlp),
+        |app, _| app.predictor.method = Method::Each(Algorithm::Mlp),
+    )
+    .menu(Menu::Predict, 1),
+    choose(
+        "predict-by-joint",
+        "All rooms together",
+        "Predict by a classifier that looks at all rooms of the plan in relation to each other",
+        always,
+        |app| app.predictor.method == Method::Joint,
+        |app, _| app.predictor.method = Method::Joint,
+    )
+    .menu(Menu::Predict, 1),
+    command(
+        "accept-prediction",
+        "Accept the prediction",
+        "Make the predicted label the picked room's own",
+        has_prediction,
+        |app, _| app.accept_prediction(),
+    )
+    .keys(&[key(Key::A)])
+    .menu(Menu::Predict, 2),
+    command(
+        "accept-all-predictions",
+        "Accept all predictions",
+        "Make the predicted labels those of all rooms without a label",
+        has_unlabelled,
+        |app, _| app.accept_all_predictions(),
+    )
+    .keys(&[ctrl_shift(Key::A)])
+    .menu(Menu::Predict, 2),
     // View.
     command("fit", "Zoom to fit", "Show the whole plan", has_plan, |app, _| app.canvas.fit())
         .keys(&[key(Key::F)])
@@ -507,6 +648,16 @@ pub const COMMANDS: &[Command] = &[
         |app, _| app.layers.fill = Fill::Function,
     )
     .keys(&[shift(Key::L)])
+    .menu(Menu::View, 1),
+    choose(
+        "fill-prediction",
+        "Fill by prediction",
+        "Colour each room by its predicted label; a known label that is another rims its room",
+        always,
+        |app| app.layers.fill == Fill::Prediction,
+        |app, _| app.layers.fill = Fill::Prediction,
+    )
+    .keys(&[shift(Key::P)])
     .menu(Menu::View, 1),
     choose(
         "fill-none",
@@ -622,6 +773,98 @@ pub const COMMANDS: &[Command] = &[
         |app, context| app.set_theme(ThemeChoice::Dark, context),
     )
     .menu(Menu::View, 4),
+    // Help.
+    with(
+        "commands",
+        "Commands…",
+        "Find a command by its name and do it",
+        always,
+        &[],
+        |app, _, _| {
+            app.panels.palette = Some(Palette::default());
+            Ran::Asks
+        },
+        None,
+    )
+    .keys(&[ctrl_shift(Key::P)])
+    .menu(Menu::Help, 0),
+    with(
+        "shortcuts",
+        "Shortcuts…",
+        "Show the shortcuts of all commands, and change them",
+        always,
+        &[],
+        |app, _, _| {
+            app.panels.sheet = Some(Sheet::default());
+            Ran::Asks
+        },
+        None,
+    )
+    .keys(&[key(Key::Questionmark), key(Key::F1)])
+    .menu(Menu::Help, 0),
+    with(
+        "set-shortcut",
+        "Set a shortcut…",
+        "Give a command other keys than it has",
+        always,
+        &[
+            needed("COMMAND", ArgumentKind::Command, "the command's id"),
+            needed("KEYS", ArgumentKind::Keys, "keys such as Ctrl+Shift+K, F5 or Plus"),
+        ],
+        |app, values, _| match values.command(0) {
+            Some(command) => app.set_shortcut(command, values.keys(1).copied()),
+            None => Ran::Done,
+        },
+        None,
+    )
+    .menu(Menu::Help, 1),
+    with(
+        "remove-shortcut",
+        "Remove a shortcut…",
+        "Leave a command without keys",
+        always,
+        &[needed("COMMAND", ArgumentKind::Command, "the command's id")],
+        |app, values, _| match values.command(0) {
+            Some(command) => app.set_shortcut(command, None),
+            None => Ran::Done,
+        },
+        None,
+    ),
+    with(
+        "reset-shortcut",
+        "Reset a shortcut…",
+        "Give a command the keys it comes with",
+        has_changed_keys,
+        &[needed("COMMAND", ArgumentKind::Command, "the command's id")],
+        |app, values, _| match values.command(0) {
+            Some(command) => app.reset_shortcut(command),
+            None => Ran::Done,
+        },
+        None,
+    ),
+    command(
+        "reset-shortcuts",
+        "Reset all shortcuts",
+        "Give every command the keys it comes with",
+        has_changed_keys,
+        |app, _| {
+            app.reset_all_shortcuts();
+        },
+    )
+    .menu(Menu::Help, 1),
+    with(
+        "about",
+        "About Enfilade",
+        "Show the version, the licence and the paper",
+        always,
+        &[],
+        |app, _, _| {
+            app.panels.about = true;
+            Ran::Asks
+        },
+        None,
+    )
+    .menu(Menu::Help, 2),
     // What the pointer does, for scripts.
     with(
         "pick",
@@ -708,9 +951,10 @@ pub const COMMANDS: &[Command] = &[
         |app, values, _| {
             let newest = app.messages.len();
             let number = values.count(0).copied().unwrap_or(newest);
-            if number <= newest {
-                app.messages.remove(number - 1);
+            if number > newest {
+                return Ran::Refused(format!("there are {newest} messages"));
             }
+            app.messages.remove(number - 1);
             Ran::Done
         },
         None,

@@ -1,16 +1,23 @@
 //! The panels around the canvas, one file each.
 
+mod about;
 mod inspector;
 mod layers;
 mod messages;
 pub(super) mod notes;
+pub(super) mod palette;
 mod plans;
+mod prediction;
 mod questions;
+pub(super) mod shortcuts;
 pub(super) mod status;
 mod top_bar;
 pub(super) mod welcome;
 
-use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui};
+use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, UiBuilder};
+
+use palette::Palette;
+use shortcuts::Sheet;
 
 use super::{App, canvas, theme};
 use crate::plan::edit::{self, EditError};
@@ -29,6 +36,14 @@ pub(super) struct Panels {
     pub focus: Option<FieldKind>,
     /// Whether the notes of the import are shown.
     pub notes: bool,
+    /// The list of commands, while it is open.
+    pub palette: Option<Palette>,
+    /// Commands that were done from the palette, the last one first.
+    pub recent: Vec<&'static str>,
+    /// The shortcuts, while they are shown.
+    pub sheet: Option<Sheet>,
+    /// Whether it is shown what Enfilade is.
+    pub about: bool,
     /// Where the panel on the left and the inspector were in the last frame, as far as shown.
     pub left_rect: Option<egui::Rect>,
     pub right_rect: Option<egui::Rect>,
@@ -45,6 +60,10 @@ impl Default for Panels {
             right: true,
             focus: None,
             notes: false,
+            palette: None,
+            recent: Vec::new(),
+            sheet: None,
+            about: false,
             left_rect: None,
             right_rect: None,
             layers_height: 360.0,
@@ -119,7 +138,7 @@ impl Panels {
 
     /// Whether a dialog covers the window.
     pub(super) fn is_dialog_open(&self) -> bool {
-        self.notes
+        self.notes || self.palette.is_some() || self.sheet.is_some() || self.about
     }
 }
 
@@ -129,10 +148,12 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let frame = |margin: Margin| Frame::new().fill(colours.panel).inner_margin(margin);
     app.canvas.hovered_in_panel = None;
     Panel::top("top bar").exact_size(44.0).frame(frame(Margin::symmetric(8, 0))).show(ui, |ui| top_bar::show(app, ui));
-    Panel::bottom("status line")
+    // Its place; what is in it comes last, as the keyboard goes.
+    let status_rect = Panel::bottom("status line")
         .exact_size(30.0)
         .frame(frame(Margin::symmetric(12, 0)))
-        .show(ui, |ui| status::show(app, ui));
+        .show(ui, |ui| ui.max_rect())
+        .inner;
     (app.panels.left_rect, app.panels.right_rect) = (None, None);
     if app.panels.left {
         let shown = Panel::left("plans and layers")
@@ -144,21 +165,21 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
                 // does not grow again. In a low window it scrolls, so that the plans keep some room.
                 let wanted = app.panels.layers_height;
                 let given = wanted.min(ui.available_height() - LEAST_PLANS_HEIGHT).max(LEAST_PLANS_HEIGHT);
-                let layers = Panel::bottom("layers").exact_size(given).frame(Frame::new()).show_separator_line(false);
-                let taken = layers.show(ui, |ui| {
-                    let area = ScrollArea::vertical().id_salt("layers").auto_shrink(false);
-                    let shown = area.show(ui, |ui| {
-                        let top = ui.cursor().top();
-                        layers::show(app, ui);
-                        ui.cursor().top() - top
-                    });
-                    shown.inner
+                let all = ui.available_rect_before_wrap();
+                let (above, below) = all.split_top_bottom_at_y(all.bottom() - given);
+                // From top to bottom, as the keyboard goes.
+                plans::show(app, &mut ui.new_child(UiBuilder::new().max_rect(above).id_salt("plans")));
+                let mut below = ui.new_child(UiBuilder::new().max_rect(below).id_salt("layers"));
+                let area = ScrollArea::vertical().id_salt("layers").auto_shrink(false);
+                let shown = area.show(&mut below, |ui| {
+                    let top = ui.cursor().top();
+                    layers::show(app, ui);
+                    ui.cursor().top() - top
                 });
-                if (taken.inner - wanted).abs() > 0.5 {
-                    app.panels.layers_height = taken.inner;
+                if (shown.inner - wanted).abs() > 0.5 {
+                    app.panels.layers_height = shown.inner;
                     ui.request_repaint();
                 }
-                plans::show(app, ui);
                 ui.take_available_space();
             });
         app.panels.left_rect = Some(shown.response.rect);
@@ -181,6 +202,10 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         }
         welcome::show_drop_target(ui);
     });
+    status::show(app, &mut ui.new_child(UiBuilder::new().max_rect(status_rect).id_salt("status")));
     notes::show(app, ui);
+    about::show(app, ui);
+    shortcuts::show(app, ui);
+    palette::show(app, ui);
     questions::show(app, ui);
 }
