@@ -47,6 +47,17 @@ impl Bits {
         }
     }
 
+    /// Takes away the rows of another set: how many went, and how many of these are in a third.
+    pub fn take(&mut self, other: &Self, third: &Self) -> (u32, u32) {
+        let (mut taken, mut in_third) = (0, 0);
+        for ((p, q), r) in self.0.iter_mut().zip(&other.0).zip(&third.0) {
+            taken += (*p & q).count_ones();
+            in_third += (*p & q & r).count_ones();
+            *p &= !q;
+        }
+        (taken, in_third)
+    }
+
     /// The rows of the set, ascending.
     pub fn rows(&self) -> impl Iterator<Item = u32> + '_ {
         self.0.iter().enumerate().flat_map(|(index, &word)| {
@@ -70,6 +81,8 @@ mod tests {
         let twos = Bits::of(200, |row| row % 2 == 0);
         assert_eq!((threes.count(), threes.count_and(&twos)), (67, 34));
         assert_eq!(threes.count_and_and(&twos, &Bits::of(200, |row| row < 7)), 2);
+        let taken = threes.clone().take(&twos, &Bits::of(200, |row| row < 7));
+        assert_eq!(taken, (34, 2));
         threes.subtract(&twos);
         assert_eq!(threes.rows().take(3).collect::<Vec<_>>(), [3, 9, 15]);
         assert!(threes.contains(195) && !threes.contains(198));

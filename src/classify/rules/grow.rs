@@ -70,6 +70,11 @@ type Packed = u64;
 const ONE: Packed = 1;
 const ONE_WANTED: Packed = 1 << 32;
 
+/// A feature with at most so many values (numbers of openings) is counted in several banks in turn:
+/// the next row often has the same value, and the processor need not wait for the last sum.
+const FEW_VALUES: usize = 32;
+const BANKS: usize = 4;
+
 const fn rooms(packed: Packed) -> u32 {
     packed as u32
 }
@@ -158,7 +163,18 @@ impl Search<'_> {
             };
             let units = self.rows.iter().map(|&row| ranks[row as usize]).zip(self.units.iter().copied());
             // Counting by rank beats sorting unless most ranks would stay empty.
-            if distinct <= 4 * self.rows.len() {
+            if distinct <= FEW_VALUES {
+                let mut banks = [[0; FEW_VALUES]; BANKS];
+                for (index, (rank, unit)) in units.enumerate() {
+                    banks[index % BANKS][rank as usize % FEW_VALUES] += unit;
+                }
+                for rank in 0..distinct {
+                    let packed = banks.iter().map(|bank| bank[rank]).sum();
+                    if packed > 0 {
+                        step(rank as u32, packed);
+                    }
+                }
+            } else if distinct <= 4 * self.rows.len() {
                 self.bins.clear();
                 self.bins.resize(distinct, 0);
                 for (rank, unit) in units {

@@ -179,11 +179,18 @@ impl Task<'_> {
     /// How each rule does on the rooms that the rules before it leave of `rooms`.
     fn tallies<'r>(&self, rooms: &Bits, rules: impl Iterator<Item = &'r Draft>) -> Vec<Tally> {
         let mut left = rooms.clone();
+        let (mut all, mut all_right) = (rooms.count(), rooms.count_and(&self.label));
         rules
             .map(|rule| {
-                let tally = self.tally(&left, rule);
-                left.subtract(&rule.covers);
-                tally
+                let (covered, right) = left.take(&rule.covers, &self.label);
+                all -= covered;
+                all_right -= right;
+                Tally {
+                    covered: covered.into(),
+                    wrong: (covered - right).into(),
+                    uncovered: all.into(),
+                    missed: all_right.into(),
+                }
             })
             .collect()
     }
