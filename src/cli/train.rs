@@ -63,7 +63,7 @@ impl Subcommand for TrainCommand {
     const EXAMPLE: &'static str = "enfilade train schools --algorithm tree --typology school -o school.model.json";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
-        let Collected { collection, failed, .. } = collect(&self.collect, self.seed, terminal)?;
+        let Collected { collection, blind, failed } = collect(&self.collect, self.seed, terminal)?;
         let parts = self.parts(&collection)?;
         let methods: Vec<Method> = match (self.algorithm, &collection) {
             (Some(Method::Joint), Collection::Rows(_)) => {
@@ -109,8 +109,7 @@ impl Subcommand for TrainCommand {
             }
         }
         if !is_file && self.typology.is_none() && parts.len() > 1 {
-            let networks: Vec<&RoomNetwork> = collection.networks().iter().collect();
-            if let Ok(model) = TypologyModel::train(&networks) {
+            if let Ok(model) = TypologyModel::train(&blind.iter().collect::<Vec<_>>()) {
                 let path = self.output.join("typologies.json");
                 let mut bytes = serde_json::to_vec_pretty(&model.to_value())?;
                 bytes.push(b'\n');

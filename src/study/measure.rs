@@ -28,8 +28,8 @@ const CURVE_FOLDS: usize = 5;
 /// Times each feature is shuffled in each fold.
 const SHUFFLES: usize = 3;
 
-/// Studies a collection. `blind` are the networks of the same plans in the same order as they are seen when
-/// nobody knows their typology; without them, its inference is not measured. `work` is told how many tasks are done of how many; they come in random
+/// Studies a collection. `blind` are the same plans as [`RoomNetwork::without_typology`] sees them; without
+/// them, the inference of the typology is not measured. `work` is told how many tasks are done of how many; they come in random
 /// order, so that the share done is close to the share of the time.
 ///
 /// # Errors
@@ -683,13 +683,12 @@ fn right_when_shuffled(classifier: &Classifier, values: &[Values], truths: &[Lab
 
 /// How typologies are inferred, folds by building. Nothing without several typologies.
 fn infer_typologies(collection: &Collection, blind: &[RoomNetwork], options: Options) -> Vec<TypologyLine> {
-    let networks: Vec<&RoomNetwork> = collection.networks().iter().collect();
     let typologies = collection.typologies();
-    if typologies.len() < 2 || blind.len() != networks.len() {
+    if typologies.len() < 2 || blind.is_empty() {
         return Vec::new();
     }
     let blind: Vec<&RoomNetwork> = blind.iter().collect();
-    let inferred = typology::cross_validate(&networks, &blind, &BTreeSet::new(), options.folds.max(2), options.seed);
+    let inferred = typology::cross_validate(&blind, &BTreeSet::new(), options.folds, options.seed);
     let line = |typology: &Typology| {
         let of_truth: Vec<_> = inferred.iter().filter(|plan| plan.truth == *typology).collect();
         let best = |plan: &typology::Inferred| plan.posterior.first().map(|(best, _)| best.clone());
