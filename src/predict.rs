@@ -7,12 +7,13 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use crate::classify::in_plan::{self, InPlan};
-use crate::classify::{Algorithm, Distribution};
+use crate::classify::model_file::ModelFileError;
+use crate::classify::{Distribution, Method, PlanClassifier};
 use crate::dataset::RoomNetwork;
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
 use crate::plan::RoomId;
-use crate::store::{StoredModel, bundled_sets};
+use crate::store::{StoredModel, bundled_model, bundled_sets, bundled_typologies};
 use crate::study::STANDARD;
 
 /// Of which typology the models are to be.
@@ -71,6 +72,40 @@ impl FromStr for ModelSet {
     }
 }
 
+/// The method used where nobody says which: the best on buildings never seen (`docs/joint.md`).
+pub const DEFAULT_METHOD: Method = Method::Joint;
+
+/// Which bundled models are to predict.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Predictor {
+    pub set: ModelSet,
+    pub method: Method,
+}
+
+impl Default for Predictor {
+    fn default() -> Self {
+        Self { set: ModelSet::default(), method: DEFAULT_METHOD }
+    }
+}
+
+impl Predictor {
+    /// Classifies the rooms of a network. `known` holds, for each, the label that may be used where it is
+    /// a neighbour; without `neighbours`, they are taken as the model learned.
+    ///
+    /// # Errors
+    /// When a bundled model cannot be read, which the tests exclude.
+    pub fn predict(
+        &self,
+        network: RoomNetwork,
+        known: &[Option<Label>],
+        neighbours: Option<NeighbourLabels>,
+    ) -> Result<Predictions, ModelFileError> {
+        let choice = choose(&network, &self.set);
+        let model = bundled_model(&choice.set, self.method)?;
+        Ok(Predictions::new(network, choice, model, known, neighbours))
+    }
+}
+
 /// Which set of models a plan is classified by, and why.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
@@ -78,23 +113,43 @@ pub struct Choice {
     pub set: String,
     /// Where that comes from, in a few words: 'the plan's'.
     pub because: String,
+    /// Where it was inferred: the probability of each typology, the most probable first, 0..=1.
+    pub posterior: Vec<(Typology, f64)>,
+    /// Where it was inferred: what speaks for it, the strongest first.
+    pub reasons: Vec<String>,
+}
+
+impl Choice {
+    /// A choice that needs no inference.
+    pub fn stated(set: &str, because: &str) -> Self {
+        Self { set: set.to_owned(), because: because.to_owned(), posterior: Vec::new(), reasons: Vec::new() }
+    }
 }
 
 /// Chooses the set of models for a plan.
 pub fn choose(network: &RoomNetwork, wanted: &ModelSet) -> Choice {
     let has_models = |typology: &&Typology| bundled_sets().any(|set| set == typology.as_str());
     match (wanted, network.typology.as_ref().filter(has_models)) {
-        (ModelSet::Named(name), _) => Choice { set: name.clone(), because: "as told".to_owned() },
-        (ModelSet::OfPlan, Some(stated)) => {
-            Choice { set: stated.as_str().to_owned(), because: "the plan's".to_owned() }
-        }
+        (ModelSet::Named(name), _) => Choice::stated(name, "as told"),
+        (ModelSet::OfPlan, Some(stated)) => Choice::stated(stated.as_str(), "the plan's"),
         (ModelSet::OfPlan | ModelSet::Auto, _) => infer(network),
     }
 }
 
 /// Infers the typology from the plan itself.
-fn infer(_network: &RoomNetwork) -> Choice {
-    Choice { set: STANDARD.to_owned(), because: "the plan has none".to_owned() }
+fn infer(network: &RoomNetwork) -> Choice {
+    let Some(model) = bundled_typologies().filter(|_| !network.rooms.is_empty()) else {
+        return Choice::stated(STANDARD, "nothing tells the typology");
+    };
+    // Where the plan states a typology, its labels follow from functions by that typology's scheme: they
+    // would only say it again.
+    let known = if network.typology.is_none() { network.known_labels() } else { Vec::new() };
+    let posterior = model.posterior(network, &known);
+    let Some((typology, probability)) = posterior.first().cloned() else {
+        return Choice::stated(STANDARD, "nothing tells the typology");
+    };
+    let because = format!("inferred, {:.0} %", 100.0 * probability);
+    Choice { set: typology.as_str().to_owned(), because, posterior, reasons: model.reasons(network, &known) }
 }
 
 /// What a model says of a plan's rooms.
@@ -103,6 +158,8 @@ pub struct Predictions {
     pub choice: Choice,
     pub model: Arc<StoredModel>,
     pub network: RoomNetwork,
+    /// The labels that could be used, one for each room.
+    known: Vec<Option<Label>>,
     /// Which labels of neighbours counted.
     pub neighbours: NeighbourLabels,
     pub result: InPlan,
@@ -120,14 +177,20 @@ impl Predictions {
         neighbours: Option<NeighbourLabels>,
     ) -> Self {
         let neighbours = neighbours.unwrap_or(model.about.neighbours);
-        let result = in_plan::classify(&model.classifier, &network, known, neighbours);
+        let (neighbours, result) = match &model.classifier {
+            PlanClassifier::Each(classifier) => {
+                (neighbours, in_plan::classify(classifier, &network, known, neighbours))
+            }
+            PlanClassifier::Joint(joint) => {
+                let distributions = joint.predict(&network, known);
+                // Its own two rounds: predicted labels of neighbours, known ones where they are.
+                let seen: Vec<Label> = distributions.iter().map(Distribution::label).collect();
+                let features = (0..network.rooms.len()).map(|room| network.features(room, &seen)).collect();
+                (NeighbourLabels::Predicted, InPlan { distributions, features, rounds: 2, settled: true })
+            }
+        };
         let index_of = network.rooms.iter().enumerate().map(|(index, room)| (room.id, index)).collect();
-        Self { choice, model, network, neighbours, result, index_of }
-    }
-
-    /// The algorithm of the model.
-    pub fn algorithm(&self) -> Algorithm {
-        self.model.classifier.algorithm()
+        Self { choice, model, network, known: known.to_vec(), neighbours, result, index_of }
     }
 
     /// The distribution for a room; `None` for one that is not classified.
@@ -143,7 +206,10 @@ impl Predictions {
     /// Why a room got its label, in one or two sentences; `None` for one that is not classified.
     pub fn reason(&self, room: RoomId) -> Option<String> {
         let &index = self.index_of.get(&room)?;
-        Some(self.model.classifier.explain(&self.result.features[index].values()).words())
+        match &self.model.classifier {
+            PlanClassifier::Each(classifier) => Some(classifier.explain(&self.result.features[index].values()).words()),
+            PlanClassifier::Joint(joint) => Some(joint.explain(&self.network, &self.known, index)?.words()),
+        }
     }
 
     /// The labels said of all rooms that are classified.

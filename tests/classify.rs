@@ -16,7 +16,9 @@ use std::sync::Arc;
 
 use enfilade::classify::explain::Reason;
 use enfilade::classify::model_file::{About, DataSummary, ScoreSummary, from_bytes, to_bytes};
-use enfilade::classify::{Algorithm, Classifier, Distribution, Scores, Validation, evaluate, evaluate_all, test};
+use enfilade::classify::{
+    Algorithm, Classifier, Distribution, Method, PlanClassifier, Scores, Validation, evaluate, evaluate_all, test,
+};
 use enfilade::dataset::folds::{Folds, Grouping};
 use enfilade::dataset::table::{FEATURES, RoomSource, Table, Values, fingerprint};
 use enfilade::dataset::{Row, csv};
@@ -116,7 +118,7 @@ fn results_do_not_depend_on_threads() {
     for algorithm in Algorithm::ALL {
         let on = |threads| evaluate(&table, &folds, algorithm, 9, &Work::quiet().on_threads(threads)).expect("done");
         assert_eq!(on(1), on(4), "{algorithm}");
-        let bytes = |seed| to_bytes(&Classifier::train(algorithm, &table, seed), &about(&rows));
+        let bytes = |seed| to_bytes(&Classifier::train(algorithm, &table, seed).into(), &about(&rows));
         assert_eq!(bytes(5), bytes(5), "{algorithm}");
     }
 }
@@ -154,10 +156,11 @@ fn model_files_survive_reading_and_writing() {
     let about = about(&rows);
     for algorithm in Algorithm::ALL {
         let classifier = Classifier::train(algorithm, &table, 3);
-        let bytes = to_bytes(&classifier, &about);
+        let bytes = to_bytes(&classifier.clone().into(), &about);
         let (again, about_again) = from_bytes(&bytes).expect("its own file");
         assert_eq!(about_again, about, "{algorithm}");
         assert_eq!(String::from_utf8(to_bytes(&again, &about_again)), String::from_utf8(bytes), "{algorithm}");
+        let PlanClassifier::Each(again) = again else { panic!("{algorithm} became a joint classifier") };
         for row in generated_rows(100, 6) {
             let values = row.features.values();
             assert_eq!(again.explain(&values), classifier.explain(&values), "{algorithm}");
@@ -171,10 +174,10 @@ fn model_files_survive_reading_and_writing() {
 fn the_committed_model_file_stays_readable() {
     let rows = generated_rows(60, 7);
     let path = fixture("tree.model.json");
-    let classifier = Classifier::train(Algorithm::Tree, &table(&rows), 1);
+    let classifier = Classifier::train(Algorithm::Tree, &table(&rows), 1).into();
     support::assert_text(&path, &String::from_utf8(to_bytes(&classifier, &about(&rows))).unwrap());
     let (read, _) = from_bytes(&std::fs::read(path).unwrap()).expect("a released version");
-    assert_eq!(read.algorithm(), Algorithm::Tree);
+    assert_eq!(read.method(), Method::Each(Algorithm::Tree));
 }
 
 /// The content of a model file with its checksum made to fit again, as a careless editor's script
@@ -192,7 +195,7 @@ fn with_fitting_checksum(text: &str) -> Vec<u8> {
 fn files_that_are_no_sound_model_are_refused_with_a_reason() {
     let rows = generated_rows(120, 8);
     let file = |algorithm| {
-        String::from_utf8(to_bytes(&Classifier::train(algorithm, &table(&rows), 1), &about(&rows))).unwrap()
+        String::from_utf8(to_bytes(&Classifier::train(algorithm, &table(&rows), 1).into(), &about(&rows))).unwrap()
     };
     let [rules, tree, knn, mlp] = Algorithm::ALL.map(file);
     let half = &tree[..tree.len() / 2];
@@ -252,7 +255,7 @@ fn files_that_are_no_sound_model_are_refused_with_a_reason() {
 #[test]
 fn no_cut_and_no_flipped_bit_gets_through() {
     let rows = generated_rows(80, 9);
-    let bytes = to_bytes(&Classifier::train(Algorithm::Rules, &table(&rows), 1), &about(&rows));
+    let bytes = to_bytes(&Classifier::train(Algorithm::Rules, &table(&rows), 1).into(), &about(&rows));
     let (whole, about_whole) = from_bytes(&bytes).expect("its own file");
     // The last bytes are a brace and the end of the line.
     for end in 0..bytes.len() - 2 {
@@ -271,7 +274,7 @@ fn no_cut_and_no_flipped_bit_gets_through() {
 #[test]
 fn a_model_file_may_be_indented_anew_and_begin_with_a_mark() {
     let rows = generated_rows(80, 9);
-    let bytes = to_bytes(&Classifier::train(Algorithm::Knn, &table(&rows), 1), &about(&rows));
+    let bytes = to_bytes(&Classifier::train(Algorithm::Knn, &table(&rows), 1).into(), &about(&rows));
     let value: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
     let pretty = format!("\u{feff}{}", serde_json::to_string_pretty(&value).unwrap());
     let (classifier, about) = from_bytes(pretty.as_bytes()).expect("only the layout differs");
@@ -354,7 +357,7 @@ fn assert_survives(table: &Table, context: &str) {
             assert!(words.ends_with('.'), "{context}, {algorithm}: {words}");
         }
         let about = About { data: DataSummary::of(&[], table), scores: Vec::new(), ..about(&generated_rows(40, 1)) };
-        let bytes = to_bytes(&classifier, &about);
+        let bytes = to_bytes(&classifier.into(), &about);
         let (again, _) = from_bytes(&bytes).unwrap_or_else(|error| panic!("{context}, {algorithm}: {error}"));
         assert_eq!(to_bytes(&again, &about), bytes, "{context}, {algorithm}");
     }

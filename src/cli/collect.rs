@@ -1,6 +1,6 @@
 //! Labelled rooms to learn from, named on the command line: plans, folders of plans, or dataset files.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use super::dataset::report_left_out;
@@ -9,6 +9,7 @@ use crate::dataset::{Collection, LeftOut, RoomNetwork, Row, csv};
 use crate::features::NeighbourLabels;
 use crate::formats::building_name;
 use crate::labels::Typology;
+use crate::plan::{Meta, edit};
 
 /// Options of every subcommand that learns from labelled rooms.
 #[derive(clap::Args)]
@@ -33,25 +34,25 @@ pub fn neighbour_labels(word: &str) -> Result<NeighbourLabels, String> {
         .ok_or_else(|| format!("use one of {}", words.join(", ")))
 }
 
-/// Reads the collection; says on stderr what could not be read and which rooms have no label. Gives the
-/// number of files that failed beside it.
+/// Reads the collection; says on stderr what could not be read and which rooms have no label.
 ///
 /// # Errors
 /// When nothing can be learned from: no labelled room, or plans mixed with dataset files.
-pub fn collect(options: &CollectOptions, seed: u64, terminal: &mut Terminal) -> Result<(Collection, usize), CliError> {
+pub fn collect(options: &CollectOptions, seed: u64, terminal: &mut Terminal) -> Result<Collected, CliError> {
     let is_table = |path: &PathBuf| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
     let (tables, plans): (Vec<PathBuf>, Vec<PathBuf>) = options.data.iter().cloned().partition(is_table);
-    let (collection, failed) = match (tables.is_empty(), plans.is_empty()) {
+    let (collection, blind, failed) = match (tables.is_empty(), plans.is_empty()) {
         (false, false) => {
             return Err(CliError::new(
                 "plans and datasets (.csv) cannot be mixed: a dataset does not tell which rooms are neighbours; make \
                  a dataset of the plans with 'enfilade dataset', or give the plans of the other",
             ));
         }
-        (false, true) => (Collection::Rows(read_tables(&tables)?), 0),
+        (false, true) => (Collection::Rows(read_tables(&tables)?), Vec::new(), 0),
         _ => {
-            let (networks, failed) = read_networks(&plans, &options.scheme, terminal)?;
-            (Collection::Plans(networks), failed)
+            let Networks { networks, blind, failed } = read_networks(&plans, &options.scheme, terminal)?;
+            let keys: Vec<BuildingKey> = networks.iter().map(building_key).collect();
+            (Collection::Plans(networks), keys.into_iter().zip(blind).collect(), failed)
         }
     };
     let mut left_out = LeftOut::default();
@@ -64,20 +65,46 @@ pub fn collect(options: &CollectOptions, seed: u64, terminal: &mut Terminal) -> 
     if collection.rows(NeighbourLabels::True).unwrap_or_default().is_empty() {
         return Err(CliError::new("there are no labelled rooms to learn from; label some rooms, or add plans"));
     }
-    Ok((collection, failed))
+    // Parts of a collection are whole buildings.
+    let kept: BTreeSet<BuildingKey> = collection.networks().iter().map(building_key).collect();
+    let blind: Vec<(BuildingKey, RoomNetwork)> = blind;
+    let blind = blind.into_iter().filter(|(key, _)| kept.contains(key)).map(|(_, network)| network).collect();
+    Ok(Collected { collection, blind, failed })
 }
 
-/// The networks of plans, in the order of their paths, with the number of files that failed.
-pub fn read_networks(
-    paths: &[PathBuf],
-    scheme_files: &[PathBuf],
-    terminal: &mut Terminal,
-) -> Result<(Vec<RoomNetwork>, usize), CliError> {
+/// What was read.
+pub struct Collected {
+    pub collection: Collection,
+    /// The plans of the collection, in its order, as they are seen when nobody knows their typology.
+    pub blind: Vec<RoomNetwork>,
+    /// Number of files that could not be read.
+    pub failed: usize,
+}
+
+type BuildingKey = (Option<Typology>, String);
+
+fn building_key(network: &RoomNetwork) -> BuildingKey {
+    (network.typology.clone(), network.building.clone())
+}
+
+struct Networks {
+    networks: Vec<RoomNetwork>,
+    blind: Vec<RoomNetwork>,
+    failed: usize,
+}
+
+/// The networks of plans, in the order of their paths.
+fn read_networks(paths: &[PathBuf], scheme_files: &[PathBuf], terminal: &mut Terminal) -> Result<Networks, CliError> {
     let schemes = inputs::schemes(scheme_files)?;
     let files = inputs::plan_files(paths)?;
     let mut networks: Vec<RoomNetwork> = Vec::new();
+    let mut blind: Vec<RoomNetwork> = Vec::new();
     let failed = inputs::for_each_plan(&files, terminal, |_, import, _| {
-        networks.extend(import.plans.iter().map(|plan| RoomNetwork::new(plan, &schemes)));
+        for plan in &import.plans {
+            networks.push(RoomNetwork::new(plan, &schemes));
+            let unnamed = edit::set_meta(plan, Meta { typology: None, ..plan.meta().clone() });
+            blind.push(RoomNetwork::new(&unnamed, &schemes));
+        }
         Ok(())
     })?;
     // Storeys of one building are spelled differently at times; folds must not split it for that.
@@ -87,7 +114,7 @@ pub fn read_networks(
         let first = spellings.entry(key).or_insert_with(|| network.building.clone());
         network.building.clone_from(first);
     }
-    Ok((networks, failed))
+    Ok(Networks { networks, blind, failed })
 }
 
 fn read_tables(paths: &[PathBuf]) -> Result<Vec<Row>, CliError> {

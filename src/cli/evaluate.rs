@@ -1,7 +1,7 @@
 use std::io::Write as _;
 use std::path::PathBuf;
 
-use super::collect::{CollectOptions, collect, neighbour_labels};
+use super::collect::{CollectOptions, Collected, collect, neighbour_labels};
 use super::progress::with_progress;
 use super::{CliError, Outcome, Subcommand, Terminal};
 use crate::dataset::folds::Grouping;
@@ -51,9 +51,10 @@ impl Subcommand for EvaluateCommand {
     const EXAMPLE: &'static str = "enfilade evaluate schools offices houses --most-rooms 2000 -o study";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
-        let (collection, failed) = collect(&self.collect, self.seed, terminal)?;
+        let Collected { collection, blind, failed } = collect(&self.collect, self.seed, terminal)?;
         let options = Options { folds: self.folds, grouping: self.by, neighbours: self.neighbours, seed: self.seed };
-        let study = with_progress("evaluating", self.threads, terminal, |work| study(&collection, options, work))?;
+        let study =
+            with_progress("evaluating", self.threads, terminal, |work| study(&collection, &blind, options, work))?;
         let files = report::files(&study)?;
         std::fs::create_dir_all(&self.output)
             .map_err(|error| CliError::new(format!("{}: {error}; choose another folder", self.output.display())))?;

@@ -1,15 +1,18 @@
 //! Doing a study: every fold, foreign test and point of a curve is a task of its own, so that all
 //! threads are busy to the end and progress is even.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::comparison::moments;
 use super::{
-    Average, Cell, Comparison, Condition, ConfusionTable, Curve, CurvePoint, Importance, LabelLine, Options, Rival,
-    RoomsTable, STANDARD, Set, Study, StudyError,
+    Average, Cell, Comparison, Condition, ConfusionTable, Curve, CurvePoint, Importance, JointCell, LabelLine, Options,
+    Rival, RoomsTable, STANDARD, Set, Study, StudyError, TypologyCount, TypologyLine,
 };
-use crate::classify::{Algorithm, Classifier, Confusion, Distribution, Scores, in_plan};
+use crate::classify::joint::Joint;
+use crate::classify::{Algorithm, Classifier, Confusion, Distribution, Scores, in_plan, typology};
 use crate::dataset::folds::{Folds, FoldsError, Grouping, building_of};
 use crate::dataset::table::{FEATURES, Table, Values};
-use crate::dataset::{Collection, RoomPlace, Row, Statistics};
+use crate::dataset::{Collection, RoomNetwork, RoomPlace, Row, Statistics};
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
 use crate::parallel::Work;
@@ -24,17 +27,25 @@ const CURVE_FOLDS: usize = 5;
 /// Times each feature is shuffled in each fold.
 const SHUFFLES: usize = 3;
 
-/// Studies a collection. `work` is told how many tasks are done of how many; they come in random
+/// Studies a collection. `blind` are the networks of the same plans in the same order as they are seen when
+/// nobody knows their typology; without them, its inference is not measured. `work` is told how many tasks are done of how many; they come in random
 /// order, so that the share done is close to the share of the time.
 ///
 /// # Errors
 /// When there is too little data for even one cross-validation, or the work is cancelled.
-pub fn study(collection: &Collection, options: Options, work: &Work<'_>) -> Result<Study, StudyError> {
+pub fn study(
+    collection: &Collection,
+    blind: &[RoomNetwork],
+    options: Options,
+    work: &Work<'_>,
+) -> Result<Study, StudyError> {
     let lab = Lab::new(collection, options)?;
     let mut tasks = lab.tasks();
     Random::new(options.seed).shuffle(&mut tasks);
     let done = work.map(tasks.len(), |index| lab.perform(tasks[index]))?;
-    Ok(lab.gather(&Results::new(tasks, done)))
+    let mut study = lab.gather(&Results::new(tasks, done));
+    study.typologies = infer_typologies(collection, blind, options);
+    Ok(study)
 }
 
 /// Cross-validates some algorithms on one set under some conditions, without the rest of a study.
@@ -58,7 +69,7 @@ pub fn validate(
                 && algorithms.contains(&Algorithm::ALL[algorithm])
                 && conditions.contains(&all[condition])
         }
-        Task::Foreign { .. } | Task::Point { .. } => false,
+        Task::Foreign { .. } | Task::Point { .. } | Task::Joint { .. } => false,
     };
     let tasks: Vec<Task> = lab.tasks().into_iter().filter(is_wanted).collect();
     let done = work.map(tasks.len(), |index| lab.perform(tasks[index]))?;
@@ -114,6 +125,7 @@ enum Task {
     Fold { condition: usize, set: usize, algorithm: usize, fold: usize },
     Foreign { model: usize, algorithm: usize },
     Point { set: usize, algorithm: usize, fold: usize, share: usize },
+    Joint { set: usize, fold: usize },
 }
 
 /// What came of a task.
@@ -161,7 +173,7 @@ impl<'a> Lab<'a> {
     /// and standard classifiers are tested on the same rooms having learned without the same rooms.
     fn deal_sets(&mut self) -> Result<(), StudyError> {
         let options = self.options;
-        let mut by_typology: std::collections::BTreeMap<Option<&Typology>, Vec<usize>> = Default::default();
+        let mut by_typology: BTreeMap<Option<&Typology>, Vec<usize>> = Default::default();
         for (index, row) in self.rows.iter().enumerate() {
             by_typology.entry(row.typology.as_ref()).or_default().push(index);
         }
@@ -276,6 +288,12 @@ impl<'a> Lab<'a> {
                 }
             }
         }
+        if !self.collection.networks().is_empty() {
+            for (set, rows) in self.sets.iter().enumerate() {
+                let folds = rows.dealt(Grouping::Building).map_or(0, |dealt| dealt.count);
+                tasks.extend((0..folds).map(|fold| Task::Joint { set, fold }));
+            }
+        }
         tasks
     }
 
@@ -312,6 +330,7 @@ impl<'a> Lab<'a> {
                     None,
                 )
             }
+            Task::Joint { set, fold } => self.predict_jointly(&self.sets[set], fold).unwrap_or(nothing),
             Task::Point { set, algorithm, fold, share } => {
                 self.curve_point(&self.sets[set], Algorithm::ALL[algorithm], fold, CURVE_SHARES[share])
             }
@@ -371,6 +390,21 @@ impl<'a> Lab<'a> {
         Some(Done::Predicted(predictions, shuffled))
     }
 
+    /// The joint classifier on the buildings of a fold, having learned from the others of the set.
+    fn predict_jointly(&self, set: &SetRows, fold: usize) -> Option<Done> {
+        let (tested, learned) = Self::split(set, Grouping::Building, fold)?;
+        let networks = self.collection.networks();
+        let of = |rows: &[usize]| -> BTreeSet<usize> { rows.iter().map(|&row| self.places[row].network).collect() };
+        let taught: Vec<&RoomNetwork> = of(&learned).into_iter().map(|network| &networks[network]).collect();
+        // Threads are busy with other tasks.
+        let alone = Work::quiet().on_threads(1);
+        let joint = Joint::train(&taught, seed_of_part(self.options.seed, fold), &alone).ok()?;
+        let said: BTreeMap<usize, Vec<Distribution>> =
+            of(&tested).into_iter().map(|network| (network, joint.predict(&networks[network], &[]))).collect();
+        let prediction = |row: usize| Some((row, *said.get(&self.places[row].network)?.get(self.places[row].room)?));
+        Some(Done::Predicted(tested.into_iter().filter_map(prediction).collect(), None))
+    }
+
     fn curve_point(&self, set: &SetRows, algorithm: Algorithm, fold: usize, share: f64) -> Done {
         let mode = self.plain_mode();
         let Some((tested, mut learned)) = Self::split(set, self.options.grouping, fold) else {
@@ -383,7 +417,7 @@ impl<'a> Lab<'a> {
             buildings.sort_unstable();
             buildings.dedup();
             random.shuffle(&mut buildings);
-            let rank: std::collections::BTreeMap<&str, usize> =
+            let rank: BTreeMap<&str, usize> =
                 buildings.into_iter().enumerate().map(|(rank, name)| (name, rank)).collect();
             learned.sort_by_key(|&row| rank.get(building_of(&self.rows[row])));
         } else {
@@ -416,6 +450,8 @@ impl<'a> Lab<'a> {
             own_against_foreign: Vec::new(),
             learning_curves: Vec::new(),
             importance: Vec::new(),
+            joint: Vec::new(),
+            typologies: Vec::new(),
             notes: self.notes.clone(),
         };
         for (at, set) in self.sets.iter().enumerate() {
@@ -443,6 +479,7 @@ impl<'a> Lab<'a> {
                 study.importance.extend(results.importance(set, at, number, algorithm, accuracy, &conditions, main));
             }
         }
+        study.joint = (0..self.sets.len()).filter_map(|set| self.compare_jointly(results, set, &study)).collect();
         self.compare(results, &self.right(results), &mut study);
         study
     }
@@ -462,6 +499,33 @@ impl<'a> Lab<'a> {
             }
         }
         cells
+    }
+
+    /// The joint classifier beside the best of the four where no building and no label is known.
+    fn compare_jointly(&self, results: &Results, set: usize, study: &Study) -> Option<JointCell> {
+        let condition = Condition { by: Grouping::Building, neighbours: NeighbourLabels::Predicted };
+        let at = self.conditions().iter().position(|other| *other == condition)?;
+        let name = &self.sets[set].name;
+        let accuracy =
+            |algorithm: Algorithm| study.scores(name, algorithm, condition).map_or(0.0, |scores| scores.accuracy);
+        let best = Algorithm::ALL.into_iter().max_by(|&p, &q| accuracy(p).total_cmp(&accuracy(q)))?;
+        let of_joint = results.jointly(set);
+        if of_joint.is_empty() {
+            return None;
+        }
+        let is_right = |row: usize, said: &Distribution| said.label() == self.rows[row].label;
+        let by_best: BTreeMap<usize, bool> = results
+            .folds(at, set, best as usize)
+            .into_iter()
+            .map(|(_, row, said)| (row, is_right(row, said)))
+            .collect();
+        let pairs = of_joint.iter().filter_map(|(_, row, said)| {
+            let first = f64::from(u8::from(is_right(*row, said)));
+            Some((building_of(&self.rows[*row]), first, f64::from(u8::from(*by_best.get(row)?))))
+        });
+        let comparison = Comparison::of(pairs, self.options.seed)?;
+        let scores = Scores::of(of_joint.iter().map(|(fold, row, said)| (*fold, *said, self.rows[*row].label)));
+        Some(JointCell { set: name.clone(), best, comparison, scores })
     }
 
     /// How right each set's algorithms are on each row, under the main condition; `None` for rows that
@@ -538,9 +602,8 @@ impl<'a> Lab<'a> {
 
     fn describe(&self, set: &SetRows) -> Set {
         let rows: Vec<&Row> = set.rows.iter().map(|&row| &self.rows[row]).collect();
-        let distinct = |key: &dyn Fn(&Row) -> (String, String)| {
-            rows.iter().map(|row| key(row)).collect::<std::collections::BTreeSet<_>>().len()
-        };
+        let distinct =
+            |key: &dyn Fn(&Row) -> (String, String)| rows.iter().map(|row| key(row)).collect::<BTreeSet<_>>().len();
         let table = Table::from_rows(rows.iter().copied()).ok();
         let most = table.as_ref().and_then(|table| table.label_counts().into_iter().max()).unwrap_or_default();
         Set {
@@ -570,6 +633,41 @@ fn right_when_shuffled(classifier: &Classifier, values: &[Values], truths: &[Lab
         }
         right
     })
+}
+
+/// How typologies are inferred, folds by building. Nothing without several typologies.
+fn infer_typologies(collection: &Collection, blind: &[RoomNetwork], options: Options) -> Vec<TypologyLine> {
+    let networks: Vec<&RoomNetwork> = collection.networks().iter().collect();
+    let typologies = collection.typologies();
+    if typologies.len() < 2 || blind.len() != networks.len() {
+        return Vec::new();
+    }
+    let blind: Vec<&RoomNetwork> = blind.iter().collect();
+    let inferred = typology::cross_validate(&networks, &blind, &BTreeSet::new(), options.folds.max(2), options.seed);
+    let line = |typology: &Typology| {
+        let of_truth: Vec<_> = inferred.iter().filter(|plan| plan.truth == *typology).collect();
+        let best = |plan: &typology::Inferred| plan.posterior.first().map(|(best, _)| best.clone());
+        let mut buildings: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+        for plan in &of_truth {
+            let right = f64::from(u8::from(best(plan).as_ref() == Some(typology)));
+            buildings.entry(&plan.building).or_default().push(right);
+        }
+        let mean = |numbers: &[f64]| moments(numbers).mean;
+        let of_buildings: Vec<f64> = buildings.values().map(|of_plans| mean(of_plans)).collect();
+        let of_plans: Vec<f64> = buildings.values().flatten().copied().collect();
+        let taken_for = |other: &Typology| TypologyCount {
+            taken_for: other.as_str().to_owned(),
+            plans: of_truth.iter().filter(|plan| best(plan).as_ref() == Some(other)).count(),
+        };
+        TypologyLine {
+            typology: typology.as_str().to_owned(),
+            plans: typologies.iter().map(taken_for).collect(),
+            plan_accuracy: mean(&of_plans),
+            building_accuracy: mean(&of_buildings),
+            buildings: buildings.len(),
+        }
+    };
+    typologies.iter().map(line).collect()
 }
 
 fn confusion_table(set: &str, scores: &[&Scores]) -> ConfusionTable {
@@ -608,6 +706,19 @@ impl Results {
                     predictions.extend(rows.iter().map(|(row, said)| (*fold, *row, said)));
                 }
                 _ => break,
+            }
+        }
+        predictions
+    }
+
+    /// The joint classifier's predictions on a set: fold, row, distribution.
+    fn jointly(&self, wanted: usize) -> Vec<(usize, usize, &Distribution)> {
+        let mut predictions = Vec::new();
+        for (task, done) in &self.0 {
+            if let (Task::Joint { set, fold }, Done::Predicted(rows, _)) = (task, done)
+                && *set == wanted
+            {
+                predictions.extend(rows.iter().map(|(row, said)| (*fold, *row, said)));
             }
         }
         predictions

@@ -81,6 +81,10 @@ pub struct Study {
     pub own_against_foreign: Vec<Rival>,
     pub learning_curves: Vec<Curve>,
     pub importance: Vec<Importance>,
+    /// The joint classifier on buildings never seen.
+    pub joint: Vec<JointCell>,
+    /// How well typologies are inferred from plans of buildings never seen.
+    pub typologies: Vec<TypologyLine>,
     /// What could not be measured, and why.
     pub notes: Vec<String>,
 }
@@ -214,6 +218,37 @@ pub struct Importance {
     pub algorithm: Algorithm,
     /// In the order of [`crate::features::Features::NAMES`].
     pub accuracy_lost: [f64; 8],
+}
+
+/// The joint classifier on a set, folds by building, no label of the tested buildings known.
+#[derive(Clone, Debug, Serialize)]
+pub struct JointCell {
+    pub set: String,
+    /// The best of the four algorithms under the same condition.
+    #[serde(serialize_with = "algorithm_name")]
+    pub best: Algorithm,
+    /// First the joint classifier, second the best of the four.
+    pub comparison: Comparison,
+    pub scores: Scores,
+}
+
+/// How often plans of one typology were taken for each.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TypologyLine {
+    pub typology: String,
+    /// Plans taken for each typology.
+    pub plans: Vec<TypologyCount>,
+    /// Share of plans, and of buildings (each the mean over its plans), taken for what they are.
+    pub plan_accuracy: f64,
+    pub building_accuracy: f64,
+    pub buildings: usize,
+}
+
+/// Plans taken for a typology.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TypologyCount {
+    pub taken_for: String,
+    pub plans: usize,
 }
 
 /// Why there is no study.

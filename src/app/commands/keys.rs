@@ -124,8 +124,7 @@ impl FromStr for Keys {
     fn from_str(text: &str) -> Result<Self, NoKeys> {
         let mut modifiers = Modifiers::NONE;
         let mut rest = text.trim();
-        loop {
-            let Some((first, behind)) = rest.split_once('+').filter(|(_, behind)| !behind.is_empty()) else { break };
+        while let Some((first, behind)) = rest.split_once('+').filter(|(_, behind)| !behind.is_empty()) {
             match first.trim().to_lowercase().as_str() {
                 "ctrl" | "cmd" | "command" => modifiers.command = true,
                 "alt" | "option" => modifiers.alt = true,

@@ -496,7 +496,7 @@ fn command_lines(app: &App, ui: &Ui, search: &mut Search) -> Vec<Line> {
         };
         found.push((rank, line));
     }
-    found.sort_by(|p, q| p.0.cmp(&q.0));
+    found.sort_by_key(|(rank, _)| *rank);
     found.into_iter().map(|(_, line)| line).collect()
 }
 

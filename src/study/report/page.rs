@@ -29,6 +29,8 @@ pub(super) fn page(study: &Study) -> String {
                     (typology(study))
                     (foreign(study, paper))
                     (conditions(study))
+                    (joint(study))
+                    (typologies(study))
                     (confusion(study, paper))
                     (rooms(study, paper))
                     (curves(study))
@@ -318,6 +320,70 @@ fn conditions(study: &Study) -> Markup {
                 }
             }
             p.caption { "Accuracy in %. The shaded column is the condition of the other tables." }
+        }
+    }
+}
+
+fn joint(study: &Study) -> Markup {
+    if study.joint.is_empty() {
+        return html! {};
+    }
+    html! {
+        section {
+            h2 { "All rooms of a plan together" }
+            p {
+                "The joint classifier looks at each room in relation to the others of its plan, and at what is believed of \
+                 its neighbours. It knows no label and no room of the tested buildings; beside it stands the best of the \
+                 four under the same condition."
+            }
+            table {
+                thead { tr {
+                    th.left { "Set" } th { "Joint, %" } th { "Best of the four, %" } th.left { "which is" }
+                    th { "Difference [95 %]" } th { "p" } th { "Log loss" } th { "Calibration error, %" }
+                } }
+                tbody {
+                    @for cell in &study.joint {
+                        tr {
+                            th.left { (set_title(&cell.set)) }
+                            td { (percent(cell.scores.accuracy)) small { " ± " (percent(cell.scores.accuracy_deviation)) } }
+                            td { (percent(cell.comparison.second)) }
+                            td.left { (cell.best.title()) }
+                            td { (difference(&cell.comparison)) }
+                            td { (p_value(cell.comparison.p)) }
+                            td { (format!("{:.3}", cell.scores.log_loss)) }
+                            td { (percent(cell.scores.calibration_error)) }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn typologies(study: &Study) -> Markup {
+    let Some(first) = study.typologies.first() else { return html! {} };
+    html! {
+        section {
+            h2 { "Inferring the typology" }
+            table {
+                thead { tr {
+                    th.left { "Plans of" }
+                    @for count in &first.plans { th { "taken for " (count.taken_for) } }
+                    th { "Plans right, %" } th { "Buildings" } th { "Buildings right, %" }
+                } }
+                tbody {
+                    @for line in &study.typologies {
+                        tr {
+                            th.left { (set_title(&line.typology)) }
+                            @for count in &line.plans { td { (count.plans) } }
+                            td { (percent(line.plan_accuracy)) }
+                            td { (line.buildings) }
+                            td { (percent(line.building_accuracy)) }
+                        }
+                    }
+                }
+            }
+            p.caption { "From the plan alone, no label known, folds that never split a building." }
         }
     }
 }

@@ -54,6 +54,8 @@ pub(super) fn tables(study: &Study) -> Vec<(&'static str, Table)> {
         ("learning_curves", learning_curves(study)),
         ("importance", importance(study)),
         ("reliability", reliability(study)),
+        ("joint", joint(study)),
+        ("typologies", typologies(study)),
     ]
 }
 
@@ -222,6 +224,59 @@ fn importance(study: &Study) -> Table {
     for of in &study.importance {
         let head = [of.set.clone(), of.algorithm.name().to_owned()];
         table.push(head.into_iter().chain(of.accuracy_lost.map(number)));
+    }
+    table
+}
+
+fn joint(study: &Study) -> Table {
+    let mut table = Table::new(&[
+        "set",
+        "rooms",
+        "buildings",
+        "joint",
+        "best_of_four",
+        "which",
+        "difference",
+        "low_95",
+        "high_95",
+        "p",
+        "log_loss",
+        "brier",
+        "calibration_error",
+    ]);
+    for cell in &study.joint {
+        let comparison = &cell.comparison;
+        table.push([
+            cell.set.clone(),
+            comparison.rooms.to_string(),
+            comparison.buildings.to_string(),
+            number(comparison.first),
+            number(comparison.second),
+            cell.best.name().to_owned(),
+            number(comparison.difference),
+            number(comparison.low),
+            number(comparison.high),
+            number(comparison.p),
+            number(cell.scores.log_loss),
+            number(cell.scores.brier),
+            number(cell.scores.calibration_error),
+        ]);
+    }
+    table
+}
+
+fn typologies(study: &Study) -> Table {
+    let taken_for = study.typologies.first().map(|line| line.plans.as_slice()).unwrap_or_default();
+    let columns: Vec<String> = taken_for.iter().map(|count| format!("taken_for_{}", count.taken_for)).collect();
+    let header: Vec<&str> = std::iter::once("plans_of")
+        .chain(columns.iter().map(String::as_str))
+        .chain(["plans_right", "buildings", "buildings_right"])
+        .collect();
+    let mut table = Table::new(&header);
+    for line in &study.typologies {
+        let counts = line.plans.iter().map(|count| count.plans.to_string());
+        let ends = [number(line.plan_accuracy), line.buildings.to_string(), number(line.building_accuracy)];
+        table.push(std::iter::once(line.typology.clone()).chain(counts).chain(ends));
     }
     table
 }
