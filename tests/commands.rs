@@ -60,9 +60,9 @@ fn keys(window: &mut Offscreen, text: &str) {
     let mut name = text;
     while let Some((first, rest)) = name.split_once('+').filter(|(_, rest)| !rest.is_empty()) {
         match first {
-            "Ctrl" => modifiers = modifiers | Modifiers::COMMAND | Modifiers::CTRL,
-            "Shift" => modifiers = modifiers | Modifiers::SHIFT,
-            "Alt" => modifiers = modifiers | Modifiers::ALT,
+            "Ctrl" => modifiers |= Modifiers::COMMAND | Modifiers::CTRL,
+            "Shift" => modifiers |= Modifiers::SHIFT,
+            "Alt" => modifiers |= Modifiers::ALT,
             other => panic!("no modifier {other}"),
         }
         name = rest;

@@ -357,6 +357,13 @@ pub(super) fn value(ui: &mut Ui, name: &str, value: &str) -> Response {
     if is_elided { response.on_hover_text(value) } else { response }
 }
 
+/// A small text that does something when it is clicked.
+pub(super) fn link(ui: &mut Ui, text: &str) -> Response {
+    let response = ui.link(RichText::new(text).size(theme::SMALL));
+    focus_ring(ui, response.rect.expand2(vec2(3.0, 1.0)), &response);
+    response
+}
+
 /// A button with a text; the main one of a dialog has the accent's colour.
 pub(super) fn text_button(ui: &mut Ui, text: &str, is_main: bool) -> Response {
     let colours = colours(ui);

@@ -16,13 +16,13 @@ fn every_shortcut_does_its_command() {
     let mut checked = 0;
     for command in COMMANDS {
         for &shortcut in command.shortcuts {
-            let mut window = window_with("school");
+            let in_the_middle = matches!(command.id, "previous-plan" | "next-plan");
+            let mut window = window_with(if in_the_middle { "school" } else { "dwelling" });
             // A plan with something to undo and redo, and a picture under it.
             let plan = enfilade::plan::edit::set_backdrop(window.app().plan().unwrap(), Some(crate::backdrop()));
             enfilade::store::save_plan(&path, &plan).unwrap();
-            match command.id {
-                "previous-plan" | "next-plan" => {}
-                _ => run(&mut window, "open", &[word]),
+            if !in_the_middle {
+                run(&mut window, "open", &[word]);
             }
             run(&mut window, "next-room", &[]);
             for id in ["label-hall", "label-small"] {

@@ -24,27 +24,31 @@ fn check_names(window: &Offscreen, state: &str) {
     let controls = window.controls();
     assert!(controls.len() > 5, "{state}: {controls:?}");
     for control in controls {
+        // The keys scroll, too: a bar is for the pointer alone.
+        if control.role == Role::ScrollBar {
+            continue;
+        }
         let is_control = egui::accessibility::is_input(control.role) || control.takes_clicks || control.takes_focus;
         assert!(!is_control || !control.name.trim().is_empty(), "{state}: {control:?} has no name");
     }
 }
 
-/// What Tab goes through, until it comes back to where it began.
+/// What Tab goes through, until it comes back to where it was.
 fn tab_stops(window: &mut Offscreen) -> Vec<Control> {
     let mut stops: Vec<Control> = Vec::new();
-    let is_same =
-        |p: &Control, q: &Control| p.name == q.name && p.role == q.role && p.rect.min.distance(q.rect.min) < 2.0;
+    // The canvas is one stop, whichever room it says is picked.
+    let is_same = |p: &Control, q: &Control| {
+        p.role == q.role && p.rect.min.distance(q.rect.min) < 2.0 && (p.name == q.name || p.role == Role::Canvas)
+    };
     for _ in 0..400 {
         key(window, Key::Tab);
         let Some(control) = window.focused() else { continue };
-        if stops.last().is_some_and(|last| is_same(last, &control)) {
-            // The canvas, which goes from room to room.
-            continue;
+        match stops.iter().rposition(|stop| is_same(stop, &control)) {
+            // Tab goes from room to room there.
+            Some(at) if at + 1 == stops.len() && control.role == Role::Canvas => {}
+            Some(_) => return stops,
+            None => stops.push(control),
         }
-        if stops.first().is_some_and(|first| is_same(first, &control)) {
-            return stops;
-        }
-        stops.push(control);
     }
     panic!("Tab goes on and on: {:?}", stops.iter().map(|stop| &stop.name).collect::<Vec<_>>());
 }
@@ -52,11 +56,14 @@ fn tab_stops(window: &mut Offscreen) -> Vec<Control> {
 /// Every control that can be pressed is one of the stops. `is_covered`: what a dialog lies over.
 fn check_reach(window: &mut Offscreen, state: &str, is_covered: impl Fn(&Control) -> bool) {
     check_names(window, state);
+    // Before Tab goes through the plan's rooms, which changes what can be done.
+    let controls = window.controls();
     let stops = tab_stops(window);
     let names: Vec<&str> = stops.iter().map(|stop| stop.name.as_str()).collect();
-    for control in window.controls() {
+    for control in controls.into_iter().filter(|control| control.role != Role::ScrollBar) {
         let is_wanted = control.takes_clicks && control.is_enabled && !is_room(&control) && !is_covered(&control);
-        let is_reached = stops.iter().any(|stop| stop.name == control.name && stop.role == control.role);
+        let is_it = |stop: &&Control| stop.name == control.name || stop.rect == control.rect;
+        let is_reached = stops.iter().filter(is_it).any(|stop| stop.role == control.role);
         assert!(!is_wanted || is_reached, "{state}: {control:?} is not among {names:?}");
     }
     for stop in stops {
@@ -73,19 +80,27 @@ fn every_control_has_a_name_and_is_reached() {
     window.open_bundled("dwelling");
     window.settle().unwrap();
     check_reach(&mut window, "plan", nothing);
-    click_room(&mut window, "Study");
+    // Escape takes the keyboard from everything, so that Tab begins at the top.
+    key(&mut window, Key::Escape);
+    window.run_command_with("pick", &["Study"]).unwrap();
     window.run_command("label-hall");
+    window.settle().unwrap();
+    assert!(window.control("Use the function's label").is_some());
     check_reach(&mut window, "room", nothing);
+    key(&mut window, Key::Escape);
     let plan = window.app().plan().unwrap().clone();
     let (opening, _) = plan.openings().find(|(_, opening)| opening.kind.is_passable()).unwrap();
     window.run_command_with("pick-opening", &[&opening.to_string()]).unwrap();
     window.settle().unwrap();
     assert_eq!(window.app().picked(), Some(Picked::Opening(opening)));
     check_reach(&mut window, "opening", nothing);
+    key(&mut window, Key::Escape);
     window.open(Path::new("/nowhere/plan.xml"));
     window.settle().unwrap();
+    assert!(window.control("Dismiss message").is_some());
     check_reach(&mut window, "message", nothing);
     // In a small window, where much has to be scrolled.
+    key(&mut window, Key::Escape);
     window.resize(640, 420);
     window.settle().unwrap();
     check_reach(&mut window, "small", nothing);
@@ -180,7 +195,7 @@ fn menus_open_by_keyboard_and_every_entry_is_reached() {
             .filter(|control| control.role == Role::MenuItem && control.is_enabled)
             .filter(|control| !before.contains(&control.name) || control.rect.width() > 200.0)
             .collect();
-        assert!(entries.len() >= 3, "{}: {entries:?}", menu.title());
+        assert!(entries.len() >= 2, "{}: {entries:?}", menu.title());
         let mut reached = Vec::new();
         for _ in 0..60 {
             key(&mut window, Key::Tab);
@@ -230,7 +245,8 @@ fn one_sees_where_the_keyboard_is() {
         window.settle().unwrap();
         click_room(&mut window, "Study");
         window.run_command("label-hall");
-        window.run_command("fit");
+        // From the room's name on, so that its link is passed before other rooms are picked.
+        window.run_command("rename");
         window.move_to(egui::pos2(450.0, 1.0));
         window.settle().unwrap();
         let mut before = window.picture();

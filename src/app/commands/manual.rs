@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::{Argument, COMMANDS, Command, Keys, Menu};
+use super::{Argument, ArgumentKind, COMMANDS, Command, Keys, Menu};
 
 /// What stands above the tables.
 const INTRODUCTION: &str = "\
@@ -35,7 +35,7 @@ pub fn manual() -> String {
     }
     section(&mut page, "Only in scripts", false, COMMANDS.iter().filter(|command| command.menu.is_none()));
     page.push_str("\n## Arguments\n\nWhat stands in brackets may be left out.\n\n");
-    page.push_str("| Argument | Of | What it is | Expected |\n| --- | --- | --- | --- |\n");
+    page.push_str("| Argument | Of | What it is |\n| --- | --- | --- |\n");
     let mut told: Vec<&Argument> = Vec::new();
     for argument in COMMANDS.iter().flat_map(|command| command.arguments) {
         if told.contains(&argument) {
@@ -45,7 +45,11 @@ pub fn manual() -> String {
         let has = |command: &&Command| command.arguments.contains(argument);
         let of: Vec<String> = COMMANDS.iter().filter(has).map(|command| format!("`{}`", command.id)).collect();
         let Argument { name, help, kind, .. } = argument;
-        let _ = writeln!(page, "| {name} | {} | {help} | {} |", of.join(", "), kind.expected());
+        let limits = match kind {
+            ArgumentKind::Number { least, most, .. } => format!(", from {least} to {most}"),
+            _ => String::new(),
+        };
+        let _ = writeln!(page, "| {name} | {} | {help}{limits} |", of.join(", "));
     }
     page
 }

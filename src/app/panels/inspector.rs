@@ -7,7 +7,7 @@ use super::{Field, FieldKind, prediction};
 use crate::app::canvas::{room_title, sentence, title_of};
 use crate::app::document::{Derived, Document, Picked};
 use crate::app::icons::Icon;
-use crate::app::widgets::{Lead, Row, Segment, caption, colours, hairline, section, segmented, strong, value};
+use crate::app::widgets::{Lead, Row, Segment, caption, colours, hairline, link, section, segmented, strong, value};
 use crate::app::{App, commands, theme};
 use crate::draw::Palette;
 use crate::features::{Features, RoomAnalysis, RoomStatus};
@@ -247,7 +247,7 @@ impl Inspected<'_> {
         let clicked = segmented(ui, &segments).map(|index| Act::Label(Some(Label::ALL[index])));
         let mut act = clicked;
         caption(ui, self.label_origin(room, status));
-        if room.label.is_some() && ui.link(RichText::new("Use the function's label").size(theme::SMALL)).clicked() {
+        if room.label.is_some() && link(ui, "Use the function's label").clicked() {
             act = Some(Act::Label(None));
         }
         act
@@ -408,7 +408,7 @@ impl Inspected<'_> {
             hairline(ui);
             section(ui, "Import");
             caption(ui, super::notes::summary(&self.document.notes));
-            if ui.link("Show notes").clicked() {
+            if link(ui, "Show notes").clicked() {
                 act = Some(Act::ShowNotes);
             }
         }

@@ -3,7 +3,7 @@
 use egui::{Frame, Label, Margin, Rect, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
 
 use crate::app::icons::Icon;
-use crate::app::widgets::{ICON, ROW, colours, icon_button, severity_colours, strong};
+use crate::app::widgets::{ICON, ROW, colours, icon_button, link, severity_colours, strong};
 use crate::app::{App, Message, Remedy, Severity, theme};
 
 /// More messages are not shown at once; the newest ones are.
@@ -49,7 +49,7 @@ fn bar(ui: &mut Ui, message: &Message) -> Option<Act> {
                     ui.add(Label::new(detail).wrap().selectable(true));
                 }
                 if let Some(remedy) = message.remedy
-                    && ui.link(RichText::new(remedy.title()).size(theme::SMALL)).clicked()
+                    && link(ui, remedy.title()).clicked()
                 {
                     act = Some(Act::Remedy(remedy));
                 }

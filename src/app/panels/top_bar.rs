@@ -7,7 +7,7 @@ use egui::{
 
 use crate::app::canvas::sentence;
 use crate::app::commands::{COMMANDS, Command, Menu};
-use crate::app::widgets::{Lead, ROW, Row, colours, icon_button, strong};
+use crate::app::widgets::{Lead, ROW, Row, colours, focus_ring, icon_button, strong};
 use crate::app::{App, theme};
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
@@ -19,7 +19,9 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             ui.spacing_mut().item_spacing.x = 2.0;
             let mut right = bar.left();
             for menu in Menu::ALL {
-                right = ui.menu_button(menu.title(), |ui| menu_entries(app, ui, menu)).response.rect.right();
+                let button = ui.menu_button(menu.title(), |ui| menu_entries(app, ui, menu)).response;
+                focus_ring(ui, button.rect, &button);
+                right = button.rect.right();
             }
             right
         })
