@@ -184,6 +184,10 @@ fn one_or_all_are_reset() {
 fn the_sheet_is_searched() {
     let mut window = window_with("dwelling");
     keys(&mut window, "F1");
+    for command in COMMANDS.iter().filter(|command| command.menu.is_some()) {
+        let name = format!("Shortcut of {}: ", command.title.trim_end_matches('…'));
+        assert!(window.controls().iter().any(|control| control.name.starts_with(&name)), "{name}");
+    }
     type_in(&mut window, "ctrl+s");
     let shown: Vec<String> = window
         .controls()
