@@ -223,12 +223,14 @@ impl Predictions {
     pub fn unknown(&self) -> Vec<(usize, OpeningId, Distribution)> {
         let Some(unknown) = bundled_unknown(&self.choice.set) else { return Vec::new() };
         let said = &self.result.distributions;
-        let labels: Vec<Label> =
-            said.iter().zip(&self.known).map(|(said, known)| known.unwrap_or_else(|| said.label())).collect();
+        let labels: Vec<Option<Label>> =
+            said.iter().zip(&self.known).map(|(said, known)| known.or_else(|| Some(said.label()))).collect();
         let mut behind = Vec::new();
         for (room, of) in self.network.rooms.iter().enumerate() {
-            for door in of.doors.iter().filter(|door| door.to.is_none()) {
-                behind.push((room, door.opening, unknown.predict(&self.network, &labels, room)));
+            for (index, door) in of.doors.iter().enumerate().filter(|(_, door)| door.to.is_none()) {
+                if let Some(distribution) = unknown.predict(&self.network, &labels, room, index) {
+                    behind.push((room, door.opening, distribution));
+                }
             }
         }
         behind

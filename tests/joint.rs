@@ -12,3 +12,5 @@ mod joint;
 mod real;
 #[path = "joint/typology.rs"]
 mod typology;
+#[path = "joint/unknown.rs"]
+mod unknown;

@@ -1,160 +1,180 @@
-//! What lies behind an opening that leads into unexplored space: the label of the room one would enter,
-//! from what is known on this side of it. For buildings of which a part is drawn, or that a robot is
-//! exploring.
+//! What lies behind an opening into unexplored space: a distribution over the label of the room behind
+//! it, from the known side alone.
+//!
+//! Counts of what lay behind such openings, from the particular to the general: openings of this kind in
+//! rooms of this label with as many other openings; in rooms of this label; all. Each step is smoothed
+//! towards the next, so that what was rarely seen says little.
 
-use serde_json::{Map, Value};
+use serde::{Deserialize, Serialize};
 
-use super::{Algorithm, Classifier, Distribution, model_file};
+use super::{Distribution, Scores};
 use crate::dataset::RoomNetwork;
-use crate::dataset::table::{RoomSource, Table, Values};
+use crate::dataset::folds::{Folds, FoldsError};
 use crate::labels::Label;
+use crate::plan::OpeningKind;
+use crate::random::seed_of_part;
 
-/// Predicts the label behind an opening. For each label of the room on this side a perceptron on its `F_r`,
-/// in which the opening counts in `d` and leads nowhere yet. (Of the four algorithms the best at it: with
-/// folds by building, five folds, 47.1 % of the openings of the authors' schools and offices, against 43.9 by
-/// nearest neighbours, 41.7 by a decision tree, and 39.1 by the most frequent label.)
-#[derive(Clone, Debug)]
+/// Other openings of a room are told apart up to so many; more count as this.
+const OTHERS: usize = 4;
+
+/// How many openings seen weigh as much as the next more general counts.
+const STRENGTH: f64 = 5.0;
+
+type Counts = [f64; 5];
+
+/// What was found behind openings.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Unknown {
-    /// By the label of the room on this side, in the order of [`Label::ALL`]; `None` where too few
-    /// openings of such rooms were seen to learn more than shares.
-    by_label: [Option<Classifier>; 5],
-    /// The distribution of labels behind all openings that were seen.
-    anywhere: Distribution,
+    /// By label of the room, other openings, and whether it is a free passage.
+    behind: [[[Counts; 2]; OTHERS + 1]; 5],
 }
 
-/// From fewer openings only shares are learned.
-const LEAST_OPENINGS: usize = 20;
+/// A score with what it is measured against.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnknownScores {
+    pub scores: Scores,
+    /// The share that the label most often found behind openings gets right.
+    pub most_frequent: f64,
+}
 
-/// An opening between two labelled rooms, as seen from one of them while the other is not explored.
+/// How predictions of what lies behind the openings of a plan compare with the truth.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlanScore {
+    pub building: String,
+    /// Openings between labelled rooms, each from both sides.
+    pub openings: usize,
+    /// Those rightly predicted.
+    pub right: usize,
+    /// Those behind which lies the label most often found behind openings.
+    pub most_frequent: usize,
+}
+
+/// An opening between two labelled rooms, seen from one of them.
+#[derive(Clone, Copy)]
 struct Seen {
-    from: Label,
-    values: Values,
+    place: Place,
     behind: Label,
-    source: RoomSource,
+    network: usize,
 }
 
-impl Unknown {
-    /// Learns from all openings between labelled rooms, each from both sides. `None` when there are none.
-    pub fn train(networks: &[&RoomNetwork], seed: u64) -> Option<Self> {
-        let seen: Vec<Seen> = networks.iter().flat_map(|network| openings(network)).collect();
-        if seen.is_empty() {
-            return None;
-        }
-        let mut counts = [0.0; 5];
-        for opening in &seen {
-            counts[opening.behind.index()] += 1.0;
-        }
-        let by_label = Label::ALL.map(|label| {
-            let of_label = || seen.iter().filter(|opening| opening.from == label);
-            if of_label().count() < LEAST_OPENINGS {
-                return None;
-            }
-            let table = Table::from_columns(
-                of_label().map(|opening| opening.values).collect(),
-                of_label().map(|opening| opening.behind).collect(),
-                of_label().map(|opening| opening.source.clone()).collect(),
-            );
-            Some(Classifier::train(Algorithm::Mlp, &table.ok()?, seed))
-        });
-        Some(Self { by_label, anywhere: Distribution::smoothed(counts, &Distribution::UNIFORM, 5.0) })
-    }
+/// What is known of an opening.
+#[derive(Clone, Copy)]
+struct Place {
+    label: Option<Label>,
+    others: usize,
+    passage: usize,
+}
 
-    /// The distribution over the labels of the room behind an opening of a room, should there be one.
-    /// `labels` are those of the network's rooms, known or predicted, one for each.
-    pub fn predict(&self, network: &RoomNetwork, labels: &[Label], room: usize) -> Distribution {
-        let Some(from) = labels.get(room).filter(|_| room < network.rooms.len()) else { return self.anywhere };
-        match &self.by_label[from.index()] {
-            Some(classifier) => classifier.predict(&network.features(room, labels).values()),
-            None => self.anywhere,
-        }
-    }
-
-    /// The most frequent label behind openings, wherever they are: what one says without looking.
-    pub fn most_frequent(&self) -> Label {
-        self.anywhere.label()
-    }
-
-    /// As data.
-    pub fn to_value(&self) -> Value {
-        let mut value = Map::new();
-        value.insert("anywhere".to_owned(), self.anywhere.probabilities().to_vec().into());
-        for (label, classifier) in Label::ALL.into_iter().zip(&self.by_label) {
-            let model = classifier.as_ref().map_or(Value::Null, model_file::model_value);
-            value.insert(label.letter().to_owned(), model);
-        }
-        value.into()
-    }
-
-    /// From data; `None` when something is missing or not what it should be.
-    pub fn from_value(value: &Value) -> Option<Self> {
-        let anywhere: [f64; 5] = serde_json::from_value(value.get("anywhere")?.clone()).ok()?;
-        let mut by_label = [const { None }; 5];
-        for label in Label::ALL {
-            by_label[label.index()] = match value.get(label.letter())? {
-                Value::Null => None,
-                model => Some(model_file::model_of_value(model.clone())?),
-            };
-        }
-        Some(Self { by_label, anywhere: Distribution::from_weights(anywhere) })
+impl Place {
+    fn new(network: &RoomNetwork, label: Option<Label>, room: usize, door: usize) -> Option<Self> {
+        let doors = &network.rooms.get(room)?.doors;
+        let passage = usize::from(doors.get(door)?.kind == OpeningKind::Passage);
+        Some(Self { label, others: (doors.len() - 1).min(OTHERS), passage })
     }
 }
 
-/// All openings between labelled rooms, from both sides.
-fn openings(network: &RoomNetwork) -> Vec<Seen> {
+fn openings(networks: &[&RoomNetwork]) -> Vec<Seen> {
     let mut seen = Vec::new();
-    for (index, room) in network.rooms.iter().enumerate() {
-        let Some(from) = room.label else { continue };
-        for door in &room.doors {
-            let Some(other) = door.to.filter(|&other| other != index) else { continue };
-            let Some(behind) = network.rooms[other].label else { continue };
-            let source = RoomSource { plan: network.plan.as_str().into(), room: room.key.as_str().into() };
-            seen.push(Seen { from, values: hidden_values(network, index, other), behind, source });
+    for (index, network) in networks.iter().enumerate() {
+        for (room, of) in network.rooms.iter().enumerate() {
+            for (door, opening) in of.doors.iter().enumerate() {
+                let behind = opening.to.and_then(|to| network.rooms.get(to)?.label);
+                let place = of.label.and_then(|label| Place::new(network, Some(label), room, door));
+                if let (Some(behind), Some(place)) = (behind, place) {
+                    seen.push(Seen { place, behind, network: index });
+                }
+            }
         }
     }
     seen
 }
 
-/// `F_r` of a room while one of its neighbours is not explored.
-fn hidden_values(network: &RoomNetwork, room: usize, hidden: usize) -> Values {
-    let mut values = [0.0; 8];
-    let of = &network.rooms[room];
-    values[0] = of.area_m2;
-    values[1] = of.axes_ratio;
-    values[2] = of.doors.len() as f64;
-    for other in of.doors.iter().filter_map(|door| door.to).filter(|&other| other != hidden) {
-        let seen = network.rooms[other].label.unwrap_or(network.rooms[other].temporary);
-        values[3 + seen.index()] += 1.0;
+impl Unknown {
+    /// Learns from openings between labelled rooms, each seen from both sides. Without any, every label is
+    /// as likely.
+    pub fn train(networks: &[&RoomNetwork]) -> Self {
+        Self::of(openings(networks).iter())
     }
-    values
-}
 
-/// How predictions of what lies behind the openings of a plan compare with the truth, see [`score`].
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PlanScore {
-    pub building: String,
-    /// Openings tested, each from both sides.
-    pub openings: usize,
-    /// Those rightly predicted.
-    pub right: usize,
-    /// Those with the most frequent label behind them.
-    pub most_frequent: usize,
-}
-
-/// Tests on plans that were not learned from: each opening between two labelled rooms in turn leads into
-/// unexplored space, the rest being known.
-pub fn score(unknown: &Unknown, networks: &[&RoomNetwork]) -> Vec<PlanScore> {
-    let of_plan = |network: &&RoomNetwork| {
-        let seen = openings(network);
-        let said = |opening: &Seen| match &unknown.by_label[opening.from.index()] {
-            Some(classifier) => classifier.predict(&opening.values).label(),
-            None => unknown.anywhere.label(),
-        };
-        PlanScore {
-            building: network.building.clone(),
-            openings: seen.len(),
-            right: seen.iter().filter(|opening| said(opening) == opening.behind).count(),
-            most_frequent: seen.iter().filter(|opening| opening.behind == unknown.most_frequent()).count(),
+    fn of<'a>(openings: impl Iterator<Item = &'a Seen>) -> Self {
+        let mut behind = [[[[0.0; 5]; 2]; OTHERS + 1]; 5];
+        for Seen { place, behind: label, .. } in openings {
+            if let Some(room) = place.label {
+                behind[room.index()][place.others][place.passage][label.index()] += 1.0;
+            }
         }
-    };
-    networks.iter().map(of_plan).collect()
+        Self { behind }
+    }
+
+    /// The distribution over the label of the room behind the opening with the index `door` of a room.
+    /// `known` holds the labels that are known of the network's rooms; where the room's own is not, all
+    /// labels of it count. `None` for an opening that does not exist.
+    pub fn predict(
+        &self,
+        network: &RoomNetwork,
+        known: &[Option<Label>],
+        room: usize,
+        door: usize,
+    ) -> Option<Distribution> {
+        let label = known.get(room).copied().flatten();
+        Some(self.distribution(Place::new(network, label, room, door)?))
+    }
+
+    fn distribution(&self, place: Place) -> Distribution {
+        let sum = |counts: &mut dyn Iterator<Item = &Counts>| {
+            counts.fold([0.0; 5], |sum, counts| std::array::from_fn(|label| sum[label] + counts[label]))
+        };
+        let all = sum(&mut self.behind.iter().flatten().flatten());
+        let mut belief = Distribution::smoothed(all, &Distribution::UNIFORM, STRENGTH);
+        let Some(label) = place.label else { return belief };
+        let of_label = &self.behind[label.index()];
+        belief = Distribution::smoothed(sum(&mut of_label.iter().flatten()), &belief, STRENGTH);
+        Distribution::smoothed(of_label[place.others][place.passage], &belief, STRENGTH)
+    }
+
+    /// Tests on plans that were not learned from, as [`Unknown::score`] does.
+    pub fn test(&self, networks: &[&RoomNetwork]) -> Vec<PlanScore> {
+        let anywhere = self.anywhere().label();
+        let of_plan = |network: &&RoomNetwork| {
+            let seen = openings(&[*network]);
+            let count = |holds: &dyn Fn(&Seen) -> bool| seen.iter().filter(|seen| holds(seen)).count();
+            PlanScore {
+                building: network.building.clone(),
+                openings: seen.len(),
+                right: count(&|seen| self.distribution(seen.place).label() == seen.behind),
+                most_frequent: count(&|seen| seen.behind == anywhere),
+            }
+        };
+        networks.iter().map(of_plan).collect()
+    }
+
+    /// The distribution behind an opening of which nothing is known.
+    fn anywhere(&self) -> Distribution {
+        self.distribution(Place { label: None, others: 0, passage: 0 })
+    }
+
+    /// Cross-validates with folds that never split a building: behind every opening between labelled
+    /// rooms the room is taken to be unexplored, the other one known.
+    ///
+    /// # Errors
+    /// When there are fewer buildings with such openings than folds.
+    pub fn score(networks: &[&RoomNetwork], folds: usize, seed: u64) -> Result<UnknownScores, FoldsError> {
+        let seen = openings(networks);
+        let labels: Vec<Label> = seen.iter().map(|seen| seen.behind).collect();
+        let buildings: Vec<&str> = seen.iter().map(|seen| networks[seen.network].building.as_str()).collect();
+        let folds = Folds::grouped(&labels, &buildings, folds, seed_of_part(seed, 0))?;
+        let mut predictions = vec![Distribution::UNIFORM; seen.len()];
+        let mut frequent = 0;
+        for fold in 0..folds.count() {
+            let taught = Self::of(folds.training_rows(fold).into_iter().map(|row| &seen[row]));
+            let anywhere = taught.anywhere().label();
+            for row in folds.test_rows(fold) {
+                predictions[row] = taught.distribution(seen[row].place);
+                frequent += usize::from(seen[row].behind == anywhere);
+            }
+        }
+        let rows = folds.of_rows().iter().zip(&predictions).zip(&labels);
+        let scores = Scores::of(rows.map(|((&fold, prediction), &label)| (fold, prediction, label)));
+        Ok(UnknownScores { scores, most_frequent: frequent as f64 / seen.len().max(1) as f64 })
+    }
 }

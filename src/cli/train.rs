@@ -119,11 +119,10 @@ impl Subcommand for TrainCommand {
             let mut unknown = serde_json::Map::new();
             for (typology, part) in &parts {
                 let networks: Vec<&RoomNetwork> = part.networks().iter().collect();
-                if let Some(of_set) = Unknown::train(&networks, self.seed) {
-                    unknown.insert(set_name(typology.as_ref()).to_owned(), of_set.to_value());
-                }
+                let of_set = serde_json::to_value(Unknown::train(&networks))?;
+                unknown.insert(set_name(typology.as_ref()).to_owned(), of_set);
             }
-            if !unknown.is_empty() {
+            if !collection.networks().is_empty() {
                 let path = self.output.join("unknown.json");
                 let mut bytes = serde_json::to_vec(&unknown)?;
                 bytes.push(b'\n');

@@ -131,7 +131,7 @@ pub fn bundled_unknown(set: &str) -> Option<&'static Unknown> {
     let read = || {
         let value: Value = serde_json::from_str(include_str!("../../assets/models/unknown.json")).unwrap_or_default();
         let sets = value.as_object().into_iter().flatten();
-        sets.filter_map(|(set, value)| Some((set.clone(), Unknown::from_value(value)?))).collect()
+        sets.filter_map(|(set, value)| Some((set.clone(), serde_json::from_value(value.clone()).ok()?))).collect()
     };
     READ.get_or_init(read).get(set)
 }

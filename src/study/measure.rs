@@ -9,7 +9,7 @@ use super::{
     Rival, RoomsTable, STANDARD, Set, Study, StudyError, TypologyCount, TypologyLine, UnknownCell,
 };
 use crate::classify::joint::Joint;
-use crate::classify::unknown::{self, PlanScore, Unknown};
+use crate::classify::unknown::{PlanScore, Unknown};
 use crate::classify::{Algorithm, Classifier, Confusion, Distribution, Scores, in_plan, typology};
 use crate::dataset::folds::{Folds, FoldsError, Grouping, building_of};
 use crate::dataset::table::{FEATURES, Table, Values};
@@ -416,8 +416,7 @@ impl<'a> Lab<'a> {
     /// What lies behind the openings of a fold's buildings, having learned from the others of the set.
     fn look_behind(&self, set: &SetRows, fold: usize) -> Option<Done> {
         let (tested, learned) = self.networks_of(set, fold)?;
-        let unknown = Unknown::train(&learned, seed_of_part(self.options.seed, fold))?;
-        Some(Done::Behind(unknown::score(&unknown, &tested)))
+        Some(Done::Behind(Unknown::train(&learned).test(&tested)))
     }
 
     /// The networks with rooms of a set that a fold by building tests, and the others.

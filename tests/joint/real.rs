@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use enfilade::classify::joint::{Group, Joint, cross_validate, cross_validate_without};
 use enfilade::classify::typology::{Inferred, Measure, TypologyModel, cross_validate as infer};
+use enfilade::classify::unknown::{Unknown, UnknownScores};
 use enfilade::dataset::RoomNetwork;
 use enfilade::formats::{self, building_name};
 use enfilade::labels::Schemes;
@@ -125,6 +126,25 @@ fn measure_joint() {
     for (set, folders) in [("house", HOUSES.to_vec()), ("all", [SCHOOLS, OFFICES, HOUSES].concat())] {
         let Some(networks) = networks(&folders, RoomNetwork::new) else { return };
         report(set, &networks.iter().collect::<Vec<_>>(), &none, 0.0, 1..=1);
+    }
+}
+
+#[test]
+#[ignore = "prints the tables of docs/joint.md"]
+fn measure_unknown() {
+    for (set, folders) in [("school", SCHOOLS), ("office", OFFICES), ("house", HOUSES)] {
+        let Some(networks) = networks(folders, RoomNetwork::new) else { return };
+        let networks: Vec<&RoomNetwork> = networks.iter().collect();
+        for seed in SEEDS {
+            let UnknownScores { scores, most_frequent } = Unknown::score(&networks, 10, seed).unwrap();
+            println!(
+                "{set} behind openings: {:.1} % of {}, most frequent label {:.1} %, log loss {:.3}",
+                scores.accuracy * 100.0,
+                scores.rooms,
+                most_frequent * 100.0,
+                scores.log_loss
+            );
+        }
     }
 }
 
