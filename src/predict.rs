@@ -12,8 +12,8 @@ use crate::classify::{Distribution, Method, PlanClassifier};
 use crate::dataset::RoomNetwork;
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
-use crate::plan::RoomId;
-use crate::store::{StoredModel, bundled_model, bundled_sets, bundled_typologies};
+use crate::plan::{OpeningId, RoomId};
+use crate::store::{StoredModel, bundled_model, bundled_sets, bundled_typologies, bundled_unknown};
 use crate::study::STANDARD;
 
 /// Of which typology the models are to be.
@@ -215,6 +215,23 @@ impl Predictions {
     /// The labels said of all rooms that are classified.
     pub fn labels(&self) -> BTreeMap<RoomId, Label> {
         self.index_of.iter().map(|(&room, &index)| (room, self.result.distributions[index].label())).collect()
+    }
+
+    /// What lies behind each opening that leads into unexplored space (or outside), should there be a room:
+    /// the room on this side by its index in the network, the opening, and the distribution over labels.
+    /// Labels that are not known are taken as predicted. Nothing for models of a set without bundled ones.
+    pub fn unknown(&self) -> Vec<(usize, OpeningId, Distribution)> {
+        let Some(unknown) = bundled_unknown(&self.choice.set) else { return Vec::new() };
+        let said = &self.result.distributions;
+        let labels: Vec<Label> =
+            said.iter().zip(&self.known).map(|(said, known)| known.unwrap_or_else(|| said.label())).collect();
+        let mut behind = Vec::new();
+        for (room, of) in self.network.rooms.iter().enumerate() {
+            for door in of.doors.iter().filter(|door| door.to.is_none()) {
+                behind.push((room, door.opening, unknown.predict(&self.network, &labels, room)));
+            }
+        }
+        behind
     }
 
     /// Rooms with a known label, and how many of them are said to have it.

@@ -19,6 +19,7 @@ pub mod scale;
 mod scores;
 pub mod tree;
 pub mod typology;
+pub mod unknown;
 
 pub use classifier::{Algorithm, Classifier, Model, UnknownAlgorithm};
 pub use distribution::Distribution;

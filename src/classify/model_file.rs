@@ -241,6 +241,17 @@ pub fn from_bytes(bytes: &[u8]) -> Result<(PlanClassifier, About), ModelFileErro
     disk.and_then(Disk::live).ok_or_else(|| refuse(None, "its parts do not make a classifier"))
 }
 
+/// A classifier without what is told about it, as data within another file. Its temperature is 1.
+pub(super) fn model_value(classifier: &Classifier) -> Value {
+    serde_json::to_value(DiskModel::of(classifier.model())).unwrap_or_default()
+}
+
+/// The classifier of such data; `None` when its parts do not make one.
+pub(super) fn model_of_value(value: Value) -> Option<Classifier> {
+    let model: DiskModel = serde_json::from_value(value).ok()?;
+    Some(Classifier::from_parts(model.live()?, 1.0))
+}
+
 #[derive(Serialize, Deserialize)]
 struct Disk {
     format: String,

@@ -161,7 +161,8 @@ const INNER_FOLDS: usize = 5;
 const TEMPERATURES: std::ops::RangeInclusive<u32> = 5..=40;
 
 impl TypologyModel {
-    /// Learns from the plans whose typology is known.
+    /// Learns from the plans whose typology is known, best as they look without it:
+    /// [`RoomNetwork::without_typology`].
     ///
     /// # Errors
     /// When there are none with rooms.
@@ -292,8 +293,10 @@ impl TypologyModel {
             .collect();
         let counts = counts_of(known);
         let labels = urn(&counts, &best.labels) - urn(&counts, &next.labels);
-        if counts.iter().any(|&count| count > 0) {
-            reasons.push((labels, format!("the {} rooms whose labels are known", counts.iter().sum::<u32>())));
+        match counts.iter().sum::<u32>() {
+            0 => {}
+            1 => reasons.push((labels, "the 1 room whose label is known".to_owned())),
+            count => reasons.push((labels, format!("the {count} rooms whose labels are known"))),
         }
         reasons.retain(|(evidence, _)| *evidence > SPEAKS);
         reasons.sort_by(|p, q| q.0.total_cmp(&p.0));
@@ -500,12 +503,10 @@ pub struct Inferred {
     pub posterior: Vec<(Typology, f64)>,
 }
 
-/// Cross-validates with folds that never split a building. `blind` are the same plans as they are seen
-/// when nobody knows their typology (label schemes say nothing then), in the order of `networks`. No
-/// label is given.
+/// Cross-validates with folds that never split a building, no label of the plans tested being given. The
+/// networks are those of [`RoomNetwork::without_typology`].
 pub fn cross_validate(
     networks: &[&RoomNetwork],
-    blind: &[&RoomNetwork],
     left_out: &BTreeSet<Measure>,
     folds: usize,
     seed: u64,
@@ -516,12 +517,12 @@ pub fn cross_validate(
     for fold in 0..folds {
         let taught = networks.iter().zip(&fold_of).filter(|(_, of)| **of != fold).map(|(network, _)| *network);
         let Ok(model) = TypologyModel::train_without(&taught.collect::<Vec<_>>(), left_out) else { continue };
-        let tested = networks.iter().zip(blind).zip(&fold_of).filter(|(_, of)| **of == fold);
-        inferred.extend(tested.filter_map(|((network, blind), _)| {
+        let tested = networks.iter().zip(&fold_of).filter(|(_, of)| **of == fold);
+        inferred.extend(tested.filter_map(|(network, _)| {
             Some(Inferred {
                 building: network.building.clone(),
                 truth: network.typology.clone()?,
-                posterior: model.posterior(blind, &[]),
+                posterior: model.posterior(network, &[]),
             })
         }));
     }

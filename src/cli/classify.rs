@@ -11,7 +11,7 @@ use crate::classify::{Distribution, Method};
 use crate::dataset::{NetworkRoom, RoomNetwork};
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Schemes};
-use crate::plan::{LabelOrigin, Plan, RoomLabel, edit};
+use crate::plan::{LabelOrigin, OpeningId, Plan, RoomLabel, edit};
 use crate::predict::{Agreement, Choice, DEFAULT_METHOD, ModelSet, Predictions, Predictor, UnknownSet};
 use crate::store::{StoredModel, load_model, save_plan, set_name};
 
@@ -33,6 +33,9 @@ pub struct ClassifyCommand {
     /// Pretend that no room's label is known, to see what would be said of a new building
     #[arg(long)]
     hide_labels: bool,
+    /// Say as well, for each opening that leads into unexplored space or outside, what would lie behind it
+    #[arg(long)]
+    unknown: bool,
     /// Write the predictions into the plan file, marked as predictions, for rooms without a label
     #[arg(long)]
     write: bool,
@@ -87,12 +90,12 @@ impl Subcommand for ClassifyCommand {
                 let said = self.classify(plan, &schemes, own.as_ref())?;
                 total.add(said.agreement());
                 if self.json {
-                    objects.push(json(plan, &said));
+                    objects.push(json(plan, &said, self.unknown));
                 } else {
                     if plans > 0 {
                         writeln!(terminal.out)?;
                     }
-                    print(plan, &said, terminal)?;
+                    print(plan, &said, self.unknown, terminal)?;
                 }
                 plans += 1;
                 if self.write {
@@ -166,7 +169,7 @@ impl ClassifyCommand {
     }
 }
 
-fn print(plan: &Plan, said: &Predictions, terminal: &mut Terminal) -> Result<(), CliError> {
+fn print(plan: &Plan, said: &Predictions, with_unknown: bool, terminal: &mut Terminal) -> Result<(), CliError> {
     let name = if plan.meta().name.is_empty() { "Untitled plan" } else { &plan.meta().name };
     let rooms = &said.network.rooms;
     let width = |of: &dyn Fn(&NetworkRoom) -> usize, least: usize| {
@@ -202,10 +205,25 @@ fn print(plan: &Plan, said: &Predictions, terminal: &mut Terminal) -> Result<(),
         )?;
     }
     writeln!(out, "  {}; neighbours' labels: {}", said.agreement(), said.neighbours_in_words())?;
+    if with_unknown {
+        let unknown = said.unknown();
+        if unknown.is_empty() {
+            writeln!(out, "  no opening leads into unexplored space or outside")?;
+        }
+        for (room, opening, behind) in unknown {
+            let label = behind.label();
+            writeln!(
+                out,
+                "  behind opening {opening} of {}, if there is a room: {label} ({:.0} %)",
+                rooms[room].key,
+                100.0 * behind.probability(label)
+            )?;
+        }
+    }
     Ok(())
 }
 
-fn json(plan: &Plan, said: &Predictions) -> serde_json::Value {
+fn json(plan: &Plan, said: &Predictions, with_unknown: bool) -> serde_json::Value {
     let probabilities = |distribution: &Distribution| -> serde_json::Map<String, serde_json::Value> {
         let rounded = |label: Label| (distribution.probability(label) * 1e4).round() / 1e4;
         Label::ALL.into_iter().map(|label| (label.letter().to_owned(), json!(rounded(label)))).collect()
@@ -234,6 +252,15 @@ fn json(plan: &Plan, said: &Predictions) -> serde_json::Value {
         .iter()
         .map(|(typology, probability)| (typology.as_str().to_owned(), json!((probability * 1e4).round() / 1e4)))
         .collect();
+    let unknown = |(room, opening, behind): (usize, OpeningId, Distribution)| {
+        json!({
+            "opening": opening.to_string(),
+            "room": said.network.rooms[room].key,
+            "predicted": behind.label().letter(),
+            "probabilities": probabilities(&behind),
+        })
+    };
+    let unknown = with_unknown.then(|| said.unknown().into_iter().map(unknown).collect::<Vec<_>>());
     json!({
         "plan": plan.meta().name,
         "typology": said.choice.set,
@@ -247,6 +274,7 @@ fn json(plan: &Plan, said: &Predictions) -> serde_json::Value {
         "labelled_rooms": agreement.known,
         "agreeing_rooms": agreement.right,
         "rooms": rooms,
+        "unknown": unknown,
     })
 }
 

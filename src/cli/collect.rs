@@ -9,7 +9,6 @@ use crate::dataset::{Collection, LeftOut, RoomNetwork, Row, csv};
 use crate::features::NeighbourLabels;
 use crate::formats::building_name;
 use crate::labels::Typology;
-use crate::plan::{Meta, edit};
 
 /// Options of every subcommand that learns from labelled rooms.
 #[derive(clap::Args)]
@@ -102,14 +101,13 @@ fn read_networks(paths: &[PathBuf], scheme_files: &[PathBuf], terminal: &mut Ter
     let failed = inputs::for_each_plan(&files, terminal, |_, import, _| {
         for plan in &import.plans {
             networks.push(RoomNetwork::new(plan, &schemes));
-            let unnamed = edit::set_meta(plan, Meta { typology: None, ..plan.meta().clone() });
-            blind.push(RoomNetwork::new(&unnamed, &schemes));
+            blind.push(RoomNetwork::without_typology(plan, &schemes));
         }
         Ok(())
     })?;
     // Storeys of one building are spelled differently at times; folds must not split it for that.
     let mut spellings: BTreeMap<(Option<Typology>, String), String> = BTreeMap::new();
-    for network in &mut networks {
+    for network in networks.iter_mut().chain(&mut blind) {
         let key = (network.typology.clone(), building_name::key(&network.building));
         let first = spellings.entry(key).or_insert_with(|| network.building.clone());
         network.building.clone_from(first);

@@ -8,6 +8,7 @@ use super::{CliError, Outcome, Subcommand, Terminal};
 use crate::classify::joint::{self, Joint};
 use crate::classify::model_file::{self, About, DataSummary, ScoreSummary};
 use crate::classify::typology::TypologyModel;
+use crate::classify::unknown::Unknown;
 use crate::classify::{Algorithm, Classifier, Method, PlanClassifier, Scores, in_plan};
 use crate::dataset::folds::Grouping;
 use crate::dataset::table::Table;
@@ -62,7 +63,7 @@ impl Subcommand for TrainCommand {
     const EXAMPLE: &'static str = "enfilade train schools --algorithm tree --typology school -o school.model.json";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
-        let Collected { collection, failed, .. } = collect(&self.collect, self.seed, terminal)?;
+        let Collected { collection, blind, failed } = collect(&self.collect, self.seed, terminal)?;
         let parts = self.parts(&collection)?;
         let methods: Vec<Method> = match (self.algorithm, &collection) {
             (Some(Method::Joint), Collection::Rows(_)) => {
@@ -108,13 +109,26 @@ impl Subcommand for TrainCommand {
             }
         }
         if !is_file && self.typology.is_none() && parts.len() > 1 {
-            let networks: Vec<&RoomNetwork> = collection.networks().iter().collect();
-            if let Ok(model) = TypologyModel::train(&networks) {
+            if let Ok(model) = TypologyModel::train(&blind.iter().collect::<Vec<_>>()) {
                 let path = self.output.join("typologies.json");
                 let mut bytes = serde_json::to_vec_pretty(&model.to_value())?;
                 bytes.push(b'\n');
                 write_model(&path, &bytes)?;
                 writeln!(terminal.out, "{}: what tells the typologies apart", path.display())?;
+            }
+            let mut unknown = serde_json::Map::new();
+            for (typology, part) in &parts {
+                let networks: Vec<&RoomNetwork> = part.networks().iter().collect();
+                if let Some(of_set) = Unknown::train(&networks, self.seed) {
+                    unknown.insert(set_name(typology.as_ref()).to_owned(), of_set.to_value());
+                }
+            }
+            if !unknown.is_empty() {
+                let path = self.output.join("unknown.json");
+                let mut bytes = serde_json::to_vec(&unknown)?;
+                bytes.push(b'\n');
+                write_model(&path, &bytes)?;
+                writeln!(terminal.out, "{}: what lies behind openings", path.display())?;
             }
         }
         Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })

@@ -4,7 +4,7 @@ use super::{LeftOut, Row, room_keys};
 use crate::features::{Analysis, Features, NeighbourLabels, RoomStatus, analyse};
 use crate::geometry::{hull, polygon, runs};
 use crate::labels::{Label, Schemes, Typology};
-use crate::plan::{OpeningId, OpeningKind, Plan, RoomId};
+use crate::plan::{Meta, OpeningId, OpeningKind, Plan, RoomId, edit};
 use crate::topology::RoomShape;
 
 /// The rooms of one plan as classifiers see them: what each is in itself, what is known of its
@@ -146,6 +146,19 @@ impl RoomNetwork {
         let meta = plan.meta();
         let building = if meta.building.is_empty() { meta.name.clone() } else { meta.building.clone() };
         Self { plan: meta.name.clone(), building, typology: typology.cloned(), rooms, left_out }
+    }
+
+    /// The network of a plan as it looks while nobody knows its typology: no label scheme says which
+    /// rooms are not classified, so all are here. Typology and labels are those that are known
+    /// nevertheless, to learn from.
+    pub fn without_typology(plan: &Plan, schemes: &Schemes) -> Self {
+        let typology = plan.meta().typology.clone();
+        let unknown = edit::set_meta(plan, Meta { typology: None, ..plan.meta().clone() });
+        let mut network = Self { typology: typology.clone(), ..Self::new(&unknown, schemes) };
+        for it in &mut network.rooms {
+            it.label = plan.room(it.id).and_then(|room| RoomStatus::of(plan, schemes, room).label());
+        }
+        network
     }
 
     /// The labels that are known, one for each room.

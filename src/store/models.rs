@@ -3,9 +3,11 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use etcetera::BaseStrategy as _;
+use serde_json::Value;
 
 use crate::classify::model_file::{self, About, ModelFileError};
 use crate::classify::typology::TypologyModel;
+use crate::classify::unknown::Unknown;
 use crate::classify::{Algorithm, Method, PlanClassifier};
 use crate::labels::Typology;
 
@@ -120,6 +122,18 @@ pub fn bundled_typologies() -> Option<&'static TypologyModel> {
         TypologyModel::from_value(&serde_json::from_str(text).ok()?).ok()
     };
     READ.get_or_init(read).as_ref()
+}
+
+/// What predicts the labels behind openings into unexplored space, of a set (a typology, or `standard`), as
+/// it comes with the program; `None` for a set without.
+pub fn bundled_unknown(set: &str) -> Option<&'static Unknown> {
+    static READ: OnceLock<BTreeMap<String, Unknown>> = OnceLock::new();
+    let read = || {
+        let value: Value = serde_json::from_str(include_str!("../../assets/models/unknown.json")).unwrap_or_default();
+        let sets = value.as_object().into_iter().flatten();
+        sets.filter_map(|(set, value)| Some((set.clone(), Unknown::from_value(value)?))).collect()
+    };
+    READ.get_or_init(read).get(set)
 }
 
 /// The environment variable that names another folder of the user's models.

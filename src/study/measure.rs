@@ -6,9 +6,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::comparison::moments;
 use super::{
     Average, Cell, Comparison, Condition, ConfusionTable, Curve, CurvePoint, Importance, JointCell, LabelLine, Options,
-    Rival, RoomsTable, STANDARD, Set, Study, StudyError, TypologyCount, TypologyLine,
+    Rival, RoomsTable, STANDARD, Set, Study, StudyError, TypologyCount, TypologyLine, UnknownCell,
 };
 use crate::classify::joint::Joint;
+use crate::classify::unknown::{self, PlanScore, Unknown};
 use crate::classify::{Algorithm, Classifier, Confusion, Distribution, Scores, in_plan, typology};
 use crate::dataset::folds::{Folds, FoldsError, Grouping, building_of};
 use crate::dataset::table::{FEATURES, Table, Values};
@@ -27,8 +28,8 @@ const CURVE_FOLDS: usize = 5;
 /// Times each feature is shuffled in each fold.
 const SHUFFLES: usize = 3;
 
-/// Studies a collection. `blind` are the networks of the same plans in the same order as they are seen when
-/// nobody knows their typology; without them, its inference is not measured. `work` is told how many tasks are done of how many; they come in random
+/// Studies a collection. `blind` are the same plans as [`RoomNetwork::without_typology`] sees them; without
+/// them, the inference of the typology is not measured. `work` is told how many tasks are done of how many; they come in random
 /// order, so that the share done is close to the share of the time.
 ///
 /// # Errors
@@ -69,7 +70,7 @@ pub fn validate(
                 && algorithms.contains(&Algorithm::ALL[algorithm])
                 && conditions.contains(&all[condition])
         }
-        Task::Foreign { .. } | Task::Point { .. } | Task::Joint { .. } => false,
+        Task::Foreign { .. } | Task::Point { .. } | Task::Joint { .. } | Task::Unknown { .. } => false,
     };
     let tasks: Vec<Task> = lab.tasks().into_iter().filter(is_wanted).collect();
     let done = work.map(tasks.len(), |index| lab.perform(tasks[index]))?;
@@ -126,6 +127,7 @@ enum Task {
     Foreign { model: usize, algorithm: usize },
     Point { set: usize, algorithm: usize, fold: usize, share: usize },
     Joint { set: usize, fold: usize },
+    Unknown { set: usize, fold: usize },
 }
 
 /// What came of a task.
@@ -135,6 +137,8 @@ enum Done {
     Predicted(Vec<(usize, Distribution)>, Option<[usize; FEATURES]>),
     /// Training rooms, rooms tested, and how many of them were right.
     Point(usize, usize, usize),
+    /// What lies behind openings, by plan.
+    Behind(Vec<PlanScore>),
 }
 
 /// Tasks with what came of them, sorted.
@@ -292,6 +296,7 @@ impl<'a> Lab<'a> {
             for (set, rows) in self.sets.iter().enumerate() {
                 let folds = rows.dealt(Grouping::Building).map_or(0, |dealt| dealt.count);
                 tasks.extend((0..folds).map(|fold| Task::Joint { set, fold }));
+                tasks.extend((0..folds).map(|fold| Task::Unknown { set, fold }));
             }
         }
         tasks
@@ -330,6 +335,7 @@ impl<'a> Lab<'a> {
                     None,
                 )
             }
+            Task::Unknown { set, fold } => self.look_behind(&self.sets[set], fold).unwrap_or(nothing),
             Task::Joint { set, fold } => self.predict_jointly(&self.sets[set], fold).unwrap_or(nothing),
             Task::Point { set, algorithm, fold, share } => {
                 self.curve_point(&self.sets[set], Algorithm::ALL[algorithm], fold, CURVE_SHARES[share])
@@ -392,17 +398,37 @@ impl<'a> Lab<'a> {
 
     /// The joint classifier on the buildings of a fold, having learned from the others of the set.
     fn predict_jointly(&self, set: &SetRows, fold: usize) -> Option<Done> {
-        let (tested, learned) = Self::split(set, Grouping::Building, fold)?;
+        let (tested, _) = Self::split(set, Grouping::Building, fold)?;
+        let (_, taught) = self.networks_of(set, fold)?;
         let networks = self.collection.networks();
-        let of = |rows: &[usize]| -> BTreeSet<usize> { rows.iter().map(|&row| self.places[row].network).collect() };
-        let taught: Vec<&RoomNetwork> = of(&learned).into_iter().map(|network| &networks[network]).collect();
         // Threads are busy with other tasks.
         let alone = Work::quiet().on_threads(1);
         let joint = Joint::train(&taught, seed_of_part(self.options.seed, fold), &alone).ok()?;
-        let said: BTreeMap<usize, Vec<Distribution>> =
-            of(&tested).into_iter().map(|network| (network, joint.predict(&networks[network], &[]))).collect();
+        let mut said: BTreeMap<usize, Vec<Distribution>> =
+            tested.iter().map(|&row| self.places[row].network).map(|at| (at, Vec::new())).collect();
+        for (&network, said) in &mut said {
+            *said = joint.predict(&networks[network], &[]);
+        }
         let prediction = |row: usize| Some((row, *said.get(&self.places[row].network)?.get(self.places[row].room)?));
         Some(Done::Predicted(tested.into_iter().filter_map(prediction).collect(), None))
+    }
+
+    /// What lies behind the openings of a fold's buildings, having learned from the others of the set.
+    fn look_behind(&self, set: &SetRows, fold: usize) -> Option<Done> {
+        let (tested, learned) = self.networks_of(set, fold)?;
+        let unknown = Unknown::train(&learned, seed_of_part(self.options.seed, fold))?;
+        Some(Done::Behind(unknown::score(&unknown, &tested)))
+    }
+
+    /// The networks with rooms of a set that a fold by building tests, and the others.
+    fn networks_of(&self, set: &SetRows, fold: usize) -> Option<(Vec<&RoomNetwork>, Vec<&RoomNetwork>)> {
+        let (tested, learned) = Self::split(set, Grouping::Building, fold)?;
+        let networks = self.collection.networks();
+        let of = |rows: &[usize]| -> Vec<&RoomNetwork> {
+            let indices: BTreeSet<usize> = rows.iter().map(|&row| self.places[row].network).collect();
+            indices.into_iter().map(|network| &networks[network]).collect()
+        };
+        Some((of(&tested), of(&learned)))
     }
 
     fn curve_point(&self, set: &SetRows, algorithm: Algorithm, fold: usize, share: f64) -> Done {
@@ -451,6 +477,7 @@ impl<'a> Lab<'a> {
             learning_curves: Vec::new(),
             importance: Vec::new(),
             joint: Vec::new(),
+            unknown: Vec::new(),
             typologies: Vec::new(),
             notes: self.notes.clone(),
         };
@@ -480,6 +507,7 @@ impl<'a> Lab<'a> {
             }
         }
         study.joint = (0..self.sets.len()).filter_map(|set| self.compare_jointly(results, set, &study)).collect();
+        study.unknown = (0..self.sets.len()).filter_map(|set| self.compare_behind(results, set)).collect();
         self.compare(results, &self.right(results), &mut study);
         study
     }
@@ -526,6 +554,24 @@ impl<'a> Lab<'a> {
         let comparison = Comparison::of(pairs, self.options.seed)?;
         let scores = Scores::of(of_joint.iter().map(|(fold, row, said)| (*fold, *said, self.rows[*row].label)));
         Some(JointCell { set: name.clone(), best, comparison, scores })
+    }
+
+    /// What is said of what lies behind openings beside the most frequent label.
+    fn compare_behind(&self, results: &Results, wanted: usize) -> Option<UnknownCell> {
+        let mut openings: Vec<(&str, f64, f64)> = Vec::new();
+        for (task, done) in &results.0 {
+            if let (Task::Unknown { set, .. }, Done::Behind(plans)) = (task, done)
+                && *set == wanted
+            {
+                for plan in plans {
+                    let share = |part: usize| part as f64 / plan.openings as f64;
+                    let of_one = (plan.building.as_str(), share(plan.right), share(plan.most_frequent));
+                    openings.extend((0..plan.openings).map(|_| of_one));
+                }
+            }
+        }
+        let comparison = Comparison::of(openings, self.options.seed)?;
+        Some(UnknownCell { set: self.sets[wanted].name.clone(), comparison })
     }
 
     /// How right each set's algorithms are on each row, under the main condition; `None` for rows that
@@ -637,13 +683,12 @@ fn right_when_shuffled(classifier: &Classifier, values: &[Values], truths: &[Lab
 
 /// How typologies are inferred, folds by building. Nothing without several typologies.
 fn infer_typologies(collection: &Collection, blind: &[RoomNetwork], options: Options) -> Vec<TypologyLine> {
-    let networks: Vec<&RoomNetwork> = collection.networks().iter().collect();
     let typologies = collection.typologies();
-    if typologies.len() < 2 || blind.len() != networks.len() {
+    if typologies.len() < 2 || blind.is_empty() {
         return Vec::new();
     }
     let blind: Vec<&RoomNetwork> = blind.iter().collect();
-    let inferred = typology::cross_validate(&networks, &blind, &BTreeSet::new(), options.folds.max(2), options.seed);
+    let inferred = typology::cross_validate(&blind, &BTreeSet::new(), options.folds, options.seed);
     let line = |typology: &Typology| {
         let of_truth: Vec<_> = inferred.iter().filter(|plan| plan.truth == *typology).collect();
         let best = |plan: &typology::Inferred| plan.posterior.first().map(|(best, _)| best.clone());

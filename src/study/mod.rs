@@ -83,6 +83,8 @@ pub struct Study {
     pub importance: Vec<Importance>,
     /// The joint classifier on buildings never seen.
     pub joint: Vec<JointCell>,
+    /// What lies behind openings into unexplored space, on buildings never seen.
+    pub unknown: Vec<UnknownCell>,
     /// How well typologies are inferred from plans of buildings never seen.
     pub typologies: Vec<TypologyLine>,
     /// What could not be measured, and why.
@@ -230,6 +232,15 @@ pub struct JointCell {
     /// First the joint classifier, second the best of the four.
     pub comparison: Comparison,
     pub scores: Scores,
+}
+
+/// What lies behind an opening, predicted from the room on this side: each opening between two labelled rooms
+/// in turn leads into unexplored space; folds by building.
+#[derive(Clone, Debug, Serialize)]
+pub struct UnknownCell {
+    pub set: String,
+    /// By opening, each from both sides: first the prediction, second the most frequent label.
+    pub comparison: Comparison,
 }
 
 /// How often plans of one typology were taken for each.

@@ -8,7 +8,7 @@ use crate::labels::Label;
 use crate::parallel::{Cancelled, Work};
 use crate::random::{Random, seed_of_part};
 
-/// Trees of a forest. Twice as many gained 0.1 points on schools and made the file twice as large.
+/// Trees of a forest: the usual number, at which the mean of their answers has settled.
 pub(super) const TREES: usize = 100;
 
 /// Fewest samples in a leaf.
@@ -17,7 +17,7 @@ const LEAST_IN_LEAF: usize = 3;
 /// Questions tried at a node, as a share of the features.
 const TRIED: f64 = 0.4;
 
-/// No path is longer. Real trees end before 30; the bound is for the stack.
+/// No path is longer: growing a tree recurses, and data made on purpose could make it deep.
 const MOST_DEPTH: usize = 60;
 
 /// Samples to learn from, by column.

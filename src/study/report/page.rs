@@ -31,6 +31,7 @@ pub(super) fn page(study: &Study) -> String {
                     (conditions(study))
                     (joint(study))
                     (typologies(study))
+                    (unknown(study))
                     (confusion(study, paper))
                     (rooms(study, paper))
                     (curves(study))
@@ -355,6 +356,39 @@ fn joint(study: &Study) -> Markup {
                         }
                     }
                 }
+            }
+        }
+    }
+}
+
+fn unknown(study: &Study) -> Markup {
+    if study.unknown.is_empty() {
+        return html! {};
+    }
+    html! {
+        section {
+            h2 { "Behind a door not yet opened" }
+            table {
+                thead { tr {
+                    th.left { "Set" } th { "Openings, both sides" } th { "Right, %" } th { "Most frequent label, %" }
+                    th { "Difference [95 %]" } th { "p" }
+                } }
+                tbody {
+                    @for cell in &study.unknown {
+                        tr {
+                            th.left { (set_title(&cell.set)) }
+                            td { (cell.comparison.rooms) }
+                            td { (percent(cell.comparison.first)) }
+                            td { (percent(cell.comparison.second)) }
+                            td { (difference(&cell.comparison)) }
+                            td { (p_value(cell.comparison.p)) }
+                        }
+                    }
+                }
+            }
+            p.caption {
+                "The label of the room behind an opening, predicted from the room on this side, whose label and other \
+                 neighbours are known; folds that never split a building."
             }
         }
     }

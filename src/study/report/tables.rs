@@ -56,6 +56,7 @@ pub(super) fn tables(study: &Study) -> Vec<(&'static str, Table)> {
         ("reliability", reliability(study)),
         ("joint", joint(study)),
         ("typologies", typologies(study)),
+        ("unknown", unknown(study)),
     ]
 }
 
@@ -261,6 +262,18 @@ fn joint(study: &Study) -> Table {
             number(cell.scores.brier),
             number(cell.scores.calibration_error),
         ]);
+    }
+    table
+}
+
+fn unknown(study: &Study) -> Table {
+    let header = ["set", "openings", "buildings", "right", "most_frequent", "difference", "low_95", "high_95", "p"];
+    let mut table = Table::new(&header);
+    for cell in &study.unknown {
+        let comparison = &cell.comparison;
+        let shares = [comparison.first, comparison.second, comparison.difference, comparison.low, comparison.high];
+        let counts = [cell.set.clone(), comparison.rooms.to_string(), comparison.buildings.to_string()];
+        table.push(counts.into_iter().chain(shares.map(number)).chain([number(comparison.p)]));
     }
     table
 }
