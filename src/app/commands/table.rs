@@ -187,6 +187,14 @@ fn has_messages(app: &App) -> Availability {
     when(!app.messages.is_empty(), "there is no message")
 }
 
+fn can_record(app: &App) -> Availability {
+    // A script starts from what is in a file.
+    when(
+        app.is_recording() || !app.has_unsaved_changes(),
+        "save the plan first: a script starts from what is in its file",
+    )
+}
+
 fn is_asked(app: &App) -> Availability {
     when(app.question.is_some(), "nothing is asked")
 }
@@ -622,6 +630,15 @@ pub const COMMANDS: &[Command] = &[
         |app, context| app.set_theme(ThemeChoice::Dark, context),
     )
     .menu(Menu::View, 4),
+    switch(
+        "record-script",
+        "Record a script",
+        "Write what is done as a script that does it again; once more to end and save it",
+        can_record,
+        App::is_recording,
+        |app, _| if app.is_recording() { app.stop_recording(None) } else { app.wants_recording = true },
+    )
+    .menu(Menu::View, 5),
     // What the pointer does, for scripts.
     with(
         "pick",

@@ -47,7 +47,12 @@ pub(super) fn expectations() -> impl Iterator<Item = (&'static str, &'static str
 pub(super) fn command(command: &'static Command, arguments: Vec<String>) -> Result<Act, String> {
     let most = command.arguments.len();
     if arguments.len() > most {
-        return Err(format!("{} stands behind {}, which takes {}", arguments.len(), command.id, stage::count(most, "argument")));
+        return Err(format!(
+            "{} stands behind {}, which takes {}",
+            arguments.len(),
+            command.id,
+            stage::count(most, "argument")
+        ));
     }
     Ok(Box::new(move |stage| {
         let words: Vec<String> = arguments
