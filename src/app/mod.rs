@@ -215,7 +215,8 @@ impl App {
     /// One frame.
     fn frame(&mut self, ui: &mut Ui) {
         let context = ui.ctx().clone();
-        self.record(&context);
+        // What was done since the last frame; what it opens is still known.
+        self.write_executed();
         self.take_outcomes(&context);
         self.take_dropped_files(&context);
         self.take_close_request(&context);

@@ -59,7 +59,7 @@ fn write(folder: &Path, name: &str, text: &str) -> String {
 fn snapshots() {
     let folder = tempfile::tempdir().unwrap();
     let script =
-        write(folder.path(), "look.replay", "size 400x300\nopen-sample dwelling\nsnapshot plan --region canvas\n");
+        write(folder.path(), "look.replay", "size 900x500\nopen-sample dwelling\nsnapshot plan --region canvas\n");
     let (code, _, err) = replay(&[&script]);
     assert_eq!(code, 1);
     assert!(err.contains("look.replay:3: snapshot plan: no reference picture plan.png"), "{err}");
@@ -76,7 +76,7 @@ fn snapshots() {
     write(
         folder.path(),
         "look.replay",
-        "size 400x300\nopen-sample dwelling\nfill-none\nsnapshot plan --region canvas\n",
+        "size 900x500\nopen-sample dwelling\nfill-none\nsnapshot plan --region canvas\n",
     );
     let (code, _, err) = replay(&[&script]);
     assert_eq!(code, 1);

@@ -33,6 +33,7 @@ fn window() -> Offscreen {
 
 /// Ends a recording and saves it.
 fn save(window: &mut Offscreen, path: &Path) {
+    window.forget_answers();
     window.answer_dialog(Some(path.to_owned()));
     window.run_command_with("record-script", &["off"]).unwrap();
     window.settle().unwrap();

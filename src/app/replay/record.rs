@@ -25,7 +25,7 @@ use crate::store::{SaveError, save_bytes};
 /// A recording at work.
 pub(in crate::app) struct Recorder {
     /// The script's lines so far.
-    lines: Vec<String>,
+    lines: Vec<Line>,
     files: Files,
     /// What the system made of the window when that was last written down.
     frame: Frame,
@@ -33,6 +33,22 @@ pub(in crate::app) struct Recorder {
     start: Option<(u64, usize)>,
     /// A view that was seen and not written down yet.
     view: Option<View>,
+    /// Whether the view moved in this frame.
+    is_moving: bool,
+}
+
+/// The words of a line, not yet in quotes.
+#[derive(Clone, Debug)]
+struct Line(Vec<String>);
+
+impl Line {
+    fn new(words: &[&str]) -> Self {
+        Self(words.iter().map(|word| (*word).to_owned()).collect())
+    }
+
+    fn starts_with(&self, word: &str) -> bool {
+        self.0.first().is_some_and(|first| first == word)
+    }
 }
 
 /// The files that go with a recording: names in its folder, and what they hold.
@@ -59,15 +75,16 @@ struct View {
 /// A recording that has ended: a script, and the files that go with it.
 #[derive(Clone, Debug)]
 pub(in crate::app) struct Recording {
-    lines: Vec<String>,
+    lines: Vec<Line>,
     files: Files,
 }
 
 /// The ending of recordings' names.
 const ENDING: &str = ".replay";
 
-/// In a script's lines, the folder of the files that go with it: its name is known when it is saved.
-const FOLDER: &str = "\u{1}files";
+/// In a script's words, the folder of the files that go with it: its name is known when it is saved. No
+/// other word holds this character.
+const FOLDER: &str = "\0";
 
 /// Commands of the recorder's own, which no recording holds.
 const OWN: [&str; 1] = ["record-script"];
@@ -85,16 +102,16 @@ impl Frame {
     }
 
     /// The steps from another.
-    fn lines(self, from: Self) -> Vec<String> {
+    fn lines(self, from: Self) -> Vec<Line> {
         let mut lines = Vec::new();
         if (self.width, self.height) != (from.width, from.height) {
-            lines.push(format!("size {}x{}", self.width, self.height));
+            lines.push(Line::new(&["size", &format!("{}x{}", self.width, self.height)]));
         }
         if self.scale != from.scale {
-            lines.push(format!("scale {}", self.scale));
+            lines.push(Line::new(&["scale", &self.scale.to_string()]));
         }
         if self.is_dark != from.is_dark {
-            lines.push(format!("theme {}", if self.is_dark { "dark" } else { "light" }));
+            lines.push(Line::new(&["theme", if self.is_dark { "dark" } else { "light" }]));
         }
         lines
     }
@@ -118,8 +135,9 @@ impl View {
         }
     }
 
-    fn line(self) -> String {
-        format!("view {} {} {}", self.x_m, self.y_m, self.px_per_m)
+    fn line(self) -> Line {
+        let [x, y, scale] = [self.x_m, self.y_m, self.px_per_m].map(|number| number.to_string());
+        Line::new(&["view", &x, &y, &scale])
     }
 }
 
@@ -171,6 +189,7 @@ impl Recorder {
             let number = |index: usize| arguments.get(index).and_then(|word| word.parse().ok());
             if let (Some(x_m), Some(y_m), Some(px_per_m)) = (number(0), number(1), number(2)) {
                 self.view = Some(View { x_m, y_m, px_per_m });
+                self.is_moving = true;
             }
             return;
         }
@@ -193,22 +212,28 @@ impl Recorder {
             ArgumentKind::NewPlanFile => document::file_name(Path::new(word)),
             _ => word.clone(),
         });
-        let words: Vec<String> = words.map(|word| written(&word)).collect();
-        let line = std::iter::once((*id).to_owned()).chain(words).collect::<Vec<_>>().join(" ");
+        let line = Line(std::iter::once((*id).to_owned()).chain(words).collect());
         self.lines.push(line);
     }
 
+    /// Writes down a view, or the one that was seen. Of several in a row only the last counts.
+    fn write_view(&mut self, view: Option<View>) {
+        let Some(view) = view.or(self.view.take()) else { return };
+        if self.lines.last().is_some_and(|last| last.starts_with("view")) {
+            self.lines.pop();
+        }
+        self.lines.push(view.line());
+    }
+
     /// The step that opens a plan.
-    fn open(&mut self, origin: &Origin) -> String {
+    fn open(&mut self, origin: &Origin) -> Line {
         match origin {
-            Origin::Bundled(index) => format!("open-sample {}", sample_word(*index)),
-            Origin::File { path, storey } => {
-                let Some(word) = self.files.add_file(path) else {
-                    return format!("open-missing {}", written(&document::file_name(path)));
-                };
-                let storey = if *storey == 0 { String::new() } else { format!(" {}", storey + 1) };
-                format!("open {}{storey}", written(&word))
-            }
+            Origin::Bundled(index) => Line::new(&["open-sample", sample_word(*index)]),
+            Origin::File { path, storey } => match self.files.add_file(path) {
+                None => Line::new(&["open-missing", &document::file_name(path)]),
+                Some(word) if *storey == 0 => Line::new(&["open", &word]),
+                Some(word) => Line::new(&["open", &word, &(storey + 1).to_string()]),
+            },
         }
     }
 }
@@ -219,7 +244,7 @@ impl Recorder {
         let (mut lines, mut files) = (self.lines.clone(), self.files.clone());
         if let Some(plan) = plan {
             let path = files.add("end.plan.json", plan_json::to_bytes(plan));
-            lines.push(format!("expect plan equals {}", written(&path)));
+            lines.push(Line::new(&["expect", "plan", "equals", &path]));
         }
         Recording { lines, files }
     }
@@ -243,8 +268,9 @@ impl Recording {
             save_bytes(&file, bytes)?;
         }
         let mut text = format!("# Recorded by Enfilade {}.\n", env!("CARGO_PKG_VERSION"));
-        for line in &self.lines {
-            text.push_str(&line.replace(FOLDER, &folder_name));
+        for Line(words) in &self.lines {
+            let words: Vec<String> = words.iter().map(|word| written(&word.replace(FOLDER, &folder_name))).collect();
+            text.push_str(&words.join(" "));
             text.push('\n');
         }
         save_bytes(path, text.as_bytes())
@@ -260,8 +286,14 @@ impl App {
     /// Begins to write down what is done.
     fn start_recording(&mut self, context: &Context) {
         let frame = Frame::of(context);
-        let mut recorder =
-            Recorder { lines: frame.lines(FIRST_FRAME), files: Files::default(), frame, start: None, view: None };
+        let mut recorder = Recorder {
+            lines: frame.lines(FIRST_FRAME),
+            files: Files::default(),
+            frame,
+            start: None,
+            view: None,
+            is_moving: false,
+        };
         if let Some(document) = &self.document {
             recorder.start = Some((document.number, document.history.position()));
             let line = recorder.open(&document.origin);
@@ -278,9 +310,9 @@ impl App {
     }
 
     /// The steps to what is shown and picked, from how the program starts.
-    fn lines_of_state(&self) -> Vec<String> {
+    fn lines_of_state(&self) -> Vec<Line> {
         let first = Self::new(&Context::default(), Mode::Inline, Dialogs::Given(Given::default()), Motion::Still);
-        let mut lines: Vec<String> = COMMANDS
+        let mut lines: Vec<Line> = COMMANDS
             .iter()
             .filter(|command| {
                 command.menu.is_some_and(|(menu, _)| menu == Menu::View) && command.why_not(self).is_none()
@@ -288,22 +320,21 @@ impl App {
             .filter_map(|command| {
                 let is_on = command.is_on(self).filter(|is_on| Some(*is_on) != command.is_on(&first))?;
                 match (command.arguments.is_empty(), is_on) {
-                    (true, true) => Some(command.id.to_owned()),
+                    (true, true) => Some(Line::new(&[command.id])),
                     (true, false) => None,
-                    (false, is_on) => Some(format!("{} {}", command.id, if is_on { "on" } else { "off" })),
+                    (false, is_on) => Some(Line::new(&[command.id, if is_on { "on" } else { "off" }])),
                 }
             })
             .collect();
         match (self.picked, self.plan()) {
-            (Some(Picked::Room(id)), Some(plan)) => lines.push(format!("pick {}", written(&room_word(plan, id)))),
-            (Some(Picked::Opening(id)), Some(_)) => lines.push(format!("pick-opening {id}")),
+            (Some(Picked::Room(id)), Some(plan)) => lines.push(Line::new(&["pick", &room_word(plan, id)])),
+            (Some(Picked::Opening(id)), Some(_)) => lines.push(Line::new(&["pick-opening", &id.to_string()])),
             _ => {}
         }
         lines
     }
 
-    /// Writes down what was done since the last call: before a frame what was done outside of one, and
-    /// after it what was done in it.
+    /// Writes down what was done in a frame that ends.
     pub(in crate::app) fn record(&mut self, context: &Context) {
         if std::mem::take(&mut self.wants_recording) {
             self.start_recording(context);
@@ -314,13 +345,14 @@ impl App {
             let lines = frame.lines(recorder.frame);
             recorder.frame = frame;
             // Of a window that is being drawn larger, only how large it becomes.
-            if lines.len() == 1 && recorder.lines.last().is_some_and(|last| last.starts_with("size ")) {
+            if lines.len() == 1 && recorder.lines.last().is_some_and(|last| last.starts_with("size")) {
                 recorder.lines.pop();
             }
             recorder.lines.extend(lines);
         }
-        if self.write_executed() == 0 {
-            // Whatever moved the view has come to rest.
+        self.write_executed();
+        let is_moving = self.recorder.as_mut().is_some_and(|recorder| std::mem::take(&mut recorder.is_moving));
+        if !is_moving {
             self.round_view();
         }
         let start = self.recorder.as_ref().and_then(|recorder| recorder.start);
@@ -343,18 +375,17 @@ impl App {
         }
     }
 
-    /// Writes down the commands that were done, and gives how many there were.
-    fn write_executed(&mut self) -> usize {
+    /// Writes down the commands that were done.
+    pub(in crate::app) fn write_executed(&mut self) {
         let executed = self.take_executed();
-        let Some(recorder) = &mut self.recorder else { return 0 };
+        let Some(recorder) = &mut self.recorder else { return };
         for executed in &executed {
             if executed.id != "view" {
                 // What follows was done from this very view.
-                recorder.lines.extend(recorder.view.take().map(View::line));
+                recorder.write_view(None);
             }
             recorder.note(executed, self.opening.as_ref());
         }
-        executed.len()
     }
 
     /// Writes down the view that is seen, rounded, and shows it as it is written.
@@ -363,7 +394,7 @@ impl App {
         if let Some(view) = recorder.view.take() {
             let view = view.rounded();
             self.canvas.set_view(Point::new(view.x_m, view.y_m), view.px_per_m);
-            recorder.lines.push(view.line());
+            recorder.write_view(Some(view));
         }
     }
 

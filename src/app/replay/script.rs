@@ -102,7 +102,7 @@ fn step(line: &str) -> Result<Option<Act>, (String, String)> {
             let form = || format!("write: {}", verb.form);
             let act = (verb.parse)(&mut words).map_err(|what| (what, form()))?;
             if let Some(word) = words.next() {
-                return Err((format!("{} is too much", words::written(&word.text)), form()));
+                return Err((format!("{} is one word too many", words::written(&word.text)), form()));
             }
             act
         }
