@@ -17,6 +17,8 @@ pub mod geometry;
 pub mod labels;
 pub mod parallel;
 pub mod plan;
+pub mod predict;
 pub mod random;
 pub mod store;
+pub mod study;
 pub mod topology;

@@ -6,9 +6,18 @@
 
 #[path = "commands/arguments.rs"]
 mod arguments;
+#[path = "window/golden.rs"]
+mod golden;
+#[path = "commands/palette.rs"]
+mod palette;
+#[path = "commands/pictures.rs"]
+mod pictures;
 #[path = "commands/recorded.rs"]
 mod recorded;
+#[path = "commands/shortcuts.rs"]
+mod shortcuts;
 
+use egui::{Key, Modifiers};
 use enfilade::app::{Executed, Offscreen, OffscreenOptions, Picked};
 use enfilade::plan::Room;
 
@@ -33,6 +42,36 @@ fn refusal(window: &mut Offscreen, id: &str, arguments: &[&str]) -> String {
     window.settle().unwrap();
     assert_eq!(window.app().plan(), before.as_ref(), "{id} is refused, so it does nothing");
     error
+}
+
+/// Clicks a control that must be there.
+fn press(window: &mut Offscreen, name: &str) {
+    let names: Vec<String> = window.controls().into_iter().map(|control| control.name).collect();
+    assert!(window.click_control(name), "no control '{name}' among {names:?}");
+    window.settle().unwrap();
+}
+
+/// Presses keys, as written in settings: 'Ctrl+Shift+P'.
+fn keys(window: &mut Offscreen, text: &str) {
+    let mut modifiers = Modifiers::NONE;
+    let mut name = text;
+    while let Some((first, rest)) = name.split_once('+').filter(|(_, rest)| !rest.is_empty()) {
+        match first {
+            "Ctrl" => modifiers = modifiers | Modifiers::COMMAND | Modifiers::CTRL,
+            "Shift" => modifiers = modifiers | Modifiers::SHIFT,
+            "Alt" => modifiers = modifiers | Modifiers::ALT,
+            other => panic!("no modifier {other}"),
+        }
+        name = rest;
+    }
+    window.key(modifiers, Key::from_name(name).unwrap_or_else(|| panic!("no key {name}")));
+    window.settle().unwrap();
+}
+
+/// Types a text into what has the keyboard.
+fn type_in(window: &mut Offscreen, text: &str) {
+    window.text(text);
+    window.settle().unwrap();
 }
 
 /// The picked room.

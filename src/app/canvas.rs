@@ -211,7 +211,9 @@ impl Canvas {
         let (width_px, height_px) = (f64::from(rect.width()), f64::from(rect.height()));
         let bounds = shown.map_or_else(|| document.plan().bounds(), |derived| derived.drawing.bounds());
         let fitting = |bounds: Bounds| {
-            let view = View::fitting(bounds, width_px, height_px, FIT_MARGIN);
+            // A small canvas is for the plan, not for the space about it.
+            let margin = FIT_MARGIN.min(width_px.min(height_px) / 8.0);
+            let view = View::fitting(bounds, width_px, height_px, margin);
             Camera { centre: view.centre, px_per_m: view.px_per_m, is_fitted: false }
         };
         let whole = || Camera { is_fitted: true, ..fitting(bounds) };

@@ -42,6 +42,7 @@ pub enum Icon {
     EyeOff,
     Sidebar,
     Inspector,
+    Search,
 }
 
 /// Part of an icon, in units of the grid.
@@ -188,6 +189,7 @@ impl Icon {
                 Line(&[(6.5, 8.0), (13.8, 8.0)]),
                 Line(&[(11.0, 5.2), (13.8, 8.0), (11.0, 10.8)]),
             ],
+            Self::Search => &[Circle(7.0, 7.0, 4.5), Line(&[(10.4, 10.4), (13.8, 13.8)])],
             Self::Check => &[Line(&[(3.2, 8.4), (6.6, 11.8), (12.8, 4.6)])],
             Self::ChevronDown => &[Line(&[(4.5, 6.5), (8.0, 10.0), (11.5, 6.5)])],
             Self::ChevronRight => &[Line(&[(6.5, 4.5), (10.0, 8.0), (6.5, 11.5)])],

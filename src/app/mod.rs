@@ -18,6 +18,8 @@ mod plan_list;
 mod raster;
 pub mod replay;
 mod scene_painter;
+mod search;
+mod settings;
 mod theme;
 mod widgets;
 mod window;
@@ -45,6 +47,7 @@ use panels::welcome::Samples;
 use panels::{Field, FieldKind, Panels};
 use plan_list::PlanList;
 use replay::{Recorder, Recording};
+use settings::Settings;
 
 use crate::draw::{self, Fill, LabelColours, Palette};
 use crate::features::RoomStatus;
@@ -66,6 +69,7 @@ pub struct App {
     picked: Option<Picked>,
     layers: LayerSettings,
     theme: ThemeChoice,
+    settings: Settings,
     panels: Panels,
     samples: Samples,
     messages: Vec<Message>,
@@ -193,6 +197,7 @@ impl App {
             picked: None,
             layers: LayerSettings::default(),
             theme: ThemeChoice::default(),
+            settings: Settings::default(),
             panels: Panels::default(),
             samples: Samples::default(),
             messages: Vec::new(),
@@ -323,11 +328,12 @@ impl App {
         if self.question.is_some() || self.panels.is_dialog_open() || is_menu_open {
             return;
         }
-        for command in context.input_mut(|input| commands::take_pressed(input, is_typing)) {
+        let pressed = context.input_mut(|input| commands::take_pressed(input, &self.settings, is_typing));
+        for command in pressed {
             match self.run_command_with(command.id, &[], context) {
                 // Escape with nothing picked needs no word.
                 Err(CommandError::NotNow { reason, .. }) if command.id != "clear-selection" => {
-                    self.status = format!("{}: {reason}", command.title.trim_end_matches('…'));
+                    self.status = format!("{}: {reason}", command.plain_title());
                 }
                 Ok(()) | Err(_) => {}
             }

@@ -134,6 +134,12 @@ impl Offscreen {
         self.app.run_command_with(id, arguments, &self.context)
     }
 
+    /// Keeps settings in a file from now on, and takes over what it holds. Without, none are read or
+    /// kept.
+    pub fn use_settings(&mut self, file: &Path) {
+        self.app.use_settings(file.to_owned());
+    }
+
     /// Starts or stops keeping the commands that are done; as [`App::watch_commands`].
     pub fn watch_commands(&mut self, is_watched: bool) {
         self.app.watch_commands(is_watched);

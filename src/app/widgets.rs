@@ -70,6 +70,18 @@ pub(super) fn hairline(ui: &mut Ui) {
     ui.painter().hline(x, rect.center().y, Stroke::new(1.0, colours(ui).border));
 }
 
+/// A hairline across what it is in, without space about it.
+pub(super) fn hairline_in(ui: &mut Ui) {
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 1.0), Sense::hover());
+    ui.painter().hline(rect.x_range(), rect.center().y, Stroke::new(1.0, colours(ui).border));
+}
+
+/// A line of text at the left of a rectangle, in its middle, cut off where the rectangle ends.
+pub(super) fn put_line(ui: &Ui, text: &str, font: FontId, colour: Color32, rect: Rect) {
+    let galley = line(ui, text, font, colour, rect.width());
+    put(ui, galley, rect.left(), rect.center().y);
+}
+
 /// A square button with an icon.
 pub(super) fn icon_button(ui: &mut Ui, icon: Icon, name: &str, is_on: Option<bool>) -> Response {
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(ROW), Sense::click());
@@ -257,7 +269,7 @@ impl<'a> Row<'a> {
 }
 
 /// A square of a colour, of 12 points.
-fn swatch(ui: &Ui, centre: Pos2, colour: Color32) {
+pub(super) fn swatch(ui: &Ui, centre: Pos2, colour: Color32) {
     let square = Rect::from_center_size(centre, Vec2::splat(12.0));
     ui.painter().rect_filled(square, 3.0, colour);
     let rim = colours(ui).text.gamma_multiply(0.22);

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 
 use egui::{Ui, ViewportBuilder, vec2};
 
-use super::App;
 use super::background::Mode;
 use super::dialogs::Dialogs;
 use super::document::{Origin, bundled};
 use super::theme::Motion;
+use super::{App, settings};
 
 /// What the window opens with.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -58,6 +58,9 @@ pub fn run_window(options: WindowOptions) -> Result<(), WindowError> {
         let context = &creation.egui_ctx;
         let mode = Mode::Threads(context.clone());
         let mut app = App::new(context, mode, Dialogs::System { is_open: false }, Motion::Smooth);
+        if let Some(file) = settings::file() {
+            app.use_settings(file);
+        }
         let first = match options.plan {
             Some(path) => Some(Origin::File { path, storey: 0 }),
             None => (!bundled().is_empty()).then_some(Origin::Bundled(0)),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::numbers::{IN_WORDS, percent, value_in_words};
+use super::numbers::{in_words, percent, value_in_words};
 use super::rules::{Bound, Condition};
 use super::{Classifier, Model};
 use crate::dataset::table::{FEATURES, RoomSource, Values};
@@ -189,17 +189,67 @@ fn tightest(steps: &[Step]) -> Vec<Condition> {
     conditions
 }
 
+/// The bounds that conditions set to one feature.
+#[derive(Clone, Copy, Default)]
+struct Bounds {
+    /// At least this, or more than this.
+    low: Option<Bound>,
+    at_most: Option<f64>,
+}
+
+impl Bounds {
+    fn of(conditions: &[Condition], feature: usize) -> Self {
+        let mut bounds = Self::default();
+        for condition in conditions.iter().filter(|condition| condition.feature == feature) {
+            match condition.bound {
+                Bound::AtMost(bound) => bounds.at_most = Some(bound),
+                low => bounds.low = Some(low),
+            }
+        }
+        bounds
+    }
+
+    /// As people say it: `area at most 6.2 m²`, `axes ratio from 1.4 to 2`, `at least 3 openings`.
+    fn words(self, feature: usize) -> Option<String> {
+        if feature >= 2 {
+            return self.count_words(feature);
+        }
+        let value = |bound| value_in_words(feature, bound);
+        let words = match (self.low, self.at_most) {
+            (None, None) => return None,
+            (None, Some(most)) => format!("at most {}", value(most)),
+            (Some(Bound::Over(less)), None) => format!("over {}", value(less)),
+            (Some(Bound::AtLeast(least) | Bound::AtMost(least)), None) => format!("at least {}", value(least)),
+            (Some(Bound::Over(low) | Bound::AtLeast(low) | Bound::AtMost(low)), Some(most)) => {
+                format!("from {} to {}", value(low), value(most))
+            }
+        };
+        Some(format!("{} {words}", in_words::NAMES[feature]))
+    }
+
+    /// Counts are whole numbers: over 2 is at least 3.
+    fn count_words(self, feature: usize) -> Option<String> {
+        let least = self.low.map(|low| match low {
+            Bound::Over(less) => less.floor() + 1.0,
+            Bound::AtLeast(least) | Bound::AtMost(least) => least.ceil(),
+        });
+        let most = self.at_most.map(f64::floor);
+        let name = |count| in_words::of_count(feature, count);
+        Some(match (least.filter(|&least| least > 0.0), most) {
+            (None, None) => return None,
+            (None, Some(most)) if most <= 0.0 => name(0.0),
+            (None, Some(most)) => format!("at most {}", name(most)),
+            (Some(least), None) => format!("at least {}", name(least)),
+            (Some(least), Some(most)) if least == most => format!("exactly {}", name(most)),
+            (Some(least), Some(most)) => format!("{least} to {}", name(most)),
+        })
+    }
+}
+
 impl Condition {
     /// The condition in words: `area at most 6.2 m²`.
     pub fn words(&self) -> String {
-        let name = IN_WORDS[self.feature];
-        let counts = self.feature >= 2;
-        match self.bound {
-            Bound::AtMost(bound) if counts && bound < 1.0 => format!("no {name}"),
-            Bound::AtMost(bound) => format!("{name} at most {}", value_in_words(self.feature, bound)),
-            Bound::AtLeast(bound) => format!("{name} at least {}", value_in_words(self.feature, bound)),
-            Bound::Over(bound) => format!("{name} over {}", value_in_words(self.feature, bound)),
-        }
+        joined(&[*self])
     }
 
     /// The condition as the paper writes features: `a <= 6.2`.
@@ -213,9 +263,15 @@ impl Condition {
     }
 }
 
+/// Conditions as one phrase, the two bounds of a feature taken together.
 fn joined(conditions: &[Condition]) -> String {
-    let words: Vec<String> = conditions.iter().map(Condition::words).collect();
-    words.join(", ")
+    let words: Vec<String> =
+        (0..FEATURES).filter_map(|feature| Bounds::of(conditions, feature).words(feature)).collect();
+    match words.split_last() {
+        None => "any value".to_owned(),
+        Some((only, [])) => only.clone(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+    }
 }
 
 /// Neighbours named in a sentence; more are in the data.
@@ -243,44 +299,59 @@ impl Explanation {
 impl RuleReason {
     fn write(&self, label: &str, words: &mut String) -> std::fmt::Result {
         let Self { number, rules, decides, right, .. } = self;
-        if self.conditions.is_empty() {
-            write!(words, "None of the {} rules before covers it: {label}.", rules - 1)?;
-        } else {
-            write!(words, "Rule {number} of {rules}: {} means {label}.", joined(&self.conditions))?;
+        match (self.conditions.is_empty(), rules - 1) {
+            (true, 0) => write!(words, "The only rule: every room is a {label}.")?,
+            (true, 1) => write!(words, "The one rule before does not apply, so it is a {label}.")?,
+            (true, before) => write!(words, "None of the {before} rules before applies, so it is a {label}.")?,
+            (false, _) => write!(words, "Rule {number} of {rules}: {} means {label}.", joined(&self.conditions))?,
         }
-        write!(words, " It decides {decides} training rooms, {right} of them rightly.")
+        match (decides, right) {
+            (0, _) => write!(words, " It decides no training room."),
+            (1, 1) => write!(words, " It decides one training room, rightly."),
+            (1, _) => write!(words, " It decides one training room, wrongly."),
+            _ if decides == right => write!(words, " It decides {decides} training rooms, all of them rightly."),
+            _ => write!(words, " It decides {decides} training rooms, {right} of them rightly."),
+        }
     }
 }
 
 impl PathReason {
     fn write(&self, label: &str, words: &mut String) -> std::fmt::Result {
         let Self { rooms, right, .. } = self;
-        if self.conditions.is_empty() {
-            return write!(words, "Of all {rooms} training rooms {right} are {label}s.");
+        let with =
+            if self.conditions.is_empty() { String::new() } else { format!(" with {}", joined(&self.conditions)) };
+        match (rooms, right) {
+            (1, 1) => write!(words, "The only training room{with} is a {label}."),
+            _ if rooms == right => write!(words, "All {rooms} training rooms{with} are {label}s."),
+            (_, 1) => write!(words, "Of the {rooms} training rooms{with}, one is a {label}."),
+            _ => write!(words, "Of the {rooms} training rooms{with}, {right} are {label}s."),
         }
-        write!(words, "Of {rooms} training rooms with {}, {right} are {label}s.", joined(&self.conditions))
     }
 }
 
 impl NeighboursReason {
     fn write(&self, label: Label, words: &mut String) -> std::fmt::Result {
-        let alike = self.neighbours.iter().filter(|near| near.label == label);
-        write!(
-            words,
-            "{} of the {} most similar training rooms are {label}s",
-            alike.clone().count(),
-            self.neighbours.len()
-        )?;
+        let alike: Vec<&NearRoom> = self.neighbours.iter().filter(|near| near.label == label).collect();
+        match (alike.len(), self.neighbours.len()) {
+            (1, 1) => write!(words, "The most similar training room is a {label}")?,
+            (all, most) if all == most => write!(words, "All {most} most similar training rooms are {label}s")?,
+            (1, most) => write!(words, "Of the {most} most similar training rooms one is a {label}")?,
+            (some, most) => write!(words, "Of the {most} most similar training rooms {some} are {label}s")?,
+        }
         let named: Vec<String> = alike
+            .iter()
             .take(NAMED)
             .map(|near| {
                 let area = value_in_words(0, near.values[0]);
-                let doors = near.values[2];
-                let doors = if doors == 1.0 { "1 opening".to_owned() } else { format!("{doors} openings") };
-                format!("{} ({area}, {doors})", near.source)
+                format!("{} ({area}, {})", near.source, in_words::of_count(2, near.values[2]))
             })
             .collect();
-        if named.is_empty() { write!(words, ".") } else { write!(words, ", the nearest {}.", named.join("; ")) }
+        match (named.as_slice(), alike.len()) {
+            ([], _) => write!(words, "."),
+            ([only], _) => write!(words, ": {only}."),
+            (named, all) if named.len() == all => write!(words, ": {}.", named.join("; ")),
+            (named, _) => write!(words, ", the nearest of them {}.", named.join("; ")),
+        }
     }
 }
 
@@ -289,17 +360,18 @@ impl FeaturesReason {
         let matters = |effect: &&Effect| effect.probability_if_typical < probability - MATTERS;
         let mut effects = self.effects.iter().filter(matters).take(NAMED).peekable();
         if effects.peek().is_none() {
-            return write!(words, "No single feature decides: with any one at its typical value it stays a {label}.");
+            return write!(
+                words,
+                "No single feature decides: with any one at its typical value a {label} is as likely."
+            );
         }
-        write!(words, "What speaks for {label}: ")?;
+        write!(words, "What speaks for a {label}: ")?;
         let parts: Vec<String> = effects
             .map(|effect| {
-                let value = |value| value_in_words(effect.feature, value);
                 format!(
-                    "{} {} (with the typical {} the probability would be {}, not {})",
-                    IN_WORDS[effect.feature],
-                    value(effect.value),
-                    value(effect.typical),
+                    "{} (with the typical {} the probability would be {}, not {})",
+                    in_words::of_value(effect.feature, effect.value),
+                    value_in_words(effect.feature, effect.typical),
                     percent(effect.probability_if_typical),
                     percent(probability)
                 )

@@ -5,6 +5,7 @@ mod classifier;
 mod distribution;
 mod evaluate;
 pub mod explain;
+pub mod in_plan;
 pub mod knn;
 pub mod mlp;
 pub mod model_file;

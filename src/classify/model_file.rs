@@ -200,7 +200,10 @@ pub fn from_bytes(bytes: &[u8]) -> Result<(Classifier, About), ModelFileError> {
     let json_error = |error: serde_json::Error| {
         let text = error.to_string();
         let place = format!(" at line {} column {}", error.line(), error.column());
-        let what = text.strip_suffix(&place).unwrap_or(&text);
+        let what = match error.classify() {
+            serde_json::error::Category::Eof => "ends too early: it was cut short".to_owned(),
+            _ => format!("is not JSON: {}", text.strip_suffix(&place).unwrap_or(&text)),
+        };
         refuse(Some(error.line()).filter(|&line| line > 0), what)
     };
     let mut value: Value = serde_json::from_slice(body).map_err(json_error)?;
@@ -213,14 +216,14 @@ pub fn from_bytes(bytes: &[u8]) -> Result<(Classifier, About), ModelFileError> {
     }
     match value.get("version").and_then(Value::as_u64) {
         Some(1..=VERSION) => {}
-        Some(newer) => {
+        Some(newer) if newer > VERSION => {
             return Err(ModelFileError {
                 line: None,
                 what: format!("was made by a newer Enfilade (file version {newer}; this one reads up to {VERSION})"),
                 hint: "update Enfilade".to_owned(),
             });
         }
-        None => return Err(refuse(None, "has no file version")),
+        _ => return Err(refuse(None, "states no file version that exists")),
     }
     let stated = value.as_object_mut().and_then(|members| members.shift_remove("checksum"));
     if stated.as_ref().and_then(Value::as_str) != Some(checksum(&value).as_str()) {

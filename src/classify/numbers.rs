@@ -20,17 +20,43 @@ pub(super) fn readable_between(low: f64, high: f64) -> f64 {
     low
 }
 
-/// What each feature is called in a sentence, in the order of [`Features::NAMES`].
-pub(super) const IN_WORDS: [&str; FEATURES] = [
-    "area",
-    "axes ratio",
-    "openings",
-    "openings to small rooms",
-    "openings to medium rooms",
-    "openings to big rooms",
-    "openings to corridors",
-    "openings to halls",
-];
+/// Features and their values as parts of a sentence.
+pub(super) mod in_words {
+    use super::{FEATURES, value_in_words};
+
+    /// What each feature is called, in the order of [`Features::NAMES`](crate::features::Features::NAMES).
+    pub(in crate::classify) const NAMES: [&str; FEATURES] = [
+        "area",
+        "axes ratio",
+        "openings",
+        "openings to small rooms",
+        "openings to medium rooms",
+        "openings to big rooms",
+        "openings to corridors",
+        "openings to halls",
+    ];
+
+    /// So many openings: `no openings to halls`, `1 opening`, `3 openings`.
+    pub(in crate::classify) fn of_count(feature: usize, count: f64) -> String {
+        let name = NAMES[feature];
+        if count == 0.0 {
+            format!("no {name}")
+        } else if count == 1.0 {
+            format!("1 {}", name.replacen("openings", "opening", 1))
+        } else {
+            format!("{count} {name}")
+        }
+    }
+
+    /// A feature with its value: `an area of 12.4 m²`, `3 openings`.
+    pub(in crate::classify) fn of_value(feature: usize, value: f64) -> String {
+        if feature < 2 {
+            format!("an {} of {}", NAMES[feature], value_in_words(feature, value))
+        } else {
+            of_count(feature, value)
+        }
+    }
+}
 
 /// A feature's value with its unit, short: `12.4 m²`, `1.9`, `3`.
 pub(super) fn value_in_words(feature: usize, value: f64) -> String {

@@ -35,8 +35,8 @@ pub struct FeatureOptions {
 }
 
 fn neighbour_labels(word: &str) -> Result<NeighbourLabels, String> {
-    let words: Vec<&str> = NeighbourLabels::ALL.into_iter().map(NeighbourLabels::name).collect();
-    NeighbourLabels::ALL
+    let words: Vec<&str> = NeighbourLabels::WITHOUT_CLASSIFIER.into_iter().map(NeighbourLabels::name).collect();
+    NeighbourLabels::WITHOUT_CLASSIFIER
         .into_iter()
         .find(|mode| mode.name() == word)
         .ok_or_else(|| format!("use one of {}", words.join(", ")))

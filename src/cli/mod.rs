@@ -1,15 +1,21 @@
 //! The command line. One file a subcommand, one line in [`SUBCOMMANDS`] to register it.
 
 mod check;
+mod classify;
+mod collect;
 mod dataset;
+mod evaluate;
 mod export;
 mod features;
 mod import;
 mod inputs;
+mod models;
 mod open;
+mod progress;
 mod render;
 #[cfg(feature = "gui")]
 mod replay;
+mod train;
 
 use std::io::{IsTerminal as _, Write};
 use std::path::PathBuf;
@@ -25,6 +31,10 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<export::ExportCommand>(),
     entry::<check::CheckCommand>(),
     entry::<render::RenderCommand>(),
+    entry::<classify::ClassifyCommand>(),
+    entry::<evaluate::EvaluateCommand>(),
+    entry::<train::TrainCommand>(),
+    entry::<models::ModelsCommand>(),
     #[cfg(feature = "gui")]
     entry::<replay::ReplayCommand>(),
 ];

@@ -74,8 +74,15 @@ pub fn read(input: impl Read) -> Result<Vec<Row>, CsvError> {
     }
     let mut rows = Vec::new();
     for record in reader.records() {
-        let record =
-            record.map_err(|error| fail(error.position().map_or(0, csv::Position::line), error.to_string()))?;
+        let record = record.map_err(|error| {
+            let what = match error.kind() {
+                csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
+                    format!("has {len} cells, the header {expected_len}")
+                }
+                _ => error.to_string(),
+            };
+            fail(error.position().map_or(0, csv::Position::line), what)
+        })?;
         let line = record.position().map_or(0, csv::Position::line);
         let text = |index: Option<usize>| index.and_then(|index| record.get(index)).unwrap_or_default().to_owned();
         let mut values = [0.0; 8];

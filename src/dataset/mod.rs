@@ -1,15 +1,19 @@
 //! Rows of labelled rooms, collected from many plans.
 
+mod collection;
 pub mod csv;
 pub mod folds;
+mod network;
 mod statistics;
 pub mod table;
 
 use std::collections::BTreeMap;
 
+pub use collection::{Collection, RoomPlace};
+pub use network::{NetworkDoor, NetworkRoom, RoomNetwork};
 pub use statistics::{LabelStatistics, Moments, Statistics};
 
-use crate::features::{Features, NeighbourLabels, RoomStatus, analyse};
+use crate::features::{Features, NeighbourLabels};
 use crate::labels::{Label, Schemes, Typology};
 use crate::plan::{Plan, RoomId};
 
@@ -44,6 +48,16 @@ pub struct LeftOut {
 }
 
 impl LeftOut {
+    /// Counts what another plan left out.
+    pub fn add(&mut self, other: &Self) {
+        self.not_classified += other.not_classified;
+        self.without_function += other.without_function;
+        self.without_area += other.without_area;
+        for (function, rooms) in &other.unknown_functions {
+            *self.unknown_functions.entry(function.clone()).or_default() += rooms;
+        }
+    }
+
     /// Number of rooms left out, whatever the reason.
     pub fn total(&self) -> usize {
         let unknown: usize = self.unknown_functions.values().sum();
@@ -54,42 +68,10 @@ impl LeftOut {
 /// The labelled rooms of a plan as rows, in the order of [`room_keys`]; what is left out is counted
 /// in `left_out`.
 pub fn rows(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels, left_out: &mut LeftOut) -> Vec<Row> {
-    let analysis = analyse(plan, schemes, neighbours);
-    let typology = plan.meta().typology.as_ref();
-    let mut rows = Vec::new();
-    for (id, key) in room_keys(plan) {
-        let (Some(room), Some(result)) = (plan.room(id), analysis.room(id)) else { continue };
-        let label = match result.status {
-            RoomStatus::Labelled(label) => label,
-            RoomStatus::NotClassified => {
-                left_out.not_classified += 1;
-                continue;
-            }
-            RoomStatus::Unlabelled if room.function.is_empty() => {
-                left_out.without_function += 1;
-                continue;
-            }
-            RoomStatus::Unlabelled => {
-                let typology = typology.map(Typology::as_str).unwrap_or_default().to_owned();
-                *left_out.unknown_functions.entry((typology, room.function.clone())).or_default() += 1;
-                continue;
-            }
-        };
-        let Some(features) = result.features else {
-            left_out.without_area += 1;
-            continue;
-        };
-        rows.push(Row {
-            plan: plan.meta().name.clone(),
-            building: plan.meta().building.clone(),
-            typology: typology.cloned(),
-            room: key,
-            function: room.function.clone(),
-            label,
-            features,
-        });
-    }
-    rows
+    let network = RoomNetwork::new(plan, schemes);
+    left_out.add(&network.left_out);
+    let seen = network.seen_labels(&network.known_labels(), neighbours);
+    network.rows_seeing(&seen).map(|row| Row { building: plan.meta().building.clone(), ..row }).collect()
 }
 
 /// What to call each room of a plan in a table: its name where no other room has the same, else what

@@ -50,11 +50,15 @@ impl fmt::Display for TableError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Empty => f.write_str("there are no labelled rooms to learn from; label some rooms, or add plans"),
+            Self::BadValue { source, feature, value, rows: 1 } => write!(
+                f,
+                "1 row has a feature that is not a number of at least 0: {source}, where {feature} is {value}; correct \
+                 or remove it"
+            ),
             Self::BadValue { source, feature, value, rows } => write!(
                 f,
-                "{} {rows} with a feature that is not a number of at least 0; the first is {source}, where {feature} is \
-                 {value}; correct or remove such rows",
-                if *rows == 1 { "there is" } else { "there are rows," }
+                "{rows} rows have a feature that is not a number of at least 0; the first is {source}, where {feature} \
+                 is {value}; correct or remove them"
             ),
         }
     }
@@ -196,7 +200,7 @@ mod tests {
         for (area_m2, word) in [(f64::NAN, "NaN"), (f64::INFINITY, "inf"), (-1.0, "-1")] {
             let error = Table::from_rows(&[row(1.0), row(area_m2), row(f64::NAN)]).expect_err(word).to_string();
             assert!(
-                error.contains("rows, 2 with") && error.contains(&format!("r in p, where a is {word};")),
+                error.starts_with("2 rows have") && error.contains(&format!("r in p, where a is {word};")),
                 "{error}"
             );
         }

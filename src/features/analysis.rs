@@ -2,7 +2,7 @@ use super::{Features, NeighbourLabels};
 use crate::classify::naive;
 use crate::geometry::runs::{self, Axes};
 use crate::labels::{Label, Meaning, Schemes};
-use crate::plan::{Joint, Plan, Room, RoomId};
+use crate::plan::{Joint, LabelOrigin, Plan, Room, RoomId};
 use crate::topology::{Graph, RoomShapes};
 
 /// What is known of a room's label.
@@ -18,9 +18,9 @@ pub enum RoomStatus {
 
 impl RoomStatus {
     /// The status of a room under the schemes and the plan's typology. A label given to the room
-    /// itself comes first.
+    /// itself comes first; a prediction that nobody has accepted is no label.
     pub fn of(plan: &Plan, schemes: &Schemes, room: &Room) -> Self {
-        if let Some(given) = room.label {
+        if let Some(given) = room.label.filter(|given| given.origin != LabelOrigin::Prediction) {
             return Self::Labelled(given.label);
         }
         match schemes.meaning(plan.meta().typology.as_ref(), &room.function) {
@@ -108,7 +108,7 @@ pub fn analyse(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels) -> A
     let seen: Vec<Option<Label>> = rooms
         .iter()
         .map(|room| match neighbours {
-            NeighbourLabels::True => room.status.label().or(room.temporary),
+            NeighbourLabels::True | NeighbourLabels::Predicted => room.status.label().or(room.temporary),
             NeighbourLabels::Temporary => room.temporary,
         })
         .collect();

@@ -44,16 +44,24 @@ pub enum NeighbourLabels {
     True,
     /// The temporary label of the naive classifier for every neighbour.
     Temporary,
+    /// The label that a classifier predicts for the neighbour, where none is known; predictions are
+    /// repeated until none changes. Needs a classifier: features alone are those of the first round,
+    /// the same as with [`NeighbourLabels::True`].
+    Predicted,
 }
 
 impl NeighbourLabels {
-    pub const ALL: [Self; 2] = [Self::True, Self::Temporary];
+    pub const ALL: [Self; 3] = [Self::True, Self::Temporary, Self::Predicted];
+
+    /// Those that need no classifier.
+    pub const WITHOUT_CLASSIFIER: [Self; 2] = [Self::True, Self::Temporary];
 
     /// The word for files and for people.
     pub const fn name(self) -> &'static str {
         match self {
             Self::True => "true",
             Self::Temporary => "temporary",
+            Self::Predicted => "predicted",
         }
     }
 }

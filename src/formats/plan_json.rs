@@ -369,6 +369,7 @@ disk_words!(DiskScaleOrigin for ScaleOrigin {
 });
 disk_words!(DiskLabelOrigin for LabelOrigin {
     Person = "person", Imported = "imported", AcceptedPrediction = "accepted prediction",
+    Prediction = "prediction",
 });
 disk_words!(DiskOpeningKind for OpeningKind {
     Door = "door", DoubleDoor = "double door", Passage = "passage", Window = "window",

@@ -72,10 +72,12 @@ pub enum LabelOrigin {
     Imported,
     /// A prediction that a person accepted.
     AcceptedPrediction,
+    /// A classifier's prediction that nobody has looked at: shown as such, never taken for the truth.
+    Prediction,
 }
 
 impl LabelOrigin {
-    pub const ALL: [Self; 3] = [Self::Person, Self::Imported, Self::AcceptedPrediction];
+    pub const ALL: [Self; 4] = [Self::Person, Self::Imported, Self::AcceptedPrediction, Self::Prediction];
 
     /// The word for files and for people.
     pub const fn name(self) -> &'static str {
@@ -83,6 +85,7 @@ impl LabelOrigin {
             Self::Person => "person",
             Self::Imported => "imported",
             Self::AcceptedPrediction => "accepted prediction",
+            Self::Prediction => "prediction",
         }
     }
 }

@@ -3,6 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
+use super::keys::{Keys, NoKeys};
+use super::{COMMANDS, Command, find};
 use crate::app::App;
 use crate::app::canvas::{room_title, sentence};
 use crate::app::document::bundled;
@@ -50,12 +52,16 @@ pub enum ArgumentKind {
     Switch,
     /// A button of the question that is asked.
     Answer,
+    /// A command of the menus: its id.
+    Command,
+    /// Keys that are pressed together: 'Ctrl+Shift+K'.
+    Keys,
     /// One of some words, each with its title.
     Word(&'static [(&'static str, &'static str)]),
 }
 
 /// An argument that was read.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone)]
 pub(in crate::app) enum Value {
     Path(PathBuf),
     Text(String),
@@ -68,10 +74,12 @@ pub(in crate::app) enum Value {
     Sample(usize),
     Switch(bool),
     Word(&'static str),
+    Command(&'static Command),
+    Keys(Keys),
 }
 
 /// The arguments of a call, read. Those left out are missing at the end.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Default)]
 pub(in crate::app) struct Values(pub(super) Vec<Value>);
 
 /// Gives the value at a place as what the command's entry in the table says it is.
@@ -97,6 +105,8 @@ impl Values {
     getter!(sample, Sample, usize);
     getter!(switch, Switch, bool);
     getter!(word, Word, &'static str);
+    getter!(command, Command, &'static Command);
+    getter!(keys, Keys, Keys);
 }
 
 /// One of the things an argument can be.
@@ -131,6 +141,8 @@ impl ArgumentKind {
             Self::Sample => "a plan that comes with the program".to_owned(),
             Self::Switch => "'on' or 'off'".to_owned(),
             Self::Answer => "a button of the question".to_owned(),
+            Self::Command => "the id of a command that stands in a menu".to_owned(),
+            Self::Keys => NoKeys.to_string(),
             Self::Word(words) => {
                 let words: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
                 or_list(&words)
@@ -199,6 +211,11 @@ impl ArgumentKind {
                 let found = answers.iter().find(|(word, _)| *word == text.trim());
                 found.map(|(word, _)| Value::Word(word)).ok_or_else(|| with_choices(self.expected()))
             }
+            Self::Command => {
+                let command = find(text.trim()).filter(|command| command.menu.is_some());
+                command.map(Value::Command).ok_or_else(|| with_choices(self.expected()))
+            }
+            Self::Keys => text.parse().map(Value::Keys).map_err(|error: NoKeys| error.to_string()),
             Self::Word(words) => {
                 let found = words.iter().find(|(word, _)| *word == text.trim());
                 found.map(|(word, _)| Value::Word(word)).ok_or_else(|| self.expected())
@@ -219,6 +236,8 @@ impl ArgumentKind {
             Value::Sample(index) => sample_word(*index).to_owned(),
             Value::Switch(is_on) => switch_word(*is_on).to_owned(),
             Value::Word(word) => (*word).to_owned(),
+            Value::Command(command) => command.id.to_owned(),
+            Value::Keys(keys) => keys.to_string(),
         }
     }
 
@@ -232,7 +251,9 @@ impl ArgumentKind {
             status: None,
         };
         Some(match self {
-            Self::PlanFile | Self::NewPlanFile | Self::Text | Self::Number { .. } | Self::Count => return None,
+            Self::PlanFile | Self::NewPlanFile | Self::Text | Self::Number { .. } | Self::Count | Self::Keys => {
+                return None;
+            }
             Self::Room => room_choices(app),
             Self::Opening => opening_choices(app),
             Self::Function => {
@@ -259,6 +280,13 @@ impl ArgumentKind {
                     ..plain(formats::file_stem(name), &plan.meta().name)
                 };
                 bundled().iter().map(choice).collect()
+            }
+            Self::Command => {
+                let choice = |command: &Command| {
+                    let menu = command.menu?.0.title();
+                    Some(Choice { detail: menu.to_owned(), ..plain(command.id, command.plain_title()) })
+                };
+                COMMANDS.iter().filter_map(choice).collect()
             }
             Self::Switch => vec![plain("on", "On"), plain("off", "Off")],
             Self::Answer => {

@@ -1,53 +1,153 @@
-//! Shortcuts: which command the pressed keys mean, and how keys are written.
+//! Shortcuts: which command the pressed keys mean, how keys are written, and which a person may
+//! choose.
+
+use std::fmt;
+use std::str::FromStr;
 
 use egui::{Context, Event, InputState, Key, KeyboardShortcut, Modifiers};
 
 use super::{COMMANDS, Command};
+use crate::app::settings::Settings;
 
-/// Keys as people write them: 'Ctrl+Shift+S', '+'.
-pub(super) fn text(context: &Context, shortcut: KeyboardShortcut) -> String {
-    let modifiers = context.format_modifiers(shortcut.modifiers);
-    let plus = if modifiers.is_empty() { "" } else { "+" };
-    let key = match shortcut.logical_key {
-        Key::PageUp => "Page up",
-        Key::PageDown => "Page down",
-        Key::Escape => "Esc",
-        key => key.symbol_or_name(),
-    };
-    format!("{modifiers}{plus}{key}")
+/// Keys that are pressed together: what a command's shortcut is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Keys {
+    /// Only Ctrl (Cmd on a Mac), Alt and Shift count.
+    modifiers: Modifiers,
+    key: Key,
+}
+
+impl Keys {
+    /// Keys as egui tells of them.
+    pub fn new(modifiers: Modifiers, key: Key) -> Self {
+        let mut wanted = Modifiers::NONE;
+        wanted.command = modifiers.command;
+        wanted.alt = modifiers.alt;
+        // '?' takes Shift on one keyboard and none on the next.
+        wanted.shift = modifiers.shift && !IS_TYPED_WITH_SHIFT.contains(&key);
+        Self { modifiers: wanted, key }
+    }
+
+    /// As people read it on their system: 'Ctrl+Shift+S', '+'.
+    pub fn text(self, context: &Context) -> String {
+        let modifiers = context.format_modifiers(self.modifiers);
+        let plus = if modifiers.is_empty() { "" } else { "+" };
+        let key = match self.key {
+            Key::PageUp => "Page up",
+            Key::PageDown => "Page down",
+            Key::Escape => "Esc",
+            key => key.symbol_or_name(),
+        };
+        format!("{modifiers}{plus}{key}")
+    }
+
+    /// Why nobody may choose these keys; `None` when they may.
+    pub fn why_reserved(self) -> Option<&'static str> {
+        let Modifiers { command, alt, .. } = self.modifiers;
+        match self.key {
+            Key::Tab | Key::Space | Key::Enter | Key::ArrowLeft | Key::ArrowRight | Key::ArrowUp | Key::ArrowDown => {
+                Some("it goes from control to control and presses them")
+            }
+            Key::Escape => Some("it leaves whatever is open"),
+            Key::Backspace | Key::Home | Key::End if !command && !alt => Some("it belongs to text"),
+            Key::A | Key::C | Key::V | Key::X if command && !alt => Some("it belongs to text"),
+            Key::F4 if alt => Some("the system closes windows with it"),
+            _ => None,
+        }
+    }
+
+    fn is_pressed(self, key: Key, modifiers: Modifiers) -> bool {
+        // Ctrl and Cmd are told twice on some systems.
+        Self::new(modifiers, key) == self && (modifiers.command || !modifiers.ctrl)
+    }
+
+    /// Whether a text field uses these keys itself.
+    fn belongs_to_text(self) -> bool {
+        let is_function_key = self.key >= Key::F1 && self.key <= Key::F35;
+        let is_plain = !self.modifiers.command && !is_function_key;
+        is_plain || matches!(self.key, Key::Z | Key::Y)
+    }
+}
+
+impl From<KeyboardShortcut> for Keys {
+    fn from(shortcut: KeyboardShortcut) -> Self {
+        Self::new(shortcut.modifiers, shortcut.logical_key)
+    }
+}
+
+/// Signs that most keyboards have only with Shift.
+const IS_TYPED_WITH_SHIFT: [Key; 7] = [
+    Key::Plus,
+    Key::Questionmark,
+    Key::Exclamationmark,
+    Key::Colon,
+    Key::Pipe,
+    Key::OpenCurlyBracket,
+    Key::CloseCurlyBracket,
+];
+
+/// As in settings and scripts, the same on every system: 'Ctrl+Shift+S', 'Plus'.
+impl fmt::Display for Keys {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Modifiers { command, alt, shift, .. } = self.modifiers;
+        for (is_held, name) in [(command, "Ctrl+"), (alt, "Alt+"), (shift, "Shift+")] {
+            if is_held {
+                f.write_str(name)?;
+            }
+        }
+        f.write_str(self.key.name())
+    }
+}
+
+/// A text that names no keys.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoKeys;
+
+impl fmt::Display for NoKeys {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("keys such as 'Ctrl+Shift+K', 'F5' or 'Plus'")
+    }
+}
+
+impl FromStr for Keys {
+    type Err = NoKeys;
+
+    fn from_str(text: &str) -> Result<Self, NoKeys> {
+        let mut modifiers = Modifiers::NONE;
+        let mut rest = text.trim();
+        loop {
+            let Some((first, behind)) = rest.split_once('+').filter(|(_, behind)| !behind.is_empty()) else { break };
+            match first.trim().to_lowercase().as_str() {
+                "ctrl" | "cmd" | "command" => modifiers.command = true,
+                "alt" | "option" => modifiers.alt = true,
+                "shift" => modifiers.shift = true,
+                _ => return Err(NoKeys),
+            }
+            rest = behind.trim();
+        }
+        let named = |name: &str| Key::from_name(name).or_else(|| Key::from_name(&name.to_uppercase()));
+        named(rest).map(|key| Self::new(modifiers, key)).ok_or(NoKeys)
+    }
 }
 
 /// Takes the shortcuts pressed since the last frame out of the input and gives their commands.
 /// `is_typing`: a text field has the keyboard, which then keeps what it needs itself.
-pub(in crate::app) fn take_pressed(input: &mut InputState, is_typing: bool) -> Vec<&'static Command> {
+pub(in crate::app) fn take_pressed(
+    input: &mut InputState,
+    settings: &Settings,
+    is_typing: bool,
+) -> Vec<&'static Command> {
     let mut pressed = Vec::new();
     input.events.retain(|event| {
         let Event::Key { key, pressed: true, modifiers, .. } = event else { return true };
         let hit = COMMANDS.iter().find(|command| {
-            command
-                .shortcuts
-                .iter()
-                .any(|shortcut| matches(shortcut, *key, *modifiers) && !(is_typing && belongs_to_text(shortcut)))
+            let is_it = |keys: &Keys| keys.is_pressed(*key, *modifiers) && !(is_typing && keys.belongs_to_text());
+            settings.keys_of(command).iter().any(is_it)
         });
         pressed.extend(hit);
         hit.is_none()
     });
     pressed
-}
-
-fn matches(shortcut: &KeyboardShortcut, key: Key, modifiers: Modifiers) -> bool {
-    if shortcut.logical_key != key {
-        return false;
-    }
-    // On most keyboards '+' is typed with Shift.
-    let modifiers = if key == Key::Plus { Modifiers { shift: false, ..modifiers } } else { modifiers };
-    modifiers.matches_exact(shortcut.modifiers)
-}
-
-/// Whether a text field uses these keys itself.
-fn belongs_to_text(shortcut: &KeyboardShortcut) -> bool {
-    let plain = !shortcut.modifiers.command && shortcut.logical_key != Key::F2;
-    plain || matches!(shortcut.logical_key, Key::Z | Key::Y)
 }
 
 #[cfg(test)]
@@ -56,12 +156,40 @@ mod tests {
 
     #[test]
     fn exact_modifiers_decide() {
-        let plain = |key| KeyboardShortcut::new(Modifiers::NONE, key);
-        let undo = KeyboardShortcut::new(Modifiers::COMMAND, Key::Z);
-        let pressed = Modifiers { ctrl: true, command: true, ..Modifiers::NONE };
-        assert!(matches(&undo, Key::Z, pressed));
-        assert!(!matches(&undo, Key::Z, pressed.plus(Modifiers::SHIFT)));
-        assert!(!matches(&plain(Key::L), Key::L, Modifiers::SHIFT));
-        assert!(matches(&plain(Key::Plus), Key::Plus, Modifiers::SHIFT));
+        let keys = |text: &str| text.parse::<Keys>().unwrap();
+        let ctrl = Modifiers { ctrl: true, command: true, ..Modifiers::NONE };
+        assert!(keys("Ctrl+Z").is_pressed(Key::Z, ctrl));
+        assert!(!keys("Ctrl+Z").is_pressed(Key::Z, ctrl.plus(Modifiers::SHIFT)));
+        assert!(!keys("L").is_pressed(Key::L, Modifiers::SHIFT));
+        assert!(!keys("L").is_pressed(Key::L, Modifiers::CTRL));
+        for modifiers in [Modifiers::NONE, Modifiers::SHIFT] {
+            assert!(keys("+").is_pressed(Key::Plus, modifiers));
+            assert!(keys("?").is_pressed(Key::Questionmark, modifiers));
+        }
+    }
+
+    #[test]
+    fn keys_are_read_as_they_are_written() {
+        for text in ["Ctrl+Shift+S", "Plus", "F5", "Alt+Minus", "PageUp", "Questionmark", "Ctrl+Alt+Shift+Num1"] {
+            assert_eq!(text.parse::<Keys>().unwrap().to_string(), text);
+        }
+        for (other, text) in
+            [("ctrl + k", "Ctrl+K"), ("+", "Plus"), ("Shift+?", "Questionmark"), ("cmd++", "Ctrl+Plus")]
+        {
+            assert_eq!(other.parse::<Keys>().unwrap().to_string(), text);
+        }
+        for wrong in ["", "Ctrl+", "Ctrl", "Foo+K", "KK", "Ctrl+K+"] {
+            assert_eq!(wrong.parse::<Keys>(), Err(NoKeys), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn what_moves_the_keyboard_or_belongs_to_text_is_reserved() {
+        for text in ["Tab", "Shift+Tab", "Space", "Enter", "Up", "Escape", "Ctrl+C", "Ctrl+A", "Alt+F4", "Backspace"] {
+            assert!(text.parse::<Keys>().unwrap().why_reserved().is_some(), "{text}");
+        }
+        for text in ["C", "Ctrl+B", "F4", "Delete", "Ctrl+Alt+C", "Alt+Home"] {
+            assert_eq!(text.parse::<Keys>().unwrap().why_reserved(), None, "{text}");
+        }
     }
 }

@@ -11,6 +11,7 @@ mod table;
 use egui::{Context, KeyboardShortcut};
 
 pub use argument::{Argument, ArgumentKind, Choice};
+pub use keys::{Keys, NoKeys};
 pub use run::{CommandError, Executed};
 pub use table::COMMANDS;
 
@@ -64,11 +65,13 @@ enum Action {
 }
 
 /// What became of a command.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 enum Ran {
     Done,
-    /// It asks for something; the answer is a command of its own.
+    /// It asks for something, or shows it; the answer is a command of its own.
     Asks,
+    /// Nothing was done, and why.
+    Refused(String),
 }
 
 /// A menu of the menu bar, in their order.
@@ -78,10 +81,11 @@ pub enum Menu {
     Edit,
     Room,
     View,
+    Help,
 }
 
 impl Menu {
-    pub const ALL: [Self; 4] = [Self::File, Self::Edit, Self::Room, Self::View];
+    pub const ALL: [Self; 5] = [Self::File, Self::Edit, Self::Room, Self::View, Self::Help];
 
     pub const fn title(self) -> &'static str {
         match self {
@@ -89,16 +93,12 @@ impl Menu {
             Self::Edit => "Edit",
             Self::Room => "Room",
             Self::View => "View",
+            Self::Help => "Help",
         }
     }
 }
 
 impl Command {
-    /// Its first shortcut as people write it ('Ctrl+Shift+S', '+'); empty without one.
-    pub fn keys_text(&self, context: &Context) -> String {
-        self.shortcuts.first().map(|shortcut| keys::text(context, *shortcut)).unwrap_or_default()
-    }
-
     /// Why it cannot be done now, as something to do: 'pick a room first'; `None` when it can.
     pub fn why_not(&self, app: &App) -> Option<&'static str> {
         (self.availability)(app).err()
@@ -112,7 +112,18 @@ impl Command {
         }
     }
 
-    /// How it is called: 'open [PATH] [STOREY]'. What stands in brackets may be left out.
+    /// Its title without the dots that say that something is asked for.
+    pub(super) fn plain_title(&self) -> &'static str {
+        self.title.trim_end_matches('…')
+    }
+
+    /// The argument that comes after some given ones and must be there, where the palette asks for it.
+    pub(super) fn asked_in_palette(&self, given: usize) -> Option<&'static Argument> {
+        let asks_itself = matches!(self.action, Action::With { ask: Some(_), .. });
+        self.arguments.get(given).filter(|argument| !argument.is_optional && !asks_itself)
+    }
+
+    /// How it is called: 'open PATH [STOREY]'. What stands in brackets may be left out.
     pub fn usage(&self) -> String {
         let mut usage = self.id.to_owned();
         for argument in self.arguments {

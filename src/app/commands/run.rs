@@ -1,11 +1,14 @@
 //! Running commands by their words, and telling a recorder which ran.
 
 use std::fmt;
+use std::path::PathBuf;
 
 use egui::Context;
 
 use super::argument::{Values, or_list, similar, switch_word};
-use super::{Action, COMMANDS, Command, Ran, find};
+use super::{Action, COMMANDS, Command, Keys, Ran, find};
+use crate::app::panels::palette::Palette;
+use crate::app::settings::Settings;
 use crate::app::{App, Question, Severity};
 
 /// Why a command was not run.
@@ -89,8 +92,7 @@ impl App {
         }
         (command.availability)(self).map_err(|reason| not_now(reason.to_owned()))?;
         let values = self.read_arguments(command, arguments)?;
-        self.run_with_values(command, values, context);
-        Ok(())
+        self.run_with_values(command, values, context).map_err(not_now)
     }
 
     /// Runs a command with arguments of the window's own, and says why where that is refused.
@@ -114,14 +116,14 @@ impl App {
         read.collect::<Result<_, _>>().map(Values)
     }
 
-    /// Runs a command that can be done now.
-    pub(in crate::app) fn run_with_values(&mut self, command: &'static Command, values: Values, context: &Context) {
+    /// Runs a command that can be done now; `Err` says why it was not after all.
+    fn run_with_values(&mut self, command: &'static Command, values: Values, context: &Context) -> Result<(), String> {
         let is_complete = command.arguments.get(values.0.len()).is_none_or(|argument| argument.is_optional);
         // Before the command runs: it may rename the room, or close the plan, that an argument names.
         let written = self.write_arguments(command, &values);
+        self.status.clear();
         match &command.action {
             Action::Plain(run) | Action::Choose { run, .. } => {
-                self.status.clear();
                 run(self, context);
                 self.note_executed(command.id, written);
             }
@@ -130,23 +132,18 @@ impl App {
                     Some(&wanted) => wanted,
                     None => !is_on(self),
                 };
-                self.status.clear();
                 set(self, wanted);
                 self.note_executed(command.id, vec![switch_word(wanted).to_owned()]);
             }
-            Action::With { run, .. } if is_complete => {
-                self.status.clear();
-                if run(self, &values, context) == Ran::Done {
-                    self.note_executed(command.id, written);
-                }
-            }
-            Action::With { ask, .. } => {
-                self.status.clear();
-                if let Some(ask) = ask {
-                    ask(self, context);
-                }
-            }
+            Action::With { run, .. } if is_complete => match run(self, &values, context) {
+                Ran::Done => self.note_executed(command.id, written),
+                Ran::Asks => {}
+                Ran::Refused(reason) => return Err(reason),
+            },
+            Action::With { ask: Some(ask), .. } => ask(self, context),
+            Action::With { ask: None, .. } => self.panels.palette = Some(Palette::asking(command, written)),
         }
+        Ok(())
     }
 
     fn write_arguments(&self, command: &Command, values: &Values) -> Vec<String> {
@@ -196,5 +193,49 @@ impl Question {
             Self::Unsaved(_) => &[("save", "Save"), ("discard", "Don't save"), ("cancel", "Cancel")],
             Self::Replace { .. } => &[("elsewhere", "Save as…"), ("replace", "Replace"), ("cancel", "Cancel")],
         }
+    }
+}
+
+// Shortcuts.
+
+impl App {
+    /// Keeps settings in a file from now on, and takes over what it holds.
+    pub fn use_settings(&mut self, file: PathBuf) {
+        let (settings, problems) = Settings::read(file);
+        self.settings = settings;
+        for problem in problems {
+            self.add_message(problem);
+        }
+    }
+
+    /// The first shortcut of a command as people read it ('Ctrl+Shift+S', '+'); empty without one.
+    pub fn keys_text(&self, command: &Command, context: &Context) -> String {
+        self.settings.keys_of(command).first().map(|keys| keys.text(context)).unwrap_or_default()
+    }
+
+    pub(super) fn set_shortcut(&mut self, command: &'static Command, keys: Option<Keys>) -> Ran {
+        match self.settings.set_keys(command, keys) {
+            Ok(()) => self.keep_settings(),
+            Err(refused) => Ran::Refused(refused.reason(&keys.map(|keys| keys.to_string()).unwrap_or_default())),
+        }
+    }
+
+    pub(super) fn reset_shortcut(&mut self, command: &'static Command) -> Ran {
+        match self.settings.reset_keys(command) {
+            Ok(()) => self.keep_settings(),
+            Err((keys, refused)) => Ran::Refused(refused.reason(&keys.to_string())),
+        }
+    }
+
+    pub(super) fn reset_all_shortcuts(&mut self) {
+        self.settings.reset_all_keys();
+        self.keep_settings();
+    }
+
+    fn keep_settings(&mut self) -> Ran {
+        if let Err(problem) = self.settings.write() {
+            self.add_message(problem);
+        }
+        Ran::Done
     }
 }

@@ -7,6 +7,8 @@ use egui::{Context, Key, KeyboardShortcut, Modifiers};
 use super::{Action, Argument, ArgumentKind, Availability, Command, Menu, Ran, Values};
 use crate::app::icons::Icon;
 use crate::app::panels::FieldKind;
+use crate::app::panels::palette::Palette;
+use crate::app::panels::shortcuts::Sheet;
 use crate::app::theme::ThemeChoice;
 use crate::app::{App, Intent, Origin, Picked};
 use crate::draw::{Fill, LabelColours};
@@ -195,6 +197,10 @@ fn can_record(app: &App) -> Availability {
     )
 }
 
+fn has_changed_keys(app: &App) -> Availability {
+    when(app.settings.is_any_changed(), "no shortcut was changed")
+}
+
 fn is_asked(app: &App) -> Availability {
     when(app.question.is_some(), "nothing is asked")
 }
@@ -332,7 +338,11 @@ pub const COMMANDS: &[Command] = &[
             app.change_meta("Rename plan", |meta| meta.name = values.text(0).unwrap_or_default().to_owned());
             Ran::Done
         },
-        None,
+        Some(|app, _| {
+            let name = app.plan().map(|plan| plan.meta().name.clone()).unwrap_or_default();
+            let asking = super::find("rename-plan").map(|command| Palette::asking(command, Vec::new()));
+            app.panels.palette = asking.map(|palette| palette.with_text(&name));
+        }),
     )
     .menu(Menu::Edit, 2),
     with(
@@ -368,7 +378,7 @@ pub const COMMANDS: &[Command] = &[
     .menu(Menu::Room, 0),
     with(
         "rename",
-        "Rename",
+        "Rename…",
         "Write the picked room's name",
         has_room,
         &[needed("NAME", ArgumentKind::Text, "the room's name")],
@@ -382,7 +392,7 @@ pub const COMMANDS: &[Command] = &[
     .menu(Menu::Room, 1),
     with(
         "set-function",
-        "Function",
+        "Set function…",
         "Write what the picked room is for",
         has_room,
         &[needed(
@@ -400,7 +410,7 @@ pub const COMMANDS: &[Command] = &[
     .menu(Menu::Room, 1),
     with(
         "set-note",
-        "Note",
+        "Write note…",
         "Write a note on the picked room",
         has_room,
         &[needed("TEXT", ArgumentKind::Text, "the note")],
@@ -630,6 +640,85 @@ pub const COMMANDS: &[Command] = &[
         |app, context| app.set_theme(ThemeChoice::Dark, context),
     )
     .menu(Menu::View, 4),
+    // Help.
+    with(
+        "commands",
+        "Commands…",
+        "Find a command by its name and do it",
+        always,
+        &[],
+        |app, _, _| {
+            app.panels.palette = Some(Palette::default());
+            Ran::Asks
+        },
+        None,
+    )
+    .keys(&[ctrl_shift(Key::P)])
+    .menu(Menu::Help, 0),
+    with(
+        "shortcuts",
+        "Shortcuts…",
+        "Show the shortcuts of all commands, and change them",
+        always,
+        &[],
+        |app, _, _| {
+            app.panels.sheet = Some(Sheet::default());
+            Ran::Asks
+        },
+        None,
+    )
+    .keys(&[key(Key::Questionmark), key(Key::F1)])
+    .menu(Menu::Help, 0),
+    with(
+        "set-shortcut",
+        "Set a shortcut…",
+        "Give a command other keys than it has",
+        always,
+        &[
+            needed("COMMAND", ArgumentKind::Command, "the command's id"),
+            needed("KEYS", ArgumentKind::Keys, "keys such as Ctrl+Shift+K, F5 or Plus"),
+        ],
+        |app, values, _| match values.command(0) {
+            Some(command) => app.set_shortcut(command, values.keys(1).copied()),
+            None => Ran::Done,
+        },
+        None,
+    )
+    .menu(Menu::Help, 1),
+    with(
+        "remove-shortcut",
+        "Remove a shortcut…",
+        "Leave a command without keys",
+        always,
+        &[needed("COMMAND", ArgumentKind::Command, "the command's id")],
+        |app, values, _| match values.command(0) {
+            Some(command) => app.set_shortcut(command, None),
+            None => Ran::Done,
+        },
+        None,
+    ),
+    with(
+        "reset-shortcut",
+        "Reset a shortcut…",
+        "Give a command the keys it comes with",
+        has_changed_keys,
+        &[needed("COMMAND", ArgumentKind::Command, "the command's id")],
+        |app, values, _| match values.command(0) {
+            Some(command) => app.reset_shortcut(command),
+            None => Ran::Done,
+        },
+        None,
+    ),
+    command(
+        "reset-shortcuts",
+        "Reset all shortcuts",
+        "Give every command the keys it comes with",
+        has_changed_keys,
+        |app, _| {
+            app.reset_all_shortcuts();
+        },
+    )
+    .menu(Menu::Help, 1),
     switch(
         "record-script",
         "Record a script",
@@ -638,7 +727,20 @@ pub const COMMANDS: &[Command] = &[
         App::is_recording,
         |app, _| if app.is_recording() { app.stop_recording(None) } else { app.wants_recording = true },
     )
-    .menu(Menu::View, 5),
+    .menu(Menu::Help, 2),
+    with(
+        "about",
+        "About Enfilade",
+        "Show the version, the licence and the paper",
+        always,
+        &[],
+        |app, _, _| {
+            app.panels.about = true;
+            Ran::Asks
+        },
+        None,
+    )
+    .menu(Menu::Help, 3),
     // What the pointer does, for scripts.
     with(
         "pick",
@@ -725,9 +827,10 @@ pub const COMMANDS: &[Command] = &[
         |app, values, _| {
             let newest = app.messages.len();
             let number = values.count(0).copied().unwrap_or(newest);
-            if number <= newest {
-                app.messages.remove(number - 1);
+            if number > newest {
+                return Ran::Refused(format!("there are {newest} messages"));
             }
+            app.messages.remove(number - 1);
             Ran::Done
         },
         None,

@@ -249,6 +249,7 @@ impl Inspected<'_> {
                 LabelOrigin::Person => "Given by a person".to_owned(),
                 LabelOrigin::Imported => "Stated by the imported file".to_owned(),
                 LabelOrigin::AcceptedPrediction => "A prediction that was accepted".to_owned(),
+                LabelOrigin::Prediction => "A prediction that nobody has accepted".to_owned(),
             };
         }
         let typology = self.plan.meta().typology.as_ref();

@@ -37,7 +37,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     ui.spacing_mut().item_spacing.y = 0.0;
     for command in COMMANDS.iter().filter(|command| command.menu == Some(LAYERS)) {
         let is_on = command.is_on(app) == Some(true);
-        let shortcut = command.keys_text(&context);
+        let shortcut = app.keys_text(command, &context);
         let is_available = command.why_not(app).is_none();
         let row = Row::new(Lead::Eye(is_on), command.title).trail(&shortcut).on(is_on);
         let response = ui.add_enabled_ui(is_available, |ui| row.button(ui, Role::CheckBox)).inner;

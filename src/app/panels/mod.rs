@@ -1,16 +1,22 @@
 //! The panels around the canvas, one file each.
 
+mod about;
 mod inspector;
 mod layers;
 mod messages;
 pub(super) mod notes;
+pub(super) mod palette;
 mod plans;
 mod questions;
+pub(super) mod shortcuts;
 pub(super) mod status;
 mod top_bar;
 pub(super) mod welcome;
 
 use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui};
+
+use palette::Palette;
+use shortcuts::Sheet;
 
 use super::{App, canvas, theme};
 use crate::plan::edit::{self, EditError};
@@ -29,6 +35,14 @@ pub(super) struct Panels {
     pub focus: Option<FieldKind>,
     /// Whether the notes of the import are shown.
     pub notes: bool,
+    /// The list of commands, while it is open.
+    pub palette: Option<Palette>,
+    /// Commands that were done from the palette, the last one first.
+    pub recent: Vec<&'static str>,
+    /// The shortcuts, while they are shown.
+    pub sheet: Option<Sheet>,
+    /// Whether it is shown what Enfilade is.
+    pub about: bool,
     /// Where the panel on the left and the inspector were in the last frame, as far as shown.
     pub left_rect: Option<egui::Rect>,
     pub right_rect: Option<egui::Rect>,
@@ -45,6 +59,10 @@ impl Default for Panels {
             right: true,
             focus: None,
             notes: false,
+            palette: None,
+            recent: Vec::new(),
+            sheet: None,
+            about: false,
             left_rect: None,
             right_rect: None,
             layers_height: 360.0,
@@ -119,7 +137,7 @@ impl Panels {
 
     /// Whether a dialog covers the window.
     pub(super) fn is_dialog_open(&self) -> bool {
-        self.notes
+        self.notes || self.palette.is_some() || self.sheet.is_some() || self.about
     }
 }
 
@@ -182,5 +200,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         welcome::show_drop_target(ui);
     });
     notes::show(app, ui);
+    about::show(app, ui);
+    shortcuts::show(app, ui);
+    palette::show(app, ui);
     questions::show(app, ui);
 }

@@ -5,6 +5,7 @@ use egui::{
     vec2,
 };
 
+use crate::app::canvas::sentence;
 use crate::app::commands::{COMMANDS, Command, Menu};
 use crate::app::widgets::{Lead, Row, colours, icon_button, strong};
 use crate::app::{App, theme};
@@ -40,11 +41,15 @@ fn menu_entries(app: &mut App, ui: &mut Ui, menu: Menu) {
             ui.separator();
         }
         section = Some(this);
-        let is_available = command.why_not(app).is_none();
-        let shortcut = command.keys_text(ui.ctx());
+        let why_not = command.why_not(app);
+        let shortcut = app.keys_text(command, ui.ctx());
         let is_on = command.is_on(app) == Some(true);
         let row = Row::new(Lead::Tick(is_on), command.title).trail(&shortcut);
-        let response = ui.add_enabled_ui(is_available, |ui| row.button(ui, Role::MenuItem)).inner;
+        let response = ui.add_enabled_ui(why_not.is_none(), |ui| row.button(ui, Role::MenuItem)).inner;
+        let response = match why_not {
+            Some(why_not) => response.on_disabled_hover_text(sentence(why_not)),
+            None => response,
+        };
         if response.clicked() {
             let context = ui.ctx().clone();
             app.run_command(command.id, &context);
@@ -68,7 +73,7 @@ fn show_tools(app: &mut App, ui: &mut Ui) {
         let is_on = command.is_on(app);
         let is_available = command.why_not(app).is_none();
         let response = ui.add_enabled_ui(is_available, |ui| icon_button(ui, icon, command.title, is_on)).inner;
-        let response = with_tooltip(response, ui.ctx(), command);
+        let response = with_tooltip(app, response, ui.ctx(), command);
         if response.clicked() {
             let context = ui.ctx().clone();
             app.run_command(command.id, &context);
@@ -76,22 +81,28 @@ fn show_tools(app: &mut App, ui: &mut Ui) {
     }
 }
 
-/// A command's title, shortcut and help under the pointer.
-fn with_tooltip(response: Response, context: &Context, command: &Command) -> Response {
-    let keys = command.keys_text(context);
+/// A command's title, shortcut and help under the pointer, and why it cannot be done now.
+fn with_tooltip(app: &App, response: Response, context: &Context, command: &Command) -> Response {
+    let keys = app.keys_text(command, context);
+    let why_not = command.why_not(app);
     let show = |ui: &mut Ui| {
         ui.horizontal(|ui| {
             ui.label(strong(command.title, theme::BODY));
             ui.label(egui::RichText::new(&keys).color(colours(ui).text_weak));
         });
         ui.label(command.help);
+        if let Some(why_not) = why_not {
+            ui.label(egui::RichText::new(format!("Not now: {why_not}")).color(colours(ui).text_weak));
+        }
     };
     response.on_hover_ui(show).on_disabled_hover_ui(show)
 }
 
 /// The plan's title in the middle of the window, as far as there is space.
 fn title(app: &App, ui: &Ui, left: f32, right: f32) {
-    let Some(document) = &app.document else { return };
+    // Less than this shows no more than a letter or two.
+    const LEAST_WIDTH: f32 = 80.0;
+    let Some(document) = app.document.as_ref().filter(|_| right - left >= LEAST_WIDTH) else { return };
     let colours = colours(ui);
     let bar = ui.max_rect();
     let mut text = document.title();

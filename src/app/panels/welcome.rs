@@ -46,7 +46,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
                 app.run_command(command.id, &context);
             }
             ui.add_space(4.0);
-            let hint = format!("{}, or drop a file anywhere here", command.keys_text(ui.ctx()));
+            let hint = format!("{}, or drop a file anywhere here", app.keys_text(command, ui.ctx()));
             ui.label(RichText::new(hint).color(colours(ui).text_weak));
         });
         ui.add_space(20.0);

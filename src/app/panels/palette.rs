@@ -1,0 +1,513 @@
+//! The palette: every command by a few letters of its name, and what it needs asked for in place.
+
+use egui::text::{LayoutJob, TextFormat};
+use egui::{
+    Align2, Color32, FontId, Id, Key, Modal, Modifiers, Rect, Response, RichText, Role, ScrollArea, Sense, TextEdit,
+    Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
+};
+
+use crate::app::canvas::sentence;
+use crate::app::commands::{Argument, COMMANDS, Choice, Command};
+use crate::app::icons::Icon;
+use crate::app::search::{Hit, Search};
+use crate::app::widgets::{ICON, ROW, colours, hairline_in, put_line, swatch};
+use crate::app::{App, theme};
+
+/// Width of the palette, in points.
+const WIDTH: f32 = 580.0;
+
+/// So far below the top of the window.
+const TOP: f32 = 60.0;
+
+/// Height of the line with the text field.
+const HEAD: f32 = 46.0;
+
+/// So many rows are seen at once.
+const ROWS: usize = 11;
+
+/// So many commands are remembered as done.
+const RECENT: usize = 6;
+
+/// The palette while it is open.
+#[derive(Default)]
+pub(in crate::app) struct Palette {
+    query: String,
+    /// The row that Enter takes.
+    at: usize,
+    /// The command of which an argument is asked for.
+    asking: Option<Asking>,
+    /// Whether the row that Enter takes was changed by a key, so that it must be brought into sight.
+    is_stepped: bool,
+}
+
+struct Asking {
+    command: &'static Command,
+    /// The arguments that were given already.
+    given: Vec<String>,
+    /// What the argument that comes next can be, once it is known; `None` within for anything.
+    choices: Option<Option<Vec<Choice>>>,
+    /// Why what was typed is not taken; empty when nothing is wrong.
+    error: String,
+    /// Whether the command was chosen from the list, to which Escape goes back.
+    is_from_list: bool,
+}
+
+impl Asking {
+    fn new(command: &'static Command, given: Vec<String>) -> Self {
+        Self { command, given, choices: None, error: String::new(), is_from_list: false }
+    }
+
+    /// The argument that is asked for.
+    fn argument(&self) -> Option<&'static Argument> {
+        self.command.arguments.get(self.given.len())
+    }
+
+    /// Whether any text will do.
+    fn is_free(&self) -> bool {
+        matches!(self.choices, Some(None))
+    }
+}
+
+impl Palette {
+    /// Asks for what a command needs after some given arguments.
+    pub(in crate::app) fn asking(command: &'static Command, given: Vec<String>) -> Self {
+        Self { asking: Some(Asking::new(command, given)), ..Self::default() }
+    }
+
+    /// Puts a text into the field, to be changed.
+    pub(in crate::app) fn with_text(self, text: &str) -> Self {
+        Self { query: text.to_owned(), ..self }
+    }
+}
+
+/// A line of the list.
+struct Line {
+    title: String,
+    /// Which of the title's characters were looked for.
+    characters: Vec<u32>,
+    /// Beside the title.
+    detail: String,
+    /// At the end.
+    trail: String,
+    lead: LineLead,
+    is_available: bool,
+    taken: Taken,
+}
+
+#[derive(Clone, Copy)]
+enum LineLead {
+    None,
+    Tick,
+    Swatch(Color32),
+}
+
+/// What taking a line means.
+enum Taken {
+    Command(&'static Command),
+    Argument(String),
+}
+
+/// What a person did.
+enum Act {
+    Take(usize),
+    /// Take what was typed.
+    TakeText,
+    /// Go one step back, or close.
+    Back,
+    Close,
+}
+
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    // A question comes first, and what was begun here is forgotten.
+    if app.question.is_some() {
+        app.panels.palette = None;
+    }
+    let Some(mut palette) = app.panels.palette.take() else { return };
+    let lines = palette.lines(app, ui);
+    let act = palette.show(ui, &lines);
+    let is_done = act.is_some();
+    let keep = match act {
+        None => true,
+        Some(Act::Close) => false,
+        Some(Act::Back) => palette.go_back(),
+        Some(Act::Take(index)) => match lines.into_iter().nth(index).map(|line| (line.is_available, line.taken)) {
+            Some((true, Taken::Command(command))) => palette.take_command(app, ui, command),
+            Some((true, Taken::Argument(word))) => palette.take_argument(app, ui, word),
+            Some((false, _)) | None => true,
+        },
+        Some(Act::TakeText) => {
+            let text = palette.query.clone();
+            palette.take_argument(app, ui, text)
+        }
+    };
+    // A command may have opened a palette of its own.
+    if keep && app.panels.palette.is_none() {
+        app.panels.palette = Some(palette);
+        if is_done {
+            ui.request_repaint();
+        }
+    }
+}
+
+impl Palette {
+    // What is in the list.
+
+    fn lines(&mut self, app: &App, ui: &Ui) -> Vec<Line> {
+        let mut search = Search::new(&self.query);
+        let Some(asking) = &mut self.asking else { return command_lines(app, ui, &mut search) };
+        let argument = asking.argument();
+        // Nothing changes while the palette is open.
+        let choices = asking.choices.get_or_insert_with(|| argument.and_then(|argument| argument.kind.choices(app)));
+        argument_lines(app, ui, choices.as_deref().unwrap_or_default(), &mut search)
+    }
+
+    // What is done. Each gives whether the palette stays open.
+
+    fn go_back(&mut self) -> bool {
+        match self.asking.take() {
+            Some(asking) if asking.is_from_list => {
+                *self = Self::default();
+                true
+            }
+            _ => false,
+        }
+    }
+
+    fn take_command(&mut self, app: &mut App, ui: &Ui, command: &'static Command) -> bool {
+        app.panels.recent.retain(|id| *id != command.id);
+        app.panels.recent.insert(0, command.id);
+        app.panels.recent.truncate(RECENT);
+        if command.asked_in_palette(0).is_some() {
+            let asking = Asking { is_from_list: true, ..Asking::new(command, Vec::new()) };
+            *self = Self { asking: Some(asking), ..Self::default() };
+            return true;
+        }
+        app.act(command.id, &[], ui.ctx());
+        false
+    }
+
+    fn take_argument(&mut self, app: &mut App, ui: &Ui, word: String) -> bool {
+        let Some(asking) = &mut self.asking else { return false };
+        let Some(argument) = asking.argument() else { return false };
+        if let Err(expected) = argument.kind.read(app, &word) {
+            asking.error = format!("Expected {expected}");
+            return true;
+        }
+        asking.given.push(word);
+        asking.choices = None;
+        if asking.command.asked_in_palette(asking.given.len()).is_some() {
+            self.query.clear();
+            self.at = 0;
+            return true;
+        }
+        let given: Vec<&str> = asking.given.iter().map(String::as_str).collect();
+        app.act(asking.command.id, &given, ui.ctx());
+        false
+    }
+
+    // How it looks.
+
+    fn show(&mut self, ui: &mut Ui, lines: &[Line]) -> Option<Act> {
+        let id = Id::unique("command palette");
+        let screen = ui.ctx().content_rect();
+        let area = Modal::default_area(id).anchor(Align2::CENTER_TOP, vec2(0.0, TOP.min(screen.height() * 0.08)));
+        let frame = egui::Frame::window(ui.style()).inner_margin(egui::Margin::same(0));
+        let backdrop = Color32::from_black_alpha(if ui.visuals().dark_mode { 90 } else { 40 });
+        let modal = Modal { area, ..Modal::new(id).frame(frame).backdrop_color(backdrop) };
+        let response = modal.show(ui.ctx(), |ui| {
+            ui.set_width(WIDTH.min(screen.width() - 40.0));
+            ui.spacing_mut().item_spacing = Vec2::ZERO;
+            let keys = self.take_keys(ui, lines.len());
+            self.show_field(ui);
+            hairline_in(ui);
+            let clicked = self.show_list(ui, lines, screen.height() - 200.0);
+            hairline_in(ui);
+            self.show_foot(ui, lines);
+            clicked.or(keys)
+        });
+        // Escape is taken above: it goes one step back.
+        response.inner.or(response.backdrop_response.clicked().then_some(Act::Close))
+    }
+
+    /// The keys that the text field does not need.
+    fn take_keys(&mut self, ui: &Ui, number: usize) -> Option<Act> {
+        let pressed = |key: Key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key));
+        let before = self.at;
+        self.at = self.at.min(number.saturating_sub(1));
+        let steps =
+            [(Key::ArrowDown, 1), (Key::ArrowUp, -1), (Key::PageDown, ROWS as isize), (Key::PageUp, -(ROWS as isize))];
+        for (key, step) in steps {
+            for _ in 0..pressed(key) {
+                self.at = match self.at.checked_add_signed(step) {
+                    // A single step goes round, a page ends at the end.
+                    Some(at) if at >= number && step == 1 => 0,
+                    Some(at) => at.min(number.saturating_sub(1)),
+                    None if step == -1 => number.saturating_sub(1),
+                    None => 0,
+                };
+            }
+        }
+        self.is_stepped = before != self.at;
+        if pressed(Key::Escape) > 0 {
+            return Some(Act::Back);
+        }
+        if pressed(Key::Enter) > 0 {
+            let is_free = self.asking.as_ref().is_some_and(Asking::is_free);
+            return if is_free { Some(Act::TakeText) } else { (number > 0).then_some(Act::Take(self.at)) };
+        }
+        None
+    }
+
+    fn show_field(&mut self, ui: &mut Ui) {
+        let asked = self.asking.as_ref().and_then(|asking| Some((asking, asking.argument()?)));
+        let (hint, name) = match asked {
+            Some((asking, argument)) => {
+                let name = format!("{}: {}", asking.command.plain_title(), argument.help);
+                (sentence(argument.help), name)
+            }
+            None => ("Find a command".to_owned(), "Find a command".to_owned()),
+        };
+        let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEAD), Sense::hover());
+        let mut left = rect.left() + 16.0;
+        let colours = colours(ui);
+        if let Some(asking) = &self.asking {
+            // What is asked for: the command, and what was given.
+            let title = FontId::new(theme::BODY, theme::semibold());
+            let mut job = LayoutJob::single_section(
+                asking.command.plain_title().to_owned(),
+                TextFormat::simple(title, colours.accent),
+            );
+            for word in &asking.given {
+                job.append(word, 8.0, TextFormat::simple(FontId::proportional(theme::BODY), colours.text));
+            }
+            // The field keeps half of the line.
+            job.wrap.max_width = rect.width() / 2.0;
+            job.wrap.max_rows = 1;
+            job.wrap.break_anywhere = true;
+            let galley = ui.painter().layout_job(job);
+            let size = galley.rect.size() + vec2(16.0, 10.0);
+            let chip = Rect::from_min_size(pos2(left, (rect.center().y - size.y / 2.0).round()), size);
+            ui.painter().rect_filled(chip, theme::RADIUS, colours.accent_soft);
+            ui.painter().galley(chip.min + vec2(8.0, 5.0), galley, colours.text);
+            left = chip.right() + 6.0;
+        } else {
+            let square = Rect::from_center_size(pos2(left + ICON / 2.0, rect.center().y), Vec2::splat(ICON));
+            Icon::Search.paint(ui.painter(), square, colours.text_weak);
+            left += ICON + 6.0;
+        }
+        let field = Rect::from_min_max(pos2(left, rect.top() + 8.0), pos2(rect.right() - 12.0, rect.bottom() - 8.0));
+        let edit = TextEdit::singleline(&mut self.query)
+            .id(Id::unique("command palette's text"))
+            .frame(egui::Frame::NONE)
+            .margin(egui::Margin::symmetric(4, 4))
+            .font(FontId::proportional(theme::TITLE))
+            .hint_text(RichText::new(hint).color(colours.text_weak))
+            .align(Align2::LEFT_CENTER)
+            .min_size(field.size())
+            .desired_width(field.width());
+        let mut line = ui.new_child(UiBuilder::new().max_rect(field));
+        let response = line.put(field, edit).accessible_name(name);
+        // Nothing else here takes the keyboard.
+        response.request_focus();
+        if response.changed() {
+            self.at = 0;
+            self.is_stepped = true;
+            if let Some(asking) = &mut self.asking {
+                asking.error.clear();
+            }
+        }
+    }
+
+    fn show_list(&self, ui: &mut Ui, lines: &[Line], most_height: f32) -> Option<Act> {
+        let mut act = None;
+        if lines.is_empty() {
+            let query = self.query.trim();
+            let text = match &self.asking {
+                None => format!("No command fits ‘{query}’"),
+                Some(asking) if asking.is_free() => {
+                    let argument = asking.argument();
+                    let name = argument.map_or("", |argument| argument.name).to_lowercase();
+                    format!("{}: {}", sentence(&name), argument.map_or("", |argument| argument.help))
+                }
+                Some(_) => format!("Nothing fits ‘{query}’"),
+            };
+            let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 2.0 * ROW), Sense::hover());
+            let font = FontId::proportional(theme::BODY);
+            put_line(ui, &text, font, colours(ui).text_weak, rect.shrink2(vec2(16.0, 0.0)));
+            response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &text));
+            return None;
+        }
+        let rows = (lines.len().min(ROWS) as f32).min((most_height / ROW).floor()).max(3.0);
+        egui::Frame::new().inner_margin(egui::Margin::symmetric(6, 6)).show(ui, |ui| {
+            let area = ScrollArea::vertical().id_salt("lines").auto_shrink([false, true]);
+            area.min_scrolled_height(rows * ROW).max_height(rows * ROW).show_viewport(ui, |ui, seen| {
+                // Only what is seen is laid out: a plan may have thousands of rooms.
+                ui.set_height(lines.len() as f32 * ROW);
+                let place = |index: usize| {
+                    let min = ui.max_rect().min + vec2(0.0, index as f32 * ROW);
+                    Rect::from_min_size(min, vec2(ui.available_width(), ROW))
+                };
+                if self.is_stepped {
+                    ui.scroll_to_rect(place(self.at), None);
+                }
+                let first = (seen.top() / ROW).floor().max(0.0) as usize;
+                let last = (seen.bottom() / ROW).ceil().max(0.0) as usize;
+                for (index, line) in lines.iter().enumerate().take(last).skip(first) {
+                    if row(ui, place(index), index, line, index == self.at).clicked() {
+                        act = Some(Act::Take(index));
+                    }
+                }
+            });
+        });
+        act
+    }
+
+    /// What the chosen line does, or what is wrong.
+    fn show_foot(&self, ui: &mut Ui, lines: &[Line]) {
+        let error = self.asking.as_ref().map(|asking| asking.error.as_str()).filter(|error| !error.is_empty());
+        let colours = colours(ui);
+        let (text, colour) = match (error, lines.get(self.at), &self.asking) {
+            (Some(error), _, _) => (error.to_owned(), colours.error),
+            (None, Some(Line { taken: Taken::Command(command), .. }), _) => {
+                (command.help.to_owned(), colours.text_weak)
+            }
+            (None, _, Some(asking)) => (asking.command.help.to_owned(), colours.text_weak),
+            (None, _, None) => (String::new(), colours.text_weak),
+        };
+        let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 34.0), Sense::hover());
+        let inner = rect.shrink2(vec2(16.0, 0.0));
+        let back =
+            if self.asking.as_ref().is_some_and(|asking| asking.is_from_list) { "Esc goes back" } else { "Esc closes" };
+        let small = FontId::proportional(theme::SMALL);
+        let width = ui.painter().layout_no_wrap(back.to_owned(), small.clone(), colours.text_weak).rect.width();
+        let right = Rect::from_min_max(pos2(inner.right() - width, inner.top()), inner.max);
+        put_line(ui, back, small.clone(), colours.text_weak, right);
+        let left = Rect::from_min_max(inner.min, pos2(right.left() - 16.0, inner.bottom()));
+        put_line(ui, &text, small, colour, left);
+        let role = if error.is_some() { Role::Alert } else { Role::Status };
+        response.widget_info(|| WidgetInfo::labeled(role, true, &text));
+    }
+}
+
+/// A line of the list. It does not take the keyboard, which stays in the text field.
+fn row(ui: &Ui, rect: Rect, index: usize, line: &Line, is_chosen: bool) -> Response {
+    let response = ui.interact(rect, ui.scope_id().with(("line", index)), Sense::CLICK);
+    let name = match (line.detail.as_str(), line.is_available) {
+        ("", _) => line.title.clone(),
+        (detail, true) => format!("{}, {detail}", line.title),
+        (detail, false) => format!("{}, not now: {detail}", line.title),
+    };
+    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, line.is_available, is_chosen, &name));
+    let colours = colours(ui);
+    let ground = match (is_chosen, response.hovered()) {
+        (true, _) => colours.accent_soft,
+        (false, true) => colours.hover,
+        (false, false) => Color32::TRANSPARENT,
+    };
+    ui.painter().rect_filled(rect, theme::RADIUS, ground);
+    let fade = if line.is_available { 1.0 } else { 0.6 };
+    let text = if line.is_available { colours.text } else { colours.text_weak };
+    let mut left = rect.left() + 10.0;
+    let middle = rect.center().y;
+    match line.lead {
+        LineLead::None => {}
+        LineLead::Tick => {
+            let square = Rect::from_center_size(pos2(left + ICON / 2.0, middle), Vec2::splat(ICON));
+            Icon::Check.paint(ui.painter(), square, text.gamma_multiply(fade));
+        }
+        LineLead::Swatch(colour) => swatch(ui, pos2(left + 8.0, middle), colour),
+    }
+    left += ICON + 8.0;
+    let small = FontId::proportional(theme::SMALL);
+    let trail = ui.painter().layout_no_wrap(line.trail.clone(), small.clone(), colours.text_weak);
+    let right = rect.right() - 10.0 - trail.rect.width();
+    let trail_rect = Rect::from_min_max(pos2(right, rect.top()), pos2(rect.right() - 10.0, rect.bottom()));
+    put_line(ui, &line.trail, small.clone(), colours.text_weak.gamma_multiply(fade), trail_rect);
+    let limit = if line.trail.is_empty() { right } else { right - 12.0 };
+    // The title keeps two thirds where both are long.
+    let most = if line.detail.is_empty() { limit - left } else { (limit - left) * 0.66 };
+    let job =
+        highlighted(&line.title, &line.characters, text, if line.is_available { colours.accent } else { text }, most);
+    let galley = ui.painter().layout_job(job);
+    let width = galley.rect.width();
+    let at = pos2(left, (middle - galley.rect.height() / 2.0).round());
+    ui.painter().galley(at, galley, text);
+    let detail = Rect::from_min_max(pos2(left + width + 10.0, rect.top()), pos2(limit, rect.bottom()));
+    put_line(ui, &line.detail, small, colours.text_weak, detail);
+    response
+}
+
+/// A text whose characters that were looked for stand out.
+fn highlighted(text: &str, characters: &[u32], colour: Color32, accent: Color32, width: f32) -> LayoutJob {
+    let plain = TextFormat::simple(FontId::proportional(theme::BODY), colour);
+    let marked = TextFormat::simple(FontId::new(theme::BODY, theme::semibold()), accent);
+    let mut job = LayoutJob::default();
+    for (index, letter) in (0u32..).zip(text.chars()) {
+        let is_marked = characters.binary_search(&index).is_ok();
+        job.append(letter.encode_utf8(&mut [0; 4]), 0.0, if is_marked { marked.clone() } else { plain.clone() });
+    }
+    job.wrap.max_width = width.max(0.0);
+    job.wrap.max_rows = 1;
+    job.wrap.break_anywhere = true;
+    job
+}
+
+fn command_lines(app: &App, ui: &Ui, search: &mut Search) -> Vec<Line> {
+    // First by where the letters were found, then by how well, then what can be done and was done last.
+    type Rank = (u8, std::cmp::Reverse<u32>, bool, usize, usize);
+    let mut found: Vec<(Rank, Line)> = Vec::new();
+    for (index, command) in COMMANDS.iter().enumerate() {
+        let Some((menu, _)) = command.menu.filter(|_| command.id != "commands") else { continue };
+        let title = command.plain_title();
+        let why_not = command.why_not(app);
+        let (tier, hit) = match search.hit(title) {
+            Some(hit) => (0, hit),
+            None => {
+                let elsewhere = [format!("{} {title}", menu.title()), command.id.replace('-', " ")];
+                let Some(hit) = elsewhere.iter().filter_map(|text| search.hit(text)).max_by_key(|hit| hit.score) else {
+                    continue;
+                };
+                (1, Hit { characters: Vec::new(), ..hit })
+            }
+        };
+        let recent = app.panels.recent.iter().position(|id| *id == command.id).unwrap_or(usize::MAX);
+        let rank = (tier, std::cmp::Reverse(hit.score), why_not.is_some(), recent, index);
+        let line = Line {
+            title: command.title.to_owned(),
+            characters: hit.characters,
+            detail: why_not.unwrap_or(menu.title()).to_owned(),
+            trail: app.keys_text(command, ui.ctx()),
+            lead: if command.is_on(app) == Some(true) { LineLead::Tick } else { LineLead::None },
+            is_available: why_not.is_none(),
+            taken: Taken::Command(command),
+        };
+        found.push((rank, line));
+    }
+    found.sort_by(|p, q| p.0.cmp(&q.0));
+    found.into_iter().map(|(_, line)| line).collect()
+}
+
+fn argument_lines(app: &App, ui: &Ui, choices: &[Choice], search: &mut Search) -> Vec<Line> {
+    let palette = app.palette(ui);
+    let mut found: Vec<(std::cmp::Reverse<u32>, Line)> = Vec::new();
+    for choice in choices {
+        let Choice { word, title, detail, status } = choice;
+        let Some(hit) = search.hit(title) else { continue };
+        let lead = status.map_or(LineLead::None, |status| LineLead::Swatch(theme::colour(palette.status(status))));
+        let line = Line {
+            title: title.clone(),
+            characters: hit.characters,
+            detail: detail.clone(),
+            trail: String::new(),
+            lead,
+            is_available: true,
+            taken: Taken::Argument(word.clone()),
+        };
+        found.push((std::cmp::Reverse(hit.score), line));
+    }
+    // Stable: in their own order where they fit alike.
+    if !search.is_empty() {
+        found.sort_by_key(|(score, _)| *score);
+    }
+    found.into_iter().map(|(_, line)| line).collect()
+}

@@ -1,0 +1,379 @@
+//! The sheet of shortcuts: all of them by menu, and a way to change each.
+
+use egui::epaint::StrokeKind;
+use egui::{
+    Color32, Event, EventFilter, FontId, Id, Key, Modal, Rect, Response, RichText, Role, ScrollArea, Sense, Stroke,
+    TextEdit, Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
+};
+
+use crate::app::commands::{self, COMMANDS, Command, CommandError, Keys, Menu};
+use crate::app::icons::Icon;
+use crate::app::search::Search;
+use crate::app::widgets::{ICON, caption, colours, dialog_frame, icon_button, put_line, right, strong, text_button};
+use crate::app::{App, theme};
+
+/// The sheet while it is open.
+#[derive(Default)]
+pub(in crate::app) struct Sheet {
+    query: String,
+    /// The command for which keys are waited for.
+    changing: Option<&'static str>,
+    /// What was done, or why it was not.
+    said: Option<Said>,
+    /// Whether it has been shown: the first time, the search takes the keyboard.
+    is_shown: bool,
+}
+
+struct Said {
+    text: String,
+    is_error: bool,
+}
+
+/// What a person did.
+enum Act {
+    Change(&'static Command),
+    Set(&'static Command, Option<Keys>),
+    /// Wait no longer for keys.
+    GiveUp,
+    Reset(&'static Command),
+    ResetAll,
+    Close,
+}
+
+/// Height of a line of the sheet, in points.
+const LINE: f32 = 25.0;
+
+/// Space between two menus of a column.
+const BETWEEN: f32 = 10.0;
+
+/// Commands of a menu.
+type Group = (Menu, Vec<&'static Command>);
+
+/// Width of a column, and the space between two.
+const COLUMN: f32 = 300.0;
+const GAP: f32 = 28.0;
+
+/// Which menus stand in which column, by how many columns there are: about as many lines in each.
+const COLUMNS: [&[&[Menu]]; 3] = [
+    &[&Menu::ALL],
+    &[&[Menu::File, Menu::Edit, Menu::Help], &[Menu::Room, Menu::View]],
+    &[&[Menu::File, Menu::Edit, Menu::Help], &[Menu::Room], &[Menu::View]],
+];
+
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    if app.question.is_some() {
+        app.panels.sheet = None;
+    }
+    let Some(mut sheet) = app.panels.sheet.take() else { return };
+    let act = sheet.show(app, ui);
+    app.panels.sheet = Some(sheet);
+    if let Some(act) = act {
+        take(app, ui, act);
+        ui.request_repaint();
+    }
+}
+
+/// Does what a person did: by commands, as a script does.
+fn take(app: &mut App, ui: &Ui, act: Act) {
+    let (said, changing) = match act {
+        Act::Close => {
+            app.panels.sheet = None;
+            return;
+        }
+        Act::Change(command) => (None, Some(command.id)),
+        Act::GiveUp => (None, None),
+        Act::Set(command, keys) => {
+            let word = keys.map(|keys| keys.to_string());
+            let ran = match &word {
+                Some(keys) => app.run_command_with("set-shortcut", &[command.id, keys], ui.ctx()),
+                None => app.run_command_with("remove-shortcut", &[command.id], ui.ctx()),
+            };
+            let done = match keys {
+                Some(keys) => format!("{} is now the shortcut of '{}'", keys.text(ui.ctx()), command.plain_title()),
+                None => format!("'{}' has no shortcut any more", command.plain_title()),
+            };
+            let waits = ran.is_err().then_some(command.id);
+            (Some(said(ran, done)), waits)
+        }
+        Act::Reset(command) => {
+            let ran = app.run_command_with("reset-shortcut", &[command.id], ui.ctx());
+            (Some(said(ran, format!("'{}' has the shortcut it comes with", command.plain_title()))), None)
+        }
+        Act::ResetAll => {
+            let ran = app.run_command_with("reset-shortcuts", &[], ui.ctx());
+            (Some(said(ran, "All commands have the shortcuts they come with".to_owned())), None)
+        }
+    };
+    if let Some(sheet) = &mut app.panels.sheet {
+        sheet.said = said;
+        sheet.changing = changing;
+    }
+}
+
+fn said(ran: Result<(), CommandError>, done: String) -> Said {
+    match ran {
+        Ok(()) => Said { text: done, is_error: false },
+        Err(CommandError::NotNow { reason, .. }) => Said { text: reason, is_error: true },
+        Err(error) => Said { text: error.to_string(), is_error: true },
+    }
+}
+
+impl Sheet {
+    fn show(&mut self, app: &App, ui: &mut Ui) -> Option<Act> {
+        let screen = ui.ctx().content_rect();
+        let frame = dialog_frame(ui);
+        let outer = screen.width() - 80.0 - 2.0 * 22.0;
+        let columns = (((outer + GAP) / (COLUMN + GAP)).floor() as usize).clamp(1, COLUMNS.len());
+        let width = (columns as f32 * (COLUMN + GAP) - GAP).min(outer);
+        let response = Modal::new(Id::unique("shortcuts")).frame(frame).show(ui.ctx(), |ui| {
+            ui.set_width(width);
+            let mut act = self.take_keys(ui);
+            ui.horizontal(|ui| {
+                ui.label(strong("Shortcuts", theme::TITLE));
+                right(ui, |ui| {
+                    if icon_button(ui, Icon::Close, "Close", None).clicked() {
+                        act = Some(Act::Close);
+                    }
+                    self.show_search(ui);
+                });
+            });
+            ui.add_space(2.0);
+            self.show_said(ui);
+            ui.add_space(8.0);
+            let height = (screen.height() - 190.0).max(120.0);
+            let columns = self.columns(app, ui, COLUMNS[columns - 1]);
+            let wanted = columns.iter().map(|column| height_of(column)).fold(LINE, f32::max);
+            let area = ScrollArea::vertical().min_scrolled_height(wanted.min(height)).max_height(height);
+            area.auto_shrink([false, true]).show(ui, |ui| {
+                // The bar lies over what it scrolls.
+                let bar = if wanted > height { 14.0 } else { 0.0 };
+                act = self.show_columns(app, ui, &columns, wanted, bar).or(act.take());
+            });
+            ui.add_space(10.0);
+            ui.horizontal(|ui| {
+                let is_any = app.settings.is_any_changed();
+                let reset = ui.add_enabled_ui(is_any, |ui| text_button(ui, "Reset all", false)).inner;
+                if reset.clicked() {
+                    act = Some(Act::ResetAll);
+                }
+                right(ui, |ui| {
+                    if text_button(ui, "Done", true).clicked() {
+                        act = Some(Act::Close);
+                    }
+                });
+            });
+            act
+        });
+        self.is_shown = true;
+        let leaves = self.changing.is_none() && response.should_close();
+        response.inner.or(leaves.then_some(Act::Close))
+    }
+
+    fn show_search(&mut self, ui: &mut Ui) {
+        let edit = TextEdit::singleline(&mut self.query)
+            .id(Id::unique("search of shortcuts"))
+            .hint_text(RichText::new("Search").color(colours(ui).text_weak))
+            .align(egui::Align2::LEFT_CENTER)
+            .desired_width(180.0);
+        let response = ui.add(edit).accessible_name("Search shortcuts");
+        if !self.is_shown {
+            response.request_focus();
+        }
+    }
+
+    /// How to change a shortcut, or what became of changing it.
+    fn show_said(&self, ui: &mut Ui) {
+        match &self.said {
+            Some(Said { text, is_error }) => {
+                let colours = colours(ui);
+                let (ground, ink) =
+                    if *is_error { (colours.error_soft, colours.error) } else { (colours.info_soft, colours.text) };
+                let frame = egui::Frame::new().fill(ground).corner_radius(theme::RADIUS);
+                let shown = frame.inner_margin(egui::Margin::symmetric(10, 6)).show(ui, |ui| {
+                    ui.set_width(ui.available_width());
+                    let text = if *is_error { format!("{text}. Press other keys, or Esc.") } else { text.clone() };
+                    ui.label(RichText::new(text).color(ink));
+                });
+                let role = if *is_error { Role::Alert } else { Role::Status };
+                shown.response.widget_info(|| WidgetInfo::labeled(role, true, text));
+            }
+            None => {
+                caption(ui, "Click the keys of a command to change them. Backspace leaves it without.");
+            }
+        }
+    }
+
+    /// The keys that are waited for.
+    fn take_keys(&self, ui: &Ui) -> Option<Act> {
+        let command = commands::find(self.changing?)?;
+        ui.input_mut(|input| {
+            let mut act = None;
+            input.events.retain(|event| {
+                let (key, modifiers) = match event {
+                    Event::Key { key, pressed: true, modifiers, .. } => (*key, *modifiers),
+                    // The system tells of these in its own way.
+                    Event::Copy => (Key::C, egui::Modifiers::COMMAND),
+                    Event::Cut => (Key::X, egui::Modifiers::COMMAND),
+                    Event::Paste(_) => (Key::V, egui::Modifiers::COMMAND),
+                    _ => return true,
+                };
+                act = act.take().or(match Keys::new(modifiers, key) {
+                    _ if is_modifier(key) => None,
+                    _ if key == Key::Escape => Some(Act::GiveUp),
+                    _ if key == Key::Backspace && modifiers.is_none() => Some(Act::Set(command, None)),
+                    keys => Some(Act::Set(command, Some(keys))),
+                });
+                false
+            });
+            act
+        })
+    }
+
+    /// The commands that are looked for, by column and menu.
+    fn columns(&self, app: &App, ui: &Ui, columns: &[&[Menu]]) -> Vec<Vec<Group>> {
+        let mut search = Search::new(&self.query);
+        let mut group = |menu: &Menu| -> Option<Group> {
+            let mut is_wanted = |command: &&Command| {
+                // By its title, or its menu and keys.
+                let elsewhere = format!("{} {}", menu.title(), app.keys_text(command, ui.ctx()));
+                search.hit(command.plain_title()).is_some() || search.hit(&elsewhere).is_some()
+            };
+            let commands = COMMANDS.iter().filter(|command| command.menu.is_some_and(|(of, _)| of == *menu));
+            let commands: Vec<&'static Command> = commands.filter(|command| is_wanted(command)).collect();
+            (!commands.is_empty()).then_some((*menu, commands))
+        };
+        columns.iter().map(|menus| menus.iter().filter_map(&mut group).collect()).collect()
+    }
+
+    fn show_columns(&self, app: &App, ui: &mut Ui, columns: &[Vec<Group>], height: f32, bar: f32) -> Option<Act> {
+        let mut act = None;
+        let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+        let width = (rect.width() - bar + GAP) / columns.len() as f32 - GAP;
+        for (index, groups) in columns.iter().enumerate() {
+            let min = pos2((rect.left() + index as f32 * (width + GAP)).round(), rect.top());
+            let place = Rect::from_min_size(min, vec2(width, height));
+            let mut column = ui.new_child(UiBuilder::new().max_rect(place).id_salt(("column", index)));
+            column.spacing_mut().item_spacing = Vec2::ZERO;
+            for (position, (menu, commands)) in groups.iter().enumerate() {
+                if position > 0 {
+                    column.add_space(BETWEEN);
+                }
+                let (title, response) = column.allocate_exact_size(vec2(width, LINE), Sense::hover());
+                let font = FontId::new(theme::SMALL, theme::semibold());
+                put_line(&column, menu.title(), font, colours(&column).text_weak, title);
+                response.widget_info(|| WidgetInfo::labeled(Role::Label, true, menu.title()));
+                for command in commands {
+                    act = self.line(app, &mut column, command).or(act.take());
+                }
+            }
+        }
+        if columns.iter().all(Vec::is_empty) {
+            let text = format!("No command fits ‘{}’", self.query.trim());
+            put_line(ui, &text, FontId::proportional(theme::BODY), colours(ui).text_weak, rect);
+        }
+        act
+    }
+
+    /// A command with its keys, which are a button.
+    fn line(&self, app: &App, ui: &mut Ui, command: &'static Command) -> Option<Act> {
+        let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), LINE), Sense::hover());
+        let is_changing = self.changing == Some(command.id);
+        let is_changed = app.settings.is_changed(command);
+        let texts: Vec<String> = app.settings.keys_of(command).iter().map(|keys| keys.text(ui.ctx())).collect();
+        let mut act = None;
+        let shown = if is_changing { "Press keys…".to_owned() } else { texts.first().cloned().unwrap_or_default() };
+        let chip = self.chip(ui, rect, command, &shown, &texts.join(" or "), is_changing);
+        if chip.clicked() && !is_changing {
+            act = Some(Act::Change(command));
+        }
+        let mut left_of_chip = chip.rect.left();
+        if is_changed && !is_changing {
+            let square = Rect::from_center_size(pos2(left_of_chip - 14.0, rect.center().y), Vec2::splat(22.0));
+            let id = ui.scope_id().with(("reset", command.id));
+            let reset = ui.interact(square, id, Sense::click());
+            let ground = if reset.hovered() { colours(ui).hover } else { Color32::TRANSPARENT };
+            ui.painter().rect_filled(square, theme::RADIUS, ground);
+            let icon = Rect::from_center_size(square.center(), Vec2::splat(ICON - 2.0));
+            Icon::Undo.paint(ui.painter(), icon, colours(ui).text_weak);
+            if reset.has_focus() {
+                let stroke = Stroke::new(2.0, colours(ui).accent);
+                ui.painter().rect_stroke(square, theme::RADIUS, stroke, StrokeKind::Inside);
+            }
+            let name = format!("Reset the shortcut of {}", command.plain_title());
+            reset.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+            if reset.on_hover_text("Back to the keys it comes with").clicked() {
+                act = Some(Act::Reset(command));
+            }
+            left_of_chip = square.left();
+        }
+        let title = Rect::from_min_max(rect.min, pos2(left_of_chip - 8.0, rect.bottom()));
+        put_line(ui, command.plain_title(), FontId::proportional(theme::BODY), colours(ui).text, title);
+        response.on_hover_text(command.help);
+        act
+    }
+
+    /// The keys of a command at the end of its line.
+    fn chip(
+        &self,
+        ui: &Ui,
+        line: Rect,
+        command: &'static Command,
+        shown: &str,
+        all: &str,
+        is_changing: bool,
+    ) -> Response {
+        let colours = colours(ui);
+        let font = FontId::proportional(theme::SMALL);
+        let text = if shown.is_empty() { "–" } else { shown };
+        let ink = if is_changing {
+            colours.accent
+        } else if shown.is_empty() {
+            colours.text_weak
+        } else {
+            colours.text
+        };
+        let galley = ui.painter().layout_no_wrap(text.to_owned(), font, ink);
+        let size = vec2((galley.rect.width() + 16.0).max(28.0), 20.0);
+        let rect = Rect::from_min_size(pos2(line.right() - size.x, line.center().y - size.y / 2.0), size);
+        let id = ui.scope_id().with(("keys", command.id));
+        let response = ui.interact(rect.expand2(vec2(0.0, 2.0)), id, Sense::click());
+        let (ground, rim) = match (is_changing, response.hovered() || response.has_focus()) {
+            (true, _) => (colours.accent_soft, colours.accent),
+            (false, true) => (colours.hover, colours.outline),
+            (false, false) if shown.is_empty() => (Color32::TRANSPARENT, Color32::TRANSPARENT),
+            (false, false) => (colours.field, colours.outline),
+        };
+        ui.painter().rect_filled(rect, 5.0, ground);
+        ui.painter().rect_stroke(rect, 5.0, Stroke::new(1.0, rim), StrokeKind::Inside);
+        let at = (rect.center() - galley.rect.size() / 2.0).round();
+        ui.painter().galley(at, galley, ink);
+        if response.has_focus() {
+            let stroke = Stroke::new(2.0, colours.accent);
+            ui.painter().rect_stroke(rect.expand(1.0), 6.0, stroke, StrokeKind::Inside);
+        }
+        if is_changing {
+            // Tab and arrows are keys like others now; Escape ends the waiting, not the sheet.
+            let filter = EventFilter { tab: true, horizontal_arrows: true, vertical_arrows: true, escape: true };
+            response.request_focus();
+            ui.memory_mut(|memory| memory.set_focus_lock_filter(id, filter));
+        }
+        let keys = match (is_changing, all) {
+            (true, _) => "press keys",
+            (false, "") => "none",
+            (false, all) => all,
+        };
+        let name = format!("Shortcut of {}: {keys}", command.plain_title());
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+        response
+    }
+}
+
+/// Height of a column, in points.
+fn height_of(groups: &[Group]) -> f32 {
+    let lines = groups.iter().map(|(_, commands)| commands.len() + 1).sum::<usize>();
+    lines as f32 * LINE + groups.len().saturating_sub(1) as f32 * BETWEEN
+}
+
+fn is_modifier(key: Key) -> bool {
+    (Key::ShiftLeft..=Key::SuperRight).contains(&key)
+}

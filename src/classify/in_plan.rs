@@ -1,0 +1,108 @@
+//! Classifying all rooms of a plan at once: where neighbours' labels are not known, they are
+//! predicted too, and predictions are repeated until none changes.
+
+use super::{Algorithm, Classifier, Distribution};
+use crate::dataset::folds::{Folds, Grouping};
+use crate::dataset::table::Table;
+use crate::dataset::{RoomNetwork, RoomPlace, Row};
+use crate::features::{Features, NeighbourLabels};
+use crate::labels::Label;
+use crate::random::seed_of_part;
+
+/// Predictions are repeated at most so often. Real plans settle after two to five rounds; the few
+/// that do not go to and fro between two states, which no number of rounds would end.
+pub const MOST_ROUNDS: usize = 20;
+
+/// What a classifier says of a plan's rooms, each list with one entry for each room of the network.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InPlan {
+    pub distributions: Vec<Distribution>,
+    /// The features the last predictions rest on.
+    pub features: Vec<Features>,
+    /// How often all rooms were predicted; 1 unless predictions were repeated.
+    pub rounds: usize,
+    /// Whether the last round changed nothing.
+    pub settled: bool,
+}
+
+/// Classifies the rooms of a plan. `known` holds, for each room of the network, the label that may be
+/// used where it is a neighbour (its own prediction never uses it); nothing where none is known.
+pub fn classify(
+    classifier: &Classifier,
+    network: &RoomNetwork,
+    known: &[Option<Label>],
+    neighbours: NeighbourLabels,
+) -> InPlan {
+    let mut seen = network.seen_labels(known, neighbours);
+    let mut result = predict(classifier, network, &seen);
+    if neighbours != NeighbourLabels::Predicted {
+        return InPlan { settled: true, ..result };
+    }
+    while result.rounds < MOST_ROUNDS {
+        let known = |room: usize| known.get(room).copied().flatten();
+        let next: Vec<Label> = (0..network.rooms.len())
+            .map(|room| known(room).unwrap_or_else(|| result.distributions[room].label()))
+            .collect();
+        if next == seen {
+            return InPlan { settled: true, ..result };
+        }
+        seen = next;
+        result = InPlan { rounds: result.rounds + 1, ..predict(classifier, network, &seen) };
+    }
+    result
+}
+
+/// One round.
+fn predict(classifier: &Classifier, network: &RoomNetwork, seen: &[Label]) -> InPlan {
+    let features: Vec<Features> = (0..network.rooms.len()).map(|room| network.features(room, seen)).collect();
+    let distributions = features.iter().map(|features| classifier.predict(&features.values())).collect();
+    InPlan { distributions, features, rounds: 1, settled: false }
+}
+
+/// Folds by which training rooms get the predicted labels of their neighbours.
+const INNER_FOLDS: usize = 3;
+
+/// Rows to train on for use with [`NeighbourLabels::Predicted`]: the neighbours of each training room
+/// carry the labels that a classifier gives them which learned neither from them nor, with
+/// [`Grouping::Building`], from anything in their building. That is what neighbours look like in use,
+/// mistakes included.
+///
+/// `rows` and `places` are all labelled rooms of the networks in one order, as a
+/// [`crate::dataset::Collection`] gives them; `training` are the indices of those that may be learned
+/// from. Gives the rows at these indices, in their order.
+pub fn rows_with_predicted_neighbours(
+    networks: &[RoomNetwork],
+    rows: &[Row],
+    places: &[RoomPlace],
+    training: &[usize],
+    algorithm: Algorithm,
+    grouping: Grouping,
+    seed: u64,
+) -> Vec<Row> {
+    let temporary: Vec<Vec<Label>> = networks
+        .iter()
+        .map(|network| network.seen_labels(&network.known_labels(), NeighbourLabels::Temporary))
+        .collect();
+    let with_neighbours = |index: usize, seen: &[Vec<Label>]| {
+        let RoomPlace { network, room } = places[index];
+        Row { features: networks[network].features(room, &seen[network]), ..rows[index].clone() }
+    };
+    let first: Vec<Row> = training.iter().map(|&index| with_neighbours(index, &temporary)).collect();
+    let Some(folds) = Folds::new(&first, grouping, INNER_FOLDS, seed).ok() else { return first };
+    let mut seen = temporary;
+    for fold in 0..folds.count() {
+        let taught = folds.training_rows(fold).into_iter().map(|index| &first[index]);
+        let Ok(table) = Table::from_rows(taught) else { continue };
+        let classifier = Classifier::train(algorithm, &table, seed_of_part(seed, fold));
+        let mut predicted: Vec<Option<Vec<Distribution>>> = vec![None; networks.len()];
+        for index in folds.test_rows(fold) {
+            let RoomPlace { network, room } = places[training[index]];
+            let distributions = predicted[network].get_or_insert_with(|| {
+                let nothing_known = vec![None; networks[network].rooms.len()];
+                classify(&classifier, &networks[network], &nothing_known, NeighbourLabels::Predicted).distributions
+            });
+            seen[network][room] = distributions[room].label();
+        }
+    }
+    training.iter().map(|&index| with_neighbours(index, &seen)).collect()
+}

@@ -1,0 +1,241 @@
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use serde_json::json;
+
+use super::collect::neighbour_labels;
+use super::train::algorithm;
+use super::{CliError, Outcome, Subcommand, Terminal, inputs};
+use crate::classify::{Algorithm, Distribution};
+use crate::dataset::{NetworkRoom, RoomNetwork};
+use crate::features::NeighbourLabels;
+use crate::labels::{Label, Schemes};
+use crate::plan::{LabelOrigin, Plan, RoomLabel, edit};
+use crate::predict::{Agreement, Choice, ModelSet, Predictions, UnknownSet, choose};
+use crate::store::{StoredModel, bundled_model, load_model, save_plan, set_name};
+
+/// `enfilade classify`: labels for the rooms of plans.
+#[derive(clap::Args)]
+pub struct ClassifyCommand {
+    /// Plans, or folders of plans, of any known format
+    #[arg(required = true, value_name = "PLAN")]
+    plans: Vec<PathBuf>,
+    /// house, school, office, 'standard' (learned from all), or 'auto' to infer it from the plan;
+    /// without it the plan's own, inferred where it has none
+    #[arg(long, value_name = "NAME", default_value = "plan", hide_default_value = true, value_parser = model_set)]
+    typology: ModelSet,
+    /// rules, tree, knn or mlp
+    #[arg(long, value_name = "NAME", default_value = "mlp", value_parser = algorithm)]
+    algorithm: Algorithm,
+    /// Use this model instead of a bundled one
+    #[arg(long, value_name = "FILE.model.json", conflicts_with_all = ["typology", "algorithm"])]
+    model: Option<PathBuf>,
+    /// Neighbours' labels: 'true' (where known, else temporary), 'temporary', or 'predicted' (where not
+    /// known, repeated until stable); without it, as the model learned
+    #[arg(long, value_name = "MODE", value_parser = neighbour_labels)]
+    neighbours: Option<NeighbourLabels>,
+    /// Pretend that no room's label is known, to see what would be said of a new building
+    #[arg(long)]
+    hide_labels: bool,
+    /// Write the predictions into the plan file, marked as predictions, for rooms without a label
+    #[arg(long)]
+    write: bool,
+    /// With --write: write to this plan file (.plan.json) instead; for several plans, into this folder
+    #[arg(short, long, value_name = "FILE|DIR", requires = "write")]
+    output: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+    /// Label scheme that extends the bundled ones (may be given several times)
+    #[arg(long, value_name = "FILE.scheme.toml")]
+    scheme: Vec<PathBuf>,
+}
+
+/// Which models to use, as an option's value.
+fn model_set(word: &str) -> Result<ModelSet, String> {
+    word.parse().map_err(|error: UnknownSet| error.to_string())
+}
+
+impl Subcommand for ClassifyCommand {
+    const NAME: &'static str = "classify";
+    const ABOUT: &'static str = "Predict the labels of rooms, with probability and reason";
+    const EXAMPLE: &'static str = "enfilade classify plans/office.plan.json --algorithm tree";
+
+    fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
+        let schemes = inputs::schemes(&self.scheme)?;
+        let own = self.model.as_deref().map(load_model).transpose()?.map(Arc::new);
+        let files = inputs::plan_files(&self.plans)?;
+        let mut objects: Vec<serde_json::Value> = Vec::new();
+        let mut total = Agreement::default();
+        let mut plans = 0;
+        let failed = inputs::for_each_plan(&files, terminal, |file, import, terminal| {
+            for (storey, plan) in import.plans.iter().enumerate() {
+                let said = self.classify(plan, &schemes, own.as_ref())?;
+                total.add(said.agreement());
+                if self.json {
+                    objects.push(json(plan, &said));
+                } else {
+                    if plans > 0 {
+                        writeln!(terminal.out)?;
+                    }
+                    print(plan, &said, terminal)?;
+                }
+                plans += 1;
+                if self.write {
+                    let (target, rooms) = self.write(file, storey, import.plans.len(), files.len(), plan, &said)?;
+                    writeln!(terminal.err, "{}: {rooms} predictions written", target.display())?;
+                }
+            }
+            Ok(())
+        })?;
+        if self.json {
+            serde_json::to_writer_pretty(&mut terminal.out, &objects)?;
+            writeln!(terminal.out)?;
+        } else if plans > 1 && total.known > 0 {
+            writeln!(terminal.out, "\nAll {plans} plans: {total}")?;
+        }
+        Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
+    }
+}
+
+impl ClassifyCommand {
+    fn classify(
+        &self,
+        plan: &Plan,
+        schemes: &Schemes,
+        own: Option<&Arc<StoredModel>>,
+    ) -> Result<Predictions, CliError> {
+        let network = RoomNetwork::new(plan, schemes);
+        let known = if self.hide_labels { vec![None; network.rooms.len()] } else { network.known_labels() };
+        let (choice, model) = match own {
+            Some(model) => {
+                let set = set_name(model.about.typology.as_ref()).to_owned();
+                (Choice { set, because: "the model's".to_owned() }, model.clone())
+            }
+            None => {
+                let choice = choose(&network, &self.typology);
+                let model = bundled_model(&choice.set, self.algorithm)?;
+                (choice, model)
+            }
+        };
+        Ok(Predictions::new(network, choice, model, &known, self.neighbours))
+    }
+
+    /// Writes the predictions of the rooms without a label into a plan file; gives the file and their number.
+    fn write(
+        &self,
+        file: &Path,
+        storey: usize,
+        storeys: usize,
+        files: usize,
+        plan: &Plan,
+        said: &Predictions,
+    ) -> Result<(PathBuf, usize), CliError> {
+        let name = inputs::target_name(file, storey, "plan.json");
+        let target = match &self.output {
+            Some(output) if files * storeys > 1 || output.is_dir() => {
+                std::fs::create_dir_all(output)?;
+                output.join(name)
+            }
+            Some(output) => output.clone(),
+            None if file.to_string_lossy().ends_with(".plan.json") => file.to_owned(),
+            None => {
+                return Err(CliError::new(format!(
+                    "{}: predictions can be written into plan files (.plan.json) only; say with -o where to write one",
+                    file.display()
+                )));
+            }
+        };
+        let mut plan = plan.clone();
+        let mut written = 0;
+        for room in said.network.rooms.iter().filter(|room| room.label.is_none()) {
+            let label = said.label(room.id).map(|label| RoomLabel { label, origin: LabelOrigin::Prediction });
+            plan = edit::set_label(&plan, room.id, label)?;
+            written += 1;
+        }
+        save_plan(&target, &plan)?;
+        Ok((target, written))
+    }
+}
+
+fn print(plan: &Plan, said: &Predictions, terminal: &mut Terminal) -> Result<(), CliError> {
+    let name = if plan.meta().name.is_empty() { "Untitled plan" } else { &plan.meta().name };
+    let rooms = &said.network.rooms;
+    let width = |of: &dyn Fn(&NetworkRoom) -> usize, least: usize| {
+        rooms.iter().map(of).max().unwrap_or_default().clamp(least, 28)
+    };
+    let keys = width(&|room| room.key.chars().count(), 4);
+    let functions = width(&|room| room.function.chars().count(), 8);
+    let out = &mut terminal.out;
+    writeln!(out, "{name}: typology {} ({}), model {}", said.choice.set, said.choice.because, said.model.name)?;
+    if rooms.is_empty() {
+        return Ok(writeln!(out, "  no rooms to classify")?);
+    }
+    writeln!(
+        out,
+        "  {:<keys$}  {:<functions$}  {:<11}  {:<11}  prob.  reason",
+        "room", "function", "label", "predicted"
+    )?;
+    for (room, distribution) in rooms.iter().zip(&said.result.distributions) {
+        let label = distribution.label();
+        let mark = if room.label.is_some_and(|known| known != label) { "≠" } else { " " };
+        writeln!(
+            out,
+            "  {:<keys$}  {:<functions$}  {:<11}{mark} {:<11}  {:>3.0} %  {}",
+            shortened(&room.key, keys),
+            shortened(&room.function, functions),
+            room.label.map_or("–", Label::name),
+            label.name(),
+            100.0 * distribution.probability(label),
+            said.reason(room.id).unwrap_or_default()
+        )?;
+    }
+    writeln!(out, "  {}; neighbours' labels: {}", said.agreement(), said.neighbours_in_words())?;
+    Ok(())
+}
+
+fn json(plan: &Plan, said: &Predictions) -> serde_json::Value {
+    let probabilities = |distribution: &Distribution| -> serde_json::Map<String, serde_json::Value> {
+        let rounded = |label: Label| (distribution.probability(label) * 1e4).round() / 1e4;
+        Label::ALL.into_iter().map(|label| (label.letter().to_owned(), json!(rounded(label)))).collect()
+    };
+    let rooms: Vec<serde_json::Value> = said
+        .network
+        .rooms
+        .iter()
+        .zip(&said.result.distributions)
+        .map(|(room, distribution)| {
+            json!({
+                "room": room.key,
+                "id": room.id.to_string(),
+                "function": room.function,
+                "label": room.label.map(Label::letter),
+                "predicted": distribution.label().letter(),
+                "probabilities": probabilities(distribution),
+                "reason": said.reason(room.id),
+            })
+        })
+        .collect();
+    let agreement = said.agreement();
+    json!({
+        "plan": plan.meta().name,
+        "typology": said.choice.set,
+        "typology_because": said.choice.because,
+        "model": said.model.name,
+        "neighbours": said.neighbours.name(),
+        "rounds": said.result.rounds,
+        "settled": said.result.settled,
+        "labelled_rooms": agreement.known,
+        "agreeing_rooms": agreement.right,
+        "rooms": rooms,
+    })
+}
+
+/// A text of at most so many characters, cut with an ellipsis.
+fn shortened(text: &str, most: usize) -> String {
+    if text.chars().count() <= most {
+        return text.to_owned();
+    }
+    text.chars().take(most.saturating_sub(1)).chain(['…']).collect()
+}

@@ -1,0 +1,101 @@
+//! Labelled rooms to learn from, named on the command line: plans, folders of plans, or dataset files.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use super::dataset::report_left_out;
+use super::{CliError, Terminal, inputs};
+use crate::dataset::{Collection, LeftOut, RoomNetwork, Row, csv};
+use crate::features::NeighbourLabels;
+use crate::formats::building_name;
+use crate::labels::Typology;
+
+/// Options of every subcommand that learns from labelled rooms.
+#[derive(clap::Args)]
+pub struct CollectOptions {
+    /// Plans, folders of plans, or datasets (.csv, of which neighbours are not known) with labelled rooms
+    #[arg(required = true, value_name = "DATA")]
+    pub data: Vec<PathBuf>,
+    /// Take at most about N rooms of each typology (whole buildings; the paper has about 2000 of each)
+    #[arg(long, value_name = "N")]
+    pub most_rooms: Option<usize>,
+    /// Label scheme that extends the bundled ones (may be given several times)
+    #[arg(long, value_name = "FILE.scheme.toml")]
+    pub scheme: Vec<PathBuf>,
+}
+
+/// Which labels of its neighbours a room counts, as an option's value.
+pub fn neighbour_labels(word: &str) -> Result<NeighbourLabels, String> {
+    let words: Vec<&str> = NeighbourLabels::ALL.into_iter().map(NeighbourLabels::name).collect();
+    NeighbourLabels::ALL
+        .into_iter()
+        .find(|mode| mode.name() == word)
+        .ok_or_else(|| format!("use one of {}", words.join(", ")))
+}
+
+/// Reads the collection; says on stderr what could not be read and which rooms have no label. Gives the
+/// number of files that failed beside it.
+///
+/// # Errors
+/// When nothing can be learned from: no labelled room, or plans mixed with dataset files.
+pub fn collect(options: &CollectOptions, seed: u64, terminal: &mut Terminal) -> Result<(Collection, usize), CliError> {
+    let is_table = |path: &PathBuf| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+    let (tables, plans): (Vec<PathBuf>, Vec<PathBuf>) = options.data.iter().cloned().partition(is_table);
+    let (collection, failed) = match (tables.is_empty(), plans.is_empty()) {
+        (false, false) => {
+            return Err(CliError::new(
+                "plans and datasets (.csv) cannot be mixed: a dataset does not tell which rooms are neighbours; make \
+                 a dataset of the plans with 'enfilade dataset', or give the plans of the other",
+            ));
+        }
+        (false, true) => (Collection::Rows(read_tables(&tables)?), 0),
+        _ => {
+            let (networks, failed) = read_networks(&plans, &options.scheme, terminal)?;
+            (Collection::Plans(networks), failed)
+        }
+    };
+    let mut left_out = LeftOut::default();
+    left_out.add(&collection.left_out());
+    report_left_out(&left_out, terminal)?;
+    let collection = match options.most_rooms {
+        Some(most) => collection.at_most(most, seed),
+        None => collection,
+    };
+    if collection.rows(NeighbourLabels::True).unwrap_or_default().is_empty() {
+        return Err(CliError::new("there are no labelled rooms to learn from; label some rooms, or add plans"));
+    }
+    Ok((collection, failed))
+}
+
+/// The networks of plans, in the order of their paths, with the number of files that failed.
+pub fn read_networks(
+    paths: &[PathBuf],
+    scheme_files: &[PathBuf],
+    terminal: &mut Terminal,
+) -> Result<(Vec<RoomNetwork>, usize), CliError> {
+    let schemes = inputs::schemes(scheme_files)?;
+    let files = inputs::plan_files(paths)?;
+    let mut networks: Vec<RoomNetwork> = Vec::new();
+    let failed = inputs::for_each_plan(&files, terminal, |_, import, _| {
+        networks.extend(import.plans.iter().map(|plan| RoomNetwork::new(plan, &schemes)));
+        Ok(())
+    })?;
+    // Storeys of one building are spelled differently at times; folds must not split it for that.
+    let mut spellings: BTreeMap<(Option<Typology>, String), String> = BTreeMap::new();
+    for network in &mut networks {
+        let key = (network.typology.clone(), building_name::key(&network.building));
+        let first = spellings.entry(key).or_insert_with(|| network.building.clone());
+        network.building.clone_from(first);
+    }
+    Ok((networks, failed))
+}
+
+fn read_tables(paths: &[PathBuf]) -> Result<Vec<Row>, CliError> {
+    let mut rows = Vec::new();
+    for path in paths {
+        let fail = |error: &dyn std::fmt::Display| CliError::new(format!("{}: {error}", path.display()));
+        let file = std::fs::File::open(path).map_err(|error| fail(&error))?;
+        rows.extend(csv::read(std::io::BufReader::new(file)).map_err(|error| fail(&error))?);
+    }
+    Ok(rows)
+}

@@ -1,0 +1,72 @@
+use std::io::Write as _;
+use std::path::PathBuf;
+
+use super::collect::{CollectOptions, collect, neighbour_labels};
+use super::progress::with_progress;
+use super::{CliError, Outcome, Subcommand, Terminal};
+use crate::dataset::folds::Grouping;
+use crate::features::NeighbourLabels;
+use crate::study::{Options, report, study};
+
+/// `enfilade evaluate`: the paper's study on one's own data.
+#[derive(clap::Args)]
+pub struct EvaluateCommand {
+    #[command(flatten)]
+    collect: CollectOptions,
+    /// Folds of each cross-validation
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    folds: usize,
+    /// What is dealt to folds: 'room', as in the paper, or 'building', which none is tested on that was
+    /// learned from
+    #[arg(long, value_name = "UNIT", default_value = "room", value_parser = grouping)]
+    by: Grouping,
+    /// Neighbours' labels: 'true' (given, as in the paper), 'temporary' (the naive classifier's) or
+    /// 'predicted' (repeated until stable)
+    #[arg(long, value_name = "MODE", default_value = "true", value_parser = neighbour_labels)]
+    neighbours: NeighbourLabels,
+    /// Seed of all that is random: the same seed gives the same bytes
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Threads to work on; the report does not depend on it
+    #[arg(long, value_name = "N")]
+    threads: Option<usize>,
+    /// Folder for the report: report.html, report.json and a CSV file for each table
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Print the report's JSON as well
+    #[arg(long)]
+    json: bool,
+}
+
+/// What is dealt to folds, as an option's value.
+pub fn grouping(word: &str) -> Result<Grouping, String> {
+    let words: Vec<&str> = Grouping::ALL.into_iter().map(Grouping::name).collect();
+    let found = Grouping::ALL.into_iter().find(|grouping| grouping.name() == word);
+    found.ok_or_else(|| format!("use one of {}", words.join(", ")))
+}
+
+impl Subcommand for EvaluateCommand {
+    const NAME: &'static str = "evaluate";
+    const ABOUT: &'static str = "Compare the classifiers on labelled plans, beside the paper's figures";
+    const EXAMPLE: &'static str = "enfilade evaluate schools offices houses --most-rooms 2000 -o study";
+
+    fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
+        let (collection, failed) = collect(&self.collect, self.seed, terminal)?;
+        let options = Options { folds: self.folds, grouping: self.by, neighbours: self.neighbours, seed: self.seed };
+        let study = with_progress("evaluating", self.threads, terminal, |work| study(&collection, options, work))?;
+        let files = report::files(&study)?;
+        std::fs::create_dir_all(&self.output)
+            .map_err(|error| CliError::new(format!("{}: {error}; choose another folder", self.output.display())))?;
+        for (name, bytes) in &files {
+            crate::store::save_bytes(&self.output.join(name), bytes)?;
+            if self.json && name == "report.json" {
+                terminal.out.write_all(bytes)?;
+            }
+        }
+        if !self.json {
+            terminal.out.write_all(report::summary(&study).as_bytes())?;
+            writeln!(terminal.out, "\nThe report: {}", self.output.join("report.html").display())?;
+        }
+        Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
+    }
+}

@@ -1,0 +1,228 @@
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use super::collect::{CollectOptions, collect, neighbour_labels};
+use super::progress::with_progress;
+use super::{CliError, Outcome, Subcommand, Terminal};
+use crate::classify::model_file::{self, About, DataSummary, ScoreSummary};
+use crate::classify::{Algorithm, Classifier, in_plan};
+use crate::dataset::folds::Grouping;
+use crate::dataset::table::Table;
+use crate::dataset::{Collection, Row};
+use crate::features::NeighbourLabels;
+use crate::labels::Typology;
+use crate::store::{MODEL_ENDING, set_name};
+use crate::study::{Cell, Condition, Options, STANDARD, StudyError, validate};
+
+/// `enfilade train`: classifiers from labelled rooms.
+#[derive(clap::Args)]
+pub struct TrainCommand {
+    #[command(flatten)]
+    collect: CollectOptions,
+    /// rules, tree, knn or mlp; without it, all four
+    #[arg(long, value_name = "NAME", value_parser = algorithm)]
+    algorithm: Option<Algorithm>,
+    /// Learn from this typology's rooms only, or 'standard' for all rooms; without it, a model for each
+    /// typology of the data, and standard ones where there are several
+    #[arg(long, value_name = "NAME")]
+    typology: Option<String>,
+    /// Neighbours' labels while learning: 'predicted' (as they look in use), 'temporary' or 'true' (as in
+    /// the paper)
+    #[arg(long, value_name = "MODE", value_parser = neighbour_labels)]
+    neighbours: Option<NeighbourLabels>,
+    /// Folds of the cross-validation whose scores the model file tells; 0 for none
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    folds: usize,
+    /// Seed of all that is random: the same data and seed give the same bytes
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Under which terms the models may be used, and whose data they hold
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    licence: String,
+    /// The model file (.model.json); for several models the folder to write them to
+    #[arg(short, long, value_name = "FILE|DIR")]
+    output: PathBuf,
+}
+
+/// An algorithm, as an option's value.
+pub fn algorithm(word: &str) -> Result<Algorithm, String> {
+    word.parse().map_err(|error: crate::classify::UnknownAlgorithm| error.to_string())
+}
+
+impl Subcommand for TrainCommand {
+    const NAME: &'static str = "train";
+    const ABOUT: &'static str = "Learn classifiers from labelled rooms";
+    const EXAMPLE: &'static str = "enfilade train schools --algorithm tree --typology school -o school.model.json";
+
+    fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
+        let (collection, failed) = collect(&self.collect, self.seed, terminal)?;
+        let parts = self.parts(&collection)?;
+        let algorithms = self.algorithm.map_or(Algorithm::ALL.to_vec(), |algorithm| vec![algorithm]);
+        let is_file = self.output.to_string_lossy().ends_with(MODEL_ENDING);
+        if is_file && parts.len() * algorithms.len() > 1 {
+            return Err(CliError::new(format!(
+                "{}: is one file, but {} models are to be trained; name a folder, or choose with --algorithm and --typology",
+                self.output.display(),
+                parts.len() * algorithms.len()
+            )));
+        }
+        for (typology, part) in &parts {
+            let set = set_name(typology.as_ref());
+            let neighbours = self.neighbours.unwrap_or(match part {
+                Collection::Plans(_) => NeighbourLabels::Predicted,
+                Collection::Rows(_) => NeighbourLabels::True,
+            });
+            let cells = self.validated(part, set, &algorithms, neighbours, terminal)?;
+            for &algorithm in &algorithms {
+                let scores = cells.iter().filter(|cell| cell.algorithm == algorithm).collect::<Vec<_>>();
+                let bytes = self.model(typology.as_ref(), part, algorithm, neighbours, &scores)?;
+                let path = if is_file {
+                    self.output.clone()
+                } else {
+                    self.output.join(format!("{set}-{}{MODEL_ENDING}", algorithm.name()))
+                };
+                write_model(&path, &bytes)?;
+                let told: Vec<String> = scores
+                    .iter()
+                    .map(|cell| format!("{:.1} % by {}", 100.0 * cell.scores.accuracy, cell.condition.by.name()))
+                    .collect();
+                let told = if told.is_empty() { "not validated".to_owned() } else { told.join(", ") };
+                writeln!(terminal.out, "{}: {set}, {algorithm}: {told}", path.display())?;
+            }
+        }
+        Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
+    }
+}
+
+impl TrainCommand {
+    /// The parts of the data to learn from; `None` is the typology of a standard model.
+    fn parts(&self, collection: &Collection) -> Result<Vec<(Option<Typology>, Collection)>, CliError> {
+        let typologies = collection.typologies();
+        let Some(name) = &self.typology else {
+            let mut parts: Vec<(Option<Typology>, Collection)> = typologies
+                .iter()
+                .map(|typology| (Some(typology.clone()), collection.of_typology(typology)))
+                .filter(|(_, part)| !part.rows(NeighbourLabels::True).unwrap_or_default().is_empty())
+                .collect();
+            if parts.len() != 1 {
+                parts.push((None, collection.clone()));
+            }
+            return Ok(parts);
+        };
+        if name.trim().eq_ignore_ascii_case(STANDARD) {
+            return Ok(vec![(None, collection.clone())]);
+        }
+        match Typology::new(name).filter(|typology| typologies.contains(typology)) {
+            Some(typology) => Ok(vec![(Some(typology.clone()), collection.of_typology(&typology))]),
+            None => {
+                let known: Vec<&str> = typologies.iter().map(Typology::as_str).chain([STANDARD]).collect();
+                Err(CliError::new(format!(
+                    "no labelled room is of the typology '{name}'; there are {}",
+                    known.join(", ")
+                )))
+            }
+        }
+    }
+
+    /// What cross-validation gives, by room and by building; what could not be done is said on stderr.
+    fn validated(
+        &self,
+        part: &Collection,
+        set: &str,
+        algorithms: &[Algorithm],
+        neighbours: NeighbourLabels,
+        terminal: &mut Terminal,
+    ) -> Result<Vec<Cell>, CliError> {
+        if self.folds == 0 {
+            return Ok(Vec::new());
+        }
+        let options = Options { folds: self.folds, neighbours, seed: self.seed, grouping: Grouping::Room };
+        let conditions = Grouping::ALL.map(|by| Condition { by, neighbours });
+        // One typology alone makes a set of its own name, never a standard one.
+        let of_part =
+            if part.typologies().len() == 1 { set_name(part.typologies().first()).to_owned() } else { set.to_owned() };
+        let result = with_progress(&format!("validating {set}"), None, terminal, |work| {
+            validate(part, options, &of_part, algorithms, &conditions, work)
+        });
+        match result {
+            Ok((cells, notes)) => {
+                for note in notes.iter().filter(|note| note.starts_with(&of_part)) {
+                    writeln!(terminal.err, "{note}")?;
+                }
+                Ok(cells)
+            }
+            Err(StudyError::Cancelled) => Err(StudyError::Cancelled.into()),
+            Err(StudyError::Data(what)) => {
+                writeln!(terminal.err, "{set}: not validated: {what}")?;
+                Ok(Vec::new())
+            }
+        }
+    }
+
+    fn model(
+        &self,
+        typology: Option<&Typology>,
+        part: &Collection,
+        algorithm: Algorithm,
+        neighbours: NeighbourLabels,
+        scores: &[&Cell],
+    ) -> Result<Vec<u8>, CliError> {
+        let mut rows: Vec<Row> = part.rows(neighbours).ok_or_else(|| {
+            CliError::new(format!(
+                "rows of a dataset file do not tell which rooms are neighbours, so {} neighbour labels cannot be \
+                 taken; give the plans instead",
+                neighbours.name()
+            ))
+        })?;
+        if neighbours == NeighbourLabels::Predicted {
+            let all: Vec<usize> = (0..rows.len()).collect();
+            let (networks, places) = (part.networks(), part.places());
+            rows = in_plan::rows_with_predicted_neighbours(
+                networks,
+                &rows,
+                &places,
+                &all,
+                algorithm,
+                Grouping::Building,
+                self.seed,
+            );
+        }
+        let table = Table::from_rows(&rows)?;
+        let classifier = Classifier::train(algorithm, &table, self.seed);
+        let about = About {
+            typology: typology.cloned(),
+            neighbours,
+            command: self.command_line(typology, algorithm, neighbours),
+            program: format!("enfilade {}", env!("CARGO_PKG_VERSION")),
+            seed: self.seed,
+            licence: self.licence.clone(),
+            data: DataSummary::of(&rows, &table),
+            scores: scores.iter().map(|cell| ScoreSummary::of(&cell.scores, cell.condition.by, self.seed)).collect(),
+        };
+        Ok(model_file::to_bytes(&classifier, &about))
+    }
+
+    /// The call that makes this one model from the same data.
+    fn command_line(&self, typology: Option<&Typology>, algorithm: Algorithm, neighbours: NeighbourLabels) -> String {
+        let quoted = |path: &PathBuf| {
+            let text = path.display().to_string();
+            let is_plain = text.chars().all(|c| c.is_alphanumeric() || "/._-".contains(c));
+            if is_plain { text } else { format!("'{}'", text.replace('\'', "'\\''")) }
+        };
+        let mut words = vec!["enfilade train".to_owned()];
+        words.extend(self.collect.data.iter().map(quoted));
+        words.extend(self.collect.most_rooms.map(|most| format!("--most-rooms {most}")));
+        words.extend(self.collect.scheme.iter().map(|path| format!("--scheme {}", quoted(path))));
+        words.push(format!("--algorithm {} --typology {}", algorithm.name(), set_name(typology)));
+        words.push(format!("--neighbours {} --folds {} --seed {}", neighbours.name(), self.folds, self.seed));
+        words.join(" ")
+    }
+}
+
+fn write_model(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder)
+            .map_err(|error| CliError::new(format!("{}: {error}; choose another folder", folder.display())))?;
+    }
+    Ok(crate::store::save_bytes(path, bytes)?)
+}

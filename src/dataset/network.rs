@@ -1,0 +1,148 @@
+use std::collections::BTreeMap;
+
+use super::{LeftOut, Row, room_keys};
+use crate::features::{Analysis, Features, NeighbourLabels, RoomStatus, analyse};
+use crate::labels::{Label, Schemes, Typology};
+use crate::plan::{OpeningId, Plan, RoomId};
+
+/// The rooms of one plan as classifiers see them: what each is in itself, what is known of its
+/// label, and where each of its openings leads. Features follow from it for any labels of the
+/// neighbours, without going back to the plan's geometry.
+#[derive(Clone, Debug)]
+pub struct RoomNetwork {
+    /// Name of the plan.
+    pub plan: String,
+    /// Its building; that of the plan alone where it names none.
+    pub building: String,
+    pub typology: Option<Typology>,
+    /// The rooms that are classified, in the order of [`room_keys`]: those with an area whose
+    /// function the scheme does not leave blank. All others count like the outside.
+    pub rooms: Vec<NetworkRoom>,
+    /// Why other rooms are not here, and which of these have no label.
+    pub left_out: LeftOut,
+}
+
+/// A room of a [`RoomNetwork`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct NetworkRoom {
+    pub id: RoomId,
+    /// What it is called in tables, see [`room_keys`].
+    pub key: String,
+    pub function: String,
+    /// Its label, where one is known: given to it, or by the scheme for its function.
+    pub label: Option<Label>,
+    /// The naive classifier's label.
+    pub temporary: Label,
+    /// `a` in m².
+    pub area_m2: f64,
+    /// `rt`.
+    pub axes_ratio: f64,
+    /// Every opening of the room, and where it leads.
+    pub doors: Vec<NetworkDoor>,
+}
+
+/// An opening of a [`NetworkRoom`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NetworkDoor {
+    pub opening: OpeningId,
+    /// The index in [`RoomNetwork::rooms`] of the room it leads to; `None` for the outside, a room
+    /// that is not classified, and the room itself.
+    pub to: Option<usize>,
+}
+
+impl RoomNetwork {
+    /// The network of a plan.
+    pub fn new(plan: &Plan, schemes: &Schemes) -> Self {
+        Self::of(plan, &analyse(plan, schemes, NeighbourLabels::True))
+    }
+
+    /// The network of a plan that has been analysed, whatever labels its neighbours counted.
+    pub fn of(plan: &Plan, analysis: &Analysis) -> Self {
+        let typology = plan.meta().typology.as_ref();
+        let mut left_out = LeftOut::default();
+        let mut rooms: Vec<NetworkRoom> = Vec::new();
+        let mut index_of: BTreeMap<RoomId, usize> = BTreeMap::new();
+        for (id, key) in room_keys(plan) {
+            let (Some(room), Some(result)) = (plan.room(id), analysis.room(id)) else { continue };
+            match result.status {
+                RoomStatus::NotClassified => {
+                    left_out.not_classified += 1;
+                    continue;
+                }
+                RoomStatus::Unlabelled if room.function.is_empty() => left_out.without_function += 1,
+                RoomStatus::Unlabelled => {
+                    let typology = typology.map(Typology::as_str).unwrap_or_default().to_owned();
+                    *left_out.unknown_functions.entry((typology, room.function.clone())).or_default() += 1;
+                }
+                RoomStatus::Labelled(_) if result.features.is_none() => left_out.without_area += 1,
+                RoomStatus::Labelled(_) => {}
+            }
+            let (Some(features), Some(temporary)) = (result.features, result.temporary) else { continue };
+            index_of.insert(id, rooms.len());
+            rooms.push(NetworkRoom {
+                id,
+                key,
+                function: room.function.clone(),
+                label: result.status.label(),
+                temporary,
+                area_m2: features.area_m2,
+                axes_ratio: features.axes_ratio,
+                doors: Vec::new(),
+            });
+        }
+        for room in &mut rooms {
+            room.doors = analysis
+                .neighbours(room.id)
+                .map(|(opening, side)| {
+                    let other = side.room().filter(|&other| other != room.id);
+                    NetworkDoor { opening, to: other.and_then(|other| index_of.get(&other).copied()) }
+                })
+                .collect();
+        }
+        let meta = plan.meta();
+        let building = if meta.building.is_empty() { meta.name.clone() } else { meta.building.clone() };
+        Self { plan: meta.name.clone(), building, typology: typology.cloned(), rooms, left_out }
+    }
+
+    /// The labels that are known, one for each room.
+    pub fn known_labels(&self) -> Vec<Option<Label>> {
+        self.rooms.iter().map(|room| room.label).collect()
+    }
+
+    /// The labels that neighbours are taken to have, before any prediction. `known` holds a label for
+    /// each room whose label may be used; [`NeighbourLabels::Predicted`] starts like
+    /// [`NeighbourLabels::True`].
+    pub fn seen_labels(&self, known: &[Option<Label>], neighbours: NeighbourLabels) -> Vec<Label> {
+        let known = |index: usize| match neighbours {
+            NeighbourLabels::True | NeighbourLabels::Predicted => known.get(index).copied().flatten(),
+            NeighbourLabels::Temporary => None,
+        };
+        self.rooms.iter().enumerate().map(|(index, room)| known(index).unwrap_or(room.temporary)).collect()
+    }
+
+    /// `F_r` of a room when the rooms of the network carry the labels `seen`, one for each.
+    pub fn features(&self, room: usize, seen: &[Label]) -> Features {
+        let NetworkRoom { area_m2, axes_ratio, doors, .. } = &self.rooms[room];
+        let mut doors_to = [0; 5];
+        for label in doors.iter().filter_map(|door| seen.get(door.to?)) {
+            doors_to[label.index()] += 1;
+        }
+        Features { area_m2: *area_m2, axes_ratio: *axes_ratio, doors: doors.len() as u32, doors_to }
+    }
+
+    /// The labelled rooms as rows of a dataset, when the rooms carry the labels `seen`.
+    pub fn rows_seeing(&self, seen: &[Label]) -> impl Iterator<Item = Row> + '_ {
+        let features: Vec<Features> = (0..self.rooms.len()).map(|room| self.features(room, seen)).collect();
+        self.rooms.iter().zip(features).filter_map(|(room, features)| {
+            Some(Row {
+                plan: self.plan.clone(),
+                building: self.building.clone(),
+                typology: self.typology.clone(),
+                room: room.key.clone(),
+                function: room.function.clone(),
+                label: room.label?,
+                features,
+            })
+        })
+    }
+}

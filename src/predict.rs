@@ -1,0 +1,206 @@
+//! Predictions for the rooms of a plan: which model fits the plan, and what it says of each room. The
+//! one function behind the window, the command line and scripts; fast enough to run after every edit.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::str::FromStr;
+use std::sync::Arc;
+
+use crate::classify::in_plan::{self, InPlan};
+use crate::classify::{Algorithm, Distribution};
+use crate::dataset::RoomNetwork;
+use crate::features::NeighbourLabels;
+use crate::labels::{Label, Typology};
+use crate::plan::RoomId;
+use crate::store::{StoredModel, bundled_sets};
+use crate::study::STANDARD;
+
+/// Of which typology the models are to be.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ModelSet {
+    /// The plan's own typology; inferred from the plan where it has none, or one without models.
+    #[default]
+    OfPlan,
+    /// Inferred from the plan, whatever it says of itself.
+    Auto,
+    /// A typology that has bundled models, or [`STANDARD`].
+    Named(String),
+}
+
+impl ModelSet {
+    /// The word for the command line and scripts.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::OfPlan => "plan",
+            Self::Auto => "auto",
+            Self::Named(name) => name,
+        }
+    }
+
+    /// All there are, in the order of menus.
+    pub fn all() -> Vec<Self> {
+        let named = bundled_sets().map(|set| Self::Named(set.to_owned()));
+        [Self::OfPlan, Self::Auto].into_iter().chain(named).collect()
+    }
+}
+
+/// There are no models of that name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownSet(String);
+
+impl fmt::Display for UnknownSet {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let sets: Vec<&str> = bundled_sets().collect();
+        write!(
+            f,
+            "there are no models of the typology '{}'; use plan, auto or one of {}, or train one with 'enfilade train'",
+            self.0,
+            sets.join(", ")
+        )
+    }
+}
+
+impl std::error::Error for UnknownSet {}
+
+impl FromStr for ModelSet {
+    type Err = UnknownSet;
+
+    fn from_str(word: &str) -> Result<Self, UnknownSet> {
+        let wanted = word.trim().to_lowercase();
+        Self::all().into_iter().find(|set| set.name() == wanted).ok_or_else(|| UnknownSet(word.to_owned()))
+    }
+}
+
+/// Which set of models a plan is classified by, and why.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// A typology, or [`STANDARD`].
+    pub set: String,
+    /// Where that comes from, in a few words: 'the plan's'.
+    pub because: String,
+}
+
+/// Chooses the set of models for a plan.
+pub fn choose(network: &RoomNetwork, wanted: &ModelSet) -> Choice {
+    let has_models = |typology: &&Typology| bundled_sets().any(|set| set == typology.as_str());
+    match (wanted, network.typology.as_ref().filter(has_models)) {
+        (ModelSet::Named(name), _) => Choice { set: name.clone(), because: "as told".to_owned() },
+        (ModelSet::OfPlan, Some(stated)) => {
+            Choice { set: stated.as_str().to_owned(), because: "the plan's".to_owned() }
+        }
+        (ModelSet::OfPlan | ModelSet::Auto, _) => infer(network),
+    }
+}
+
+/// Infers the typology from the plan itself.
+fn infer(_network: &RoomNetwork) -> Choice {
+    Choice { set: STANDARD.to_owned(), because: "the plan has none".to_owned() }
+}
+
+/// What a model says of a plan's rooms.
+#[derive(Clone, Debug)]
+pub struct Predictions {
+    pub choice: Choice,
+    pub model: Arc<StoredModel>,
+    pub network: RoomNetwork,
+    /// Which labels of neighbours counted.
+    pub neighbours: NeighbourLabels,
+    pub result: InPlan,
+    index_of: BTreeMap<RoomId, usize>,
+}
+
+impl Predictions {
+    /// Classifies the rooms of a network. `known` holds, for each, the label that may be used where it is
+    /// a neighbour; without `neighbours`, they are taken as the model learned.
+    pub fn new(
+        network: RoomNetwork,
+        choice: Choice,
+        model: Arc<StoredModel>,
+        known: &[Option<Label>],
+        neighbours: Option<NeighbourLabels>,
+    ) -> Self {
+        let neighbours = neighbours.unwrap_or(model.about.neighbours);
+        let result = in_plan::classify(&model.classifier, &network, known, neighbours);
+        let index_of = network.rooms.iter().enumerate().map(|(index, room)| (room.id, index)).collect();
+        Self { choice, model, network, neighbours, result, index_of }
+    }
+
+    /// The algorithm of the model.
+    pub fn algorithm(&self) -> Algorithm {
+        self.model.classifier.algorithm()
+    }
+
+    /// The distribution for a room; `None` for one that is not classified.
+    pub fn distribution(&self, room: RoomId) -> Option<&Distribution> {
+        self.index_of.get(&room).map(|&index| &self.result.distributions[index])
+    }
+
+    /// The label said of a room; `None` for one that is not classified.
+    pub fn label(&self, room: RoomId) -> Option<Label> {
+        self.distribution(room).map(Distribution::label)
+    }
+
+    /// Why a room got its label, in one or two sentences; `None` for one that is not classified.
+    pub fn reason(&self, room: RoomId) -> Option<String> {
+        let &index = self.index_of.get(&room)?;
+        Some(self.model.classifier.explain(&self.result.features[index].values()).words())
+    }
+
+    /// The labels said of all rooms that are classified.
+    pub fn labels(&self) -> BTreeMap<RoomId, Label> {
+        self.index_of.iter().map(|(&room, &index)| (room, self.result.distributions[index].label())).collect()
+    }
+
+    /// Rooms with a known label, and how many of them are said to have it.
+    pub fn agreement(&self) -> Agreement {
+        let pairs = self.network.rooms.iter().zip(&self.result.distributions);
+        let known = pairs.filter_map(|(room, said)| Some(room.label? == said.label()));
+        known.fold(Agreement::default(), |sum, right| Agreement {
+            known: sum.known + 1,
+            right: sum.right + usize::from(right),
+        })
+    }
+
+    /// How neighbours' labels were taken, in words.
+    pub fn neighbours_in_words(&self) -> String {
+        match (self.neighbours, self.result.settled) {
+            (NeighbourLabels::Predicted, true) => format!("predicted, stable after {} rounds", self.result.rounds),
+            (NeighbourLabels::Predicted, false) => format!("predicted, not stable after {} rounds", self.result.rounds),
+            (mode, _) => mode.name().to_owned(),
+        }
+    }
+}
+
+/// How predictions compare with the labels that are known.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Agreement {
+    /// Rooms with a known label.
+    pub known: usize,
+    /// Those of them that are said to have it.
+    pub right: usize,
+}
+
+impl Agreement {
+    /// Counts those of another plan.
+    pub fn add(&mut self, other: Self) {
+        self.known += other.known;
+        self.right += other.right;
+    }
+
+    /// Share of the known labels that are said rightly, 0..=1; `None` where none is known.
+    pub fn share(self) -> Option<f64> {
+        (self.known > 0).then(|| self.right as f64 / self.known as f64)
+    }
+}
+
+impl fmt::Display for Agreement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.share() {
+            None => f.write_str("no room has a label to compare with"),
+            Some(share) => {
+                let Self { known, right } = self;
+                write!(f, "{right} of {known} labelled rooms are said to be what they are ({:.0} %)", 100.0 * share)
+            }
+        }
+    }
+}

@@ -1,0 +1,291 @@
+//! The study: everything the paper's section 4.2 reports, measured on a collection of labelled rooms,
+//! and what it leaves open (buildings never seen, neighbours whose labels are not known). Numbers only;
+//! [`report`] writes them as a page and as tables.
+
+mod comparison;
+mod measure;
+pub mod paper;
+pub mod report;
+
+use std::fmt;
+
+use serde::{Serialize, Serializer};
+
+pub use comparison::Comparison;
+pub use measure::{study, validate};
+
+use crate::classify::{Algorithm, Confusion, Scores, TableRates};
+use crate::dataset::LabelStatistics;
+use crate::dataset::folds::Grouping;
+use crate::features::NeighbourLabels;
+use crate::labels::{Label, Typology};
+use crate::parallel::Cancelled;
+
+/// How a study is done.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// Folds of each cross-validation, at least 2. The paper: 10.
+    pub folds: usize,
+    /// What is dealt to folds in the main condition, under which all tables stand. The paper: rooms.
+    pub grouping: Grouping,
+    /// Neighbours' labels in the main condition. The paper: true.
+    pub neighbours: NeighbourLabels,
+    pub seed: u64,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { folds: 10, grouping: Grouping::Room, neighbours: NeighbourLabels::True, seed: 1 }
+    }
+}
+
+/// Under what condition classifiers are tested.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Condition {
+    #[serde(serialize_with = "grouping_name")]
+    pub by: Grouping,
+    #[serde(serialize_with = "neighbours_name")]
+    pub neighbours: NeighbourLabels,
+}
+
+impl fmt::Display for Condition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "folds by {}, {} neighbour labels", self.by.name(), self.neighbours.name())
+    }
+}
+
+/// The set whose classifiers learn from all typologies.
+pub const STANDARD: &str = "standard";
+
+/// What a study found. All shares 0..=1.
+#[derive(Clone, Debug, Serialize)]
+pub struct Study {
+    pub program: String,
+    pub seed: u64,
+    pub folds: usize,
+    /// The condition of all tables but [`Study::accuracy`], which has every condition.
+    pub condition: Condition,
+    /// Data sets: one of each typology, and the standard set of all where there are several.
+    pub sets: Vec<Set>,
+    /// Fig. 4 and beyond: each set, algorithm and condition.
+    pub accuracy: Vec<Cell>,
+    /// Fig. 4's averages over the algorithms.
+    pub averages: Vec<Average>,
+    /// Table 1.
+    pub confusion: Vec<ConfusionTable>,
+    /// Table 2.
+    pub rooms: Vec<RoomsTable>,
+    /// Typology classifiers against standard ones on the same rooms.
+    pub own_against_standard: Vec<Rival>,
+    /// Typology classifiers against those of other typologies.
+    pub own_against_foreign: Vec<Rival>,
+    pub learning_curves: Vec<Curve>,
+    pub importance: Vec<Importance>,
+    /// What could not be measured, and why.
+    pub notes: Vec<String>,
+}
+
+/// A data set.
+#[derive(Clone, Debug, Serialize)]
+pub struct Set {
+    /// A typology, or [`STANDARD`].
+    pub name: String,
+    pub rooms: usize,
+    pub plans: usize,
+    pub buildings: usize,
+    /// Share of the most frequent label: what is reached without looking at a room.
+    pub most_frequent: f64,
+    /// [`crate::dataset::table::Table::fingerprint`] of its rows with true neighbour labels, in
+    /// hexadecimal digits.
+    pub fingerprint: String,
+}
+
+/// The scores of one algorithm on one set under one condition.
+#[derive(Clone, Debug, Serialize)]
+pub struct Cell {
+    pub set: String,
+    #[serde(serialize_with = "algorithm_name")]
+    pub algorithm: Algorithm,
+    #[serde(flatten)]
+    pub condition: Condition,
+    /// Number of folds: fewer than asked for where there are not so many buildings.
+    pub fold_count: usize,
+    #[serde(flatten)]
+    pub scores: Scores,
+}
+
+/// Accuracy on a set averaged over the algorithms.
+#[derive(Clone, Debug, Serialize)]
+pub struct Average {
+    pub set: String,
+    pub mean: f64,
+    /// Mean of the algorithms' deviations over the folds.
+    pub deviation: f64,
+}
+
+/// One matrix of Table 1.
+#[derive(Clone, Debug, Serialize)]
+pub struct ConfusionTable {
+    pub set: String,
+    /// Numbers of rooms, summed over the algorithms.
+    pub rooms: Confusion,
+    /// Rows of shares, averaged over the algorithms: true label down, predicted across, in the order
+    /// of [`Label::ALL`].
+    pub shares: [[f64; 5]; 5],
+    /// The rates in the paper's words, averaged over the algorithms.
+    pub rates: [TableRates; 5],
+}
+
+/// Table 2 of one set.
+#[derive(Clone, Debug, Serialize)]
+pub struct RoomsTable {
+    pub set: String,
+    pub labels: Vec<LabelLine>,
+}
+
+/// One line of Table 2.
+#[derive(Clone, Debug, Serialize)]
+pub struct LabelLine {
+    pub label: String,
+    pub rooms: usize,
+    pub share: f64,
+    pub area_mean_m2: f64,
+    pub area_deviation_m2: f64,
+    pub doors_mean: f64,
+    pub doors_deviation: f64,
+    pub axes_ratio_mean: f64,
+}
+
+impl LabelLine {
+    fn of(line: &LabelStatistics) -> Self {
+        Self {
+            label: line.label.letter().to_owned(),
+            rooms: line.rooms,
+            share: line.share,
+            area_mean_m2: line.area_m2.mean,
+            area_deviation_m2: line.area_m2.deviation,
+            doors_mean: line.doors.mean,
+            doors_deviation: line.doors.deviation,
+            axes_ratio_mean: line.axes_ratio.mean,
+        }
+    }
+}
+
+/// The classifiers of a typology against others on that typology's rooms.
+#[derive(Clone, Debug, Serialize)]
+pub struct Rival {
+    /// The typology whose rooms are classified.
+    pub rooms_of: String,
+    /// The set the other classifier learned from.
+    pub rival: String,
+    /// `None`: averaged over the algorithms.
+    #[serde(serialize_with = "algorithm_or_average")]
+    pub algorithm: Option<Algorithm>,
+    /// Deviation of the rival's accuracy over the folds of the rooms.
+    pub rival_deviation: f64,
+    /// First the typology's own classifier, cross-validated; second the rival.
+    pub comparison: Comparison,
+}
+
+/// A learning curve.
+#[derive(Clone, Debug, Serialize)]
+pub struct Curve {
+    pub set: String,
+    #[serde(serialize_with = "algorithm_name")]
+    pub algorithm: Algorithm,
+    pub points: Vec<CurvePoint>,
+}
+
+/// Accuracy after learning from some of the rooms.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct CurvePoint {
+    /// Training rooms, mean over the folds.
+    pub training_rooms: f64,
+    pub accuracy: f64,
+    pub deviation: f64,
+}
+
+/// How much each feature matters to a classifier: the accuracy lost when its values are shuffled
+/// among the tested rooms (Breiman 2001).
+#[derive(Clone, Debug, Serialize)]
+pub struct Importance {
+    pub set: String,
+    #[serde(serialize_with = "algorithm_name")]
+    pub algorithm: Algorithm,
+    /// In the order of [`crate::features::Features::NAMES`].
+    pub accuracy_lost: [f64; 8],
+}
+
+/// Why there is no study.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum StudyError {
+    Cancelled,
+    /// What is wrong with the data or the options, and what to do about it.
+    Data(String),
+}
+
+impl fmt::Display for StudyError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Cancelled => Cancelled.fmt(f),
+            Self::Data(what) => f.write_str(what),
+        }
+    }
+}
+
+impl std::error::Error for StudyError {}
+
+impl From<Cancelled> for StudyError {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
+    }
+}
+
+impl Study {
+    /// The scores of an algorithm on a set under a condition.
+    pub fn scores(&self, set: &str, algorithm: Algorithm, condition: Condition) -> Option<&Scores> {
+        let wanted = |cell: &&Cell| cell.set == set && cell.algorithm == algorithm && cell.condition == condition;
+        self.accuracy.iter().find(wanted).map(|cell| &cell.scores)
+    }
+
+    /// The conditions that were measured, in order.
+    pub fn conditions(&self) -> Vec<Condition> {
+        let mut conditions: Vec<Condition> = Vec::new();
+        for cell in &self.accuracy {
+            if !conditions.contains(&cell.condition) {
+                conditions.push(cell.condition);
+            }
+        }
+        conditions
+    }
+}
+
+/// A set's name for people: 'House', 'Standard'.
+pub fn set_title(name: &str) -> String {
+    Typology::new(name).map(|name| name.title()).unwrap_or_default()
+}
+
+/// The letters of the labels in order.
+pub(crate) fn letters() -> [&'static str; 5] {
+    Label::ALL.map(Label::letter)
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it so")]
+fn grouping_name<S: Serializer>(grouping: &Grouping, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(grouping.name())
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it so")]
+fn neighbours_name<S: Serializer>(neighbours: &NeighbourLabels, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(neighbours.name())
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it so")]
+fn algorithm_name<S: Serializer>(algorithm: &Algorithm, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(algorithm.name())
+}
+
+#[expect(clippy::ref_option, reason = "serde calls it so")]
+fn algorithm_or_average<S: Serializer>(algorithm: &Option<Algorithm>, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(algorithm.map_or("average", Algorithm::name))
+}

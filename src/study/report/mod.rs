@@ -1,0 +1,62 @@
+//! A study as a page that needs nothing else, as tables, and as JSON.
+
+mod charts;
+mod page;
+mod tables;
+
+use super::{Study, set_title};
+use crate::classify::Algorithm;
+
+/// The report's files: name and content.
+///
+/// # Errors
+/// When a table cannot be written, which lack of memory alone could bring about.
+pub fn files(study: &Study) -> Result<Vec<(String, Vec<u8>)>, std::io::Error> {
+    let mut json = serde_json::to_vec_pretty(study)?;
+    json.push(b'\n');
+    let mut files = vec![("report.html".to_owned(), page::page(study).into_bytes()), ("report.json".to_owned(), json)];
+    for (name, table) in tables::tables(study) {
+        files.push((format!("{name}.csv"), table.csv().map_err(std::io::Error::other)?));
+    }
+    Ok(files)
+}
+
+/// The accuracies under the main condition in a few lines of text, for a terminal.
+pub fn summary(study: &Study) -> String {
+    let mut text = format!(
+        "Accuracy in %, {} folds by {}, {} neighbour labels\n\n",
+        study.folds,
+        study.condition.by.name(),
+        study.condition.neighbours.name()
+    );
+    let width = 24;
+    text.push_str(&format!("{:<width$}", ""));
+    for set in &study.sets {
+        text.push_str(&format!("{:>16}", set_title(&set.name)));
+    }
+    text.push('\n');
+    let mut line = |title: &str, cell: &dyn Fn(&str) -> Option<(f64, f64)>| {
+        text.push_str(&format!("{title:<width$}"));
+        for set in &study.sets {
+            let cell =
+                cell(&set.name).map(|(mean, deviation)| format!("{:.1} ± {:.1}", 100.0 * mean, 100.0 * deviation));
+            text.push_str(&format!("{:>16}", cell.unwrap_or_else(|| "–".to_owned())));
+        }
+        text.push('\n');
+    };
+    for algorithm in Algorithm::ALL {
+        line(algorithm.title(), &|set| {
+            study.scores(set, algorithm, study.condition).map(|scores| (scores.accuracy, scores.accuracy_deviation))
+        });
+    }
+    line("average", &|set| study.averages.iter().find(|average| average.set == set).map(|of| (of.mean, of.deviation)));
+    for note in &study.notes {
+        text.push_str(&format!("\n{note}"));
+    }
+    text
+}
+
+/// A share in percent with one decimal.
+fn percent(share: f64) -> String {
+    format!("{:.1}", 100.0 * share)
+}

@@ -1,0 +1,113 @@
+//! The palette and the sheet of shortcuts as they look, in both themes and at both scales.
+
+use egui::{Key, Modifiers};
+use enfilade::app::{Offscreen, OffscreenOptions};
+
+use crate::golden::assert_picture;
+use crate::{keys, press, run, type_in};
+
+fn window(options: OffscreenOptions) -> Offscreen {
+    let mut window = Offscreen::new(options);
+    window.open_bundled("dwelling");
+    window.settle().unwrap();
+    window
+}
+
+fn light() -> Offscreen {
+    window(OffscreenOptions::default())
+}
+
+fn dark() -> Offscreen {
+    window(OffscreenOptions { is_dark: true, ..OffscreenOptions::default() })
+}
+
+fn twice() -> Offscreen {
+    window(OffscreenOptions { width: 640, height: 440, scale: 2.0, ..OffscreenOptions::default() })
+}
+
+#[test]
+fn palette_with_what_was_done_last() {
+    let mut window = light();
+    for query in ["fill by f", "graph"] {
+        keys(&mut window, "Ctrl+Shift+P");
+        type_in(&mut window, query);
+        window.key(Modifiers::NONE, Key::Enter);
+        window.settle().unwrap();
+    }
+    keys(&mut window, "Ctrl+Shift+P");
+    assert_picture("../commands/palette", &window.picture());
+}
+
+#[test]
+fn palette_with_a_few_letters_in_the_dark() {
+    let mut window = dark();
+    keys(&mut window, "Ctrl+Shift+P");
+    type_in(&mut window, "zo sel");
+    assert_picture("../commands/palette-query-dark", &window.picture());
+}
+
+#[test]
+fn palette_with_nothing_that_fits() {
+    let mut window = twice();
+    keys(&mut window, "Ctrl+Shift+P");
+    type_in(&mut window, "xyzzy");
+    assert_picture("../commands/palette-no-match-200", &window.picture());
+}
+
+#[test]
+fn palette_asking_for_a_room() {
+    let mut window = light();
+    run(&mut window, "pick", &["Study"]);
+    run(
+        &mut window,
+        "rename",
+        &["A study with a name so long that no list of any width has space for it, whatever one does"],
+    );
+    keys(&mut window, "Ctrl+F");
+    type_in(&mut window, "st");
+    keys(&mut window, "Down");
+    assert_picture("../commands/palette-room", &window.picture());
+}
+
+#[test]
+fn palette_refusing_what_was_typed() {
+    let mut window = dark();
+    run(&mut window, "zoom-to", &["1.5", "2"]);
+    type_in(&mut window, "wide");
+    keys(&mut window, "Enter");
+    assert_picture("../commands/palette-argument-dark", &window.picture());
+}
+
+#[test]
+fn sheet() {
+    let mut window = light();
+    run(&mut window, "set-shortcut", &["graph", "Ctrl+Alt+G"]);
+    run(&mut window, "remove-shortcut", &["grid"]);
+    keys(&mut window, "F1");
+    assert_picture("../commands/sheet", &window.picture());
+}
+
+#[test]
+fn sheet_with_a_clash_in_the_dark() {
+    let mut window = dark();
+    keys(&mut window, "F1");
+    press(&mut window, "Shortcut of Zoom to fit: F");
+    keys(&mut window, "Ctrl+O");
+    assert_picture("../commands/sheet-clash-dark", &window.picture());
+}
+
+#[test]
+fn sheet_in_a_small_window_searched() {
+    let mut window = twice();
+    keys(&mut window, "F1");
+    type_in(&mut window, "room");
+    assert_picture("../commands/sheet-search-200", &window.picture());
+}
+
+#[test]
+fn about() {
+    let mut window = dark();
+    window.resize(800, 600);
+    run(&mut window, "about", &[]);
+    assert_picture("../commands/about-dark", &window.picture());
+}
