@@ -86,7 +86,7 @@ fn set_options(stage: &mut Stage<'_>, options: OffscreenOptions) -> Result<(), F
     if options == stage.window.options() {
         return Ok(());
     }
-    stage.window.set_options(options);
+    stage.set_options(options)?;
     stage.window.settle().map_err(|error| Fault::new(error.to_string()))
 }
 
