@@ -8,6 +8,8 @@
 mod arguments;
 #[path = "commands/golden.rs"]
 mod golden;
+#[path = "commands/manual.rs"]
+mod manual;
 #[path = "commands/palette.rs"]
 mod palette;
 #[path = "commands/pictures.rs"]
@@ -19,7 +21,8 @@ mod shortcuts;
 
 use egui::{Key, Modifiers};
 use enfilade::app::{Executed, Offscreen, OffscreenOptions, Picked};
-use enfilade::plan::Room;
+use enfilade::geometry::Point;
+use enfilade::plan::{Backdrop, Room};
 
 /// A window that shows a bundled plan.
 fn window_with(stem: &str) -> Offscreen {
@@ -72,6 +75,19 @@ fn keys(window: &mut Offscreen, text: &str) {
 fn type_in(window: &mut Offscreen, text: &str) {
     window.text(text);
     window.settle().unwrap();
+}
+
+/// A picture under a plan, which need not be there.
+fn backdrop() -> Backdrop {
+    Backdrop {
+        path: "scan.png".to_owned(),
+        content_hash: String::new(),
+        origin: Point::new(0.0, 5.0),
+        metres_per_pixel: 0.5,
+        rotation_rad: 0.0,
+        opacity: 1.0,
+        extra: None,
+    }
 }
 
 /// The picked room.

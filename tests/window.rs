@@ -3,6 +3,8 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
+#[path = "window/access.rs"]
+mod access;
 #[path = "window/files.rs"]
 mod files;
 #[path = "window/monkey.rs"]

@@ -14,8 +14,11 @@ use super::scene_painter::{ScenePainter, earcut, on_screen, outline_mesh, polygo
 use super::theme;
 use super::{App, Picture, commands};
 use crate::draw::{self, Layers, Palette, Style, View};
+use crate::features::RoomStatus;
 use crate::geometry::{Bounds, Point, Vector};
+use crate::labels::normalised_function;
 use crate::plan::{Backdrop, Plan};
+use crate::topology::RoomShape;
 
 /// What the canvas remembers from frame to frame.
 #[derive(Default)]
@@ -575,7 +578,8 @@ impl Canvas {
             return None;
         }
         let mut act = None;
-        for shape in fresh?.analysis.shapes.all().iter().filter(|shape| !shape.outer.is_empty()) {
+        let derived = fresh?;
+        for shape in derived.analysis.shapes.all().iter().filter(|shape| !shape.outer.is_empty()) {
             let corners = [shape.bounds.min, shape.bounds.max].map(|point| on_screen(rect, view, point));
             let bounds = Rect::from_two_pos(corners[0], corners[1]);
             if !bounds.intersects(rect) {
@@ -586,7 +590,11 @@ impl Canvas {
             let response = ui.interact(bounds.intersect(rect), id, Sense::hover());
             let label = title_of(document.plan(), this);
             response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, picked == Some(this), &label));
-            ui.ctx().accesskit_node_builder(id, |node| node.add_action(egui::accesskit::Action::Click));
+            let said = said_of_room(document.plan(), derived, shape);
+            ui.ctx().accesskit_node_builder(id, |node| {
+                node.add_action(egui::accesskit::Action::Click);
+                node.set_description(said);
+            });
             if ui.input(|input| input.has_accesskit_action_request(id, egui::accesskit::Action::Click)) {
                 act = Some(Act::Pick(Some(this)));
             }
@@ -645,6 +653,19 @@ fn describe(document: &Document, picked: Option<Picked>) -> String {
         text.push_str(&format!("; picked: {}", title_of(plan, picked)));
     }
     text
+}
+
+/// A room's label and area, in words.
+fn said_of_room(plan: &Plan, derived: &Derived, shape: &RoomShape) -> String {
+    let status = derived.analysis.room(shape.id).map(|room| room.status);
+    let label = match status {
+        Some(RoomStatus::Labelled(label)) => label.name(),
+        Some(RoomStatus::NotClassified) => "not classified",
+        Some(RoomStatus::Unlabelled) | None => "no label",
+    };
+    let function = plan.room(shape.id).map(|room| room.function.trim()).unwrap_or_default();
+    let function = if function.is_empty() { String::new() } else { format!(", {}", normalised_function(function)) };
+    format!("{label}{function}, {:.1} m²", shape.area_m2())
 }
 
 /// Whether a plan has what was picked.

@@ -2,19 +2,25 @@
 
 use std::collections::HashMap;
 
-use egui::accesskit::{Node, NodeId, Role, Toggled, TreeUpdate};
+use egui::accesskit::{Action, Node, NodeId, Role, Toggled, TreeUpdate};
 use egui::{Pos2, Rect};
 
 /// A control that a screen reader would find.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Control {
     pub name: String,
+    /// What is said of it beside its name: a room's label and area; may be empty.
+    pub description: String,
     pub role: Role,
     /// In logical pixels.
     pub rect: Rect,
     pub is_enabled: bool,
     /// Whether it is on, where it can be.
     pub is_on: Option<bool>,
+    /// Whether the keyboard can go there.
+    pub takes_focus: bool,
+    /// Whether it can be pressed.
+    pub takes_clicks: bool,
     pub(super) id: NodeId,
 }
 
@@ -33,10 +39,13 @@ pub(super) fn of_tree(tree: &TreeUpdate, scale: f32) -> Vec<Control> {
         controls.push(Control {
             // Plain text carries what it says as its value.
             name: node.label().or(node.value()).unwrap_or_default().to_owned(),
+            description: node.description().unwrap_or_default().to_owned(),
             role: node.role(),
             rect: Rect::from_min_max(corner(bounds.x0, bounds.y0), corner(bounds.x1, bounds.y1)),
             is_enabled: !node.is_disabled(),
             is_on: node.is_selected().or(node.toggled().map(|toggled| toggled == Toggled::True)),
+            takes_focus: node.supports_action(Action::Focus),
+            takes_clicks: node.supports_action(Action::Click),
             id,
         });
     }

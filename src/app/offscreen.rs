@@ -468,6 +468,12 @@ impl Offscreen {
         self.tree.as_ref().map(|tree| controls::of_tree(tree, self.options.scale)).unwrap_or_default()
     }
 
+    /// The control that has the keyboard.
+    pub fn focused(&self) -> Option<Control> {
+        let focus = self.tree.as_ref()?.focus;
+        self.controls().into_iter().find(|control| control.id == focus)
+    }
+
     /// The first control with a name.
     pub fn control(&self, name: &str) -> Option<Control> {
         self.controls().into_iter().find(|control| control.name == name)

@@ -88,7 +88,7 @@ impl Picture {
     }
 
     /// The part between two corners, in pixels; the far sides are not part of it.
-    pub(super) fn part(&self, from: [u32; 2], to: [u32; 2]) -> Self {
+    pub fn part(&self, from: [u32; 2], to: [u32; 2]) -> Self {
         let [left, top] = [from[0].min(self.width_px), from[1].min(self.height_px)];
         let [right, bottom] = [to[0].clamp(left, self.width_px), to[1].clamp(top, self.height_px)];
         if (left, top, right, bottom) == (0, 0, self.width_px, self.height_px) {

@@ -38,8 +38,15 @@ fn put(ui: &Ui, galley: Arc<Galley>, left: f32, middle: f32) {
     ui.painter().galley(at, galley, Color32::PLACEHOLDER);
 }
 
+/// Brings what the keyboard has gone to into sight.
+pub(super) fn follow_focus(response: &Response) {
+    if response.gained_focus() {
+        response.scroll_to_me(None);
+    }
+}
+
 /// The ring around what has the keyboard.
-fn focus_ring(ui: &Ui, rect: Rect, response: &Response) {
+pub(super) fn focus_ring(ui: &Ui, rect: Rect, response: &Response) {
     if response.has_focus() {
         let stroke = Stroke::new(2.0, colours(ui).accent);
         ui.painter().rect_stroke(rect, CornerRadius::same(RADIUS), stroke, StrokeKind::Inside);
@@ -189,11 +196,22 @@ impl<'a> Row<'a> {
     fn show(self, ui: &mut Ui, height: f32, role: Option<Role>) -> Response {
         let sense = if role.is_some() { Sense::click() } else { Sense::hover() };
         let (rect, mut response) = ui.allocate_exact_size(vec2(ui.available_width(), height), sense);
+        let is_enabled = ui.is_enabled();
+        match role {
+            Some(role) => {
+                response.widget_info(|| {
+                    WidgetInfo::selected(role, is_enabled, self.is_on.unwrap_or(self.is_selected), self.text)
+                });
+            }
+            None => response.widget_info(|| {
+                WidgetInfo::labeled(Role::Label, is_enabled, format!("{} {}", self.text, self.trail).trim())
+            }),
+        }
+        follow_focus(&response);
         if !ui.is_rect_visible(rect) {
             return response;
         }
         let colours = colours(ui);
-        let is_enabled = ui.is_enabled();
         if role.is_some() {
             let ground = if self.is_selected {
                 colours.accent_soft
@@ -251,16 +269,6 @@ impl<'a> Row<'a> {
         let is_elided = text.elided;
         put(ui, text, left, middle);
         focus_ring(ui, rect, &response);
-        match role {
-            Some(role) => {
-                response.widget_info(|| {
-                    WidgetInfo::selected(role, is_enabled, self.is_on.unwrap_or(self.is_selected), self.text)
-                });
-            }
-            None => response.widget_info(|| {
-                WidgetInfo::labeled(Role::Label, is_enabled, format!("{} {}", self.text, self.trail).trim())
-            }),
-        }
         if is_elided {
             response = response.on_hover_text(self.text);
         }
@@ -351,7 +359,12 @@ pub(super) fn text_button(ui: &mut Ui, text: &str, is_main: bool) -> Response {
     };
     let text = RichText::new(text).color(colour);
     let text = if is_main { text.font(FontId::new(theme::BODY, theme::semibold())) } else { text };
-    ui.add(egui::Button::new(text).fill(fill).stroke(Stroke::new(1.0, stroke)).min_size(vec2(72.0, 30.0)))
+    let button = egui::Button::new(text).fill(fill).stroke(Stroke::new(1.0, stroke)).min_size(vec2(72.0, 30.0));
+    let response = ui.add(button);
+    // Outside of a button that has the ring's colour.
+    let around = if is_main { response.rect.expand(3.0) } else { response.rect };
+    focus_ring(ui, around, &response);
+    response
 }
 
 /// The colour of a message's mark, and of its ground.

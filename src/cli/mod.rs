@@ -3,6 +3,8 @@
 mod check;
 mod classify;
 mod collect;
+#[cfg(feature = "gui")]
+mod commands;
 mod dataset;
 mod evaluate;
 mod export;
@@ -37,6 +39,8 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<models::ModelsCommand>(),
     #[cfg(feature = "gui")]
     entry::<replay::ReplayCommand>(),
+    #[cfg(feature = "gui")]
+    entry::<commands::CommandsCommand>(),
 ];
 
 /// A subcommand: its arguments (a clap `Args`) and what it does with them.

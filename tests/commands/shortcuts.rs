@@ -1,1 +1,304 @@
+//! Shortcuts: every one does what the table says, and a person may change them.
 
+use std::path::{Path, PathBuf};
+
+use enfilade::app::commands::{COMMANDS, Keys, find};
+use enfilade::app::{Offscreen, OffscreenOptions, Severity};
+
+use crate::{done, keys, picked, press, run, type_in, window_with};
+
+/// Each shortcut of the table, pressed where its command can be done, does this command and no other.
+#[test]
+fn every_shortcut_does_its_command() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("traced.plan.json");
+    let word = path.to_str().unwrap();
+    let mut checked = 0;
+    for command in COMMANDS {
+        for &shortcut in command.shortcuts {
+            let mut window = window_with("school");
+            // A plan with something to undo and redo, and a picture under it.
+            let plan = enfilade::plan::edit::set_backdrop(window.app().plan().unwrap(), Some(crate::backdrop()));
+            enfilade::store::save_plan(&path, &plan).unwrap();
+            match command.id {
+                "previous-plan" | "next-plan" => {}
+                _ => run(&mut window, "open", &[word]),
+            }
+            run(&mut window, "next-room", &[]);
+            for id in ["label-hall", "label-small"] {
+                if !matches!(command.id, "quit" | "close" | "previous-plan" | "next-plan") {
+                    run(&mut window, id, &[]);
+                }
+            }
+            if command.id == "redo" {
+                run(&mut window, "undo", &[]);
+            }
+            window.answer_dialog(Some(path.clone()));
+            window.watch_commands(true);
+            keys(&mut window, &Keys::from(shortcut).to_string());
+            let said = done(&mut window).join("; ");
+            let (is_done, expected) = match command.id {
+                "save-as" => (said.starts_with("save-as "), "save-as"),
+                "open" => (said.starts_with("open "), "open"),
+                // These show something, or give the keyboard to it.
+                "commands" => (window.control("Find a command").is_some(), "the palette"),
+                "find-room" => (
+                    window.control("Find a room: a room's name, or its id where several have the name").is_some(),
+                    "the palette",
+                ),
+                "shortcuts" => (window.control("Search shortcuts").is_some(), "the sheet"),
+                "rename" | "set-function" => {
+                    type_in(&mut window, "x");
+                    keys(&mut window, "Enter");
+                    (done(&mut window)[0].starts_with(command.id), "a name")
+                }
+                id => (said == id || said.starts_with(&format!("{id} ")), id),
+            };
+            assert!(is_done, "{} of {} gave '{said}', not {expected}", Keys::from(shortcut), command.id);
+            checked += 1;
+        }
+    }
+    assert!(checked > 30, "{checked}");
+}
+
+#[test]
+fn no_shortcut_is_used_twice_or_reserved() {
+    let mut seen: Vec<(Keys, &str)> = Vec::new();
+    for command in COMMANDS {
+        for &shortcut in command.shortcuts {
+            let keys = Keys::from(shortcut);
+            let before = seen.iter().find(|(other, _)| *other == keys);
+            assert_eq!(before, None, "{keys} is the shortcut of {} too", command.id);
+            assert!(keys.why_reserved().is_none() || command.id == "clear-selection", "{keys} of {}", command.id);
+            assert_eq!(keys.to_string().parse(), Ok(keys), "{keys} can be kept");
+            seen.push((keys, command.id));
+        }
+    }
+}
+
+/// A window whose settings are kept in a file.
+fn window_of(file: &Path) -> Offscreen {
+    let mut window = window_with("dwelling");
+    window.use_settings(file);
+    window.settle().unwrap();
+    window
+}
+
+fn settings() -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("of somebody/settings.json");
+    (folder, file)
+}
+
+fn kept(file: &Path) -> serde_json::Value {
+    serde_json::from_str(&std::fs::read_to_string(file).unwrap()).unwrap()
+}
+
+#[test]
+fn a_person_changes_a_shortcut_in_the_sheet() {
+    let (_folder, file) = settings();
+    let mut window = window_of(&file);
+    keys(&mut window, "Questionmark");
+    press(&mut window, "Shortcut of Graph: G");
+    keys(&mut window, "Ctrl+Alt+K");
+    assert!(window.control("Ctrl+Alt+K is now the shortcut of 'Graph'").is_some());
+    assert!(window.control("Shortcut of Graph: Ctrl+Alt+K").is_some());
+    press(&mut window, "Shortcut of Grid: Shift+G");
+    keys(&mut window, "G");
+    press(&mut window, "Shortcut of Names: N");
+    keys(&mut window, "Backspace");
+    press(&mut window, "Done");
+    assert!(window.control("Search shortcuts").is_none());
+    let expected = serde_json::json!({
+        "version": 1,
+        "shortcuts": { "graph": ["Ctrl+Alt+K"], "grid": ["G"], "names": [] },
+    });
+    assert_eq!(kept(&file), expected);
+    // The keys do what they say, in this window and in the next.
+    for window in [&mut window, &mut window_of(&file)] {
+        window.watch_commands(true);
+        for text in ["Ctrl+Alt+K", "G", "N", "Shift+G"] {
+            keys(window, text);
+        }
+        assert_eq!(done(window), [r#"graph "on""#, r#"grid "off""#]);
+        // So do tooltips.
+        let tool = window.control("Graph").unwrap().rect.center();
+        window.move_to(tool);
+        window.advance(1.0);
+        window.settle().unwrap();
+        assert!(window.control("Ctrl+Alt+K").is_some());
+    }
+}
+
+#[test]
+fn clashes_are_refused_and_named() {
+    let (_folder, file) = settings();
+    let mut window = window_of(&file);
+    keys(&mut window, "F1");
+    press(&mut window, "Shortcut of Graph: G");
+    for (pressed, said) in [
+        ("Ctrl+O", "Ctrl+O is the shortcut of 'Open'"),
+        ("Tab", "Tab cannot be a shortcut: it goes from control to control and presses them"),
+        ("Space", "Space cannot be a shortcut: it goes from control to control and presses them"),
+        ("Ctrl+A", "Ctrl+A cannot be a shortcut: it belongs to text"),
+        // The second shortcut of a command, too.
+        ("Ctrl+Y", "Ctrl+Y is the shortcut of 'Redo'"),
+    ] {
+        keys(&mut window, pressed);
+        assert!(window.control(said).is_some(), "{pressed}");
+        assert!(window.control("Shortcut of Graph: press keys").is_some(), "it goes on waiting");
+    }
+    keys(&mut window, "Escape");
+    assert!(window.control("Shortcut of Graph: G").is_some());
+    assert!(!file.exists(), "nothing was changed");
+    // Escape now leaves the sheet.
+    keys(&mut window, "Escape");
+    assert!(window.control("Search shortcuts").is_none());
+    let error = window.run_command_with("set-shortcut", &["graph", "F2"]).unwrap_err().to_string();
+    assert_eq!(error, "'set-shortcut' cannot be done now: F2 is the shortcut of 'Rename'");
+}
+
+#[test]
+fn one_or_all_are_reset() {
+    let (_folder, file) = settings();
+    let mut window = window_of(&file);
+    run(&mut window, "set-shortcut", &["graph", "Ctrl+G"]);
+    run(&mut window, "set-shortcut", &["grid", "G"]);
+    run(&mut window, "remove-shortcut", &["undo"]);
+    // Its own keys are another's by now.
+    let error = window.run_command_with("reset-shortcut", &["graph"]).unwrap_err().to_string();
+    assert_eq!(error, "'reset-shortcut' cannot be done now: G is the shortcut of 'Grid'");
+    keys(&mut window, "F1");
+    press(&mut window, "Reset the shortcut of Grid");
+    press(&mut window, "Reset the shortcut of Graph");
+    assert!(window.control("Shortcut of Graph: G").is_some());
+    assert!(window.control("Shortcut of Undo: none").is_some());
+    press(&mut window, "Reset all");
+    assert!(window.control("Shortcut of Undo: Ctrl+Z").is_some());
+    assert_eq!(kept(&file)["shortcuts"], serde_json::json!({}));
+    keys(&mut window, "Escape");
+    assert!(window.run_command_with("reset-shortcuts", &[]).is_err(), "nothing is changed any more");
+}
+
+#[test]
+fn the_sheet_is_searched() {
+    let mut window = window_with("dwelling");
+    keys(&mut window, "F1");
+    type_in(&mut window, "ctrl+s");
+    let shown: Vec<String> = window
+        .controls()
+        .into_iter()
+        .filter_map(|control| Some(control.name.strip_prefix("Shortcut of ")?.to_owned()))
+        .collect();
+    assert!(shown.contains(&"Save: Ctrl+S".to_owned()), "{shown:?}");
+    assert!(!shown.contains(&"Graph: G".to_owned()), "{shown:?}");
+}
+
+#[test]
+fn plain_letters_go_to_a_text_field_and_others_do_not() {
+    let mut window = window_with("dwelling");
+    run(&mut window, "set-shortcut", &["graph", "X"]);
+    run(&mut window, "set-shortcut", &["grid", "Ctrl+Alt+X"]);
+    run(&mut window, "set-shortcut", &["names", "F9"]);
+    run(&mut window, "pick", &["Study"]);
+    run(&mut window, "rename", &[]);
+    window.watch_commands(true);
+    // As a window system tells of it: the key, and the text it gives.
+    keys(&mut window, "X");
+    type_in(&mut window, "x");
+    keys(&mut window, "Ctrl+Alt+X");
+    keys(&mut window, "F9");
+    let said = done(&mut window);
+    assert!(!said.iter().any(|line| line.starts_with("graph")), "{said:?}");
+    assert!(said.contains(&r#"grid "off""#.to_owned()) && said.contains(&r#"names "off""#.to_owned()), "{said:?}");
+    keys(&mut window, "Enter");
+    assert_eq!(picked(&window).name, "Studyx");
+    keys(&mut window, "X");
+    assert!(done(&mut window).contains(&r#"graph "on""#.to_owned()));
+}
+
+#[expect(clippy::disallowed_methods, reason = "a test's files are no user's")]
+fn write(file: &Path, text: &str) {
+    std::fs::create_dir_all(file.parent().unwrap()).unwrap();
+    std::fs::write(file, text).unwrap();
+}
+
+fn said(window: &Offscreen) -> String {
+    let messages = window.app().messages();
+    assert!(messages.iter().all(|message| message.severity == Severity::Warning));
+    messages.iter().map(|message| format!("{}\n{}\n", message.text, message.detail)).collect()
+}
+
+#[test]
+fn a_damaged_file_is_said_and_kept_aside() {
+    for damaged in ["{ \"version\": 1, \"shortcuts\": {", "", "[1, 2]", "\u{fffd}\u{0}"] {
+        let (_folder, file) = settings();
+        write(&file, damaged);
+        let mut window = window_of(&file);
+        let text = said(&window);
+        assert!(text.contains("Your settings are damaged") && text.contains("settings.damaged.json"), "{text}");
+        assert!(!file.exists());
+        run(&mut window, "set-shortcut", &["graph", "Ctrl+G"]);
+        assert_eq!(kept(&file)["shortcuts"], serde_json::json!({ "graph": ["Ctrl+G"] }));
+        let aside = file.with_file_name("settings.damaged.json");
+        assert_eq!(std::fs::read_to_string(&aside).unwrap(), damaged);
+        // A second one does not replace the first.
+        write(&file, damaged);
+        window_of(&file);
+        assert_eq!(std::fs::read_to_string(file.with_file_name("settings.damaged-2.json")).unwrap(), damaged);
+    }
+}
+
+#[test]
+fn what_is_not_known_in_the_file_stays() {
+    let (_folder, file) = settings();
+    write(
+        &file,
+        r#"{
+            "version": 1, "colour": "mauve",
+            "shortcuts": { "fly-to-the-moon": ["Ctrl+M"], "graph": ["Ctrl+G"], "grid": "G", "names": ["Ctrl+O"], "fit": ["Tab"] }
+        }"#,
+    );
+    let mut window = window_of(&file);
+    let text = said(&window);
+    for part in ["grid: \"G\" is no list of keys", "names: Ctrl+O is the shortcut of 'Open'", "fit: Tab cannot be"] {
+        assert!(text.contains(part), "{text}");
+    }
+    assert!(!text.contains("fly-to-the-moon"), "{text}");
+    window.watch_commands(true);
+    for text in ["Ctrl+G", "N", "F"] {
+        keys(&mut window, text);
+    }
+    assert_eq!(done(&mut window), [r#"graph "on""#, r#"names "off""#, "fit"]);
+    run(&mut window, "set-shortcut", &["fit", "Ctrl+0"]);
+    assert_eq!(kept(&file)["colour"], "mauve");
+    assert_eq!(
+        kept(&file)["shortcuts"],
+        serde_json::json!({ "fit": ["Ctrl+0"], "fly-to-the-moon": ["Ctrl+M"], "graph": ["Ctrl+G"] })
+    );
+}
+
+#[test]
+fn a_file_of_a_newer_version_or_of_nobody_is_left_alone() {
+    let (_folder, file) = settings();
+    let newer = r#"{ "version": 2, "shortcuts": [] }"#;
+    write(&file, newer);
+    let mut window = window_of(&file);
+    assert!(said(&window).contains("newer version"), "{}", said(&window));
+    run(&mut window, "set-shortcut", &["graph", "Ctrl+G"]);
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), newer);
+    // A folder where the file should be.
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = window_of(folder.path());
+    assert!(said(&window).contains("cannot be read"), "{}", said(&window));
+    run(&mut window, "set-shortcut", &["graph", "Ctrl+G"]);
+    // A place where nothing can be written.
+    let mut window = window_of(Path::new("/dev/null/settings.json"));
+    run(&mut window, "set-shortcut", &["graph", "Ctrl+G"]);
+    assert!(said(&window).contains("Your settings"), "{}", said(&window));
+    // Without a file nothing is kept.
+    let mut window = Offscreen::new(OffscreenOptions::default());
+    run(&mut window, "set-shortcut", &["graph", "Ctrl+G"]);
+    assert_eq!(said(&window), "");
+    assert!(find("graph").is_some());
+}

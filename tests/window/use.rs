@@ -218,35 +218,6 @@ fn a_function_is_chosen_from_the_scheme() {
     room(&window, "Kitchen");
 }
 
-#[test]
-fn every_control_has_a_name() {
-    let mut window = Offscreen::new(OffscreenOptions::default());
-    let check = |window: &Offscreen, state: &str| {
-        for control in window.controls() {
-            let is_nameless = control.name.trim().is_empty() && egui::accessibility::is_input(control.role);
-            assert!(!is_nameless, "{state}: {control:?}");
-        }
-    };
-    window.settle().unwrap();
-    check(&window, "welcome");
-    window.open_bundled("dwelling");
-    window.settle().unwrap();
-    check(&window, "plan");
-    click_room(&mut window, "Study");
-    check(&window, "room");
-    for menu in ["File", "Edit", "Room", "View"] {
-        press(&mut window, menu);
-        check(&window, menu);
-        window.key(Modifiers::NONE, Key::Escape);
-        window.settle().unwrap();
-    }
-    // The rooms themselves.
-    let names: Vec<String> = window.controls().into_iter().map(|control| control.name).collect();
-    for (_, room) in window.app().plan().unwrap().rooms() {
-        assert!(names.contains(&room.name), "{}", room.name);
-    }
-}
-
 /// Every command of the table does no harm, in each state and at once after another.
 #[test]
 fn every_command_runs_in_every_state() {

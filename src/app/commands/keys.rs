@@ -32,13 +32,28 @@ impl Keys {
     pub fn text(self, context: &Context) -> String {
         let modifiers = context.format_modifiers(self.modifiers);
         let plus = if modifiers.is_empty() { "" } else { "+" };
-        let key = match self.key {
+        format!("{modifiers}{plus}{}", self.key_text())
+    }
+
+    /// As people read it in the manual, whatever their system.
+    pub(super) fn readable(self) -> String {
+        format!("{}{}", self.modifiers_text(), self.key_text())
+    }
+
+    fn key_text(self) -> &'static str {
+        match self.key {
             Key::PageUp => "Page up",
             Key::PageDown => "Page down",
             Key::Escape => "Esc",
             key => key.symbol_or_name(),
-        };
-        format!("{modifiers}{plus}{key}")
+        }
+    }
+
+    /// 'Ctrl+Shift+'.
+    fn modifiers_text(self) -> String {
+        let Modifiers { command, alt, shift, .. } = self.modifiers;
+        let held = [(command, "Ctrl+"), (alt, "Alt+"), (shift, "Shift+")];
+        held.into_iter().filter(|(is_held, _)| *is_held).map(|(_, name)| name).collect()
     }
 
     /// Why nobody may choose these keys; `None` when they may.
@@ -89,13 +104,7 @@ const IS_TYPED_WITH_SHIFT: [Key; 7] = [
 /// As in settings and scripts, the same on every system: 'Ctrl+Shift+S', 'Plus'.
 impl fmt::Display for Keys {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Modifiers { command, alt, shift, .. } = self.modifiers;
-        for (is_held, name) in [(command, "Ctrl+"), (alt, "Alt+"), (shift, "Shift+")] {
-            if is_held {
-                f.write_str(name)?;
-            }
-        }
-        f.write_str(self.key.name())
+        write!(f, "{}{}", self.modifiers_text(), self.key.name())
     }
 }
 

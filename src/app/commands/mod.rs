@@ -5,6 +5,7 @@
 
 mod argument;
 mod keys;
+mod manual;
 mod run;
 mod table;
 
@@ -12,6 +13,7 @@ use egui::{Context, KeyboardShortcut};
 
 pub use argument::{Argument, ArgumentKind, Choice};
 pub use keys::{Keys, NoKeys};
+pub use manual::{keys_of, manual};
 pub use run::{CommandError, Executed};
 pub use table::COMMANDS;
 

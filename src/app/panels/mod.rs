@@ -13,7 +13,7 @@ pub(super) mod status;
 mod top_bar;
 pub(super) mod welcome;
 
-use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui};
+use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, UiBuilder};
 
 use palette::Palette;
 use shortcuts::Sheet;
@@ -147,10 +147,12 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let frame = |margin: Margin| Frame::new().fill(colours.panel).inner_margin(margin);
     app.canvas.hovered_in_panel = None;
     Panel::top("top bar").exact_size(44.0).frame(frame(Margin::symmetric(8, 0))).show(ui, |ui| top_bar::show(app, ui));
-    Panel::bottom("status line")
+    // Its place; what is in it comes last, as the keyboard goes.
+    let status_rect = Panel::bottom("status line")
         .exact_size(30.0)
         .frame(frame(Margin::symmetric(12, 0)))
-        .show(ui, |ui| status::show(app, ui));
+        .show(ui, |ui| ui.max_rect())
+        .inner;
     (app.panels.left_rect, app.panels.right_rect) = (None, None);
     if app.panels.left {
         let shown = Panel::left("plans and layers")
@@ -162,21 +164,21 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
                 // does not grow again. In a low window it scrolls, so that the plans keep some room.
                 let wanted = app.panels.layers_height;
                 let given = wanted.min(ui.available_height() - LEAST_PLANS_HEIGHT).max(LEAST_PLANS_HEIGHT);
-                let layers = Panel::bottom("layers").exact_size(given).frame(Frame::new()).show_separator_line(false);
-                let taken = layers.show(ui, |ui| {
-                    let area = ScrollArea::vertical().id_salt("layers").auto_shrink(false);
-                    let shown = area.show(ui, |ui| {
-                        let top = ui.cursor().top();
-                        layers::show(app, ui);
-                        ui.cursor().top() - top
-                    });
-                    shown.inner
+                let all = ui.available_rect_before_wrap();
+                let (above, below) = all.split_top_bottom_at_y(all.bottom() - given);
+                // From top to bottom, as the keyboard goes.
+                plans::show(app, &mut ui.new_child(UiBuilder::new().max_rect(above).id_salt("plans")));
+                let mut below = ui.new_child(UiBuilder::new().max_rect(below).id_salt("layers"));
+                let area = ScrollArea::vertical().id_salt("layers").auto_shrink(false);
+                let shown = area.show(&mut below, |ui| {
+                    let top = ui.cursor().top();
+                    layers::show(app, ui);
+                    ui.cursor().top() - top
                 });
-                if (taken.inner - wanted).abs() > 0.5 {
-                    app.panels.layers_height = taken.inner;
+                if (shown.inner - wanted).abs() > 0.5 {
+                    app.panels.layers_height = shown.inner;
                     ui.request_repaint();
                 }
-                plans::show(app, ui);
                 ui.take_available_space();
             });
         app.panels.left_rect = Some(shown.response.rect);
@@ -199,6 +201,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         }
         welcome::show_drop_target(ui);
     });
+    status::show(app, &mut ui.new_child(UiBuilder::new().max_rect(status_rect).id_salt("status")));
     notes::show(app, ui);
     about::show(app, ui);
     shortcuts::show(app, ui);

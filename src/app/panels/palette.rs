@@ -1,6 +1,7 @@
 //! The palette: every command by a few letters of its name, and what it needs asked for in place.
 
-use egui::text::{LayoutJob, TextFormat};
+use egui::text::{CCursor, CCursorRange, LayoutJob, TextFormat};
+use egui::text_edit::TextEditState;
 use egui::{
     Align2, Color32, FontId, Id, Key, Modal, Modifiers, Rect, Response, RichText, Role, ScrollArea, Sense, TextEdit,
     Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
@@ -38,6 +39,8 @@ pub(in crate::app) struct Palette {
     asking: Option<Asking>,
     /// Whether the row that Enter takes was changed by a key, so that it must be brought into sight.
     is_stepped: bool,
+    /// Whether the field has been shown: the first time, what is in it is selected.
+    is_shown: bool,
 }
 
 struct Asking {
@@ -296,8 +299,16 @@ impl Palette {
             left += ICON + 6.0;
         }
         let field = Rect::from_min_max(pos2(left, rect.top() + 8.0), pos2(rect.right() - 12.0, rect.bottom() - 8.0));
+        let field_id = Id::unique("command palette's text");
+        if !std::mem::replace(&mut self.is_shown, true) {
+            // Of an earlier palette, the cursor is anywhere.
+            let mut state = TextEditState::default();
+            let all = CCursorRange::two(CCursor::new(0), CCursor::new(self.query.chars().count()));
+            state.cursor.set_char_range(Some(all));
+            state.store(ui.ctx(), field_id);
+        }
         let edit = TextEdit::singleline(&mut self.query)
-            .id(Id::unique("command palette's text"))
+            .id(field_id)
             .frame(egui::Frame::NONE)
             .margin(egui::Margin::symmetric(4, 4))
             .font(FontId::proportional(theme::TITLE))
@@ -453,8 +464,9 @@ fn highlighted(text: &str, characters: &[u32], colour: Color32, accent: Color32,
 }
 
 fn command_lines(app: &App, ui: &Ui, search: &mut Search) -> Vec<Line> {
-    // First by where the letters were found, then by how well, then what can be done and was done last.
-    type Rank = (u8, std::cmp::Reverse<u32>, bool, usize, usize);
+    // First by where the letters were found, then by how well, then what can be done and was done
+    // last; of titles that fit alike, the shortest has least that was not looked for.
+    type Rank = (u8, std::cmp::Reverse<u32>, usize, bool, usize, usize);
     let mut found: Vec<(Rank, Line)> = Vec::new();
     for (index, command) in COMMANDS.iter().enumerate() {
         let Some((menu, _)) = command.menu.filter(|_| command.id != "commands") else { continue };
@@ -471,7 +483,8 @@ fn command_lines(app: &App, ui: &Ui, search: &mut Search) -> Vec<Line> {
             }
         };
         let recent = app.panels.recent.iter().position(|id| *id == command.id).unwrap_or(usize::MAX);
-        let rank = (tier, std::cmp::Reverse(hit.score), why_not.is_some(), recent, index);
+        let length = if search.is_empty() { 0 } else { title.chars().count() };
+        let rank = (tier, std::cmp::Reverse(hit.score), length, why_not.is_some(), recent, index);
         let line = Line {
             title: command.title.to_owned(),
             characters: hit.characters,

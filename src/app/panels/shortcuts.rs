@@ -9,7 +9,9 @@ use egui::{
 use crate::app::commands::{self, COMMANDS, Command, CommandError, Keys, Menu};
 use crate::app::icons::Icon;
 use crate::app::search::Search;
-use crate::app::widgets::{ICON, caption, colours, dialog_frame, icon_button, put_line, right, strong, text_button};
+use crate::app::widgets::{
+    ICON, caption, colours, dialog_frame, focus_ring, follow_focus, icon_button, put_line, right, strong, text_button,
+};
 use crate::app::{App, theme};
 
 /// The sheet while it is open.
@@ -295,10 +297,8 @@ impl Sheet {
             ui.painter().rect_filled(square, theme::RADIUS, ground);
             let icon = Rect::from_center_size(square.center(), Vec2::splat(ICON - 2.0));
             Icon::Undo.paint(ui.painter(), icon, colours(ui).text_weak);
-            if reset.has_focus() {
-                let stroke = Stroke::new(2.0, colours(ui).accent);
-                ui.painter().rect_stroke(square, theme::RADIUS, stroke, StrokeKind::Inside);
-            }
+            focus_ring(ui, square, &reset);
+            follow_focus(&reset);
             let name = format!("Reset the shortcut of {}", command.plain_title());
             reset.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
             if reset.on_hover_text("Back to the keys it comes with").clicked() {
@@ -347,10 +347,8 @@ impl Sheet {
         ui.painter().rect_stroke(rect, 5.0, Stroke::new(1.0, rim), StrokeKind::Inside);
         let at = (rect.center() - galley.rect.size() / 2.0).round();
         ui.painter().galley(at, galley, ink);
-        if response.has_focus() {
-            let stroke = Stroke::new(2.0, colours.accent);
-            ui.painter().rect_stroke(rect.expand(1.0), 6.0, stroke, StrokeKind::Inside);
-        }
+        focus_ring(ui, rect.expand(2.0), &response);
+        follow_focus(&response);
         if is_changing {
             // Tab and arrows are keys like others now; Escape ends the waiting, not the sheet.
             let filter = EventFilter { tab: true, horizontal_arrows: true, vertical_arrows: true, escape: true };

@@ -7,7 +7,7 @@ use egui::{
 
 use crate::app::canvas::sentence;
 use crate::app::commands::{COMMANDS, Command, Menu};
-use crate::app::widgets::{Lead, Row, colours, icon_button, strong};
+use crate::app::widgets::{Lead, ROW, Row, colours, icon_button, strong};
 use crate::app::{App, theme};
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
@@ -24,10 +24,11 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             right
         })
         .inner;
-    let mut tools = ui.new_child(UiBuilder::new().max_rect(bar).layout(Layout::right_to_left(Align::Center)));
-    tools.spacing_mut().item_spacing.x = 2.0;
+    let right = bar.right() - tools_width();
+    let place = bar.with_min_x(right);
+    let mut tools = ui.new_child(UiBuilder::new().max_rect(place).layout(Layout::left_to_right(Align::Center)));
+    tools.spacing_mut().item_spacing.x = SPACE;
     show_tools(app, &mut tools);
-    let right = tools.min_rect().left();
     title(app, ui, left + 16.0, right - 16.0);
 }
 
@@ -46,6 +47,11 @@ fn menu_entries(app: &mut App, ui: &mut Ui, menu: Menu) {
         let is_on = command.is_on(app) == Some(true);
         let row = Row::new(Lead::Tick(is_on), command.title).trail(&shortcut);
         let response = ui.add_enabled_ui(why_not.is_none(), |ui| row.button(ui, Role::MenuItem)).inner;
+        ui.ctx().accesskit_node_builder(response.id, |node| {
+            if !shortcut.is_empty() {
+                node.set_keyboard_shortcut(shortcut.as_str());
+            }
+        });
         let response = match why_not {
             Some(why_not) => response.on_disabled_hover_text(sentence(why_not)),
             None => response,
@@ -58,16 +64,28 @@ fn menu_entries(app: &mut App, ui: &mut Ui, menu: Menu) {
     }
 }
 
-/// The tools from the right, groups apart.
+/// Space between two tools, and on both sides of the line between two groups, in points.
+const SPACE: f32 = 2.0;
+const GROUP_SPACE: f32 = 6.0;
+
+/// How wide the tools are.
+fn tools_width() -> f32 {
+    let groups: Vec<u8> = COMMANDS.iter().filter_map(|command| command.tool).map(|(_, group)| group).collect();
+    let lines = groups.windows(2).filter(|pair| pair[0] != pair[1]).count();
+    let things = groups.len() + lines;
+    groups.len() as f32 * ROW + lines as f32 * (2.0 * GROUP_SPACE + 1.0) + things.saturating_sub(1) as f32 * SPACE
+}
+
+/// The tools, groups apart.
 fn show_tools(app: &mut App, ui: &mut Ui) {
     let mut group = None;
-    for command in COMMANDS.iter().rev() {
+    for command in COMMANDS {
         let Some((icon, this)) = command.tool else { continue };
         if group.is_some_and(|group| group != this) {
-            ui.add_space(6.0);
+            ui.add_space(GROUP_SPACE);
             let (rect, _) = ui.allocate_exact_size(vec2(1.0, 18.0), Sense::hover());
             ui.painter().vline(rect.center().x, rect.y_range(), Stroke::new(1.0, colours(ui).outline));
-            ui.add_space(6.0);
+            ui.add_space(GROUP_SPACE);
         }
         group = Some(this);
         let is_on = command.is_on(app);

@@ -12,7 +12,7 @@ use egui::{
 use super::status::count;
 use crate::app::document::{Derived, Origin, bundled, derived_sample};
 use crate::app::scene_painter::ScenePainter;
-use crate::app::widgets::{colours, section, strong, text_button};
+use crate::app::widgets::{colours, follow_focus, section, strong, text_button};
 use crate::app::{App, commands, theme};
 use crate::draw::{Layers, Style, View};
 use crate::plan::Plan;
@@ -70,6 +70,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
 /// A sample with its picture.
 fn card(app: &mut App, ui: &mut Ui, index: usize, plan: &Plan) -> Response {
     let (rect, response) = ui.allocate_exact_size(CARD, Sense::click());
+    follow_focus(&response);
     let colours = colours(ui);
     let radius = f32::from(theme::RADIUS_LARGE);
     let ground = if response.hovered() { colours.hover } else { colours.panel };

@@ -1,0 +1,71 @@
+//! The table as a page of the manual.
+
+use std::fmt::Write as _;
+
+use super::{Argument, COMMANDS, Command, Keys, Menu};
+
+/// What stands above the tables.
+const INTRODUCTION: &str = "\
+# Commands
+
+Everything Enfilade's window does is a command. Each stands in a menu, in the palette (Ctrl+Shift+P: type a few
+letters of its name), in the sheet of shortcuts (?), and is a verb of scripts (`enfilade replay`). What a command needs and
+is not given it asks for: by a dialog, a text field, or in the palette.
+
+This page is written from the table of commands (`src/app/commands/table.rs`) by `enfilade commands --markdown`.
+
+## Shortcuts of your own
+
+In the sheet of shortcuts, click the keys of a command and press others. Keys that another command has are refused,
+and the command is named; so are keys that move the keyboard from control to control, leave what is open, or belong
+to text. Backspace leaves a command without keys; the arrow beside changed keys brings back those it comes with.
+
+They are kept in `enfilade/settings.json` in the system's folder for settings (`~/.config` on Linux). The environment
+variable `ENFILADE_SETTINGS` names another file; when it is empty, nothing is read or kept. What this version does not
+know in the file stays in it. A damaged file is kept aside as `settings.damaged.json` and said, and so are shortcuts in
+it that cannot be. Letters without Ctrl go to a text field when one has the keyboard.
+";
+
+/// The page.
+pub fn manual() -> String {
+    let mut page = INTRODUCTION.to_owned();
+    for menu in Menu::ALL {
+        let of_menu = |command: &&Command| command.menu.is_some_and(|(of, _)| of == menu);
+        section(&mut page, menu.title(), true, COMMANDS.iter().filter(of_menu));
+    }
+    section(&mut page, "Only in scripts", false, COMMANDS.iter().filter(|command| command.menu.is_none()));
+    page.push_str("\n## Arguments\n\nWhat stands in brackets may be left out.\n\n");
+    page.push_str("| Argument | Of | What it is | Expected |\n| --- | --- | --- | --- |\n");
+    let mut told: Vec<&Argument> = Vec::new();
+    for argument in COMMANDS.iter().flat_map(|command| command.arguments) {
+        if told.contains(&argument) {
+            continue;
+        }
+        told.push(argument);
+        let has = |command: &&Command| command.arguments.contains(argument);
+        let of: Vec<String> = COMMANDS.iter().filter(has).map(|command| format!("`{}`", command.id)).collect();
+        let Argument { name, help, kind, .. } = argument;
+        let _ = writeln!(page, "| {name} | {} | {help} | {} |", of.join(", "), kind.expected());
+    }
+    page
+}
+
+fn section<'a>(page: &mut String, title: &str, has_keys: bool, commands: impl Iterator<Item = &'a Command>) {
+    let _ = writeln!(page, "\n## {title}\n");
+    page.push_str(if has_keys {
+        "| Command | Keys | What it does | In scripts |\n| --- | --- | --- | --- |\n"
+    } else {
+        "| Command | What it does | In scripts |\n| --- | --- | --- |\n"
+    });
+    for command in commands {
+        let Command { title, help, .. } = command;
+        let keys = keys_of(command).join(", ");
+        let keys = if has_keys { format!(" {keys} |") } else { String::new() };
+        let _ = writeln!(page, "| {title} |{keys} {help} | `{}` |", command.usage());
+    }
+}
+
+/// The keys a command comes with, as people write them.
+pub fn keys_of(command: &Command) -> Vec<String> {
+    command.shortcuts.iter().map(|&shortcut| Keys::from(shortcut).readable()).collect()
+}
