@@ -7,12 +7,13 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use crate::classify::in_plan::{self, InPlan};
-use crate::classify::{Algorithm, Distribution};
+use crate::classify::model_file::ModelFileError;
+use crate::classify::{Distribution, Method, PlanClassifier};
 use crate::dataset::RoomNetwork;
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
 use crate::plan::RoomId;
-use crate::store::{StoredModel, bundled_sets};
+use crate::store::{StoredModel, bundled_model, bundled_sets};
 use crate::study::STANDARD;
 
 /// Of which typology the models are to be.
@@ -71,6 +72,40 @@ impl FromStr for ModelSet {
     }
 }
 
+/// The method used where nobody says which: the best on buildings never seen (`docs/joint.md`).
+pub const DEFAULT_METHOD: Method = Method::Joint;
+
+/// Which bundled models are to predict.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Predictor {
+    pub set: ModelSet,
+    pub method: Method,
+}
+
+impl Default for Predictor {
+    fn default() -> Self {
+        Self { set: ModelSet::default(), method: DEFAULT_METHOD }
+    }
+}
+
+impl Predictor {
+    /// Classifies the rooms of a network. `known` holds, for each, the label that may be used where it is
+    /// a neighbour; without `neighbours`, they are taken as the model learned.
+    ///
+    /// # Errors
+    /// When a bundled model cannot be read, which the tests exclude.
+    pub fn predict(
+        &self,
+        network: RoomNetwork,
+        known: &[Option<Label>],
+        neighbours: Option<NeighbourLabels>,
+    ) -> Result<Predictions, ModelFileError> {
+        let choice = choose(&network, &self.set);
+        let model = bundled_model(&choice.set, self.method)?;
+        Ok(Predictions::new(network, choice, model, known, neighbours))
+    }
+}
+
 /// Which set of models a plan is classified by, and why.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
@@ -103,6 +138,8 @@ pub struct Predictions {
     pub choice: Choice,
     pub model: Arc<StoredModel>,
     pub network: RoomNetwork,
+    /// The labels that could be used, one for each room.
+    known: Vec<Option<Label>>,
     /// Which labels of neighbours counted.
     pub neighbours: NeighbourLabels,
     pub result: InPlan,
@@ -120,14 +157,20 @@ impl Predictions {
         neighbours: Option<NeighbourLabels>,
     ) -> Self {
         let neighbours = neighbours.unwrap_or(model.about.neighbours);
-        let result = in_plan::classify(&model.classifier, &network, known, neighbours);
+        let (neighbours, result) = match &model.classifier {
+            PlanClassifier::Each(classifier) => {
+                (neighbours, in_plan::classify(classifier, &network, known, neighbours))
+            }
+            PlanClassifier::Joint(joint) => {
+                let distributions = joint.predict(&network, known);
+                // Its own two rounds: predicted labels of neighbours, known ones where they are.
+                let seen: Vec<Label> = distributions.iter().map(Distribution::label).collect();
+                let features = (0..network.rooms.len()).map(|room| network.features(room, &seen)).collect();
+                (NeighbourLabels::Predicted, InPlan { distributions, features, rounds: 2, settled: true })
+            }
+        };
         let index_of = network.rooms.iter().enumerate().map(|(index, room)| (room.id, index)).collect();
-        Self { choice, model, network, neighbours, result, index_of }
-    }
-
-    /// The algorithm of the model.
-    pub fn algorithm(&self) -> Algorithm {
-        self.model.classifier.algorithm()
+        Self { choice, model, network, known: known.to_vec(), neighbours, result, index_of }
     }
 
     /// The distribution for a room; `None` for one that is not classified.
@@ -143,7 +186,10 @@ impl Predictions {
     /// Why a room got its label, in one or two sentences; `None` for one that is not classified.
     pub fn reason(&self, room: RoomId) -> Option<String> {
         let &index = self.index_of.get(&room)?;
-        Some(self.model.classifier.explain(&self.result.features[index].values()).words())
+        match &self.model.classifier {
+            PlanClassifier::Each(classifier) => Some(classifier.explain(&self.result.features[index].values()).words()),
+            PlanClassifier::Joint(joint) => Some(joint.explain(&self.network, &self.known, index)?.words()),
+        }
     }
 
     /// The labels said of all rooms that are classified.

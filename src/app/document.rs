@@ -8,12 +8,14 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
 use super::plan_list;
+use crate::dataset::RoomNetwork;
 use crate::draw::Drawing;
 use crate::features::{Analysis, NeighbourLabels, analyse};
 use crate::formats::{self, FileError, Note, Place, ReadError};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::labels::Schemes;
 use crate::plan::{History, OpeningId, Plan, RoomId};
+use crate::predict::{Predictions, Predictor};
 use crate::store;
 
 /// The plans that come with the program, each with its file's name, the one shown first in front.
@@ -28,7 +30,10 @@ pub(super) fn derived_sample(index: usize, plan: &Plan) -> Arc<Derived> {
     static DERIVED: Mutex<BTreeMap<usize, Arc<Derived>>> = Mutex::new(BTreeMap::new());
     // A poisoned map only lacks an entry.
     let mut derived = DERIVED.lock().unwrap_or_else(PoisonError::into_inner);
-    derived.entry(index).or_insert_with(|| Arc::new(Derived::new(plan, &Schemes::bundled()))).clone()
+    derived
+        .entry(index)
+        .or_insert_with(|| Arc::new(Derived::new(plan, &Schemes::bundled(), &Predictor::default())))
+        .clone()
 }
 
 /// Where a plan came from.
@@ -153,8 +158,10 @@ pub(super) struct Document {
     /// The plan as it is on the disk, or as it came.
     saved: Plan,
     derived: Option<(Plan, Arc<Derived>)>,
-    /// The plan for which a job is at work.
-    awaited: Option<Plan>,
+    /// The plan for which a job is at work, and the models it uses.
+    awaited: Option<(Plan, Predictor)>,
+    /// Which models predict.
+    predictor: Predictor,
 }
 
 impl Document {
@@ -166,7 +173,8 @@ impl Document {
         };
         let plan = storeys.get(storey).or(storeys.first()).cloned().unwrap_or_default();
         let history = History::new("Open", plan.clone());
-        Self { number, history, origin, storeys, notes, stamp, saved: plan, derived: None, awaited: None }
+        let (derived, awaited, predictor) = (None, None, Predictor::default());
+        Self { number, history, origin, storeys, notes, stamp, saved: plan, derived, awaited, predictor }
     }
 
     pub(super) fn plan(&self) -> &Plan {
@@ -196,7 +204,17 @@ impl Document {
 
     /// What follows from the plan as it is now; `None` while that is being worked out.
     pub(super) fn derived(&self) -> Option<&Arc<Derived>> {
-        self.derived.as_ref().filter(|(plan, _)| plan.is_same_value(self.plan())).map(|(_, derived)| derived)
+        let is_fresh = |(plan, derived): &&(Plan, Arc<Derived>)| {
+            plan.is_same_value(self.plan()) && derived.predictor == self.predictor
+        };
+        self.derived.as_ref().filter(is_fresh).map(|(_, derived)| derived)
+    }
+
+    /// Lets these models predict.
+    pub(super) fn predict_by(&mut self, predictor: &Predictor) {
+        if self.predictor != *predictor {
+            self.predictor.clone_from(predictor);
+        }
     }
 
     /// The last plan for which everything was worked out, perhaps an earlier one: to be drawn in the
@@ -207,18 +225,21 @@ impl Document {
 
     /// Whether what follows from the plan is neither known nor being worked out.
     pub(super) fn needs_deriving(&self) -> bool {
-        let is_awaited = self.awaited.as_ref().is_some_and(|plan| plan.is_same_value(self.plan()));
+        let is_awaited = self
+            .awaited
+            .as_ref()
+            .is_some_and(|(plan, predictor)| plan.is_same_value(self.plan()) && *predictor == self.predictor);
         self.derived().is_none() && !is_awaited
     }
 
     /// Notes that a job is at work for the plan.
     pub(super) fn await_derived(&mut self) {
-        self.awaited = Some(self.plan().clone());
+        self.awaited = Some((self.plan().clone(), self.predictor.clone()));
     }
 
-    /// Takes over what was worked out for a plan; dropped when the plan is another by now.
+    /// Takes over what was worked out for a plan; dropped when the plan or the models are others by now.
     pub(super) fn set_derived(&mut self, plan: Plan, derived: Arc<Derived>) {
-        if plan.is_same_value(self.plan()) {
+        if plan.is_same_value(self.plan()) && derived.predictor == self.predictor {
             self.derived = Some((plan, derived));
             self.awaited = None;
         }
@@ -239,6 +260,9 @@ impl Document {
 pub(super) struct Derived {
     pub analysis: Analysis,
     pub drawing: Drawing,
+    /// What a classifier says of the rooms; `None` if its model did not read, which the tests exclude.
+    pub predictions: Option<Predictions>,
+    predictor: Predictor,
     openings: RTree<OpeningPlace>,
     reading_order: Vec<RoomId>,
 }
@@ -266,15 +290,20 @@ impl PointDistance for OpeningPlace {
 
 impl Derived {
     /// Works out all that follows from a plan.
-    pub(super) fn new(plan: &Plan, schemes: &Schemes) -> Self {
+    pub(super) fn new(plan: &Plan, schemes: &Schemes, predictor: &Predictor) -> Self {
         let openings = plan
             .openings()
             .filter_map(|(id, opening)| Some(OpeningPlace { id, segment: plan.opening_segment(opening)? }))
             .collect();
         let analysis = analyse(plan, schemes, NeighbourLabels::True);
-        let drawing = Drawing::new(plan, &analysis);
+        let network = RoomNetwork::of(plan, &analysis);
+        let known = network.known_labels();
+        let predictions = predictor.predict(network, &known, None).ok();
+        let labels = predictions.as_ref().map(Predictions::labels).unwrap_or_default();
+        let drawing = Drawing::new(plan, &analysis).with_predictions(&labels);
         let reading_order = reading_order(&analysis);
-        Self { analysis, drawing, openings: RTree::bulk_load(openings), reading_order }
+        let openings = RTree::bulk_load(openings);
+        Self { analysis, drawing, predictions, predictor: predictor.clone(), openings, reading_order }
     }
 
     /// The rooms with a boundary as one reads: from the top left, line by line.

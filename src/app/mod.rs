@@ -56,6 +56,7 @@ use crate::geometry::Vector;
 use crate::labels::{Label, Schemes};
 use crate::plan::edit::{self, EditError};
 use crate::plan::{LabelOrigin, Meta, Plan, Room, RoomId, RoomLabel};
+use crate::predict::{Predictions, Predictor};
 use crate::store::SaveError;
 
 /// The window's state, apart from any display.
@@ -68,6 +69,8 @@ pub struct App {
     canvas: Canvas,
     picked: Option<Picked>,
     layers: LayerSettings,
+    /// Which models predict.
+    predictor: Predictor,
     theme: ThemeChoice,
     settings: Settings,
     panels: Panels,
@@ -196,6 +199,7 @@ impl App {
             canvas: Canvas::default(),
             picked: None,
             layers: LayerSettings::default(),
+            predictor: Predictor::default(),
             theme: ThemeChoice::default(),
             settings: Settings::default(),
             panels: Panels::default(),
@@ -343,20 +347,21 @@ impl App {
     /// Starts what the plan on screen still needs: its analysis, its backdrop.
     fn refresh(&mut self) {
         let Some(document) = &mut self.document else { return };
+        document.predict_by(&self.predictor);
         let plan = document.plan().clone();
         if self.picked.is_some_and(|picked| !picked.is_in(&plan)) {
             self.picked = None;
         }
         if document.needs_deriving() {
-            let schemes = self.schemes.clone();
+            let (schemes, predictor) = (self.schemes.clone(), self.predictor.clone());
             if plan.rooms().len() + plan.openings().len() + plan.walls().len() <= LARGE_PLAN_ELEMENTS {
-                let derived = Arc::new(Derived::new(&plan, &schemes));
+                let derived = Arc::new(Derived::new(&plan, &schemes, &predictor));
                 document.set_derived(plan.clone(), derived);
             } else {
                 document.await_derived();
                 let plan = plan.clone();
                 self.background.start(move || {
-                    let derived = Arc::new(Derived::new(&plan, &schemes));
+                    let derived = Arc::new(Derived::new(&plan, &schemes, &predictor));
                     Done::Derived(plan, derived)
                 });
             }
@@ -457,6 +462,48 @@ impl App {
         let given = label.map(|label| RoomLabel { label, origin: LabelOrigin::Person });
         let title = label.map_or("Label by function".to_owned(), |label| format!("Label {label}"));
         self.edit(&title, |plan| edit::set_label(plan, id, given));
+    }
+
+    // Predicting.
+
+    /// What is said of the rooms of the plan as it is now; `None` while that is being worked out.
+    pub fn predictions(&self) -> Option<&Predictions> {
+        self.document.as_ref()?.derived()?.predictions.as_ref()
+    }
+
+    fn predict_by_set(&mut self, word: &str) {
+        match word.parse() {
+            Ok(set) => self.predictor.set = set,
+            Err(error) => self.say(Severity::Warning, error.to_string(), ""),
+        }
+    }
+
+    /// The picked room with what is said of it.
+    fn prediction_of_picked(&self) -> Option<(RoomId, Label)> {
+        let (id, _) = self.picked_room()?;
+        Some((id, self.predictions()?.label(id)?))
+    }
+
+    fn accept_prediction(&mut self) {
+        let Some((id, label)) = self.prediction_of_picked() else { return };
+        let given = RoomLabel { label, origin: LabelOrigin::AcceptedPrediction };
+        self.edit(&format!("Accept {label}"), |plan| edit::set_label(plan, id, Some(given)));
+    }
+
+    /// Labels all rooms that have no label as predicted.
+    fn accept_all_predictions(&mut self) {
+        let Some(predictions) = self.predictions() else { return };
+        let unlabelled = predictions.network.rooms.iter().filter(|room| room.label.is_none());
+        let said: Vec<(RoomId, Label)> =
+            unlabelled.filter_map(|room| Some((room.id, predictions.label(room.id)?))).collect();
+        let title = format!("Accept {} predictions", said.len());
+        self.edit(&title, |plan| {
+            said.iter().try_fold(plan.clone(), |plan, &(id, label)| {
+                let given = RoomLabel { label, origin: LabelOrigin::AcceptedPrediction };
+                edit::set_label(&plan, id, Some(given))
+            })
+        });
+        self.status = title;
     }
 
     /// Makes what stands in a text field part of the plan.

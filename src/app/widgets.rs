@@ -301,10 +301,19 @@ pub(super) fn segmented(ui: &mut Ui, segments: &[Segment<'_>]) -> Option<usize> 
     let colours = colours(ui);
     ui.painter().rect_filled(rect, RADIUS, colours.field);
     let inner = rect.shrink(2.0);
-    let width = inner.width() / segments.len().max(1) as f32;
+    // Each as wide as its text asks for, measured when on; what is left is shared.
+    let font = |is_on: bool| {
+        if is_on { FontId::new(theme::BODY, theme::semibold()) } else { FontId::proportional(theme::BODY) }
+    };
+    let widths: Vec<f32> = segments
+        .iter()
+        .map(|segment| line(ui, segment.text, font(true), colours.text, f32::INFINITY).size().x)
+        .collect();
+    let spare = (inner.width() - widths.iter().sum::<f32>()) / segments.len().max(1) as f32;
+    let mut left = inner.left();
     let mut clicked = None;
     for (index, segment) in segments.iter().enumerate() {
-        let left = inner.left() + width * index as f32;
+        let width = (widths[index] + spare).max(0.0);
         let cell = Rect::from_min_size(pos2(left, inner.top()), vec2(width, inner.height()));
         let id = ui.scope_id().with(("segment", segment.name));
         let response = ui.interact(cell, id, Sense::click());
@@ -319,9 +328,7 @@ pub(super) fn segmented(ui: &mut Ui, segments: &[Segment<'_>]) -> Option<usize> 
         }
         let is_strong = segment.is_on;
         let colour = if is_strong { colours.text } else { colours.text_weak };
-        let font =
-            if is_strong { FontId::new(theme::BODY, theme::semibold()) } else { FontId::proportional(theme::BODY) };
-        let text = line(ui, segment.text, font, colour, cell.width() - 4.0);
+        let text = line(ui, segment.text, font(is_strong), colour, cell.width());
         let start = cell.center().x - text.rect.width() / 2.0;
         put(ui, text, start, cell.center().y);
         focus_ring(ui, cell, &response);
@@ -329,6 +336,7 @@ pub(super) fn segmented(ui: &mut Ui, segments: &[Segment<'_>]) -> Option<usize> 
         if response.on_hover_text(segment.help).clicked() {
             clicked = Some(index);
         }
+        left += width;
     }
     clicked
 }

@@ -43,7 +43,7 @@ pub struct UnknownAlgorithm(pub String);
 
 impl fmt::Display for UnknownAlgorithm {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "unknown algorithm '{}': use rules, tree, knn or mlp", self.0)
+        write!(f, "unknown algorithm '{}': use rules, tree, knn, mlp or joint", self.0)
     }
 }
 

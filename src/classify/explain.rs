@@ -343,7 +343,7 @@ impl NeighboursReason {
             .take(NAMED)
             .map(|near| {
                 let area = value_in_words(0, near.values[0]);
-                format!("{} ({area}, {})", near.source, in_words::of_count(2, near.values[2]))
+                format!("{} ({area}, {})", place(&near.source), in_words::of_count(2, near.values[2]))
             })
             .collect();
         match (named.as_slice(), alike.len()) {
@@ -353,6 +353,15 @@ impl NeighboursReason {
             (named, _) => write!(words, ", the nearest of them {}.", named.join("; ")),
         }
     }
+}
+
+/// Where a room is. Of an id that programs gave it (a UUID) the first part is as much as people read.
+fn place(source: &RoomSource) -> String {
+    let parts: Vec<&str> = source.room.split('-').collect();
+    let lengths = parts.iter().map(|part| part.len());
+    let is_uuid =
+        lengths.eq([8, 4, 4, 4, 12]) && parts.iter().all(|part| part.bytes().all(|byte| byte.is_ascii_hexdigit()));
+    if is_uuid { format!("room {} in {}", parts[0], source.plan) } else { source.to_string() }
 }
 
 impl FeaturesReason {

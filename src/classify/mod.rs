@@ -6,7 +6,9 @@ mod distribution;
 mod evaluate;
 pub mod explain;
 pub mod in_plan;
+pub mod joint;
 pub mod knn;
+mod method;
 pub mod mlp;
 pub mod model_file;
 pub mod naive;
@@ -16,10 +18,12 @@ pub mod rules;
 pub mod scale;
 mod scores;
 pub mod tree;
+pub mod typology;
 
 pub use classifier::{Algorithm, Classifier, Model, UnknownAlgorithm};
 pub use distribution::Distribution;
 pub use evaluate::{Validated, Validation, evaluate, evaluate_all, test};
+pub use method::{Method, PlanClassifier};
 pub use neighbours::Metric;
 pub use scores::{Confusion, FoldScore, LabelCounts, ReliabilityBin, Scores, TableRates};
 

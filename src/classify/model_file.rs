@@ -12,12 +12,13 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::joint::Joint;
 use super::knn::{Neighbours, Settings};
 use super::mlp::{HIDDEN, Perceptron, Weights};
 use super::rules::{Bound, Condition, Rule, RuleList};
 use super::scale::{Scale, Transform};
 use super::tree::{Node, Split, Tree};
-use super::{Algorithm, Classifier, Metric, Model, Scores};
+use super::{Classifier, Method, Metric, Model, PlanClassifier, Scores};
 use crate::dataset::Row;
 use crate::dataset::folds::{Grouping, building_of};
 use crate::dataset::table::{FEATURES, RoomSource, Table, Values, fingerprint};
@@ -136,14 +137,21 @@ fn refuse(line: Option<usize>, what: impl Into<String>) -> ModelFileError {
 }
 
 /// The complete bytes of a model's file.
-pub fn to_bytes(classifier: &Classifier, about: &About) -> Vec<u8> {
+pub fn to_bytes(classifier: &PlanClassifier, about: &About) -> Vec<u8> {
+    let (temperature, model) = match classifier {
+        PlanClassifier::Each(classifier) => {
+            (classifier.temperature(), serde_json::to_value(DiskModel::of(classifier.model())).unwrap_or_default())
+        }
+        // It keeps its temperature itself.
+        PlanClassifier::Joint(joint) => (1.0, joint.to_value()),
+    };
     let disk = Disk {
         format: FORMAT.to_owned(),
         version: VERSION,
-        algorithm: classifier.algorithm().name().to_owned(),
+        algorithm: classifier.method().name().to_owned(),
         about: DiskAbout::of(about),
-        temperature: classifier.temperature(),
-        model: DiskModel::of(classifier.model()),
+        temperature,
+        model,
     };
     // Serialising plain structs of numbers and texts cannot fail; if it did, the file would not read.
     let value = serde_json::to_value(disk).unwrap_or_default();
@@ -159,7 +167,7 @@ pub fn to_bytes(classifier: &Classifier, about: &About) -> Vec<u8> {
 }
 
 /// Members whose elements stand one a line.
-const LISTS: [&str; 4] = ["rules", "nodes", "rooms", "units"];
+const LISTS: [&str; 6] = ["rules", "nodes", "rooms", "units", "first", "second"];
 
 fn push_member(file: &mut String, key: &str, member: &Value) {
     let (open, elements, close) = match member {
@@ -192,7 +200,7 @@ fn checksum(value: &Value) -> String {
 /// # Errors
 /// When the bytes are not a model file of a known version, were changed or cut, or do not make a
 /// classifier; with the line where it can be told.
-pub fn from_bytes(bytes: &[u8]) -> Result<(Classifier, About), ModelFileError> {
+pub fn from_bytes(bytes: &[u8]) -> Result<(PlanClassifier, About), ModelFileError> {
     let body = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if body.iter().all(u8::is_ascii_whitespace) {
         return Err(refuse(None, "is empty"));
@@ -240,7 +248,8 @@ struct Disk {
     algorithm: String,
     about: DiskAbout,
     temperature: f64,
-    model: DiskModel,
+    /// A [`DiskModel`], or what [`Joint::to_value`] gives.
+    model: Value,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -319,11 +328,16 @@ fn short(number: f32) -> f64 {
 }
 
 impl Disk {
-    fn live(self) -> Option<(Classifier, About)> {
-        let model = self.model.live()?;
-        let classifier = Classifier::from_parts(model, self.temperature);
-        let fits = self.algorithm.parse::<Algorithm>().ok()? == classifier.algorithm();
-        fits.then_some(())?;
+    fn live(self) -> Option<(PlanClassifier, About)> {
+        let classifier = match self.algorithm.parse::<Method>().ok()? {
+            Method::Joint => Joint::from_value(&self.model).ok()?.into(),
+            Method::Each(algorithm) => {
+                let model: DiskModel = serde_json::from_value(self.model).ok()?;
+                let classifier = Classifier::from_parts(model.live()?, self.temperature);
+                (classifier.algorithm() == algorithm).then_some(())?;
+                classifier.into()
+            }
+        };
         Some((classifier, self.about.live()?))
     }
 }

@@ -5,15 +5,15 @@ use std::sync::Arc;
 use serde_json::json;
 
 use super::collect::neighbour_labels;
-use super::train::algorithm;
+use super::train::method;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
-use crate::classify::{Algorithm, Distribution};
+use crate::classify::{Distribution, Method};
 use crate::dataset::{NetworkRoom, RoomNetwork};
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Schemes};
 use crate::plan::{LabelOrigin, Plan, RoomLabel, edit};
-use crate::predict::{Agreement, Choice, ModelSet, Predictions, UnknownSet, choose};
-use crate::store::{StoredModel, bundled_model, load_model, save_plan, set_name};
+use crate::predict::{Agreement, Choice, DEFAULT_METHOD, ModelSet, Predictions, Predictor, UnknownSet};
+use crate::store::{StoredModel, load_model, save_plan, set_name};
 
 /// `enfilade classify`: labels for the rooms of plans.
 #[derive(clap::Args)]
@@ -21,13 +21,8 @@ pub struct ClassifyCommand {
     /// Plans, or folders of plans, of any known format
     #[arg(required = true, value_name = "PLAN")]
     plans: Vec<PathBuf>,
-    /// house, school, office, 'standard' (learned from all), or 'auto' to infer it from the plan;
-    /// without it the plan's own, inferred where it has none
-    #[arg(long, value_name = "NAME", default_value = "plan", hide_default_value = true, value_parser = model_set)]
-    typology: ModelSet,
-    /// rules, tree, knn or mlp
-    #[arg(long, value_name = "NAME", default_value = "mlp", value_parser = algorithm)]
-    algorithm: Algorithm,
+    #[command(flatten)]
+    predictor: PredictorOptions,
     /// Use this model instead of a bundled one
     #[arg(long, value_name = "FILE.model.json", conflicts_with_all = ["typology", "algorithm"])]
     model: Option<PathBuf>,
@@ -50,6 +45,24 @@ pub struct ClassifyCommand {
     /// Label scheme that extends the bundled ones (may be given several times)
     #[arg(long, value_name = "FILE.scheme.toml")]
     scheme: Vec<PathBuf>,
+}
+
+/// Options of every subcommand that predicts.
+#[derive(clap::Args)]
+pub struct PredictorOptions {
+    /// Models of house, school, office or 'standard' (learned from all); 'auto' infers it from the plan;
+    /// without it the plan's own, inferred where it has none
+    #[arg(long, value_name = "NAME", default_value = "plan", hide_default_value = true, value_parser = model_set)]
+    typology: ModelSet,
+    /// rules, tree, knn or mlp, each room by itself; or joint, all rooms of a plan together
+    #[arg(long, value_name = "NAME", default_value = DEFAULT_METHOD.name(), value_parser = method)]
+    algorithm: Method,
+}
+
+impl PredictorOptions {
+    pub fn predictor(&self) -> Predictor {
+        Predictor { set: self.typology.clone(), method: self.algorithm }
+    }
 }
 
 /// Which models to use, as an option's value.
@@ -108,18 +121,12 @@ impl ClassifyCommand {
     ) -> Result<Predictions, CliError> {
         let network = RoomNetwork::new(plan, schemes);
         let known = if self.hide_labels { vec![None; network.rooms.len()] } else { network.known_labels() };
-        let (choice, model) = match own {
-            Some(model) => {
-                let set = set_name(model.about.typology.as_ref()).to_owned();
-                (Choice { set, because: "the model's".to_owned() }, model.clone())
-            }
-            None => {
-                let choice = choose(&network, &self.typology);
-                let model = bundled_model(&choice.set, self.algorithm)?;
-                (choice, model)
-            }
+        let Some(model) = own else {
+            return Ok(self.predictor.predictor().predict(network, &known, self.neighbours)?);
         };
-        Ok(Predictions::new(network, choice, model, &known, self.neighbours))
+        let set = set_name(model.about.typology.as_ref()).to_owned();
+        let choice = Choice { set, because: "the model's".to_owned() };
+        Ok(Predictions::new(network, choice, model.clone(), &known, self.neighbours))
     }
 
     /// Writes the predictions of the rooms without a label into a plan file; gives the file and their number.

@@ -2,7 +2,7 @@ use std::io::Write as _;
 use std::sync::Arc;
 
 use super::{CliError, Outcome, Subcommand, Terminal};
-use crate::classify::Algorithm;
+use crate::classify::Method;
 use crate::store::{StoredModel, bundled_model, bundled_sets, models_folder, models_in, set_name};
 
 /// `enfilade models`: the classifiers at hand.
@@ -21,8 +21,8 @@ impl Subcommand for ModelsCommand {
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let mut models: Vec<Arc<StoredModel>> = Vec::new();
         for set in bundled_sets() {
-            for algorithm in Algorithm::ALL {
-                models.push(bundled_model(set, algorithm)?);
+            for method in Method::ALL {
+                models.push(bundled_model(set, method)?);
             }
         }
         let folder = models_folder();
@@ -56,7 +56,7 @@ fn json(model: &StoredModel) -> serde_json::Value {
         "name": model.name,
         "path": model.path,
         "typology": set_name(model.about.typology.as_ref()),
-        "algorithm": model.classifier.algorithm().name(),
+        "algorithm": model.classifier.method().name(),
         "neighbours": model.about.neighbours.name(),
         "rooms": model.about.data.rooms,
         "buildings": model.about.data.buildings,
@@ -82,7 +82,7 @@ fn print(models: &[Arc<StoredModel>], terminal: &mut Terminal) -> Result<(), Cli
             "{:<width$}  {:<8}  {:<21}  {:>7}  {:>9}  {:>7}  {:>11}  {}",
             model.name,
             set_name(model.about.typology.as_ref()),
-            model.classifier.algorithm().title(),
+            model.classifier.method().title(),
             model.about.data.rooms,
             model.about.data.buildings,
             percent(accuracy(model, "room")),

@@ -3,7 +3,9 @@ use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
 
+use super::classify::PredictorOptions;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
+use crate::dataset::RoomNetwork;
 use crate::draw::sheet::{self, Furniture, PageSize};
 use crate::draw::{Drawing, Fill, LabelColours, Layers, Scene, Style, Theme, png, svg};
 use crate::features::{NeighbourLabels, analyse};
@@ -22,10 +24,12 @@ pub struct RenderCommand {
     /// Pixels of the longer side, or WIDTHxHEIGHT
     #[arg(long, value_name = "PIXELS", default_value = "1600", value_parser = page_size)]
     size: PageSize,
-    /// What the rooms are coloured by
+    /// What the rooms are coloured by; with 'prediction', a known label that is another rims its room
     #[arg(long, alias = "color", value_name = "BY", default_value = "label",
           value_parser = PossibleValuesParser::new(Fill::ALL.map(Fill::name)))]
     colour: String,
+    #[command(flatten)]
+    predictor: PredictorOptions,
     /// Draw the graph of rooms and openings over the plan
     #[arg(long)]
     graph: bool,
@@ -124,7 +128,13 @@ impl RenderCommand {
     fn picture(&self, plan: &Plan, schemes: &Schemes, style: &Style, ending: &str) -> Result<Vec<u8>, CliError> {
         let analysis = analyse(plan, schemes, NeighbourLabels::True);
         let furniture = Furniture { title: !self.bare, legend: !self.bare, scale: !self.bare };
-        let scene: Scene = sheet::page(&Drawing::new(plan, &analysis), style, self.size, furniture);
+        let mut drawing = Drawing::new(plan, &analysis);
+        if style.fill == Fill::Prediction {
+            let network = RoomNetwork::of(plan, &analysis);
+            let known = network.known_labels();
+            drawing = drawing.with_predictions(&self.predictor.predictor().predict(network, &known, None)?.labels());
+        }
+        let scene: Scene = sheet::page(&drawing, style, self.size, furniture);
         Ok(if ending == "svg" { svg::svg(&scene).into_bytes() } else { png::png(&scene)? })
     }
 }

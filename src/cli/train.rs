@@ -1,14 +1,16 @@
+use std::collections::BTreeSet;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::collect::{CollectOptions, collect, neighbour_labels};
 use super::progress::with_progress;
 use super::{CliError, Outcome, Subcommand, Terminal};
+use crate::classify::joint::{self, Joint};
 use crate::classify::model_file::{self, About, DataSummary, ScoreSummary};
-use crate::classify::{Algorithm, Classifier, in_plan};
+use crate::classify::{Algorithm, Classifier, Method, PlanClassifier, Scores, in_plan};
 use crate::dataset::folds::Grouping;
 use crate::dataset::table::Table;
-use crate::dataset::{Collection, Row};
+use crate::dataset::{Collection, RoomNetwork, Row};
 use crate::features::NeighbourLabels;
 use crate::labels::Typology;
 use crate::store::{MODEL_ENDING, set_name};
@@ -19,9 +21,10 @@ use crate::study::{Cell, Condition, Options, STANDARD, StudyError, validate};
 pub struct TrainCommand {
     #[command(flatten)]
     collect: CollectOptions,
-    /// rules, tree, knn or mlp; without it, all four
-    #[arg(long, value_name = "NAME", value_parser = algorithm)]
-    algorithm: Option<Algorithm>,
+    /// rules, tree, knn or mlp, which look at each room by itself, or joint, which looks at all rooms of a
+    /// plan together; without it, all of them
+    #[arg(long, value_name = "NAME", value_parser = method)]
+    algorithm: Option<Method>,
     /// Learn from this typology's rooms only, or 'standard' for all rooms; without it, a model for each
     /// typology of the data, and standard ones where there are several
     #[arg(long, value_name = "NAME")]
@@ -44,8 +47,11 @@ pub struct TrainCommand {
     output: PathBuf,
 }
 
-/// An algorithm, as an option's value.
-pub fn algorithm(word: &str) -> Result<Algorithm, String> {
+/// The scores of each method, and what was dealt to folds for them.
+type ScoresOf = Vec<(Method, (Grouping, Scores))>;
+
+/// A way to classify, as an option's value.
+pub fn method(word: &str) -> Result<Method, String> {
     word.parse().map_err(|error: crate::classify::UnknownAlgorithm| error.to_string())
 }
 
@@ -57,13 +63,22 @@ impl Subcommand for TrainCommand {
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let (collection, failed) = collect(&self.collect, self.seed, terminal)?;
         let parts = self.parts(&collection)?;
-        let algorithms = self.algorithm.map_or(Algorithm::ALL.to_vec(), |algorithm| vec![algorithm]);
+        let methods: Vec<Method> = match (self.algorithm, &collection) {
+            (Some(Method::Joint), Collection::Rows(_)) => {
+                return Err(CliError::new(
+                    "rows of a dataset file do not tell which rooms belong together; give the plans instead",
+                ));
+            }
+            (Some(method), _) => vec![method],
+            (None, Collection::Plans(_)) => Method::ALL.to_vec(),
+            (None, Collection::Rows(_)) => Algorithm::ALL.map(Method::Each).to_vec(),
+        };
         let is_file = self.output.to_string_lossy().ends_with(MODEL_ENDING);
-        if is_file && parts.len() * algorithms.len() > 1 {
+        if is_file && parts.len() * methods.len() > 1 {
             return Err(CliError::new(format!(
                 "{}: is one file, but {} models are to be trained; name a folder, or choose with --algorithm and --typology",
                 self.output.display(),
-                parts.len() * algorithms.len()
+                parts.len() * methods.len()
             )));
         }
         for (typology, part) in &parts {
@@ -72,22 +87,23 @@ impl Subcommand for TrainCommand {
                 Collection::Plans(_) => NeighbourLabels::Predicted,
                 Collection::Rows(_) => NeighbourLabels::True,
             });
-            let cells = self.validated(part, set, &algorithms, neighbours, terminal)?;
-            for &algorithm in &algorithms {
-                let scores = cells.iter().filter(|cell| cell.algorithm == algorithm).collect::<Vec<_>>();
-                let bytes = self.model(typology.as_ref(), part, algorithm, neighbours, &scores)?;
+            let scores_of = self.validated(part, set, &methods, neighbours, terminal)?;
+            for &method in &methods {
+                let scores: Vec<&(Grouping, Scores)> =
+                    scores_of.iter().filter(|(of, _)| *of == method).map(|(_, scores)| scores).collect();
+                let bytes = self.model(typology.as_ref(), part, method, neighbours, &scores, terminal)?;
                 let path = if is_file {
                     self.output.clone()
                 } else {
-                    self.output.join(format!("{set}-{}{MODEL_ENDING}", algorithm.name()))
+                    self.output.join(format!("{set}-{}{MODEL_ENDING}", method.name()))
                 };
                 write_model(&path, &bytes)?;
                 let told: Vec<String> = scores
                     .iter()
-                    .map(|cell| format!("{:.1} % by {}", 100.0 * cell.scores.accuracy, cell.condition.by.name()))
+                    .map(|(by, scores)| format!("{:.1} % by {}", 100.0 * scores.accuracy, by.name()))
                     .collect();
                 let told = if told.is_empty() { "not validated".to_owned() } else { told.join(", ") };
-                writeln!(terminal.out, "{}: {set}, {algorithm}: {told}", path.display())?;
+                writeln!(terminal.out, "{}: {set}, {method}: {told}", path.display())?;
             }
         }
         Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
@@ -125,47 +141,62 @@ impl TrainCommand {
     }
 
     /// What cross-validation gives, by room and by building; what could not be done is said on stderr.
+    /// The joint classifier learns from whole plans: for it, by building only.
     fn validated(
         &self,
         part: &Collection,
         set: &str,
-        algorithms: &[Algorithm],
+        methods: &[Method],
         neighbours: NeighbourLabels,
         terminal: &mut Terminal,
-    ) -> Result<Vec<Cell>, CliError> {
+    ) -> Result<ScoresOf, CliError> {
         if self.folds == 0 {
             return Ok(Vec::new());
         }
+        let algorithms: Vec<Algorithm> =
+            Algorithm::ALL.into_iter().filter(|&algorithm| methods.contains(&Method::Each(algorithm))).collect();
         let options = Options { folds: self.folds, neighbours, seed: self.seed, grouping: Grouping::Room };
         let conditions = Grouping::ALL.map(|by| Condition { by, neighbours });
         // One typology alone makes a set of its own name, never a standard one.
-        let of_part =
-            if part.typologies().len() == 1 { set_name(part.typologies().first()).to_owned() } else { set.to_owned() };
+        let typologies = part.typologies();
+        let of_part = if typologies.len() == 1 { set_name(typologies.first()).to_owned() } else { set.to_owned() };
         let result = with_progress(&format!("validating {set}"), None, terminal, |work| {
-            validate(part, options, &of_part, algorithms, &conditions, work)
+            validate(part, options, &of_part, &algorithms, &conditions, work)
         });
+        let mut scores = ScoresOf::new();
         match result {
             Ok((cells, notes)) => {
                 for note in notes.iter().filter(|note| note.starts_with(&of_part)) {
                     writeln!(terminal.err, "{note}")?;
                 }
-                Ok(cells)
+                let of_cell = |cell: Cell| (Method::Each(cell.algorithm), (cell.condition.by, cell.scores));
+                scores.extend(cells.into_iter().map(of_cell));
             }
-            Err(StudyError::Cancelled) => Err(StudyError::Cancelled.into()),
-            Err(StudyError::Data(what)) => {
-                writeln!(terminal.err, "{set}: not validated: {what}")?;
-                Ok(Vec::new())
+            Err(StudyError::Cancelled) => return Err(StudyError::Cancelled.into()),
+            Err(StudyError::Data(what)) => writeln!(terminal.err, "{set}: not validated: {what}")?,
+        }
+        if methods.contains(&Method::Joint) {
+            let networks: Vec<&RoomNetwork> = part.networks().iter().collect();
+            let folds = self.folds.min(buildings(&networks));
+            let result = with_progress(&format!("validating {set}, joint"), None, terminal, |work| {
+                joint::cross_validate(&networks, folds, self.seed, work)
+            });
+            match result {
+                Ok(validated) => scores.push((Method::Joint, (Grouping::Building, validated.scores))),
+                Err(error) => writeln!(terminal.err, "{set}, joint classifier: not validated: {error}")?,
             }
         }
+        Ok(scores)
     }
 
     fn model(
         &self,
         typology: Option<&Typology>,
         part: &Collection,
-        algorithm: Algorithm,
+        method: Method,
         neighbours: NeighbourLabels,
-        scores: &[&Cell],
+        scores: &[&(Grouping, Scores)],
+        terminal: &Terminal,
     ) -> Result<Vec<u8>, CliError> {
         let mut rows: Vec<Row> = part.rows(neighbours).ok_or_else(|| {
             CliError::new(format!(
@@ -174,7 +205,7 @@ impl TrainCommand {
                 neighbours.name()
             ))
         })?;
-        if neighbours == NeighbourLabels::Predicted {
+        if let (Method::Each(algorithm), NeighbourLabels::Predicted) = (method, neighbours) {
             let all: Vec<usize> = (0..rows.len()).collect();
             let (networks, places) = (part.networks(), part.places());
             rows = in_plan::rows_with_predicted_neighbours(
@@ -188,22 +219,31 @@ impl TrainCommand {
             );
         }
         let table = Table::from_rows(&rows)?;
-        let classifier = Classifier::train(algorithm, &table, self.seed);
+        let classifier: PlanClassifier = match method {
+            Method::Each(algorithm) => Classifier::train(algorithm, &table, self.seed).into(),
+            Method::Joint => {
+                let networks: Vec<&RoomNetwork> = part.networks().iter().collect();
+                with_progress("training the joint classifier", None, terminal, |work| {
+                    Joint::train(&networks, self.seed, work)
+                })?
+                .into()
+            }
+        };
         let about = About {
             typology: typology.cloned(),
             neighbours,
-            command: self.command_line(typology, algorithm, neighbours),
+            command: self.command_line(typology, method, neighbours),
             program: format!("enfilade {}", env!("CARGO_PKG_VERSION")),
             seed: self.seed,
             licence: self.licence.clone(),
             data: DataSummary::of(&rows, &table),
-            scores: scores.iter().map(|cell| ScoreSummary::of(&cell.scores, cell.condition.by, self.seed)).collect(),
+            scores: scores.iter().map(|(by, scores)| ScoreSummary::of(scores, *by, self.seed)).collect(),
         };
         Ok(model_file::to_bytes(&classifier, &about))
     }
 
     /// The call that makes this one model from the same data.
-    fn command_line(&self, typology: Option<&Typology>, algorithm: Algorithm, neighbours: NeighbourLabels) -> String {
+    fn command_line(&self, typology: Option<&Typology>, method: Method, neighbours: NeighbourLabels) -> String {
         let quoted = |path: &PathBuf| {
             let text = path.display().to_string();
             let is_plain = text.chars().all(|c| c.is_alphanumeric() || "/._-".contains(c));
@@ -213,10 +253,16 @@ impl TrainCommand {
         words.extend(self.collect.data.iter().map(quoted));
         words.extend(self.collect.most_rooms.map(|most| format!("--most-rooms {most}")));
         words.extend(self.collect.scheme.iter().map(|path| format!("--scheme {}", quoted(path))));
-        words.push(format!("--algorithm {} --typology {}", algorithm.name(), set_name(typology)));
+        words.push(format!("--algorithm {} --typology {}", method.name(), set_name(typology)));
         words.push(format!("--neighbours {} --folds {} --seed {}", neighbours.name(), self.folds, self.seed));
         words.join(" ")
     }
+}
+
+/// Number of buildings with a labelled room.
+fn buildings(networks: &[&RoomNetwork]) -> usize {
+    let labelled = networks.iter().filter(|network| network.rooms.iter().any(|room| room.label.is_some()));
+    labelled.map(|network| network.building.as_str()).collect::<BTreeSet<_>>().len()
 }
 
 fn write_model(path: &Path, bytes: &[u8]) -> Result<(), CliError> {

@@ -10,7 +10,7 @@ pub mod table;
 use std::collections::BTreeMap;
 
 pub use collection::{Collection, RoomPlace};
-pub use network::{NetworkDoor, NetworkRoom, RoomNetwork};
+pub use network::{Form, NetworkDoor, NetworkRoom, RoomNetwork};
 pub use statistics::{LabelStatistics, Moments, Statistics};
 
 use crate::features::{Features, NeighbourLabels};

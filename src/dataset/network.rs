@@ -2,8 +2,10 @@ use std::collections::BTreeMap;
 
 use super::{LeftOut, Row, room_keys};
 use crate::features::{Analysis, Features, NeighbourLabels, RoomStatus, analyse};
+use crate::geometry::{hull, polygon, runs};
 use crate::labels::{Label, Schemes, Typology};
-use crate::plan::{OpeningId, Plan, RoomId};
+use crate::plan::{OpeningId, OpeningKind, Plan, RoomId};
+use crate::topology::RoomShape;
 
 /// The rooms of one plan as classifiers see them: what each is in itself, what is known of its
 /// label, and where each of its openings leads. Features follow from it for any labels of the
@@ -37,14 +39,53 @@ pub struct NetworkRoom {
     pub area_m2: f64,
     /// `rt`.
     pub axes_ratio: f64,
+    /// What else is known of its shape; the paper's features do not use it.
+    pub form: Form,
     /// Every opening of the room, and where it leads.
     pub doors: Vec<NetworkDoor>,
+}
+
+/// Measures of a room's shape: the same after moving, turning and mirroring.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Form {
+    /// Length of the outer boundary and of the holes.
+    pub perimeter_m: f64,
+    /// Number of walls ([`runs::runs`]) round the outside: 4 for a rectangle.
+    pub walls: u32,
+    /// The longer side of the smallest rectangle around it, at any angle.
+    pub length_m: f64,
+    /// The shorter side.
+    pub width_m: f64,
+    /// Area as a share of the convex hull's, 0..=1: below 1 where a corner points inwards.
+    pub convexity: f64,
+}
+
+impl Form {
+    /// The measures of a shape with this area in m².
+    pub fn new(shape: &RoomShape, area_m2: f64) -> Self {
+        let (length_m, width_m) = hull::smallest_rectangle(&shape.outer);
+        let hull_m2 = polygon::area(&hull::convex_hull(&shape.outer), &[[]; 0]);
+        Self {
+            perimeter_m: shape.rings().map(|ring| polygon::perimeter(ring)).sum(),
+            walls: runs::runs(&shape.outer).len() as u32,
+            length_m,
+            width_m,
+            convexity: if hull_m2 > 0.0 { (area_m2 / hull_m2).min(1.0) } else { 1.0 },
+        }
+    }
+
+    /// Area as a share of the smallest rectangle's, 0..=1.
+    pub fn fill(&self, area_m2: f64) -> f64 {
+        let rectangle_m2 = self.length_m * self.width_m;
+        if rectangle_m2 > 0.0 { (area_m2 / rectangle_m2).min(1.0) } else { 1.0 }
+    }
 }
 
 /// An opening of a [`NetworkRoom`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NetworkDoor {
     pub opening: OpeningId,
+    pub kind: OpeningKind,
     /// The index in [`RoomNetwork::rooms`] of the room it leads to; `None` for the outside, a room
     /// that is not classified, and the room itself.
     pub to: Option<usize>,
@@ -78,6 +119,7 @@ impl RoomNetwork {
                 RoomStatus::Labelled(_) => {}
             }
             let (Some(features), Some(temporary)) = (result.features, result.temporary) else { continue };
+            let Some(shape) = analysis.shapes.get(id) else { continue };
             index_of.insert(id, rooms.len());
             rooms.push(NetworkRoom {
                 id,
@@ -87,6 +129,7 @@ impl RoomNetwork {
                 temporary,
                 area_m2: features.area_m2,
                 axes_ratio: features.axes_ratio,
+                form: Form::new(shape, features.area_m2),
                 doors: Vec::new(),
             });
         }
@@ -95,7 +138,8 @@ impl RoomNetwork {
                 .neighbours(room.id)
                 .map(|(opening, side)| {
                     let other = side.room().filter(|&other| other != room.id);
-                    NetworkDoor { opening, to: other.and_then(|other| index_of.get(&other).copied()) }
+                    let kind = plan.opening(opening).map_or(OpeningKind::Door, |opening| opening.kind);
+                    NetworkDoor { opening, kind, to: other.and_then(|other| index_of.get(&other).copied()) }
                 })
                 .collect();
         }

@@ -19,7 +19,7 @@ pub type Values = [f64; FEATURES];
 pub struct RoomSource {
     /// Name of the plan.
     pub plan: Arc<str>,
-    /// The room's id or name in its plan.
+    /// What the room is for; where that is not known, its name or id in its plan.
     pub room: Arc<str>,
 }
 
@@ -78,7 +78,9 @@ impl Table {
             let plan = names.entry(&row.plan).or_insert_with(|| row.plan.as_str().into()).clone();
             table.values.push(row.features.values());
             table.labels.push(row.label);
-            table.sources.push(RoomSource { plan, room: row.room.as_str().into() });
+            // What a room is for tells a reader more than its number.
+            let room = if row.function.is_empty() { &row.room } else { &row.function };
+            table.sources.push(RoomSource { plan, room: room.as_str().into() });
         }
         table.checked()
     }

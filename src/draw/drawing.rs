@@ -7,7 +7,7 @@ use super::walls::{self, Faces, Walls};
 use super::{Fill, Rgba, Style, names};
 use crate::features::{Analysis, RoomStatus};
 use crate::geometry::{Bounds, Point, Segment};
-use crate::labels::normalised_function;
+use crate::labels::{Label, normalised_function};
 use crate::plan::{Joint, Meta, Plan, RoomId};
 
 /// A plan as shapes, before zoom and colours: made once a plan, asked for a [`Scene`] once a view.
@@ -29,6 +29,11 @@ pub(super) struct RoomDrawing {
     pub name: String,
     pub function: String,
     pub status: RoomStatus,
+    /// What a classifier says it is, where one was asked.
+    pub predicted: Option<Label>,
+    /// The room without a rim along its boundary, as pieces with their holes: made for a room whose
+    /// known label is not the predicted one.
+    pub within_rim: Vec<(Vec<Point>, Vec<Vec<Point>>)>,
     pub area_m2: f64,
     pub outer: Vec<Point>,
     pub holes: Vec<Vec<Point>>,
@@ -47,6 +52,20 @@ impl RoomDrawing {
         std::iter::once(&self.outer).chain(&self.holes)
     }
 
+    /// What it would be if the prediction were its label.
+    pub fn predicted_status(&self) -> RoomStatus {
+        match (self.status, self.predicted) {
+            (RoomStatus::NotClassified, _) => RoomStatus::NotClassified,
+            (_, Some(label)) => RoomStatus::Labelled(label),
+            (_, None) => RoomStatus::Unlabelled,
+        }
+    }
+
+    /// The known label, where the prediction is another.
+    pub fn missed_label(&self) -> Option<Label> {
+        self.status.label().filter(|known| self.predicted.is_some_and(|said| said != *known))
+    }
+
     /// Whether it is a lift, whose doors slide.
     pub fn is_lift(&self) -> bool {
         normalised_function(&self.function).split(' ').any(|word| matches!(word, "lift" | "elevator"))
@@ -59,6 +78,13 @@ impl RoomDrawing {
             && OPEN_AIR.iter().any(|word| normalised_function(&self.function).contains(word))
     }
 }
+
+/// Width in metres of the rim within a room whose known label is not the predicted one: clear of the
+/// walls, which hide part of it.
+const RIM_M: f64 = 0.35;
+
+/// In a narrow room the rim is at most this share of its width.
+const RIM_SHARE: f64 = 0.14;
 
 /// Words in functions of what lies under the open sky.
 const OPEN_AIR: [&str; 12] = [
@@ -97,6 +123,8 @@ impl Drawing {
                 name: room.name.trim().to_owned(),
                 function: room.function.trim().to_owned(),
                 status: analysed.status,
+                predicted: None,
+                within_rim: Vec::new(),
                 area_m2: shape.area_m2(),
                 outer: shape.outer.clone(),
                 holes: shape.holes.clone(),
@@ -148,6 +176,20 @@ impl Drawing {
         }
     }
 
+    /// The same with what a classifier says of the rooms.
+    #[must_use]
+    pub fn with_predictions(mut self, labels: &BTreeMap<RoomId, Label>) -> Self {
+        for room in &mut self.rooms {
+            room.predicted = labels.get(&room.id).copied();
+            room.within_rim = Vec::new();
+            if room.missed_label().is_some() {
+                let narrow_m = room.bounds.width().min(room.bounds.height());
+                room.within_rim = walls::shrunk(&room.outer, &room.holes, RIM_M.min(narrow_m * RIM_SHARE));
+            }
+        }
+        self
+    }
+
     /// The box of all that is drawn of the plan, in metres.
     pub fn bounds(&self) -> Bounds {
         self.bounds
@@ -185,11 +227,12 @@ impl Drawing {
         let palette = style.palette();
         let functions = match style.fill {
             Fill::Function => palette.functions(self.rooms.iter().map(|room| room.function.as_str())),
-            Fill::Label | Fill::None => BTreeMap::new(),
+            Fill::Label | Fill::Prediction | Fill::None => BTreeMap::new(),
         };
         let fill = |room: &RoomDrawing| match style.fill {
             Fill::None => palette.paper,
             Fill::Label => palette.status(room.status),
+            Fill::Prediction => palette.status(room.predicted_status()),
             Fill::Function => {
                 functions.get(&normalised_function(&room.function)).copied().unwrap_or(palette.unlabelled)
             }
@@ -206,10 +249,29 @@ impl Drawing {
             .map(|i| {
                 let room = &self.rooms[i];
                 let polygon = Item::Polygon { outer: room.outer.clone(), holes: room.holes.clone(), colour: fills[i] };
+                let missed = room.missed_label().filter(|_| style.fill == Fill::Prediction);
+                let items = match missed {
+                    None => vec![polygon],
+                    Some(known) => {
+                        let colour = style.palette().label(known).faded(style.fill_opacity);
+                        let within = &room.within_rim;
+                        let rim = within.iter().fold(room.holes.clone(), |mut holes, (outer, _)| {
+                            holes.push(outer.clone());
+                            holes
+                        });
+                        let inner = within.iter().map(|(outer, holes)| Item::Polygon {
+                            outer: outer.clone(),
+                            holes: holes.clone(),
+                            colour: fills[i],
+                        });
+                        let rim = Item::Polygon { outer: room.outer.clone(), holes: rim, colour };
+                        std::iter::once(rim).chain(inner).collect()
+                    }
+                };
                 Group {
                     element: room.id.to_string(),
                     title: room_title(room),
-                    ..Group::new(Layer::Rooms, Frame::Plan, vec![polygon])
+                    ..Group::new(Layer::Rooms, Frame::Plan, items)
                 }
             })
             .collect()
@@ -303,9 +365,23 @@ impl Drawing {
 
     /// Number of rooms with each label, those without one, and those not classified.
     pub fn counts(&self) -> ([usize; 5], usize, usize) {
+        Self::count(self.rooms.iter().map(|room| room.status))
+    }
+
+    /// The same by what a classifier says.
+    pub fn predicted_counts(&self) -> ([usize; 5], usize, usize) {
+        Self::count(self.rooms.iter().map(RoomDrawing::predicted_status))
+    }
+
+    /// Number of rooms whose known label is not the predicted one.
+    pub fn missed(&self) -> usize {
+        self.rooms.iter().filter(|room| room.missed_label().is_some()).count()
+    }
+
+    fn count(statuses: impl Iterator<Item = RoomStatus>) -> ([usize; 5], usize, usize) {
         let mut counts = ([0; 5], 0, 0);
-        for room in &self.rooms {
-            match room.status {
+        for status in statuses {
+            match status {
                 RoomStatus::Labelled(label) => counts.0[label.index()] += 1,
                 RoomStatus::Unlabelled => counts.1 += 1,
                 RoomStatus::NotClassified => counts.2 += 1,

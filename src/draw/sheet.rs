@@ -206,13 +206,16 @@ fn legend_entries(drawing: &Drawing, style: &Style) -> Vec<Entry> {
     let palette = style.palette();
     match style.fill {
         Fill::None => Vec::new(),
-        Fill::Label => {
-            let (labelled, unlabelled, not_classified) = drawing.counts();
+        Fill::Label | Fill::Prediction => {
+            let is_predicted = style.fill == Fill::Prediction;
+            let (labelled, unlabelled, not_classified) =
+                if is_predicted { drawing.predicted_counts() } else { drawing.counts() };
+            let unlabelled_name = if is_predicted { "no prediction" } else { "no label" };
             let named = Label::ALL
                 .into_iter()
                 .map(|label| (palette.label(label), label.name(), labelled[label.index()]))
                 .chain([
-                    (palette.unlabelled, "no label", unlabelled),
+                    (palette.unlabelled, unlabelled_name, unlabelled),
                     (palette.not_classified, "not classified", not_classified),
                 ]);
             named

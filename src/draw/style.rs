@@ -25,17 +25,20 @@ pub enum Fill {
     #[default]
     Label,
     Function,
+    /// The label that a classifier predicts; where a known label is another, its colour rims the room.
+    Prediction,
     None,
 }
 
 impl Fill {
-    pub const ALL: [Self; 3] = [Self::Label, Self::Function, Self::None];
+    pub const ALL: [Self; 4] = [Self::Label, Self::Function, Self::Prediction, Self::None];
 
     /// The word for the command line and for people.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Label => "label",
             Self::Function => "function",
+            Self::Prediction => "prediction",
             Self::None => "none",
         }
     }

@@ -325,6 +325,20 @@ fn grown(shapes: &Shapes, by_m: f64) -> Shapes {
     cleaned(&shapes.outline(&OutlineStyle::new(by_m).line_join(LineJoin::Miter(SHARPEST_RAD))))
 }
 
+/// A room's rings shrunk by a distance in metres: pieces with their holes, none when nothing is left.
+pub(super) fn shrunk(outer: &[Point], holes: &[Vec<Point>], by_m: f64) -> Vec<(Vec<Point>, Vec<Vec<Point>>)> {
+    let ring = |ring: &Vec<Point>| -> Ring { ring.iter().map(|point| [point.x, point.y]).collect() };
+    let shape: Vec<Ring> = std::iter::once(&outer.to_vec()).chain(holes).map(ring).collect();
+    let shapes = shape.simplify_shape(FillRule::EvenOdd);
+    grown(&shapes, -by_m)
+        .iter()
+        .filter_map(|shape| {
+            let (outer, holes) = shape.split_first()?;
+            Some((points(outer), holes.iter().map(points).collect()))
+        })
+        .collect()
+}
+
 /// Shapes without what rounding leaves: points within a millimetre of the one before, rings of less than
 /// 10 cm². Grown again, such a splinter would become a spur as long as its mitre.
 fn cleaned(shapes: &Shapes) -> Shapes {

@@ -4,6 +4,7 @@
 //! counter-clockwise ring has a positive area.
 
 mod bounds;
+pub mod hull;
 mod point;
 pub mod polygon;
 pub mod runs;

@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use etcetera::BaseStrategy as _;
 
 use crate::classify::model_file::{self, About, ModelFileError};
-use crate::classify::{Algorithm, Classifier};
+use crate::classify::{Algorithm, Method, PlanClassifier};
 use crate::labels::Typology;
 
 /// The ending of model files.
@@ -18,7 +18,7 @@ pub struct StoredModel {
     pub name: String,
     /// Its file; `None` for one that comes with the program.
     pub path: Option<PathBuf>,
-    pub classifier: Classifier,
+    pub classifier: PlanClassifier,
     pub about: About,
 }
 
@@ -64,13 +64,14 @@ pub const LARGEST_BYTES: u64 = 1 << 28;
 
 macro_rules! bundled {
     ($($set:literal),+) => {
-        /// The models that come with the program: typology (or `standard`), algorithm, and the file's text.
+        /// The models that come with the program: typology (or `standard`), method, and the file's text.
         /// See `assets/models/NOTICE`.
-        const BUNDLED: &[(&str, Algorithm, &str)] = &[$(
-            ($set, Algorithm::Rules, include_str!(concat!("../../assets/models/", $set, "-rules.model.json"))),
-            ($set, Algorithm::Tree, include_str!(concat!("../../assets/models/", $set, "-tree.model.json"))),
-            ($set, Algorithm::Knn, include_str!(concat!("../../assets/models/", $set, "-knn.model.json"))),
-            ($set, Algorithm::Mlp, include_str!(concat!("../../assets/models/", $set, "-mlp.model.json"))),
+        const BUNDLED: &[(&str, Method, &str)] = &[$(
+            ($set, Method::Each(Algorithm::Rules), include_str!(concat!("../../assets/models/", $set, "-rules.model.json"))),
+            ($set, Method::Each(Algorithm::Tree), include_str!(concat!("../../assets/models/", $set, "-tree.model.json"))),
+            ($set, Method::Each(Algorithm::Knn), include_str!(concat!("../../assets/models/", $set, "-knn.model.json"))),
+            ($set, Method::Each(Algorithm::Mlp), include_str!(concat!("../../assets/models/", $set, "-mlp.model.json"))),
+            ($set, Method::Joint, include_str!(concat!("../../assets/models/", $set, "-joint.model.json"))),
         )+];
     };
 }
@@ -79,17 +80,17 @@ bundled!("house", "school", "office", "standard");
 
 /// The sets of which there are bundled models, `standard` last.
 pub fn bundled_sets() -> impl Iterator<Item = &'static str> {
-    BUNDLED.iter().step_by(Algorithm::ALL.len()).map(|(set, _, _)| *set)
+    BUNDLED.iter().step_by(Method::ALL.len()).map(|(set, _, _)| *set)
 }
 
-/// The bundled model of a set (a typology, or `standard`) and an algorithm, read once.
+/// The bundled model of a set (a typology, or `standard`) and a method, read once.
 ///
 /// # Errors
 /// When there is none for the set, or it cannot be read, which the tests exclude.
-pub fn bundled_model(set: &str, algorithm: Algorithm) -> Result<Arc<StoredModel>, ModelFileError> {
-    static READ: Mutex<BTreeMap<(&str, Algorithm), Arc<StoredModel>>> = Mutex::new(BTreeMap::new());
-    let found = BUNDLED.iter().find(|(of, by, _)| *of == set && *by == algorithm);
-    let Some(&(set, algorithm, text)) = found else {
+pub fn bundled_model(set: &str, method: Method) -> Result<Arc<StoredModel>, ModelFileError> {
+    static READ: Mutex<BTreeMap<(&str, Method), Arc<StoredModel>>> = Mutex::new(BTreeMap::new());
+    let found = BUNDLED.iter().find(|(of, by, _)| *of == set && *by == method);
+    let Some(&(set, method, text)) = found else {
         let sets: Vec<&str> = bundled_sets().collect();
         return Err(ModelFileError {
             line: None,
@@ -99,13 +100,13 @@ pub fn bundled_model(set: &str, algorithm: Algorithm) -> Result<Arc<StoredModel>
     };
     // A poisoned map only lacks an entry.
     let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(model) = read.get(&(set, algorithm)) {
+    if let Some(model) = read.get(&(set, method)) {
         return Ok(model.clone());
     }
     let (classifier, about) = model_file::from_bytes(text.as_bytes())?;
-    let name = format!("{set}-{}", algorithm.name());
+    let name = format!("{set}-{}", method.name());
     let model = Arc::new(StoredModel { name, path: None, classifier, about });
-    read.insert((set, algorithm), model.clone());
+    read.insert((set, method), model.clone());
     Ok(model)
 }
 

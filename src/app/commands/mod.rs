@@ -82,18 +82,20 @@ pub enum Menu {
     File,
     Edit,
     Room,
+    Predict,
     View,
     Help,
 }
 
 impl Menu {
-    pub const ALL: [Self; 5] = [Self::File, Self::Edit, Self::Room, Self::View, Self::Help];
+    pub const ALL: [Self; 6] = [Self::File, Self::Edit, Self::Room, Self::Predict, Self::View, Self::Help];
 
     pub const fn title(self) -> &'static str {
         match self {
             Self::File => "File",
             Self::Edit => "Edit",
             Self::Room => "Room",
+            Self::Predict => "Predict",
             Self::View => "View",
             Self::Help => "Help",
         }

@@ -11,6 +11,7 @@ use crate::app::panels::palette::Palette;
 use crate::app::panels::shortcuts::Sheet;
 use crate::app::theme::ThemeChoice;
 use crate::app::{App, Intent, Origin, Picked};
+use crate::classify::{Algorithm, Method};
 use crate::draw::{Fill, LabelColours};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::labels::Label;
@@ -167,6 +168,18 @@ fn has_own_label(app: &App) -> Availability {
     has_room(app)?;
     let has = app.picked_room().is_some_and(|(_, room)| room.label.is_some());
     when(has, "the room has no label of its own")
+}
+
+fn has_prediction(app: &App) -> Availability {
+    has_room(app)?;
+    when(app.prediction_of_picked().is_some(), "the room is not one that is predicted")
+}
+
+fn has_unlabelled(app: &App) -> Availability {
+    has_plan(app)?;
+    let has =
+        app.predictions().is_some_and(|predictions| predictions.network.rooms.iter().any(|room| room.label.is_none()));
+    when(has, "every room has a label")
 }
 
 fn has_several_plans(app: &App) -> Availability {
@@ -489,6 +502,124 @@ pub const COMMANDS: &[Command] = &[
     })
     .keys(&[key(Key::OpenBracket)])
     .menu(Menu::Room, 3),
+    // Predict.
+    choose(
+        "models-plan",
+        "Of the plan",
+        "Predict by models of the plan's own typology, inferred where it has none",
+        always,
+        |app| app.predictor.set.name() == "plan",
+        |app, _| app.predict_by_set("plan"),
+    )
+    .menu(Menu::Predict, 0),
+    choose(
+        "models-auto",
+        "Inferred",
+        "Predict by models of the typology that is inferred from the plan, whatever it says of itself",
+        always,
+        |app| app.predictor.set.name() == "auto",
+        |app, _| app.predict_by_set("auto"),
+    )
+    .menu(Menu::Predict, 0),
+    choose(
+        "models-house",
+        "House",
+        "Predict by models that learned from houses",
+        always,
+        |app| app.predictor.set.name() == "house",
+        |app, _| app.predict_by_set("house"),
+    )
+    .menu(Menu::Predict, 0),
+    choose(
+        "models-school",
+        "School",
+        "Predict by models that learned from schools",
+        always,
+        |app| app.predictor.set.name() == "school",
+        |app, _| app.predict_by_set("school"),
+    )
+    .menu(Menu::Predict, 0),
+    choose(
+        "models-office",
+        "Office",
+        "Predict by models that learned from offices",
+        always,
+        |app| app.predictor.set.name() == "office",
+        |app, _| app.predict_by_set("office"),
+    )
+    .menu(Menu::Predict, 0),
+    choose(
+        "models-standard",
+        "Standard",
+        "Predict by models that learned from all typologies",
+        always,
+        |app| app.predictor.set.name() == "standard",
+        |app, _| app.predict_by_set("standard"),
+    )
+    .menu(Menu::Predict, 0),
+    choose(
+        "predict-by-rules",
+        "Rule induction",
+        "Predict by rules that can be read",
+        always,
+        |app| app.predictor.method == Method::Each(Algorithm::Rules),
+        |app, _| app.predictor.method = Method::Each(Algorithm::Rules),
+    )
+    .menu(Menu::Predict, 1),
+    choose(
+        "predict-by-tree",
+        "Decision tree",
+        "Predict by a decision tree",
+        always,
+        |app| app.predictor.method == Method::Each(Algorithm::Tree),
+        |app, _| app.predictor.method = Method::Each(Algorithm::Tree),
+    )
+    .menu(Menu::Predict, 1),
+    choose(
+        "predict-by-knn",
+        "Nearest neighbours",
+        "Predict by the most similar rooms of the training set",
+        always,
+        |app| app.predictor.method == Method::Each(Algorithm::Knn),
+        |app, _| app.predictor.method = Method::Each(Algorithm::Knn),
+    )
+    .menu(Menu::Predict, 1),
+    choose(
+        "predict-by-mlp",
+        "Perceptron",
+        "Predict by a multilayer perceptron",
+        always,
+        |app| app.predictor.method == Method::Each(Algorithm::Mlp),
+        |app, _| app.predictor.method = Method::Each(Algorithm::Mlp),
+    )
+    .menu(Menu::Predict, 1),
+    choose(
+        "predict-by-joint",
+        "All rooms together",
+        "Predict by a classifier that looks at all rooms of the plan in relation to each other",
+        always,
+        |app| app.predictor.method == Method::Joint,
+        |app, _| app.predictor.method = Method::Joint,
+    )
+    .menu(Menu::Predict, 1),
+    command(
+        "accept-prediction",
+        "Accept the prediction",
+        "Make the predicted label the picked room's own",
+        has_prediction,
+        |app, _| app.accept_prediction(),
+    )
+    .keys(&[key(Key::A)])
+    .menu(Menu::Predict, 2),
+    command(
+        "accept-all-predictions",
+        "Accept all predictions",
+        "Make the predicted labels those of all rooms without a label",
+        has_unlabelled,
+        |app, _| app.accept_all_predictions(),
+    )
+    .keys(&[ctrl_shift(Key::A)])
+    .menu(Menu::Predict, 2),
     // View.
     command("fit", "Zoom to fit", "Show the whole plan", has_plan, |app, _| app.canvas.fit())
         .keys(&[key(Key::F)])
@@ -525,6 +656,16 @@ pub const COMMANDS: &[Command] = &[
         |app, _| app.layers.fill = Fill::Function,
     )
     .keys(&[shift(Key::L)])
+    .menu(Menu::View, 1),
+    choose(
+        "fill-prediction",
+        "Fill by prediction",
+        "Colour each room by its predicted label; a known label that is another rims its room",
+        always,
+        |app| app.layers.fill == Fill::Prediction,
+        |app, _| app.layers.fill = Fill::Prediction,
+    )
+    .keys(&[shift(Key::P)])
     .menu(Menu::View, 1),
     choose(
         "fill-none",

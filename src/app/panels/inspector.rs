@@ -3,7 +3,7 @@
 use egui::{Id, Key, Popup, PopupCloseBehavior, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::status::count;
-use super::{Field, FieldKind};
+use super::{Field, FieldKind, prediction};
 use crate::app::canvas::{room_title, sentence, title_of};
 use crate::app::document::{Derived, Document, Picked};
 use crate::app::icons::Icon;
@@ -22,6 +22,7 @@ enum Act {
     Commit,
     Revert,
     ShowNotes,
+    Command(&'static str),
 }
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
@@ -60,6 +61,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         Some(Act::Type(field)) => app.panels.field = Some(field),
         Some(Act::Commit) => app.commit_field(),
         Some(Act::Revert) => drop(app.panels.take_field()),
+        Some(Act::Command(id)) => app.act(id, &[], ui.ctx()),
         Some(Act::ShowNotes) => app.act("import-notes", &["on"], ui.ctx()),
     }
 }
@@ -102,6 +104,10 @@ impl Inspected<'_> {
         ui.add_space(4.0);
         act = act.or(self.label(ui, room, status));
         hairline(ui);
+        if let Some(derived) = derived {
+            act = act.or(self.predicted(ui, id, status, derived));
+            hairline(ui);
+        }
         section(ui, "Features");
         match analysed {
             None => drop(caption(ui, "Being worked out…")),
@@ -112,6 +118,11 @@ impl Inspected<'_> {
             act = act.or(self.neighbours(ui, id, derived, hovered));
         }
         act
+    }
+
+    fn predicted(&self, ui: &mut Ui, id: RoomId, status: RoomStatus, derived: &Derived) -> Option<Act> {
+        let predictions = derived.predictions.as_ref()?;
+        prediction::of_room(ui, self.app, self.palette, predictions, id, status).map(Act::Command)
     }
 
     /// A text of a room that can be changed.
@@ -387,6 +398,12 @@ impl Inspected<'_> {
             self.gaps(ui, derived);
         }
         let mut act = None;
+        if let Some(predictions) = self.document.derived().and_then(|derived| derived.predictions.as_ref())
+            && !predictions.network.rooms.is_empty()
+        {
+            hairline(ui);
+            act = prediction::of_plan(ui, self.app, predictions).map(Act::Command);
+        }
         if !self.document.notes.is_empty() {
             hairline(ui);
             section(ui, "Import");

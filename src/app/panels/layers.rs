@@ -3,7 +3,7 @@
 use egui::{Role, ScrollArea, Ui};
 
 use crate::app::commands::{self, COMMANDS, Menu};
-use crate::app::widgets::{Lead, ROW, Row, Segment, hairline, section, segmented};
+use crate::app::widgets::{Lead, ROW, Row, Segment, caption, hairline, section, segmented};
 use crate::app::{App, Document, theme};
 use crate::draw::{self, Fill, Palette};
 use crate::features::RoomStatus;
@@ -15,7 +15,12 @@ const LAYERS: (Menu, u8) = (Menu::View, 2);
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     hairline(ui);
     section(ui, "Fill");
-    let fills = [("fill-label", "Label"), ("fill-function", "Function"), ("fill-none", "None")];
+    let fills = [
+        ("fill-label", "Label"),
+        ("fill-function", "Function"),
+        ("fill-prediction", "Predicted"),
+        ("fill-none", "None"),
+    ];
     let segments: Vec<Segment<'_>> = fills
         .into_iter()
         .filter_map(|(id, text)| {
@@ -51,21 +56,27 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
 fn legend(ui: &mut Ui, document: &Document, fill: Fill, palette: &Palette) {
     let Some(derived) = document.derived() else { return };
     let mut rows: Vec<(draw::Rgba, String, usize)> = Vec::new();
+    let mut note = None;
     match fill {
         Fill::None => {}
-        Fill::Label => {
-            let number =
-                |status: RoomStatus| derived.analysis.rooms.iter().filter(|room| room.status == status).count();
+        Fill::Label | Fill::Prediction => {
+            let is_predicted = fill == Fill::Prediction;
+            let (labelled, unlabelled, not_classified) =
+                if is_predicted { derived.drawing.predicted_counts() } else { derived.drawing.counts() };
             for label in Label::ALL {
                 let name = crate::app::canvas::sentence(label.name());
-                rows.push((palette.label(label), name, number(RoomStatus::Labelled(label))));
+                rows.push((palette.label(label), name, labelled[label.index()]));
             }
-            for (status, name) in [(RoomStatus::Unlabelled, "No label"), (RoomStatus::NotClassified, "Not classified")]
-            {
-                if number(status) > 0 {
-                    rows.push((palette.status(status), name.to_owned(), number(status)));
-                }
+            let unlabelled_name = if is_predicted { "No prediction" } else { "No label" };
+            let others = [
+                (RoomStatus::Unlabelled, unlabelled_name, unlabelled),
+                (RoomStatus::NotClassified, "Not classified", not_classified),
+            ];
+            for (status, name, number) in others.into_iter().filter(|(_, _, number)| *number > 0) {
+                rows.push((palette.status(status), name.to_owned(), number));
             }
+            note = (is_predicted && derived.drawing.missed() > 0)
+                .then(|| format!("{} rimmed in the colour of a known label that is another", derived.drawing.missed()));
         }
         Fill::Function => {
             let functions: Vec<String> =
@@ -92,4 +103,7 @@ fn legend(ui: &mut Ui, document: &Document, fill: Fill, palette: &Palette) {
             Row::new(Lead::Swatch(theme::colour(*colour)), name).trail(&trail).indent(8.0).inset(8.0).show_only(ui);
         }
     });
+    if let Some(note) = note {
+        caption(ui, note);
+    }
 }

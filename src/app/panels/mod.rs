@@ -7,6 +7,7 @@ mod messages;
 pub(super) mod notes;
 pub(super) mod palette;
 mod plans;
+mod prediction;
 mod questions;
 pub(super) mod shortcuts;
 pub(super) mod status;

@@ -96,7 +96,8 @@ struct Search<'a> {
     /// What each row adds to a count.
     units: Vec<Packed>,
     bins: Vec<Packed>,
-    order: Vec<(u32, Packed)>,
+    /// A rank, and in the lowest bit whether the row has the label.
+    order: Vec<u64>,
 }
 
 /// The best condition so far.
@@ -170,10 +171,11 @@ impl Search<'_> {
                 }
             } else {
                 self.order.clear();
-                self.order.extend(units);
+                self.order.extend(units.map(|(rank, unit)| u64::from(rank) << 1 | (unit >> 32)));
                 self.order.sort_unstable();
-                for same in self.order.chunk_by(|p, q| p.0 == q.0) {
-                    step(same[0].0, same.iter().map(|entry| entry.1).sum());
+                for same in self.order.chunk_by(|p, q| p >> 1 == q >> 1) {
+                    let wanted: Packed = same.iter().map(|entry| entry & 1).sum();
+                    step((same[0] >> 1) as u32, same.len() as Packed + (wanted << 32));
                 }
             }
         }

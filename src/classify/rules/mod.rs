@@ -3,7 +3,8 @@
 //! Labels are learned from the rarest to the most frequent, each against those that come later; the
 //! last needs no rule. A rule is grown condition by condition with FOIL's gain, pruned on rooms kept
 //! apart, and stays if the description gets shorter by it; two passes then replace or revise each
-//! rule in the light of the others.
+//! rule in the light of the others. Of a small table several lists are learned, and the one with the
+//! shortest description stays.
 
 mod bits;
 mod grow;
@@ -18,6 +19,15 @@ use crate::random::Random;
 use bits::Bits;
 use grow::{RankCondition, Ranked};
 use induce::{Task, possible_conditions};
+use length::rule_bits;
+
+/// Which rooms are kept apart for pruning is up to chance, and matters the more the fewer there are: in
+/// small tables several lists are learned, and the one with the shortest description stays. This
+/// bounds the work of all attempts...
+const ATTEMPTS_TIMES_ROOMS: usize = 5000;
+
+/// ...and this their number where rooms are few.
+const MOST_ATTEMPTS: usize = 12;
 
 /// An ordered list of rules: the first that covers a room decides.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,6 +93,32 @@ impl RuleList {
         let ranked = Ranked::new(table);
         let possible_conditions = possible_conditions(&ranked);
         let mut random = Random::new(seed);
+        let attempts = (ATTEMPTS_TIMES_ROOMS / table.len()).clamp(1, MOST_ATTEMPTS);
+        let mut best = Self::attempt(table, &ranked, possible_conditions, &mut random);
+        for _ in 1..attempts {
+            let other = Self::attempt(table, &ranked, possible_conditions, &mut random);
+            if other.bits(possible_conditions) < best.bits(possible_conditions) {
+                best = other;
+            }
+        }
+        best
+    }
+
+    /// Bits to write down the rules, and with them the labels of the training rooms.
+    fn bits(&self, possible_conditions: f64) -> f64 {
+        let of_rule = |rule: &Rule| {
+            let distribution = rule.distribution();
+            let labels: f64 = Label::ALL
+                .iter()
+                .map(|&label| -f64::from(rule.counts[label.index()]) * distribution.probability(label).log2())
+                .sum();
+            rule_bits(rule.conditions.len(), possible_conditions) + labels
+        };
+        self.rules.iter().map(of_rule).sum()
+    }
+
+    /// One list, learned from one course of chance.
+    fn attempt(table: &Table, ranked: &Ranked, possible_conditions: f64, random: &mut Random) -> Self {
         let mut order: Vec<Label> = Label::ALL.to_vec();
         let counts = table.label_counts();
         order.sort_by_key(|label| counts[label.index()]);
@@ -93,14 +129,14 @@ impl RuleList {
         for (index, &label) in order.iter().enumerate().take(order.len().saturating_sub(1)) {
             let from_here: usize = order[index..].iter().map(|label| counts[label.index()]).sum();
             let task = Task {
-                ranked: &ranked,
+                ranked,
                 labels: table.labels(),
                 label: Bits::of(table.len(), |row| table.labels()[row] == label),
                 rooms: rooms.clone(),
                 share: counts[label.index()] as f64 / from_here as f64,
                 possible_conditions,
             };
-            for rule in task.rules(&mut random) {
+            for rule in task.rules(random) {
                 rooms.subtract(&rule.covers);
                 drafts.push(rule.conditions);
             }
@@ -108,7 +144,7 @@ impl RuleList {
         drafts.push(Vec::new());
 
         let mut rules: Vec<Rule> =
-            drafts.iter().map(|draft| Rule { conditions: readable(draft, &ranked), counts: [0; 5] }).collect();
+            drafts.iter().map(|draft| Rule { conditions: readable(draft, ranked), counts: [0; 5] }).collect();
         for (values, label) in table.values().iter().zip(table.labels()) {
             if let Some(rule) = rules.iter_mut().find(|rule| rule.covers(values)) {
                 rule.counts[label.index()] += 1;

@@ -1,0 +1,133 @@
+//! What a classifier says of the rooms, and which models are asked.
+
+use egui::{Align2, ComboBox, FontId, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+
+use crate::app::canvas::sentence;
+use crate::app::commands::{self, COMMANDS, Menu};
+use crate::app::widgets::{caption, colours, section, text_button};
+use crate::app::{App, theme};
+use crate::draw::Palette;
+use crate::features::RoomStatus;
+use crate::labels::Label;
+use crate::plan::RoomId;
+use crate::predict::Predictions;
+
+/// The prediction for a room, with its reason. Gives the id of a command that was asked for.
+pub(super) fn of_room(
+    ui: &mut Ui,
+    app: &App,
+    palette: &Palette,
+    predictions: &Predictions,
+    room: RoomId,
+    status: RoomStatus,
+) -> Option<&'static str> {
+    section(ui, "Prediction");
+    let Some(distribution) = predictions.distribution(room) else {
+        caption(ui, "Only rooms with an area that the label scheme classifies are predicted.");
+        return None;
+    };
+    let said = distribution.label();
+    ui.add_space(2.0);
+    ui.spacing_mut().item_spacing.y = 0.0;
+    for label in Label::ALL {
+        bar(ui, palette, label, distribution.probability(label), label == said);
+    }
+    ui.spacing_mut().item_spacing.y = 4.0;
+    ui.add_space(4.0);
+    if let Some(reason) = predictions.reason(room) {
+        caption(ui, reason);
+    }
+    let mut asked = None;
+    match status.label() {
+        Some(known) if known == said => drop(caption(ui, "Agrees with the label.")),
+        Some(_) => drop(caption(ui, "Another label is known for this room.")),
+        None => {
+            ui.add_space(2.0);
+            if text_button(ui, &format!("Accept {said}"), false).clicked() {
+                asked = Some("accept-prediction");
+            }
+        }
+    }
+    asked.or(models(ui, app, predictions))
+}
+
+/// What is said of a plan as a whole. Gives the id of a command that was asked for.
+pub(super) fn of_plan(ui: &mut Ui, app: &App, predictions: &Predictions) -> Option<&'static str> {
+    section(ui, "Prediction");
+    let agreement = predictions.agreement();
+    if let Some(share) = agreement.share() {
+        let text =
+            format!("{} of {} known labels predicted ({:.0} %)", agreement.right, agreement.known, 100.0 * share);
+        caption(ui, text);
+    }
+    let mut asked = None;
+    if commands::find("accept-all-predictions").is_some_and(|command| command.why_not(app).is_none()) {
+        let unknown = predictions.network.rooms.iter().filter(|room| room.label.is_none()).count();
+        let rooms = if unknown == 1 { "room has" } else { "rooms have" };
+        caption(ui, format!("{unknown} {rooms} no label."));
+        if text_button(ui, "Accept all predictions", false).clicked() {
+            asked = Some("accept-all-predictions");
+        }
+    }
+    asked.or(models(ui, app, predictions))
+}
+
+/// The choice of models. Gives the id of a command that was asked for.
+fn models(ui: &mut Ui, app: &App, predictions: &Predictions) -> Option<&'static str> {
+    ui.add_space(4.0);
+    let mut asked = choice(ui, app, "Typology", 0);
+    asked = choice(ui, app, "Algorithm", 1).or(asked);
+    let about = &predictions.model.about;
+    let learned = format!("{} rooms of {} buildings", about.data.rooms, about.data.buildings);
+    let set = &predictions.choice;
+    let because = if set.because == "as told" { String::new() } else { format!(" ({})", set.because) };
+    caption(ui, format!("{} models{because}, learned from {learned}", sentence(&set.set)));
+    asked
+}
+
+/// One of the sections of the menu of models as a list to choose from.
+fn choice(ui: &mut Ui, app: &App, name: &str, of_menu: u8) -> Option<&'static str> {
+    let entries = || COMMANDS.iter().filter(|command| command.menu == Some((Menu::Predict, of_menu)));
+    let current = entries().find(|command| command.is_on(app) == Some(true)).map_or("", |command| command.title);
+    let mut asked = None;
+    ui.horizontal(|ui| {
+        let (rect, _) = ui.allocate_exact_size(vec2(64.0, 28.0), Sense::hover());
+        let font = FontId::proportional(theme::BODY);
+        ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, name, font, colours(ui).text_weak);
+        let list = ComboBox::from_id_salt(("models", name)).width(ui.available_width() - 8.0).selected_text(current);
+        let shown = list.show_ui(ui, |ui| {
+            for command in entries() {
+                let row = ui.selectable_label(command.is_on(app) == Some(true), command.title);
+                if row.on_hover_text(command.help).clicked() {
+                    asked = Some(command.id);
+                }
+            }
+        });
+        let is_enabled = ui.is_enabled();
+        let text = format!("{name}: {current}");
+        shown.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, is_enabled, text.clone()));
+    });
+    asked
+}
+
+/// A label with its probability as a bar.
+fn bar(ui: &mut Ui, palette: &Palette, label: Label, probability: f64, is_said: bool) {
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 22.0), Sense::hover());
+    let colours = colours(ui);
+    let text = if is_said { colours.text } else { colours.text_weak };
+    let font = if is_said { FontId::new(theme::BODY, theme::semibold()) } else { FontId::proportional(theme::BODY) };
+    let painter = ui.painter();
+    let middle = rect.center().y;
+    painter.text(rect.left_center(), Align2::LEFT_CENTER, sentence(label.name()), font.clone(), text);
+    let percent = format!("{:.0} %", 100.0 * probability);
+    painter.text(rect.right_center(), Align2::RIGHT_CENTER, &percent, font, text);
+    let track = Rect::from_min_max(pos2(rect.left() + 96.0, middle - 4.0), pos2(rect.right() - 46.0, middle + 4.0));
+    painter.rect_filled(track, 4, colours.field);
+    let filled = track.with_max_x(track.left() + track.width() * probability as f32);
+    if filled.width() >= 1.0 {
+        painter.rect_filled(filled, 4, theme::colour(palette.label(label)));
+        let rim = Stroke::new(1.0, colours.outline);
+        painter.rect_stroke(filled, 4, rim, StrokeKind::Inside);
+    }
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{}: {percent}", sentence(label.name()))));
+}

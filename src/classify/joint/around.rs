@@ -1,0 +1,113 @@
+//! What the labels of the other rooms, known or predicted, say of a room.
+
+use super::view::{Group, View};
+use crate::classify::Distribution;
+use crate::labels::Label;
+
+/// The features of the second round, in their order, behind those of the first.
+pub const FEATURES: &[(Group, &str)] = &[
+    (Group::Labels, "first opinion: small room"),
+    (Group::Labels, "first opinion: medium room"),
+    (Group::Labels, "first opinion: big room"),
+    (Group::Labels, "first opinion: corridor"),
+    (Group::Labels, "first opinion: hall"),
+    (Group::Labels, "small rooms it joins"),
+    (Group::Labels, "medium rooms it joins"),
+    (Group::Labels, "big rooms it joins"),
+    (Group::Labels, "corridors it joins"),
+    (Group::Labels, "halls it joins"),
+    (Group::Labels, "share of small rooms it joins"),
+    (Group::Labels, "share of medium rooms it joins"),
+    (Group::Labels, "share of big rooms it joins"),
+    (Group::Labels, "share of corridors it joins"),
+    (Group::Labels, "share of halls it joins"),
+    (Group::Labels, "small rooms off the same neighbour"),
+    (Group::Labels, "medium rooms off the same neighbour"),
+    (Group::Labels, "big rooms off the same neighbour"),
+    (Group::Labels, "corridors off the same neighbour"),
+    (Group::Labels, "halls off the same neighbour"),
+    (Group::Labels, "share of small rooms in the plan"),
+    (Group::Labels, "share of medium rooms in the plan"),
+    (Group::Labels, "share of big rooms in the plan"),
+    (Group::Labels, "share of corridors in the plan"),
+    (Group::Labels, "share of halls in the plan"),
+    (Group::Labels, "area against the plan's small rooms"),
+    (Group::Labels, "area against the plan's medium rooms"),
+    (Group::Labels, "area against the plan's big rooms"),
+    (Group::Labels, "area against the plan's corridors"),
+    (Group::Labels, "area against the plan's halls"),
+];
+
+/// The other rooms of a plan must together believe this much in a label, in rooms, for it to have a mean
+/// area there.
+const LEAST_WEIGHT: f64 = 0.05;
+
+/// The features of every room from the first opinions and what is known of the others: lists as long as
+/// [`FEATURES`], all finite. A room's own known label is not among what it is told.
+pub(super) fn features(view: &View, first: &[Distribution], known: &[Option<Label>]) -> Vec<Vec<f32>> {
+    let believed: Vec<[f64; 5]> = first
+        .iter()
+        .enumerate()
+        .map(|(room, first)| match known.get(room).copied().flatten() {
+            Some(label) => std::array::from_fn(|index| f64::from(u8::from(index == label.index()))),
+            None => *first.probabilities(),
+        })
+        .collect();
+    let mut all = Sums::default();
+    for (room, believed) in believed.iter().enumerate() {
+        all.add(believed, view.log_area[room], 1.0);
+    }
+    let sum = |rooms: &[usize]| {
+        let mut sums = Sums::default();
+        for &room in rooms {
+            sums.add(&believed[room], view.log_area[room], 1.0);
+        }
+        sums
+    };
+    (0..first.len())
+        .map(|room| {
+            let area = view.log_area[room];
+            let joined = sum(&view.joined[room]);
+            let siblings = sum(&view.siblings[room]);
+            let mut others = all;
+            others.add(&believed[room], area, -1.0);
+            let against = |label: usize| {
+                let weight = others.weights[label];
+                if weight > LEAST_WEIGHT { area - others.areas[label] / weight } else { 0.0 }
+            };
+            let against: [f64; 5] = std::array::from_fn(against);
+            let numbers = [
+                *first[room].probabilities(),
+                joined.weights,
+                joined.shares(),
+                siblings.shares(),
+                others.shares(),
+                against,
+            ];
+            numbers.iter().flatten().map(|&number| number as f32).collect()
+        })
+        .collect()
+}
+
+/// Weights of labels over rooms, and logarithms of areas in proportion to them.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    rooms: f64,
+    weights: [f64; 5],
+    areas: [f64; 5],
+}
+
+impl Sums {
+    fn add(&mut self, believed: &[f64; 5], log_area: f64, times: f64) {
+        self.rooms += times;
+        for ((weight, area), believed) in self.weights.iter_mut().zip(&mut self.areas).zip(believed) {
+            *weight += times * believed;
+            *area += times * believed * log_area;
+        }
+    }
+
+    /// Nothing where there are no rooms.
+    fn shares(&self) -> [f64; 5] {
+        self.weights.map(|weight| if self.rooms > 0.5 { weight / self.rooms } else { 0.0 })
+    }
+}

@@ -1,0 +1,172 @@
+//! Why the joint classifier gave a room its label.
+
+use super::{Group, Joint, Looked, group_of};
+use crate::classify::Distribution;
+use crate::classify::numbers::percent;
+use crate::dataset::RoomNetwork;
+use crate::labels::Label;
+
+/// A prediction with what it rests on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointExplanation {
+    /// The label given.
+    pub label: Label,
+    /// Its probability, 0..=1.
+    pub probability: f64,
+    /// What the first round said, which knows no label of other rooms.
+    pub first: Distribution,
+    /// What each group of features did, the one that spoke most for the label first.
+    pub groups: Vec<GroupEffect>,
+    /// What each room it opens to did, the one that spoke most for the label first.
+    pub neighbours: Vec<NeighbourEffect>,
+    /// What is to be said of the room in words, by group.
+    facts: Vec<(Group, String)>,
+}
+
+/// What a group of features did: the second round is asked again with each of them at its median over
+/// the training rooms.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GroupEffect {
+    pub group: Group,
+    /// The probability of the label given, if the group were typical.
+    pub probability_if_typical: f64,
+}
+
+/// What a neighbour's label, known or believed, did: the second round is asked again with nothing
+/// believed of that room.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NeighbourEffect {
+    /// Its index in the network.
+    pub room: usize,
+    /// What it is called.
+    pub key: String,
+    /// Its label: the known one, else the first round's.
+    pub label: Label,
+    pub is_known: bool,
+    /// The probability of the label given, if any label were as likely for the neighbour.
+    pub probability_if_unknown: f64,
+}
+
+/// Effects below this are not worth a word.
+const MATTERS: f64 = 0.02;
+
+/// Groups, and neighbours, named in a sentence; all are in the data.
+const NAMED: usize = 3;
+
+impl Joint {
+    /// Why a room gets its label; `None` for a room that the network does not have. `known` as in
+    /// [`Joint::predict`].
+    pub fn explain(&self, network: &RoomNetwork, known: &[Option<Label>], room: usize) -> Option<JointExplanation> {
+        let it = network.rooms.get(room)?;
+        let looked = Looked::new(network, &self.left_out);
+        let first = self.first_opinions(&looked);
+        let values = looked.with_labels(&first, known, &self.left_out).swap_remove(room);
+        let distribution = self.answer(&values);
+        let label = distribution.label();
+        let probability = distribution.probability(label);
+        let mut groups: Vec<GroupEffect> = Group::ALL
+            .into_iter()
+            .map(|group| {
+                let mut typical = values.clone();
+                for (feature, value) in typical.iter_mut().enumerate() {
+                    if group_of(feature) == Some(group) {
+                        *value = self.typical[feature];
+                    }
+                }
+                GroupEffect { group, probability_if_typical: self.answer(&typical).probability(label) }
+            })
+            .collect();
+        groups.sort_by(|p, q| p.probability_if_typical.total_cmp(&q.probability_if_typical));
+        let mut neighbours: Vec<NeighbourEffect> = looked.view.joined[room]
+            .iter()
+            .filter(|&&other| other != room)
+            .map(|&other| {
+                let known_label = known.get(other).copied().flatten();
+                let mut without = known.to_vec();
+                if let Some(label) = without.get_mut(other) {
+                    *label = None;
+                }
+                let mut nothing = first.clone();
+                nothing[other] = Distribution::UNIFORM;
+                let values = looked.with_labels(&nothing, &without, &self.left_out).swap_remove(room);
+                NeighbourEffect {
+                    room: other,
+                    key: network.rooms[other].key.clone(),
+                    label: known_label.unwrap_or_else(|| first[other].label()),
+                    is_known: known_label.is_some(),
+                    probability_if_unknown: self.answer(&values).probability(label),
+                }
+            })
+            .collect();
+        neighbours.sort_by(|p, q| p.probability_if_unknown.total_cmp(&q.probability_if_unknown));
+        // The facts that sentences name.
+        let all = network.rooms.len();
+        let larger = network.rooms.iter().filter(|other| other.area_m2 > it.area_m2).count();
+        let mut areas: Vec<f64> = network.rooms.iter().map(|room| room.area_m2).collect();
+        areas.sort_by(f64::total_cmp);
+        let median_m2 = (areas[(all - 1) / 2] + areas[all / 2]) / 2.0;
+        let joined = looked.view.joined[room].len();
+        let alike = areas.iter().filter(|&&area| (area / it.area_m2).ln().abs() <= super::view::ALIKE).count() - 1;
+        let facts = vec![
+            (
+                Group::Size,
+                format!(
+                    "{:.1} m², {:.1} times the plan's median, {} of {all} rooms are larger",
+                    it.area_m2,
+                    it.area_m2 / median_m2,
+                    larger
+                ),
+            ),
+            (
+                Group::Form,
+                format!(
+                    "{:.1} times as long as wide, {} walls",
+                    it.form.length_m / it.form.width_m.max(1e-9),
+                    it.form.walls
+                ),
+            ),
+            (Group::Openings, format!("{} to {joined} of the rooms", it.doors.len())),
+            (Group::Alike, format!("{alike} others of about its area")),
+        ];
+        Some(JointExplanation { label, probability, first: first[room], groups, neighbours, facts })
+    }
+}
+
+impl JointExplanation {
+    /// The reason in one to three sentences.
+    pub fn words(&self) -> String {
+        let label = self.label.name();
+        let groups = self.groups.iter().filter(|effect| effect.probability_if_typical < self.probability - MATTERS);
+        let groups: Vec<String> = groups
+            .take(NAMED)
+            .map(|effect| {
+                let fact = self.facts.iter().find(|(group, _)| *group == effect.group);
+                let fact = fact.map(|(_, fact)| format!("{fact}; ")).unwrap_or_default();
+                let probability = percent(effect.probability_if_typical);
+                format!("{} ({fact}if typical {probability})", effect.group.words())
+            })
+            .collect();
+        let mut words = if groups.is_empty() {
+            format!("No single trait decides for {label} ({}).", percent(self.probability))
+        } else {
+            format!("What speaks for {label} ({}): {}.", percent(self.probability), groups.join(", "))
+        };
+        let neighbours: Vec<String> = self
+            .neighbours
+            .iter()
+            .filter(|effect| effect.probability_if_unknown < self.probability - MATTERS)
+            .take(NAMED)
+            .map(|effect| {
+                let how = if effect.is_known { "known" } else { "predicted" };
+                format!("{} ({how}: {})", effect.key, effect.label.name())
+            })
+            .collect();
+        if !neighbours.is_empty() {
+            words.push_str(&format!(" So do the rooms beside it: {}.", neighbours.join(", ")));
+        }
+        if self.first.label() != self.label {
+            words.push_str(&format!(" By itself it would be a {}.", self.first.label().name()));
+        }
+        words
+    }
+}

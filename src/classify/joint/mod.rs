@@ -1,0 +1,375 @@
+//! The fifth classifier: all rooms of a plan together, each in relation to the others. Described for
+//! readers in `docs/joint.md`, with what it gains and what does not help.
+//!
+//! Two rounds. In the first a forest of random trees looks at each room's size, form and openings in
+//! relation to the rest of its plan ([`view`]); it knows no label of any room. In the second another
+//! forest is told in addition what the first said of the rooms around, or what a person did
+//! ([`around`]), so that a plan's rooms are labelled in agreement. What the second forest learns from are
+//! opinions of forests that did not know the building, as in use; and in half of its examples some rooms
+//! are known, so that it learns what knowledge is worth.
+
+mod around;
+mod explain;
+mod store;
+mod trees;
+mod view;
+
+use std::collections::BTreeSet;
+use std::fmt;
+
+pub use explain::{GroupEffect, JointExplanation, NeighbourEffect};
+pub use store::JointModelError;
+pub use view::Group;
+
+use self::trees::{Forest, Job, Samples};
+use self::view::View;
+use super::calibration::fitted_temperature;
+use super::{Distribution, Scores};
+use crate::dataset::folds::{Folds, FoldsError};
+use crate::dataset::{RoomNetwork, RoomPlace};
+use crate::labels::Label;
+use crate::parallel::{Cancelled, Work};
+use crate::random::{Random, seed_of_part};
+
+/// Folds by which training rooms get first opinions of forests that did not learn from their building.
+const INNER_FOLDS: usize = 4;
+
+/// The trained fifth classifier.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    first: Forest,
+    second: Forest,
+    /// See [`Distribution::at_temperature`].
+    temperature: f64,
+    /// The median of each feature over the training rooms: what 'typical' means in explanations.
+    typical: Vec<f32>,
+    left_out: BTreeSet<Group>,
+}
+
+/// Why nothing was learned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JointTrainError {
+    /// No room has a label.
+    NoLabelledRooms,
+    Cancelled,
+}
+
+impl fmt::Display for JointTrainError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NoLabelledRooms => "there are no labelled rooms to learn from; label some rooms, or add plans",
+            Self::Cancelled => "cancelled",
+        })
+    }
+}
+
+impl std::error::Error for JointTrainError {}
+
+impl From<Cancelled> for JointTrainError {
+    fn from(Cancelled: Cancelled) -> Self {
+        Self::Cancelled
+    }
+}
+
+/// Why there is no cross-validation.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum JointValidationError {
+    Folds(FoldsError),
+    Cancelled,
+}
+
+impl fmt::Display for JointValidationError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Folds(error) => error.fmt(f),
+            Self::Cancelled => f.write_str("cancelled"),
+        }
+    }
+}
+
+impl std::error::Error for JointValidationError {}
+
+/// What came of a cross-validation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointValidated {
+    /// Where each labelled room stands, in the order of the networks.
+    pub places: Vec<RoomPlace>,
+    /// For each of these the prediction by a classifier that knew nothing of its building.
+    pub predictions: Vec<Distribution>,
+    pub scores: Scores,
+}
+
+/// The features of one plan's rooms, first round, and what the second needs to go on.
+struct Looked {
+    view: View,
+    features: Vec<Vec<f32>>,
+}
+
+impl Looked {
+    fn new(network: &RoomNetwork, left_out: &BTreeSet<Group>) -> Self {
+        let view = View::new(network);
+        let mut features = view::features(network, &view);
+        for room in &mut features {
+            blank(room, view::FEATURES, left_out);
+        }
+        Self { view, features }
+    }
+
+    /// The features of the second round.
+    fn with_labels(
+        &self,
+        first: &[Distribution],
+        known: &[Option<Label>],
+        left_out: &BTreeSet<Group>,
+    ) -> Vec<Vec<f32>> {
+        let mut around = around::features(&self.view, first, known);
+        for room in &mut around {
+            blank(room, around::FEATURES, left_out);
+        }
+        self.features.iter().zip(around).map(|(own, around)| [own.as_slice(), &around].concat()).collect()
+    }
+}
+
+/// Sets the features of some groups to 0, so that no tree can ask about them.
+fn blank(values: &mut [f32], features: &[(Group, &str)], groups: &BTreeSet<Group>) {
+    for (value, (group, _)) in values.iter_mut().zip(features) {
+        if groups.contains(group) {
+            *value = 0.0;
+        }
+    }
+}
+
+/// The group of each feature of the second round.
+fn group_of(feature: usize) -> Option<Group> {
+    view::FEATURES.iter().chain(around::FEATURES).nth(feature).map(|(group, _)| *group)
+}
+
+impl Joint {
+    /// Learns from the labelled rooms of plans. Plans of one building, by the name in
+    /// [`RoomNetwork::building`], are taken for each other's witnesses: opinions on one never come from
+    /// another. The same networks and seed give the same classifier on any number of threads. Progress
+    /// counts trees, for each round anew.
+    ///
+    /// # Errors
+    /// When no room has a label, or the work is cancelled.
+    pub fn train(networks: &[&RoomNetwork], seed: u64, work: &Work<'_>) -> Result<Self, JointTrainError> {
+        Self::train_without(networks, &BTreeSet::new(), seed, work)
+    }
+
+    /// The same without some groups of features, to measure what these are worth.
+    ///
+    /// # Errors
+    /// As [`Joint::train`].
+    pub fn train_without(
+        networks: &[&RoomNetwork],
+        left_out: &BTreeSet<Group>,
+        seed: u64,
+        work: &Work<'_>,
+    ) -> Result<Self, JointTrainError> {
+        let places = labelled(networks);
+        if places.is_empty() {
+            return Err(JointTrainError::NoLabelledRooms);
+        }
+        let looked: Vec<Looked> = networks.iter().map(|network| Looked::new(network, left_out)).collect();
+        let folds = inner_folds(networks, &places, seed);
+        let count = folds.as_ref().map_or(0, Folds::count);
+
+        // The first round: a forest for each fold that did not see it, and one of all rooms.
+        let mut samples = Samples::default();
+        for &place in &places {
+            samples.push(&looked[place.network].features[place.room], label(networks, place));
+        }
+        let (of_folds, first) = grow(&samples, folds.as_ref(), 1, seed_of_part(seed, 1), work)?;
+
+        // Opinions on every room, of the forest that did not learn from it. A room without a label goes
+        // with the first of its plan that has one.
+        let mut fold_of: Vec<Vec<usize>> = networks.iter().map(|network| vec![count; network.rooms.len()]).collect();
+        if let Some(folds) = &folds {
+            for (place, &fold) in places.iter().zip(folds.of_rows()).rev() {
+                fold_of[place.network].fill(fold);
+            }
+            for (place, &fold) in places.iter().zip(folds.of_rows()) {
+                fold_of[place.network][place.room] = fold;
+            }
+        }
+        let opinions = work.map(networks.len(), |network| {
+            let rooms = looked[network].features.iter().zip(&fold_of[network]);
+            rooms.map(|(values, &fold)| of_folds.get(fold).unwrap_or(&first).predict(values)).collect::<Vec<_>>()
+        })?;
+
+        // The second round: every plan twice, with nothing known and with some rooms known.
+        let mut samples = Samples::default();
+        let mut typical_of = Vec::new();
+        for (network, looked) in looked.iter().enumerate() {
+            let nothing = vec![None; networks[network].rooms.len()];
+            typical_of.push(looked.with_labels(&opinions[network], &nothing, left_out));
+        }
+        for &place in &places {
+            samples.push(&typical_of[place.network][place.room], label(networks, place));
+        }
+        let typical = samples.columns.iter().map(|column| median(column)).collect();
+        let mut random = Random::new(seed_of_part(seed, 2));
+        let partly: Vec<Vec<Vec<f32>>> = networks
+            .iter()
+            .enumerate()
+            .map(|(network, rooms)| {
+                let share = random.unit();
+                let known: Vec<Option<Label>> =
+                    rooms.rooms.iter().map(|room| room.label.filter(|_| random.unit() < share)).collect();
+                looked[network].with_labels(&opinions[network], &known, left_out)
+            })
+            .collect();
+        for &place in &places {
+            samples.push(&partly[place.network][place.room], label(networks, place));
+        }
+        let (of_folds, second) = grow(&samples, folds.as_ref(), 2, seed_of_part(seed, 3), work)?;
+
+        // Temperature from rooms whose building the forest did not see.
+        let unseen = places.iter().enumerate().filter_map(|(index, &place)| {
+            let forest = of_folds.get(fold_of[place.network][place.room])?;
+            let values: Vec<f32> = samples.columns.iter().map(|column| column[index]).collect();
+            Some((forest.predict(&values), label(networks, place)))
+        });
+        let temperature = fitted_temperature(unseen);
+        Ok(Self { first, second, temperature, typical, left_out: left_out.clone() })
+    }
+
+    /// The distribution of every room of a network. `known` holds the labels that may be used, by room:
+    /// they are evidence for the other rooms, never for the room itself. A list that is too short knows
+    /// no more.
+    pub fn predict(&self, network: &RoomNetwork, known: &[Option<Label>]) -> Vec<Distribution> {
+        let looked = Looked::new(network, &self.left_out);
+        let first = self.first_opinions(&looked);
+        self.second_opinions(&looked, &first, known)
+    }
+
+    fn first_opinions(&self, looked: &Looked) -> Vec<Distribution> {
+        looked.features.iter().map(|values| self.first.predict(values)).collect()
+    }
+
+    fn second_opinions(&self, looked: &Looked, first: &[Distribution], known: &[Option<Label>]) -> Vec<Distribution> {
+        let features = looked.with_labels(first, known, &self.left_out);
+        features.iter().map(|values| self.answer(values)).collect()
+    }
+
+    /// What the second forest says of a room.
+    fn answer(&self, values: &[f32]) -> Distribution {
+        self.second.predict(values).at_temperature(self.temperature)
+    }
+}
+
+/// Where the labelled rooms are, in the order of the networks.
+fn labelled(networks: &[&RoomNetwork]) -> Vec<RoomPlace> {
+    let rooms = networks.iter().enumerate().flat_map(|(index, network)| {
+        network.rooms.iter().enumerate().map(move |(room, of)| (RoomPlace { network: index, room }, of.label))
+    });
+    rooms.filter(|(_, label)| label.is_some()).map(|(place, _)| place).collect()
+}
+
+/// The label of a room that [`labelled`] gave.
+fn label(networks: &[&RoomNetwork], place: RoomPlace) -> Label {
+    networks[place.network].rooms[place.room].label.unwrap_or(Label::SmallRoom)
+}
+
+/// Folds by building; by room where there is but one building; none for a single room.
+fn inner_folds(networks: &[&RoomNetwork], places: &[RoomPlace], seed: u64) -> Option<Folds> {
+    let labels: Vec<Label> = places.iter().map(|&place| label(networks, place)).collect();
+    let buildings: Vec<&str> = places.iter().map(|place| networks[place.network].building.as_str()).collect();
+    let distinct = buildings.iter().collect::<BTreeSet<_>>().len();
+    Folds::grouped(&labels, &buildings, INNER_FOLDS.min(distinct), seed)
+        .or_else(|_| Folds::stratified(&labels, INNER_FOLDS.min(labels.len()), seed))
+        .ok()
+}
+
+/// A forest for each fold, of the samples of the others, and one of all. `times` is how often the rooms
+/// that were dealt to folds stand in the samples, one after the other.
+fn grow(
+    samples: &Samples,
+    folds: Option<&Folds>,
+    times: usize,
+    seed: u64,
+    work: &Work<'_>,
+) -> Result<(Vec<Forest>, Forest), Cancelled> {
+    let rooms = samples.labels.len() / times;
+    let rows = |chosen: &[usize]| -> Vec<u32> {
+        (0..times).flat_map(|copy| chosen.iter().map(move |&row| (copy * rooms + row) as u32)).collect()
+    };
+    let all: Vec<usize> = (0..rooms).collect();
+    let mut chosen: Vec<Vec<u32>> = vec![rows(&all)];
+    if let Some(folds) = folds {
+        chosen.extend((0..folds.count()).map(|fold| rows(&folds.training_rows(fold))));
+    }
+    let jobs: Vec<Job<'_>> = chosen
+        .into_iter()
+        .enumerate()
+        .map(|(index, rows)| Job { samples, rows, seed: seed_of_part(seed, index) })
+        .collect();
+    let mut forests = trees::grow(&jobs, work)?.into_iter();
+    let of_all = forests.next().ok_or(Cancelled)?;
+    Ok((forests.collect(), of_all))
+}
+
+fn median(numbers: &[f32]) -> f32 {
+    let mut sorted = numbers.to_vec();
+    sorted.sort_by(f32::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or_default()
+}
+
+/// Cross-validates with folds that never split a building, nothing being known of the buildings
+/// predicted. The same seed gives the same result on any number of threads. Progress counts folds.
+///
+/// # Errors
+/// When there are fewer buildings with labelled rooms than folds, or the work is cancelled.
+pub fn cross_validate(
+    networks: &[&RoomNetwork],
+    folds: usize,
+    seed: u64,
+    work: &Work<'_>,
+) -> Result<JointValidated, JointValidationError> {
+    cross_validate_without(networks, &BTreeSet::new(), folds, 0.0, seed, work)
+}
+
+/// The same without some groups of features, and with a share `known` (0..=1) of the rooms of each plan
+/// predicted being known, chosen at random: what a partly labelled building gains.
+///
+/// # Errors
+/// As [`cross_validate`].
+pub fn cross_validate_without(
+    networks: &[&RoomNetwork],
+    left_out: &BTreeSet<Group>,
+    folds: usize,
+    known: f64,
+    seed: u64,
+    work: &Work<'_>,
+) -> Result<JointValidated, JointValidationError> {
+    let places = labelled(networks);
+    let labels: Vec<Label> = places.iter().map(|&place| label(networks, place)).collect();
+    let buildings: Vec<&str> = places.iter().map(|place| networks[place.network].building.as_str()).collect();
+    let folds = Folds::grouped(&labels, &buildings, folds, seed).map_err(JointValidationError::Folds)?;
+    let predicted = work
+        .map(folds.count(), |fold| {
+            let seed = seed_of_part(seed, fold);
+            let tested: BTreeSet<usize> = folds.test_rows(fold).into_iter().map(|row| places[row].network).collect();
+            let taught: Vec<&RoomNetwork> =
+                networks.iter().enumerate().filter(|(index, _)| !tested.contains(index)).map(|(_, &of)| of).collect();
+            // Threads are busy with the other folds.
+            let joint = Joint::train_without(&taught, left_out, seed, &Work::quiet().on_threads(1)).ok();
+            let mut random = Random::new(seed);
+            let mut predict = |network: usize| {
+                let rooms = &networks[network].rooms;
+                let known: Vec<_> = rooms.iter().map(|room| room.label.filter(|_| random.unit() < known)).collect();
+                let said = joint.as_ref().map(|joint| joint.predict(networks[network], &known));
+                (network, said.unwrap_or_else(|| vec![Distribution::UNIFORM; rooms.len()]))
+            };
+            tested.into_iter().map(&mut predict).collect::<Vec<_>>()
+        })
+        .map_err(|Cancelled| JointValidationError::Cancelled)?;
+    let mut of_network: Vec<Vec<Distribution>> = vec![Vec::new(); networks.len()];
+    for (network, distributions) in predicted.into_iter().flatten() {
+        of_network[network] = distributions;
+    }
+    let predictions: Vec<Distribution> = places.iter().map(|place| of_network[place.network][place.room]).collect();
+    let rooms = folds.of_rows().iter().zip(&predictions).zip(&labels);
+    let scores = Scores::of(rooms.map(|((&fold, prediction), &label)| (fold, prediction, label)));
+    Ok(JointValidated { places, predictions, scores })
+}

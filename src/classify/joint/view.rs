@@ -1,0 +1,441 @@
+//! What the joint classifier sees of each room before any label is known: the room in relation to the
+//! other rooms of its plan. Nothing here comes from a room's name or function.
+
+use std::collections::VecDeque;
+
+use crate::dataset::RoomNetwork;
+use crate::plan::OpeningKind;
+
+/// Features that belong together: explained together, and left out together to see what they are worth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Group {
+    /// Area, most of all in relation to the other rooms of the plan.
+    Size,
+    /// Lengths, corners, how compact it is.
+    Form,
+    /// Its own openings.
+    Openings,
+    /// Its place in the graph of rooms.
+    Place,
+    /// The rooms it opens to, whatever their labels.
+    Neighbours,
+    /// Rooms like it in the plan.
+    Alike,
+    /// The plan as a whole.
+    Plan,
+    /// Labels of the rooms around, known or predicted: the second round's.
+    Labels,
+}
+
+impl Group {
+    pub const ALL: [Self; 8] =
+        [Self::Size, Self::Form, Self::Openings, Self::Place, Self::Neighbours, Self::Alike, Self::Plan, Self::Labels];
+
+    /// What the group is called in a sentence about a room.
+    pub const fn words(self) -> &'static str {
+        [
+            "its size among the rooms of the plan",
+            "its shape",
+            "its openings",
+            "its place in the graph",
+            "the shape of the rooms it opens to",
+            "the rooms of its size",
+            "the plan as a whole",
+            "the labels around it",
+        ][self as usize]
+    }
+}
+
+/// The features of the first round, in their order.
+pub const FEATURES: &[(Group, &str)] = &[
+    (Group::Size, "area against the plan's median"),
+    (Group::Size, "area against the largest room"),
+    (Group::Size, "area as a share of all"),
+    (Group::Size, "rank of area"),
+    (Group::Size, "area"),
+    (Group::Form, "axes ratio"),
+    (Group::Form, "length against width"),
+    (Group::Form, "perimeter against area"),
+    (Group::Form, "convexity"),
+    (Group::Form, "fill of its rectangle"),
+    (Group::Form, "walls"),
+    (Group::Form, "length against the plan's median room"),
+    (Group::Form, "width against the plan's median room"),
+    (Group::Form, "rank of length"),
+    (Group::Form, "rank of width"),
+    (Group::Openings, "openings"),
+    (Group::Openings, "rooms joined"),
+    (Group::Openings, "rooms joined against the most joined"),
+    (Group::Openings, "rank of openings"),
+    (Group::Openings, "openings along its walls"),
+    (Group::Openings, "free passages"),
+    (Group::Openings, "double doors"),
+    (Group::Openings, "openings to what is not classified"),
+    (Group::Openings, "second openings to the same room"),
+    (Group::Place, "betweenness"),
+    (Group::Place, "closeness"),
+    (Group::Place, "rank of closeness"),
+    (Group::Place, "steps to the farthest room"),
+    (Group::Place, "steps to the most joined room"),
+    (Group::Place, "share of rooms within reach"),
+    (Group::Neighbours, "neighbours that end there"),
+    (Group::Neighbours, "share of neighbours that end there"),
+    (Group::Neighbours, "neighbours' mean area against its own"),
+    (Group::Neighbours, "largest neighbour against its own area"),
+    (Group::Neighbours, "smallest neighbour against its own area"),
+    (Group::Neighbours, "largest neighbour against the plan's median"),
+    (Group::Neighbours, "rooms joined by the best joined neighbour"),
+    (Group::Neighbours, "rooms joined by neighbours"),
+    (Group::Neighbours, "axes ratio of the longest neighbour"),
+    (Group::Neighbours, "betweenness of the most passed neighbour"),
+    (Group::Neighbours, "small neighbours"),
+    (Group::Neighbours, "large neighbours"),
+    (Group::Neighbours, "share of larger neighbours"),
+    (Group::Alike, "rooms of its area"),
+    (Group::Alike, "share of rooms of its area"),
+    (Group::Alike, "rooms of its area and shape"),
+    (Group::Alike, "share of rooms of its area and shape"),
+    (Group::Alike, "area against the most common one"),
+    (Group::Alike, "rooms off the same neighbour"),
+    (Group::Alike, "median of these against its own area"),
+    (Group::Alike, "those of its area"),
+    (Group::Plan, "rooms"),
+    (Group::Plan, "median area"),
+    (Group::Plan, "spread of areas"),
+    (Group::Plan, "smallest tenth against the median"),
+    (Group::Plan, "largest tenth against the median"),
+    (Group::Plan, "largest room against the median"),
+    (Group::Plan, "mean openings"),
+    (Group::Plan, "share of rooms that are ends"),
+    (Group::Plan, "most rooms joined by one"),
+    (Group::Plan, "share of long rooms"),
+    (Group::Plan, "mean free passages"),
+];
+
+/// Areas and ratios count as equal up to this, in logarithms: half a percent is less than the error of
+/// tracing, and keeps rounding from deciding ranks.
+const EQUAL: f64 = 0.005;
+
+/// Rooms are alike in area, and in shape, up to this, in logarithms: 15 %.
+pub(super) const ALIKE: f64 = 0.15;
+
+/// A room is small, or large, beside the plan's median from these on, in logarithms: half, and 1.65.
+const SMALL: f64 = -0.7;
+const LARGE: f64 = 0.5;
+
+/// What stands for infinitely small and large: logarithms stay within 20.
+const LEAST: f64 = 1e-9;
+
+/// Up to so many rooms the graph is searched from every room, beyond from so many evenly spread ones:
+/// time stays in proportion to the plan.
+const MOST_SEARCHES: usize = 1000;
+
+/// Lists of a plan that features and labels around rooms follow from, one entry for each room.
+pub(super) struct View {
+    /// Natural logarithm of the area in m².
+    pub log_area: Vec<f64>,
+    /// The rooms that its openings lead to, each once, ascending.
+    pub joined: Vec<Vec<usize>>,
+    /// The other rooms that its best joined neighbour joins.
+    pub siblings: Vec<Vec<usize>>,
+}
+
+impl View {
+    pub fn new(network: &RoomNetwork) -> Self {
+        let log_area: Vec<f64> = network.rooms.iter().map(|room| log(room.area_m2)).collect();
+        let joined: Vec<Vec<usize>> = network
+            .rooms
+            .iter()
+            .map(|room| {
+                let mut joined: Vec<usize> = room.doors.iter().filter_map(|door| door.to).collect();
+                joined.sort_unstable();
+                joined.dedup();
+                joined
+            })
+            .collect();
+        let siblings = (0..joined.len())
+            .map(|room| {
+                // Equally joined neighbours of equal area lead to as many siblings: which is taken
+                // matters little, and the rooms' order decides.
+                let hub = joined[room]
+                    .iter()
+                    .copied()
+                    .max_by(|&p, &q| joined[p].len().cmp(&joined[q].len()).then(log_area[p].total_cmp(&log_area[q])));
+                hub.map_or_else(Vec::new, |hub| joined[hub].iter().copied().filter(|&other| other != room).collect())
+            })
+            .collect();
+        Self { log_area, joined, siblings }
+    }
+}
+
+fn log(number: f64) -> f64 {
+    number.max(LEAST).ln()
+}
+
+fn mean(numbers: impl Iterator<Item = f64>) -> Option<f64> {
+    let (count, sum) = numbers.fold((0, 0.0), |(count, sum), number| (count + 1, sum + number));
+    (count > 0).then(|| sum / f64::from(count))
+}
+
+fn most(numbers: impl Iterator<Item = f64>) -> f64 {
+    numbers.reduce(f64::max).unwrap_or_default()
+}
+
+fn count(items: impl Iterator<Item = bool>) -> f64 {
+    items.filter(|&is| is).count() as f64
+}
+
+/// The number below which this share of sorted numbers lies, between neighbours in proportion.
+fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let Some(last) = sorted.len().checked_sub(1) else { return 0.0 };
+    let at = share * last as f64;
+    let below = at.floor() as usize;
+    sorted[below] + (at - below as f64) * (sorted[(below + 1).min(last)] - sorted[below])
+}
+
+fn sorted(numbers: &[f64]) -> Vec<f64> {
+    let mut sorted = numbers.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted
+}
+
+/// How many of sorted numbers are at most this, up to [`EQUAL`].
+fn within(sorted: &[f64], low: f64, high: f64) -> usize {
+    sorted.partition_point(|&number| number <= high).saturating_sub(sorted.partition_point(|&number| number < low))
+}
+
+/// For each number the share of the others that are smaller; equal ones count half.
+fn ranks(numbers: &[f64]) -> Vec<f64> {
+    let sorted = sorted(numbers);
+    let others = (numbers.len().max(2) - 1) as f64;
+    numbers
+        .iter()
+        .map(|&number| {
+            let smaller = sorted.partition_point(|&other| other < number - EQUAL) as f64;
+            let equal = within(&sorted, number - EQUAL, number + EQUAL) as f64 - 1.0;
+            (smaller + equal / 2.0) / others
+        })
+        .collect()
+}
+
+/// What searches of the graph tell of each room.
+#[derive(Clone, Copy, Default)]
+struct Search {
+    /// Share of the shortest ways between other rooms that lead through it (Freeman 1977).
+    betweenness: f64,
+    /// One over the mean number of steps to the rooms within reach.
+    closeness: f64,
+    farthest: f64,
+    /// Share of all rooms within reach, itself included.
+    reach: f64,
+}
+
+/// Searches the graph breadth first from every room; betweenness after Brandes (2001).
+fn search(joined: &[Vec<usize>]) -> Vec<Search> {
+    let rooms = joined.len();
+    let mut found = vec![Search::default(); rooms];
+    let stride = rooms.div_ceil(MOST_SEARCHES).max(1);
+    let mut from_here = vec![0.0; rooms];
+    for start in 0..rooms {
+        if start % stride != 0 {
+            continue;
+        }
+        let mut steps: Vec<Option<u32>> = vec![None; rooms];
+        let mut ways = vec![0.0; rooms];
+        let mut order = Vec::new();
+        let mut queue = VecDeque::from([start]);
+        (steps[start], ways[start]) = (Some(0), 1.0);
+        while let Some(room) = queue.pop_front() {
+            order.push(room);
+            let next = steps[room].map(|steps| steps + 1);
+            for &other in &joined[room] {
+                if steps[other].is_none() {
+                    steps[other] = next;
+                    queue.push_back(other);
+                }
+                if steps[other] == next {
+                    ways[other] += ways[room];
+                }
+            }
+        }
+        let reached = order.len() as f64;
+        let sum: f64 = order.iter().filter_map(|&room| steps[room]).map(f64::from).sum();
+        let farthest = order.last().and_then(|&room| steps[room]).unwrap_or_default();
+        found[start].closeness = if sum > 0.0 { (reached - 1.0) / sum } else { 0.0 };
+        found[start].farthest = f64::from(farthest);
+        found[start].reach = reached / rooms as f64;
+        from_here.fill(0.0);
+        let pairs = ((reached - 1.0) * (reached - 2.0)).max(1.0) / stride as f64;
+        for &room in order.iter().rev() {
+            let before = steps[room].and_then(|steps| steps.checked_sub(1));
+            for &other in &joined[room] {
+                if before.is_some() && steps[other] == before {
+                    from_here[other] += ways[other] / ways[room] * (1.0 + from_here[room]);
+                }
+            }
+            if room != start {
+                found[room].betweenness += from_here[room] / pairs;
+            }
+        }
+    }
+    if stride > 1 {
+        // Rooms that were not searched from take what the last one before them found.
+        for room in 0..rooms {
+            let Search { closeness, farthest, reach, .. } = found[room / stride * stride];
+            found[room] = Search { closeness, farthest, reach, ..found[room] };
+        }
+    }
+    found
+}
+
+/// For each room the steps to the nearest of these rooms; one more than any way is long where there is
+/// none.
+fn steps_to(joined: &[Vec<usize>], targets: impl Iterator<Item = usize>) -> Vec<f64> {
+    let mut steps = vec![None; joined.len()];
+    let mut queue: VecDeque<usize> = targets.collect();
+    for &target in &queue {
+        steps[target] = Some(0);
+    }
+    while let Some(room) = queue.pop_front() {
+        let next = steps[room].map(|steps: u32| steps + 1);
+        for &other in &joined[room] {
+            if steps[other].is_none() {
+                steps[other] = next;
+                queue.push_back(other);
+            }
+        }
+    }
+    steps.into_iter().map(|steps| steps.map_or(joined.len() as f64, f64::from)).collect()
+}
+
+/// The features of every room of a network, each list as long as [`FEATURES`]; all finite.
+pub(super) fn features(network: &RoomNetwork, view: &View) -> Vec<Vec<f32>> {
+    let View { log_area, joined, siblings } = view;
+    let rooms = &network.rooms;
+    let all = rooms.len() as f64;
+    let areas = sorted(log_area);
+    let median = quantile(&areas, 0.5);
+    let largest = areas.last().copied().unwrap_or_default();
+    let total = log(rooms.iter().map(|room| room.area_m2).sum());
+    // The side of a square of the median area.
+    let side = median / 2.0;
+    let log_length: Vec<f64> = rooms.iter().map(|room| log(room.form.length_m)).collect();
+    let log_width: Vec<f64> = rooms.iter().map(|room| log(room.form.width_m)).collect();
+    let aspect: Vec<f64> = log_length.iter().zip(&log_width).map(|(length, width)| length - width).collect();
+    let doors: Vec<f64> = rooms.iter().map(|room| room.doors.len() as f64).collect();
+    let degree: Vec<f64> = joined.iter().map(|joined| joined.len() as f64).collect();
+    let passages: Vec<f64> =
+        rooms.iter().map(|room| count(room.doors.iter().map(|door| door.kind == OpeningKind::Passage))).collect();
+    let most_joined = most(degree.iter().copied());
+    let (area_rank, door_rank) = (ranks(log_area), ranks(&doors));
+    let (length_rank, width_rank) = (ranks(&log_length), ranks(&log_width));
+    let places = search(joined);
+    let closeness: Vec<f64> = places.iter().map(|place| place.closeness).collect();
+    let closeness_rank = ranks(&closeness);
+    let mean_closeness = mean(closeness.iter().copied()).unwrap_or_default();
+    let hubs = (0..rooms.len()).filter(|&room| degree[room] == most_joined);
+    let to_hub = steps_to(joined, hubs);
+    let of_area: Vec<f64> =
+        log_area.iter().map(|&area| within(&areas, area - ALIKE, area + ALIKE) as f64 - 1.0).collect();
+    // Of equally common areas the mean, so that the rooms' order does not matter.
+    let most_common = most(of_area.iter().copied());
+    let common = (0..rooms.len()).filter(|&room| of_area[room] == most_common).map(|room| log_area[room]);
+    let common = mean(common).unwrap_or_default();
+    let mean_area = mean(log_area.iter().copied()).unwrap_or_default();
+    let spread = mean(log_area.iter().map(|area| (area - mean_area).powi(2))).unwrap_or_default().sqrt();
+    let plan = [
+        all,
+        median,
+        spread,
+        quantile(&areas, 0.1) - median,
+        quantile(&areas, 0.9) - median,
+        largest - median,
+        mean(doors.iter().copied()).unwrap_or_default(),
+        count(degree.iter().map(|&degree| degree <= 1.0)) / all.max(1.0),
+        most_joined,
+        count(rooms.iter().map(|room| log(room.axes_ratio) > 1.0)) / all.max(1.0),
+        mean(passages.iter().copied()).unwrap_or_default(),
+    ];
+    // By rooms sorted by area, those alike in area stand together.
+    let mut by_area: Vec<usize> = (0..rooms.len()).collect();
+    by_area.sort_by(|&p, &q| log_area[p].total_cmp(&log_area[q]));
+    let of_area_and_shape = |room: usize| {
+        let from = areas.partition_point(|&area| area < log_area[room] - ALIKE);
+        let to = areas.partition_point(|&area| area <= log_area[room] + ALIKE);
+        count(by_area[from..to].iter().map(|&other| (aspect[other] - aspect[room]).abs() <= ALIKE)) - 1.0
+    };
+    let others = (all - 1.0).max(1.0);
+    (0..rooms.len())
+        .map(|index| {
+            let (room, area) = (&rooms[index], log_area[index]);
+            let neighbours = || joined[index].iter().copied();
+            let ends = count(neighbours().map(|other| degree[other] <= 1.0));
+            let related = |pick: fn(f64, f64) -> f64| neighbours().map(|other| log_area[other]).reduce(pick);
+            let (largest_neighbour, smallest_neighbour) = (related(f64::max), related(f64::min));
+            let beside = |area_beside: Option<f64>| area_beside.map_or(0.0, |beside| beside - area);
+            let siblings = &siblings[index];
+            let sibling_areas: Vec<f64> = siblings.iter().map(|&other| log_area[other]).collect();
+            let same = of_area_and_shape(index);
+            let own = [
+                area - median,
+                area - largest,
+                area - total,
+                area_rank[index],
+                area,
+                // Size above, form below.
+                log(room.axes_ratio),
+                aspect[index],
+                log(room.form.perimeter_m) - area / 2.0,
+                room.form.convexity,
+                room.form.fill(room.area_m2),
+                f64::from(room.form.walls),
+                log_length[index] - side,
+                log_width[index] - side,
+                length_rank[index],
+                width_rank[index],
+                // Openings.
+                doors[index],
+                degree[index],
+                degree[index] / most_joined.max(1.0),
+                door_rank[index],
+                doors[index] / room.form.perimeter_m.max(LEAST) * side.exp(),
+                passages[index],
+                count(room.doors.iter().map(|door| door.kind == OpeningKind::DoubleDoor)),
+                count(room.doors.iter().map(|door| door.to.is_none())),
+                count(room.doors.iter().map(|door| door.to.is_some())) - degree[index],
+                // Place.
+                places[index].betweenness,
+                closeness[index] - mean_closeness,
+                closeness_rank[index],
+                places[index].farthest,
+                to_hub[index],
+                places[index].reach,
+                // Neighbours.
+                ends,
+                ends / degree[index].max(1.0),
+                beside(mean(neighbours().map(|other| log_area[other]))),
+                beside(largest_neighbour),
+                beside(smallest_neighbour),
+                largest_neighbour.map_or(0.0, |beside| beside - median),
+                most(neighbours().map(|other| degree[other])),
+                mean(neighbours().map(|other| degree[other])).unwrap_or_default(),
+                most(neighbours().map(|other| log(rooms[other].axes_ratio))),
+                most(neighbours().map(|other| places[other].betweenness)),
+                count(neighbours().map(|other| log_area[other] - median < SMALL)),
+                count(neighbours().map(|other| log_area[other] - median > LARGE)),
+                mean(neighbours().map(|other| f64::from(u8::from(log_area[other] > area + EQUAL)))).unwrap_or(0.5),
+                // Alike.
+                of_area[index],
+                of_area[index] / others,
+                same,
+                same / others,
+                area - common,
+                siblings.len() as f64,
+                if siblings.is_empty() { 0.0 } else { quantile(&sorted(&sibling_areas), 0.5) - area },
+                count(sibling_areas.iter().map(|other| (other - area).abs() <= ALIKE)),
+            ];
+            let numbers = own.iter().chain(&plan).map(|&number| number as f32);
+            numbers.map(|number| if number.is_finite() { number } else { 0.0 }).collect()
+        })
+        .collect()
+}

@@ -1,0 +1,529 @@
+//! Which typology a plan is of, from the plan itself: the paper's future work. Described for readers in
+//! `docs/joint.md`.
+//!
+//! Eight measures of the plan as a whole ([`Measure`]) are compared with those of known plans by
+//! Fisher's linear discriminant (1936): each typology has a mean, all share one covariance, so measures
+//! that say the same are not counted twice. Where labels of rooms are known, how often each occurs
+//! counts too. Before any evidence every typology is as likely, however many plans of it there were to
+//! learn from.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+
+use serde_json::{Value, json};
+
+use crate::dataset::RoomNetwork;
+use crate::labels::{Label, Typology};
+use crate::plan::OpeningKind;
+use crate::random::Random;
+
+/// What is measured of a plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Measure {
+    /// Number of rooms.
+    Rooms,
+    /// Median area of the rooms.
+    MedianArea,
+    /// How different areas are: the standard deviation of their logarithms.
+    Spread,
+    /// The largest room's area as a multiple of the median.
+    Largest,
+    /// Mean number of openings of a room.
+    Openings,
+    /// Share of rooms that at most one other room is joined to.
+    Ends,
+    /// Share of rooms more than 2.7 times as long as wide.
+    Long,
+    /// Free passages as a share of openings.
+    Passages,
+}
+
+const MEASURES: usize = 8;
+
+type Measures = [f64; MEASURES];
+
+impl Measure {
+    pub const ALL: [Self; MEASURES] = [
+        Self::Rooms,
+        Self::MedianArea,
+        Self::Spread,
+        Self::Largest,
+        Self::Openings,
+        Self::Ends,
+        Self::Long,
+        Self::Passages,
+    ];
+
+    /// The word for files.
+    pub const fn name(self) -> &'static str {
+        ["rooms", "median_area", "spread", "largest", "openings", "ends", "long", "passages"][self as usize]
+    }
+
+    /// A value in words. Counts, areas and ratios are measured as logarithms.
+    fn words(self, value: f64) -> String {
+        match self {
+            Self::Rooms => format!("{:.0} rooms", value.exp()),
+            Self::MedianArea => format!("median area {:.1} m²", value.exp()),
+            Self::Spread => format!("areas vary by a factor of {:.1}", value.exp()),
+            Self::Largest => format!("largest room {:.1} times the median", value.exp()),
+            Self::Openings => format!("{:.1} openings a room", value.exp()),
+            Self::Ends => format!("{:.0} % of rooms are ends", value * 100.0),
+            Self::Long => format!("{:.0} % of rooms are long", value * 100.0),
+            Self::Passages => format!("{:.0} % of openings are free passages", value * 100.0),
+        }
+    }
+}
+
+/// Areas and ratios below this count as this.
+const LEAST: f64 = 1e-6;
+
+/// The measures of a plan with at least one room; all finite.
+fn measures(network: &RoomNetwork) -> Option<Measures> {
+    if network.rooms.is_empty() {
+        return None;
+    }
+    let rooms = network.rooms.len() as f64;
+    let mut areas: Vec<f64> = network.rooms.iter().map(|room| room.area_m2.max(LEAST).ln()).collect();
+    areas.sort_by(f64::total_cmp);
+    let median = (areas[(areas.len() - 1) / 2] + areas[areas.len() / 2]) / 2.0;
+    let mean = areas.iter().sum::<f64>() / rooms;
+    let variance = areas.iter().map(|area| (area - mean).powi(2)).sum::<f64>() / rooms;
+    let share = |is: &dyn Fn(&crate::dataset::NetworkRoom) -> bool| {
+        network.rooms.iter().filter(|room| is(room)).count() as f64 / rooms
+    };
+    let openings: usize = network.rooms.iter().map(|room| room.doors.len()).sum();
+    let doors = network.rooms.iter().flat_map(|room| &room.doors);
+    let passages = doors.filter(|door| door.kind == OpeningKind::Passage).count();
+    let ends = share(&|room| room.doors.iter().filter_map(|door| door.to).collect::<BTreeSet<_>>().len() <= 1);
+    let largest = areas.last().map_or(0.0, |largest| largest - median);
+    let measures = [
+        rooms.ln(),
+        median,
+        variance.sqrt(),
+        largest,
+        (openings as f64 / rooms).max(0.1).ln(),
+        ends,
+        share(&|room| room.axes_ratio > std::f64::consts::E),
+        passages as f64 / (openings.max(1)) as f64,
+    ];
+    measures.iter().all(|measure| measure.is_finite()).then_some(measures)
+}
+
+/// What was learned of one typology.
+#[derive(Clone, Debug, PartialEq)]
+struct Known {
+    typology: Typology,
+    plans: usize,
+    mean: Measures,
+    /// Shares of labels among its labelled rooms, each above 0.
+    labels: [f64; 5],
+}
+
+/// Infers typologies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TypologyModel {
+    /// By typology, at least one.
+    known: Vec<Known>,
+    /// The covariance that all share, shrunk, positive definite.
+    covariance: [Measures; MEASURES],
+    left_out: BTreeSet<Measure>,
+    /// The evidence is divided by this, which makes the posterior believable.
+    temperature: f64,
+}
+
+/// No plan with rooms has a typology.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoTypologies;
+
+impl fmt::Display for NoTypologies {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("there are no plans of a known typology to learn from; set the typology of some plans")
+    }
+}
+
+impl std::error::Error for NoTypologies {}
+
+/// Share by which the covariance is drawn to its diagonal: with 16 plans of a kind, 28 numbers are not
+/// known well.
+const SHRINKAGE: f64 = 0.1;
+
+/// The least variance of a measure, so that one that never varied does not decide alone.
+const LEAST_VARIANCE: f64 = 1e-3;
+
+/// How alike labels are within a building, as the number of rooms of prior belief in Polya's urn: with
+/// it a plan's third bathroom says less than its first.
+const URN: f64 = 10.0;
+
+/// Folds by which the temperature is found.
+const INNER_FOLDS: usize = 5;
+
+/// Temperatures tried.
+const TEMPERATURES: std::ops::RangeInclusive<u32> = 5..=40;
+
+impl TypologyModel {
+    /// Learns from the plans whose typology is known.
+    ///
+    /// # Errors
+    /// When there are none with rooms.
+    pub fn train(networks: &[&RoomNetwork]) -> Result<Self, NoTypologies> {
+        Self::train_without(networks, &BTreeSet::new())
+    }
+
+    /// The same without some measures, to see what is left without them.
+    ///
+    /// # Errors
+    /// As [`TypologyModel::train`].
+    pub fn train_without(networks: &[&RoomNetwork], left_out: &BTreeSet<Measure>) -> Result<Self, NoTypologies> {
+        let mut model = Self::fit(networks, left_out)?;
+        let fold_of = building_folds(networks, INNER_FOLDS, 0);
+        let mut unseen: Vec<(Vec<f64>, usize, f64)> = Vec::new();
+        for fold in 0..INNER_FOLDS {
+            let part = |tests: bool| networks.iter().zip(&fold_of).filter(move |(_, of)| (**of == fold) == tests);
+            let taught: Vec<&RoomNetwork> = part(false).map(|(network, _)| *network).collect();
+            let Ok(part_model) = Self::fit(&taught, left_out) else { continue };
+            for (network, _) in part(true) {
+                let position = |typology: &Typology| part_model.known.iter().position(|it| it.typology == *typology);
+                let Some(truth) = network.typology.as_ref().and_then(position) else { continue };
+                let Some(of_all) = model.known.iter().find(|it| Some(&it.typology) == network.typology.as_ref()) else {
+                    continue;
+                };
+                // Every typology counts alike, however many plans it has.
+                unseen.push((part_model.evidence(network, &[]), truth, 1.0 / of_all.plans as f64));
+            }
+        }
+        let loss = |temperature: f64| -> f64 {
+            let surprise = |(evidence, truth, weight): &(Vec<f64>, usize, f64)| {
+                -weight * softmax(evidence, temperature)[*truth].max(1e-9).ln()
+            };
+            unseen.iter().map(surprise).sum()
+        };
+        let temperatures = TEMPERATURES.map(|tenths| f64::from(tenths) / 10.0);
+        if !unseen.is_empty() {
+            model.temperature = temperatures.min_by(|&p, &q| loss(p).total_cmp(&loss(q))).unwrap_or(1.0);
+        }
+        Ok(model)
+    }
+
+    fn fit(networks: &[&RoomNetwork], left_out: &BTreeSet<Measure>) -> Result<Self, NoTypologies> {
+        let mut plans: BTreeMap<&Typology, Vec<(Measures, [f64; 5])>> = BTreeMap::new();
+        for network in networks {
+            let (Some(typology), Some(measures)) = (&network.typology, measures(network)) else { continue };
+            let mut labels = [0.0; 5];
+            for label in network.rooms.iter().filter_map(|room| room.label) {
+                labels[label.index()] += 1.0;
+            }
+            plans.entry(typology).or_default().push((measures, labels));
+        }
+        if plans.is_empty() {
+            return Err(NoTypologies);
+        }
+        let mut known = Vec::new();
+        let mut covariance = [[0.0; MEASURES]; MEASURES];
+        for (&typology, plans) in &plans {
+            let count = plans.len() as f64;
+            let mean: Measures =
+                std::array::from_fn(|i| plans.iter().map(|(measures, _)| measures[i]).sum::<f64>() / count);
+            for (measures, _) in plans {
+                for (i, row) in covariance.iter_mut().enumerate() {
+                    for (j, cell) in row.iter_mut().enumerate() {
+                        *cell += (measures[i] - mean[i]) * (measures[j] - mean[j]) / count;
+                    }
+                }
+            }
+            let counts: [f64; 5] =
+                std::array::from_fn(|label| 1.0 + plans.iter().map(|(_, of)| of[label]).sum::<f64>());
+            let all: f64 = counts.iter().sum();
+            known.push(Known { typology: typology.clone(), plans: plans.len(), mean, labels: counts.map(|n| n / all) });
+        }
+        let typologies = known.len() as f64;
+        for (i, row) in covariance.iter_mut().enumerate() {
+            for (j, cell) in row.iter_mut().enumerate() {
+                *cell /= typologies;
+                let is_used = ![i, j].iter().any(|&measure| left_out.contains(&Measure::ALL[measure]));
+                *cell = match (i == j, is_used) {
+                    (true, _) => cell.max(LEAST_VARIANCE),
+                    (false, true) => *cell * (1.0 - SHRINKAGE),
+                    (false, false) => 0.0,
+                };
+            }
+        }
+        Ok(Self { known, covariance, left_out: left_out.clone(), temperature: 1.0 })
+    }
+
+    /// Probabilities of the typologies learned from, the most probable first. `known` holds the labels of
+    /// the network's rooms that are known without knowing the typology; a list that is too short knows no
+    /// more. Without rooms all are as likely.
+    pub fn posterior(&self, network: &RoomNetwork, known: &[Option<Label>]) -> Vec<(Typology, f64)> {
+        let probabilities = softmax(&self.evidence(network, known), self.temperature);
+        let mut posterior: Vec<(Typology, f64)> =
+            self.known.iter().map(|known| known.typology.clone()).zip(probabilities).collect();
+        posterior.sort_by(|p, q| q.1.total_cmp(&p.1));
+        posterior
+    }
+
+    /// What speaks for the most probable typology against the next, in words, the strongest first:
+    /// `48 rooms (school 33, office 41)`. Nothing where there is but one typology, or no room.
+    pub fn reasons(&self, network: &RoomNetwork, known: &[Option<Label>]) -> Vec<String> {
+        let posterior = self.posterior(network, known);
+        let find = |rank: usize| {
+            let (typology, _) = posterior.get(rank)?;
+            self.known.iter().find(|known| known.typology == *typology)
+        };
+        let (Some(best), Some(next), Some(measured)) = (find(0), find(1), measures(network)) else {
+            return Vec::new();
+        };
+        let difference: Measures = std::array::from_fn(|i| self.used(i, best.mean[i] - next.mean[i]));
+        let weights = solve(self.covariance, difference);
+        let mut reasons: Vec<(f64, String)> = Measure::ALL
+            .iter()
+            .enumerate()
+            .map(|(i, measure)| {
+                let evidence = weights[i] * (measured[i] - (best.mean[i] + next.mean[i]) / 2.0);
+                let words = format!(
+                    "{} (typical of {}: {}; of {}: {})",
+                    measure.words(measured[i]),
+                    best.typology,
+                    measure.words(best.mean[i]),
+                    next.typology,
+                    measure.words(next.mean[i])
+                );
+                (evidence, words)
+            })
+            .collect();
+        let counts = counts_of(known);
+        let labels = urn(&counts, &best.labels) - urn(&counts, &next.labels);
+        if counts.iter().any(|&count| count > 0) {
+            reasons.push((labels, format!("the {} rooms whose labels are known", counts.iter().sum::<u32>())));
+        }
+        reasons.retain(|(evidence, _)| *evidence > SPEAKS);
+        reasons.sort_by(|p, q| q.0.total_cmp(&p.0));
+        reasons.into_iter().map(|(_, words)| words).collect()
+    }
+
+    fn used(&self, measure: usize, value: f64) -> f64 {
+        if self.left_out.contains(&Measure::ALL[measure]) { 0.0 } else { value }
+    }
+
+    /// The logarithm of the likelihood of what is seen under each typology, up to a constant.
+    fn evidence(&self, network: &RoomNetwork, known: &[Option<Label>]) -> Vec<f64> {
+        let counts = counts_of(known);
+        let measured = measures(network);
+        let of_typology = |of: &Known| {
+            let shape = measured.map_or(0.0, |measured| {
+                let off: Measures = std::array::from_fn(|i| self.used(i, measured[i] - of.mean[i]));
+                let weights = solve(self.covariance, off);
+                -0.5 * off.iter().zip(weights).map(|(off, weight)| off * weight).sum::<f64>()
+            });
+            shape + urn(&counts, &of.labels)
+        };
+        self.known.iter().map(of_typology).collect()
+    }
+
+    /// The model as plain data.
+    pub fn to_value(&self) -> Value {
+        let named = |measures: &Measures| -> Value {
+            Measure::ALL
+                .iter()
+                .zip(measures)
+                .map(|(measure, &value)| (measure.name().to_owned(), json!(value)))
+                .collect()
+        };
+        let typologies = self.known.iter().map(|known| {
+            json!({
+                "typology": known.typology.as_str(),
+                "plans": known.plans,
+                "mean": named(&known.mean),
+                "labels": known.labels,
+            })
+        });
+        json!({
+            "typologies": typologies.collect::<Vec<_>>(),
+            "covariance": self.covariance.iter().map(named).collect::<Vec<_>>(),
+            "without": self.left_out.iter().map(|measure| measure.name()).collect::<Vec<_>>(),
+            "temperature": self.temperature,
+        })
+    }
+
+    /// The model of such data.
+    ///
+    /// # Errors
+    /// What is missing, or not what it should be.
+    pub fn from_value(value: &Value) -> Result<Self, TypologyModelError> {
+        let refuse = |what: &'static str| TypologyModelError(what);
+        let list = |name: &str| value.get(name).and_then(Value::as_array);
+        let number = |value: Option<&Value>| value.and_then(Value::as_f64).filter(|number| number.is_finite());
+        let named = |value: Option<&Value>| -> Option<Measures> {
+            let mut measures = [0.0; MEASURES];
+            for (measure, slot) in Measure::ALL.iter().zip(&mut measures) {
+                *slot = number(value?.get(measure.name()))?;
+            }
+            Some(measures)
+        };
+        let mut known: Vec<Known> = Vec::new();
+        for entry in list("typologies").ok_or(refuse("'typologies' is missing"))? {
+            let typology = entry.get("typology").and_then(Value::as_str).and_then(Typology::new);
+            let typology = typology.ok_or(refuse("a typology has no name"))?;
+            if known.iter().any(|other| other.typology == typology) {
+                return Err(refuse("a typology is named twice"));
+            }
+            let plans = entry.get("plans").and_then(Value::as_u64).and_then(|plans| usize::try_from(plans).ok());
+            let mut labels = [0.0; 5];
+            let shares = entry.get("labels").and_then(Value::as_array).filter(|shares| shares.len() == 5);
+            for (share, slot) in shares.ok_or(refuse("'labels' does not hold five shares"))?.iter().zip(&mut labels) {
+                let share = number(Some(share)).filter(|share| *share > 0.0 && *share <= 1.0);
+                *slot = share.ok_or(refuse("a share of 'labels' is not above 0 and at most 1"))?;
+            }
+            known.push(Known {
+                typology,
+                plans: plans.filter(|&plans| plans > 0).ok_or(refuse("'plans' is not a positive number"))?,
+                mean: named(entry.get("mean")).ok_or(refuse("'mean' does not hold a number for each measure"))?,
+                labels,
+            });
+        }
+        if known.is_empty() {
+            return Err(refuse("it knows no typology"));
+        }
+        let rows = list("covariance").filter(|rows| rows.len() == MEASURES);
+        let mut covariance = [[0.0; MEASURES]; MEASURES];
+        for (row, slot) in rows.ok_or(refuse("'covariance' is no square"))?.iter().zip(&mut covariance) {
+            *slot = named(Some(row)).ok_or(refuse("'covariance' does not hold a number for each pair"))?;
+        }
+        if cholesky(covariance).is_none() {
+            return Err(refuse("'covariance' is not positive definite"));
+        }
+        let mut left_out = BTreeSet::new();
+        for name in list("without").ok_or(refuse("'without' is missing"))? {
+            let measure = Measure::ALL.into_iter().find(|measure| name.as_str() == Some(measure.name()));
+            left_out.insert(measure.ok_or(refuse("'without' names an unknown measure"))?);
+        }
+        let temperature = number(value.get("temperature")).filter(|temperature| *temperature > 0.0);
+        let temperature = temperature.ok_or(refuse("'temperature' is no positive number"))?;
+        Ok(Self { known, covariance, left_out, temperature })
+    }
+}
+
+/// Evidence below this (in nats, of the undivided kind) is not worth a word.
+const SPEAKS: f64 = 0.1;
+
+/// Why data are no model of typologies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TypologyModelError(pub &'static str);
+
+impl fmt::Display for TypologyModelError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}; restore the file from a copy, or train it again", self.0)
+    }
+}
+
+impl std::error::Error for TypologyModelError {}
+
+fn softmax(evidence: &[f64], temperature: f64) -> Vec<f64> {
+    let most = evidence.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let weights: Vec<f64> = evidence.iter().map(|evidence| ((evidence - most) / temperature).exp()).collect();
+    let sum: f64 = weights.iter().sum();
+    weights.into_iter().map(|weight| weight / sum).collect()
+}
+
+fn counts_of(known: &[Option<Label>]) -> [u32; 5] {
+    let mut counts = [0; 5];
+    for label in known.iter().flatten() {
+        counts[label.index()] += 1;
+    }
+    counts
+}
+
+/// The logarithm of the probability of labels in some order, drawn from Polya's urn.
+fn urn(counts: &[u32; 5], shares: &[f64; 5]) -> f64 {
+    let mut drawn = 0;
+    let mut sum = 0.0;
+    for (&count, share) in counts.iter().zip(shares) {
+        for before in 0..count {
+            sum += ((URN * share + f64::from(before)) / (URN + f64::from(drawn))).ln();
+            drawn += 1;
+        }
+    }
+    sum
+}
+
+/// The lower triangle L of a positive definite matrix L Lᵀ; `None` of another.
+fn cholesky(matrix: [Measures; MEASURES]) -> Option<[Measures; MEASURES]> {
+    let mut lower = [[0.0; MEASURES]; MEASURES];
+    for i in 0..MEASURES {
+        for j in 0..=i {
+            let rest = matrix[i][j] - (0..j).map(|k| lower[i][k] * lower[j][k]).sum::<f64>();
+            if i == j {
+                if rest.is_nan() || rest <= 0.0 {
+                    return None;
+                }
+                lower[i][i] = rest.sqrt();
+            } else {
+                lower[i][j] = rest / lower[j][j];
+            }
+        }
+    }
+    Some(lower)
+}
+
+/// Solves `matrix x = right`; where the matrix is not positive definite, as if it had its diagonal only.
+fn solve(matrix: [Measures; MEASURES], right: Measures) -> Measures {
+    let Some(lower) = cholesky(matrix) else {
+        return std::array::from_fn(|i| right[i] / matrix[i][i].max(LEAST_VARIANCE));
+    };
+    let mut x = right;
+    for i in 0..MEASURES {
+        x[i] = (x[i] - (0..i).map(|k| lower[i][k] * x[k]).sum::<f64>()) / lower[i][i];
+    }
+    for i in (0..MEASURES).rev() {
+        x[i] = (x[i] - (i + 1..MEASURES).map(|k| lower[k][i] * x[k]).sum::<f64>()) / lower[i][i];
+    }
+    x
+}
+
+/// The fold of each network: the buildings of each typology are dealt in random order.
+fn building_folds(networks: &[&RoomNetwork], folds: usize, seed: u64) -> Vec<usize> {
+    let building = |network: &RoomNetwork| (network.typology.clone(), network.building.clone());
+    let mut buildings: Vec<_> = networks.iter().map(|network| building(network)).collect();
+    buildings.sort_unstable();
+    buildings.dedup();
+    Random::new(seed).shuffle(&mut buildings);
+    buildings.sort_by(|p, q| p.0.cmp(&q.0));
+    let fold_of: BTreeMap<_, usize> =
+        buildings.into_iter().enumerate().map(|(turn, key)| (key, turn % folds)).collect();
+    networks.iter().map(|network| fold_of.get(&building(network)).copied().unwrap_or_default()).collect()
+}
+
+/// A plan's true typology and the posterior that a model gave it which did not know its building.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inferred {
+    pub building: String,
+    pub truth: Typology,
+    pub posterior: Vec<(Typology, f64)>,
+}
+
+/// Cross-validates with folds that never split a building. `blind` are the same plans as they are seen
+/// when nobody knows their typology (label schemes say nothing then), in the order of `networks`. No
+/// label is given.
+pub fn cross_validate(
+    networks: &[&RoomNetwork],
+    blind: &[&RoomNetwork],
+    left_out: &BTreeSet<Measure>,
+    folds: usize,
+    seed: u64,
+) -> Vec<Inferred> {
+    let folds = folds.max(2);
+    let fold_of = building_folds(networks, folds, seed);
+    let mut inferred = Vec::new();
+    for fold in 0..folds {
+        let taught = networks.iter().zip(&fold_of).filter(|(_, of)| **of != fold).map(|(network, _)| *network);
+        let Ok(model) = TypologyModel::train_without(&taught.collect::<Vec<_>>(), left_out) else { continue };
+        let tested = networks.iter().zip(blind).zip(&fold_of).filter(|(_, of)| **of == fold);
+        inferred.extend(tested.filter_map(|((network, blind), _)| {
+            Some(Inferred {
+                building: network.building.clone(),
+                truth: network.typology.clone()?,
+                posterior: model.posterior(blind, &[]),
+            })
+        }));
+    }
+    inferred
+}
