@@ -6,7 +6,7 @@
 
 #[path = "commands/arguments.rs"]
 mod arguments;
-#[path = "window/golden.rs"]
+#[path = "commands/golden.rs"]
 mod golden;
 #[path = "commands/manual.rs"]
 mod manual;

@@ -1,34 +1,65 @@
-//! Every script in the folders of `tests/replay` is a test of its own: a new case is a new folder with a
-//! `script.replay`, its pictures and what else it needs. And what a script cannot say of itself: how
-//! wrong scripts end, that recordings replay, that the manual is complete.
+//! Every script in the folders of `tests/replay/cases` is a test of its own: a new case is a new folder
+//! with a `script.replay`, its pictures and what else it needs. And what a script cannot say of itself:
+//! how wrong scripts end, that recordings replay, that the manual is complete.
 //!
 //! `UPDATE_GOLDEN=1 cargo test --test replay` makes what comes out the new references.
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]
+
+#[path = "replay/command.rs"]
+mod command;
+#[path = "replay/errors.rs"]
+mod errors;
+#[path = "replay/manual.rs"]
+mod manual;
+#[path = "replay/recordings.rs"]
+mod recordings;
+#[path = "support/mod.rs"]
+mod support;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use enfilade::app::replay::{ReplayOptions, ScriptFile, find_scripts, replay};
+use enfilade::app::replay::{ReplayOptions, Report, ScriptFile, find_scripts, replay};
 use libtest_mimic::{Arguments, Failed, Trial};
 
 fn main() -> ExitCode {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/replay/cases");
-    let scripts = find_scripts(&[folder]).expect("there are scripts");
-    let trials = scripts.into_iter().map(|script| Trial::test(script.title.clone(), move || run(&script)));
-    libtest_mimic::run(&Arguments::from_args(), trials.collect()).exit_code()
+    let scripts = find_scripts(&[tests("cases")]).expect("there are scripts");
+    let mut trials: Vec<Trial> = scripts
+        .into_iter()
+        .map(|script| {
+            let name = format!("cases/{}", script.title);
+            Trial::test(name, move || passed(&replay(&script, &options())))
+        })
+        .collect();
+    trials.extend(errors::trials());
+    trials.extend(recordings::trials());
+    trials.extend(command::trials());
+    trials.push(Trial::test("the_manual_is_complete", || {
+        manual::is_complete();
+        Ok(())
+    }));
+    libtest_mimic::run(&Arguments::from_args(), trials).exit_code()
 }
 
-/// Runs a script; fails with all that went wrong in it.
-fn run(script: &ScriptFile) -> Result<(), Failed> {
-    let options = ReplayOptions { update: std::env::var_os("UPDATE_GOLDEN").is_some(), ..ReplayOptions::default() };
-    let report = replay(script, &options);
+/// A file or folder of these tests.
+fn tests(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/replay").join(name)
+}
+
+fn options() -> ReplayOptions {
+    ReplayOptions { update: std::env::var_os("UPDATE_GOLDEN").is_some(), ..ReplayOptions::default() }
+}
+
+/// Fails with all that went wrong in a script.
+fn passed(report: &Report) -> Result<(), Failed> {
     if report.is_passed() {
         return Ok(());
     }
+    let ScriptFile { path, .. } = &report.script;
     let lines = report.failures.iter().map(|failure| {
-        let files: Vec<String> =
-            failure.files.iter().map(|file: &PathBuf| format!("\n    {}", file.display())).collect();
-        format!("{}:{}: {failure}{}", script.path.display(), failure.line, files.concat())
+        let files: Vec<String> = failure.files.iter().map(|file| format!("\n    {}", file.display())).collect();
+        format!("{}:{}: {failure}{}", path.display(), failure.line, files.concat())
     });
     Err(lines.collect::<Vec<_>>().join("\n").into())
 }

@@ -1,5 +1,4 @@
-//! The window without a display: real pictures of it, compared pixel by pixel, and what it does when
-//! it is clicked, typed at, and told to close.
+//! The window without a display: what it does when it is clicked, typed at, and told to close.
 
 #![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
@@ -8,8 +7,6 @@
 mod access;
 #[path = "window/files.rs"]
 mod files;
-#[path = "window/golden.rs"]
-mod golden;
 #[path = "window/monkey.rs"]
 mod monkey;
 #[path = "window/pictures.rs"]

@@ -126,6 +126,17 @@ impl Canvas {
         self.wish = Some(Wish::Reveal(picked));
     }
 
+    /// The view, unless it is the one that shows the whole plan: the point in the middle and points of
+    /// the screen to the metre.
+    pub(super) fn free_view(&self) -> Option<(Point, f64)> {
+        self.camera.filter(|camera| !camera.is_fitted).map(|camera| (camera.centre, camera.px_per_m))
+    }
+
+    /// Moves the view at once, to a place nearby.
+    pub(super) fn set_view(&mut self, centre: Point, px_per_m: f64) {
+        self.camera = Some(Camera { centre, px_per_m, is_fitted: false });
+    }
+
     /// Where the canvas was in the last frame.
     pub(super) fn seen_rect(&self) -> Option<Rect> {
         self.seen.map(|(_, rect)| rect)

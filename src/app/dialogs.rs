@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use super::background::Background;
+use super::replay::Recording;
 use super::{Done, Intent};
 
 /// Who answers.
@@ -31,6 +32,11 @@ pub(super) enum Purpose {
     Save {
         then: Option<Intent>,
         answering: Option<&'static str>,
+    },
+    /// To save what was recorded.
+    Recording {
+        recording: Box<Recording>,
+        then: Option<Intent>,
     },
 }
 
@@ -84,6 +90,13 @@ impl Dialogs {
                             .set_title("Save the plan")
                             .set_file_name(name)
                             .add_filter("Enfilade plan", &["plan.json"]);
+                        Box::pin(dialog.save_file())
+                    }
+                    Purpose::Recording { .. } => {
+                        let dialog = dialog
+                            .set_title("Save the recording")
+                            .set_file_name(name)
+                            .add_filter("Replay scripts", &["replay"]);
                         Box::pin(dialog.save_file())
                     }
                 };

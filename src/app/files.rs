@@ -102,6 +102,8 @@ impl App {
                 self.picked = None;
                 self.canvas.forget();
             }
+            // The recording first, or it would be lost.
+            Intent::Quit if self.is_recording() => self.stop_recording(Some(Intent::Quit)),
             Intent::Quit => self.quitting = true,
         }
     }
@@ -230,6 +232,7 @@ impl App {
         let word = path.to_string_lossy().into_owned();
         match purpose {
             Purpose::Open => self.act("open", &[&word], context),
+            Purpose::Recording { recording, then } => self.save_recording(*recording, path, then),
             Purpose::Save { then: None, answering: None } => self.act("save-as", &[&word], context),
             Purpose::Save { then, answering } => {
                 if let Some(answer) = answering {

@@ -46,6 +46,7 @@ use document::{Derived, Document, Opened, Origin, SaveFailure, Stamp};
 use panels::welcome::Samples;
 use panels::{Field, FieldKind, Panels};
 use plan_list::PlanList;
+use replay::{Recorder, Recording};
 use settings::Settings;
 
 use crate::draw::{self, Fill, LabelColours, Palette};
@@ -56,6 +57,7 @@ use crate::labels::{Label, Schemes};
 use crate::plan::edit::{self, EditError};
 use crate::plan::{LabelOrigin, Meta, Plan, Room, RoomId, RoomLabel};
 use crate::predict::{Predictions, Predictor};
+use crate::store::SaveError;
 
 /// The window's state, apart from any display.
 pub struct App {
@@ -90,6 +92,10 @@ pub struct App {
     documents: u64,
     /// The commands that were done, where a recorder wants them.
     executed: Option<Vec<Executed>>,
+    /// What is being recorded.
+    recorder: Option<Recorder>,
+    /// A recording is to begin.
+    wants_recording: bool,
 }
 
 /// What is shown of a plan.
@@ -176,6 +182,7 @@ enum Done {
     Chosen(Answer),
     Saved { document: u64, path: PathBuf, plan: Plan, result: Result<Option<Stamp>, SaveFailure>, then: Option<Intent> },
     Backdrop(PathBuf, Result<egui::ColorImage, String>),
+    RecordingSaved { path: PathBuf, recording: Box<Recording>, result: Result<(), SaveError>, then: Option<Intent> },
 }
 
 /// A plan with more elements is analysed off the frame's path; below, that takes a few milliseconds.
@@ -209,12 +216,16 @@ impl App {
             named_from: None,
             documents: 0,
             executed: None,
+            recorder: None,
+            wants_recording: false,
         }
     }
 
     /// One frame.
     fn frame(&mut self, ui: &mut Ui) {
         let context = ui.ctx().clone();
+        // What was done since the last frame; what it opens is still known.
+        self.write_executed();
         self.take_outcomes(&context);
         self.take_dropped_files(&context);
         self.take_close_request(&context);
@@ -223,6 +234,7 @@ impl App {
         panels::show(self, ui);
         self.was_typing = context.text_edit_focused();
         self.update_title(&context);
+        self.record(&context);
         if self.background.is_busy() {
             self.background.request_frame(&context);
         }
@@ -298,6 +310,9 @@ impl App {
                 }
                 Some(Done::Saved { document, path, plan, result, then }) => {
                     self.was_saved(document, path, plan, result, then);
+                }
+                Some(Done::RecordingSaved { path, recording, result, then }) => {
+                    self.recording_was_saved(&path, *recording, result, then);
                 }
                 Some(Done::Backdrop(path, result)) => {
                     if let Err(what) = self.canvas.set_backdrop(context, &path, result) {

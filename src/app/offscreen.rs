@@ -163,6 +163,13 @@ impl Offscreen {
         self.given().map_or(0, |given| given.answers.len())
     }
 
+    /// Forgets the answers that no dialog has asked for.
+    pub fn forget_answers(&mut self) {
+        if let Some(given) = self.given() {
+            given.answers.clear();
+        }
+    }
+
     /// How many dialogs had no answer since this was last asked.
     pub fn take_unanswered(&mut self) -> usize {
         self.given().map_or(0, |given| std::mem::take(&mut given.unanswered))

@@ -28,7 +28,7 @@ pub struct ReplayCommand {
     /// How many scripts run at a time [default: as many as there are processors]
     #[arg(short, long, value_name = "N")]
     jobs: Option<usize>,
-    /// Print every verb, place, expectation and command of scripts
+    /// Print every verb, place and expectation of scripts; every command of the window is a step too
     #[arg(long)]
     list: bool,
 }

@@ -35,7 +35,7 @@ fn palette_with_what_was_done_last() {
         window.settle().unwrap();
     }
     keys(&mut window, "Ctrl+Shift+P");
-    assert_picture("../commands/palette", &window.picture());
+    assert_picture("palette", &window.picture());
 }
 
 #[test]
@@ -43,7 +43,7 @@ fn palette_with_a_few_letters_in_the_dark() {
     let mut window = dark();
     keys(&mut window, "Ctrl+Shift+P");
     type_in(&mut window, "zo sel");
-    assert_picture("../commands/palette-query-dark", &window.picture());
+    assert_picture("palette-query-dark", &window.picture());
 }
 
 #[test]
@@ -51,7 +51,7 @@ fn palette_with_nothing_that_fits() {
     let mut window = twice();
     keys(&mut window, "Ctrl+Shift+P");
     type_in(&mut window, "xyzzy");
-    assert_picture("../commands/palette-no-match-200", &window.picture());
+    assert_picture("palette-no-match-200", &window.picture());
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn palette_asking_for_a_room() {
     keys(&mut window, "Ctrl+F");
     type_in(&mut window, "st");
     keys(&mut window, "Down");
-    assert_picture("../commands/palette-room", &window.picture());
+    assert_picture("palette-room", &window.picture());
 }
 
 #[test]
@@ -75,7 +75,7 @@ fn palette_refusing_what_was_typed() {
     run(&mut window, "zoom-to", &["1.5", "2"]);
     type_in(&mut window, "wide");
     keys(&mut window, "Enter");
-    assert_picture("../commands/palette-argument-dark", &window.picture());
+    assert_picture("palette-argument-dark", &window.picture());
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn sheet() {
     run(&mut window, "set-shortcut", &["graph", "Ctrl+Alt+G"]);
     run(&mut window, "remove-shortcut", &["grid"]);
     keys(&mut window, "F1");
-    assert_picture("../commands/sheet", &window.picture());
+    assert_picture("sheet", &window.picture());
 }
 
 #[test]
@@ -93,7 +93,7 @@ fn sheet_with_a_clash_in_the_dark() {
     keys(&mut window, "F1");
     press(&mut window, "Shortcut of Zoom to fit: F");
     keys(&mut window, "Ctrl+O");
-    assert_picture("../commands/sheet-clash-dark", &window.picture());
+    assert_picture("sheet-clash-dark", &window.picture());
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn sheet_in_a_small_window_searched() {
     let mut window = twice();
     keys(&mut window, "F1");
     type_in(&mut window, "room");
-    assert_picture("../commands/sheet-search-200", &window.picture());
+    assert_picture("sheet-search-200", &window.picture());
 }
 
 #[test]
@@ -109,5 +109,5 @@ fn about() {
     let mut window = dark();
     window.resize(800, 600);
     run(&mut window, "about", &[]);
-    assert_picture("../commands/about-dark", &window.picture());
+    assert_picture("about-dark", &window.picture());
 }

@@ -8,7 +8,6 @@ use enfilade::geometry::Point;
 use enfilade::plan::{Backdrop, Builder, Meta, Plan, Room, edit};
 use enfilade::store::{BUNDLED, load_plan, save_plan};
 
-use crate::golden::fixture;
 use crate::{click_room, press, texts, window_with};
 
 /// A folder with two plans of our own and one that is broken.
@@ -82,7 +81,7 @@ fn what_cannot_be_opened_is_said_and_nothing_is_lost() {
     for (path, words) in [
         (folder.path().join("broken.plan.json"), ["broken.plan.json", "line 1"]),
         (PathBuf::from("/nowhere/plan.xml"), ["plan.xml", "No such file"]),
-        (fixture("files.rs"), ["files.rs", "no known plan format"]),
+        (Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/window/files.rs"), ["files.rs", "no known plan format"]),
     ] {
         window.drop_file(&path);
         window.settle().unwrap();

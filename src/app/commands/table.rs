@@ -202,6 +202,14 @@ fn has_messages(app: &App) -> Availability {
     when(!app.messages.is_empty(), "there is no message")
 }
 
+fn can_record(app: &App) -> Availability {
+    // A script starts from what is in a file.
+    when(
+        app.is_recording() || !app.has_unsaved_changes(),
+        "save the plan first: a script starts from what is in its file",
+    )
+}
+
 fn has_changed_keys(app: &App) -> Availability {
     when(app.settings.is_any_changed(), "no shortcut was changed")
 }
@@ -852,6 +860,15 @@ pub const COMMANDS: &[Command] = &[
         },
     )
     .menu(Menu::Help, 1),
+    switch(
+        "record-script",
+        "Record a script",
+        "Write what is done as a script that does it again; once more to end and save it",
+        can_record,
+        App::is_recording,
+        |app, _| if app.is_recording() { app.stop_recording(None) } else { app.wants_recording = true },
+    )
+    .menu(Menu::Help, 2),
     with(
         "about",
         "About Enfilade",
@@ -864,7 +881,7 @@ pub const COMMANDS: &[Command] = &[
         },
         None,
     )
-    .menu(Menu::Help, 2),
+    .menu(Menu::Help, 3),
     // What the pointer does, for scripts.
     with(
         "pick",

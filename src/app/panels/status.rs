@@ -14,6 +14,10 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
         let weak = colours(ui).text_weak;
         let small = |text: String| RichText::new(text).size(theme::SMALL).color(weak);
+        if app.is_recording() {
+            ui.label(RichText::new("● Recording").size(theme::SMALL).color(colours(ui).error));
+            ui.add_space(6.0);
+        }
         ui.label(small(left_text(app)));
         right(ui, |ui| {
             ui.spacing_mut().item_spacing.x = 2.0;

@@ -68,7 +68,7 @@ fn cannot_copy(path: &str, what: &str) -> Fault {
 }
 
 /// A relative path that stays inside of the folder it starts from.
-fn inner(path: &str) -> Option<PathBuf> {
+pub(super) fn inner(path: &str) -> Option<PathBuf> {
     let mut inner = PathBuf::new();
     for component in Path::new(path).components() {
         match component {

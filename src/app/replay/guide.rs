@@ -4,10 +4,9 @@ use std::fmt::Write as _;
 
 use super::place::FORMS;
 use super::verbs::{VERBS, expectations};
-use crate::app::commands::COMMANDS;
 
-/// Every verb, place, expectation and command, as Markdown tables: `docs/replay.md` holds it, and a test
-/// keeps the two the same.
+/// Every verb, place and expectation, as Markdown tables: `docs/replay.md` holds it, and a test keeps the
+/// two the same. `docs/commands.md` has the commands.
 pub fn guide() -> String {
     let mut text = String::new();
     for group in VERBS {
@@ -16,9 +15,6 @@ pub fn guide() -> String {
     }
     table(&mut text, "Places", ("place", "where it is"), FORMS.into_iter());
     table(&mut text, "Expectations", ("behind `expect`", "what must be so"), expectations());
-    let commands: Vec<(String, &str)> = COMMANDS.iter().map(|command| (command.usage(), command.help)).collect();
-    let commands = commands.iter().map(|(usage, help)| (usage.as_str(), *help));
-    table(&mut text, "Commands", ("step", "what it does"), commands);
     text
 }
 

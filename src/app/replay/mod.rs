@@ -8,6 +8,7 @@
 mod folders;
 mod guide;
 mod place;
+mod record;
 mod run;
 mod script;
 mod seen;
@@ -15,6 +16,8 @@ mod snapshot;
 mod stage;
 mod verbs;
 mod words;
+
+pub(super) use record::{Recorder, Recording};
 
 pub use guide::guide;
 pub use run::{Failure, FindError, ReplayOptions, Report, ScriptFile, find_scripts, replay};

@@ -102,7 +102,7 @@ fn step(line: &str) -> Result<Option<Act>, (String, String)> {
             let form = || format!("write: {}", verb.form);
             let act = (verb.parse)(&mut words).map_err(|what| (what, form()))?;
             if let Some(word) = words.next() {
-                return Err((format!("{} is too much", words::written(&word.text)), form()));
+                return Err((format!("{} is one word too many", words::written(&word.text)), form()));
             }
             act
         }
@@ -132,4 +132,29 @@ fn step(line: &str) -> Result<Option<Act>, (String, String)> {
 pub(super) fn shortened(text: &str) -> String {
     const MOST: usize = 60;
     if text.chars().count() <= MOST { text.to_owned() } else { text.chars().take(MOST).chain(['…']).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_verb_is_a_command_or_another_verb() {
+        let names: Vec<&str> = VERBS.iter().flat_map(|group| group.verbs).map(|verb| verb.name).collect();
+        for (index, name) in names.iter().enumerate() {
+            assert!(commands::find(name).is_none(), "{name} is a command too");
+            assert!(!names[..index].contains(name), "{name} is there twice");
+        }
+    }
+
+    #[test]
+    fn every_line_is_counted() {
+        let text = "\u{feff}# a comment\r\n\r\nopen-sample office\r\n  fit  # all of it\r\n";
+        let script = Script::parse(text.as_bytes()).map_err(|errors| errors[0].to_string());
+        let lines: Vec<usize> = script.expect("it is well formed").steps.iter().map(|step| step.line).collect();
+        assert_eq!(lines, [3, 4]);
+        let errors = Script::parse(b"fit\nfitt\n\"fit").err().expect("two lines mean nothing");
+        assert_eq!(errors.iter().map(|error| error.line).collect::<Vec<_>>(), [2, 3]);
+        assert_eq!(errors[0].to_string(), "fitt is neither a verb nor a command; did you mean fit?");
+    }
 }

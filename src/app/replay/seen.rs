@@ -10,7 +10,7 @@ use crate::plan::RoomId;
 
 impl App {
     /// Where the canvas was in the last frame, in logical pixels; `None` without a plan.
-    pub(super) fn canvas_rect(&self) -> Option<Rect> {
+    pub fn canvas_rect(&self) -> Option<Rect> {
         self.document.as_ref()?;
         self.canvas.seen_rect()
     }

@@ -86,7 +86,7 @@ fn set_options(stage: &mut Stage<'_>, options: OffscreenOptions) -> Result<(), F
     if options == stage.window.options() {
         return Ok(());
     }
-    stage.window.set_options(options);
+    stage.set_options(options)?;
     stage.window.settle().map_err(|error| Fault::new(error.to_string()))
 }
 
@@ -102,7 +102,7 @@ fn compare(stage: &mut Stage<'_>, name: &str, picture: &Picture) -> Result<(), F
     }
     let expected = match std::fs::File::open(&reference) {
         Ok(file) => Picture::from_png(std::io::BufReader::new(file), MOST_PIXELS),
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Err("there is none".to_owned()),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Err(String::new()),
         Err(error) => Err(error.to_string()),
     };
     let difference = match &expected {
@@ -133,8 +133,8 @@ fn compare(stage: &mut Stage<'_>, name: &str, picture: &Picture) -> Result<(), F
             Err(Fault::unmet(what).hint(hint).files(vec![out, diff]))
         }
         (expected, _) => {
-            let why = expected.err().unwrap_or_default();
-            let what = format!("snapshot {name}: no reference picture {name}.png to compare with ({why})");
+            let why = expected.err().filter(|why| !why.is_empty()).map(|why| format!(" ({why})")).unwrap_or_default();
+            let what = format!("snapshot {name}: no reference picture {name}.png to compare with{why}");
             Err(Fault::unmet(what).hint(hint).files(vec![out]))
         }
     }

@@ -43,6 +43,9 @@ impl Fault {
     }
 }
 
+/// No window has more physical pixels a side: a picture of it takes 256 MiB.
+const MOST_PX_A_SIDE: f32 = 8192.0;
+
 /// A script at work.
 pub(super) struct Stage<'a> {
     pub window: Offscreen,
@@ -59,6 +62,22 @@ impl<'a> Stage<'a> {
         let mut window = Offscreen::new(OffscreenOptions::default());
         window.name_paths_from(&folders.work);
         Self { window, folders, is_updating, snapshots: 0, updated: Vec::new() }
+    }
+
+    /// Makes the window another size, scale or theme.
+    ///
+    /// # Errors
+    /// When a picture of it would be too large.
+    pub(super) fn set_options(&mut self, options: OffscreenOptions) -> Result<(), Fault> {
+        let side_px = |side: u32| side as f32 * options.scale;
+        if side_px(options.width).max(side_px(options.height)) > MOST_PX_A_SIDE {
+            let OffscreenOptions { width, height, scale, .. } = options;
+            return Err(Fault::new(format!(
+                "a window of {width}x{height} at scale {scale} has more than {MOST_PX_A_SIDE} pixels a side"
+            )));
+        }
+        self.window.set_options(options);
+        Ok(())
     }
 
     /// The open plan.

@@ -99,18 +99,6 @@ fn key_of(name: &str) -> Result<Key, String> {
     })
 }
 
-/// A chord as scripts write it.
-pub(in crate::app::replay) fn chord_text(modifiers: Modifiers, key: Key) -> String {
-    format!("{}{}", modifiers_text(modifiers).map(|text| text + "+").unwrap_or_default(), key.name())
-}
-
-/// Modifiers as scripts write them; `None` for none.
-pub(in crate::app::replay) fn modifiers_text(modifiers: Modifiers) -> Option<String> {
-    let held: Vec<&str> =
-        MODIFIERS.into_iter().filter(|(_, one)| modifiers.contains(*one)).map(|(name, _)| name).collect();
-    (!held.is_empty()).then(|| held.join("+"))
-}
-
 fn hold(words: &mut Words<'_>, pressed: bool) -> Result<Act, String> {
     let name = words.text("the key")?;
     if let Some(modifier) = modifier(name) {
@@ -141,6 +129,13 @@ fn without(held: Modifiers, one: Modifiers) -> Modifiers {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A chord as scripts write it.
+    fn chord_text(modifiers: Modifiers, key: Key) -> String {
+        let held: Vec<&str> =
+            MODIFIERS.into_iter().filter(|(_, one)| modifiers.contains(*one)).map(|(name, _)| name).collect();
+        held.into_iter().chain([key.name()]).collect::<Vec<_>>().join("+")
+    }
 
     #[test]
     fn every_chord_reads_back() {

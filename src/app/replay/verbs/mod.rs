@@ -48,7 +48,7 @@ pub(super) fn command(command: &'static Command, arguments: Vec<String>) -> Resu
     let most = command.arguments.len();
     if arguments.len() > most {
         return Err(format!(
-            "{} stands behind {}, which takes {}",
+            "{} words stand behind {}, which takes at most {}",
             arguments.len(),
             command.id,
             stage::count(most, "argument")

@@ -15,8 +15,8 @@ pub(super) const GROUP: Group = Group {
             parse: |words| {
                 let (width, height) = size(words)?;
                 Ok(Box::new(move |stage| {
-                    stage.window.resize(width, height);
-                    Ok(())
+                    let options = OffscreenOptions { width, height, ..stage.window.options() };
+                    stage.set_options(options)
                 }))
             },
         },
@@ -28,8 +28,7 @@ pub(super) const GROUP: Group = Group {
                 let scale = scale(words)?;
                 Ok(Box::new(move |stage| {
                     let options = OffscreenOptions { scale, ..stage.window.options() };
-                    stage.window.set_options(options);
-                    Ok(())
+                    stage.set_options(options)
                 }))
             },
         },
@@ -41,8 +40,7 @@ pub(super) const GROUP: Group = Group {
                 let is_dark = is_dark(words)?;
                 Ok(Box::new(move |stage| {
                     let options = OffscreenOptions { is_dark, ..stage.window.options() };
-                    stage.window.set_options(options);
-                    Ok(())
+                    stage.set_options(options)
                 }))
             },
         },

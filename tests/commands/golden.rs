@@ -5,7 +5,7 @@ use enfilade::app::Picture;
 
 /// A file beside this one.
 pub fn fixture(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/window").join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/commands").join(name)
 }
 
 /// No golden picture is larger: they stay in the repository for good.

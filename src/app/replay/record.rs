@@ -1,0 +1,454 @@
+//! Recording: what a person does, written as a script that does it again.
+//!
+//! A recording holds the commands that were done, however they were called: by key, by menu, by a click
+//! on the plan, by text typed into a field, by a dialog. The files it starts from and opens go with it,
+//! and so does the plan it ends with, so that it can be replayed anywhere and says whether it went the
+//! same way.
+
+use std::path::{Path, PathBuf};
+
+use egui::Context;
+
+use super::folders::inner;
+use super::words::written;
+use crate::app::background::Mode;
+use crate::app::commands::{self, ArgumentKind, COMMANDS, Executed, Menu, room_word, sample_word};
+use crate::app::dialogs::{Dialogs, Given, Purpose};
+use crate::app::document::{self, Origin};
+use crate::app::theme::Motion;
+use crate::app::{App, Done, Intent, Picked, Severity, plan_list};
+use crate::formats::{self, plan_json};
+use crate::geometry::Point;
+use crate::plan::Plan;
+use crate::store::{SaveError, save_bytes};
+
+/// A recording at work.
+pub(in crate::app) struct Recorder {
+    /// The script's lines so far.
+    lines: Vec<Line>,
+    files: Files,
+    /// What the system made of the window when that was last written down.
+    frame: Frame,
+    /// The document that was open at the start, and how far back its history then went.
+    start: Option<(u64, usize)>,
+    /// A view that was seen and not written down yet.
+    view: Option<View>,
+    /// Whether the view moved in this frame.
+    is_moving: bool,
+}
+
+/// The words of a line, not yet in quotes.
+#[derive(Clone, Debug)]
+struct Line(Vec<String>);
+
+impl Line {
+    fn new(words: &[&str]) -> Self {
+        Self(words.iter().map(|word| (*word).to_owned()).collect())
+    }
+
+    fn starts_with(&self, word: &str) -> bool {
+        self.0.first().is_some_and(|first| first == word)
+    }
+}
+
+/// The files that go with a recording: names in its folder, and what they hold.
+#[derive(Clone, Debug, Default)]
+struct Files(Vec<(String, Vec<u8>)>);
+
+/// What the system makes of the window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Frame {
+    width: u32,
+    height: u32,
+    scale: f32,
+    is_dark: bool,
+}
+
+/// A view of the plan: what the command of this name takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct View {
+    x_m: f64,
+    y_m: f64,
+    px_per_m: f64,
+}
+
+/// A recording that has ended: a script, and the files that go with it.
+#[derive(Clone, Debug)]
+pub(in crate::app) struct Recording {
+    lines: Vec<Line>,
+    files: Files,
+}
+
+/// The ending of recordings' names.
+const ENDING: &str = ".replay";
+
+/// In a script's words, the folder of the files that go with it: its name is known when it is saved. No
+/// other word holds this character.
+const FOLDER: &str = "\0";
+
+/// Commands of the recorder's own, which no recording holds.
+const OWN: [&str; 1] = ["record-script"];
+
+impl Frame {
+    fn of(context: &Context) -> Self {
+        let size = context.input(egui::InputState::content_rect).size();
+        let side = |side: f32| side.round().clamp(1.0, 8192.0) as u32;
+        Self {
+            width: side(size.x),
+            height: side(size.y),
+            scale: context.pixels_per_point().clamp(0.5, 4.0),
+            is_dark: context.system_theme() == Some(egui::Theme::Dark),
+        }
+    }
+
+    /// The steps from another.
+    fn lines(self, from: Self) -> Vec<Line> {
+        let mut lines = Vec::new();
+        if (self.width, self.height) != (from.width, from.height) {
+            lines.push(Line::new(&["size", &format!("{}x{}", self.width, self.height)]));
+        }
+        if self.scale != from.scale {
+            lines.push(Line::new(&["scale", &self.scale.to_string()]));
+        }
+        if self.is_dark != from.is_dark {
+            lines.push(Line::new(&["theme", if self.is_dark { "dark" } else { "light" }]));
+        }
+        lines
+    }
+}
+
+/// The window a script starts with.
+const FIRST_FRAME: Frame = Frame { width: 1280, height: 800, scale: 1.0, is_dark: false };
+
+impl View {
+    /// The same, so rounded that it reads well: by less than a twentieth of a pixel.
+    fn rounded(self) -> Self {
+        // The next power of ten below a hundredth of a pixel.
+        let digits = 10f64.powi((100.0 * self.px_per_m).log10().ceil().clamp(0.0, 12.0) as i32);
+        let round = |value: f64| (value * digits).round() / digits;
+        // A ten-thousandth, over the half of a canvas of a thousand pixels.
+        let scale_digits = 10f64.powi((4.0 - self.px_per_m.log10()).floor().clamp(0.0, 9.0) as i32);
+        Self {
+            x_m: round(self.x_m),
+            y_m: round(self.y_m),
+            px_per_m: (self.px_per_m * scale_digits).round() / scale_digits,
+        }
+    }
+
+    fn line(self) -> Line {
+        let [x, y, scale] = [self.x_m, self.y_m, self.px_per_m].map(|number| number.to_string());
+        Line::new(&["view", &x, &y, &scale])
+    }
+}
+
+impl Files {
+    /// Takes a file along; gives its path as the script writes it.
+    fn add(&mut self, name: &str, bytes: Vec<u8>) -> String {
+        let (stem, ending) = name.split_once('.').unwrap_or((name, "plan.json"));
+        let mut number = 1;
+        let mut free = name.to_owned();
+        while let Some((_, known)) = self.0.iter().find(|(known, _)| *known == free) {
+            if *known == bytes {
+                return format!("{FOLDER}/{free}");
+            }
+            number += 1;
+            free = format!("{stem}-{number}.{ending}");
+        }
+        let path = format!("{FOLDER}/{free}");
+        self.0.push((free, bytes));
+        path
+    }
+
+    /// Takes along the file at a path, and the pictures under its plans.
+    fn add_file(&mut self, path: &Path) -> Option<String> {
+        if path.is_dir() {
+            // A folder stands for its first plan.
+            return self.add_file(plan_list::plans_in(path).first().filter(|plan| plan.is_file())?);
+        }
+        let bytes = formats::read_bytes(path).ok()?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let plans = formats::read_file(path).map(|import| import.plans).unwrap_or_default();
+        // A picture that lies elsewhere is missed in the replay as it would be on another machine.
+        let beside = |picture: &str| inner(picture).map(|picture| picture.to_string_lossy().into_owned());
+        for picture in plans.iter().filter_map(Plan::backdrop).filter_map(|backdrop| beside(&backdrop.path)) {
+            if let Ok(bytes) = formats::read_bytes(&folder.join(&picture))
+                && !self.0.iter().any(|(known, _)| *known == picture)
+            {
+                self.0.push((picture, bytes));
+            }
+        }
+        Some(self.add(&document::file_name(path), bytes))
+    }
+}
+
+impl Recorder {
+    fn note(&mut self, executed: &Executed, target: Option<&Origin>) {
+        let Executed { id, arguments } = executed;
+        let Some(command) = commands::find(id).filter(|_| !OWN.contains(id)) else { return };
+        if *id == "view" {
+            let number = |index: usize| arguments.get(index).and_then(|word| word.parse().ok());
+            if let (Some(x_m), Some(y_m), Some(px_per_m)) = (number(0), number(1), number(2)) {
+                self.view = Some(View { x_m, y_m, px_per_m });
+                self.is_moving = true;
+            }
+            return;
+        }
+        // What lies beside a plan is not taken along: the list of plans is another in the replay.
+        if matches!(*id, "previous-plan" | "next-plan") {
+            if let Some(origin) = target {
+                let line = self.open(origin);
+                self.lines.push(line);
+            }
+            return;
+        }
+        if *id == "open" {
+            let word = arguments.first().map_or("", String::as_str);
+            let storey = arguments.get(1).and_then(|word| word.parse::<usize>().ok()).unwrap_or(1);
+            let line = self.open(&Origin::File { path: PathBuf::from(word), storey: storey.saturating_sub(1) });
+            self.lines.push(line);
+            return;
+        }
+        let words = arguments.iter().zip(command.arguments).map(|(word, argument)| match argument.kind {
+            ArgumentKind::NewPlanFile => document::file_name(Path::new(word)),
+            _ => word.clone(),
+        });
+        let line = Line(std::iter::once((*id).to_owned()).chain(words).collect());
+        self.lines.push(line);
+    }
+
+    /// Writes down a view, or the one that was seen. Of several in a row only the last counts.
+    fn write_view(&mut self, view: Option<View>) {
+        let Some(view) = view.or(self.view.take()) else { return };
+        if self.lines.last().is_some_and(|last| last.starts_with("view")) {
+            self.lines.pop();
+        }
+        self.lines.push(view.line());
+    }
+
+    /// The step that opens a plan.
+    fn open(&mut self, origin: &Origin) -> Line {
+        match origin {
+            Origin::Bundled(index) => Line::new(&["open-sample", sample_word(*index)]),
+            Origin::File { path, storey } => match self.files.add_file(path) {
+                None => Line::new(&["open-missing", &document::file_name(path)]),
+                Some(word) if *storey == 0 => Line::new(&["open", &word]),
+                Some(word) => Line::new(&["open", &word, &(storey + 1).to_string()]),
+            },
+        }
+    }
+}
+
+impl Recorder {
+    /// What was recorded up to here, with the plan that it led to.
+    fn recording(&self, plan: Option<&Plan>) -> Recording {
+        let (mut lines, mut files) = (self.lines.clone(), self.files.clone());
+        if let Some(plan) = plan {
+            let path = files.add("end.plan.json", plan_json::to_bytes(plan));
+            lines.push(Line::new(&["expect", "plan", "equals", &path]));
+        }
+        Recording { lines, files }
+    }
+}
+
+impl Recording {
+    /// Saves the script, and beside it the folder of the files that go with it.
+    ///
+    /// # Errors
+    /// When something cannot be written.
+    pub(in crate::app) fn save(&self, path: &Path) -> Result<(), SaveError> {
+        let name = document::file_name(path);
+        let folder_name = format!("{}.files", name.strip_suffix(ENDING).unwrap_or(&name));
+        let folder = path.with_file_name(&folder_name);
+        for (name, bytes) in &self.files.0 {
+            let file = folder.join(name);
+            if let Some(folder) = file.parent() {
+                // Saving says why it is not there.
+                let _ = std::fs::create_dir_all(folder);
+            }
+            save_bytes(&file, bytes)?;
+        }
+        let mut text = format!("# Recorded by Enfilade {}.\n", env!("CARGO_PKG_VERSION"));
+        for Line(words) in &self.lines {
+            let words: Vec<String> = words.iter().map(|word| written(&word.replace(FOLDER, &folder_name))).collect();
+            text.push_str(&words.join(" "));
+            text.push('\n');
+        }
+        save_bytes(path, text.as_bytes())
+    }
+}
+
+impl App {
+    /// Whether what is done is being recorded.
+    pub fn is_recording(&self) -> bool {
+        self.recorder.is_some()
+    }
+
+    /// Begins to write down what is done.
+    fn start_recording(&mut self, context: &Context) {
+        let frame = Frame::of(context);
+        let mut recorder = Recorder {
+            lines: frame.lines(FIRST_FRAME),
+            files: Files::default(),
+            frame,
+            start: None,
+            view: None,
+            is_moving: false,
+        };
+        if let Some(document) = &self.document {
+            recorder.start = Some((document.number, document.history.position()));
+            let line = recorder.open(&document.origin);
+            recorder.lines.push(line);
+        }
+        recorder.lines.extend(self.lines_of_state());
+        if let Some((centre, px_per_m)) = self.canvas.free_view() {
+            recorder.view = Some(View { x_m: centre.x, y_m: centre.y, px_per_m });
+        }
+        self.recorder = Some(recorder);
+        self.round_view();
+        self.watch_commands(true);
+        self.status = "Recording".to_owned();
+    }
+
+    /// The steps to what is shown and picked, from how the program starts.
+    fn lines_of_state(&self) -> Vec<Line> {
+        let first = Self::new(&Context::default(), Mode::Inline, Dialogs::Given(Given::default()), Motion::Still);
+        let mut lines: Vec<Line> = COMMANDS
+            .iter()
+            .filter(|command| {
+                command.menu.is_some_and(|(menu, _)| menu == Menu::View) && command.why_not(self).is_none()
+            })
+            .filter_map(|command| {
+                let is_on = command.is_on(self).filter(|is_on| Some(*is_on) != command.is_on(&first))?;
+                match (command.arguments.is_empty(), is_on) {
+                    (true, true) => Some(Line::new(&[command.id])),
+                    (true, false) => None,
+                    (false, is_on) => Some(Line::new(&[command.id, if is_on { "on" } else { "off" }])),
+                }
+            })
+            .collect();
+        match (self.picked, self.plan()) {
+            (Some(Picked::Room(id)), Some(plan)) => lines.push(Line::new(&["pick", &room_word(plan, id)])),
+            (Some(Picked::Opening(id)), Some(_)) => lines.push(Line::new(&["pick-opening", &id.to_string()])),
+            _ => {}
+        }
+        lines
+    }
+
+    /// Writes down what was done in a frame that ends.
+    pub(in crate::app) fn record(&mut self, context: &Context) {
+        if std::mem::take(&mut self.wants_recording) {
+            self.start_recording(context);
+        }
+        let Some(recorder) = &mut self.recorder else { return };
+        let frame = Frame::of(context);
+        if frame != recorder.frame {
+            let lines = frame.lines(recorder.frame);
+            recorder.frame = frame;
+            // Of a window that is being drawn larger, only how large it becomes.
+            if lines.len() == 1 && recorder.lines.last().is_some_and(|last| last.starts_with("size")) {
+                recorder.lines.pop();
+            }
+            recorder.lines.extend(lines);
+        }
+        self.write_executed();
+        let is_moving = self.recorder.as_mut().is_some_and(|recorder| std::mem::take(&mut recorder.is_moving));
+        if !is_moving {
+            self.round_view();
+        }
+        let start = self.recorder.as_ref().and_then(|recorder| recorder.start);
+        let before_start = self.document.as_ref().zip(start).and_then(|(document, (number, position))| {
+            let is_before = document.number == number && document.history.position() < position;
+            is_before.then(|| document.history.steps().get(position).map(|step| step.plan.clone()))
+        });
+        if let Some(plan_before) = before_start {
+            self.say(
+                Severity::Warning,
+                "The recording ends before this step",
+                "What is undone now was done before the recording began.",
+            );
+            if let Some(recorder) = &mut self.recorder {
+                recorder.lines.pop();
+            }
+            let recording = self.recorder.take().map(|recorder| recorder.recording(plan_before.as_ref()));
+            self.watch_commands(false);
+            self.ask_where_to_save_recording(recording, None);
+        }
+    }
+
+    /// Writes down the commands that were done.
+    pub(in crate::app) fn write_executed(&mut self) {
+        let executed = self.take_executed();
+        let Some(recorder) = &mut self.recorder else { return };
+        for executed in &executed {
+            if executed.id != "view" {
+                // What follows was done from this very view.
+                recorder.write_view(None);
+            }
+            recorder.note(executed, self.opening.as_ref());
+        }
+    }
+
+    /// Writes down the view that is seen, rounded, and shows it as it is written.
+    fn round_view(&mut self) {
+        let Some(recorder) = &mut self.recorder else { return };
+        if let Some(view) = recorder.view.take() {
+            let view = view.rounded();
+            self.canvas.set_view(Point::new(view.x_m, view.y_m), view.px_per_m);
+            recorder.write_view(Some(view));
+        }
+    }
+
+    /// Asks where to save what was recorded. The recording ends once it is saved, and goes on if the
+    /// dialog is cancelled; then does what was to follow.
+    pub(in crate::app) fn stop_recording(&mut self, then: Option<Intent>) {
+        self.commit_field();
+        self.write_executed();
+        self.round_view();
+        let recording = self.recorder.as_ref().map(|recorder| recorder.recording(self.plan()));
+        self.ask_where_to_save_recording(recording, then);
+    }
+
+    fn ask_where_to_save_recording(&mut self, recording: Option<Recording>, then: Option<Intent>) {
+        let Some(recording) = recording else { return };
+        let purpose = Purpose::Recording { recording: Box::new(recording), then };
+        self.dialogs.ask(purpose, None, "recording.replay".to_owned(), &mut self.background);
+    }
+
+    /// Saves a recording; the ending is added where it is missing.
+    pub(in crate::app) fn save_recording(&mut self, recording: Recording, mut path: PathBuf, then: Option<Intent>) {
+        if !path.to_string_lossy().ends_with(ENDING) {
+            path.as_mut_os_string().push(ENDING);
+        }
+        self.background.start(move || {
+            let result = recording.save(&path);
+            Done::RecordingSaved { path, recording: Box::new(recording), result, then }
+        });
+    }
+
+    /// Takes note of a recording that was saved, or was not.
+    pub(in crate::app) fn recording_was_saved(
+        &mut self,
+        path: &Path,
+        recording: Recording,
+        result: Result<(), SaveError>,
+        then: Option<Intent>,
+    ) {
+        match result {
+            Ok(()) => {
+                self.recorder = None;
+                self.watch_commands(false);
+                self.status = format!("Recorded in {}", document::file_name(path));
+                if let Some(intent) = then {
+                    self.request(intent);
+                }
+            }
+            Err(error) => {
+                let text = format!("{} is not saved: {}", document::file_name(path), error.what);
+                let detail = format!("{}.\n{}", error.hint, self.shown_path(path));
+                self.say(Severity::Error, text, detail);
+                // Elsewhere, perhaps.
+                self.ask_where_to_save_recording(Some(recording), then);
+            }
+        }
+    }
+}
