@@ -106,7 +106,10 @@ fn clicking_picks_the_smallest_and_again_what_lies_beneath() {
 
 #[test]
 fn the_inspector_leads_from_room_to_room() {
-    let mut window = window_with("dwelling");
+    // High enough for the neighbours, which stand last.
+    let mut window = Offscreen::new(OffscreenOptions { height: 1200, ..OffscreenOptions::default() });
+    assert!(window.open_bundled("dwelling"));
+    window.settle().unwrap();
     click_room(&mut window, "Kitchen");
     for expected in ["Area: 15.7 m²", "Axes ratio: 2.00", "Openings: 2", "to halls: 1", "Medium room"] {
         assert!(window.control(expected).is_some(), "{expected}");

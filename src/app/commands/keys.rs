@@ -178,13 +178,13 @@ mod tests {
 
     #[test]
     fn keys_are_read_as_they_are_written() {
-        for text in ["Ctrl+Shift+S", "Plus", "F5", "Alt+Minus", "PageUp", "Questionmark", "Ctrl+Alt+Shift+Num1"] {
-            assert_eq!(text.parse::<Keys>().unwrap().to_string(), text);
+        for text in ["Ctrl+Shift+S", "Plus", "F5", "Alt+Minus", "PageUp", "Questionmark", "Ctrl+Alt+Shift+1"] {
+            assert_eq!(text.parse::<Keys>().map(|keys| keys.to_string()), Ok(text.to_owned()));
         }
         for (other, text) in
             [("ctrl + k", "Ctrl+K"), ("+", "Plus"), ("Shift+?", "Questionmark"), ("cmd++", "Ctrl+Plus")]
         {
-            assert_eq!(other.parse::<Keys>().unwrap().to_string(), text);
+            assert_eq!(other.parse::<Keys>().map(|keys| keys.to_string()), Ok(text.to_owned()), "{other}");
         }
         for wrong in ["", "Ctrl+", "Ctrl", "Foo+K", "KK", "Ctrl+K+"] {
             assert_eq!(wrong.parse::<Keys>(), Err(NoKeys), "{wrong}");

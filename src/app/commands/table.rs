@@ -618,7 +618,7 @@ pub const COMMANDS: &[Command] = &[
         has_unlabelled,
         |app, _| app.accept_all_predictions(),
     )
-    .keys(&[ctrl_shift(Key::A)])
+    .keys(&[shift(Key::A)])
     .menu(Menu::Predict, 2),
     // View.
     command("fit", "Zoom to fit", "Show the whole plan", has_plan, |app, _| app.canvas.fit())

@@ -4,7 +4,7 @@ use egui::{Align2, ComboBox, FontId, Rect, Role, Sense, Stroke, StrokeKind, Ui, 
 
 use crate::app::canvas::sentence;
 use crate::app::commands::{self, COMMANDS, Menu};
-use crate::app::widgets::{caption, colours, section, text_button};
+use crate::app::widgets::{caption, colours, focus_ring, follow_focus, section, text_button};
 use crate::app::{App, theme};
 use crate::draw::Palette;
 use crate::features::RoomStatus;
@@ -106,6 +106,8 @@ fn choice(ui: &mut Ui, app: &App, name: &str, of_menu: u8) -> Option<&'static st
                 }
             }
         });
+        follow_focus(&shown.response);
+        focus_ring(ui, shown.response.rect, &shown.response);
         let is_enabled = ui.is_enabled();
         let text = format!("{name}: {current}");
         shown.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, is_enabled, text.clone()));

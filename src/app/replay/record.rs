@@ -377,7 +377,8 @@ impl App {
 
     /// Writes down the commands that were done.
     pub(in crate::app) fn write_executed(&mut self) {
-        let executed = self.take_executed();
+        // Without a recorder they are kept for whoever watches them.
+        let executed = if self.recorder.is_some() { self.take_executed() } else { return };
         let Some(recorder) = &mut self.recorder else { return };
         for executed in &executed {
             if executed.id != "view" {
