@@ -179,9 +179,14 @@ fn any_use(seed: u64) -> Result<bool, Failed> {
     Ok(true)
 }
 
-/// Ends what is only half done: a menu, a text, a question.
+/// Ends what is only half done: a menu, a text, a question, a command in the palette that still asks for
+/// its arguments.
 fn rest(window: &mut Offscreen) {
     let _ = window.run_command_with("answer", &["cancel"]);
+    for _ in 0..2 {
+        window.key(Modifiers::NONE, Key::Escape);
+        let _ = window.settle();
+    }
     window.click(pos2(-5.0, -5.0));
     for _ in 0..3 {
         if window.app().canvas_rect().is_some() {

@@ -257,6 +257,8 @@ fn one_sees_where_the_keyboard_is() {
         for _ in 0..90 {
             let was = window.focused();
             key(&mut window, Key::Tab);
+            // What has the keyboard is brought into sight.
+            window.settle().unwrap();
             let picture = window.picture();
             let focused = window.focused();
             // Within the canvas the picked room changes.

@@ -7,7 +7,9 @@ use super::{Field, FieldKind, prediction};
 use crate::app::canvas::{room_title, sentence, title_of};
 use crate::app::document::{Derived, Document, Picked};
 use crate::app::icons::Icon;
-use crate::app::widgets::{Lead, Row, Segment, caption, colours, hairline, link, section, segmented, strong, value};
+use crate::app::widgets::{
+    Lead, Row, Segment, caption, colours, follow_focus, hairline, link, section, segmented, strong, value,
+};
 use crate::app::{App, commands, theme};
 use crate::draw::Palette;
 use crate::features::{Features, RoomAnalysis, RoomStatus};
@@ -147,6 +149,7 @@ impl Inspected<'_> {
                 .align(egui::Align2::LEFT_CENTER);
             let response = ui.add(edit);
             let response = response.accessible_name(name);
+            follow_focus(&response);
             if self.app.panels.focus == Some(kind) {
                 response.request_focus();
             }
