@@ -33,7 +33,7 @@ fn now_s() -> f64 {
 
 /// A script of 100 steps of all kinds, with ten snapshots.
 fn script() -> String {
-    let mut text = "sample school\n".to_owned();
+    let mut text = "open-sample school\n".to_owned();
     for round in 0..9 {
         text.push_str(&format!(
             "next-room\nlabel-big\nexpect unsaved yes\nkey H\nmove pixel {},300\nzoom-in\nundo\nscroll -1\nclick pixel \
@@ -72,7 +72,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = ScriptFile { path, title: "bench".to_owned() };
     let update = ReplayOptions { update: true, ..ReplayOptions::default() };
     let report = replay(&file, &update);
-    println!("script of {} steps, {} snapshots, {} failures", report.steps, report.snapshots, report.failures.len());
+    println!("script of {} steps, {} snapshots", report.steps, report.snapshots);
+    if let Some(failure) = report.failures.first() {
+        return Err(format!("the script fails: {failure:?}").into());
+    }
     println!(
         "  first run, written {:6.2} ms",
         mean_ms(|| {
