@@ -355,13 +355,19 @@ impl NeighboursReason {
     }
 }
 
-/// Where a room is. Of an id that programs gave it (a UUID) the first part is as much as people read.
+/// Where a room is.
 fn place(source: &RoomSource) -> String {
-    let parts: Vec<&str> = source.room.split('-').collect();
+    format!("{} in {}", readable(&source.room), source.plan)
+}
+
+/// What a room is called. Of an id that programs gave it (a UUID) the first part is as much as people
+/// read.
+pub(super) fn readable(room: &str) -> String {
+    let parts: Vec<&str> = room.split('-').collect();
     let lengths = parts.iter().map(|part| part.len());
     let is_uuid =
         lengths.eq([8, 4, 4, 4, 12]) && parts.iter().all(|part| part.bytes().all(|byte| byte.is_ascii_hexdigit()));
-    if is_uuid { format!("room {} in {}", parts[0], source.plan) } else { source.to_string() }
+    if is_uuid { format!("room {}", parts[0]) } else { room.to_owned() }
 }
 
 impl FeaturesReason {

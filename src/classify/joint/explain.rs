@@ -2,6 +2,7 @@
 
 use super::{Group, Joint, Looked, group_of};
 use crate::classify::Distribution;
+use crate::classify::explain::readable;
 use crate::classify::numbers::percent;
 use crate::dataset::RoomNetwork;
 use crate::labels::Label;
@@ -158,7 +159,7 @@ impl JointExplanation {
             .take(NAMED)
             .map(|effect| {
                 let how = if effect.is_known { "known" } else { "predicted" };
-                format!("{} ({how}: {})", effect.key, effect.label.name())
+                format!("{} ({how}: {})", readable(&effect.key), effect.label.name())
             })
             .collect();
         if !neighbours.is_empty() {
