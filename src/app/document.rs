@@ -25,15 +25,12 @@ pub(super) fn bundled() -> &'static [(&'static str, Plan)] {
     PLANS.get_or_init(|| store::bundled_plans().unwrap_or_default())
 }
 
-/// What follows from a bundled plan, worked out once.
+/// What follows from a bundled plan without predictions, which its picture does not show: worked out once.
 pub(super) fn derived_sample(index: usize, plan: &Plan) -> Arc<Derived> {
     static DERIVED: Mutex<BTreeMap<usize, Arc<Derived>>> = Mutex::new(BTreeMap::new());
     // A poisoned map only lacks an entry.
     let mut derived = DERIVED.lock().unwrap_or_else(PoisonError::into_inner);
-    derived
-        .entry(index)
-        .or_insert_with(|| Arc::new(Derived::new(plan, &Schemes::bundled(), &Predictor::default())))
-        .clone()
+    derived.entry(index).or_insert_with(|| Arc::new(Derived::new(plan, &Schemes::bundled(), None))).clone()
 }
 
 /// Where a plan came from.
@@ -205,7 +202,7 @@ impl Document {
     /// What follows from the plan as it is now; `None` while that is being worked out.
     pub(super) fn derived(&self) -> Option<&Arc<Derived>> {
         let is_fresh = |(plan, derived): &&(Plan, Arc<Derived>)| {
-            plan.is_same_value(self.plan()) && derived.predictor == self.predictor
+            plan.is_same_value(self.plan()) && derived.predictor.as_ref() == Some(&self.predictor)
         };
         self.derived.as_ref().filter(is_fresh).map(|(_, derived)| derived)
     }
@@ -239,7 +236,7 @@ impl Document {
 
     /// Takes over what was worked out for a plan; dropped when the plan or the models are others by now.
     pub(super) fn set_derived(&mut self, plan: Plan, derived: Arc<Derived>) {
-        if plan.is_same_value(self.plan()) && derived.predictor == self.predictor {
+        if plan.is_same_value(self.plan()) && derived.predictor.as_ref() == Some(&self.predictor) {
             self.derived = Some((plan, derived));
             self.awaited = None;
         }
@@ -260,9 +257,10 @@ impl Document {
 pub(super) struct Derived {
     pub analysis: Analysis,
     pub drawing: Drawing,
-    /// What a classifier says of the rooms; `None` if its model did not read, which the tests exclude.
+    /// What a classifier says of the rooms; `None` where none was asked, and if its model did not read,
+    /// which the tests exclude.
     pub predictions: Option<Predictions>,
-    predictor: Predictor,
+    predictor: Option<Predictor>,
     openings: RTree<OpeningPlace>,
     reading_order: Vec<RoomId>,
 }
@@ -289,21 +287,23 @@ impl PointDistance for OpeningPlace {
 }
 
 impl Derived {
-    /// Works out all that follows from a plan.
-    pub(super) fn new(plan: &Plan, schemes: &Schemes, predictor: &Predictor) -> Self {
+    /// Works out all that follows from a plan; without a predictor all but predictions.
+    pub(super) fn new(plan: &Plan, schemes: &Schemes, predictor: Option<Predictor>) -> Self {
         let openings = plan
             .openings()
             .filter_map(|(id, opening)| Some(OpeningPlace { id, segment: plan.opening_segment(opening)? }))
             .collect();
         let analysis = analyse(plan, schemes, NeighbourLabels::True);
-        let network = RoomNetwork::of(plan, &analysis);
-        let known = network.known_labels();
-        let predictions = predictor.predict(network, &known, None).ok();
+        let predictions = predictor.as_ref().and_then(|predictor| {
+            let network = RoomNetwork::of(plan, &analysis);
+            let known = network.known_labels();
+            predictor.predict(network, &known, None).ok()
+        });
         let labels = predictions.as_ref().map(Predictions::labels).unwrap_or_default();
         let drawing = Drawing::new(plan, &analysis).with_predictions(&labels);
         let reading_order = reading_order(&analysis);
         let openings = RTree::bulk_load(openings);
-        Self { analysis, drawing, predictions, predictor: predictor.clone(), openings, reading_order }
+        Self { analysis, drawing, predictions, predictor, openings, reading_order }
     }
 
     /// The rooms with a boundary as one reads: from the top left, line by line.

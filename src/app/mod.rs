@@ -355,13 +355,13 @@ impl App {
         if document.needs_deriving() {
             let (schemes, predictor) = (self.schemes.clone(), self.predictor.clone());
             if plan.rooms().len() + plan.openings().len() + plan.walls().len() <= LARGE_PLAN_ELEMENTS {
-                let derived = Arc::new(Derived::new(&plan, &schemes, &predictor));
+                let derived = Arc::new(Derived::new(&plan, &schemes, Some(predictor)));
                 document.set_derived(plan.clone(), derived);
             } else {
                 document.await_derived();
                 let plan = plan.clone();
                 self.background.start(move || {
-                    let derived = Arc::new(Derived::new(&plan, &schemes, &predictor));
+                    let derived = Arc::new(Derived::new(&plan, &schemes, Some(predictor)));
                     Done::Derived(plan, derived)
                 });
             }

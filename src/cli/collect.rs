@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::dataset::report_left_out;
 use super::{CliError, Terminal, inputs};
-use crate::dataset::{Collection, LeftOut, RoomNetwork, Row, csv};
+use crate::dataset::{Collection, RoomNetwork, Row, csv};
 use crate::features::NeighbourLabels;
 use crate::formats::building_name;
 use crate::labels::Typology;
@@ -26,11 +26,7 @@ pub struct CollectOptions {
 
 /// Which labels of its neighbours a room counts, as an option's value.
 pub fn neighbour_labels(word: &str) -> Result<NeighbourLabels, String> {
-    let words: Vec<&str> = NeighbourLabels::ALL.into_iter().map(NeighbourLabels::name).collect();
-    NeighbourLabels::ALL
-        .into_iter()
-        .find(|mode| mode.name() == word)
-        .ok_or_else(|| format!("use one of {}", words.join(", ")))
+    inputs::one_of(word, &NeighbourLabels::ALL, NeighbourLabels::name)
 }
 
 /// Reads the collection; says on stderr what could not be read and which rooms have no label.
@@ -54,9 +50,7 @@ pub fn collect(options: &CollectOptions, seed: u64, terminal: &mut Terminal) -> 
             (Collection::Plans(networks), keys.into_iter().zip(blind).collect(), failed)
         }
     };
-    let mut left_out = LeftOut::default();
-    left_out.add(&collection.left_out());
-    report_left_out(&left_out, terminal)?;
+    report_left_out(&collection.left_out(), terminal)?;
     let collection = match options.most_rooms {
         Some(most) => collection.at_most(most, seed),
         None => collection,
@@ -106,7 +100,7 @@ fn read_networks(paths: &[PathBuf], scheme_files: &[PathBuf], terminal: &mut Ter
         Ok(())
     })?;
     // Storeys of one building are spelled differently at times; folds must not split it for that.
-    let mut spellings: BTreeMap<(Option<Typology>, String), String> = BTreeMap::new();
+    let mut spellings: BTreeMap<BuildingKey, String> = BTreeMap::new();
     for network in networks.iter_mut().chain(&mut blind) {
         let key = (network.typology.clone(), building_name::key(&network.building));
         let first = spellings.entry(key).or_insert_with(|| network.building.clone());

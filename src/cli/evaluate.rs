@@ -3,7 +3,7 @@ use std::path::PathBuf;
 
 use super::collect::{CollectOptions, Collected, collect, neighbour_labels};
 use super::progress::with_progress;
-use super::{CliError, Outcome, Subcommand, Terminal};
+use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::dataset::folds::Grouping;
 use crate::features::NeighbourLabels;
 use crate::study::{Options, report, study};
@@ -44,10 +44,8 @@ fn folds(word: &str) -> Result<usize, String> {
 }
 
 /// What is dealt to folds, as an option's value.
-pub fn grouping(word: &str) -> Result<Grouping, String> {
-    let words: Vec<&str> = Grouping::ALL.into_iter().map(Grouping::name).collect();
-    let found = Grouping::ALL.into_iter().find(|grouping| grouping.name() == word);
-    found.ok_or_else(|| format!("use one of {}", words.join(", ")))
+fn grouping(word: &str) -> Result<Grouping, String> {
+    inputs::one_of(word, &Grouping::ALL, Grouping::name)
 }
 
 impl Subcommand for EvaluateCommand {

@@ -35,11 +35,7 @@ pub struct FeatureOptions {
 }
 
 fn neighbour_labels(word: &str) -> Result<NeighbourLabels, String> {
-    let words: Vec<&str> = NeighbourLabels::WITHOUT_CLASSIFIER.into_iter().map(NeighbourLabels::name).collect();
-    NeighbourLabels::WITHOUT_CLASSIFIER
-        .into_iter()
-        .find(|mode| mode.name() == word)
-        .ok_or_else(|| format!("use one of {}", words.join(", ")))
+    inputs::one_of(word, &NeighbourLabels::WITHOUT_CLASSIFIER, NeighbourLabels::name)
 }
 
 impl Subcommand for FeaturesCommand {

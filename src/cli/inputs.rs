@@ -78,6 +78,17 @@ pub fn schemes(files: &[PathBuf]) -> Result<Schemes, CliError> {
     })
 }
 
+/// The one of `all` that goes by a word, as an option's value.
+///
+/// # Errors
+/// A sentence that lists the words there are.
+pub fn one_of<T: Copy>(word: &str, all: &[T], name: fn(T) -> &'static str) -> Result<T, String> {
+    all.iter().copied().find(|&it| name(it) == word).ok_or_else(|| {
+        let words: Vec<&str> = all.iter().map(|&it| name(it)).collect();
+        format!("use one of {}", words.join(", "))
+    })
+}
+
 /// Writes to a file by way of [`crate::store::save_bytes`], or to stdout where there is none.
 ///
 /// # Errors

@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use crate::dataset::Moments;
 use crate::random::Random;
 
 /// Two ways of classifying, compared on the same rooms. Rooms of one building resemble each other, so
@@ -98,11 +97,6 @@ impl Comparison {
             p: (flipped + 1) as f64 / (RESAMPLES + 1) as f64,
         })
     }
-}
-
-/// Mean and deviation of some accuracies, 0..=1.
-pub(super) fn moments(accuracies: &[f64]) -> Moments {
-    Moments::of(accuracies.iter().copied())
 }
 
 #[cfg(test)]

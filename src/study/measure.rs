@@ -3,7 +3,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::comparison::moments;
 use super::{
     Average, Cell, Comparison, Condition, ConfusionTable, Curve, CurvePoint, Importance, JointCell, LabelLine, Options,
     Rival, RoomsTable, STANDARD, Set, Study, StudyError, TypologyCount, TypologyLine, UnknownCell,
@@ -13,7 +12,7 @@ use crate::classify::unknown::{PlanScore, Unknown};
 use crate::classify::{Algorithm, Classifier, Confusion, Distribution, Scores, in_plan, typology};
 use crate::dataset::folds::{Folds, FoldsError, Grouping, building_of};
 use crate::dataset::table::{FEATURES, Table, Values};
-use crate::dataset::{Collection, RoomNetwork, RoomPlace, Row, Statistics};
+use crate::dataset::{Collection, Moments, RoomNetwork, RoomPlace, Row, Statistics};
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
 use crate::parallel::Work;
@@ -83,12 +82,12 @@ pub fn validate(
 struct Lab<'a> {
     collection: &'a Collection,
     options: Options,
-    /// All labelled rooms. Their features are those of the mode that stands in `values`.
+    /// All labelled rooms, with the features that true neighbour labels give.
     rows: Vec<Row>,
     places: Vec<RoomPlace>,
-    /// The features of all rooms by mode of taking neighbours' labels; those of
-    /// [`NeighbourLabels::Predicted`] depend on the classifier and are made where needed.
-    values: Vec<(NeighbourLabels, Vec<Row>)>,
+    /// The same with temporary neighbour labels; none for rows of a file. Features with predicted labels
+    /// depend on the classifier and are made where needed.
+    temporary: Vec<Row>,
     sets: Vec<SetRows>,
     notes: Vec<String>,
 }
@@ -156,19 +155,9 @@ impl<'a> Lab<'a> {
         }
         let rows = collection.rows(NeighbourLabels::True).unwrap_or_default();
         Table::from_rows(&rows).map_err(|error| StudyError::Data(error.to_string()))?;
-        let values = NeighbourLabels::WITHOUT_CLASSIFIER
-            .into_iter()
-            .filter_map(|mode| Some((mode, collection.rows(mode)?)))
-            .collect();
-        let mut lab = Self {
-            collection,
-            options,
-            rows,
-            places: collection.places(),
-            values,
-            sets: Vec::new(),
-            notes: Vec::new(),
-        };
+        let temporary = collection.rows(NeighbourLabels::Temporary).unwrap_or_default();
+        let places = collection.places();
+        let mut lab = Self { collection, options, rows, places, temporary, sets: Vec::new(), notes: Vec::new() };
         lab.deal_sets()?;
         Ok(lab)
     }
@@ -303,7 +292,10 @@ impl<'a> Lab<'a> {
     }
 
     fn rows_in(&self, mode: NeighbourLabels) -> &[Row] {
-        self.values.iter().find(|(of, _)| *of == mode).map_or(&self.rows, |(_, rows)| rows)
+        match mode {
+            NeighbourLabels::Temporary => &self.temporary,
+            NeighbourLabels::True | NeighbourLabels::Predicted => &self.rows,
+        }
     }
 
     fn train(
@@ -398,36 +390,28 @@ impl<'a> Lab<'a> {
 
     /// The joint classifier on the buildings of a fold, having learned from the others of the set.
     fn predict_jointly(&self, set: &SetRows, fold: usize) -> Option<Done> {
-        let (tested, _) = Self::split(set, Grouping::Building, fold)?;
-        let (_, taught) = self.networks_of(set, fold)?;
-        let networks = self.collection.networks();
+        let (tested, learned) = Self::split(set, Grouping::Building, fold)?;
+        let taught: Vec<&RoomNetwork> = self.networks_of(&learned).into_values().collect();
         // Threads are busy with other tasks.
         let alone = Work::quiet().on_threads(1);
         let joint = Joint::train(&taught, seed_of_part(self.options.seed, fold), &alone).ok()?;
-        let mut said: BTreeMap<usize, Vec<Distribution>> =
-            tested.iter().map(|&row| self.places[row].network).map(|at| (at, Vec::new())).collect();
-        for (&network, said) in &mut said {
-            *said = joint.predict(&networks[network], &[]);
-        }
+        let said: BTreeMap<usize, Vec<Distribution>> =
+            self.networks_of(&tested).into_iter().map(|(at, network)| (at, joint.predict(network, &[]))).collect();
         let prediction = |row: usize| Some((row, *said.get(&self.places[row].network)?.get(self.places[row].room)?));
         Some(Done::Predicted(tested.into_iter().filter_map(prediction).collect(), None))
     }
 
     /// What lies behind the openings of a fold's buildings, having learned from the others of the set.
     fn look_behind(&self, set: &SetRows, fold: usize) -> Option<Done> {
-        let (tested, learned) = self.networks_of(set, fold)?;
-        Some(Done::Behind(Unknown::train(&learned).test(&tested)))
+        let (tested, learned) = Self::split(set, Grouping::Building, fold)?;
+        let networks = |rows: &[usize]| self.networks_of(rows).into_values().collect::<Vec<_>>();
+        Some(Done::Behind(Unknown::train(&networks(&learned)).test(&networks(&tested))))
     }
 
-    /// The networks with rooms of a set that a fold by building tests, and the others.
-    fn networks_of(&self, set: &SetRows, fold: usize) -> Option<(Vec<&RoomNetwork>, Vec<&RoomNetwork>)> {
-        let (tested, learned) = Self::split(set, Grouping::Building, fold)?;
+    /// The networks that hold some rows, by index.
+    fn networks_of(&self, rows: &[usize]) -> BTreeMap<usize, &RoomNetwork> {
         let networks = self.collection.networks();
-        let of = |rows: &[usize]| -> Vec<&RoomNetwork> {
-            let indices: BTreeSet<usize> = rows.iter().map(|&row| self.places[row].network).collect();
-            indices.into_iter().map(|network| &networks[network]).collect()
-        };
-        Some((of(&tested), of(&learned)))
+        rows.iter().map(|&row| self.places[row].network).map(|at| (at, &networks[at])).collect()
     }
 
     fn curve_point(&self, set: &SetRows, algorithm: Algorithm, fold: usize, share: f64) -> Done {
@@ -484,9 +468,7 @@ impl<'a> Lab<'a> {
             let of_set: Vec<&Scores> =
                 Algorithm::ALL.into_iter().filter_map(|algorithm| study.scores(&set.name, algorithm, main)).collect();
             if !of_set.is_empty() {
-                let mean = |of: &dyn Fn(&Scores) -> f64| {
-                    moments(&of_set.iter().map(|scores| of(scores)).collect::<Vec<_>>()).mean
-                };
+                let mean = |of: &dyn Fn(&Scores) -> f64| Moments::of(of_set.iter().map(|scores| of(scores))).mean;
                 let average = Average {
                     set: set.name.clone(),
                     mean: mean(&|scores| scores.accuracy),
@@ -621,7 +603,7 @@ impl<'a> Lab<'a> {
                         rooms_of: set.name.clone(),
                         rival: name.to_owned(),
                         algorithm,
-                        rival_deviation: moments(&accuracies).deviation,
+                        rival_deviation: Moments::of(accuracies).deviation,
                         comparison: Comparison::of(rooms, self.options.seed)?,
                     })
                 };
@@ -696,7 +678,7 @@ fn infer_typologies(collection: &Collection, blind: &[RoomNetwork], options: Opt
             let right = f64::from(u8::from(best(plan).as_ref() == Some(typology)));
             buildings.entry(&plan.building).or_default().push(right);
         }
-        let mean = |numbers: &[f64]| moments(numbers).mean;
+        let mean = |numbers: &[f64]| Moments::of(numbers.iter().copied()).mean;
         let of_buildings: Vec<f64> = buildings.values().map(|of_plans| mean(of_plans)).collect();
         let of_plans: Vec<f64> = buildings.values().flatten().copied().collect();
         let taken_for = |other: &Typology| TypologyCount {
@@ -791,7 +773,7 @@ impl Results {
                         _ => None,
                     })
                     .collect();
-                let accuracy = moments(&of_folds.iter().map(|(_, accuracy)| *accuracy).collect::<Vec<_>>());
+                let accuracy = Moments::of(of_folds.iter().map(|(_, accuracy)| *accuracy));
                 let rooms: usize = of_folds.iter().map(|(learned, _)| learned).sum();
                 (!of_folds.is_empty()).then(|| CurvePoint {
                     training_rooms: rooms as f64 / of_folds.len() as f64,
