@@ -34,7 +34,7 @@ impl Subcommand for CommandsCommand {
             };
             let keys = |command: &Command| keys_of(command).join(", ");
             let (usage_width, keys_width) = (width(Command::usage), width(keys));
-            for command in COMMANDS {
+            for command in COMMANDS.iter() {
                 let (usage, keys) = (command.usage(), keys(command));
                 writeln!(terminal.out, "{usage:usage_width$}  {keys:keys_width$}  {}", command.help)?;
             }

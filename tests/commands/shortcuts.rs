@@ -14,7 +14,7 @@ fn every_shortcut_does_its_command() {
     let path = folder.path().join("traced.plan.json");
     let word = path.to_str().unwrap();
     let mut checked = 0;
-    for command in COMMANDS {
+    for command in COMMANDS.iter() {
         for &shortcut in command.shortcuts {
             let in_the_middle = matches!(command.id, "previous-plan" | "next-plan");
             let mut window = window_with(if in_the_middle { "school" } else { "dwelling" });
@@ -69,7 +69,7 @@ fn every_shortcut_does_its_command() {
 #[test]
 fn no_shortcut_is_used_twice_or_reserved() {
     let mut seen: Vec<(Keys, &str)> = Vec::new();
-    for command in COMMANDS {
+    for command in COMMANDS.iter() {
         for &shortcut in command.shortcuts {
             let keys = Keys::from(shortcut);
             let before = seen.iter().find(|(other, _)| *other == keys);

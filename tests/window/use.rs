@@ -227,7 +227,7 @@ fn every_command_runs_in_every_state() {
     let options = OffscreenOptions { width: 640, height: 420, ..OffscreenOptions::default() };
     for state in ["welcome", "plan", "room"] {
         let mut window = Offscreen::new(options);
-        for command in COMMANDS {
+        for command in COMMANDS.iter() {
             if window.is_closed() {
                 window = Offscreen::new(options);
             }

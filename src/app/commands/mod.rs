@@ -24,6 +24,7 @@ use super::App;
 use super::icons::Icon;
 
 /// Something a person can do.
+#[derive(Clone, Copy)]
 pub struct Command {
     /// Its word, in lower case with hyphens.
     pub id: &'static str,
@@ -47,6 +48,7 @@ pub struct Command {
 /// Whether a command can be done now; if not, what to do first.
 type Availability = Result<(), &'static str>;
 
+#[derive(Clone, Copy)]
 enum Action {
     Plain(fn(&mut App, &Context)),
     /// Something that is on or off: without an argument it becomes the other.
@@ -81,20 +83,36 @@ enum Ran {
 pub enum Menu {
     File,
     Edit,
+    Draw,
+    Modify,
     Room,
+    Picture,
     Predict,
     View,
     Help,
 }
 
 impl Menu {
-    pub const ALL: [Self; 6] = [Self::File, Self::Edit, Self::Room, Self::Predict, Self::View, Self::Help];
+    pub const ALL: [Self; 9] = [
+        Self::File,
+        Self::Edit,
+        Self::Draw,
+        Self::Modify,
+        Self::Room,
+        Self::Picture,
+        Self::Predict,
+        Self::View,
+        Self::Help,
+    ];
 
     pub const fn title(self) -> &'static str {
         match self {
             Self::File => "File",
             Self::Edit => "Edit",
+            Self::Draw => "Draw",
+            Self::Modify => "Modify",
             Self::Room => "Room",
+            Self::Picture => "Picture",
             Self::Predict => "Predict",
             Self::View => "View",
             Self::Help => "Help",
@@ -156,7 +174,7 @@ mod tests {
     fn no_shortcut_and_no_id_is_used_twice() {
         let mut by_key: BTreeMap<String, &str> = BTreeMap::new();
         let mut by_id: BTreeMap<&str, &str> = BTreeMap::new();
-        for command in COMMANDS {
+        for command in COMMANDS.iter() {
             assert_eq!(by_id.insert(command.id, command.title), None, "two commands have the id {}", command.id);
             for shortcut in command.shortcuts {
                 let keys = shortcut.format(&egui::ModifierNames::NAMES, false);
@@ -168,7 +186,7 @@ mod tests {
 
     #[test]
     fn every_command_is_well_described() {
-        for command in COMMANDS {
+        for command in COMMANDS.iter() {
             let id_is_word = command.id.chars().all(|c| c.is_ascii_lowercase() || c == '-');
             assert!(id_is_word, "{}", command.id);
             assert!(command.title.starts_with(char::is_uppercase) && !command.title.ends_with('.'), "{}", command.id);

@@ -58,8 +58,15 @@ const GAP: f32 = 28.0;
 /// Which menus stand in which column, by how many columns there are: about as many lines in each.
 const COLUMNS: [&[&[Menu]]; 3] = [
     &[&Menu::ALL],
-    &[&[Menu::File, Menu::Edit, Menu::Help], &[Menu::Room, Menu::Predict, Menu::View]],
-    &[&[Menu::File, Menu::Edit, Menu::Help], &[Menu::Room, Menu::Predict], &[Menu::View]],
+    &[
+        &[Menu::File, Menu::Edit, Menu::Draw, Menu::Modify, Menu::Help],
+        &[Menu::Room, Menu::Picture, Menu::Predict, Menu::View],
+    ],
+    &[
+        &[Menu::File, Menu::Edit, Menu::Draw, Menu::Help],
+        &[Menu::Modify, Menu::Room, Menu::Picture],
+        &[Menu::Predict, Menu::View],
+    ],
 ];
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {

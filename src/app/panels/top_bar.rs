@@ -38,7 +38,7 @@ fn menu_entries(app: &mut App, ui: &mut Ui, menu: Menu) {
     ui.set_width(260.0);
     ui.spacing_mut().item_spacing.y = 0.0;
     let mut section = None;
-    for command in COMMANDS {
+    for command in COMMANDS.iter() {
         let Some((_, this)) = command.menu.filter(|(of, _)| *of == menu) else { continue };
         if section.is_some_and(|section| section != this) {
             ui.separator();
@@ -81,7 +81,7 @@ fn tools_width() -> f32 {
 /// The tools, groups apart.
 fn show_tools(app: &mut App, ui: &mut Ui) {
     let mut group = None;
-    for command in COMMANDS {
+    for command in COMMANDS.iter() {
         let Some((icon, this)) = command.tool else { continue };
         if group.is_some_and(|group| group != this) {
             ui.add_space(GROUP_SPACE);

@@ -1,0 +1,5 @@
+//! Drawing: walls, rooms, openings.
+
+use super::*;
+
+pub(super) const COMMANDS: &[Command] = &[];

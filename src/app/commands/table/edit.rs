@@ -1,0 +1,47 @@
+//! Taking back, and the plan as a whole.
+
+use super::*;
+
+pub(super) const COMMANDS: &[Command] = &[
+    command("undo", "Undo", "Take the last change back", can_undo, |app, _| app.undo())
+        .keys(&[ctrl(Key::Z)])
+        .menu(Menu::Edit, 0)
+        .tool(Icon::Undo, 0),
+    command("redo", "Redo", "Do again what was taken back", can_redo, |app, _| app.redo())
+        .keys(&[ctrl_shift(Key::Z), ctrl(Key::Y)])
+        .menu(Menu::Edit, 0)
+        .tool(Icon::Redo, 0),
+    command("clear-selection", "Clear selection", "Pick nothing", has_picked, |app, _| app.pick(None))
+        .keys(&[key(Key::Escape)])
+        .menu(Menu::Edit, 1),
+    with(
+        "rename-plan",
+        "Rename the plan…",
+        "Write the plan's name",
+        has_plan,
+        &[needed("NAME", ArgumentKind::Text, "the plan's name")],
+        |app, values, _| {
+            app.change_meta("Rename plan", |meta| meta.name = values.text(0).unwrap_or_default().to_owned());
+            Ran::Done
+        },
+        Some(|app, _| {
+            let name = app.plan().map(|plan| plan.meta().name.clone()).unwrap_or_default();
+            let asking = crate::app::commands::find("rename-plan").map(|command| Palette::asking(command, Vec::new()));
+            app.panels.palette = asking.map(|palette| palette.with_text(&name));
+        }),
+    )
+    .menu(Menu::Edit, 2),
+    with(
+        "set-typology",
+        "Typology…",
+        "Say what the plan's building is for: its label scheme says what the rooms' functions mean",
+        has_plan,
+        &[needed("TYPOLOGY", ArgumentKind::Typology, "a typology with a label scheme, or 'unknown'")],
+        |app, values, _| {
+            app.change_meta("Set typology", |meta| meta.typology = values.typology(0).cloned().flatten());
+            Ran::Done
+        },
+        None,
+    )
+    .menu(Menu::Edit, 2),
+];

@@ -1,0 +1,93 @@
+//! Opening, saving, closing.
+
+use super::*;
+
+pub(super) const COMMANDS: &[Command] = &[
+    with(
+        "open",
+        "Open…",
+        "Open a plan: a plan file, the authors' XML, or GeoJSON",
+        always,
+        &[
+            needed("PATH", ArgumentKind::PlanFile, "a file with a plan, or a folder of which the first plan is opened"),
+            optional("STOREY", ArgumentKind::Count, "which plan of the file, from 1"),
+        ],
+        |app, values, _| {
+            if let Some(path) = values.path(0) {
+                let storey = values.count(1).map_or(0, |storey| storey - 1);
+                app.open(Origin::File { path: path.to_owned(), storey });
+            }
+            Ran::Done
+        },
+        Some(|app, _| app.choose_plan()),
+    )
+    .keys(&[ctrl(Key::O)])
+    .menu(Menu::File, 0),
+    with(
+        "open-sample",
+        "Open a sample…",
+        "Open a plan that comes with the program",
+        always,
+        &[needed("SAMPLE", ArgumentKind::Sample, "the sample's file name without the ending")],
+        |app, values, _| {
+            if let Some(&sample) = values.sample(0) {
+                app.open(Origin::Bundled(sample));
+            }
+            Ran::Done
+        },
+        None,
+    )
+    .menu(Menu::File, 0),
+    with(
+        "save",
+        "Save",
+        "Save the plan in its file",
+        has_plan,
+        &[],
+        |app, _, _| if app.save(None) { Ran::Done } else { Ran::Asks },
+        None,
+    )
+    .keys(&[ctrl(Key::S)])
+    .menu(Menu::File, 1),
+    with(
+        "save-as",
+        "Save as…",
+        "Save the plan in another file",
+        has_plan,
+        &[needed("PATH", ArgumentKind::NewPlanFile, "the file, which is replaced if it exists; '.plan.json' is added")],
+        |app, values, _| {
+            if let Some(path) = values.path(0) {
+                app.save_in(path.to_owned(), None);
+            }
+            Ran::Done
+        },
+        Some(|app, _| app.ask_where_to_save(None, None)),
+    )
+    .keys(&[ctrl_shift(Key::S)])
+    .menu(Menu::File, 1),
+    switch(
+        "import-notes",
+        "Import notes",
+        "Show what was mended or left out when the plan was opened",
+        has_notes,
+        |app| app.panels.notes,
+        |app, is_on| app.panels.notes = is_on,
+    )
+    .menu(Menu::File, 2),
+    command("previous-plan", "Previous plan", "Open the plan above in the list", has_several_plans, |app, _| {
+        app.open_neighbour(-1);
+    })
+    .keys(&[key(Key::PageUp)])
+    .menu(Menu::File, 3),
+    command("next-plan", "Next plan", "Open the plan below in the list", has_several_plans, |app, _| {
+        app.open_neighbour(1);
+    })
+    .keys(&[key(Key::PageDown)])
+    .menu(Menu::File, 3),
+    command("close", "Close plan", "Close the plan", has_plan, |app, _| app.request(Intent::Close))
+        .keys(&[ctrl(Key::W)])
+        .menu(Menu::File, 4),
+    command("quit", "Quit", "Close the window", always, |app, _| app.request(Intent::Quit))
+        .keys(&[ctrl(Key::Q)])
+        .menu(Menu::File, 4),
+];

@@ -1,0 +1,272 @@
+//! The table itself: one file a menu, and what the entries are made of.
+
+mod draw;
+mod edit;
+mod file;
+mod help;
+mod modify;
+mod picture;
+mod predict;
+mod room;
+mod script;
+mod view;
+
+use std::path::Path;
+use std::sync::LazyLock;
+
+use egui::{Context, Key, KeyboardShortcut, Modifiers};
+
+use super::{Action, Argument, ArgumentKind, Availability, Command, Menu, Ran, Values};
+use crate::app::icons::Icon;
+use crate::app::panels::FieldKind;
+use crate::app::panels::palette::Palette;
+use crate::app::panels::shortcuts::Sheet;
+use crate::app::theme::ThemeChoice;
+use crate::app::{App, Intent, Origin, Picked};
+use crate::classify::{Algorithm, Method};
+use crate::draw::{Fill, LabelColours};
+use crate::geometry::{Bounds, Point, Vector};
+use crate::labels::Label;
+
+const fn key(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::NONE, key)
+}
+
+const fn shift(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::SHIFT, key)
+}
+
+const fn ctrl(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::COMMAND, key)
+}
+
+const fn ctrl_shift(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), key)
+}
+
+const fn entry(
+    id: &'static str,
+    title: &'static str,
+    help: &'static str,
+    availability: fn(&App) -> Availability,
+    action: Action,
+) -> Command {
+    Command { id, title, help, arguments: &[], shortcuts: &[], menu: None, tool: None, availability, action }
+}
+
+const fn command(
+    id: &'static str,
+    title: &'static str,
+    help: &'static str,
+    availability: fn(&App) -> Availability,
+    run: fn(&mut App, &Context),
+) -> Command {
+    entry(id, title, help, availability, Action::Plain(run))
+}
+
+const SWITCH: &[Argument] = &[optional("SWITCH", ArgumentKind::Switch, "on or off; without, the other of what it is")];
+
+/// Something that is on or off.
+const fn switch(
+    id: &'static str,
+    title: &'static str,
+    help: &'static str,
+    availability: fn(&App) -> Availability,
+    is_on: fn(&App) -> bool,
+    set: fn(&mut App, bool),
+) -> Command {
+    entry(id, title, help, availability, Action::Switch { is_on, set }).takes(SWITCH)
+}
+
+/// One of several, of which one is on.
+const fn choose(
+    id: &'static str,
+    title: &'static str,
+    help: &'static str,
+    availability: fn(&App) -> Availability,
+    is_on: fn(&App) -> bool,
+    run: fn(&mut App, &Context),
+) -> Command {
+    entry(id, title, help, availability, Action::Choose { is_on, run })
+}
+
+/// Something that takes arguments; missing ones are asked for by `ask`, or in the palette.
+const fn with(
+    id: &'static str,
+    title: &'static str,
+    help: &'static str,
+    availability: fn(&App) -> Availability,
+    arguments: &'static [Argument],
+    run: fn(&mut App, &Values, &Context) -> Ran,
+    ask: Option<fn(&mut App, &Context)>,
+) -> Command {
+    entry(id, title, help, availability, Action::With { run, ask }).takes(arguments)
+}
+
+const fn needed(name: &'static str, kind: ArgumentKind, help: &'static str) -> Argument {
+    Argument { name, kind, is_optional: false, help }
+}
+
+const fn optional(name: &'static str, kind: ArgumentKind, help: &'static str) -> Argument {
+    Argument { name, kind, is_optional: true, help }
+}
+
+impl Command {
+    const fn takes(self, arguments: &'static [Argument]) -> Self {
+        Self { arguments, ..self }
+    }
+
+    const fn keys(self, shortcuts: &'static [KeyboardShortcut]) -> Self {
+        Self { shortcuts, ..self }
+    }
+
+    const fn menu(self, menu: Menu, section: u8) -> Self {
+        Self { menu: Some((menu, section)), ..self }
+    }
+
+    const fn tool(self, icon: Icon, group: u8) -> Self {
+        Self { tool: Some((icon, group)), ..self }
+    }
+}
+
+// When commands are available.
+
+fn always(_: &App) -> Availability {
+    Ok(())
+}
+
+/// `Ok` where something holds, else what to do first.
+fn when(holds: bool, otherwise: &'static str) -> Availability {
+    if holds { Ok(()) } else { Err(otherwise) }
+}
+
+fn has_plan(app: &App) -> Availability {
+    when(app.document.is_some(), "open a plan first")
+}
+
+fn has_picked(app: &App) -> Availability {
+    has_plan(app)?;
+    when(app.picked.is_some(), "pick a room or an opening first")
+}
+
+fn has_room(app: &App) -> Availability {
+    has_plan(app)?;
+    when(matches!(app.picked, Some(Picked::Room(_))), "pick a room first")
+}
+
+fn has_rooms(app: &App) -> Availability {
+    has_plan(app)?;
+    when(app.plan().is_some_and(|plan| plan.rooms().len() > 0), "the plan has no rooms")
+}
+
+fn has_openings(app: &App) -> Availability {
+    has_plan(app)?;
+    when(app.plan().is_some_and(|plan| plan.openings().len() > 0), "the plan has no openings")
+}
+
+fn can_undo(app: &App) -> Availability {
+    has_plan(app)?;
+    let can = app.document.as_ref().is_some_and(|document| document.history.can_undo());
+    when(can, "there is nothing to undo")
+}
+
+fn can_redo(app: &App) -> Availability {
+    has_plan(app)?;
+    let can = app.document.as_ref().is_some_and(|document| document.history.can_redo());
+    when(can, "nothing was undone")
+}
+
+fn has_own_label(app: &App) -> Availability {
+    has_room(app)?;
+    let has = app.picked_room().is_some_and(|(_, room)| room.label.is_some());
+    when(has, "the room has no label of its own")
+}
+
+fn has_prediction(app: &App) -> Availability {
+    has_room(app)?;
+    when(app.prediction_of_picked().is_some(), "the room is not one that is predicted")
+}
+
+fn has_unlabelled(app: &App) -> Availability {
+    has_plan(app)?;
+    let has =
+        app.predictions().is_some_and(|predictions| predictions.network.rooms.iter().any(|room| room.label.is_none()));
+    when(has, "every room has a label")
+}
+
+fn has_several_plans(app: &App) -> Availability {
+    when(app.list.len() > 1, "there is only one plan in the list")
+}
+
+fn has_backdrop(app: &App) -> Availability {
+    has_plan(app)?;
+    let has = app.plan().is_some_and(|plan| plan.backdrop().is_some());
+    when(has, "the plan has no picture under it")
+}
+
+fn has_notes(app: &App) -> Availability {
+    has_plan(app)?;
+    let has = app.document.as_ref().is_some_and(|document| !document.notes.is_empty());
+    when(has, "nothing was mended or left out when the plan was opened")
+}
+
+fn has_messages(app: &App) -> Availability {
+    when(!app.messages.is_empty(), "there is no message")
+}
+
+fn can_record(app: &App) -> Availability {
+    // A script starts from what is in a file.
+    when(
+        app.is_recording() || !app.has_unsaved_changes(),
+        "save the plan first: a script starts from what is in its file",
+    )
+}
+
+fn has_changed_keys(app: &App) -> Availability {
+    when(app.settings.is_any_changed(), "no shortcut was changed")
+}
+
+fn is_asked(app: &App) -> Availability {
+    when(app.question.is_some(), "nothing is asked")
+}
+
+/// The drawing area's half side in metres: coordinates beyond are no plan's.
+const FAR_M: f64 = 1e6;
+
+const X: Argument =
+    needed("X", ArgumentKind::Number { unit: " of metres", least: -FAR_M, most: FAR_M }, "to the right, in metres");
+const Y: Argument =
+    needed("Y", ArgumentKind::Number { unit: " of metres", least: -FAR_M, most: FAR_M }, "up, in metres");
+const WIDTH: Argument =
+    needed("WIDTH", ArgumentKind::Number { unit: " of metres", least: 0.001, most: FAR_M }, "in metres");
+const HEIGHT: Argument =
+    needed("HEIGHT", ArgumentKind::Number { unit: " of metres", least: 0.001, most: FAR_M }, "in metres");
+const SCALE: Argument = needed(
+    "SCALE",
+    ArgumentKind::Number { unit: " of pixels to the metre", least: 0.001, most: 1e5 },
+    "how many pixels a metre is long",
+);
+
+const ROOM: Argument = needed("ROOM", ArgumentKind::Room, "a room's name, or its id where several have the name");
+
+const DIRECTIONS: &[(&str, &str)] = &[("left", "Left"), ("right", "Right"), ("up", "Up"), ("down", "Down")];
+
+/// How much a step of zooming changes the size.
+const ZOOM_STEP: f64 = 1.25;
+
+/// The parts of the table, in the order of the menus. A part is a file.
+const PARTS: &[&[Command]] = &[
+    file::COMMANDS,
+    edit::COMMANDS,
+    draw::COMMANDS,
+    modify::COMMANDS,
+    room::COMMANDS,
+    picture::COMMANDS,
+    predict::COMMANDS,
+    view::COMMANDS,
+    help::COMMANDS,
+    script::COMMANDS,
+];
+
+/// Every command, in the order of the menus.
+pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| PARTS.concat());
