@@ -165,3 +165,13 @@ impl Plan {
             && self.backdrop.as_ref().map(Arc::as_ptr) == other.backdrop.as_ref().map(Arc::as_ptr)
     }
 }
+
+/// The edges of a ring, the closing one last.
+pub(crate) fn ring_edges<T: Copy>(ring: &[T]) -> impl Iterator<Item = (T, T)> + '_ {
+    ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| (a, b))
+}
+
+/// The corners of an edge, the smaller first: an edge has no direction.
+pub(crate) fn ordered(a: CornerId, b: CornerId) -> [CornerId; 2] {
+    if a < b { [a, b] } else { [b, a] }
+}
