@@ -83,6 +83,9 @@ enum BackdropState {
 /// Free space around a fitted plan, in points.
 const FIT_MARGIN: f64 = 48.0;
 
+/// A canvas on which nothing is drawn shows so many metres from side to side.
+const EMPTY_WIDTH_M: f64 = 20.0;
+
 /// Half a millimetre is as wide as a pixel: nothing smaller is drawn in a plan.
 const MOST_PX_PER_M: f64 = 2000.0;
 
@@ -219,7 +222,14 @@ impl Canvas {
             let view = View::fitting(bounds, width_px, height_px, margin);
             Camera { centre: view.centre, px_per_m: view.px_per_m, is_fitted: false }
         };
-        let whole = || Camera { is_fitted: true, ..fitting(bounds) };
+        let whole = || match bounds.is_empty() {
+            // Room for a house. What is drawn then does not move the view.
+            true => {
+                let px_per_m = width_px.max(1.0) / EMPTY_WIDTH_M;
+                Camera { centre: Point::default(), px_per_m, is_fitted: false }
+            }
+            false => Camera { is_fitted: true, ..fitting(bounds) },
+        };
         let mut camera = self.camera.filter(|camera| !camera.is_fitted).unwrap_or_else(whole);
         match self.wish.take() {
             None => {}
