@@ -22,3 +22,4 @@ pub mod random;
 pub mod store;
 pub mod study;
 pub mod topology;
+pub mod units;
