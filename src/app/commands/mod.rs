@@ -72,6 +72,8 @@ enum Action {
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Ran {
     Done,
+    /// It was done, and running it again with these arguments does the same.
+    DoneWith(Vec<String>),
     /// It asks for something, or shows it; the answer is a command of its own.
     Asks,
     /// Nothing was done, and why.

@@ -21,13 +21,15 @@ use crate::app::icons::Icon;
 use crate::app::panels::FieldKind;
 use crate::app::panels::palette::Palette;
 use crate::app::panels::shortcuts::Sheet;
+use crate::app::settings::GRID_RANGE_M;
 use crate::app::theme::ThemeChoice;
 use crate::app::{App, Intent, Origin, SelectMode};
 use crate::classify::{Algorithm, Method};
 use crate::draw::{Fill, LabelColours};
-use crate::geometry::{Bounds, Point, Vector};
+use crate::geometry::{Bounds, Point, Vector, trim_m};
 use crate::labels::Label;
 use crate::plan::ElementId;
+use crate::units::Units;
 
 const fn key(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::NONE, key)
