@@ -11,7 +11,7 @@ use crate::app::document::bundled;
 use crate::features::RoomStatus;
 use crate::formats;
 use crate::geometry::{Point, trim_m};
-use crate::labels::{Meaning, Typology};
+use crate::labels::Typology;
 use crate::plan::{COORDINATE_LIMIT_M, ElementId, Joint, Opening, OpeningId, Plan, Room, RoomId};
 use crate::units::Units;
 
@@ -131,6 +131,8 @@ pub struct Choice {
     pub title: String,
     /// What tells it from others of the same title; may be empty.
     pub detail: String,
+    /// At the end: how often there is such a thing; may be empty.
+    pub trail: String,
     /// What a room is labelled, or a function means: for a swatch.
     pub status: Option<RoomStatus>,
 }
@@ -171,6 +173,11 @@ impl ArgumentKind {
                 or_list(&words)
             }
         }
+    }
+
+    /// Whether it can be something else than its choices.
+    pub(in crate::app) const fn is_open(self) -> bool {
+        matches!(self, Self::Function)
     }
 
     /// Reads an argument.
@@ -289,6 +296,7 @@ impl ArgumentKind {
             word: word.to_owned(),
             title: title.to_owned(),
             detail: String::new(),
+            trail: String::new(),
             status: None,
         };
         Some(match self {
@@ -303,20 +311,7 @@ impl ArgumentKind {
             | Self::Points { .. } => return None,
             Self::Room => room_choices(app),
             Self::Opening => opening_choices(app),
-            Self::Function => {
-                let typology = app.plan().and_then(|plan| plan.meta().typology.as_ref())?;
-                let status = |meaning| match meaning {
-                    Meaning::Labelled(label) => RoomStatus::Labelled(label),
-                    Meaning::NotClassified => RoomStatus::NotClassified,
-                };
-                let functions = app.schemes.functions(typology);
-                let choice = |(function, meaning)| Choice {
-                    status: Some(status(meaning)),
-                    detail: status(meaning).label().map_or("not classified", crate::labels::Label::name).to_owned(),
-                    ..plain(function, &sentence(function))
-                };
-                functions.map(choice).collect()
-            }
+            Self::Function => app.function_choices(),
             Self::Typology => {
                 let known = app.schemes.typologies().map(|typology| plain(typology.as_str(), &typology.title()));
                 known.chain([plain(UNKNOWN, "Unknown")]).collect()
@@ -445,7 +440,13 @@ fn room_choices(app: &App) -> Vec<Choice> {
         let area = area.map(|shape| app.units().area(shape.area_m2()));
         let detail = [status.label().map(|label| label.name().to_owned()), area];
         let detail: Vec<String> = detail.into_iter().flatten().collect();
-        Some(Choice { word, title: room_title(room), detail: detail.join(", "), status: Some(status) })
+        Some(Choice {
+            word,
+            title: room_title(room),
+            detail: detail.join(", "),
+            trail: String::new(),
+            status: Some(status),
+        })
     };
     ids.into_iter().filter_map(choice).collect()
 }
@@ -466,6 +467,7 @@ fn opening_choices(app: &App) -> Vec<Choice> {
             word: id.to_string(),
             title: sentence(opening.kind.name()),
             detail: detail.unwrap_or_default(),
+            trail: String::new(),
             status: None,
         }
     };

@@ -91,7 +91,9 @@ impl App {
         {
             return Err(not_now(format!("answer '{}' first", question.title(self))));
         }
-        (command.availability)(self).map_err(|reason| not_now(reason.to_owned()))?;
+        let is_complete = !arguments.is_empty() && arguments.len() == command.arguments.len();
+        let availability = command.complete_availability.filter(|_| is_complete).unwrap_or(command.availability);
+        availability(self).map_err(|reason| not_now(reason.to_owned()))?;
         let values = self.read_arguments(command, arguments)?;
         self.run_with_values(command, values, context).map_err(not_now)
     }

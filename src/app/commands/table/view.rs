@@ -188,6 +188,16 @@ pub(super) const COMMANDS: &[Command] = &[
     .keys(&[ctrl(Key::Num2)])
     .menu(Menu::View, 4)
     .tool(Icon::Inspector, 3),
+    switch(
+        "history",
+        "History",
+        "Show the steps that led to the plan, and go to any of them",
+        always,
+        |app| app.panels.history,
+        |app, is_on| app.panels.history = is_on,
+    )
+    .keys(&[ctrl(Key::Num3)])
+    .menu(Menu::View, 4),
     choose(
         "theme-system",
         "Follow the system",
