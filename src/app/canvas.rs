@@ -19,6 +19,7 @@ use crate::geometry::{Bounds, Point, Vector};
 use crate::labels::normalised_function;
 use crate::plan::{Backdrop, ElementId, Plan};
 use crate::topology::RoomShape;
+use crate::units::Units;
 
 /// What the canvas remembers from frame to frame.
 #[derive(Default)]
@@ -476,14 +477,14 @@ impl Canvas {
                 }
             }
         }
-        paint_scale_bar(&painter, rect, &view, palette);
+        paint_scale_bar(&painter, rect, &view, palette, app.units());
         if response.has_focus() && self.shows_focus {
             let colours = theme::colours(ui.visuals());
             painter.rect_stroke(rect.shrink(1.0), 0.0, Stroke::new(2.0, colours.accent), StrokeKind::Inside);
         }
         let description = describe(document, app.picked());
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, &description));
-        self.tell_screen_reader(ui, rect, &view, document, fresh, app.picked()).or(act)
+        self.tell_screen_reader(ui, rect, &view, document, fresh, app).or(act)
     }
 
     /// What a click at a place picks, having clicked there before.
@@ -606,7 +607,7 @@ impl Canvas {
         view: &View,
         document: &Document,
         fresh: Option<&Arc<Derived>>,
-        picked: Option<ElementId>,
+        app: &App,
     ) -> Option<Act> {
         if !ui.ctx().has_accesskit_node(canvas_id()) {
             return None;
@@ -623,8 +624,9 @@ impl Canvas {
             let id = canvas_id().with(shape.id);
             let response = ui.interact(bounds.intersect(rect), id, Sense::hover());
             let label = title_of(document.plan(), this);
-            response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, picked == Some(this), &label));
-            let said = said_of_room(document.plan(), derived, shape);
+            response
+                .widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, app.picked() == Some(this), &label));
+            let said = said_of_room(document.plan(), derived, shape, app.units());
             ui.ctx().accesskit_node_builder(id, |node| {
                 node.add_action(egui::accesskit::Action::Click);
                 node.set_description(said);
@@ -667,6 +669,8 @@ fn style(app: &App, plan: &Plan, is_dark: bool) -> Style {
         fill_opacity: if is_over_picture { 0.55 } else { 1.0 },
         halo: is_over_picture,
         text_px: 12.5,
+        units: app.units(),
+        grid_m: app.settings.grid_m(),
         layers: Layers {
             grid: layers.grid,
             rooms: !(is_over_picture && layers.fill == draw::Fill::None),
@@ -690,7 +694,7 @@ fn describe(document: &Document, picked: Option<ElementId>) -> String {
 }
 
 /// A room's label and area, in words.
-fn said_of_room(plan: &Plan, derived: &Derived, shape: &RoomShape) -> String {
+fn said_of_room(plan: &Plan, derived: &Derived, shape: &RoomShape, units: Units) -> String {
     let status = derived.analysis.room(shape.id).map(|room| room.status);
     let label = match status {
         Some(RoomStatus::Labelled(label)) => label.name(),
@@ -699,7 +703,7 @@ fn said_of_room(plan: &Plan, derived: &Derived, shape: &RoomShape) -> String {
     };
     let function = plan.room(shape.id).map(|room| room.function.trim()).unwrap_or_default();
     let function = if function.is_empty() { String::new() } else { format!(", {}", normalised_function(function)) };
-    format!("{label}{function}, {:.1} m²", shape.area_m2())
+    format!("{label}{function}, {}", units.area(shape.area_m2()))
 }
 
 /// What something on the canvas is called.
@@ -730,28 +734,14 @@ pub(super) fn sentence(text: &str) -> String {
 }
 
 /// A bar of a round length in the lower left corner.
-fn paint_scale_bar(painter: &Painter, rect: Rect, view: &View, palette: &Palette) {
-    // 1, 2 or 5 times a power of ten, the longest that is at most as long as this, in points.
+fn paint_scale_bar(painter: &Painter, rect: Rect, view: &View, palette: &Palette, units: Units) {
+    // The longest round length that is at most as long as this, in points.
     const LONGEST: f64 = 120.0;
-    let most_m = LONGEST / view.px_per_m;
-    let decade = 10f64.powf(most_m.log10().floor());
-    let length_m = [5.0, 2.0, 1.0]
-        .into_iter()
-        .map(|step| step * decade)
-        .find(|length| *length <= most_m * 1.0001)
-        .unwrap_or(decade);
+    let length_m = units.round_length_at_most(LONGEST / view.px_per_m);
     let width = (length_m * view.px_per_m) as f32;
     let left = rect.left_bottom() + vec2(16.0, -18.0);
     let ink = theme::colour(palette.ink_muted);
-    let text = if length_m >= 1000.0 {
-        format!("{} km", length_m / 1000.0)
-    } else if length_m >= 1.0 {
-        format!("{length_m} m")
-    } else if length_m >= 0.01 {
-        format!("{:.0} cm", length_m * 100.0)
-    } else {
-        format!("{:.0} mm", length_m * 1000.0)
-    };
+    let text = units.round_length(length_m);
     let galley = painter.layout_no_wrap(text, egui::FontId::proportional(theme::SMALL), ink);
     let ground = Rect::from_min_max(left + vec2(-6.0, -8.0), left + vec2(width + 12.0 + galley.rect.width(), 8.0));
     painter.rect_filled(ground, 4.0, theme::colour(palette.paper).gamma_multiply(0.85));

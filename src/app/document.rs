@@ -203,6 +203,11 @@ impl Document {
         !self.plan().is_same_value(&self.saved) && *self.plan() != self.saved
     }
 
+    /// The step of the history whose plan is the one on the disk, counted from 0; the last of several.
+    pub(super) fn saved_step(&self) -> Option<usize> {
+        self.history.steps().iter().rposition(|step| step.plan.is_same_value(&self.saved))
+    }
+
     /// Notes that `plan` now stands in a file.
     pub(super) fn was_saved(&mut self, plan: Plan, path: PathBuf, stamp: Option<Stamp>) {
         self.saved = plan;

@@ -11,6 +11,7 @@ mod dialogs;
 mod document;
 mod files;
 mod icons;
+mod labelling;
 mod offscreen;
 mod panels;
 mod picture;
@@ -396,12 +397,6 @@ impl App {
         Some((id, self.plan()?.room(id)?))
     }
 
-    /// The label of the picked room, whoever gave it.
-    fn picked_label(&self) -> Option<Label> {
-        let (_, room) = self.picked_room()?;
-        RoomStatus::of(self.plan()?, &self.schemes, room).label()
-    }
-
     /// Picks the room that comes `step` later as one reads: from the top left, line by line. From
     /// nothing picked, the first or the last. `false` when there is no further one.
     fn pick_neighbour(&mut self, step: isize) -> bool {
@@ -465,14 +460,6 @@ impl App {
         }
     }
 
-    /// Gives the picked room a label, or takes its own away.
-    fn label_picked(&mut self, label: Option<Label>) {
-        let Some((id, _)) = self.picked_room() else { return };
-        let given = label.map(|label| RoomLabel { label, origin: LabelOrigin::Person });
-        let title = label.map_or("Label by function".to_owned(), |label| format!("Label {label}"));
-        self.edit(&title, |plan| edit::set_label(plan, id, given));
-    }
-
     // Predicting.
 
     /// What is said of the rooms of the plan as it is now; `None` while that is being worked out.
@@ -521,6 +508,9 @@ impl App {
             self.edit(field.title(), |plan| field.apply(plan));
             // The field's room is the picked one: picking another ends the typing first.
             let (id, text) = field.as_command();
+            if id == "set-function" {
+                self.remember_function(&text);
+            }
             self.note_executed(id, vec![text]);
         }
     }
@@ -557,6 +547,18 @@ impl App {
         if let Some(title) = self.document.as_mut().and_then(|document| document.history.redo()) {
             self.status = format!("Redone: {title}");
         }
+    }
+
+    /// Goes to a step of the history, counted from 0; gives why not where there is none.
+    fn jump_to_step(&mut self, step: usize) -> Result<(), String> {
+        let Some(document) = &mut self.document else { return Ok(()) };
+        let number = document.history.steps().len();
+        let Some(title) = document.history.steps().get(step).map(|step| step.title.clone()) else {
+            return Err(format!("the history has {}", panels::status::count(number, "step")));
+        };
+        document.history.jump_to(step);
+        self.status = format!("Step {} of {number}: {title}", step + 1);
+        Ok(())
     }
 
     /// The colours of the plan, in the window's theme.

@@ -33,7 +33,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             zoom_button(app, ui, Icon::Minus, "zoom-out");
             ui.add_space(14.0);
             if let Some(point) = app.canvas.pointer {
-                ui.label(small(format!("x {:.2} m    y {:.2} m", point.x, point.y)));
+                let units = app.units();
+                ui.label(small(format!("x {}    y {}", units.length(point.x), units.length(point.y))));
             }
         });
     });

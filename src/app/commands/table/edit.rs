@@ -11,6 +11,19 @@ pub(super) const COMMANDS: &[Command] = &[
         .keys(&[ctrl_shift(Key::Z), ctrl(Key::Y)])
         .menu(Menu::Edit, 0)
         .tool(Icon::Redo, 0),
+    with(
+        "jump-to-step",
+        "Go to a step…",
+        "Go back or forth to a step of the history",
+        has_plan,
+        &[needed("STEP", ArgumentKind::Count, "which step of the history, the plan as it came being 1")],
+        |app, values, _| match app.jump_to_step(values.count(0).map_or(0, |step| step - 1)) {
+            Ok(()) => Ran::Done,
+            Err(reason) => Ran::Refused(reason),
+        },
+        Some(|app, _| app.panels.history = true),
+    )
+    .menu(Menu::Edit, 0),
     command("clear-selection", "Clear selection", "Pick nothing", has_picked, |app, _| app.pick(None))
         .keys(&[key(Key::Escape)])
         .menu(Menu::Edit, 1),

@@ -21,13 +21,15 @@ use crate::app::icons::Icon;
 use crate::app::panels::FieldKind;
 use crate::app::panels::palette::Palette;
 use crate::app::panels::shortcuts::Sheet;
+use crate::app::settings::GRID_RANGE_M;
 use crate::app::theme::ThemeChoice;
 use crate::app::{App, Intent, Origin, SelectMode};
 use crate::classify::{Algorithm, Method};
 use crate::draw::{Fill, LabelColours};
-use crate::geometry::{Bounds, Point, Vector};
+use crate::geometry::{Bounds, Point, Vector, trim_m};
 use crate::labels::Label;
 use crate::plan::ElementId;
+use crate::units::Units;
 
 const fn key(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::NONE, key)
@@ -52,7 +54,18 @@ const fn entry(
     availability: fn(&App) -> Availability,
     action: Action,
 ) -> Command {
-    Command { id, title, help, arguments: &[], shortcuts: &[], menu: None, tool: None, availability, action }
+    Command {
+        id,
+        title,
+        help,
+        arguments: &[],
+        shortcuts: &[],
+        menu: None,
+        tool: None,
+        availability,
+        complete_availability: None,
+        action,
+    }
 }
 
 const fn command(
@@ -101,7 +114,7 @@ const fn with(
     run: fn(&mut App, &Values, &Context) -> Ran,
     ask: Option<fn(&mut App, &Context)>,
 ) -> Command {
-    entry(id, title, help, availability, Action::With { run, ask }).takes(arguments)
+    entry(id, title, help, availability, Action::With { run, ask, is_on: None }).takes(arguments)
 }
 
 const fn needed(name: &'static str, kind: ArgumentKind, help: &'static str) -> Argument {
@@ -115,6 +128,19 @@ const fn optional(name: &'static str, kind: ArgumentKind, help: &'static str) ->
 impl Command {
     const fn takes(self, arguments: &'static [Argument]) -> Self {
         Self { arguments, ..self }
+    }
+
+    /// Can be called with all its arguments when less holds.
+    const fn when_complete(self, availability: fn(&App) -> Availability) -> Self {
+        Self { complete_availability: Some(availability), ..self }
+    }
+
+    /// One of several that are on in turn.
+    const fn shown_on(self, is_on: fn(&App) -> bool) -> Self {
+        match self.action {
+            Action::With { run, ask, .. } => Self { action: Action::With { run, ask, is_on: Some(is_on) }, ..self },
+            _ => self,
+        }
     }
 
     const fn keys(self, shortcuts: &'static [KeyboardShortcut]) -> Self {
@@ -177,9 +203,16 @@ fn can_redo(app: &App) -> Availability {
     when(can, "nothing was undone")
 }
 
+/// Rooms are selected, or one is under the pointer.
+fn has_target(app: &App) -> Availability {
+    has_plan(app)?;
+    when(app.target(None).is_some(), "pick a room first, or point at one")
+}
+
 fn has_own_label(app: &App) -> Availability {
-    has_room(app)?;
-    let has = app.picked_room().is_some_and(|(_, room)| room.label.is_some());
+    has_target(app)?;
+    let Some((plan, target)) = app.plan().zip(app.target(None)) else { return Ok(()) };
+    let has = target.rooms.iter().any(|&room| plan.room(room).is_some_and(|room| room.label.is_some()));
     when(has, "the room has no label of its own")
 }
 
