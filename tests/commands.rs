@@ -20,9 +20,9 @@ mod recorded;
 mod shortcuts;
 
 use egui::{Key, Modifiers};
-use enfilade::app::{Executed, Offscreen, OffscreenOptions, Picked};
+use enfilade::app::{Executed, Offscreen, OffscreenOptions};
 use enfilade::geometry::Point;
-use enfilade::plan::{Backdrop, Room};
+use enfilade::plan::{Backdrop, ElementId, Room};
 
 /// A window that shows a bundled plan.
 fn window_with(stem: &str) -> Offscreen {
@@ -93,7 +93,7 @@ fn backdrop() -> Backdrop {
 /// The picked room.
 fn picked(window: &Offscreen) -> Room {
     match window.app().picked() {
-        Some(Picked::Room(id)) => window.app().plan().unwrap().room(id).unwrap().clone(),
+        Some(ElementId::Room(id)) => window.app().plan().unwrap().room(id).unwrap().clone(),
         other => panic!("no room is picked: {other:?}"),
     }
 }

@@ -15,9 +15,9 @@ mod pictures;
 mod use_;
 
 use egui::{Pos2, pos2};
-use enfilade::app::{Offscreen, OffscreenOptions, Picked};
+use enfilade::app::{Offscreen, OffscreenOptions};
 use enfilade::geometry::Bounds;
-use enfilade::plan::{RoomId, RoomLabel};
+use enfilade::plan::{ElementId, RoomId, RoomLabel};
 
 /// A window that shows a bundled plan.
 fn window_with(stem: &str) -> Offscreen {
@@ -51,7 +51,7 @@ fn beside(window: &Offscreen) -> Pos2 {
 fn click_room(window: &mut Offscreen, name: &str) {
     window.click(middle_of(window, name));
     window.settle().unwrap();
-    assert_eq!(window.app().picked(), Some(Picked::Room(room(window, name))), "clicking {name}");
+    assert_eq!(window.app().picked(), Some(ElementId::Room(room(window, name))), "clicking {name}");
 }
 
 /// The label given to a room itself.

@@ -9,7 +9,7 @@ use egui::{
 };
 
 use super::backdrop::BackdropView;
-use super::document::{Derived, Document, Picked};
+use super::document::{Derived, Document};
 use super::scene_painter::{ScenePainter, earcut, on_screen, outline_mesh, polygon_mesh};
 use super::theme;
 use super::{App, commands};
@@ -17,7 +17,7 @@ use crate::draw::{self, Layers, Palette, Style, View};
 use crate::features::RoomStatus;
 use crate::geometry::{Bounds, Point, Vector};
 use crate::labels::normalised_function;
-use crate::plan::Plan;
+use crate::plan::{ElementId, Plan};
 use crate::topology::RoomShape;
 
 /// What the canvas remembers from frame to frame.
@@ -28,9 +28,9 @@ pub(super) struct Canvas {
     wish: Option<Wish>,
     /// The view of the last frame and where it was on the screen.
     seen: Option<(View, Rect)>,
-    pub hovered: Option<Picked>,
+    pub hovered: Option<ElementId>,
     /// What a panel's row under the pointer stands for.
-    pub hovered_in_panel: Option<Picked>,
+    pub hovered_in_panel: Option<ElementId>,
     /// Where the pointer is in the plan.
     pub pointer: Option<Point>,
     cycle: Option<Cycle>,
@@ -38,7 +38,7 @@ pub(super) struct Canvas {
     /// The picture under the plan.
     pub backdrop: BackdropView,
     /// The triangles of the room whose fill marks it.
-    marked: Option<(Arc<Derived>, Picked, Vec<u32>)>,
+    marked: Option<(Arc<Derived>, ElementId, Vec<u32>)>,
     /// Whether the last turn of a wheel came from fingers on a touch pad.
     is_touch_pad: bool,
     /// Whether focus came by keyboard, so that it must be seen.
@@ -62,13 +62,13 @@ enum Wish {
     Zoom(Bounds),
     LookAt(Point, f64),
     By(f64),
-    Reveal(Picked),
+    Reveal(ElementId),
 }
 
 /// Clicks at the same place go through all that lies there.
 struct Cycle {
     at: Pos2,
-    candidates: Vec<Picked>,
+    candidates: Vec<ElementId>,
     index: usize,
 }
 
@@ -114,7 +114,7 @@ impl Canvas {
     }
 
     /// Moves the view if need be, so that something is seen.
-    pub(super) fn reveal(&mut self, picked: Picked) {
+    pub(super) fn reveal(&mut self, picked: ElementId) {
         self.wish = Some(Wish::Reveal(picked));
     }
 
@@ -293,7 +293,7 @@ fn on_whole_pixels(view: View, rect: Rect) -> View {
 
 /// What a person did on the canvas.
 enum Act {
-    Pick(Option<Picked>),
+    Pick(Option<ElementId>),
     /// Pick the next or previous room; leave the canvas behind the last.
     PickNeighbour(isize),
     /// Pick the room nearest in a direction of the plan: the argument of the command.
@@ -316,11 +316,16 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     match act {
         None => {}
         Some(Act::Pick(None)) => drop(app.run_command("clear-selection", ui.ctx())),
-        Some(Act::Pick(Some(Picked::Room(room)))) => {
+        Some(Act::Pick(Some(ElementId::Room(room)))) => {
             let word = app.plan().map(|plan| commands::room_word(plan, room)).unwrap_or_default();
             app.act("pick", &[&word], ui.ctx());
         }
-        Some(Act::Pick(Some(Picked::Opening(opening)))) => app.act("pick-opening", &[&opening.to_string()], ui.ctx()),
+        Some(Act::Pick(Some(element @ (ElementId::Wall(_) | ElementId::Corner(_))))) => {
+            app.act("select", &[&element.to_string()], ui.ctx());
+        }
+        Some(Act::Pick(Some(ElementId::Opening(opening)))) => {
+            app.act("pick-opening", &[&opening.to_string()], ui.ctx())
+        }
         Some(Act::PickNeighbour(step)) if app.pick_neighbour(step) => {
             app.note_executed(if step > 0 { "next-room" } else { "previous-room" }, Vec::new());
         }
@@ -358,7 +363,7 @@ impl Canvas {
         // pressing on a room may be what ended the edit of another's name.
         let at = |point: Point| {
             let mut found = shown.map(|derived| derived.at(point, PICK_REACH / view.px_per_m)).unwrap_or_default();
-            found.retain(|&picked| exists(document.plan(), picked));
+            found.retain(|&picked| document.plan().has(picked));
             found
         };
         let is_panning = response.dragged();
@@ -392,11 +397,11 @@ impl Canvas {
                 painter.rect_filled(rect, 0.0, theme::colour(palette.paper).gamma_multiply(0.6));
             }
             Some(derived) => {
-                let hovered = self.hovered.or(self.hovered_in_panel).filter(|hovered| app.picked != Some(*hovered));
+                let hovered = self.hovered.or(self.hovered_in_panel).filter(|hovered| app.picked() != Some(*hovered));
                 if let Some(hovered) = hovered {
                     self.mark(&painter, rect, &view, document.plan(), derived, hovered, &Mark::hover(palette));
                 }
-                if let Some(picked) = app.picked {
+                if let Some(picked) = app.picked() {
                     self.mark(&painter, rect, &view, document.plan(), derived, picked, &Mark::picked(palette));
                 }
             }
@@ -406,13 +411,13 @@ impl Canvas {
             let colours = theme::colours(ui.visuals());
             painter.rect_stroke(rect.shrink(1.0), 0.0, Stroke::new(2.0, colours.accent), StrokeKind::Inside);
         }
-        let description = describe(document, app.picked);
+        let description = describe(document, app.picked());
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, &description));
-        self.tell_screen_reader(ui, rect, &view, document, fresh, app.picked).or(act)
+        self.tell_screen_reader(ui, rect, &view, document, fresh, app.picked()).or(act)
     }
 
     /// What a click at a place picks, having clicked there before.
-    fn clicked(&mut self, place: Pos2, candidates: impl FnOnce() -> Vec<Picked>) -> Option<Picked> {
+    fn clicked(&mut self, place: Pos2, candidates: impl FnOnce() -> Vec<ElementId>) -> Option<ElementId> {
         match &mut self.cycle {
             Some(cycle) if cycle.at.distance(place) <= SAME_PLACE && !cycle.candidates.is_empty() => {
                 cycle.index = (cycle.index + 1) % cycle.candidates.len();
@@ -460,11 +465,11 @@ impl Canvas {
         view: &View,
         plan: &Plan,
         derived: &Arc<Derived>,
-        marked: Picked,
+        marked: ElementId,
         mark: &Mark,
     ) {
         match marked {
-            Picked::Room(id) => {
+            ElementId::Room(id) => {
                 let Some(shape) = derived.analysis.shapes.get(id).filter(|shape| !shape.outer.is_empty()) else {
                     return;
                 };
@@ -484,7 +489,26 @@ impl Canvas {
                     painter.add(Shape::mesh(outline_mesh(rect, view, ring, stroke)));
                 }
             }
-            Picked::Opening(id) => {
+            ElementId::Corner(id) => {
+                let Some(place) = plan.position(id).map(|point| on_screen(rect, view, point)) else { return };
+                let square = Rect::from_center_size(place, Vec2::splat(8.0));
+                painter.rect(
+                    square,
+                    1.0,
+                    mark.line.gamma_multiply(0.35),
+                    Stroke::new(mark.width, mark.line),
+                    StrokeKind::Middle,
+                );
+            }
+            ElementId::Wall(id) => {
+                let Some(wall) = plan.wall(id) else { return };
+                let Some(segment) = plan.wall_segment(wall) else { return };
+                let ends = [segment.a, segment.b].map(|point| on_screen(rect, view, point));
+                let width = (wall.thickness_m * view.px_per_m) as f32;
+                painter.line_segment(ends, Stroke::new(width.max(2.0) + 4.0, mark.line.gamma_multiply(0.45)));
+                painter.line_segment(ends, Stroke::new(mark.width, mark.line));
+            }
+            ElementId::Opening(id) => {
                 let segment = plan.opening(id).and_then(|opening| plan.opening_segment(opening));
                 let Some(segment) = segment else { return };
                 let ends = [segment.a, segment.b].map(|point| on_screen(rect, view, point));
@@ -512,7 +536,7 @@ impl Canvas {
         view: &View,
         document: &Document,
         fresh: Option<&Arc<Derived>>,
-        picked: Option<Picked>,
+        picked: Option<ElementId>,
     ) -> Option<Act> {
         if !ui.ctx().has_accesskit_node(canvas_id()) {
             return None;
@@ -525,7 +549,7 @@ impl Canvas {
             if !bounds.intersects(rect) {
                 continue;
             }
-            let this = Picked::Room(shape.id);
+            let this = ElementId::Room(shape.id);
             let id = canvas_id().with(shape.id);
             let response = ui.interact(bounds.intersect(rect), id, Sense::hover());
             let label = title_of(document.plan(), this);
@@ -586,7 +610,7 @@ fn style(app: &App, plan: &Plan, is_dark: bool) -> Style {
 }
 
 /// What the canvas shows, in a sentence.
-fn describe(document: &Document, picked: Option<Picked>) -> String {
+fn describe(document: &Document, picked: Option<ElementId>) -> String {
     let plan = document.plan();
     let mut text = format!("Plan {}, {} rooms", document.title(), plan.rooms().len());
     if let Some(picked) = picked {
@@ -608,19 +632,13 @@ fn said_of_room(plan: &Plan, derived: &Derived, shape: &RoomShape) -> String {
     format!("{label}{function}, {:.1} m²", shape.area_m2())
 }
 
-/// Whether a plan has what was picked.
-fn exists(plan: &Plan, picked: Picked) -> bool {
-    match picked {
-        Picked::Room(id) => plan.room(id).is_some(),
-        Picked::Opening(id) => plan.opening(id).is_some(),
-    }
-}
-
 /// What something on the canvas is called.
-pub(super) fn title_of(plan: &Plan, picked: Picked) -> String {
+pub(super) fn title_of(plan: &Plan, picked: ElementId) -> String {
     match picked {
-        Picked::Room(id) => plan.room(id).map_or_else(String::new, room_title),
-        Picked::Opening(id) => plan.opening(id).map_or_else(String::new, |opening| sentence(opening.kind.name())),
+        ElementId::Room(id) => plan.room(id).map_or_else(String::new, room_title),
+        ElementId::Opening(id) => plan.opening(id).map_or_else(String::new, |opening| sentence(opening.kind.name())),
+        ElementId::Wall(_) => "Wall".to_owned(),
+        ElementId::Corner(_) => "Corner".to_owned(),
     }
 }
 
@@ -713,7 +731,7 @@ mod tests {
     fn clicking_again_cycles_and_elsewhere_starts_anew() {
         let room = |key: &str| {
             let mut builder = crate::plan::Builder::default();
-            Picked::Room(builder.room(key, crate::plan::Room::default()))
+            ElementId::Room(builder.room(key, crate::plan::Room::default()))
         };
         let (a, b) = (room("a"), room("b"));
         let mut canvas = Canvas::default();

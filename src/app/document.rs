@@ -14,7 +14,7 @@ use crate::features::{Analysis, NeighbourLabels, analyse};
 use crate::formats::{self, FileError, Note, Place, ReadError};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::labels::Schemes;
-use crate::plan::{History, OpeningId, Plan, RoomId};
+use crate::plan::{ElementId, History, OpeningId, Plan, RoomId};
 use crate::predict::{Predictions, Predictor};
 use crate::store;
 
@@ -243,11 +243,13 @@ impl Document {
     }
 
     /// The box around something.
-    pub(super) fn bounds_of(&self, picked: Picked) -> Option<Bounds> {
+    pub(super) fn bounds_of(&self, picked: ElementId) -> Option<Bounds> {
         let plan = self.plan();
         let bounds = match picked {
-            Picked::Room(id) => Bounds::of(plan.ring_points(&plan.room(id)?.outer)),
-            Picked::Opening(id) => plan.opening_segment(plan.opening(id)?)?.bounds(),
+            ElementId::Room(id) => Bounds::of(plan.ring_points(&plan.room(id)?.outer)),
+            ElementId::Opening(id) => plan.opening_segment(plan.opening(id)?)?.bounds(),
+            ElementId::Wall(id) => plan.wall_segment(plan.wall(id)?)?.bounds(),
+            ElementId::Corner(id) => Bounds::of([plan.position(id)?]),
         };
         (!bounds.is_empty()).then_some(bounds)
     }
@@ -313,7 +315,7 @@ impl Derived {
 
     /// What can be picked at a point: openings within `reach_m` metres, the nearest first, then rooms,
     /// the smallest first.
-    pub(super) fn at(&self, point: Point, reach_m: f64) -> Vec<Picked> {
+    pub(super) fn at(&self, point: Point, reach_m: f64) -> Vec<ElementId> {
         let place = [point.x, point.y];
         let mut near: Vec<(f64, OpeningId)> = self
             .openings
@@ -321,9 +323,9 @@ impl Derived {
             .map(|opening| (opening.distance_2(&place), opening.id))
             .collect();
         near.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
-        let openings = near.into_iter().map(|(_, id)| Picked::Opening(id));
+        let openings = near.into_iter().map(|(_, id)| ElementId::Opening(id));
         let shapes = &self.analysis.shapes;
-        let rooms = shapes.at(point).into_iter().map(|index| Picked::Room(shapes.all()[index].id));
+        let rooms = shapes.at(point).into_iter().map(|index| ElementId::Room(shapes.all()[index].id));
         openings.chain(rooms).collect()
     }
 }
@@ -345,23 +347,6 @@ fn reading_order(analysis: &Analysis) -> Vec<RoomId> {
         line(a).cmp(&line(b)).then(a.min.x.total_cmp(&b.min.x)).then(b.max.y.total_cmp(&a.max.y)).then(p.cmp(q))
     });
     rooms.into_iter().map(|(id, _)| id).collect()
-}
-
-/// Something on the canvas that can be picked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Picked {
-    Room(RoomId),
-    Opening(OpeningId),
-}
-
-impl Picked {
-    /// Whether it is part of a plan.
-    pub(super) fn is_in(self, plan: &Plan) -> bool {
-        match self {
-            Self::Room(id) => plan.room(id).is_some(),
-            Self::Opening(id) => plan.opening(id).is_some(),
-        }
-    }
 }
 
 /// Saves a plan to a path and gives the file's stamp.

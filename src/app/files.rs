@@ -7,7 +7,7 @@ use egui::{Context, ViewportCommand};
 use super::commands::sample_word;
 use super::dialogs::{Answer, Purpose};
 use super::document::{self, Document, Expected, Opened, Origin, SaveFailure, Stamp};
-use super::{App, Done, Intent, Message, Question, Remedy, Severity, plan_list};
+use super::{App, Done, Intent, Message, Question, Remedy, Selection, Severity, plan_list};
 use crate::formats::FileError;
 use crate::plan::Plan;
 
@@ -99,7 +99,7 @@ impl App {
             Intent::Show(opened) => self.show(*opened),
             Intent::Close => {
                 self.document = None;
-                self.picked = None;
+                self.selection = Selection::default();
                 self.canvas.forget();
             }
             // The recording first, or it would be lost.
@@ -110,7 +110,7 @@ impl App {
 
     fn show(&mut self, opened: Opened) {
         let folder = opened.origin.folder().map(Path::to_owned);
-        self.picked = None;
+        self.selection = Selection::default();
         self.canvas.forget();
         self.panels.forget();
         self.status.clear();

@@ -20,6 +20,7 @@ mod raster;
 pub mod replay;
 mod scene_painter;
 mod search;
+mod selection;
 mod settings;
 mod theme;
 mod widgets;
@@ -32,11 +33,11 @@ use egui::{Context, Ui};
 
 pub use commands::{CommandError, Executed};
 pub use controls::Control;
-pub use document::Picked;
 pub use icons::Icon;
 pub use offscreen::{NotSettled, Offscreen, OffscreenOptions};
 pub use picture::{Difference, Picture};
 pub use raster::Raster;
+pub use selection::{SelectMode, Selection};
 pub use theme::ThemeChoice;
 pub use window::{WindowError, WindowOptions, run_window};
 
@@ -56,7 +57,7 @@ use crate::formats::FileError;
 use crate::geometry::Vector;
 use crate::labels::{Label, Schemes};
 use crate::plan::edit::{self, EditError};
-use crate::plan::{LabelOrigin, Meta, Plan, Room, RoomId, RoomLabel};
+use crate::plan::{ElementId, LabelOrigin, Meta, Plan, Room, RoomId, RoomLabel};
 use crate::predict::{Predictions, Predictor};
 use crate::store::SaveError;
 
@@ -68,7 +69,7 @@ pub struct App {
     opening: Option<Origin>,
     list: PlanList,
     canvas: Canvas,
-    picked: Option<Picked>,
+    selection: Selection,
     layers: LayerSettings,
     /// Which models predict.
     predictor: Predictor,
@@ -198,7 +199,7 @@ impl App {
             opening: None,
             list: PlanList::default(),
             canvas: Canvas::default(),
-            picked: None,
+            selection: Selection::default(),
             layers: LayerSettings::default(),
             predictor: Predictor::default(),
             theme: ThemeChoice::default(),
@@ -246,9 +247,14 @@ impl App {
         self.document.as_ref().map(Document::plan)
     }
 
-    /// What is picked.
-    pub fn picked(&self) -> Option<Picked> {
-        self.picked
+    /// What is selected.
+    pub fn selection(&self) -> &Selection {
+        &self.selection
+    }
+
+    /// The element that is selected, where it is exactly one.
+    pub fn picked(&self) -> Option<ElementId> {
+        self.selection.one()
     }
 
     /// What stands in the message bar, oldest first.
@@ -350,9 +356,7 @@ impl App {
         let Some(document) = &mut self.document else { return };
         document.predict_by(&self.predictor);
         let plan = document.plan().clone();
-        if self.picked.is_some_and(|picked| !picked.is_in(&plan)) {
-            self.picked = None;
-        }
+        self.selection.keep_what_is_in(&plan);
         if document.needs_deriving() {
             let (schemes, predictor) = (self.schemes.clone(), self.predictor.clone());
             if plan.rooms().len() + plan.openings().len() + plan.walls().len() <= LARGE_PLAN_ELEMENTS {
@@ -377,14 +381,19 @@ impl App {
 
     // Picking.
 
-    fn pick(&mut self, picked: Option<Picked>) {
+    fn pick(&mut self, picked: Option<ElementId>) {
         self.commit_field();
-        self.picked = picked;
+        self.selection = Selection::of(picked);
+    }
+
+    fn select(&mut self, elements: impl IntoIterator<Item = ElementId>, mode: SelectMode) {
+        self.commit_field();
+        self.selection.select(elements, mode);
     }
 
     /// The picked room.
     fn picked_room(&self) -> Option<(RoomId, &Room)> {
-        let Some(Picked::Room(id)) = self.picked else { return None };
+        let Some(ElementId::Room(id)) = self.picked() else { return None };
         Some((id, self.plan()?.room(id)?))
     }
 
@@ -399,8 +408,8 @@ impl App {
     fn pick_neighbour(&mut self, step: isize) -> bool {
         let Some(derived) = self.document.as_ref().and_then(Document::derived) else { return false };
         let order = derived.reading_order();
-        let at = match self.picked {
-            Some(Picked::Room(id)) => order.iter().position(|&room| room == id),
+        let at = match self.picked() {
+            Some(ElementId::Room(id)) => order.iter().position(|&room| room == id),
             _ => None,
         };
         let next = match at {
@@ -409,15 +418,15 @@ impl App {
             Some(at) => at.checked_add_signed(step),
         };
         let Some(&id) = next.and_then(|next| order.get(next)) else { return false };
-        self.pick(Some(Picked::Room(id)));
-        self.canvas.reveal(Picked::Room(id));
+        self.pick(Some(ElementId::Room(id)));
+        self.canvas.reveal(ElementId::Room(id));
         true
     }
 
     /// Picks the room nearest to the picked one in a direction of the plan; the first where none is.
     fn pick_towards(&mut self, direction: Vector) {
         let Some(derived) = self.document.as_ref().and_then(Document::derived) else { return };
-        let Some(Picked::Room(picked)) = self.picked else {
+        let Some(ElementId::Room(picked)) = self.picked() else {
             self.pick_neighbour(1);
             return;
         };
@@ -435,13 +444,13 @@ impl App {
             })
             .min_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
         if let Some((_, id)) = nearest {
-            self.pick(Some(Picked::Room(id)));
-            self.canvas.reveal(Picked::Room(id));
+            self.pick(Some(ElementId::Room(id)));
+            self.canvas.reveal(ElementId::Room(id));
         }
     }
 
     fn zoom_to_picked(&mut self) {
-        let Some((document, picked)) = self.document.as_ref().zip(self.picked) else { return };
+        let Some((document, picked)) = self.document.as_ref().zip(self.picked()) else { return };
         if let Some(bounds) = document.bounds_of(picked) {
             self.canvas.zoom_to(bounds);
         }

@@ -102,6 +102,16 @@ impl Plan {
         self.openings.iter().map(|(&id, opening)| (id, opening.as_ref()))
     }
 
+    /// Whether an element is part of the plan.
+    pub fn has(&self, element: ElementId) -> bool {
+        match element {
+            ElementId::Corner(id) => self.corners.contains_key(&id),
+            ElementId::Wall(id) => self.walls.contains_key(&id),
+            ElementId::Room(id) => self.rooms.contains_key(&id),
+            ElementId::Opening(id) => self.openings.contains_key(&id),
+        }
+    }
+
     /// Where a corner lies, if it exists.
     pub fn position(&self, id: CornerId) -> Option<Point> {
         self.corner(id).map(|corner| corner.position)

@@ -1,8 +1,8 @@
 //! Arguments: what they do, and what is said of wrong ones.
 
-use enfilade::app::{Offscreen, OffscreenOptions, Picked};
+use enfilade::app::{Offscreen, OffscreenOptions};
 use enfilade::labels::Label;
-use enfilade::plan::{Builder, Meta, Room};
+use enfilade::plan::{Builder, ElementId, Meta, Room};
 use enfilade::store::{load_plan, save_plan};
 
 use crate::{picked, refusal, run, window_with};
@@ -105,7 +105,7 @@ fn rooms_of_one_name_are_told_apart_by_id() {
     assert!(ids[..2].iter().all(|id| error.contains(&id.to_string())), "{error}");
     for (word, id) in [(ids[1].to_string(), ids[1]), ("STORE".to_owned(), ids[2]), (ids[3].to_string(), ids[3])] {
         run(&mut window, "pick", &[&word]);
-        assert_eq!(window.app().picked(), Some(Picked::Room(id)));
+        assert_eq!(window.app().picked(), Some(ElementId::Room(id)));
     }
     refusal(&mut window, "pick", &[""]);
 }

@@ -6,7 +6,8 @@ use std::path::Path;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Rect};
 use enfilade::app::commands::Menu;
-use enfilade::app::{Control, Offscreen, OffscreenOptions, Picked};
+use enfilade::app::{Control, Offscreen, OffscreenOptions};
+use enfilade::plan::ElementId;
 
 use crate::{click_room, press, room, window_with};
 
@@ -95,7 +96,7 @@ fn every_control_has_a_name_and_is_reached() {
     let (opening, _) = plan.openings().find(|(_, opening)| opening.kind.is_passable()).unwrap();
     window.run_command_with("pick-opening", &[&opening.to_string()]).unwrap();
     window.settle().unwrap();
-    assert_eq!(window.app().picked(), Some(Picked::Opening(opening)));
+    assert_eq!(window.app().picked(), Some(ElementId::Opening(opening)));
     check_reach(&mut window, "opening", nothing);
     key(&mut window, Key::Escape);
     window.open(Path::new("/nowhere/plan.xml"));
@@ -299,7 +300,7 @@ fn rooms_are_told_with_label_and_area() {
     }
     // With the keyboard on the plan, arrows go from room to room.
     key(&mut window, Key::ArrowDown);
-    assert_eq!(window.app().picked(), Some(Picked::Room(room(&window, "Bedroom"))));
+    assert_eq!(window.app().picked(), Some(ElementId::Room(room(&window, "Bedroom"))));
     key(&mut window, Key::Enter);
     assert_eq!(window.focused().map(|control| control.name).as_deref(), Some("Name"));
     key(&mut window, Key::Escape);

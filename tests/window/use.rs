@@ -3,10 +3,10 @@
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, PointerButton, Pos2, vec2};
 use enfilade::app::commands::COMMANDS;
-use enfilade::app::{Offscreen, OffscreenOptions, Picked};
+use enfilade::app::{Offscreen, OffscreenOptions};
 use enfilade::geometry::Segment;
 use enfilade::labels::Label;
-use enfilade::plan::{LabelOrigin, OpeningId, Plan, RoomLabel};
+use enfilade::plan::{ElementId, LabelOrigin, OpeningId, Plan, RoomLabel};
 
 use crate::{beside, click_room, middle_of, own_label, press, room, window_with};
 
@@ -45,7 +45,7 @@ fn the_wheel_zooms_at_the_pointer_and_everything_pans() {
     window.hold(Key::Space, false);
     window.settle().unwrap();
     near(middle_of(&window, "Lobby"), at + vec2(-90.0, 0.0));
-    assert_eq!(window.app().picked(), Some(Picked::Room(room(&window, "Lobby"))));
+    assert_eq!(window.app().picked(), Some(ElementId::Room(room(&window, "Lobby"))));
     // Back to where all is seen, also after the window has changed.
     window.run_command("fit");
     window.settle().unwrap();
@@ -90,11 +90,11 @@ fn clicking_picks_the_smallest_and_again_what_lies_beneath() {
     let (door, at) = door_of(&window, &plan, |_| true);
     window.click(at);
     window.settle().unwrap();
-    assert_eq!(window.app().picked(), Some(Picked::Opening(door)));
+    assert_eq!(window.app().picked(), Some(ElementId::Opening(door)));
     window.click(at);
     window.settle().unwrap();
     let second = window.app().picked();
-    assert!(matches!(second, Some(Picked::Room(_))), "{second:?}");
+    assert!(matches!(second, Some(ElementId::Room(_))), "{second:?}");
     window.click(beside(&window));
     window.settle().unwrap();
     assert_eq!(window.app().picked(), None);
@@ -115,9 +115,9 @@ fn the_inspector_leads_from_room_to_room() {
         assert!(window.control(expected).is_some(), "{expected}");
     }
     press(&mut window, "Dining room");
-    assert_eq!(window.app().picked(), Some(Picked::Room(room(&window, "Dining room"))));
+    assert_eq!(window.app().picked(), Some(ElementId::Room(room(&window, "Dining room"))));
     press(&mut window, "Kitchen");
-    assert_eq!(window.app().picked(), Some(Picked::Room(room(&window, "Kitchen"))));
+    assert_eq!(window.app().picked(), Some(ElementId::Room(room(&window, "Kitchen"))));
 }
 
 #[test]
@@ -134,7 +134,7 @@ fn rooms_are_reached_by_keyboard() {
         }
     }
     let first = window.app().picked();
-    assert!(matches!(first, Some(Picked::Room(_))), "{first:?}");
+    assert!(matches!(first, Some(ElementId::Room(_))), "{first:?}");
     assert!(canvas(&window).name.contains("picked"), "{}", canvas(&window).name);
     let mut seen = vec![first];
     let rooms = window.app().plan().unwrap().rooms().len();
@@ -152,10 +152,10 @@ fn rooms_are_reached_by_keyboard() {
     click_room(&mut window, "Dining room");
     window.key(Modifiers::NONE, Key::ArrowUp);
     window.settle().unwrap();
-    assert_eq!(window.app().picked(), Some(Picked::Room(room(&window, "Kitchen"))));
+    assert_eq!(window.app().picked(), Some(ElementId::Room(room(&window, "Kitchen"))));
     window.key(Modifiers::NONE, Key::ArrowRight);
     window.settle().unwrap();
-    assert_eq!(window.app().picked(), Some(Picked::Room(room(&window, "Living room"))));
+    assert_eq!(window.app().picked(), Some(ElementId::Room(room(&window, "Living room"))));
 }
 
 #[test]

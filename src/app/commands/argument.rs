@@ -10,8 +10,9 @@ use crate::app::canvas::{room_title, sentence};
 use crate::app::document::bundled;
 use crate::features::RoomStatus;
 use crate::formats;
+use crate::geometry::Point;
 use crate::labels::{Meaning, Typology};
-use crate::plan::{Joint, Opening, OpeningId, Plan, Room, RoomId};
+use crate::plan::{COORDINATE_LIMIT_M, ElementId, Joint, Opening, OpeningId, Plan, Room, RoomId};
 
 /// Something a command takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,6 +43,11 @@ pub enum ArgumentKind {
     Room,
     /// An opening of the open plan: its id.
     Opening,
+    /// Elements of the open plan: their ids with blanks between; a room's may be its name where that is one
+    /// word.
+    Elements,
+    /// Points of the plan, `X,Y` in metres with blanks between.
+    Points { least: usize },
     /// What a room is for: one the plan's label scheme knows, or any other text.
     Function,
     /// A typology that has a label scheme, or 'unknown'.
@@ -69,6 +75,8 @@ pub(in crate::app) enum Value {
     Count(usize),
     Room(RoomId),
     Opening(OpeningId),
+    Elements(Vec<ElementId>),
+    Points(Vec<Point>),
     Typology(Option<Typology>),
     /// Its index.
     Sample(usize),
@@ -101,6 +109,8 @@ impl Values {
     getter!(count, Count, usize);
     getter!(room, Room, RoomId);
     getter!(opening, Opening, OpeningId);
+    getter!(elements, Elements, [ElementId]);
+    getter!(points, Points, [Point]);
     getter!(typology, Typology, Option<Typology>);
     getter!(sample, Sample, usize);
     getter!(switch, Switch, bool);
@@ -136,6 +146,9 @@ impl ArgumentKind {
             Self::Count => "1, 2, 3, …".to_owned(),
             Self::Room => "the name of a room of this plan, or its id".to_owned(),
             Self::Opening => "the id of an opening of this plan".to_owned(),
+            Self::Elements => "ids of elements of this plan, with blanks between".to_owned(),
+            Self::Points { least: 1 } => "points of the plan in metres, such as '0,0 4.2,0'".to_owned(),
+            Self::Points { least } => format!("at least {least} points of the plan in metres, such as '0,0 4.2,0'"),
             Self::Function => "what a room is for".to_owned(),
             Self::Typology => "a typology, or 'unknown'".to_owned(),
             Self::Sample => "a plan that comes with the program".to_owned(),
@@ -190,6 +203,15 @@ impl ArgumentKind {
                 let id = id.filter(|&id| app.plan().is_some_and(|plan| plan.opening(id).is_some()));
                 id.map(Value::Opening).ok_or_else(|| self.expected())
             }
+            Self::Elements => {
+                let plan = app.plan().ok_or_else(|| self.expected())?;
+                let found: Option<Vec<ElementId>> = text.split_whitespace().map(|word| element(plan, word)).collect();
+                found.filter(|found| !found.is_empty()).map(Value::Elements).ok_or_else(|| self.expected())
+            }
+            Self::Points { least } => {
+                let found: Option<Vec<Point>> = text.split_whitespace().map(point).collect();
+                found.filter(|found| found.len() >= least).map(Value::Points).ok_or_else(|| self.expected())
+            }
             Self::Typology if text.trim().eq_ignore_ascii_case(UNKNOWN) => Ok(Value::Typology(None)),
             Self::Typology => {
                 let wanted = text.trim();
@@ -232,6 +254,8 @@ impl ArgumentKind {
             Value::Count(count) => count.to_string(),
             Value::Room(id) => app.plan().map_or_else(|| id.to_string(), |plan| room_word(plan, *id)),
             Value::Opening(id) => id.to_string(),
+            Value::Elements(elements) => elements_word(elements.iter().copied()),
+            Value::Points(points) => points_word(points),
             Value::Typology(typology) => typology.as_ref().map_or(UNKNOWN, Typology::as_str).to_owned(),
             Value::Sample(index) => sample_word(*index).to_owned(),
             Value::Switch(is_on) => switch_word(*is_on).to_owned(),
@@ -251,9 +275,14 @@ impl ArgumentKind {
             status: None,
         };
         Some(match self {
-            Self::PlanFile | Self::NewPlanFile | Self::Text | Self::Number { .. } | Self::Count | Self::Keys => {
-                return None;
-            }
+            Self::PlanFile
+            | Self::NewPlanFile
+            | Self::Text
+            | Self::Number { .. }
+            | Self::Count
+            | Self::Keys
+            | Self::Elements
+            | Self::Points { .. } => return None,
             Self::Room => room_choices(app),
             Self::Opening => opening_choices(app),
             Self::Function => {
@@ -335,6 +364,36 @@ fn room(plan: &Plan, word: &str) -> Result<RoomId, Option<String>> {
             Err(Some(format!("an id, for {} rooms have this name: {}{more}", several.len(), ids.join(", "))))
         }
     }
+}
+
+/// The element that a word means.
+fn element(plan: &Plan, word: &str) -> Option<ElementId> {
+    let id = match word.chars().next()? {
+        'c' => word.parse().ok().map(ElementId::Corner),
+        'w' => word.parse().ok().map(ElementId::Wall),
+        'o' => word.parse().ok().map(ElementId::Opening),
+        _ => None,
+    };
+    id.or_else(|| room(plan, word).ok().map(ElementId::Room)).filter(|&element| plan.has(element))
+}
+
+/// The word for some elements.
+pub(in crate::app) fn elements_word(elements: impl IntoIterator<Item = ElementId>) -> String {
+    let words: Vec<String> = elements.into_iter().map(|element| element.to_string()).collect();
+    words.join(" ")
+}
+
+/// The point that a word means.
+fn point(word: &str) -> Option<Point> {
+    let (x, y) = word.split_once(',')?;
+    let point = Point::new(x.parse().ok()?, y.parse().ok()?);
+    (point.is_finite() && point.x.abs() <= COORDINATE_LIMIT_M && point.y.abs() <= COORDINATE_LIMIT_M).then_some(point)
+}
+
+/// The word for some points, on the 0.1 mm grid.
+pub(in crate::app) fn points_word(points: &[Point]) -> String {
+    let words: Vec<String> = points.iter().map(|point| point.trimmed()).map(|p| format!("{},{}", p.x, p.y)).collect();
+    words.join(" ")
 }
 
 /// The word for a room: its name, where that means no other room, or its id.

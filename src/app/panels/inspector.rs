@@ -5,7 +5,7 @@ use egui::{Id, Key, Popup, PopupCloseBehavior, RichText, Role, ScrollArea, Sense
 use super::status::count;
 use super::{Field, FieldKind, prediction};
 use crate::app::canvas::{room_title, sentence, title_of};
-use crate::app::document::{Derived, Document, Picked};
+use crate::app::document::{Derived, Document};
 use crate::app::icons::Icon;
 use crate::app::widgets::{
     Lead, Row, Segment, caption, colours, follow_focus, hairline, link, section, segmented, strong, value,
@@ -14,11 +14,14 @@ use crate::app::{App, commands, theme};
 use crate::draw::Palette;
 use crate::features::{Features, RoomAnalysis, RoomStatus};
 use crate::labels::{Label, Meaning, normalised_function};
-use crate::plan::{Joint, LabelOrigin, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, ScaleOrigin};
+use crate::plan::{
+    ElementId, Joint, LabelOrigin, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, ScaleOrigin,
+};
+use crate::topology::RoomShape;
 
 /// What a person did in the inspector.
 enum Act {
-    Pick(Picked),
+    Pick(ElementId),
     Label(Option<Label>),
     Type(Field),
     Commit,
@@ -36,14 +39,17 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             ui.spacing_mut().item_spacing.y = 4.0;
             let Some(document) = &app.document else { return };
             let inspected = Inspected { app, document, plan: document.plan(), palette: app.palette(ui) };
-            act = match app.picked {
-                Some(Picked::Room(id)) => {
+            act = match app.picked() {
+                Some(ElementId::Room(id)) => {
                     document.plan().room(id).and_then(|room| inspected.room(ui, id, room, &mut hovered))
                 }
-                Some(Picked::Opening(id)) => {
+                Some(ElementId::Opening(id)) => {
                     document.plan().opening(id).and_then(|opening| inspected.opening(ui, id, opening, &mut hovered))
                 }
-                None => inspected.plan(ui),
+                // Walls, corners, and several at a time.
+                Some(_) => inspected.several(ui),
+                None if app.selection().is_empty() => inspected.plan(ui),
+                None => inspected.several(ui),
             };
         });
     });
@@ -51,11 +57,14 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     app.panels.focus = None;
     match act {
         None => {}
-        Some(Act::Pick(Picked::Room(room))) => {
+        Some(Act::Pick(ElementId::Room(room))) => {
             let word = app.plan().map(|plan| commands::room_word(plan, room)).unwrap_or_default();
             app.act("find-room", &[&word], ui.ctx());
         }
-        Some(Act::Pick(Picked::Opening(opening))) => app.act("pick-opening", &[&opening.to_string(), "on"], ui.ctx()),
+        Some(Act::Pick(ElementId::Wall(_) | ElementId::Corner(_))) => {}
+        Some(Act::Pick(ElementId::Opening(opening))) => {
+            app.act("pick-opening", &[&opening.to_string(), "on"], ui.ctx())
+        }
         Some(Act::Label(label)) => {
             let id = label.map_or("label-by-function", |label| LABEL_COMMANDS[label.index()]);
             app.act(id, &[], ui.ctx());
@@ -81,7 +90,7 @@ struct Inspected<'a> {
 impl Inspected<'_> {
     // A room.
 
-    fn room(&self, ui: &mut Ui, id: RoomId, room: &Room, hovered: &mut Option<Picked>) -> Option<Act> {
+    fn room(&self, ui: &mut Ui, id: RoomId, room: &Room, hovered: &mut Option<ElementId>) -> Option<Act> {
         let derived = self.document.derived();
         let analysed = derived.and_then(|derived| derived.analysis.room(id));
         let status = RoomStatus::of(self.plan, &self.app.schemes, room);
@@ -277,7 +286,7 @@ impl Inspected<'_> {
         }
     }
 
-    fn neighbours(&self, ui: &mut Ui, id: RoomId, derived: &Derived, hovered: &mut Option<Picked>) -> Option<Act> {
+    fn neighbours(&self, ui: &mut Ui, id: RoomId, derived: &Derived, hovered: &mut Option<ElementId>) -> Option<Act> {
         let neighbours: Vec<(OpeningId, Joint)> = derived.analysis.neighbours(id).collect();
         section(ui, "Neighbours");
         if neighbours.is_empty() {
@@ -291,9 +300,9 @@ impl Inspected<'_> {
                 let Some(opening) = self.plan.opening(opening_id) else { continue };
                 let kind = opening.kind.name();
                 let (text, target) = match joint {
-                    Joint::Room(other) if other == id => ("Itself".to_owned(), Picked::Opening(opening_id)),
-                    Joint::Room(other) => (title_of(self.plan, Picked::Room(other)), Picked::Room(other)),
-                    Joint::Outside => ("Outside".to_owned(), Picked::Opening(opening_id)),
+                    Joint::Room(other) if other == id => ("Itself".to_owned(), ElementId::Opening(opening_id)),
+                    Joint::Room(other) => (title_of(self.plan, ElementId::Room(other)), ElementId::Room(other)),
+                    Joint::Outside => ("Outside".to_owned(), ElementId::Opening(opening_id)),
                 };
                 let trail = match self.plan.opening_segment(opening) {
                     Some(segment) => format!("{kind} {:.2} m", segment.length()),
@@ -312,9 +321,49 @@ impl Inspected<'_> {
         act
     }
 
+    // Several elements, walls, corners.
+
+    fn several(&self, ui: &mut Ui) -> Option<Act> {
+        let selection = self.app.selection();
+        let counts = [
+            (selection.rooms().count(), "room"),
+            (selection.walls().count(), "wall"),
+            (selection.openings().count(), "opening"),
+            (selection.corners().count(), "corner"),
+        ];
+        let said: Vec<String> =
+            counts.iter().filter(|(number, _)| *number > 0).map(|(number, thing)| count(*number, thing)).collect();
+        header(ui, None, None, &said.join(", "), "Selected");
+        ui.add_space(6.0);
+        let walls: Vec<(f64, f64)> = selection
+            .walls()
+            .filter_map(|id| self.plan.wall(id))
+            .filter_map(|wall| Some((self.plan.wall_segment(wall)?.length(), wall.thickness_m)))
+            .collect();
+        if let Some(&(_, thickness_m)) = walls.first() {
+            let length_m: f64 = walls.iter().map(|(length_m, _)| length_m).sum();
+            value(ui, if walls.len() == 1 { "Length" } else { "Length together" }, &format!("{length_m:.2} m"));
+            if walls.iter().all(|(_, other_m)| *other_m == thickness_m) {
+                value(ui, "Thickness", &format!("{:.0} mm", thickness_m * 1000.0));
+            }
+        }
+        let areas_m2: Vec<f64> = self.document.derived().map_or_else(Vec::new, |derived| {
+            selection.rooms().filter_map(|id| derived.analysis.shapes.get(id)).map(RoomShape::area_m2).collect()
+        });
+        if !areas_m2.is_empty() {
+            value(ui, "Area together", &format!("{:.1} m²", areas_m2.iter().sum::<f64>()));
+        }
+        if let Some(ElementId::Corner(id)) = selection.one()
+            && let Some(place) = self.plan.position(id)
+        {
+            value(ui, "Place", &format!("{:.3}, {:.3} m", place.x, place.y));
+        }
+        None
+    }
+
     // An opening.
 
-    fn opening(&self, ui: &mut Ui, id: OpeningId, opening: &Opening, hovered: &mut Option<Picked>) -> Option<Act> {
+    fn opening(&self, ui: &mut Ui, id: OpeningId, opening: &Opening, hovered: &mut Option<ElementId>) -> Option<Act> {
         let subtitle = match opening.place {
             Place::Hosted { .. } => "In a wall",
             Place::Free { .. } => "At a place of its own",
@@ -339,7 +388,7 @@ impl Inspected<'_> {
                 match joint {
                     Joint::Outside => drop(Row::new(Lead::Icon(Icon::Outside), "Outside").inset(8.0).show_only(ui)),
                     Joint::Room(room) => {
-                        let target = Picked::Room(room);
+                        let target = ElementId::Room(room);
                         let status = derived.analysis.room(room).map_or(RoomStatus::Unlabelled, |room| room.status);
                         let colour = theme::colour(self.palette.status(status));
                         let text = title_of(self.plan, target);

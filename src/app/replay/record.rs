@@ -12,14 +12,14 @@ use egui::Context;
 use super::folders::inner;
 use super::words::written;
 use crate::app::background::Mode;
-use crate::app::commands::{self, ArgumentKind, COMMANDS, Executed, Menu, room_word, sample_word};
+use crate::app::commands::{self, ArgumentKind, COMMANDS, Executed, Menu, elements_word, room_word, sample_word};
 use crate::app::dialogs::{Dialogs, Given, Purpose};
 use crate::app::document::{self, Origin};
 use crate::app::theme::Motion;
-use crate::app::{App, Done, Intent, Picked, Severity, plan_list};
+use crate::app::{App, Done, Intent, Severity, plan_list};
 use crate::formats::{self, plan_json};
 use crate::geometry::Point;
-use crate::plan::Plan;
+use crate::plan::{ElementId, Plan};
 use crate::store::{SaveError, save_bytes};
 
 /// A recording at work.
@@ -326,9 +326,13 @@ impl App {
                 }
             })
             .collect();
-        match (self.picked, self.plan()) {
-            (Some(Picked::Room(id)), Some(plan)) => lines.push(Line::new(&["pick", &room_word(plan, id)])),
-            (Some(Picked::Opening(id)), Some(_)) => lines.push(Line::new(&["pick-opening", &id.to_string()])),
+        if self.selection.len() > 1 {
+            lines.push(Line::new(&["select", &elements_word(self.selection.iter())]));
+        }
+        match (self.picked(), self.plan()) {
+            (Some(ElementId::Room(id)), Some(plan)) => lines.push(Line::new(&["pick", &room_word(plan, id)])),
+            (Some(ElementId::Opening(id)), Some(_)) => lines.push(Line::new(&["pick-opening", &id.to_string()])),
+            (Some(_), Some(_)) => lines.push(Line::new(&["select", &elements_word(self.selection.iter())])),
             _ => {}
         }
         lines

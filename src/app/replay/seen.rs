@@ -2,10 +2,10 @@
 
 use egui::Rect;
 
-use crate::app::Picked;
 use crate::app::{App, panels};
 use crate::features::RoomStatus;
 use crate::geometry::{Point, Vector};
+use crate::plan::ElementId;
 use crate::plan::RoomId;
 
 impl App {
@@ -30,7 +30,7 @@ impl App {
             stretches.into_iter().map(move |(from, to)| left + Vector::new((from + to) / 2.0, 0.0))
         });
         let reach_m = self.canvas.pick_reach_m();
-        let is_picked = |point: &Point| derived.at(*point, reach_m).first() == Some(&Picked::Room(room));
+        let is_picked = |point: &Point| derived.at(*point, reach_m).first() == Some(&ElementId::Room(room));
         std::iter::once(bounds.center()).chain(stretches).find(is_picked)
     }
 

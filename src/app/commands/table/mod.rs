@@ -22,11 +22,12 @@ use crate::app::panels::FieldKind;
 use crate::app::panels::palette::Palette;
 use crate::app::panels::shortcuts::Sheet;
 use crate::app::theme::ThemeChoice;
-use crate::app::{App, Intent, Origin, Picked};
+use crate::app::{App, Intent, Origin, SelectMode};
 use crate::classify::{Algorithm, Method};
 use crate::draw::{Fill, LabelColours};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::labels::Label;
+use crate::plan::ElementId;
 
 const fn key(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::NONE, key)
@@ -146,12 +147,12 @@ fn has_plan(app: &App) -> Availability {
 
 fn has_picked(app: &App) -> Availability {
     has_plan(app)?;
-    when(app.picked.is_some(), "pick a room or an opening first")
+    when(!app.selection.is_empty(), "select something first")
 }
 
 fn has_room(app: &App) -> Availability {
     has_plan(app)?;
-    when(matches!(app.picked, Some(Picked::Room(_))), "pick a room first")
+    when(matches!(app.picked(), Some(ElementId::Room(_))), "pick a room first")
 }
 
 fn has_rooms(app: &App) -> Availability {

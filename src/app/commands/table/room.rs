@@ -10,7 +10,7 @@ pub(super) const COMMANDS: &[Command] = &[
         has_rooms,
         &[ROOM],
         |app, values, _| {
-            if let Some(picked) = values.room(0).copied().map(Picked::Room) {
+            if let Some(picked) = values.room(0).copied().map(ElementId::Room) {
                 app.pick(Some(picked));
                 app.canvas.reveal(picked);
             }

@@ -10,7 +10,23 @@ pub(super) const COMMANDS: &[Command] = &[
         has_rooms,
         &[ROOM],
         |app, values, _| {
-            app.pick(values.room(0).copied().map(Picked::Room));
+            app.pick(values.room(0).copied().map(ElementId::Room));
+            Ran::Done
+        },
+        None,
+    ),
+    with(
+        "select",
+        "Select elements",
+        "Select rooms, walls, openings and corners, as clicks and boxes do",
+        has_plan,
+        &[
+            needed("ELEMENTS", ArgumentKind::Elements, "ids with blanks between"),
+            optional("MODE", ArgumentKind::Word(SelectMode::WORDS), "replace (without), add or toggle"),
+        ],
+        |app, values, _| {
+            let mode = SelectMode::of_word(values.word(1).copied().unwrap_or("replace"));
+            app.select(values.elements(0).unwrap_or_default().iter().copied(), mode);
             Ran::Done
         },
         None,
@@ -25,7 +41,7 @@ pub(super) const COMMANDS: &[Command] = &[
             optional("SHOW", ArgumentKind::Switch, "on to bring it into sight; without, the view stays where it is"),
         ],
         |app, values, _| {
-            if let Some(picked) = values.opening(0).copied().map(Picked::Opening) {
+            if let Some(picked) = values.opening(0).copied().map(ElementId::Opening) {
                 app.pick(Some(picked));
                 if values.switch(1) == Some(&true) {
                     app.canvas.reveal(picked);

@@ -3,17 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use super::{Group, Verb};
+use crate::app::Control;
 use crate::app::commands::{self, COMMANDS};
 use crate::app::replay::script::{Act, shortened};
 use crate::app::replay::snapshot::{self, Look, Region};
 use crate::app::replay::stage::{Fault, Stage, count};
 use crate::app::replay::verbs::window::{is_dark, scale, size};
 use crate::app::replay::words::{Words, did_you_mean, in_quotes, written};
-use crate::app::{Control, Picked};
 use crate::features::RoomStatus;
 use crate::formats::{self, plan_json};
 use crate::labels::Label;
-use crate::plan::{OpeningKind, RoomId};
+use crate::plan::{ElementId, OpeningKind, RoomId};
 use crate::store::save_bytes_fast;
 
 pub(super) const GROUP: Group = Group {
@@ -124,8 +124,8 @@ pub(super) const EXPECTATIONS: &[Expectation] = &[
     },
     Expectation {
         name: "picked",
-        form: "picked ROOM | opening | nothing",
-        help: "what is picked",
+        form: "picked ROOM | opening | wall | corner | nothing",
+        help: "the one thing that is selected",
         parse: |words| {
             let word = words.next().ok_or("what is picked is missing")?.clone();
             Ok(Box::new(move |stage| picked(stage, &word.text, word.is_quoted)))
@@ -265,13 +265,19 @@ fn picked(stage: &Stage<'_>, expected: &str, is_quoted: bool) -> Result<(), Faul
     let found = stage.window.app().picked();
     let name = match found {
         None => "nothing".to_owned(),
-        Some(Picked::Opening(_)) => "opening".to_owned(),
-        Some(Picked::Room(id)) => room_name(stage, id),
+        Some(ElementId::Opening(_)) => "opening".to_owned(),
+        Some(ElementId::Room(id)) => room_name(stage, id),
+        Some(ElementId::Wall(_)) => "wall".to_owned(),
+        Some(ElementId::Corner(_)) => "corner".to_owned(),
     };
     let is_so = match (expected, is_quoted) {
         ("nothing", false) => found.is_none(),
-        ("opening", false) => matches!(found, Some(Picked::Opening(_))),
-        (room, _) => matches!(found, Some(Picked::Room(id)) if room_name(stage, id) == room || id.to_string() == room),
+        ("opening", false) => matches!(found, Some(ElementId::Opening(_))),
+        ("wall", false) => matches!(found, Some(ElementId::Wall(_))),
+        ("corner", false) => matches!(found, Some(ElementId::Corner(_))),
+        (room, _) => {
+            matches!(found, Some(ElementId::Room(id)) if room_name(stage, id) == room || id.to_string() == room)
+        }
     };
     if is_so {
         return Ok(());

@@ -1,0 +1,116 @@
+//! What is selected: elements of the plan that the next command is about.
+
+use std::collections::BTreeSet;
+
+use crate::plan::{CornerId, ElementId, OpeningId, Plan, RoomId, WallId};
+
+/// A set of elements.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Selection {
+    elements: BTreeSet<ElementId>,
+}
+
+/// What becomes of the elements that were selected before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SelectMode {
+    /// They are selected no longer.
+    Replace,
+    Add,
+    /// Those that are given again are taken out.
+    Toggle,
+}
+
+impl SelectMode {
+    /// Words for commands, with titles.
+    pub const WORDS: &'static [(&'static str, &'static str)] =
+        &[("replace", "Instead of what is selected"), ("add", "Besides"), ("toggle", "Take out what is in")];
+
+    /// The mode a word means.
+    pub fn of_word(word: &str) -> Self {
+        match word {
+            "add" => Self::Add,
+            "toggle" => Self::Toggle,
+            _ => Self::Replace,
+        }
+    }
+
+    /// Its word.
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Replace => "replace",
+            Self::Add => "add",
+            Self::Toggle => "toggle",
+        }
+    }
+}
+
+impl Selection {
+    /// Exactly these elements.
+    pub fn of(elements: impl IntoIterator<Item = ElementId>) -> Self {
+        Self { elements: elements.into_iter().collect() }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.elements.is_empty()
+    }
+
+    pub fn len(&self) -> usize {
+        self.elements.len()
+    }
+
+    pub fn contains(&self, element: ElementId) -> bool {
+        self.elements.contains(&element)
+    }
+
+    /// The element, where exactly one is selected.
+    pub fn one(&self) -> Option<ElementId> {
+        (self.elements.len() == 1).then(|| self.elements.first().copied()).flatten()
+    }
+
+    /// All elements, sorted.
+    pub fn elements(&self) -> &BTreeSet<ElementId> {
+        &self.elements
+    }
+
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = ElementId> + '_ {
+        self.elements.iter().copied()
+    }
+
+    pub fn rooms(&self) -> impl Iterator<Item = RoomId> + '_ {
+        self.iter().filter_map(|element| if let ElementId::Room(id) = element { Some(id) } else { None })
+    }
+
+    pub fn walls(&self) -> impl Iterator<Item = WallId> + '_ {
+        self.iter().filter_map(|element| if let ElementId::Wall(id) = element { Some(id) } else { None })
+    }
+
+    pub fn openings(&self) -> impl Iterator<Item = OpeningId> + '_ {
+        self.iter().filter_map(|element| if let ElementId::Opening(id) = element { Some(id) } else { None })
+    }
+
+    pub fn corners(&self) -> impl Iterator<Item = CornerId> + '_ {
+        self.iter().filter_map(|element| if let ElementId::Corner(id) = element { Some(id) } else { None })
+    }
+
+    /// Selects elements.
+    pub fn select(&mut self, elements: impl IntoIterator<Item = ElementId>, mode: SelectMode) {
+        match mode {
+            SelectMode::Replace => *self = Self::of(elements),
+            SelectMode::Add => self.elements.extend(elements),
+            SelectMode::Toggle => {
+                for element in elements {
+                    if !self.elements.remove(&element) {
+                        self.elements.insert(element);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Forgets what a plan does not have.
+    pub fn keep_what_is_in(&mut self, plan: &Plan) {
+        if self.elements.iter().any(|&element| !plan.has(element)) {
+            self.elements.retain(|&element| plan.has(element));
+        }
+    }
+}

@@ -1,0 +1,156 @@
+use std::collections::BTreeMap;
+
+use rstar::{AABB, PointDistance, RTree, RTreeObject};
+
+use crate::geometry::{Bounds, Point, Segment};
+use crate::plan::{CornerId, Plan, WallId};
+
+/// An edge of walls and room boundaries: each pair of corners once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IndexedEdge {
+    /// Its corners, the smaller first.
+    pub corners: [CornerId; 2],
+    /// From the smaller corner to the larger.
+    pub segment: Segment,
+    /// The wall that stands on it.
+    pub wall: Option<WallId>,
+    /// The wall's thickness in metres; 0 where none stands.
+    pub thickness_m: f64,
+}
+
+/// The corners and edges of a plan, to be found by place.
+#[derive(Debug, Default)]
+pub struct PlanIndex {
+    corners: RTree<IndexedCorner>,
+    edges: RTree<IndexedEdge>,
+    /// All corners by x, and by y.
+    by_x: Vec<Point>,
+    by_y: Vec<Point>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct IndexedCorner {
+    id: CornerId,
+    point: Point,
+}
+
+impl RTreeObject for IndexedCorner {
+    type Envelope = AABB<[f64; 2]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        AABB::from_point([self.point.x, self.point.y])
+    }
+}
+
+impl PointDistance for IndexedCorner {
+    fn distance_2(&self, point: &[f64; 2]) -> f64 {
+        let distance = self.point.distance(Point::new(point[0], point[1]));
+        distance * distance
+    }
+}
+
+impl RTreeObject for IndexedEdge {
+    type Envelope = AABB<[f64; 2]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        let Segment { a, b } = self.segment;
+        AABB::from_corners([a.x.min(b.x), a.y.min(b.y)], [a.x.max(b.x), a.y.max(b.y)])
+    }
+}
+
+impl PointDistance for IndexedEdge {
+    fn distance_2(&self, point: &[f64; 2]) -> f64 {
+        let distance = self.segment.distance(Point::new(point[0], point[1]));
+        distance * distance
+    }
+}
+
+impl PlanIndex {
+    /// The index of a plan.
+    pub fn new(plan: &Plan) -> Self {
+        let mut edges: BTreeMap<[CornerId; 2], Option<(WallId, f64)>> = BTreeMap::new();
+        let ordered = |a: CornerId, b: CornerId| if a < b { [a, b] } else { [b, a] };
+        for (_, room) in plan.rooms() {
+            for ring in room.rings() {
+                for (i, &corner) in ring.iter().enumerate() {
+                    edges.entry(ordered(corner, ring[(i + 1) % ring.len()])).or_insert(None);
+                }
+            }
+        }
+        for (id, wall) in plan.walls() {
+            edges.insert(ordered(wall.from, wall.to), Some((id, wall.thickness_m)));
+        }
+        let edges: Vec<IndexedEdge> = edges
+            .into_iter()
+            .filter_map(|(corners, wall)| {
+                let segment = Segment::new(plan.position(corners[0])?, plan.position(corners[1])?);
+                let thickness_m = wall.map_or(0.0, |(_, thickness_m)| thickness_m);
+                Some(IndexedEdge { corners, segment, wall: wall.map(|(id, _)| id), thickness_m })
+            })
+            .collect();
+        let corners: Vec<IndexedCorner> =
+            plan.corners().map(|(id, corner)| IndexedCorner { id, point: corner.position }).collect();
+        let mut by_x: Vec<Point> = corners.iter().map(|corner| corner.point).collect();
+        let mut by_y = by_x.clone();
+        by_x.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
+        by_y.sort_by(|p, q| p.y.total_cmp(&q.y).then(p.x.total_cmp(&q.x)));
+        Self { corners: RTree::bulk_load(corners), edges: RTree::bulk_load(edges), by_x, by_y }
+    }
+
+    /// The corners within a radius, the nearest first.
+    pub fn corners_near(&self, point: Point, radius_m: f64) -> Vec<(CornerId, Point)> {
+        let mut found: Vec<(CornerId, Point)> = self
+            .corners
+            .locate_within_distance([point.x, point.y], radius_m * radius_m)
+            .map(|corner| (corner.id, corner.point))
+            .collect();
+        found.sort_by(|p, q| p.1.distance(point).total_cmp(&q.1.distance(point)).then(p.0.cmp(&q.0)));
+        found
+    }
+
+    /// The edges within a radius, the nearest first.
+    pub fn edges_near(&self, point: Point, radius_m: f64) -> Vec<IndexedEdge> {
+        let mut found: Vec<IndexedEdge> =
+            self.edges.locate_within_distance([point.x, point.y], radius_m * radius_m).copied().collect();
+        let distance = |edge: &IndexedEdge| edge.segment.distance(point);
+        found.sort_by(|p, q| distance(p).total_cmp(&distance(q)).then(p.corners.cmp(&q.corners)));
+        found
+    }
+
+    /// The edges that reach into a box, in a fixed order.
+    pub fn edges_in(&self, bounds: Bounds) -> Vec<IndexedEdge> {
+        if bounds.is_empty() {
+            return Vec::new();
+        }
+        let envelope = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
+        let mut found: Vec<IndexedEdge> = self.edges.locate_in_envelope_intersecting(envelope).copied().collect();
+        found.sort_by_key(|edge| edge.corners);
+        found
+    }
+
+    /// The corners inside a box, in a fixed order.
+    pub fn corners_in(&self, bounds: Bounds) -> Vec<(CornerId, Point)> {
+        if bounds.is_empty() {
+            return Vec::new();
+        }
+        let envelope = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
+        let mut found: Vec<(CornerId, Point)> =
+            self.corners.locate_in_envelope(envelope).map(|corner| (corner.id, corner.point)).collect();
+        found.sort_by_key(|(id, _)| *id);
+        found
+    }
+
+    /// The corners in a box whose x is near a value.
+    pub fn corners_at_x(&self, x: f64, radius_m: f64, within: Bounds) -> Vec<Point> {
+        let start = self.by_x.partition_point(|point| point.x < x - radius_m);
+        let near = self.by_x[start..].iter().take_while(|point| point.x <= x + radius_m);
+        near.copied().filter(|&point| within.contains(point)).collect()
+    }
+
+    /// The corners in a box whose y is near a value.
+    pub fn corners_at_y(&self, y: f64, radius_m: f64, within: Bounds) -> Vec<Point> {
+        let start = self.by_y.partition_point(|point| point.y < y - radius_m);
+        let near = self.by_y[start..].iter().take_while(|point| point.y <= y + radius_m);
+        near.copied().filter(|&point| within.contains(point)).collect()
+    }
+}

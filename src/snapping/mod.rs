@@ -1,0 +1,350 @@
+//! Snapping: which exact point a person means who points near one.
+//!
+//! The ranks are those of the design: corner, intersection, midpoint, perpendicular foot, wall,
+//! alignment with other corners, grid. Knows no screen: radii come in metres.
+
+mod index;
+
+pub use index::{IndexedEdge, PlanIndex};
+
+use crate::geometry::{Bounds, Point, Segment, Vector};
+use crate::plan::CornerId;
+
+/// What a point was snapped to, the strongest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SnapKind {
+    Corner,
+    Intersection,
+    Midpoint,
+    Perpendicular,
+    Wall,
+    Alignment,
+    Grid,
+    /// Nothing is near; at most the direction is a right angle to what was drawn before.
+    Free,
+}
+
+impl SnapKind {
+    /// The word beside the mark.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Corner => "corner",
+            Self::Intersection => "intersection",
+            Self::Midpoint => "midpoint",
+            Self::Perpendicular => "perpendicular",
+            Self::Wall => "wall",
+            Self::Alignment => "in line",
+            Self::Grid => "grid",
+            Self::Free => "",
+        }
+    }
+}
+
+/// A point that may be meant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Snap {
+    pub point: Point,
+    pub kind: SnapKind,
+    /// The corner, where it is one of the plan's.
+    pub corner: Option<CornerId>,
+    /// Lines that say why: from the corners it is in line with.
+    pub guides: Vec<Segment>,
+}
+
+/// What is asked.
+#[derive(Clone, Debug)]
+pub struct Query<'a> {
+    pub pointer: Point,
+    /// How near something must be, in metres: a radius in pixels divided by the zoom.
+    pub radius_m: f64,
+    /// The part of the plan that is seen: corners elsewhere align with nothing.
+    pub seen: Bounds,
+    /// Where the line that is being drawn starts.
+    pub from: Option<Point>,
+    /// The direction of the line drawn before, to which right angles are taken besides the axes.
+    pub along: Option<Vector>,
+    /// Whether the line keeps to right angles.
+    pub right_angles: bool,
+    /// Whether corners, walls and alignments attract at all.
+    pub objects: bool,
+    /// Spacing of the grid in metres; `None` when it does not attract.
+    pub grid_m: Option<f64>,
+    /// More points that attract as corners do: of what is being drawn, of the storey below.
+    pub points: &'a [Point],
+    /// More lines that attract as walls do: guide lines, walls of the storey below.
+    pub lines: &'a [Segment],
+}
+
+/// At most so many edges near the pointer are crossed with each other.
+const MOST_CROSSED: usize = 48;
+
+/// A right angle counts when it is within this of the axes' or the last line's: 1e-9 rad is beyond any
+/// drawing.
+const SAME_DIRECTION: f64 = 1e-9;
+
+/// All points that may be meant, the likeliest first; never empty: the last is the pointer itself, or
+/// its place on the right angle.
+pub fn candidates(index: &PlanIndex, query: &Query<'_>) -> Vec<Snap> {
+    let ray = query.ray();
+    let free = ray.map_or(query.pointer, |(from, way)| from + way * (query.pointer - from).dot(way));
+    let mut found: Vec<Snap> = Vec::new();
+    if query.objects {
+        corners(index, query, &mut found);
+        let near = edges_near(index, query);
+        on_edges(&near, query, ray, &mut found);
+        alignments(index, query, ray, free, &mut found);
+    }
+    if let Some(point) = query.grid_m.and_then(|spacing_m| on_grid(query, ray, free, spacing_m)) {
+        push(&mut found, query, free, Snap { point, kind: SnapKind::Grid, corner: None, guides: Vec::new() });
+    }
+    let distance = |snap: &Snap| snap.point.distance(query.pointer);
+    found.sort_by(|p, q| p.kind.cmp(&q.kind).then(distance(p).total_cmp(&distance(q))));
+    let mut kept: Vec<Snap> = Vec::new();
+    for snap in found {
+        if !kept.iter().any(|other| other.point.distance(snap.point) < 1e-6) {
+            kept.push(snap);
+        }
+    }
+    kept.push(Snap { point: free.trimmed(), kind: SnapKind::Free, corner: None, guides: Vec::new() });
+    kept
+}
+
+impl Query<'_> {
+    /// The ray that keeps a right angle nearest to the pointer.
+    fn ray(&self) -> Option<(Point, Vector)> {
+        let from = self.from.filter(|_| self.right_angles)?;
+        let way = self.pointer - from;
+        let mut axes = vec![Vector::new(1.0, 0.0)];
+        if let Some(along) = self.along.and_then(Vector::unit)
+            && along.x.abs().min(along.y.abs()) > SAME_DIRECTION
+        {
+            axes.push(along);
+        }
+        let directions = axes.into_iter().flat_map(|axis| [axis, axis.left(), -axis, -axis.left()]);
+        directions.max_by(|p, q| p.dot(way).total_cmp(&q.dot(way))).map(|direction| (from, direction))
+    }
+}
+
+/// Adds a point that is near enough to the pointer, or to its place on the right angle.
+fn push(found: &mut Vec<Snap>, query: &Query<'_>, free: Point, snap: Snap) {
+    let distance_m = snap.point.distance(query.pointer).min(snap.point.distance(free));
+    if distance_m <= query.radius_m && snap.point.is_finite() {
+        found.push(Snap { point: snap.point.trimmed(), ..snap });
+    }
+}
+
+fn corners(index: &PlanIndex, query: &Query<'_>, found: &mut Vec<Snap>) {
+    for (id, point) in index.corners_near(query.pointer, query.radius_m) {
+        found.push(Snap { point, kind: SnapKind::Corner, corner: Some(id), guides: Vec::new() });
+    }
+    for &point in query.points {
+        if point.distance(query.pointer) <= query.radius_m {
+            found.push(Snap { point, kind: SnapKind::Corner, corner: None, guides: Vec::new() });
+        }
+    }
+}
+
+fn edges_near(index: &PlanIndex, query: &Query<'_>) -> Vec<Segment> {
+    let mut near: Vec<Segment> =
+        index.edges_near(query.pointer, query.radius_m).into_iter().map(|edge| edge.segment).collect();
+    near.extend(query.lines.iter().copied().filter(|line| line.distance(query.pointer) <= query.radius_m));
+    near
+}
+
+/// Crossings, midpoints, perpendicular feet and nearest points of the edges near the pointer.
+fn on_edges(near: &[Segment], query: &Query<'_>, ray: Option<(Point, Vector)>, found: &mut Vec<Snap>) {
+    let mut add = |point: Point, kind: SnapKind, guides: Vec<Segment>| {
+        push(found, query, query.pointer, Snap { point, kind, corner: None, guides });
+    };
+    for (i, &edge) in near.iter().enumerate() {
+        for &other in near.iter().take(MOST_CROSSED).skip(i + 1) {
+            if let Some(point) = crossing(edge, other) {
+                add(point, SnapKind::Intersection, Vec::new());
+            }
+        }
+        if let Some((from, way)) = ray {
+            // Where the right angle meets the wall.
+            let reach_m = (query.pointer - from).length() + query.radius_m;
+            if let Some(point) = crossing(edge, Segment::new(from, from + way * reach_m)) {
+                let kind = if is_perpendicular(edge, way) { SnapKind::Perpendicular } else { SnapKind::Intersection };
+                add(point, kind, vec![Segment::new(from, point)]);
+            }
+        }
+        add(edge.midpoint(), SnapKind::Midpoint, Vec::new());
+        if let Some(from) = query.from {
+            let foot = edge.nearest_point(from);
+            if is_perpendicular(edge, foot - from) {
+                add(foot, SnapKind::Perpendicular, vec![Segment::new(from, foot)]);
+            }
+        }
+        add(edge.nearest_point(query.pointer), SnapKind::Wall, Vec::new());
+    }
+}
+
+/// Whether a direction is at right angles to an edge.
+fn is_perpendicular(edge: Segment, way: Vector) -> bool {
+    match (edge.vector().unit(), way.unit()) {
+        (Some(edge), Some(way)) => edge.dot(way).abs() < 1e-6,
+        _ => false,
+    }
+}
+
+/// Where two segments cross or touch; `None` for parallel ones.
+fn crossing(p: Segment, q: Segment) -> Option<Point> {
+    let (along, across) = (p.vector(), q.vector());
+    let denominator = along.cross(across);
+    if denominator.abs() <= 1e-12 * along.length() * across.length() || denominator == 0.0 {
+        return None;
+    }
+    let t = (q.a - p.a).cross(across) / denominator;
+    let u = (q.a - p.a).cross(along) / denominator;
+    let within = |value: f64| (-1e-9..=1.0 + 1e-9).contains(&value);
+    (within(t) && within(u)).then(|| p.a + along * t)
+}
+
+/// Points in line with corners of the plan, horizontally or vertically.
+fn alignments(index: &PlanIndex, query: &Query<'_>, ray: Option<(Point, Vector)>, free: Point, found: &mut Vec<Snap>) {
+    // From the start of a line its own ray says as much.
+    let is_start = |point: Point| query.from.is_some_and(|from| from.distance(point) < 1e-6);
+    let choose = |points: Vec<Point>| {
+        let all = points.into_iter().chain(query.points.iter().copied()).filter(|&point| !is_start(point));
+        all.collect::<Vec<Point>>()
+    };
+    let nearest = |points: &[Point], off: &dyn Fn(Point) -> f64, aside: &dyn Fn(Point) -> f64| {
+        let near = points.iter().copied().filter(|&point| off(point) <= query.radius_m);
+        near.min_by(|&p, &q| {
+            // The least movement; of those about equal the nearest corner.
+            let step = query.radius_m / 4.0;
+            let key = |point: Point| (off(point) / step).floor();
+            key(p).total_cmp(&key(q)).then(aside(p).total_cmp(&aside(q)))
+        })
+    };
+    let columns = choose(index.corners_at_x(free.x, query.radius_m, query.seen));
+    let rows = choose(index.corners_at_y(free.y, query.radius_m, query.seen));
+    let in_column = nearest(&columns, &|point| (point.x - free.x).abs(), &|point| (point.y - query.pointer.y).abs());
+    let in_row = nearest(&rows, &|point| (point.y - free.y).abs(), &|point| (point.x - query.pointer.x).abs());
+    let mut add = |point: Point, with: &[Point]| {
+        let guides = with.iter().map(|&corner| Segment::new(corner, point)).collect();
+        push(found, query, free, Snap { point, kind: SnapKind::Alignment, corner: None, guides });
+    };
+    match ray {
+        // Along the ray, one alignment says where.
+        Some((from, way)) => {
+            if let Some(corner) = in_column
+                && way.x.abs() > 1e-6
+            {
+                add(from + way * ((corner.x - from.x) / way.x), &[corner]);
+            }
+            if let Some(corner) = in_row
+                && way.y.abs() > 1e-6
+            {
+                add(from + way * ((corner.y - from.y) / way.y), &[corner]);
+            }
+        }
+        None => match (in_column, in_row) {
+            (Some(column), Some(row)) => add(Point::new(column.x, row.y), &[column, row]),
+            (Some(column), None) => add(Point::new(column.x, free.y), &[column]),
+            (None, Some(row)) => add(Point::new(free.x, row.y), &[row]),
+            (None, None) => {}
+        },
+    }
+}
+
+/// The nearest point of the grid: along a ray, a length that is a multiple of its spacing.
+fn on_grid(query: &Query<'_>, ray: Option<(Point, Vector)>, free: Point, spacing_m: f64) -> Option<Point> {
+    if !(spacing_m > 0.0) {
+        return None;
+    }
+    let round = |value: f64| (value / spacing_m).round() * spacing_m;
+    let point = match ray {
+        Some((from, way)) => from + way * round((free - from).dot(way)),
+        None => Point::new(round(query.pointer.x), round(query.pointer.y)),
+    };
+    // A grid finer than the radius holds every point; a coarser one only those near its own.
+    (point.distance(free) <= query.radius_m.max(spacing_m)).then_some(point)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::{Builder, Meta, Plan};
+
+    /// An L of two walls: from (0, 0) to (4, 0) to (4, 3), and one from (0, 2) to (6, 2) across.
+    fn plan() -> Plan {
+        let mut builder = Builder::new(Meta::default());
+        let corners =
+            [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 2.0), (6.0, 2.0)].map(|(x, y)| builder.corner(Point::new(x, y)));
+        builder.wall(corners[0], corners[1], 0.1);
+        builder.wall(corners[1], corners[2], 0.1);
+        builder.wall(corners[3], corners[4], 0.1);
+        builder.finish().expect("a valid plan")
+    }
+
+    fn ask(x: f64, y: f64) -> Query<'static> {
+        Query {
+            pointer: Point::new(x, y),
+            radius_m: 0.2,
+            seen: Bounds::of([Point::new(-10.0, -10.0), Point::new(10.0, 10.0)]),
+            from: None,
+            along: None,
+            right_angles: true,
+            objects: true,
+            grid_m: None,
+            points: &[],
+            lines: &[],
+        }
+    }
+
+    fn first(query: &Query<'_>) -> (SnapKind, Point) {
+        let snap = candidates(&PlanIndex::new(&plan()), query).remove(0);
+        (snap.kind, snap.point)
+    }
+
+    #[test]
+    fn stronger_things_win_though_weaker_ones_are_nearer() {
+        assert_eq!(first(&ask(3.9, 0.02)), (SnapKind::Corner, Point::new(4.0, 0.0)));
+        assert_eq!(first(&ask(3.95, 2.1)), (SnapKind::Intersection, Point::new(4.0, 2.0)));
+        assert_eq!(first(&ask(2.1, 0.05)), (SnapKind::Midpoint, Point::new(2.0, 0.0)));
+        assert_eq!(first(&ask(1.2, 0.05)), (SnapKind::Wall, Point::new(1.2, 0.0)));
+        assert_eq!(first(&ask(7.0, 7.0)), (SnapKind::Free, Point::new(7.0, 7.0)));
+    }
+
+    #[test]
+    fn a_line_keeps_to_right_angles_and_meets_walls_there() {
+        let from = |x, y, from| Query { from: Some(from), ..ask(x, y) };
+        // Along x from (1, 1), the pointer a little off: the y of the start.
+        let start = Point::new(1.0, 1.0);
+        assert_eq!(first(&from(2.7, 1.15, start)), (SnapKind::Free, Point::new(2.7, 1.0)));
+        // Onto the wall at x = 4, at right angles.
+        assert_eq!(first(&from(3.9, 1.1, start)), (SnapKind::Perpendicular, Point::new(4.0, 1.0)));
+        let free = Query { right_angles: false, ..from(2.7, 1.15, start) };
+        assert_eq!(first(&free), (SnapKind::Free, Point::new(2.7, 1.15)));
+        // Right angles of a slanted line drawn before.
+        let slanted = Query { along: Some(Vector::new(1.0, 1.0)), ..from(-0.98, -1.0, Point::new(-2.0, -2.0)) };
+        let (_, point) = first(&slanted);
+        assert!((point.x - point.y).abs() < 1e-3, "{point:?}");
+    }
+
+    #[test]
+    fn corners_elsewhere_align() {
+        let (kind, point) = first(&ask(6.1, 3.1));
+        assert_eq!((kind, point), (SnapKind::Alignment, Point::new(6.0, 3.0)));
+        let along = Query { from: Some(Point::new(0.0, 5.0)), ..ask(5.9, 5.1) };
+        assert_eq!(first(&along), (SnapKind::Alignment, Point::new(6.0, 5.0)));
+    }
+
+    #[test]
+    fn the_grid_comes_last_and_counts_lengths_along_a_line() {
+        let grid = Query { grid_m: Some(0.5), ..ask(7.6, 7.4) };
+        assert_eq!(first(&grid), (SnapKind::Grid, Point::new(7.5, 7.5)));
+        let along = Query { from: Some(Point::new(7.1, 7.1)), grid_m: Some(0.5), ..ask(8.65, 7.2) };
+        assert_eq!(first(&along), (SnapKind::Grid, Point::new(8.6, 7.1)));
+    }
+
+    #[test]
+    fn nothing_attracts_when_suspended() {
+        let alone = Query { objects: false, right_angles: false, ..ask(3.99, 0.01) };
+        assert_eq!(candidates(&PlanIndex::new(&plan()), &alone).len(), 1);
+        assert_eq!(first(&alone), (SnapKind::Free, Point::new(3.99, 0.01)));
+    }
+}
