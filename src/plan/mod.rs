@@ -5,6 +5,7 @@
 //! [`edit`]); [`Plan::violations`] states the invariants; [`History`] keeps the plans for undo.
 
 mod builder;
+mod calibration;
 pub mod edit;
 mod element;
 mod history;
@@ -17,8 +18,13 @@ use std::sync::Arc;
 use imbl::OrdMap;
 
 pub use builder::Builder;
+pub use calibration::{
+    Calibration, DrawingMoves, UNMEASURED_METRES_PER_PIXEL, move_picture, set_measurements, straightening_rad,
+    turn_picture,
+};
 pub use element::{
-    Backdrop, Corner, Joint, LabelOrigin, LeafSide, Opening, OpeningKind, Place, Room, RoomLabel, Swing, Wall,
+    Backdrop, Corner, Joint, LabelOrigin, LeafSide, Measurement, Opening, OpeningKind, Place, Room, RoomLabel, Swing,
+    Wall,
 };
 pub use history::{History, Step};
 pub use id::{CornerId, ElementId, IdError, OpeningId, RoomId, WallId, name_bits};

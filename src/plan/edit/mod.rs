@@ -32,11 +32,11 @@ impl fmt::Display for EditError {
 
 impl std::error::Error for EditError {}
 
-fn fail<T>(what: impl Into<String>) -> Result<T, EditError> {
+pub(super) fn fail<T>(what: impl Into<String>) -> Result<T, EditError> {
     Err(EditError(what.into()))
 }
 
-fn checked_position(point: Point) -> Result<Point, EditError> {
+pub(super) fn checked_position(point: Point) -> Result<Point, EditError> {
     let position = point.trimmed();
     if position.is_finite() && position.x.abs() <= COORDINATE_LIMIT_M && position.y.abs() <= COORDINATE_LIMIT_M {
         return Ok(position);
