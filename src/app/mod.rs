@@ -24,9 +24,11 @@ mod search;
 mod selection;
 mod settings;
 mod theme;
+mod tools;
 mod widgets;
 mod window;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -51,9 +53,9 @@ use panels::{Field, FieldKind, Panels};
 use plan_list::PlanList;
 use replay::{Recorder, Recording};
 use settings::Settings;
+use tools::{DrawOptions, TakenBack, Toolbox};
 
 use crate::draw::{self, Fill, LabelColours, Palette};
-use crate::features::RoomStatus;
 use crate::formats::FileError;
 use crate::geometry::Vector;
 use crate::labels::{Label, Schemes};
@@ -71,6 +73,8 @@ pub struct App {
     list: PlanList,
     canvas: Canvas,
     selection: Selection,
+    tools: Toolbox,
+    draw_options: DrawOptions,
     layers: LayerSettings,
     /// Which models predict.
     predictor: Predictor,
@@ -110,6 +114,27 @@ struct LayerSettings {
     names: bool,
     backdrop: bool,
     grid: bool,
+    /// Rooms, walls and openings that cannot be selected or moved with the pointer.
+    locked: Locked,
+}
+
+/// What the pointer leaves alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Locked {
+    rooms: bool,
+    walls: bool,
+    openings: bool,
+}
+
+impl LayerSettings {
+    fn is_locked(&self, element: ElementId) -> bool {
+        match element {
+            ElementId::Room(_) => self.locked.rooms,
+            ElementId::Wall(_) => self.locked.walls,
+            ElementId::Opening(_) => self.locked.openings,
+            ElementId::Corner(_) => false,
+        }
+    }
 }
 
 impl Default for LayerSettings {
@@ -121,6 +146,7 @@ impl Default for LayerSettings {
             names: true,
             backdrop: true,
             grid: true,
+            locked: Locked::default(),
         }
     }
 }
@@ -173,6 +199,8 @@ enum Intent {
 enum Question {
     /// The plan has unsaved changes: save, give up, or keep working?
     Unsaved(Intent),
+    /// More would go than is selected: delete it all?
+    Delete { selected: Vec<ElementId>, gone: BTreeSet<ElementId> },
     /// Something else stands in the file to be saved: replace it?
     Replace { path: PathBuf, is_changed_since: bool, then: Option<Intent> },
 }
@@ -201,6 +229,8 @@ impl App {
             list: PlanList::default(),
             canvas: Canvas::default(),
             selection: Selection::default(),
+            tools: Toolbox::default(),
+            draw_options: DrawOptions::default(),
             layers: LayerSettings::default(),
             predictor: Predictor::default(),
             theme: ThemeChoice::default(),
@@ -232,6 +262,7 @@ impl App {
         self.take_outcomes(&context);
         self.take_dropped_files(&context);
         self.take_close_request(&context);
+        self.take_tool_keys(&context);
         self.take_shortcuts(&context);
         self.refresh();
         panels::show(self, ui);
@@ -454,11 +485,21 @@ impl App {
     // Editing. Every change goes through here and is a step of the history.
 
     fn edit(&mut self, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) {
-        let Some(document) = &mut self.document else { return };
-        match change(document.plan()) {
-            Ok(plan) => document.history.push(title, plan),
-            Err(error) => self.say(Severity::Warning, format!("Nothing was changed: {error}"), ""),
+        if let Err(error) = self.try_edit(title, change) {
+            self.say(Severity::Warning, format!("Nothing was changed: {error}"), "");
         }
+    }
+
+    /// As [`App::edit`], but leaves it to the caller to say why nothing was changed.
+    fn try_edit(
+        &mut self,
+        title: &str,
+        change: impl FnOnce(&Plan) -> Result<Plan, EditError>,
+    ) -> Result<(), EditError> {
+        let Some(document) = &mut self.document else { return Ok(()) };
+        let plan = change(document.plan())?;
+        document.history.push(title, plan);
+        Ok(())
     }
 
     // Predicting.
@@ -538,10 +579,16 @@ impl App {
         });
     }
 
-    fn undo(&mut self) {
+    /// Takes the last change back, or the last corner of what is being drawn. Gives whether the plan's
+    /// last step was undone.
+    fn undo(&mut self) -> bool {
+        if self.tools.take_back() == TakenBack::Corner {
+            return false;
+        }
         if let Some(title) = self.document.as_mut().and_then(|document| document.history.undo()) {
             self.status = format!("Undone: {title}");
         }
+        true
     }
 
     fn redo(&mut self) {

@@ -21,7 +21,7 @@ use std::sync::Arc;
 use egui::{Context, CursorIcon, Event, Key, Modifiers};
 
 pub(super) use preview::{Preview, paint_snap, tag};
-pub(super) use select::{REACH_PX, hit};
+pub(super) use select::{REACH_PX, corners_of, hit};
 pub(super) use typing::Typed;
 
 use super::document::Derived;

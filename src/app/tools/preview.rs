@@ -17,8 +17,6 @@ pub(in crate::app) enum Look {
     New,
     /// A helping line.
     Guide,
-    /// What is meant.
-    Hover,
     /// What will be no more, or cannot be.
     Danger,
 }
@@ -149,7 +147,6 @@ fn colour(look: Look, palette: &Palette) -> Color32 {
     theme::colour(match look {
         Look::New => palette.selection,
         Look::Guide => palette.snap,
-        Look::Hover => palette.hover,
         Look::Danger => palette.error,
     })
 }

@@ -181,7 +181,7 @@ fn is_inside(from: Point, to: Point) -> bool {
 }
 
 /// The corners that selected elements have.
-fn corners_of(plan: &Plan, selection: &Selection) -> BTreeSet<CornerId> {
+pub(in crate::app) fn corners_of(plan: &Plan, selection: &Selection) -> BTreeSet<CornerId> {
     let mut corners: BTreeSet<CornerId> = selection.corners().collect();
     for wall in selection.walls().filter_map(|id| plan.wall(id)) {
         corners.extend([wall.from, wall.to]);

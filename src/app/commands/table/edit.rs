@@ -3,7 +3,16 @@
 use super::*;
 
 pub(super) const COMMANDS: &[Command] = &[
-    command("undo", "Undo", "Take the last change back", can_undo, |app, _| app.undo())
+    with(
+        "undo",
+        "Undo",
+        "Take the last change back; while something is drawn, its last corner",
+        can_undo,
+        &[],
+        // A corner in the making is no change of the plan.
+        |app, _, _| if app.undo() { Ran::Done } else { Ran::Asks },
+        None,
+    )
         .keys(&[ctrl(Key::Z)])
         .menu(Menu::Edit, 0)
         .tool(Icon::Undo, 0),
@@ -24,7 +33,9 @@ pub(super) const COMMANDS: &[Command] = &[
         Some(|app, _| app.panels.history = true),
     )
     .menu(Menu::Edit, 0),
-    command("clear-selection", "Clear selection", "Pick nothing", has_picked, |app, _| app.pick(None))
+    command("clear-selection", "Clear selection", "Put the tool away, or select nothing", can_clear, |app, _| {
+        if app.tools.is_selecting() { app.pick(None) } else { app.put_tool_away() }
+    })
         .keys(&[key(Key::Escape)])
         .menu(Menu::Edit, 1),
     with(
