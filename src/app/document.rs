@@ -349,7 +349,8 @@ impl Derived {
         let openings = near.into_iter().map(|(_, id)| ElementId::Opening(id));
         let shapes = &self.analysis.shapes;
         let rooms = shapes.at(point).into_iter().map(|index| ElementId::Room(shapes.all()[index].id));
-        let walls = self.index.edges_near(point, reach_m / 2.0).into_iter().filter_map(|edge| edge.wall).map(ElementId::Wall);
+        let walls =
+            self.index.edges_near(point, reach_m / 2.0).into_iter().filter_map(|edge| edge.wall).map(ElementId::Wall);
         openings.chain(walls).chain(rooms).collect()
     }
 }

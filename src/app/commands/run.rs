@@ -187,7 +187,9 @@ impl Question {
                 let name = app.document.as_ref().map(crate::app::Document::title).unwrap_or_default();
                 format!("Save changes to {name}?")
             }
-            Self::Delete { selected, .. } if selected.len() == 1 => format!("Delete the {} and what depends on it?", selected[0].kind()),
+            Self::Delete { selected, .. } if selected.len() == 1 => {
+                format!("Delete the {} and what depends on it?", selected[0].kind())
+            }
             Self::Delete { selected, .. } => format!("Delete {} elements and what depends on them?", selected.len()),
             Self::Replace { path, .. } => format!("Replace {}?", crate::app::document::file_name(path)),
         }

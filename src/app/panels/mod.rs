@@ -236,7 +236,6 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         messages::show(app, ui);
-        tool_options::show(app, ui);
         if app.document.is_some() {
             canvas::show(app, ui);
         } else {
@@ -244,6 +243,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         }
         welcome::show_drop_target(ui);
     });
+    tool_options::show(app, ui);
     status::show(app, &mut ui.new_child(UiBuilder::new().max_rect(status_rect).id_salt("status")));
     notes::show(app, ui);
     about::show(app, ui);

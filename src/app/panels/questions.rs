@@ -2,8 +2,8 @@
 
 use egui::{Id, Key, Modal, Ui};
 
-use crate::app::widgets::{dialog_frame, right, strong, text_button};
 use super::status::count;
+use crate::app::widgets::{dialog_frame, right, strong, text_button};
 use crate::app::{App, Intent, Question, theme};
 use crate::plan::ElementId;
 

@@ -56,7 +56,8 @@ pub(in crate::app) fn left_text(app: &App) -> String {
     if document.derived().is_none() {
         return "Working out rooms and features…".to_owned();
     }
-    let said: Vec<&str> = [app.status.as_str(), app.tools.hint.as_str()].into_iter().filter(|text| !text.is_empty()).collect();
+    let said: Vec<&str> =
+        [app.status.as_str(), app.tools.hint.as_str()].into_iter().filter(|text| !text.is_empty()).collect();
     if !said.is_empty() {
         return said.join("  ·  ");
     }

@@ -17,10 +17,12 @@ const fn tool(
     choose(id, title, help, has_plan, is_on, run)
 }
 
-const PATH: Argument =
-    needed("POINTS", ArgumentKind::Points { least: 2 }, "points in metres, as '0,0 4.2,0', where the last may be the first");
-const RING: Argument =
-    needed("CORNERS", ArgumentKind::Points { least: 3 }, "corners in metres, as '0,0 4,0 4,3 0,3'");
+const PATH: Argument = needed(
+    "POINTS",
+    ArgumentKind::Points { least: 2 },
+    "points in metres, as '0,0 4.2,0', where the last may be the first",
+);
+const RING: Argument = needed("CORNERS", ArgumentKind::Points { least: 3 }, "corners in metres, as '0,0 4,0 4,3 0,3'");
 const PLACE: Argument = needed("PLACE", ArgumentKind::Points { least: 1 }, "a point in metres, as '2,1.5'");
 const THICKNESS: Argument = optional(
     "THICKNESS",

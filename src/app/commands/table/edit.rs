@@ -13,9 +13,9 @@ pub(super) const COMMANDS: &[Command] = &[
         |app, _, _| if app.undo() { Ran::Done } else { Ran::Asks },
         None,
     )
-        .keys(&[ctrl(Key::Z)])
-        .menu(Menu::Edit, 0)
-        .tool(Icon::Undo, 0),
+    .keys(&[ctrl(Key::Z)])
+    .menu(Menu::Edit, 0)
+    .tool(Icon::Undo, 0),
     command("redo", "Redo", "Do again what was taken back", can_redo, |app, _| app.redo())
         .keys(&[ctrl_shift(Key::Z), ctrl(Key::Y)])
         .menu(Menu::Edit, 0)
@@ -36,8 +36,8 @@ pub(super) const COMMANDS: &[Command] = &[
     command("clear-selection", "Clear selection", "Put the tool away, or select nothing", can_clear, |app, _| {
         if app.tools.is_selecting() { app.pick(None) } else { app.put_tool_away() }
     })
-        .keys(&[key(Key::Escape)])
-        .menu(Menu::Edit, 1),
+    .keys(&[key(Key::Escape)])
+    .menu(Menu::Edit, 1),
     with(
         "rename-plan",
         "Rename the plan…",

@@ -5,8 +5,7 @@ use super::*;
 use crate::app::{Question, SelectMode};
 use crate::plan::{ElementId, edit};
 
-const MODE: Argument =
-    optional("MODE", ArgumentKind::Word(SelectMode::WORDS), "replace (without), add or toggle");
+const MODE: Argument = optional("MODE", ArgumentKind::Word(SelectMode::WORDS), "replace (without), add or toggle");
 
 pub(super) const COMMANDS: &[Command] = &[
     command("select-all", "Select all", "Select everything that is not locked", has_drawing, |app, _| {
@@ -100,7 +99,11 @@ pub(super) const COMMANDS: &[Command] = &[
         has_plan,
         &[
             needed("CORNERS", ArgumentKind::Points { least: 2 }, "two opposite corners of the box"),
-            optional("HOW", ArgumentKind::Word(&[("inside", "Inside"), ("touching", "Touching")]), "inside (without) or touching"),
+            optional(
+                "HOW",
+                ArgumentKind::Word(&[("inside", "Inside"), ("touching", "Touching")]),
+                "inside (without) or touching",
+            ),
             MODE,
         ],
         |app, values, _| {
@@ -140,7 +143,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ],
         |app, values, _| {
             let to = values.points(1).and_then(|points| points.first()).copied().unwrap_or_default();
-            let Some(ElementId::Corner(corner)) = values.elements(0).and_then(|elements| elements.first()).copied() else {
+            let Some(ElementId::Corner(corner)) = values.elements(0).and_then(|elements| elements.first()).copied()
+            else {
                 return Ran::Refused("this is no corner".to_owned());
             };
             edited(app, "Move corner", |plan| edit::move_corners(plan, &[(corner, to)]))
@@ -240,7 +244,8 @@ impl App {
         let selected: Vec<ElementId> = self.selection.iter().collect();
         let gone = edit::removed_with(plan, &selected);
         // Corners that nothing uses any more are no loss.
-        let is_loss = |element: &ElementId| !self.selection.contains(*element) && !matches!(element, ElementId::Corner(_));
+        let is_loss =
+            |element: &ElementId| !self.selection.contains(*element) && !matches!(element, ElementId::Corner(_));
         if gone.iter().any(is_loss) {
             self.question = Some(Question::Delete { selected, gone });
             return Ran::Asks;
