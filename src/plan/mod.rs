@@ -5,6 +5,7 @@
 //! [`edit`]); [`Plan::violations`] states the invariants; [`History`] keeps the plans for undo.
 
 mod builder;
+mod difference;
 pub mod edit;
 mod element;
 mod history;
@@ -17,6 +18,7 @@ use std::sync::Arc;
 use imbl::OrdMap;
 
 pub use builder::Builder;
+pub use difference::{ChangeKind, Difference};
 pub use element::{
     Backdrop, Corner, Joint, LabelOrigin, LeafSide, Opening, OpeningKind, Place, Room, RoomLabel, Swing, Wall,
 };
@@ -163,5 +165,6 @@ impl Plan {
             && self.rooms.ptr_eq(&other.rooms)
             && self.openings.ptr_eq(&other.openings)
             && self.backdrop.as_ref().map(Arc::as_ptr) == other.backdrop.as_ref().map(Arc::as_ptr)
+            && self.extra.as_ref().map(Arc::as_ptr) == other.extra.as_ref().map(Arc::as_ptr)
     }
 }
