@@ -3,6 +3,7 @@
 //! [`App`] is the whole window apart from any display: it takes egui's input and gives shapes.
 //! [`run_window`] shows it on a screen; [`Offscreen`] drives the same one without.
 
+mod backdrop;
 mod background;
 mod canvas;
 pub mod commands;
@@ -11,20 +12,24 @@ mod dialogs;
 mod document;
 mod files;
 mod icons;
+mod labelling;
 mod offscreen;
 mod panels;
 mod picture;
 mod plan_list;
 mod raster;
+mod recovery;
 pub mod replay;
 mod scene_painter;
 mod search;
 mod selection;
 mod settings;
 mod theme;
+mod tools;
 mod widgets;
 mod window;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -43,22 +48,23 @@ pub use window::{WindowError, WindowOptions, run_window};
 use background::{Background, Mode};
 use canvas::Canvas;
 use dialogs::{Answer, Dialogs};
-use document::{Derived, Document, Opened, Origin, SaveFailure, Stamp};
+use document::{Derived, Document, Opened, Origin, SaveFailure};
 use panels::welcome::Samples;
 use panels::{Field, FieldKind, Panels};
 use plan_list::PlanList;
+use recovery::{Looked, Offered, Safety};
 use replay::{Recorder, Recording};
 use settings::Settings;
+use tools::{DrawOptions, TakenBack, Toolbox};
 
 use crate::draw::{self, Fill, LabelColours, Palette};
-use crate::features::RoomStatus;
 use crate::formats::FileError;
 use crate::geometry::Vector;
 use crate::labels::{Label, Schemes};
 use crate::plan::edit::{self, EditError};
 use crate::plan::{ElementId, LabelOrigin, Meta, Plan, Room, RoomId, RoomLabel};
 use crate::predict::{Predictions, Predictor};
-use crate::store::SaveError;
+use crate::store::{SaveError, Stamp};
 
 /// The window's state, apart from any display.
 pub struct App {
@@ -69,6 +75,8 @@ pub struct App {
     list: PlanList,
     canvas: Canvas,
     selection: Selection,
+    tools: Toolbox,
+    draw_options: DrawOptions,
     layers: LayerSettings,
     /// Which models predict.
     predictor: Predictor,
@@ -80,6 +88,13 @@ pub struct App {
     /// What was just done, for the status line.
     status: String,
     question: Option<Question>,
+    /// What a person wants once a question is answered, or a file saved.
+    waiting: Option<Intent>,
+    /// How many files are being saved.
+    saving: usize,
+    /// The journal that is to be opened.
+    recovering: Option<PathBuf>,
+    safety: Safety,
     background: Background<Done>,
     dialogs: Dialogs,
     /// Whether a text field had the keyboard when the last frame ended.
@@ -108,6 +123,27 @@ struct LayerSettings {
     names: bool,
     backdrop: bool,
     grid: bool,
+    /// Rooms, walls and openings that cannot be selected or moved with the pointer.
+    locked: Locked,
+}
+
+/// What the pointer leaves alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Locked {
+    rooms: bool,
+    walls: bool,
+    openings: bool,
+}
+
+impl LayerSettings {
+    fn is_locked(&self, element: ElementId) -> bool {
+        match element {
+            ElementId::Room(_) => self.locked.rooms,
+            ElementId::Wall(_) => self.locked.walls,
+            ElementId::Opening(_) => self.locked.openings,
+            ElementId::Corner(_) => false,
+        }
+    }
 }
 
 impl Default for LayerSettings {
@@ -119,6 +155,7 @@ impl Default for LayerSettings {
             names: true,
             backdrop: true,
             grid: true,
+            locked: Locked::default(),
         }
     }
 }
@@ -131,7 +168,10 @@ pub struct Message {
     pub text: String,
     /// Where, and what to do; may be empty.
     pub detail: String,
-    pub remedy: Option<Remedy>,
+    /// What can be done about it.
+    pub remedies: Vec<Remedy>,
+    /// Whether it stays as long as what it says is so; else a person can dismiss it.
+    pub stays: bool,
 }
 
 /// What a message offers to do.
@@ -139,12 +179,27 @@ pub struct Message {
 pub enum Remedy {
     /// Show what an import mended or left out.
     ShowNotes,
+    /// Show how the plan and its file differ.
+    ShowDifferences,
+    /// Make the plan what its file holds.
+    LoadTheirs,
+    /// Go on with the plan as it is here.
+    KeepMine,
+    /// Save the plan in its file.
+    Save,
+    /// Save it in another.
+    SaveElsewhere,
 }
 
 impl Remedy {
     const fn title(self) -> &'static str {
         match self {
             Self::ShowNotes => "Show notes",
+            Self::ShowDifferences => "Show differences",
+            Self::LoadTheirs => "Load the file as it is now",
+            Self::KeepMine => "Keep mine",
+            Self::Save => "Save",
+            Self::SaveElsewhere => "Save in another place…",
         }
     }
 }
@@ -162,6 +217,8 @@ pub enum Severity {
 enum Intent {
     /// Show another plan, which was read meanwhile.
     Show(Box<Opened>),
+    /// Show what a journal keeps.
+    Recover(PathBuf),
     Close,
     Quit,
 }
@@ -171,8 +228,12 @@ enum Intent {
 enum Question {
     /// The plan has unsaved changes: save, give up, or keep working?
     Unsaved(Intent),
+    /// More would go than is selected: delete it all?
+    Delete { selected: Vec<ElementId>, gone: BTreeSet<ElementId> },
     /// Something else stands in the file to be saved: replace it?
     Replace { path: PathBuf, is_changed_since: bool, then: Option<Intent> },
+    /// Give up what a program left behind?
+    Discard { path: PathBuf, title: String },
 }
 
 /// What a background job brought.
@@ -183,6 +244,8 @@ enum Done {
     Chosen(Answer),
     Saved { document: u64, path: PathBuf, plan: Plan, result: Result<Option<Stamp>, SaveFailure>, then: Option<Intent> },
     Backdrop(PathBuf, Result<egui::ColorImage, String>),
+    Leftovers(Vec<Offered>),
+    Looked(Looked),
     RecordingSaved { path: PathBuf, recording: Box<Recording>, result: Result<(), SaveError>, then: Option<Intent> },
 }
 
@@ -199,6 +262,8 @@ impl App {
             list: PlanList::default(),
             canvas: Canvas::default(),
             selection: Selection::default(),
+            tools: Toolbox::default(),
+            draw_options: DrawOptions::default(),
             layers: LayerSettings::default(),
             predictor: Predictor::default(),
             theme: ThemeChoice::default(),
@@ -208,6 +273,10 @@ impl App {
             messages: Vec::new(),
             status: String::new(),
             question: None,
+            waiting: None,
+            saving: 0,
+            recovering: None,
+            safety: Safety::default(),
             background: Background::new(mode),
             dialogs,
             was_typing: false,
@@ -228,12 +297,19 @@ impl App {
         // What was done since the last frame; what it opens is still known.
         self.write_executed();
         self.take_outcomes(&context);
+        self.take_waiting();
+        if let Some(path) = self.recovering.take() {
+            self.show_recovered(&path, &context);
+        }
+        self.watch_file(&context);
         self.take_dropped_files(&context);
         self.take_close_request(&context);
+        self.take_tool_keys(&context);
         self.take_shortcuts(&context);
         self.refresh();
         panels::show(self, ui);
         self.was_typing = context.text_edit_focused();
+        self.keep_journal(&context);
         self.update_title(&context);
         self.record(&context);
         if self.background.is_busy() {
@@ -256,9 +332,11 @@ impl App {
         self.selection.one()
     }
 
-    /// What stands in the message bar, oldest first.
-    pub fn messages(&self) -> &[Message] {
-        &self.messages
+    /// What stands above the canvas: messages, the oldest first, then what stays as long as it is so.
+    pub fn messages(&self) -> Vec<Message> {
+        let mut messages = self.messages.clone();
+        messages.extend(self.bars());
+        messages
     }
 
     /// Whether the plan has changes that are in no file.
@@ -284,7 +362,13 @@ impl App {
     }
 
     fn say(&mut self, severity: Severity, text: impl Into<String>, detail: impl Into<String>) {
-        self.add_message(Message { severity, text: text.into(), detail: detail.into(), remedy: None });
+        self.add_message(Message {
+            severity,
+            text: text.into(),
+            detail: detail.into(),
+            remedies: Vec::new(),
+            stays: false,
+        });
     }
 
     fn add_message(&mut self, message: Message) {
@@ -298,30 +382,35 @@ impl App {
     fn take_outcomes(&mut self, context: &Context) {
         for outcome in self.background.take() {
             match outcome {
-                None => self.say(
-                    Severity::Error,
-                    "Something broke inside Enfilade",
-                    "Your plan is untouched. Please report what you did.",
-                ),
+                None => {
+                    self.saving = 0;
+                    self.say(
+                        Severity::Error,
+                        "Something broke inside Enfilade",
+                        "Your plan is untouched. Please report what you did.",
+                    );
+                }
                 Some(Done::Opened(origin, result)) => self.was_opened(&origin, *result),
                 Some(Done::Derived(plan, derived)) => {
                     if let Some(document) = &mut self.document {
                         document.set_derived(plan, derived);
                     }
                 }
+                Some(Done::Leftovers(offered)) => self.were_left_over(offered),
+                Some(Done::Looked(looked)) => self.was_looked_at(looked),
                 Some(Done::Listed(folder, files)) => self.list.set_folder(folder, files),
                 Some(Done::Chosen(answer)) => {
                     self.dialogs.answered();
                     self.was_chosen(answer, context);
                 }
                 Some(Done::Saved { document, path, plan, result, then }) => {
-                    self.was_saved(document, path, plan, result, then);
+                    self.was_saved(document, path, plan, result, then, context);
                 }
                 Some(Done::RecordingSaved { path, recording, result, then }) => {
                     self.recording_was_saved(&path, *recording, result, then);
                 }
                 Some(Done::Backdrop(path, result)) => {
-                    if let Err(what) = self.canvas.set_backdrop(context, &path, result) {
+                    if let Err(what) = self.canvas.backdrop.set_picture(context, &path, result) {
                         let text = format!("The picture under the plan is missing: {what}");
                         self.say(Severity::Warning, text, self.shown_path(&path));
                     }
@@ -370,9 +459,9 @@ impl App {
                 });
             }
         }
-        if let Some(path) = self.canvas.wanted_backdrop(plan.backdrop(), document.origin.folder()) {
+        if let Some(path) = self.canvas.backdrop.wanted(plan.backdrop(), document.origin.folder()) {
             self.background.start(move || {
-                let picture = canvas::read_picture(&path);
+                let picture = backdrop::read_picture(&path);
                 Done::Backdrop(path, picture)
             });
         }
@@ -394,12 +483,6 @@ impl App {
     fn picked_room(&self) -> Option<(RoomId, &Room)> {
         let Some(ElementId::Room(id)) = self.picked() else { return None };
         Some((id, self.plan()?.room(id)?))
-    }
-
-    /// The label of the picked room, whoever gave it.
-    fn picked_label(&self) -> Option<Label> {
-        let (_, room) = self.picked_room()?;
-        RoomStatus::of(self.plan()?, &self.schemes, room).label()
     }
 
     /// Picks the room that comes `step` later as one reads: from the top left, line by line. From
@@ -458,19 +541,21 @@ impl App {
     // Editing. Every change goes through here and is a step of the history.
 
     fn edit(&mut self, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) {
-        let Some(document) = &mut self.document else { return };
-        match change(document.plan()) {
-            Ok(plan) => document.history.push(title, plan),
-            Err(error) => self.say(Severity::Warning, format!("Nothing was changed: {error}"), ""),
+        if let Err(error) = self.try_edit(title, change) {
+            self.say(Severity::Warning, format!("Nothing was changed: {error}"), "");
         }
     }
 
-    /// Gives the picked room a label, or takes its own away.
-    fn label_picked(&mut self, label: Option<Label>) {
-        let Some((id, _)) = self.picked_room() else { return };
-        let given = label.map(|label| RoomLabel { label, origin: LabelOrigin::Person });
-        let title = label.map_or("Label by function".to_owned(), |label| format!("Label {label}"));
-        self.edit(&title, |plan| edit::set_label(plan, id, given));
+    /// As [`App::edit`], but leaves it to the caller to say why nothing was changed.
+    fn try_edit(
+        &mut self,
+        title: &str,
+        change: impl FnOnce(&Plan) -> Result<Plan, EditError>,
+    ) -> Result<(), EditError> {
+        let Some(document) = &mut self.document else { return Ok(()) };
+        let plan = change(document.plan())?;
+        document.history.push(title, plan);
+        Ok(())
     }
 
     // Predicting.
@@ -521,6 +606,9 @@ impl App {
             self.edit(field.title(), |plan| field.apply(plan));
             // The field's room is the picked one: picking another ends the typing first.
             let (id, text) = field.as_command();
+            if id == "set-function" {
+                self.remember_function(&text);
+            }
             self.note_executed(id, vec![text]);
         }
     }
@@ -547,16 +635,34 @@ impl App {
         });
     }
 
-    fn undo(&mut self) {
+    /// Takes the last change back, or the last corner of what is being drawn. Gives whether the plan's
+    /// last step was undone.
+    fn undo(&mut self) -> bool {
+        if self.tools.take_back() == TakenBack::Corner {
+            return false;
+        }
         if let Some(title) = self.document.as_mut().and_then(|document| document.history.undo()) {
             self.status = format!("Undone: {title}");
         }
+        true
     }
 
     fn redo(&mut self) {
         if let Some(title) = self.document.as_mut().and_then(|document| document.history.redo()) {
             self.status = format!("Redone: {title}");
         }
+    }
+
+    /// Goes to a step of the history, counted from 0; gives why not where there is none.
+    fn jump_to_step(&mut self, step: usize) -> Result<(), String> {
+        let Some(document) = &mut self.document else { return Ok(()) };
+        let number = document.history.steps().len();
+        let Some(title) = document.history.steps().get(step).map(|step| step.title.clone()) else {
+            return Err(format!("the history has {}", panels::status::count(number, "step")));
+        };
+        document.history.jump_to(step);
+        self.status = format!("Step {} of {number}: {title}", step + 1);
+        Ok(())
     }
 
     /// The colours of the plan, in the window's theme.

@@ -5,6 +5,7 @@
 //! [`edit`]); [`Plan::violations`] states the invariants; [`History`] keeps the plans for undo.
 
 mod builder;
+mod calibration;
 mod difference;
 pub mod edit;
 mod element;
@@ -18,9 +19,14 @@ use std::sync::Arc;
 use imbl::OrdMap;
 
 pub use builder::Builder;
+pub use calibration::{
+    Calibration, DrawingMoves, UNMEASURED_METRES_PER_PIXEL, move_picture, set_measurements, straightening_rad,
+    turn_picture,
+};
 pub use difference::{ChangeKind, Difference};
 pub use element::{
-    Backdrop, Corner, Joint, LabelOrigin, LeafSide, Opening, OpeningKind, Place, Room, RoomLabel, Swing, Wall,
+    Backdrop, Corner, Joint, LabelOrigin, LeafSide, Measurement, Opening, OpeningKind, Place, Room, RoomLabel, Swing,
+    Wall,
 };
 pub use history::{History, Step};
 pub use id::{CornerId, ElementId, IdError, OpeningId, RoomId, WallId, name_bits};
@@ -104,6 +110,14 @@ impl Plan {
         self.openings.iter().map(|(&id, opening)| (id, opening.as_ref()))
     }
 
+    /// The identities of all elements, sorted.
+    pub fn elements(&self) -> impl Iterator<Item = ElementId> + '_ {
+        let corners = self.corners.keys().copied().map(ElementId::Corner);
+        let walls = self.walls.keys().copied().map(ElementId::Wall);
+        let rooms = self.rooms.keys().copied().map(ElementId::Room);
+        corners.chain(walls).chain(rooms).chain(self.openings.keys().copied().map(ElementId::Opening))
+    }
+
     /// Whether an element is part of the plan.
     pub fn has(&self, element: ElementId) -> bool {
         match element {
@@ -167,4 +181,14 @@ impl Plan {
             && self.backdrop.as_ref().map(Arc::as_ptr) == other.backdrop.as_ref().map(Arc::as_ptr)
             && self.extra.as_ref().map(Arc::as_ptr) == other.extra.as_ref().map(Arc::as_ptr)
     }
+}
+
+/// The edges of a ring, the closing one last.
+pub(crate) fn ring_edges<T: Copy>(ring: &[T]) -> impl Iterator<Item = (T, T)> + '_ {
+    ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| (a, b))
+}
+
+/// The corners of an edge, the smaller first: an edge has no direction.
+pub(crate) fn ordered(a: CornerId, b: CornerId) -> [CornerId; 2] {
+    if a < b { [a, b] } else { [b, a] }
 }

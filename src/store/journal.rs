@@ -118,10 +118,26 @@ pub struct Journal {
     steps: Vec<Plan>,
     /// Which of them is current.
     at: usize,
-    /// Where the history stood when it was last noted.
-    position: usize,
     /// How many records were given to the thread.
     noted: u64,
+}
+
+/// The journal from which another goes on.
+pub enum Predecessor {
+    /// A program left it behind.
+    Leftover(Leftover),
+    /// It was written until now.
+    Journal(Journal),
+}
+
+impl Predecessor {
+    fn remove(self) {
+        match self {
+            // If it cannot be removed, it is offered again: too much rather than too little.
+            Self::Leftover(leftover) => drop(leftover.remove()),
+            Self::Journal(journal) => journal.remove(),
+        }
+    }
 }
 
 #[derive(Default)]
@@ -169,14 +185,14 @@ enum Record {
 }
 
 impl Journal {
-    /// Begins the journal of a plan that is `base` in its file. Once it is on the disk, the leftover that it
+    /// Begins the journal of a plan that is `base` in its file. Once it is on the disk, the one that it
     /// replaces is removed. `on_change` is called, on another thread, when writing begins to fail and when
     /// it works again.
     pub fn begin(
         folder: &Path,
         start: JournalStart,
         base: Plan,
-        replaces: Option<Leftover>,
+        replaces: Option<Predecessor>,
         on_change: impl Fn() + Send + 'static,
     ) -> Self {
         let (sender, receiver) = channel();
@@ -192,23 +208,21 @@ impl Journal {
         };
         let thread = std::thread::spawn(move || writer.run(&receiver, &on_change));
         let (steps, thread) = (vec![base], Some(thread));
-        Self { sender: Some(sender), shared, thread, steps, at: 0, position: 0, noted: 0 }
+        Self { sender: Some(sender), shared, thread, steps, at: 0, noted: 0 }
     }
 
     /// Notes what a history has come to; quick, and quicker still when nothing happened.
     pub fn note(&mut self, history: &History) {
-        let position = history.position();
-        if self.position == position && self.is_current(history.plan()) {
+        if self.is_current(history.plan()) {
             return;
         }
-        // Several steps may have been made since; a step before the last noted one stands for itself.
-        let goes_on = position > self.position
-            && history.steps().get(self.position).is_some_and(|step| self.is_current(&step.plan));
-        let first = if goes_on { self.position + 1 } else { position };
-        for step in history.steps().iter().take(position + 1).skip(first) {
+        // Several steps may have been made since; one that was undone to stands for itself.
+        let position = history.position();
+        let steps = history.steps().get(..=position).unwrap_or_default();
+        let first = steps.iter().rposition(|step| self.is_current(&step.plan)).map_or(position, |known| known + 1);
+        for step in &steps[first..] {
             self.move_to(step);
         }
-        self.position = position;
     }
 
     fn is_current(&self, plan: &Plan) -> bool {
@@ -285,7 +299,7 @@ struct Writer {
     base: Plan,
     open: Option<OpenFile>,
     queue: VecDeque<Record>,
-    replaces: Option<Leftover>,
+    replaces: Option<Predecessor>,
     shared: Arc<Shared>,
 }
 
@@ -347,7 +361,7 @@ impl Writer {
             let _ = fs::remove_file(&open.path);
         }
         if let Some(replaced) = self.replaces.take() {
-            let _ = replaced.remove();
+            replaced.remove();
         }
     }
 
@@ -383,7 +397,7 @@ impl Writer {
         }
         // The journal that this one goes on from has done its duty.
         if let Some(replaced) = self.replaces.take() {
-            let _ = replaced.remove();
+            replaced.remove();
         }
         let mut state = self.shared.state();
         state.written += written;

@@ -10,7 +10,8 @@ mod stamp;
 
 pub use bundled::{BUNDLED, bundled_plans};
 pub use journal::{
-    Journal, JournalFailure, JournalStart, Leftover, Recovered, STATE_VARIABLE, journal_folder, leftovers, read_journal,
+    Journal, JournalFailure, JournalStart, Leftover, Predecessor, Recovered, STATE_VARIABLE, journal_folder, leftovers,
+    read_journal,
 };
 pub use models::{
     LARGEST_BYTES, MODEL_ENDING, MODELS_VARIABLE, ModelError, StoredModel, bundled_model, bundled_sets,

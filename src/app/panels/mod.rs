@@ -1,16 +1,22 @@
 //! The panels around the canvas, one file each.
 
 mod about;
+pub(super) mod differences;
+mod history;
 mod inspector;
 mod layers;
 mod messages;
 pub(super) mod notes;
 pub(super) mod palette;
+pub(super) mod plan_picture;
 mod plans;
 mod prediction;
 mod questions;
+mod recovery;
 pub(super) mod shortcuts;
 pub(super) mod status;
+mod tool_options;
+mod tool_strip;
 mod top_bar;
 pub(super) mod welcome;
 
@@ -26,20 +32,36 @@ use crate::plan::{Plan, RoomId};
 /// So many points at least the list of plans keeps above the layers: its title and two plans.
 const LEAST_PLANS_HEIGHT: f32 = 110.0;
 
+/// Height in points of the history below the inspector, and the least it can be made.
+const HISTORY_HEIGHT: f32 = 240.0;
+const LEAST_HISTORY_HEIGHT: f32 = 90.0;
+
+/// So many points at least the inspector keeps above the history.
+const LEAST_INSPECTOR_HEIGHT: f32 = 160.0;
+
 /// What the panels remember.
 pub(super) struct Panels {
     /// Whether the panel of plans and layers is shown.
     pub left: bool,
     /// Whether the inspector is shown.
     pub right: bool,
+    /// Whether the history is shown, below the inspector.
+    pub history: bool,
     /// The text of a room whose field is to take the keyboard.
     pub focus: Option<FieldKind>,
     /// Whether the notes of the import are shown.
     pub notes: bool,
+    /// Whether what programs left behind is shown.
+    pub recovery: bool,
+    /// Whether it is shown how the plan and its file differ.
+    pub differences: bool,
+    pub(super) shown_differences: Option<Box<differences::Shown>>,
     /// The list of commands, while it is open.
     pub palette: Option<Palette>,
     /// Commands that were done from the palette, the last one first.
     pub recent: Vec<&'static str>,
+    /// Functions that were set, the last one first, as schemes compare them.
+    pub recent_functions: Vec<String>,
     /// The shortcuts, while they are shown.
     pub sheet: Option<Sheet>,
     /// Whether it is shown what Enfilade is.
@@ -58,10 +80,15 @@ impl Default for Panels {
         Self {
             left: true,
             right: true,
+            history: false,
             focus: None,
             notes: false,
+            recovery: false,
+            differences: false,
+            shown_differences: None,
             palette: None,
             recent: Vec::new(),
+            recent_functions: Vec::new(),
             sheet: None,
             about: false,
             left_rect: None,
@@ -133,12 +160,31 @@ impl Panels {
     pub(super) fn forget(&mut self) {
         self.field = None;
         self.notes = false;
+        self.differences = false;
         self.focus = None;
     }
 
     /// Whether a dialog covers the window.
     pub(super) fn is_dialog_open(&self) -> bool {
-        self.notes || self.palette.is_some() || self.sheet.is_some() || self.about
+        self.notes || self.recovery || self.differences || self.palette.is_some() || self.sheet.is_some() || self.about
+    }
+}
+
+/// The inspector, and the history below it.
+fn show_right(app: &mut App, ui: &mut Ui) {
+    match (app.panels.right, app.panels.history) {
+        (_, false) => inspector::show(app, ui),
+        (false, true) => history::show(app, ui),
+        (true, true) => {
+            let most = (ui.available_height() - LEAST_INSPECTOR_HEIGHT).max(LEAST_HISTORY_HEIGHT);
+            Panel::bottom("history")
+                .resizable(true)
+                .default_size(HISTORY_HEIGHT.min(most))
+                .size_range(LEAST_HISTORY_HEIGHT..=most)
+                .frame(Frame::new().fill(theme::colours(ui.visuals()).panel))
+                .show(ui, |ui| history::show(app, ui));
+            inspector::show(app, ui);
+        }
     }
 }
 
@@ -184,13 +230,20 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             });
         app.panels.left_rect = Some(shown.response.rect);
     }
-    if app.panels.right && app.document.is_some() {
+    if (app.panels.right || app.panels.history) && app.document.is_some() {
         let shown = Panel::right("inspector")
             .default_size(300.0)
             .size_range(240.0..=520.0)
             .frame(frame(Margin::ZERO))
-            .show(ui, |ui| inspector::show(app, ui));
+            .show(ui, |ui| show_right(app, ui));
         app.panels.right_rect = Some(shown.response.rect);
+    }
+    if app.document.is_some() {
+        Panel::left("tools")
+            .exact_size(tool_strip::WIDTH)
+            .resizable(false)
+            .frame(frame(Margin::symmetric(6, 8)))
+            .show(ui, |ui| tool_strip::show(app, ui));
     }
     CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
@@ -202,8 +255,11 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         }
         welcome::show_drop_target(ui);
     });
+    tool_options::show(app, ui);
     status::show(app, &mut ui.new_child(UiBuilder::new().max_rect(status_rect).id_salt("status")));
     notes::show(app, ui);
+    differences::show(app, ui);
+    recovery::show(app, ui);
     about::show(app, ui);
     shortcuts::show(app, ui);
     palette::show(app, ui);
