@@ -1,7 +1,6 @@
 //! The plan that is open: its history, where it came from, and what follows from it.
 
 use std::collections::BTreeMap;
-use std::hash::Hasher as _;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -17,7 +16,7 @@ use crate::labels::Schemes;
 use crate::plan::{ElementId, History, Meta, OpeningId, Plan, RoomId, Scale, ScaleOrigin, edit};
 use crate::predict::{Predictions, Predictor};
 use crate::snapping::PlanIndex;
-use crate::store;
+use crate::store::{self, Stamp};
 
 /// The plans that come with the program, each with its file's name, the one shown first in front.
 pub(super) fn bundled() -> &'static [(&'static str, Plan)] {
@@ -141,21 +140,6 @@ pub(super) fn is_own_file(path: &Path) -> bool {
     path.to_string_lossy().to_lowercase().ends_with(".plan.json")
 }
 
-/// What a file held at some time, to notice that somebody else changed it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Stamp(u64);
-
-impl Stamp {
-    /// The stamp of the file at a path; `None` when it cannot be read.
-    pub(super) fn of(path: &Path) -> Option<Self> {
-        let bytes = formats::read_bytes(path).ok()?;
-        // SipHash with fixed keys: the same on every run, and nobody gains by a collision.
-        let mut hasher = std::collections::hash_map::DefaultHasher::new();
-        hasher.write(&bytes);
-        Some(Self(hasher.finish()))
-    }
-}
-
 /// The open plan.
 pub(super) struct Document {
     /// Tells documents apart that were open one after the other.
@@ -167,8 +151,10 @@ pub(super) struct Document {
     pub notes: Vec<Note>,
     /// What its file held when it was last read or written.
     pub stamp: Option<Stamp>,
-    /// The plan as it is on the disk, or as it came.
-    saved: Plan,
+    /// The plan as it is on the disk, or as it came; `None` when it is in no file.
+    saved: Option<Plan>,
+    /// Whether its file was removed.
+    pub is_gone: bool,
     derived: Option<(Plan, Arc<Derived>)>,
     /// The plan for which a job is at work, and the models it uses.
     awaited: Option<(Plan, Predictor)>,
@@ -186,7 +172,8 @@ impl Document {
         let plan = storeys.get(storey).or(storeys.first()).cloned().unwrap_or_default();
         let history = History::new("Open", plan.clone());
         let (derived, awaited, predictor) = (None, None, Predictor::default());
-        Self { number, history, origin, storeys, notes, stamp, saved: plan, derived, awaited, predictor }
+        let (saved, is_gone) = (Some(plan), false);
+        Self { number, history, origin, storeys, notes, stamp, saved, is_gone, derived, awaited, predictor }
     }
 
     pub(super) fn plan(&self) -> &Plan {
@@ -201,18 +188,31 @@ impl Document {
 
     /// Whether something would be lost by closing.
     pub(super) fn is_changed(&self) -> bool {
-        !self.plan().is_same_value(&self.saved) && *self.plan() != self.saved
+        let is_saved = |saved: &Plan| self.plan().is_same_value(saved) || self.plan() == saved;
+        self.is_gone || !self.saved.as_ref().is_some_and(is_saved)
+    }
+
+    /// The plan as it is on the disk, or as it came.
+    pub(super) fn saved(&self) -> Option<&Plan> {
+        self.saved.as_ref()
+    }
+
+    /// Takes note of what the file holds now: a plan, if it is one.
+    pub(super) fn stands_in_file(&mut self, plan: Option<Plan>, stamp: Option<Stamp>) {
+        self.saved = plan;
+        self.stamp = stamp;
+        self.is_gone = false;
     }
 
     /// The step of the history whose plan is the one on the disk, counted from 0; the last of several.
     pub(super) fn saved_step(&self) -> Option<usize> {
-        self.history.steps().iter().rposition(|step| step.plan.is_same_value(&self.saved))
+        let saved = self.saved.as_ref()?;
+        self.history.steps().iter().rposition(|step| step.plan.is_same_value(saved))
     }
 
     /// Notes that `plan` now stands in a file.
     pub(super) fn was_saved(&mut self, plan: Plan, path: PathBuf, stamp: Option<Stamp>) {
-        self.saved = plan;
-        self.stamp = stamp;
+        self.stands_in_file(Some(plan), stamp);
         if self.origin.path() != Some(&path) {
             self.origin = Origin::File { path, storey: 0 };
             self.storeys.clear();
@@ -380,21 +380,23 @@ fn reading_order(analysis: &Analysis) -> Vec<RoomId> {
 /// As [`store::save_plan`]; [`SaveFailure::ChangedOnDisk`] when the file there is not the one that
 /// `expected` stamps.
 pub(super) fn save(path: &Path, plan: &Plan, expected: Expected) -> Result<Option<Stamp>, SaveFailure> {
-    if let Expected::Stamp(stamp) = expected
+    if let Expected::Seen(stamp) = expected
         && path.exists()
-        && Stamp::of(path) != Some(stamp)
+        && Stamp::of(path) != stamp
     {
         return Err(SaveFailure::ChangedOnDisk);
     }
-    store::save_plan(path, plan).map_err(SaveFailure::Store)?;
-    Ok(Stamp::of(path))
+    let bytes = store::checked_bytes(path, plan).map_err(SaveFailure::Store)?;
+    store::save_bytes(path, &bytes).map_err(SaveFailure::Store)?;
+    // Not read from the disk: somebody may have changed the file by now.
+    Ok(Some(Stamp::of_bytes(&bytes)))
 }
 
 /// What stands at the path that a plan is saved to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Expected {
-    /// The file as it was last seen.
-    Stamp(Stamp),
+    /// The file as it was last seen; `None` for no file.
+    Seen(Option<Stamp>),
     /// Whatever: the person chose the path, or agreed to overwrite.
     Anything,
 }

@@ -6,10 +6,11 @@ use egui::{Context, ViewportCommand};
 
 use super::commands::sample_word;
 use super::dialogs::{Answer, Purpose};
-use super::document::{self, Document, Expected, Opened, Origin, SaveFailure, Stamp};
+use super::document::{self, Document, Expected, Opened, Origin, SaveFailure};
 use super::{App, Done, Intent, Message, Question, Remedy, Selection, Severity, plan_list};
 use crate::formats::FileError;
 use crate::plan::Plan;
+use crate::store::Stamp;
 
 impl App {
     /// Asks which plan to open.
@@ -94,10 +95,23 @@ impl App {
     /// Does what a person wants, after asking where that would lose unsaved work.
     pub(super) fn request(&mut self, intent: Intent) {
         self.commit_field();
-        if self.has_unsaved_changes() {
+        if self.question.is_some() || self.saving > 0 {
+            // One thing after the other: what is saved need not be asked for.
+            self.waiting = Some(intent);
+        } else if self.has_unsaved_changes() {
             self.question = Some(Question::Unsaved(intent));
         } else {
             self.perform(intent);
+        }
+    }
+
+    /// Goes on with what waited for an answer, or for a file to be saved.
+    pub(super) fn take_waiting(&mut self) {
+        if self.question.is_none()
+            && self.saving == 0
+            && let Some(intent) = self.waiting.take()
+        {
+            self.request(intent);
         }
     }
 
@@ -105,7 +119,9 @@ impl App {
     pub(super) fn perform(&mut self, intent: Intent) {
         match intent {
             Intent::Show(opened) => self.show(*opened),
+            Intent::Recover(path) => self.recovering = Some(path),
             Intent::Close => {
+                self.end_journal();
                 self.document = None;
                 self.selection = Selection::default();
                 self.tools.drop_work();
@@ -113,11 +129,15 @@ impl App {
             }
             // The recording first, or it would be lost.
             Intent::Quit if self.is_recording() => self.stop_recording(Some(Intent::Quit)),
-            Intent::Quit => self.quitting = true,
+            Intent::Quit => {
+                self.end_journal();
+                self.quitting = true;
+            }
         }
     }
 
-    fn show(&mut self, opened: Opened) {
+    pub(super) fn show(&mut self, opened: Opened) {
+        self.end_journal();
         let folder = opened.origin.folder().map(Path::to_owned);
         self.selection = Selection::default();
         self.tools.drop_work();
@@ -127,8 +147,9 @@ impl App {
         if !opened.notes.is_empty() {
             let summary = super::panels::notes::summary(&opened.notes);
             let text = format!("Imported {}: {summary}", opened.origin.title());
-            let remedy = Some(Remedy::ShowNotes);
-            self.add_message(Message { severity: Severity::Info, text, detail: String::new(), remedy });
+            let remedies = vec![Remedy::ShowNotes];
+            let (severity, detail) = (Severity::Info, String::new());
+            self.add_message(Message { severity, text, detail, remedies, stays: false });
         }
         self.documents += 1;
         self.document = Some(Document::new(self.documents, opened));
@@ -164,6 +185,10 @@ impl App {
                 self.delete(&selected);
                 return true;
             }
+            (Some(Question::Discard { path, .. }), "discard") => {
+                self.discard_leftover(&path);
+                return true;
+            }
             (Some(Question::Replace { path, then, .. }), "replace") => {
                 self.save_to(path, Expected::Anything, then);
                 return true;
@@ -191,8 +216,8 @@ impl App {
         let Some(document) = &self.document else { return true };
         match document.origin.path() {
             Some(path) if document::is_own_file(path) => {
-                let expected = document.stamp.map_or(Expected::Anything, Expected::Stamp);
-                self.save_to(path.to_owned(), expected, then);
+                let (path, expected) = (path.to_owned(), Expected::Seen(document.stamp));
+                self.save_to(path, expected, then);
                 true
             }
             _ => {
@@ -260,6 +285,7 @@ impl App {
     pub(super) fn save_to(&mut self, path: PathBuf, expected: Expected, then: Option<Intent>) {
         let Some(document) = &self.document else { return };
         let (document, plan) = (document.number, document.plan().clone());
+        self.begins_to_save();
         self.background.start(move || {
             let result = document::save(&path, &plan, expected);
             Done::Saved { document, path, plan, result, then }
@@ -273,13 +299,16 @@ impl App {
         plan: Plan,
         result: Result<Option<Stamp>, SaveFailure>,
         then: Option<Intent>,
+        context: &Context,
     ) {
+        self.saving = self.saving.saturating_sub(1);
         match result {
             Ok(stamp) => {
                 self.status = format!("Saved in {}", document::file_name(&path));
                 let folder = path.parent().map(Path::to_owned);
                 if let Some(document) = self.document.as_mut().filter(|document| document.number == number) {
                     document.was_saved(plan, path, stamp);
+                    self.is_saved(context);
                 }
                 if let Some(folder) = folder {
                     self.list_folder(folder);
@@ -290,15 +319,14 @@ impl App {
                 }
             }
             Err(SaveFailure::ChangedOnDisk) => {
+                self.waiting = None;
+                self.look_soon();
                 self.question = Some(Question::Replace { path, is_changed_since: true, then });
             }
             Err(SaveFailure::Store(error)) => {
-                let text = format!("{} is not saved: {}", document::file_name(&path), error.what);
-                self.say(
-                    Severity::Error,
-                    text,
-                    format!("Your changes are still here; {}.\n{}", error.hint, self.shown_path(&path)),
-                );
+                // What was to follow a save does not follow a failure.
+                self.waiting = None;
+                self.is_not_saved(error);
             }
         }
     }

@@ -18,6 +18,7 @@ mod panels;
 mod picture;
 mod plan_list;
 mod raster;
+mod recovery;
 pub mod replay;
 mod scene_painter;
 mod search;
@@ -47,10 +48,11 @@ pub use window::{WindowError, WindowOptions, run_window};
 use background::{Background, Mode};
 use canvas::Canvas;
 use dialogs::{Answer, Dialogs};
-use document::{Derived, Document, Opened, Origin, SaveFailure, Stamp};
+use document::{Derived, Document, Opened, Origin, SaveFailure};
 use panels::welcome::Samples;
 use panels::{Field, FieldKind, Panels};
 use plan_list::PlanList;
+use recovery::{Looked, Offered, Safety};
 use replay::{Recorder, Recording};
 use settings::Settings;
 use tools::{DrawOptions, TakenBack, Toolbox};
@@ -62,7 +64,7 @@ use crate::labels::{Label, Schemes};
 use crate::plan::edit::{self, EditError};
 use crate::plan::{ElementId, LabelOrigin, Meta, Plan, Room, RoomId, RoomLabel};
 use crate::predict::{Predictions, Predictor};
-use crate::store::SaveError;
+use crate::store::{SaveError, Stamp};
 
 /// The window's state, apart from any display.
 pub struct App {
@@ -86,6 +88,13 @@ pub struct App {
     /// What was just done, for the status line.
     status: String,
     question: Option<Question>,
+    /// What a person wants once a question is answered, or a file saved.
+    waiting: Option<Intent>,
+    /// How many files are being saved.
+    saving: usize,
+    /// The journal that is to be opened.
+    recovering: Option<PathBuf>,
+    safety: Safety,
     background: Background<Done>,
     dialogs: Dialogs,
     /// Whether a text field had the keyboard when the last frame ended.
@@ -159,7 +168,10 @@ pub struct Message {
     pub text: String,
     /// Where, and what to do; may be empty.
     pub detail: String,
-    pub remedy: Option<Remedy>,
+    /// What can be done about it.
+    pub remedies: Vec<Remedy>,
+    /// Whether it stays as long as what it says is so; else a person can dismiss it.
+    pub stays: bool,
 }
 
 /// What a message offers to do.
@@ -167,12 +179,27 @@ pub struct Message {
 pub enum Remedy {
     /// Show what an import mended or left out.
     ShowNotes,
+    /// Show how the plan and its file differ.
+    ShowDifferences,
+    /// Make the plan what its file holds.
+    LoadTheirs,
+    /// Go on with the plan as it is here.
+    KeepMine,
+    /// Save the plan in its file.
+    Save,
+    /// Save it in another.
+    SaveElsewhere,
 }
 
 impl Remedy {
     const fn title(self) -> &'static str {
         match self {
             Self::ShowNotes => "Show notes",
+            Self::ShowDifferences => "Show differences",
+            Self::LoadTheirs => "Load the file as it is now",
+            Self::KeepMine => "Keep mine",
+            Self::Save => "Save",
+            Self::SaveElsewhere => "Save in another place…",
         }
     }
 }
@@ -190,6 +217,8 @@ pub enum Severity {
 enum Intent {
     /// Show another plan, which was read meanwhile.
     Show(Box<Opened>),
+    /// Show what a journal keeps.
+    Recover(PathBuf),
     Close,
     Quit,
 }
@@ -203,6 +232,8 @@ enum Question {
     Delete { selected: Vec<ElementId>, gone: BTreeSet<ElementId> },
     /// Something else stands in the file to be saved: replace it?
     Replace { path: PathBuf, is_changed_since: bool, then: Option<Intent> },
+    /// Give up what a program left behind?
+    Discard { path: PathBuf, title: String },
 }
 
 /// What a background job brought.
@@ -213,6 +244,8 @@ enum Done {
     Chosen(Answer),
     Saved { document: u64, path: PathBuf, plan: Plan, result: Result<Option<Stamp>, SaveFailure>, then: Option<Intent> },
     Backdrop(PathBuf, Result<egui::ColorImage, String>),
+    Leftovers(Vec<Offered>),
+    Looked(Looked),
     RecordingSaved { path: PathBuf, recording: Box<Recording>, result: Result<(), SaveError>, then: Option<Intent> },
 }
 
@@ -240,6 +273,10 @@ impl App {
             messages: Vec::new(),
             status: String::new(),
             question: None,
+            waiting: None,
+            saving: 0,
+            recovering: None,
+            safety: Safety::default(),
             background: Background::new(mode),
             dialogs,
             was_typing: false,
@@ -260,6 +297,11 @@ impl App {
         // What was done since the last frame; what it opens is still known.
         self.write_executed();
         self.take_outcomes(&context);
+        self.take_waiting();
+        if let Some(path) = self.recovering.take() {
+            self.show_recovered(&path, &context);
+        }
+        self.watch_file(&context);
         self.take_dropped_files(&context);
         self.take_close_request(&context);
         self.take_tool_keys(&context);
@@ -267,6 +309,7 @@ impl App {
         self.refresh();
         panels::show(self, ui);
         self.was_typing = context.text_edit_focused();
+        self.keep_journal(&context);
         self.update_title(&context);
         self.record(&context);
         if self.background.is_busy() {
@@ -289,9 +332,11 @@ impl App {
         self.selection.one()
     }
 
-    /// What stands in the message bar, oldest first.
-    pub fn messages(&self) -> &[Message] {
-        &self.messages
+    /// What stands above the canvas: messages, the oldest first, then what stays as long as it is so.
+    pub fn messages(&self) -> Vec<Message> {
+        let mut messages = self.messages.clone();
+        messages.extend(self.bars());
+        messages
     }
 
     /// Whether the plan has changes that are in no file.
@@ -317,7 +362,13 @@ impl App {
     }
 
     fn say(&mut self, severity: Severity, text: impl Into<String>, detail: impl Into<String>) {
-        self.add_message(Message { severity, text: text.into(), detail: detail.into(), remedy: None });
+        self.add_message(Message {
+            severity,
+            text: text.into(),
+            detail: detail.into(),
+            remedies: Vec::new(),
+            stays: false,
+        });
     }
 
     fn add_message(&mut self, message: Message) {
@@ -331,24 +382,29 @@ impl App {
     fn take_outcomes(&mut self, context: &Context) {
         for outcome in self.background.take() {
             match outcome {
-                None => self.say(
-                    Severity::Error,
-                    "Something broke inside Enfilade",
-                    "Your plan is untouched. Please report what you did.",
-                ),
+                None => {
+                    self.saving = 0;
+                    self.say(
+                        Severity::Error,
+                        "Something broke inside Enfilade",
+                        "Your plan is untouched. Please report what you did.",
+                    );
+                }
                 Some(Done::Opened(origin, result)) => self.was_opened(&origin, *result),
                 Some(Done::Derived(plan, derived)) => {
                     if let Some(document) = &mut self.document {
                         document.set_derived(plan, derived);
                     }
                 }
+                Some(Done::Leftovers(offered)) => self.were_left_over(offered),
+                Some(Done::Looked(looked)) => self.was_looked_at(looked),
                 Some(Done::Listed(folder, files)) => self.list.set_folder(folder, files),
                 Some(Done::Chosen(answer)) => {
                     self.dialogs.answered();
                     self.was_chosen(answer, context);
                 }
                 Some(Done::Saved { document, path, plan, result, then }) => {
-                    self.was_saved(document, path, plan, result, then);
+                    self.was_saved(document, path, plan, result, then, context);
                 }
                 Some(Done::RecordingSaved { path, recording, result, then }) => {
                     self.recording_was_saved(&path, *recording, result, then);

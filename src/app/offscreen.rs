@@ -146,6 +146,11 @@ impl Offscreen {
         self.app.use_settings(file.to_owned());
     }
 
+    /// Keeps journals in a folder from now on, and offers what is left there. Without, none are kept.
+    pub fn use_journal(&mut self, folder: &Path) {
+        self.app.use_journal(folder.to_owned());
+    }
+
     /// Starts or stops keeping the commands that are done; as [`App::watch_commands`].
     pub fn watch_commands(&mut self, is_watched: bool) {
         self.app.watch_commands(is_watched);

@@ -275,7 +275,7 @@ impl Settings {
 }
 
 fn warning(text: String, detail: String) -> Message {
-    Message { severity: Severity::Warning, text, detail, remedy: None }
+    Message { severity: Severity::Warning, text, detail, remedies: Vec::new(), stays: false }
 }
 
 /// The text of a file; `None` when there is none.

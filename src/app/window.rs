@@ -10,6 +10,7 @@ use super::dialogs::Dialogs;
 use super::document::{Origin, bundled};
 use super::theme::Motion;
 use super::{App, settings};
+use crate::store;
 
 /// What the window opens with.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -61,6 +62,10 @@ pub fn run_window(options: WindowOptions) -> Result<(), WindowError> {
         if let Some(file) = settings::file() {
             app.use_settings(file);
         }
+        app.use_clock(now);
+        if let Some(folder) = store::journal_folder() {
+            app.use_journal(folder);
+        }
         let first = match options.plan {
             Some(path) => Some(Origin::File { path, storey: 0 }),
             None => (!bundled().is_empty()).then_some(Origin::Bundled(0)),
@@ -75,6 +80,11 @@ pub fn run_window(options: WindowOptions) -> Result<(), WindowError> {
         eframe::Error::Winit(error) => WindowError::NoDisplay(reason(&error.to_string())),
         error => WindowError::Graphics(error.to_string()),
     })
+}
+
+#[expect(clippy::disallowed_methods, reason = "says how old is what can be recovered")]
+fn now() -> std::time::SystemTime {
+    std::time::SystemTime::now()
 }
 
 struct Window {

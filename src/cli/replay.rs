@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use serde_json::{Value, json};
 
 use super::{CliError, Outcome, Subcommand, Terminal};
-use crate::app::replay::{self, Failure, ReplayOptions, Report};
+use crate::app::replay::{self, Failure, ReplayOptions, Report, ScriptFile};
 use crate::parallel::Work;
 
 /// `enfilade replay`: scripts that drive the window without a display.
@@ -22,6 +22,9 @@ pub struct ReplayCommand {
     /// Keep what the scripts save, and every picture, a folder a script
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Tell of each step, by its line, as soon as it is done; runs one script after the other
+    #[arg(long, conflicts_with = "json")]
+    steps: bool,
     /// Report as JSON
     #[arg(long)]
     json: bool,
@@ -49,7 +52,10 @@ impl Subcommand for ReplayCommand {
             Some(threads) => Work::quiet().on_threads(threads),
             None => Work::quiet(),
         };
-        let reports = work.map(scripts.len(), |index| replay::replay(&scripts[index], &options))?;
+        let reports = match self.steps {
+            true => scripts.iter().map(|script| told_by_step(script, &options, terminal)).collect::<Result<_, _>>()?,
+            false => work.map(scripts.len(), |index| replay::replay(&scripts[index], &options))?,
+        };
         if self.json {
             let scripts: Vec<Value> = reports.iter().map(as_json).collect();
             serde_json::to_writer_pretty(&mut terminal.out, &json!({ "version": 1, "scripts": scripts }))?;
@@ -66,6 +72,18 @@ impl Subcommand for ReplayCommand {
         let is_passed = reports.iter().all(Report::is_passed);
         Ok(if is_passed { Outcome::Done } else { Outcome::InputWrong })
     }
+}
+
+/// Runs a script and writes the line of each step when it is done.
+fn told_by_step(script: &ScriptFile, options: &ReplayOptions, terminal: &mut Terminal) -> Result<Report, CliError> {
+    let mut written = Ok(());
+    let report = replay::replay_telling(script, options, &mut |line| {
+        if written.is_ok() {
+            written = writeln!(terminal.out, "done {line}").and_then(|()| terminal.out.flush());
+        }
+    });
+    written?;
+    Ok(report)
 }
 
 /// How a script went, and on stderr what went wrong in it.

@@ -4,6 +4,8 @@
 //! keeps the fields it does not know. Writing a plan that was read gives the same bytes: elements are
 //! sorted by id, one object a line, lengths on the 0.1 mm grid.
 
+mod change;
+
 use std::fmt::Display;
 use std::str::FromStr;
 use std::sync::Arc;
@@ -21,6 +23,8 @@ use crate::plan::{
     Opening, OpeningId, OpeningKind, Place as OpeningPlace, Plan, Room, RoomId, RoomLabel, Scale, ScaleOrigin, Swing,
     Wall, WallId,
 };
+
+pub(crate) use change::{apply_change, change_to_bytes};
 
 /// The newest version of the file that this program reads, and the one it writes.
 pub const VERSION: u64 = 1;

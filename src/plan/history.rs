@@ -22,6 +22,13 @@ impl History {
         Self { steps: vec![Step { title: title.into(), plan }], current: 0 }
     }
 
+    /// A history of steps of which one is current; an index beyond the last means the last. `None` without
+    /// steps.
+    pub fn of_steps(steps: Vec<Step>, current: usize) -> Option<Self> {
+        let last = steps.len().checked_sub(1)?;
+        Some(Self { steps, current: current.min(last) })
+    }
+
     /// The plan as it is now.
     pub fn plan(&self) -> &Plan {
         &self.steps[self.current].plan

@@ -6,6 +6,7 @@
 
 mod builder;
 mod calibration;
+mod difference;
 pub mod edit;
 mod element;
 mod history;
@@ -22,6 +23,7 @@ pub use calibration::{
     Calibration, DrawingMoves, UNMEASURED_METRES_PER_PIXEL, move_picture, set_measurements, straightening_rad,
     turn_picture,
 };
+pub use difference::{ChangeKind, Difference};
 pub use element::{
     Backdrop, Corner, Joint, LabelOrigin, LeafSide, Measurement, Opening, OpeningKind, Place, Room, RoomLabel, Swing,
     Wall,
@@ -177,6 +179,7 @@ impl Plan {
             && self.rooms.ptr_eq(&other.rooms)
             && self.openings.ptr_eq(&other.openings)
             && self.backdrop.as_ref().map(Arc::as_ptr) == other.backdrop.as_ref().map(Arc::as_ptr)
+            && self.extra.as_ref().map(Arc::as_ptr) == other.extra.as_ref().map(Arc::as_ptr)
     }
 }
 

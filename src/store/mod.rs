@@ -1,14 +1,22 @@
-//! Plans and models on disk: loading, and saving without ever losing what was there.
+//! Plans and models on disk: loading, saving without ever losing what was there, and a journal of what is
+//! not saved yet.
 
 mod bundled;
+mod journal;
 mod models;
 mod plan_file;
 mod save;
+mod stamp;
 
 pub use bundled::{BUNDLED, bundled_plans};
+pub use journal::{
+    Journal, JournalFailure, JournalStart, Leftover, Predecessor, Recovered, STATE_VARIABLE, journal_folder, leftovers,
+    read_journal,
+};
 pub use models::{
     LARGEST_BYTES, MODEL_ENDING, MODELS_VARIABLE, ModelError, StoredModel, bundled_model, bundled_sets,
     bundled_typologies, bundled_unknown, load_model, models_folder, models_in, set_name,
 };
-pub use plan_file::{load_plan, save_plan};
+pub use plan_file::{checked_bytes, load_plan, save_plan};
 pub use save::{SaveError, save_bytes, save_bytes_fast};
+pub use stamp::Stamp;

@@ -23,10 +23,18 @@ pub fn load_plan(path: &Path) -> Result<Plan, FileError> {
 /// As [`save_bytes`]; and when the plan breaks an invariant, so that the file could not be opened
 /// again.
 pub fn save_plan(path: &Path, plan: &Plan) -> Result<(), SaveError> {
+    save_bytes(path, &checked_bytes(path, plan)?)
+}
+
+/// The bytes of a plan's file that is to be at `path`, known to read back as the same plan.
+///
+/// # Errors
+/// When the plan breaks an invariant, so that the file could not be opened again.
+pub fn checked_bytes(path: &Path, plan: &Plan) -> Result<Vec<u8>, SaveError> {
     let bytes = plan_json::to_bytes(plan);
     let undo = "undo the last step and save again, and please report this";
     match plan_json::from_bytes(&bytes) {
-        Ok(read) if read == *plan => save_bytes(path, &bytes),
+        Ok(read) if read == *plan => Ok(bytes),
         Ok(_) => Err(SaveError::new(path, "the plan would read back differently", undo)),
         Err(error) => Err(SaveError::new(path, format!("the plan could not be opened again: {error}"), undo)),
     }

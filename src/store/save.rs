@@ -100,6 +100,12 @@ fn replace(target: &Path, old: Option<&fs::Metadata>, bytes: &[u8], care: Care) 
     let mut temporary = builder.tempfile_in(folder)?;
     temporary.write_all(bytes)?;
     if let Some(old) = old {
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::MetadataExt as _;
+            // Whoever runs as root saves in another's file; all others may not give files away, and need not.
+            let _ = std::os::unix::fs::fchown(temporary.as_file(), Some(old.uid()), Some(old.gid()));
+        }
         temporary.as_file().set_permissions(old.permissions())?;
     }
     if care == Care::Flushed {

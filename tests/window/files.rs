@@ -224,7 +224,7 @@ fn an_import_says_what_it_mended() {
     let mut found = None;
     for entry in walk(&path) {
         let mut window = open(&entry);
-        if window.app().messages().iter().any(|message| message.remedy.is_some()) {
+        if window.app().messages().iter().any(|message| !message.remedies.is_empty()) {
             press(&mut window, "Show notes");
             assert!(window.control("Import notes").is_some(), "{}", entry.display());
             press(&mut window, "Close");

@@ -191,6 +191,7 @@ impl Question {
                 format!("Delete the {} and what depends on it?", selected[0].kind())
             }
             Self::Delete { selected, .. } => format!("Delete {} elements and what depends on them?", selected.len()),
+            Self::Discard { title, .. } => format!("Discard the changes to {title}?"),
             Self::Replace { path, .. } => format!("Replace {}?", crate::app::document::file_name(path)),
         }
     }
@@ -200,6 +201,7 @@ impl Question {
         match self {
             Self::Unsaved(_) => &[("save", "Save"), ("discard", "Don't save"), ("cancel", "Cancel")],
             Self::Delete { .. } => &[("delete", "Delete"), ("cancel", "Cancel")],
+            Self::Discard { .. } => &[("cancel", "Cancel"), ("discard", "Discard")],
             Self::Replace { .. } => &[("elsewhere", "Save as…"), ("replace", "Replace"), ("cancel", "Cancel")],
         }
     }

@@ -1,9 +1,10 @@
-//! The bars above the canvas: messages that stay until they are dismissed.
+//! The bars above the canvas: messages that stay until they are dismissed, and some that stay as long
+//! as what they say is so.
 
 use egui::{Frame, Label, Margin, Rect, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
 
 use crate::app::icons::Icon;
-use crate::app::widgets::{ICON, ROW, colours, icon_button, link, severity_colours, strong};
+use crate::app::widgets::{ICON, ROW, colours, icon_button, link, severity_colours, strong, text_button};
 use crate::app::{App, Message, Remedy, Severity, theme};
 
 /// More messages are not shown at once; the newest ones are.
@@ -11,13 +12,32 @@ const SHOWN: usize = 3;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let first = app.messages.len().saturating_sub(SHOWN);
-    let messages: Vec<Message> = app.messages.iter().skip(first).cloned().collect();
+    // What stays is always shown.
+    let messages: Vec<Message> = app.messages.iter().skip(first).cloned().chain(app.bars()).collect();
     for (index, message) in messages.into_iter().enumerate() {
         let act = ui.push_id(("message", index), |ui| bar(ui, &message)).inner;
         match act {
             None => {}
             Some(Act::Dismiss) => app.act("dismiss-message", &[&(first + index + 1).to_string()], ui.ctx()),
-            Some(Act::Remedy(Remedy::ShowNotes)) => app.act("import-notes", &["on"], ui.ctx()),
+            Some(Act::Remedy(remedy)) => {
+                let (id, argument) = remedy.command();
+                // A dialog asks for what it takes.
+                app.act(id, argument.as_slice(), ui.ctx());
+            }
+        }
+    }
+}
+
+impl Remedy {
+    /// The command that it is, with its argument.
+    const fn command(self) -> (&'static str, Option<&'static str>) {
+        match self {
+            Self::ShowNotes => ("import-notes", Some("on")),
+            Self::ShowDifferences => ("differences", Some("on")),
+            Self::LoadTheirs => ("load-theirs", None),
+            Self::KeepMine => ("keep-mine", None),
+            Self::Save => ("save", None),
+            Self::SaveElsewhere => ("save-as", None),
         }
     }
 }
@@ -48,14 +68,31 @@ fn bar(ui: &mut Ui, message: &Message) -> Option<Act> {
                     let detail = RichText::new(&message.detail).size(theme::SMALL).color(colours(ui).text);
                     ui.add(Label::new(detail).wrap().selectable(true));
                 }
-                if let Some(remedy) = message.remedy
-                    && link(ui, remedy.title()).clicked()
-                {
-                    act = Some(Act::Remedy(remedy));
+                match message.remedies.as_slice() {
+                    [] => {}
+                    [remedy] if !message.stays => {
+                        if link(ui, remedy.title()).clicked() {
+                            act = Some(Act::Remedy(*remedy));
+                        }
+                    }
+                    remedies => {
+                        ui.add_space(4.0);
+                        ui.horizontal_wrapped(|ui| {
+                            ui.spacing_mut().item_spacing.x = 8.0;
+                            for remedy in remedies {
+                                if text_button(ui, remedy.title(), false).clicked() {
+                                    act = Some(Act::Remedy(*remedy));
+                                }
+                            }
+                        });
+                        ui.add_space(2.0);
+                    }
                 }
                 ui.add_space(5.0);
             });
-            if icon_button(ui, Icon::Close, "Dismiss message", None).on_hover_text("Dismiss").clicked() {
+            if !message.stays
+                && icon_button(ui, Icon::Close, "Dismiss message", None).on_hover_text("Dismiss").clicked()
+            {
                 act = Some(Act::Dismiss);
             }
         });

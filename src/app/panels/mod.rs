@@ -1,15 +1,18 @@
 //! The panels around the canvas, one file each.
 
 mod about;
+pub(super) mod differences;
 mod history;
 mod inspector;
 mod layers;
 mod messages;
 pub(super) mod notes;
 pub(super) mod palette;
+pub(super) mod plan_picture;
 mod plans;
 mod prediction;
 mod questions;
+mod recovery;
 pub(super) mod shortcuts;
 pub(super) mod status;
 mod tool_options;
@@ -48,6 +51,11 @@ pub(super) struct Panels {
     pub focus: Option<FieldKind>,
     /// Whether the notes of the import are shown.
     pub notes: bool,
+    /// Whether what programs left behind is shown.
+    pub recovery: bool,
+    /// Whether it is shown how the plan and its file differ.
+    pub differences: bool,
+    pub(super) shown_differences: Option<Box<differences::Shown>>,
     /// The list of commands, while it is open.
     pub palette: Option<Palette>,
     /// Commands that were done from the palette, the last one first.
@@ -75,6 +83,9 @@ impl Default for Panels {
             history: false,
             focus: None,
             notes: false,
+            recovery: false,
+            differences: false,
+            shown_differences: None,
             palette: None,
             recent: Vec::new(),
             recent_functions: Vec::new(),
@@ -149,12 +160,13 @@ impl Panels {
     pub(super) fn forget(&mut self) {
         self.field = None;
         self.notes = false;
+        self.differences = false;
         self.focus = None;
     }
 
     /// Whether a dialog covers the window.
     pub(super) fn is_dialog_open(&self) -> bool {
-        self.notes || self.palette.is_some() || self.sheet.is_some() || self.about
+        self.notes || self.recovery || self.differences || self.palette.is_some() || self.sheet.is_some() || self.about
     }
 }
 
@@ -246,6 +258,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     tool_options::show(app, ui);
     status::show(app, &mut ui.new_child(UiBuilder::new().max_rect(status_rect).id_salt("status")));
     notes::show(app, ui);
+    differences::show(app, ui);
+    recovery::show(app, ui);
     about::show(app, ui);
     shortcuts::show(app, ui);
     palette::show(app, ui);

@@ -13,7 +13,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let text = match question {
         Question::Unsaved(intent) => {
             let then = match intent {
-                Intent::Show(_) => "before another plan is shown",
+                Intent::Show(_) | Intent::Recover(_) => "before another plan is shown",
                 Intent::Close | Intent::Quit => "before it is closed",
             };
             format!("They are in no file yet. Save them {then}, or they are lost.")
@@ -31,6 +31,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         Question::Replace { is_changed_since: true, .. } => {
             "Somebody else has changed the file since it was opened here. Replacing it loses their changes.".to_owned()
         }
+        Question::Discard { .. } => "They are in no file and cannot be brought back.".to_owned(),
         Question::Replace { .. } => "There is a file of this name. Replacing it loses what it holds.".to_owned(),
     };
     let answers = question.answers();

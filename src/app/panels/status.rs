@@ -18,6 +18,10 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             ui.label(RichText::new("● Recording").size(theme::SMALL).color(colours(ui).error));
             ui.add_space(6.0);
         }
+        if app.journal_failure().is_some() {
+            ui.label(RichText::new("● Not kept safe").size(theme::SMALL).color(colours(ui).error));
+            ui.add_space(6.0);
+        }
         ui.label(small(left_text(app)));
         right(ui, |ui| {
             ui.spacing_mut().item_spacing.x = 2.0;

@@ -20,5 +20,5 @@ mod words;
 pub(super) use record::{Recorder, Recording};
 
 pub use guide::guide;
-pub use run::{Failure, FindError, ReplayOptions, Report, ScriptFile, find_scripts, replay};
+pub use run::{Failure, FindError, ReplayOptions, Report, ScriptFile, find_scripts, replay, replay_telling};
 pub use script::{LARGEST_BYTES, Script, SyntaxError};

@@ -155,15 +155,26 @@ fn title_of(below: &Path, folder: Option<&Path>) -> String {
 
 /// Runs a script.
 pub fn replay(script: &ScriptFile, options: &ReplayOptions) -> Report {
+    replay_telling(script, options, &mut |_| {})
+}
+
+/// Runs a script and tells of each step, by its line, when it is done: what it changed is then in the
+/// journal, if one is kept.
+pub fn replay_telling(script: &ScriptFile, options: &ReplayOptions, told: &mut dyn FnMut(usize)) -> Report {
     let mut report =
         Report { script: script.clone(), steps: 0, snapshots: 0, failures: Vec::new(), updated: Vec::new() };
-    if let Err(failure) = run(script, options, &mut report) {
+    if let Err(failure) = run(script, options, told, &mut report) {
         report.failures.push(failure);
     }
     report
 }
 
-fn run(script: &ScriptFile, options: &ReplayOptions, report: &mut Report) -> Result<(), Failure> {
+fn run(
+    script: &ScriptFile,
+    options: &ReplayOptions,
+    told: &mut dyn FnMut(usize),
+    report: &mut Report,
+) -> Result<(), Failure> {
     let whole = |what: String, hint: &str| Failure { line: 0, what, hint: hint.to_owned(), files: Vec::new() };
     let bytes = read(&script.path).map_err(|what| whole(what, "check the path"))?;
     let parsed = match Script::parse(&bytes) {
@@ -207,6 +218,9 @@ fn run(script: &ScriptFile, options: &ReplayOptions, report: &mut Report) -> Res
             sweep(plan)
         });
         report.steps += 1;
+        if done.is_ok() {
+            told(step.line);
+        }
         if let Err(fault) = done {
             let Fault { what, hint, files, goes_on } = fault;
             report.failures.push(Failure { line: step.line, what, hint, files });

@@ -80,6 +80,18 @@ impl<'a> Stage<'a> {
         Ok(())
     }
 
+    /// Keeps journals, in the script's own folder.
+    pub(super) fn keep_journal(&mut self) {
+        self.window.use_journal(&self.folders.work.join("journal"));
+    }
+
+    /// Ends the program as a power cut does, and starts it again.
+    pub(super) fn crash(&mut self) {
+        self.window = Offscreen::new(self.window.options());
+        self.window.name_paths_from(&self.folders.work);
+        self.keep_journal();
+    }
+
     /// The open plan.
     ///
     /// # Errors

@@ -69,6 +69,60 @@ pub(super) const COMMANDS: &[Command] = &[
     .keys(&[ctrl_shift(Key::S)])
     .menu(Menu::File, 1),
     switch(
+        "recovery",
+        "Recover unsaved work",
+        "Show what was not saved when Enfilade was ended, with pictures",
+        has_leftovers,
+        |app| app.panels.recovery,
+        |app, is_on| app.panels.recovery = is_on,
+    )
+    .menu(Menu::File, 2),
+    with(
+        "recover",
+        "Recover",
+        "Open what was not saved when Enfilade was ended; nothing is written until it is saved",
+        can_recover,
+        &[needed("NUMBER", ArgumentKind::Count, "which, from the top")],
+        |app, values, _| app.recover(values.count(0).copied().unwrap_or(1)).map_or_else(Ran::Refused, |()| Ran::Done),
+        None,
+    ),
+    with(
+        "discard-recovered",
+        "Discard what can be recovered",
+        "Give up what was not saved when Enfilade was ended, after asking once more",
+        has_leftovers,
+        &[needed("NUMBER", ArgumentKind::Count, "which, from the top")],
+        |app, values, _| {
+            app.ask_to_discard(values.count(0).copied().unwrap_or(1)).map_or_else(Ran::Refused, |()| Ran::Done)
+        },
+        None,
+    ),
+    switch(
+        "differences",
+        "Differences to the file",
+        "Show how the plan and its file, which somebody else changed, differ",
+        has_their_plan,
+        |app| app.panels.differences,
+        |app, is_on| app.panels.differences = is_on,
+    )
+    .menu(Menu::File, 2),
+    command(
+        "load-theirs",
+        "Load the file as it is now",
+        "Make the plan what somebody else put in its file; undo brings yours back",
+        has_their_plan,
+        |app, context| app.load_theirs(context),
+    )
+    .menu(Menu::File, 2),
+    command(
+        "keep-mine",
+        "Keep mine",
+        "Go on with the plan as it is here: saving replaces what somebody else put in its file",
+        has_theirs,
+        |app, context| app.keep_mine(context),
+    )
+    .menu(Menu::File, 2),
+    switch(
         "import-notes",
         "Import notes",
         "Show what was mended or left out when the plan was opened",

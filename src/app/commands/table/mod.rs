@@ -256,6 +256,25 @@ fn has_notes(app: &App) -> Availability {
     when(has, "nothing was mended or left out when the plan was opened")
 }
 
+fn has_leftovers(app: &App) -> Availability {
+    when(!app.safety.leftovers.is_empty(), "nothing was left unsaved")
+}
+
+fn can_recover(app: &App) -> Availability {
+    has_leftovers(app)?;
+    when(!app.is_recording(), "end the recording first")
+}
+
+fn has_theirs(app: &App) -> Availability {
+    has_plan(app)?;
+    when(app.safety.theirs.is_some(), "nobody else has changed the plan's file")
+}
+
+fn has_their_plan(app: &App) -> Availability {
+    has_theirs(app)?;
+    when(app.their_plan().is_some(), "what is in the file is no plan")
+}
+
 fn has_messages(app: &App) -> Availability {
     when(!app.messages.is_empty(), "there is no message")
 }

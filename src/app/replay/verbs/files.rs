@@ -4,7 +4,10 @@ use std::path::Path;
 
 use super::{Group, Verb};
 use crate::app::replay::script::Act;
+use crate::app::replay::stage::Fault;
 use crate::app::replay::words::{Words, written};
+use crate::formats;
+use crate::store::save_bytes_fast;
 
 pub(super) const GROUP: Group = Group {
     title: "Files",
@@ -39,6 +42,56 @@ pub(super) const GROUP: Group = Group {
             form: "file-dialog open PATH | save PATH | cancel",
             help: "What the next dialog that asks for a file will be told; stands before the step that brings it up.",
             parse: file_dialog,
+        },
+        Verb {
+            name: "journal",
+            form: "journal",
+            help: "Keeps a journal of unsaved changes from now on, in the script's own folder.",
+            parse: |_| {
+                Ok(Box::new(|stage| {
+                    stage.keep_journal();
+                    Ok(())
+                }))
+            },
+        },
+        Verb {
+            name: "crash",
+            form: "crash",
+            help: "Ends the program as a power cut does, and starts it again; with a journal, as after `journal`.",
+            parse: |_| {
+                Ok(Box::new(|stage| {
+                    stage.crash();
+                    Ok(())
+                }))
+            },
+        },
+        Verb {
+            name: "somebody-saves",
+            form: "somebody-saves PATH FROM",
+            help: "Puts what the file FROM beside the script holds into a file that the script opened or saved, as \
+                   another program does.",
+            parse: |words| {
+                let (path, from) = (words.text("the path")?.to_owned(), words.text("the other file")?.to_owned());
+                Ok(Box::new(move |stage| {
+                    let target = stage.folders.to_write(&path)?;
+                    let fault = |what: String| Fault::new(format!("{from}: {what}"));
+                    let source = stage.folders.script.join(&from);
+                    let bytes = formats::read_bytes(&source).map_err(|error| fault(error.to_string()))?;
+                    save_bytes_fast(&target, &bytes).map_err(|error| fault(error.to_string()))
+                }))
+            },
+        },
+        Verb {
+            name: "somebody-removes",
+            form: "somebody-removes PATH",
+            help: "Removes a file that the script opened or saved, as another program does.",
+            parse: |words| {
+                let path = words.text("the path")?.to_owned();
+                Ok(Box::new(move |stage| {
+                    let target = stage.folders.to_write(&path)?;
+                    std::fs::remove_file(target).map_err(|error| Fault::new(format!("{path}: {error}")))
+                }))
+            },
         },
         Verb {
             name: "open-missing",

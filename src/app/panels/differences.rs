@@ -1,0 +1,209 @@
+//! How the open plan and its file, which somebody else changed, differ: both drawn side by side, with what
+//! each side changed since they were the same.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
+
+use super::plan_picture::{MarkKind, PlanPicture, legend};
+use super::status::count;
+use crate::app::canvas::title_of;
+use crate::app::document::Derived;
+use crate::app::widgets::{caption, colours, dialog_frame, right, section, strong, text_button};
+use crate::app::{App, theme};
+use crate::plan::{ChangeKind, Difference, ElementId, Plan};
+
+/// More lines than these are not read; how many there are is said.
+const MOST_LINES: usize = 200;
+
+/// What is shown, kept while neither side changes.
+pub(in crate::app) struct Shown {
+    mine: (Plan, Arc<Derived>),
+    theirs: Plan,
+    pictures: [PlanPicture; 2],
+    lines: [Vec<(MarkKind, String)>; 2],
+}
+
+impl Shown {
+    fn new(base: &Plan, mine: (Plan, Arc<Derived>), theirs: (&Plan, &Arc<Derived>)) -> Self {
+        let sides = [&mine.0, theirs.0].map(|plan| {
+            let difference = Difference::between(base, plan);
+            (difference.seen(base, plan), difference)
+        });
+        let both: BTreeSet<ElementId> =
+            sides[0].0.keys().filter(|element| sides[1].0.contains_key(element)).copied().collect();
+        let pictures = [
+            PlanPicture::new(base, &mine.0, mine.1.clone(), &both),
+            PlanPicture::new(base, theirs.0, theirs.1.clone(), &both),
+        ];
+        let lines = [(&mine.0, &sides[0]), (theirs.0, &sides[1])]
+            .map(|(plan, (seen, difference))| lines_of(base, plan, seen, difference, &both));
+        let theirs = theirs.0.clone();
+        Self { mine, theirs, pictures, lines }
+    }
+
+    fn is_of(&self, mine: &Plan, theirs: &Plan) -> bool {
+        self.mine.0.is_same_value(mine) && self.theirs.is_same_value(theirs)
+    }
+}
+
+/// What one side changed, a line each.
+fn lines_of(
+    base: &Plan,
+    plan: &Plan,
+    seen: &BTreeMap<ElementId, ChangeKind>,
+    difference: &Difference,
+    both: &BTreeSet<ElementId>,
+) -> Vec<(MarkKind, String)> {
+    let parts = [
+        (difference.meta, "What is known of the plan"),
+        (difference.backdrop, "The picture under the plan"),
+        (difference.extra, "Fields of another version"),
+    ];
+    let parts = parts.into_iter().filter(|(differs, _)| *differs);
+    let mut lines: Vec<(MarkKind, String)> = parts.map(|(_, text)| (MarkKind::Changed, text.to_owned())).collect();
+    // What both changed first: there one has to choose.
+    let mut elements: Vec<(bool, &ElementId, &ChangeKind)> =
+        seen.iter().map(|(element, kind)| (!both.contains(element), element, kind)).collect();
+    elements.sort();
+    lines.extend(elements.into_iter().map(|(_, &element, &kind)| {
+        let (of, mark) = match kind {
+            ChangeKind::Added => (plan, MarkKind::Added),
+            ChangeKind::Changed => (plan, MarkKind::Changed),
+            ChangeKind::Removed => (base, MarkKind::Removed),
+        };
+        let mark = if both.contains(&element) { MarkKind::Both } else { mark };
+        (mark, format!("{} {}", title_of(of, element), kind.name()))
+    }));
+    lines
+}
+
+/// How much differs, in words: '2 rooms, 1 wall and the picture'.
+pub(in crate::app) fn summary(seen: &BTreeMap<ElementId, ChangeKind>, difference: &Difference) -> String {
+    let number = |kind: &str| seen.keys().filter(|element| element.kind() == kind).count();
+    let counts = ["room", "wall", "opening"].map(|kind| (number(kind), kind));
+    let mut parts: Vec<String> =
+        counts.iter().filter(|(number, _)| *number > 0).map(|(number, kind)| count(*number, kind)).collect();
+    if difference.meta {
+        parts.push("what is known of the plan".to_owned());
+    }
+    if difference.backdrop {
+        parts.push("the picture under it".to_owned());
+    }
+    match parts.split_last() {
+        None if difference.is_empty() => "nothing differs".to_owned(),
+        None => "only corners and fields of another version differ".to_owned(),
+        Some((last, [])) => {
+            format!("{last} differ{}", if last.starts_with("1 ") || difference.meta { "s" } else { "" })
+        }
+        Some((last, rest)) => format!("{} and {last} differ", rest.join(", ")),
+    }
+}
+
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    if !app.panels.differences {
+        app.panels.shown_differences = None;
+        return;
+    }
+    let Some((theirs, document)) = app.their_plan().zip(app.document.as_ref()) else { return };
+    let Some(derived) = document.derived().cloned() else { return };
+    let mine = document.plan().clone();
+    let shown = app.panels.shown_differences.as_ref();
+    if !shown.is_some_and(|shown| shown.is_of(&mine, theirs.0)) {
+        let base = document.saved().cloned().unwrap_or_default();
+        let new = Shown::new(&base, (mine, derived), theirs);
+        app.panels.shown_differences = Some(Box::new(new));
+    }
+    let file = document.origin.title();
+    let Some(mut shown) = app.panels.shown_differences.take() else { return };
+    let response = Modal::new(Id::unique("differences")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
+        let window = ui.ctx().content_rect().size();
+        let width = 980.0_f32.min(window.x - 80.0);
+        ui.set_width(width);
+        ui.label(strong(format!("{file}: here and in the file"), theme::TITLE));
+        let text = "What each side changed since they were the same.";
+        ui.add(Label::new(RichText::new(text).color(colours(ui).text_weak)).wrap());
+        ui.add_space(10.0);
+        let gap = 16.0;
+        let side = (width - gap) / 2.0;
+        let list_height = (window.y * 0.18).clamp(60.0, 150.0);
+        let picture = vec2(side, (side * 0.66).min(window.y - list_height - 300.0).max(120.0));
+        ui.horizontal_top(|ui| {
+            ui.spacing_mut().item_spacing.x = gap;
+            for (index, title) in ["Here, not saved", "In the file now"].into_iter().enumerate() {
+                ui.vertical(|ui| {
+                    ui.set_width(side);
+                    section(ui, title);
+                    ui.add_space(4.0);
+                    shown.pictures[index].show(ui, picture, title);
+                    ui.add_space(6.0);
+                    ScrollArea::vertical()
+                        .id_salt(index)
+                        .max_height(list_height)
+                        .min_scrolled_height(list_height)
+                        .auto_shrink(false)
+                        .show(ui, |ui| {
+                            list(ui, &shown.lines[index]);
+                        });
+                });
+            }
+        });
+        ui.add_space(12.0);
+        let mut act = None;
+        ui.horizontal(|ui| {
+            let kinds = MarkKind::ALL.into_iter();
+            let used = |kind: &MarkKind| shown.pictures.iter().any(|picture| picture.kinds().any(|used| used == *kind));
+            legend(ui, kinds.filter(used));
+            right(ui, |ui| {
+                let close = text_button(ui, "Close", false).clicked().then_some(("differences", Some("off")));
+                let hint = "Saving then replaces what somebody else put in the file";
+                let keep = text_button(ui, "Keep mine", false).on_hover_text(hint).clicked();
+                let hint = "A step that can be undone";
+                let load = text_button(ui, "Load the file as it is now", true).on_hover_text(hint).clicked();
+                act = close.or(keep.then_some(("keep-mine", None))).or(load.then_some(("load-theirs", None)));
+            });
+        });
+        act
+    });
+    app.panels.shown_differences = Some(shown);
+    match response.inner.or(response.should_close().then_some(("differences", Some("off")))) {
+        None => {}
+        Some((id, argument)) => app.act(id, argument.as_slice(), ui.ctx()),
+    }
+}
+
+fn list(ui: &mut Ui, lines: &[(MarkKind, String)]) {
+    ui.spacing_mut().item_spacing.y = 2.0;
+    if lines.is_empty() {
+        caption(ui, "Nothing changed");
+    }
+    for (kind, text) in lines.iter().take(MOST_LINES) {
+        let colour = if *kind == MarkKind::Both { colours(ui).error } else { colours(ui).text };
+        let text = if *kind == MarkKind::Both { format!("{text}, on the other side too") } else { text.clone() };
+        ui.add(Label::new(RichText::new(text).size(theme::SMALL).color(colour)).wrap());
+    }
+    if lines.len() > MOST_LINES {
+        caption(ui, format!("and {} more", lines.len() - MOST_LINES));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plan::{Builder, Room};
+
+    #[test]
+    fn summaries_read_well() {
+        let mut builder = Builder::default();
+        let rooms = ["a", "b"].map(|key| ElementId::Room(builder.room(key, Room::default())));
+        let seen = |rooms: &[ElementId]| rooms.iter().map(|&room| (room, ChangeKind::Added)).collect();
+        let difference = |meta| Difference { meta, elements: seen(&rooms), ..Difference::default() };
+        assert_eq!(summary(&seen(&rooms), &difference(false)), "2 rooms differ");
+        assert_eq!(summary(&seen(&rooms[..1]), &difference(false)), "1 room differs");
+        assert_eq!(summary(&seen(&rooms), &difference(true)), "2 rooms and what is known of the plan differ");
+        let meta = Difference { meta: true, ..Difference::default() };
+        assert_eq!(summary(&BTreeMap::new(), &meta), "what is known of the plan differs");
+        assert_eq!(summary(&BTreeMap::new(), &Difference::default()), "nothing differs");
+    }
+}

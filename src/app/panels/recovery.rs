@@ -1,0 +1,152 @@
+//! What programs that were killed left behind: a picture of each, and what to do with it.
+
+use std::time::SystemTime;
+
+use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
+
+use super::plan_picture::{MarkKind, legend};
+use super::status::count;
+use crate::app::recovery::Offered;
+use crate::app::widgets::{caption, colours, dialog_frame, right, strong, text_button};
+use crate::app::{App, theme};
+
+/// Size of a picture, in points.
+const PICTURE: egui::Vec2 = vec2(300.0, 190.0);
+
+#[derive(Clone, Copy)]
+enum Act {
+    Recover(usize),
+    Discard(usize),
+    Later,
+}
+
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    if !app.panels.recovery || app.safety.leftovers.is_empty() {
+        return;
+    }
+    let mut leftovers = std::mem::take(&mut app.safety.leftovers);
+    let now = app.safety.clock.map(|clock| clock());
+    let response = Modal::new(Id::unique("recovery")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
+        ui.set_width(680.0_f32.min(ui.ctx().content_rect().width() - 80.0));
+        ui.label(strong("Recover unsaved work", theme::TITLE));
+        let text = "Enfilade ended before these changes were saved. Recovering opens them as they were; nothing is \
+                    written to a file until you save.";
+        ui.add(Label::new(RichText::new(text).color(colours(ui).text_weak)).wrap());
+        ui.add_space(10.0);
+        let mut act = None;
+        let height = (ui.ctx().content_rect().height() - 260.0).clamp(120.0, 620.0);
+        ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
+            for (index, offered) in leftovers.iter_mut().enumerate() {
+                if index > 0 {
+                    ui.add_space(14.0);
+                }
+                act = ui.push_id(index, |ui| one(app, ui, index + 1, offered, now)).inner.or(act.take());
+            }
+        });
+        ui.add_space(12.0);
+        ui.horizontal(|ui| {
+            let all = MarkKind::ALL.into_iter();
+            let used = |kind: &MarkKind| {
+                leftovers
+                    .iter()
+                    .filter_map(|offered| offered.picture.as_ref())
+                    .any(|picture| picture.kinds().any(|k| k == *kind))
+            };
+            legend(ui, all.filter(used));
+            right(ui, |ui| {
+                let hint = "They are offered again when Enfilade starts, and in the menu File";
+                if text_button(ui, "Later", false).on_hover_text(hint).clicked() {
+                    act = Some(Act::Later);
+                }
+            });
+        });
+        act
+    });
+    app.safety.leftovers = leftovers;
+    match response.inner.or(response.should_close().then_some(Act::Later)) {
+        None => {}
+        Some(Act::Recover(number)) => app.act("recover", &[&number.to_string()], ui.ctx()),
+        Some(Act::Discard(number)) => app.act("discard-recovered", &[&number.to_string()], ui.ctx()),
+        Some(Act::Later) => app.act("recovery", &["off"], ui.ctx()),
+    }
+}
+
+fn one(app: &App, ui: &mut Ui, number: usize, offered: &mut Offered, now: Option<SystemTime>) -> Option<Act> {
+    let title = offered.title();
+    let mut act = None;
+    ui.horizontal_top(|ui| {
+        ui.spacing_mut().item_spacing.x = 18.0;
+        match &mut offered.picture {
+            Some(picture) => picture.show(ui, PICTURE, &format!("What would be recovered of {title}")),
+            None => {
+                ui.allocate_space(vec2(PICTURE.x, 90.0));
+            }
+        }
+        ui.vertical(|ui| {
+            ui.add_space(4.0);
+            ui.add(Label::new(strong(&title, theme::BODY)).wrap());
+            match &offered.leftover.content {
+                Err(what) => {
+                    let text = RichText::new(format!("It cannot be read: {what}.")).color(colours(ui).error);
+                    ui.add(Label::new(text).wrap());
+                    caption(ui, app.shown_path(&offered.leftover.path));
+                }
+                Ok(recovered) => {
+                    let file = recovered.start.file.as_deref();
+                    let place = file.map_or("In no file yet".to_owned(), |path| app.shown_path(path));
+                    ui.add(Label::new(RichText::new(place).size(theme::SMALL).color(colours(ui).text_weak)).wrap());
+                    ui.add_space(4.0);
+                    let changes = count(recovered.history.position().max(1), "change");
+                    let age = now.zip(offered.leftover.modified).and_then(|(now, then)| age(now, then));
+                    ui.label(age.map_or(changes.clone(), |age| format!("{changes}, {age}")));
+                    if let Some(step) = recovered.history.steps().get(recovered.history.position()) {
+                        caption(ui, format!("The last: {}", step.title));
+                    }
+                    if recovered.is_cut {
+                        caption(ui, "What was being written at the end is incomplete and left out.");
+                    }
+                }
+            }
+            ui.add_space(10.0);
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 8.0;
+                if offered.leftover.content.is_ok() && text_button(ui, "Recover", true).clicked() {
+                    act = Some(Act::Recover(number));
+                }
+                if text_button(ui, "Discard…", false).clicked() {
+                    act = Some(Act::Discard(number));
+                }
+            });
+        });
+    });
+    act
+}
+
+/// How long ago something was, in words; `None` where the clock went backwards.
+fn age(now: SystemTime, then: SystemTime) -> Option<String> {
+    let minutes = now.duration_since(then).ok()?.as_secs() / 60;
+    Some(match minutes {
+        0 => "just now".to_owned(),
+        1..60 => format!("{} ago", count(minutes as usize, "minute")),
+        60..1440 => format!("{} ago", count(minutes as usize / 60, "hour")),
+        _ => format!("{} ago", count(minutes as usize / 1440, "day")),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+
+    #[test]
+    fn ages_read_well() {
+        let then = SystemTime::UNIX_EPOCH;
+        let at = |secs: u64| age(then + Duration::from_secs(secs), then);
+        assert_eq!(at(59).as_deref(), Some("just now"));
+        assert_eq!(at(60).as_deref(), Some("1 minute ago"));
+        assert_eq!(at(7200).as_deref(), Some("2 hours ago"));
+        assert_eq!(at(100_000).as_deref(), Some("1 day ago"));
+        assert_eq!(age(then, then + Duration::from_secs(1)), None);
+    }
+}

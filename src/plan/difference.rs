@@ -1,0 +1,149 @@
+//! What differs between two plans, by element.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use imbl::OrdMap;
+use imbl::ordmap::DiffItem;
+
+use super::{CornerId, ElementId, OpeningId, Place, Plan, RoomId, WallId};
+
+/// What became of an element from one plan to another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ChangeKind {
+    Added,
+    Removed,
+    Changed,
+}
+
+impl ChangeKind {
+    /// The word for people.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Added => "added",
+            Self::Removed => "removed",
+            Self::Changed => "changed",
+        }
+    }
+}
+
+/// What differs between two plans, of which one came from the other or both from a third.
+///
+/// Where they share structure, which edits of one another do, finding it costs what differs and not what
+/// they hold.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Difference {
+    /// The elements that are not the same in both.
+    pub elements: BTreeMap<ElementId, ChangeKind>,
+    /// Whether what is known of the plan as a whole differs.
+    pub meta: bool,
+    /// Whether the picture under the plan differs.
+    pub backdrop: bool,
+    /// Whether fields differ that this version does not know.
+    pub extra: bool,
+}
+
+fn collect<K: Ord + Copy, V: PartialEq>(
+    before: &OrdMap<K, V>,
+    after: &OrdMap<K, V>,
+    id: impl Fn(K) -> ElementId,
+    elements: &mut BTreeMap<ElementId, ChangeKind>,
+) {
+    elements.extend(before.diff(after).map(|item| match item {
+        DiffItem::Add(&key, _) => (id(key), ChangeKind::Added),
+        DiffItem::Remove(&key, _) => (id(key), ChangeKind::Removed),
+        DiffItem::Update { new: (&key, _), .. } => (id(key), ChangeKind::Changed),
+    }));
+}
+
+impl Difference {
+    /// What differs between two plans.
+    pub fn between(before: &Plan, after: &Plan) -> Self {
+        let mut elements = BTreeMap::new();
+        collect::<CornerId, _>(&before.corners, &after.corners, ElementId::Corner, &mut elements);
+        collect::<WallId, _>(&before.walls, &after.walls, ElementId::Wall, &mut elements);
+        collect::<RoomId, _>(&before.rooms, &after.rooms, ElementId::Room, &mut elements);
+        collect::<OpeningId, _>(&before.openings, &after.openings, ElementId::Opening, &mut elements);
+        Self {
+            elements,
+            meta: !Arc::ptr_eq(&before.meta, &after.meta) && before.meta != after.meta,
+            backdrop: before.backdrop != after.backdrop,
+            extra: before.extra != after.extra,
+        }
+    }
+
+    /// Whether the plans are the same.
+    pub fn is_empty(&self) -> bool {
+        self.elements.is_empty() && !self.meta && !self.backdrop && !self.extra
+    }
+
+    /// What a person sees of it: walls, rooms and openings, those included that are as they were but for a
+    /// corner of theirs that moved. Corners themselves are left out.
+    pub fn seen(&self, before: &Plan, after: &Plan) -> BTreeMap<ElementId, ChangeKind> {
+        let mut seen = self.elements.clone();
+        seen.retain(|element, _| !matches!(element, ElementId::Corner(_)));
+        let moved: BTreeSet<CornerId> = self
+            .elements
+            .keys()
+            .filter_map(|element| if let ElementId::Corner(id) = element { Some(*id) } else { None })
+            .filter(|&id| before.position(id) != after.position(id))
+            .collect();
+        if moved.is_empty() {
+            return seen;
+        }
+        let mut mark = |element, is_moved: bool| {
+            if is_moved {
+                seen.entry(element).or_insert(ChangeKind::Changed);
+            }
+        };
+        for (id, wall) in after.walls() {
+            mark(ElementId::Wall(id), moved.contains(&wall.from) || moved.contains(&wall.to));
+        }
+        for (id, room) in after.rooms() {
+            mark(ElementId::Room(id), room.rings().any(|ring| ring.iter().any(|corner| moved.contains(corner))));
+        }
+        for (id, opening) in after.openings() {
+            let is_moved =
+                matches!(opening.place, Place::Hosted { from, to, .. } if moved.contains(&from) || moved.contains(&to));
+            mark(ElementId::Opening(id), is_moved);
+        }
+        seen
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point;
+    use crate::plan::{Builder, Meta, Room, edit};
+
+    #[test]
+    fn what_differs_is_told_by_element() {
+        let mut builder = Builder::new(Meta::default());
+        let ring = builder.ring([(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0)].map(|(x, y)| Point::new(x, y)));
+        let (from, to) = (ring[0], ring[1]);
+        let room = builder.room("room", Room { outer: ring, ..Room::default() });
+        let before = builder.finish().expect("the plan is sound");
+        assert!(Difference::between(&before, &before.clone()).is_empty());
+        let (walled, wall) = edit::add_wall(&before, from, to, 0.1).expect("both corners exist");
+        let moved = edit::move_corners(&walled, &[(from, Point::new(-1.0, 0.0))]).expect("it may move");
+        let meta = Meta { name: "Named".to_owned(), ..Meta::default() };
+        let after = edit::set_meta(&moved, meta);
+        let difference = Difference::between(&before, &after);
+        assert_eq!(
+            difference.elements,
+            BTreeMap::from([
+                (ElementId::Corner(from), ChangeKind::Changed),
+                (ElementId::Wall(wall), ChangeKind::Added),
+            ])
+        );
+        assert!(difference.meta && !difference.backdrop && !difference.extra);
+        // The room is another by its corner.
+        assert_eq!(
+            difference.seen(&before, &after),
+            BTreeMap::from([(ElementId::Wall(wall), ChangeKind::Added), (ElementId::Room(room), ChangeKind::Changed),])
+        );
+        let back = Difference::between(&after, &before);
+        assert_eq!(back.elements[&ElementId::Wall(wall)], ChangeKind::Removed);
+    }
+}

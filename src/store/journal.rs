@@ -1,0 +1,654 @@
+//! The journal: every change of a plan that is in no file yet, on the disk as soon as it is made, so that a
+//! program that is killed loses nothing. `docs/recovery.md` describes it for outsiders.
+//!
+//! A journal is a file of records that only grows. Each record carries its length and a checksum that goes
+//! on from the record before: what was being written when the program died is recognised and left out, and
+//! so is everything behind a damage. The first record holds the plan as its file has it, each further one
+//! what a step of the history changes. Writing happens on a thread of its own, in order; finding what
+//! changed costs what changed, not what the plan holds.
+//!
+//! The writing program holds a lock on its journal. One whose lock is free is a leftover.
+
+use std::collections::VecDeque;
+use std::fs::{self, File, TryLockError};
+use std::io::{self, Read as _, Seek as _, Write as _};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, SystemTime};
+
+use serde::{Deserialize, Serialize};
+
+use super::stamp::{FNV_START, Stamp, fnv};
+use crate::formats::plan_json;
+use crate::plan::{History, Plan, Step};
+
+/// The environment variable that names another folder for what must survive a crash; empty for none: no
+/// journals are kept.
+pub const STATE_VARIABLE: &str = "ENFILADE_STATE";
+
+/// The folder of journals: below the one the environment names, or the system's place; `None` where there
+/// is none, or none is wanted.
+pub fn journal_folder() -> Option<PathBuf> {
+    use etcetera::BaseStrategy as _;
+    let state = match std::env::var_os(STATE_VARIABLE) {
+        Some(folder) => (!folder.is_empty()).then(|| PathBuf::from(folder))?,
+        None => {
+            let places = etcetera::choose_base_strategy().ok()?;
+            places.state_dir().unwrap_or_else(|| places.data_dir()).join("enfilade")
+        }
+    };
+    Some(state.join("journal"))
+}
+
+/// The first line of a journal: its kind and its version.
+const HEADER: &str = "enfilade journal 1\n";
+
+/// What the first line of every version starts with.
+const KIND: &str = "enfilade journal ";
+
+/// The ending of journals' names.
+const ENDING: &str = "journal";
+
+/// The ending of a journal that does not hold its plan yet.
+const UNFINISHED: &str = "new";
+
+/// A journal that has grown by more than this is begun anew, without the steps that led there.
+const LONGEST_BYTES: u64 = 64 << 20;
+
+/// No journal is larger: a plan file of the largest size, and the changes up to [`LONGEST_BYTES`] with one
+/// last that may be as large as a plan.
+const LARGEST_BYTES: u64 = 2 * crate::formats::FILE_LIMIT_BYTES + LONGEST_BYTES;
+
+/// A journal that could not be written is tried again so often.
+const RETRY: Duration = Duration::from_secs(2);
+
+/// What a journal's plan is.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct JournalStart {
+    /// The plan's file; `None` for a plan that is in none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<PathBuf>,
+    /// Which plan of the file, from 0.
+    #[serde(default)]
+    pub storey: usize,
+    /// The bundled plan it began as.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sample: Option<String>,
+    /// What the file held.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stamp: Option<Stamp>,
+}
+
+/// What a record says; what it changes stands behind it.
+#[derive(Serialize, Deserialize)]
+#[serde(tag = "do", rename_all = "lowercase")]
+enum Head {
+    /// The plan as its file has it; the plan file follows.
+    Start {
+        #[serde(flatten)]
+        start: JournalStart,
+    },
+    /// A step of the history, which drops those that were undone; its change follows.
+    Step { title: String },
+    /// Another step, counted from the start, is the current one: undone, redone.
+    Jump { to: usize },
+}
+
+// Writing.
+
+/// Why a journal is not being written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct JournalFailure {
+    /// The folder it should be in.
+    pub folder: PathBuf,
+    /// What the system says.
+    pub what: String,
+}
+
+/// The journal of an open plan, written on a thread of its own.
+///
+/// Dropping it leaves the file for recovery; [`Journal::remove`] ends it for good.
+pub struct Journal {
+    sender: Option<Sender<Event>>,
+    shared: Arc<Shared>,
+    thread: Option<JoinHandle<()>>,
+    /// The steps of the journal, the plan it starts with first.
+    steps: Vec<Plan>,
+    /// Which of them is current.
+    at: usize,
+    /// How many records were given to the thread.
+    noted: u64,
+}
+
+/// The journal from which another goes on.
+pub enum Predecessor {
+    /// A program left it behind.
+    Leftover(Leftover),
+    /// It was written until now.
+    Journal(Journal),
+}
+
+impl Predecessor {
+    fn remove(self) {
+        match self {
+            // If it cannot be removed, it is offered again: too much rather than too little.
+            Self::Leftover(leftover) => drop(leftover.remove()),
+            Self::Journal(journal) => journal.remove(),
+        }
+    }
+}
+
+#[derive(Default)]
+struct Shared {
+    state: Mutex<State>,
+    changed: Condvar,
+}
+
+#[derive(Default)]
+struct State {
+    /// How many records are on the disk.
+    written: u64,
+    /// How many bytes the changes take.
+    bytes: u64,
+    failure: Option<JournalFailure>,
+    is_ended: bool,
+}
+
+impl Shared {
+    fn state(&self) -> MutexGuard<'_, State> {
+        // Whoever broke while holding it only read or wrote whole fields.
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+enum Event {
+    Record(Record),
+    Remove,
+}
+
+enum Record {
+    Step {
+        title: String,
+        before: Plan,
+        after: Plan,
+    },
+    Jump {
+        to: usize,
+    },
+    /// A new file takes the place of this one: the plan it starts with, and the current one.
+    Anew {
+        base: Plan,
+        current: Plan,
+    },
+}
+
+impl Journal {
+    /// Begins the journal of a plan that is `base` in its file. Once it is on the disk, the one that it
+    /// replaces is removed. `on_change` is called, on another thread, when writing begins to fail and when
+    /// it works again.
+    pub fn begin(
+        folder: &Path,
+        start: JournalStart,
+        base: Plan,
+        replaces: Option<Predecessor>,
+        on_change: impl Fn() + Send + 'static,
+    ) -> Self {
+        let (sender, receiver) = channel();
+        let shared = Arc::new(Shared::default());
+        let mut writer = Writer {
+            folder: folder.to_owned(),
+            start,
+            base: base.clone(),
+            open: None,
+            queue: VecDeque::new(),
+            replaces,
+            shared: shared.clone(),
+        };
+        let thread = std::thread::spawn(move || writer.run(&receiver, &on_change));
+        let (steps, thread) = (vec![base], Some(thread));
+        Self { sender: Some(sender), shared, thread, steps, at: 0, noted: 0 }
+    }
+
+    /// Notes what a history has come to; quick, and quicker still when nothing happened.
+    pub fn note(&mut self, history: &History) {
+        if self.is_current(history.plan()) {
+            return;
+        }
+        // Several steps may have been made since; one that was undone to stands for itself.
+        let position = history.position();
+        let steps = history.steps().get(..=position).unwrap_or_default();
+        let first = steps.iter().rposition(|step| self.is_current(&step.plan)).map_or(position, |known| known + 1);
+        for step in &steps[first..] {
+            self.move_to(step);
+        }
+    }
+
+    fn is_current(&self, plan: &Plan) -> bool {
+        self.steps.get(self.at).is_some_and(|current| current.is_same_value(plan))
+    }
+
+    fn move_to(&mut self, step: &Step) {
+        if self.is_current(&step.plan) {
+            return;
+        }
+        if let Some(to) = self.steps.iter().rposition(|known| known.is_same_value(&step.plan)) {
+            self.at = to;
+            self.send(Record::Jump { to });
+            return;
+        }
+        let Some(before) = self.steps.get(self.at).cloned() else { return };
+        self.steps.truncate(self.at + 1);
+        self.steps.push(step.plan.clone());
+        self.at += 1;
+        self.send(Record::Step { title: step.title.clone(), before, after: step.plan.clone() });
+        if self.shared.state().bytes > LONGEST_BYTES
+            && let Some(base) = self.steps.first().cloned()
+        {
+            self.shared.state().bytes = 0;
+            self.steps = vec![base.clone(), step.plan.clone()];
+            self.at = 1;
+            self.send(Record::Anew { base, current: step.plan.clone() });
+        }
+    }
+
+    fn send(&mut self, record: Record) {
+        self.noted += 1;
+        if let Some(sender) = &self.sender {
+            // The thread ends only after this.
+            let _ = sender.send(Event::Record(record));
+        }
+    }
+
+    /// Waits until all that was noted is on the disk, or cannot be written.
+    ///
+    /// # Errors
+    /// Why it cannot be written.
+    pub fn wait(&self) -> Result<(), JournalFailure> {
+        let is_waiting = |state: &mut State| state.written < self.noted && state.failure.is_none() && !state.is_ended;
+        let state = self.shared.changed.wait_while(self.shared.state(), is_waiting);
+        state.unwrap_or_else(PoisonError::into_inner).failure.clone().map_or(Ok(()), Err)
+    }
+
+    /// Why it is not being written; `None` while it is.
+    pub fn failure(&self) -> Option<JournalFailure> {
+        self.shared.state().failure.clone()
+    }
+
+    /// Ends it and removes its file: what it keeps is saved, or given up.
+    pub fn remove(self) {
+        if let Some(sender) = &self.sender {
+            let _ = sender.send(Event::Remove);
+        }
+    }
+}
+
+impl Drop for Journal {
+    fn drop(&mut self) {
+        self.sender = None;
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+struct Writer {
+    folder: PathBuf,
+    start: JournalStart,
+    base: Plan,
+    open: Option<OpenFile>,
+    queue: VecDeque<Record>,
+    replaces: Option<Predecessor>,
+    shared: Arc<Shared>,
+}
+
+struct OpenFile {
+    file: File,
+    path: PathBuf,
+    /// So far its records are whole.
+    length: u64,
+    checksum: u64,
+}
+
+impl Writer {
+    fn run(&mut self, receiver: &Receiver<Event>, on_change: &dyn Fn()) {
+        let mut is_over = false;
+        while !is_over {
+            // What waits for the disk is tried again without being asked.
+            let event = match self.queue.is_empty() {
+                true => receiver.recv().map_err(|_| RecvTimeoutError::Disconnected),
+                false => receiver.recv_timeout(RETRY),
+            };
+            let mut events: Vec<Event> = Vec::new();
+            match event {
+                Ok(event) => events.push(event),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => is_over = true,
+            }
+            events.extend(receiver.try_iter());
+            for event in events {
+                match event {
+                    Event::Record(record) => self.queue.push_back(record),
+                    Event::Remove => {
+                        self.remove();
+                        is_over = true;
+                    }
+                }
+            }
+            if self.queue.is_empty() {
+                continue;
+            }
+            let result = self.write();
+            let failure = result.err().map(|error| JournalFailure { folder: self.folder.clone(), what: said(&error) });
+            let mut state = self.shared.state();
+            let is_news = state.failure != failure;
+            state.failure = failure;
+            drop(state);
+            self.shared.changed.notify_all();
+            if is_news {
+                on_change();
+            }
+        }
+        self.shared.state().is_ended = true;
+        self.shared.changed.notify_all();
+    }
+
+    fn remove(&mut self) {
+        self.queue.clear();
+        if let Some(open) = self.open.take() {
+            // If it cannot be removed, it is offered again: too much rather than too little.
+            let _ = fs::remove_file(&open.path);
+        }
+        if let Some(replaced) = self.replaces.take() {
+            replaced.remove();
+        }
+    }
+
+    /// Writes what waits, and flushes it to the disk.
+    fn write(&mut self) -> io::Result<()> {
+        let mut written = 0;
+        let mut bytes = 0;
+        while let Some(record) = self.queue.front() {
+            if let Record::Anew { base, .. } = record {
+                let before = self.open.take();
+                self.base = base.clone();
+                match self.created() {
+                    Ok(open) => self.open = Some(open),
+                    Err(error) => {
+                        self.open = before;
+                        return Err(error);
+                    }
+                }
+                if let Some(before) = before {
+                    let _ = fs::remove_file(&before.path);
+                }
+            }
+            if self.open.is_none() {
+                self.open = Some(self.created()?);
+            }
+            let (Some(open), Some(record)) = (&mut self.open, self.queue.front()) else { break };
+            bytes += open.append(&record.payload())?;
+            self.queue.pop_front();
+            written += 1;
+        }
+        if let Some(open) = &self.open {
+            open.file.sync_data()?;
+        }
+        // The journal that this one goes on from has done its duty.
+        if let Some(replaced) = self.replaces.take() {
+            replaced.remove();
+        }
+        let mut state = self.shared.state();
+        state.written += written;
+        state.bytes += bytes;
+        Ok(())
+    }
+
+    /// A file of its own that holds the plan it starts with. Under its lasting name only once it is whole
+    /// and locked, so that nobody takes it for a leftover.
+    fn created(&self) -> io::Result<OpenFile> {
+        fs::create_dir_all(&self.folder)?;
+        let temporary = tempfile::Builder::new()
+            .prefix("plan-")
+            .rand_bytes(12)
+            .suffix(&format!(".{UNFINISHED}"))
+            .tempfile_in(&self.folder)?;
+        // Where there are no locks, a running program's journal is offered to another: a copy too many.
+        let _ = temporary.as_file().try_lock();
+        let path = temporary.path().with_extension(ENDING);
+        let mut bytes = HEADER.as_bytes().to_vec();
+        let mut payload = head(&Head::Start { start: self.start.clone() });
+        payload.extend_from_slice(&plan_json::to_bytes(&self.base));
+        let checksum = frame(&mut bytes, FNV_START, &payload);
+        temporary.as_file().write_all(&bytes)?;
+        temporary.as_file().sync_all()?;
+        let file = temporary.persist(&path).map_err(|error| error.error)?;
+        #[cfg(unix)]
+        {
+            // As for saving: some file systems cannot, and the file is there all the same.
+            let _ = File::open(&self.folder).and_then(|folder| folder.sync_all());
+        }
+        Ok(OpenFile { file, path, length: bytes.len() as u64, checksum })
+    }
+}
+
+impl OpenFile {
+    /// Appends a record; gives its size. After an error the file is as before.
+    fn append(&mut self, payload: &[u8]) -> io::Result<u64> {
+        let mut bytes = Vec::with_capacity(payload.len() + 32);
+        let checksum = frame(&mut bytes, self.checksum, payload);
+        let written = self.file.seek(io::SeekFrom::Start(self.length)).and_then(|_| self.file.write_all(&bytes));
+        if let Err(error) = written {
+            // Half a record would be left out by whoever reads it; better still if it is gone.
+            let _ = self.file.set_len(self.length);
+            return Err(error);
+        }
+        self.length += bytes.len() as u64;
+        self.checksum = checksum;
+        Ok(bytes.len() as u64)
+    }
+}
+
+impl Record {
+    fn payload(&self) -> Vec<u8> {
+        let (title, before, after) = match self {
+            Self::Jump { to } => return head(&Head::Jump { to: *to }),
+            Self::Step { title, before, after } => (title.as_str(), before, after),
+            Self::Anew { base, current } => ("Earlier changes", base, current),
+        };
+        let mut payload = head(&Head::Step { title: title.to_owned() });
+        payload.extend_from_slice(&plan_json::change_to_bytes(before, after));
+        payload
+    }
+}
+
+/// The line that a record starts with.
+fn head(head: &Head) -> Vec<u8> {
+    // A path that is no text is left out: the plan then comes back as one without a file.
+    let line =
+        serde_json::to_vec(head).or_else(|_| serde_json::to_vec(&Head::Start { start: JournalStart::default() }));
+    let mut line = line.unwrap_or_default();
+    line.push(b'\n');
+    line
+}
+
+/// Puts a record behind others: its length, its checksum, itself. Gives the checksum.
+fn frame(bytes: &mut Vec<u8>, checksum: u64, payload: &[u8]) -> u64 {
+    let checksum = fnv(fnv(checksum, &checksum.to_le_bytes()), payload);
+    bytes.extend_from_slice(format!("{} {checksum:016x}\n", payload.len()).as_bytes());
+    bytes.extend_from_slice(payload);
+    bytes.push(b'\n');
+    checksum
+}
+
+/// An error of the system in words.
+fn said(error: &io::Error) -> String {
+    let text = error.to_string();
+    text.split_once(" (os error").map_or(text.as_str(), |(words, _)| words).to_owned()
+}
+
+// Reading.
+
+/// A journal that a program left behind. While this exists, no other program is offered it.
+#[derive(Debug)]
+pub struct Leftover {
+    pub path: PathBuf,
+    /// When it was last written.
+    pub modified: Option<SystemTime>,
+    /// What it keeps, or why it cannot be read.
+    pub content: Result<Recovered, String>,
+    /// Holds the lock.
+    _file: File,
+}
+
+/// What a journal keeps.
+#[derive(Clone, Debug)]
+pub struct Recovered {
+    pub start: JournalStart,
+    /// The plan as its file had it, the steps since, and which is current.
+    pub history: History,
+    /// Whether something behind the last whole record was left out: what was being written when the
+    /// program ended, or a damage.
+    pub is_cut: bool,
+}
+
+impl Recovered {
+    /// The plan as its file had it.
+    pub fn base(&self) -> &Plan {
+        self.history.steps().first().map_or(self.history.plan(), |step| &step.plan)
+    }
+}
+
+impl Leftover {
+    /// Removes it.
+    ///
+    /// # Errors
+    /// When the file cannot be removed; it is offered again then.
+    pub fn remove(self) -> io::Result<()> {
+        match fs::remove_file(&self.path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The journals in a folder that no running program writes, the newest first. Those that keep nothing that
+/// is not in its file are removed.
+pub fn leftovers(folder: &Path) -> Vec<Leftover> {
+    let mut paths: Vec<PathBuf> =
+        fs::read_dir(folder).map(|entries| entries.flatten().map(|entry| entry.path()).collect()).unwrap_or_default();
+    paths.sort();
+    let mut found: Vec<Leftover> = paths.into_iter().filter_map(leftover).collect();
+    found.sort_by_key(|leftover| std::cmp::Reverse(leftover.modified));
+    found
+}
+
+fn leftover(path: PathBuf) -> Option<Leftover> {
+    // One that was never finished holds nothing but what is in its file; its program may be about to.
+    const LONG_AGO: Duration = Duration::from_secs(24 * 60 * 60);
+    let ending = path.extension()?.to_str()?;
+    let modified = fs::metadata(&path).and_then(|metadata| metadata.modified()).ok();
+    if ending == UNFINISHED && modified.and_then(|modified| modified.elapsed().ok()).is_some_and(|age| age > LONG_AGO) {
+        let _ = fs::remove_file(&path);
+    }
+    if ending != ENDING {
+        return None;
+    }
+    let mut file = File::options().read(true).write(true).open(&path).or_else(|_| File::open(&path)).ok()?;
+    if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
+        return None;
+    }
+    // Its program may have removed it after the list was read.
+    if !path.exists() {
+        return None;
+    }
+    let content = read_file(&mut file);
+    let leftover = Leftover { path, modified, content, _file: file };
+    if leftover.content.as_ref().is_ok_and(|recovered| recovered.history.plan() == recovered.base()) {
+        let _ = leftover.remove();
+        return None;
+    }
+    Some(leftover)
+}
+
+fn read_file(file: &mut File) -> Result<Recovered, String> {
+    let mut bytes = Vec::new();
+    file.take(LARGEST_BYTES + 1).read_to_end(&mut bytes).map_err(|error| said(&error))?;
+    if bytes.len() as u64 > LARGEST_BYTES {
+        return Err("it is larger than any journal".to_owned());
+    }
+    read_journal(&bytes)
+}
+
+/// What a journal's bytes keep. Whatever stands behind the last whole record is left out.
+///
+/// # Errors
+/// When they are no journal, or one of a newer version, or not even its start is whole.
+pub fn read_journal(bytes: &[u8]) -> Result<Recovered, String> {
+    let Some(mut rest) = bytes.strip_prefix(HEADER.as_bytes()) else {
+        return Err(match bytes.starts_with(KIND.as_bytes()) {
+            true => "it was written by another version of Enfilade".to_owned(),
+            false => "it is no journal, or its beginning is damaged".to_owned(),
+        });
+    };
+    let mut checksum = FNV_START;
+    let first = next_record(&mut rest, &mut checksum);
+    let Some((Head::Start { start }, body)) = first else {
+        return Err("its beginning is damaged".to_owned());
+    };
+    let base = plan_json::from_bytes(body).map_err(|error| format!("the plan it starts with is damaged: {error}"))?;
+    let mut steps = vec![Step { title: "Open".to_owned(), plan: base }];
+    let mut at = 0;
+    let mut is_cut = false;
+    while !rest.is_empty() {
+        let Some((head, body)) = next_record(&mut rest, &mut checksum) else {
+            is_cut = true;
+            break;
+        };
+        match head {
+            Head::Jump { to } if to < steps.len() => at = to,
+            Head::Step { title } => {
+                let Ok(plan) = plan_json::apply_change(&steps[at].plan, body) else {
+                    is_cut = true;
+                    break;
+                };
+                steps.truncate(at + 1);
+                steps.push(Step { title, plan });
+                at += 1;
+            }
+            Head::Jump { .. } | Head::Start { .. } => {
+                is_cut = true;
+                break;
+            }
+        }
+    }
+    // A plan that breaks an invariant would be refused by the file it is to be saved in.
+    while at > 0 && !steps[at].plan.violations().is_empty() {
+        steps.truncate(at);
+        at -= 1;
+        is_cut = true;
+    }
+    let history = History::of_steps(steps, at).ok_or("it holds no plan")?;
+    Ok(Recovered { start, history, is_cut })
+}
+
+/// Takes the next record off; `None` when it is not whole.
+fn next_record<'a>(rest: &mut &'a [u8], checksum: &mut u64) -> Option<(Head, &'a [u8])> {
+    // A length of at most ten digits, a blank, a checksum of sixteen.
+    const LONGEST_LINE: usize = 10 + 1 + 16;
+    let line_end = rest.iter().take(LONGEST_LINE + 1).position(|&byte| byte == b'\n')?;
+    let (length, sum) = std::str::from_utf8(&rest[..line_end]).ok()?.split_once(' ')?;
+    let length: usize = length.parse().ok()?;
+    let sum = u64::from_str_radix(sum, 16).ok()?;
+    let behind = &rest[line_end + 1..];
+    let payload = behind.get(..length)?;
+    if fnv(fnv(*checksum, &checksum.to_le_bytes()), payload) != sum || behind.get(length) != Some(&b'\n') {
+        return None;
+    }
+    let head_end = payload.iter().position(|&byte| byte == b'\n')?;
+    let head = serde_json::from_slice(&payload[..head_end]).ok()?;
+    *checksum = sum;
+    *rest = &behind[length + 1..];
+    Some((head, &payload[head_end + 1..]))
+}
