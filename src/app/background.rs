@@ -61,6 +61,11 @@ impl<T: Send + 'static> Background<T> {
         }
     }
 
+    /// Whether jobs run at once, for a window that no clock drives.
+    pub(super) fn is_inline(&self) -> bool {
+        matches!(self.mode, Mode::Inline)
+    }
+
     /// Whether a job has not been taken yet.
     pub(super) fn is_busy(&self) -> bool {
         self.running > 0

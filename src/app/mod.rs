@@ -41,6 +41,7 @@ pub use selection::{SelectMode, Selection};
 pub use theme::ThemeChoice;
 pub use window::{WindowError, WindowOptions, run_window};
 
+use backdrop::PictureChange;
 use background::{Background, Mode};
 use canvas::Canvas;
 use dialogs::{Answer, Dialogs};
@@ -60,6 +61,7 @@ use crate::plan::edit::{self, EditError};
 use crate::plan::{ElementId, LabelOrigin, Meta, Plan, Room, RoomId, RoomLabel};
 use crate::predict::{Predictions, Predictor};
 use crate::store::SaveError;
+use crate::store::pictures::{LoadedPicture, PictureError};
 
 /// The window's state, apart from any display.
 pub struct App {
@@ -98,6 +100,8 @@ pub struct App {
     recorder: Option<Recorder>,
     /// A recording is to begin.
     wants_recording: bool,
+    /// The name of a picture that is being read to lie under the plan.
+    reading_picture: Option<String>,
 }
 
 /// What is shown of a plan.
@@ -140,12 +144,18 @@ pub struct Message {
 pub enum Remedy {
     /// Show what an import mended or left out.
     ShowNotes,
+    /// Say where the picture under the plan is.
+    RelinkPicture,
+    /// Take the picture that is shown as the one that the plan means.
+    KeepPicture,
 }
 
 impl Remedy {
     const fn title(self) -> &'static str {
         match self {
             Self::ShowNotes => "Show notes",
+            Self::RelinkPicture => "Relink…",
+            Self::KeepPicture => "Keep this picture",
         }
     }
 }
@@ -174,6 +184,8 @@ enum Question {
     Unsaved(Intent),
     /// Something else stands in the file to be saved: replace it?
     Replace { path: PathBuf, is_changed_since: bool, then: Option<Intent> },
+    /// The picture is about to be scaled or turned: does the drawing go along?
+    Drawing(PictureChange),
 }
 
 /// What a background job brought.
@@ -182,9 +194,27 @@ enum Done {
     Derived(Plan, Arc<Derived>),
     Listed(PathBuf, Vec<PathBuf>),
     Chosen(Answer),
-    Saved { document: u64, path: PathBuf, plan: Plan, result: Result<Option<Stamp>, SaveFailure>, then: Option<Intent> },
-    Backdrop(PathBuf, Result<egui::ColorImage, String>),
-    RecordingSaved { path: PathBuf, recording: Box<Recording>, result: Result<(), SaveError>, then: Option<Intent> },
+    Saved {
+        document: u64,
+        path: PathBuf,
+        plan: Plan,
+        result: Result<Option<Stamp>, SaveFailure>,
+        then: Option<Intent>,
+    },
+    Backdrop(backdrop::Wanted, backdrop::Read),
+    PictureRead {
+        document: u64,
+        use_: backdrop::PictureUse,
+        path: PathBuf,
+        page: u32,
+        result: Result<Box<LoadedPicture>, PictureError>,
+    },
+    RecordingSaved {
+        path: PathBuf,
+        recording: Box<Recording>,
+        result: Result<(), SaveError>,
+        then: Option<Intent>,
+    },
 }
 
 /// A plan with more elements is analysed off the frame's path; below, that takes a few milliseconds.
@@ -220,6 +250,7 @@ impl App {
             executed: None,
             recorder: None,
             wants_recording: false,
+            reading_picture: None,
         }
     }
 
@@ -321,11 +352,9 @@ impl App {
                 Some(Done::RecordingSaved { path, recording, result, then }) => {
                     self.recording_was_saved(&path, *recording, result, then);
                 }
-                Some(Done::Backdrop(path, result)) => {
-                    if let Err(what) = self.canvas.backdrop.set_picture(context, &path, result) {
-                        let text = format!("The picture under the plan is missing: {what}");
-                        self.say(Severity::Warning, text, self.shown_path(&path));
-                    }
+                Some(Done::Backdrop(wanted, read)) => self.backdrop_was_read(wanted, &read),
+                Some(Done::PictureRead { document, use_, path, page, result }) => {
+                    self.picture_was_read(document, use_, &path, page, result);
                 }
             }
         }
@@ -371,12 +400,7 @@ impl App {
                 });
             }
         }
-        if let Some(path) = self.canvas.backdrop.wanted(plan.backdrop(), document.origin.folder()) {
-            self.background.start(move || {
-                let picture = backdrop::read_picture(&path);
-                Done::Backdrop(path, picture)
-            });
-        }
+        self.refresh_backdrop();
     }
 
     // Picking.

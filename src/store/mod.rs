@@ -2,6 +2,7 @@
 
 mod bundled;
 mod models;
+pub mod pictures;
 mod plan_file;
 mod save;
 

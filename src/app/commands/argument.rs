@@ -33,6 +33,8 @@ pub enum ArgumentKind {
     PlanFile,
     /// A file to write a plan to.
     NewPlanFile,
+    /// A file with a picture.
+    PictureFile,
     /// Any text, empty included.
     Text,
     /// A number with a decimal point.
@@ -141,6 +143,7 @@ impl ArgumentKind {
         match self {
             Self::PlanFile => "a file with a plan, or a folder".to_owned(),
             Self::NewPlanFile => "a file to write the plan to".to_owned(),
+            Self::PictureFile => "a file with a picture".to_owned(),
             Self::Text => "a text".to_owned(),
             Self::Number { unit, least, most } => format!("a number{unit} from {least} to {most}"),
             Self::Count => "1, 2, 3, …".to_owned(),
@@ -181,8 +184,8 @@ impl ArgumentKind {
             }
         };
         match self {
-            Self::PlanFile | Self::NewPlanFile if text.is_empty() => Err(self.expected()),
-            Self::PlanFile | Self::NewPlanFile => Ok(Value::Path(PathBuf::from(text))),
+            Self::PlanFile | Self::NewPlanFile | Self::PictureFile if text.is_empty() => Err(self.expected()),
+            Self::PlanFile | Self::NewPlanFile | Self::PictureFile => Ok(Value::Path(PathBuf::from(text))),
             Self::Text | Self::Function => Ok(Value::Text(text.trim().to_owned())),
             Self::Number { least, most, .. } => {
                 let number = text.trim().parse::<f64>().ok().filter(|number| (least..=most).contains(number));
@@ -277,6 +280,7 @@ impl ArgumentKind {
         Some(match self {
             Self::PlanFile
             | Self::NewPlanFile
+            | Self::PictureFile
             | Self::Text
             | Self::Number { .. }
             | Self::Count

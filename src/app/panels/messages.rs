@@ -17,6 +17,12 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         match act {
             None => {}
             Some(Act::Dismiss) => app.act("dismiss-message", &[&(first + index + 1).to_string()], ui.ctx()),
+            Some(Act::Remedy(Remedy::RelinkPicture)) => app.act("relink-picture", &[], ui.ctx()),
+            Some(Act::Remedy(Remedy::KeepPicture)) => {
+                if let Some(path) = app.shown_picture_word() {
+                    app.act("relink-picture", &[&path], ui.ctx());
+                }
+            }
             Some(Act::Remedy(Remedy::ShowNotes)) => app.act("import-notes", &["on"], ui.ctx()),
         }
     }

@@ -6,6 +6,7 @@ mod layers;
 mod messages;
 pub(super) mod notes;
 pub(super) mod palette;
+mod picture;
 mod plans;
 mod prediction;
 mod questions;
