@@ -23,3 +23,4 @@ pub mod snapping;
 pub mod store;
 pub mod study;
 pub mod topology;
+pub mod units;

@@ -14,8 +14,9 @@ use crate::features::{Analysis, NeighbourLabels, analyse};
 use crate::formats::{self, FileError, Note, Place, ReadError};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::labels::Schemes;
-use crate::plan::{ElementId, History, OpeningId, Plan, RoomId};
+use crate::plan::{ElementId, History, Meta, OpeningId, Plan, RoomId, Scale, ScaleOrigin, edit};
 use crate::predict::{Predictions, Predictor};
+use crate::snapping::PlanIndex;
 use crate::store;
 
 /// The plans that come with the program, each with its file's name, the one shown first in front.
@@ -38,6 +39,8 @@ pub(super) fn derived_sample(index: usize, plan: &Plan) -> Arc<Derived> {
 pub(super) enum Origin {
     /// One of [`bundled`], by its index.
     Bundled(usize),
+    /// Begun here, and in no file yet.
+    Untitled,
     /// A file; `storey` counts the plans in it from 0.
     File { path: PathBuf, storey: usize },
 }
@@ -46,7 +49,7 @@ impl Origin {
     /// The file, if it is one.
     pub(super) fn path(&self) -> Option<&Path> {
         match self {
-            Self::Bundled(_) => None,
+            Self::Bundled(_) | Self::Untitled => None,
             Self::File { path, .. } => Some(path),
         }
     }
@@ -60,6 +63,7 @@ impl Origin {
     pub(super) fn title(&self) -> String {
         match self {
             Self::Bundled(index) => bundled().get(*index).map_or("", |(_, plan)| &plan.meta().name).to_owned(),
+            Self::Untitled => "Untitled".to_owned(),
             Self::File { path, .. } => file_name(path),
         }
     }
@@ -70,6 +74,7 @@ impl Origin {
             Self::Bundled(index) => {
                 formats::file_stem(bundled().get(*index).map_or("plan", |(name, _)| name)).to_owned()
             }
+            Self::Untitled => "untitled".to_owned(),
             Self::File { path, .. } => formats::file_stem(&file_name(path)).to_owned(),
         }
     }
@@ -91,6 +96,15 @@ pub(super) struct Opened {
     pub stamp: Option<Stamp>,
 }
 
+impl Opened {
+    /// A plan on which nothing is drawn yet, of a typology yet unknown.
+    pub(super) fn untitled() -> Self {
+        let scale = Scale { origin: ScaleOrigin::Drawn, ..Scale::default() };
+        let plan = edit::set_meta(&Plan::default(), Meta { scale, ..Meta::default() });
+        Self { origin: Origin::Untitled, storeys: vec![plan], notes: Vec::new(), stamp: None }
+    }
+}
+
 /// Reads a plan from where it is.
 ///
 /// # Errors
@@ -101,6 +115,7 @@ pub(super) fn open(origin: Origin) -> Result<Opened, FileError> {
             let plan = bundled().get(*index).map(|(_, plan)| plan.clone()).unwrap_or_default();
             (vec![plan], Vec::new(), None)
         }
+        Origin::Untitled => return Ok(Opened::untitled()),
         Origin::File { path, storey } if path.is_dir() => {
             let first = plan_list::plans_in(path).into_iter().next();
             let Some(path) = first else {
@@ -165,7 +180,7 @@ impl Document {
     pub(super) fn new(number: u64, opened: Opened) -> Self {
         let Opened { origin, storeys, notes, stamp } = opened;
         let storey = match origin {
-            Origin::Bundled(_) => 0,
+            Origin::Bundled(_) | Origin::Untitled => 0,
             Origin::File { storey, .. } => storey,
         };
         let plan = storeys.get(storey).or(storeys.first()).cloned().unwrap_or_default();
@@ -187,6 +202,11 @@ impl Document {
     /// Whether something would be lost by closing.
     pub(super) fn is_changed(&self) -> bool {
         !self.plan().is_same_value(&self.saved) && *self.plan() != self.saved
+    }
+
+    /// The step of the history whose plan is the one on the disk, counted from 0; the last of several.
+    pub(super) fn saved_step(&self) -> Option<usize> {
+        self.history.steps().iter().rposition(|step| step.plan.is_same_value(&self.saved))
     }
 
     /// Notes that `plan` now stands in a file.
@@ -263,6 +283,8 @@ pub(super) struct Derived {
     /// which the tests exclude.
     pub predictions: Option<Predictions>,
     predictor: Option<Predictor>,
+    /// Corners, walls and boundaries by place: to snap to, and to select.
+    pub index: PlanIndex,
     openings: RTree<OpeningPlace>,
     reading_order: Vec<RoomId>,
 }
@@ -305,7 +327,8 @@ impl Derived {
         let drawing = Drawing::new(plan, &analysis).with_predictions(&labels);
         let reading_order = reading_order(&analysis);
         let openings = RTree::bulk_load(openings);
-        Self { analysis, drawing, predictions, predictor, openings, reading_order }
+        let index = PlanIndex::new(plan);
+        Self { analysis, drawing, predictions, predictor, index, openings, reading_order }
     }
 
     /// The rooms with a boundary as one reads: from the top left, line by line.
@@ -313,8 +336,8 @@ impl Derived {
         &self.reading_order
     }
 
-    /// What can be picked at a point: openings within `reach_m` metres, the nearest first, then rooms,
-    /// the smallest first.
+    /// What can be picked at a point: openings within `reach_m` metres, then walls, the nearest first, then
+    /// rooms, the smallest first. A wall is reached half as far beside it as an opening.
     pub(super) fn at(&self, point: Point, reach_m: f64) -> Vec<ElementId> {
         let place = [point.x, point.y];
         let mut near: Vec<(f64, OpeningId)> = self
@@ -326,7 +349,9 @@ impl Derived {
         let openings = near.into_iter().map(|(_, id)| ElementId::Opening(id));
         let shapes = &self.analysis.shapes;
         let rooms = shapes.at(point).into_iter().map(|index| ElementId::Room(shapes.all()[index].id));
-        openings.chain(rooms).collect()
+        let walls =
+            self.index.edges_near(point, reach_m / 2.0).into_iter().filter_map(|edge| edge.wall).map(ElementId::Wall);
+        openings.chain(walls).chain(rooms).collect()
     }
 }
 

@@ -20,6 +20,13 @@ impl App {
         self.dialogs.ask(Purpose::Open, folder, String::new(), &mut self.background);
     }
 
+    /// Shows a plan on which nothing is drawn yet.
+    pub(super) fn new_plan(&mut self) {
+        // What is still being read was asked for before.
+        self.opening = None;
+        self.request(Intent::Show(Box::new(Opened::untitled())));
+    }
+
     /// Reads a plan and shows it when it is there.
     pub(super) fn open(&mut self, origin: Origin) {
         self.opening = Some(origin.clone());
@@ -69,6 +76,7 @@ impl App {
     pub(super) fn open_listed(&mut self, origin: &Origin, context: &Context) {
         match origin {
             Origin::Bundled(index) => self.act("open-sample", &[sample_word(*index)], context),
+            Origin::Untitled => self.act("new-plan", &[], context),
             Origin::File { path, storey: 0 } => self.act("open", &[&path.to_string_lossy()], context),
             Origin::File { path, storey } => {
                 self.act("open", &[&path.to_string_lossy(), &(storey + 1).to_string()], context);
@@ -104,6 +112,7 @@ impl App {
             Intent::Close => {
                 self.document = None;
                 self.selection = Selection::default();
+                self.tools.drop_work();
                 self.canvas.forget();
             }
             // The recording first, or it would be lost.
@@ -115,6 +124,7 @@ impl App {
     fn show(&mut self, opened: Opened) {
         let folder = opened.origin.folder().map(Path::to_owned);
         self.selection = Selection::default();
+        self.tools.drop_work();
         self.canvas.forget();
         self.panels.forget();
         self.status.clear();
@@ -156,6 +166,10 @@ impl App {
             }
             (Some(Question::Drawing(change)), "along" | "stays") => {
                 self.apply_picture_change(&change, DrawingMoves::of_word(word));
+                return true;
+            }
+            (Some(Question::Delete { selected, .. }), "delete") => {
+                self.delete(&selected);
                 return true;
             }
             (Some(Question::Replace { path, then, .. }), "replace") => {

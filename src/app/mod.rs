@@ -12,6 +12,7 @@ mod dialogs;
 mod document;
 mod files;
 mod icons;
+mod labelling;
 mod offscreen;
 mod panels;
 mod picture;
@@ -23,9 +24,11 @@ mod search;
 mod selection;
 mod settings;
 mod theme;
+mod tools;
 mod widgets;
 mod window;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -51,9 +54,9 @@ use panels::{Field, FieldKind, Panels};
 use plan_list::PlanList;
 use replay::{Recorder, Recording};
 use settings::Settings;
+use tools::{DrawOptions, TakenBack, Toolbox};
 
 use crate::draw::{self, Fill, LabelColours, Palette};
-use crate::features::RoomStatus;
 use crate::formats::FileError;
 use crate::geometry::Vector;
 use crate::labels::{Label, Schemes};
@@ -72,6 +75,8 @@ pub struct App {
     list: PlanList,
     canvas: Canvas,
     selection: Selection,
+    tools: Toolbox,
+    draw_options: DrawOptions,
     layers: LayerSettings,
     /// Which models predict.
     predictor: Predictor,
@@ -113,6 +118,27 @@ struct LayerSettings {
     names: bool,
     backdrop: bool,
     grid: bool,
+    /// Rooms, walls and openings that cannot be selected or moved with the pointer.
+    locked: Locked,
+}
+
+/// What the pointer leaves alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Locked {
+    rooms: bool,
+    walls: bool,
+    openings: bool,
+}
+
+impl LayerSettings {
+    fn is_locked(&self, element: ElementId) -> bool {
+        match element {
+            ElementId::Room(_) => self.locked.rooms,
+            ElementId::Wall(_) => self.locked.walls,
+            ElementId::Opening(_) => self.locked.openings,
+            ElementId::Corner(_) => false,
+        }
+    }
 }
 
 impl Default for LayerSettings {
@@ -124,6 +150,7 @@ impl Default for LayerSettings {
             names: true,
             backdrop: true,
             grid: true,
+            locked: Locked::default(),
         }
     }
 }
@@ -182,6 +209,8 @@ enum Intent {
 enum Question {
     /// The plan has unsaved changes: save, give up, or keep working?
     Unsaved(Intent),
+    /// More would go than is selected: delete it all?
+    Delete { selected: Vec<ElementId>, gone: BTreeSet<ElementId> },
     /// Something else stands in the file to be saved: replace it?
     Replace { path: PathBuf, is_changed_since: bool, then: Option<Intent> },
     /// The picture is about to be scaled or turned: does the drawing go along?
@@ -230,6 +259,8 @@ impl App {
             list: PlanList::default(),
             canvas: Canvas::default(),
             selection: Selection::default(),
+            tools: Toolbox::default(),
+            draw_options: DrawOptions::default(),
             layers: LayerSettings::default(),
             predictor: Predictor::default(),
             theme: ThemeChoice::default(),
@@ -262,6 +293,7 @@ impl App {
         self.take_outcomes(&context);
         self.take_dropped_files(&context);
         self.take_close_request(&context);
+        self.take_tool_keys(&context);
         self.take_shortcuts(&context);
         self.refresh();
         panels::show(self, ui);
@@ -421,12 +453,6 @@ impl App {
         Some((id, self.plan()?.room(id)?))
     }
 
-    /// The label of the picked room, whoever gave it.
-    fn picked_label(&self) -> Option<Label> {
-        let (_, room) = self.picked_room()?;
-        RoomStatus::of(self.plan()?, &self.schemes, room).label()
-    }
-
     /// Picks the room that comes `step` later as one reads: from the top left, line by line. From
     /// nothing picked, the first or the last. `false` when there is no further one.
     fn pick_neighbour(&mut self, step: isize) -> bool {
@@ -483,19 +509,21 @@ impl App {
     // Editing. Every change goes through here and is a step of the history.
 
     fn edit(&mut self, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) {
-        let Some(document) = &mut self.document else { return };
-        match change(document.plan()) {
-            Ok(plan) => document.history.push(title, plan),
-            Err(error) => self.say(Severity::Warning, format!("Nothing was changed: {error}"), ""),
+        if let Err(error) = self.try_edit(title, change) {
+            self.say(Severity::Warning, format!("Nothing was changed: {error}"), "");
         }
     }
 
-    /// Gives the picked room a label, or takes its own away.
-    fn label_picked(&mut self, label: Option<Label>) {
-        let Some((id, _)) = self.picked_room() else { return };
-        let given = label.map(|label| RoomLabel { label, origin: LabelOrigin::Person });
-        let title = label.map_or("Label by function".to_owned(), |label| format!("Label {label}"));
-        self.edit(&title, |plan| edit::set_label(plan, id, given));
+    /// As [`App::edit`], but leaves it to the caller to say why nothing was changed.
+    fn try_edit(
+        &mut self,
+        title: &str,
+        change: impl FnOnce(&Plan) -> Result<Plan, EditError>,
+    ) -> Result<(), EditError> {
+        let Some(document) = &mut self.document else { return Ok(()) };
+        let plan = change(document.plan())?;
+        document.history.push(title, plan);
+        Ok(())
     }
 
     // Predicting.
@@ -546,6 +574,9 @@ impl App {
             self.edit(field.title(), |plan| field.apply(plan));
             // The field's room is the picked one: picking another ends the typing first.
             let (id, text) = field.as_command();
+            if id == "set-function" {
+                self.remember_function(&text);
+            }
             self.note_executed(id, vec![text]);
         }
     }
@@ -572,16 +603,34 @@ impl App {
         });
     }
 
-    fn undo(&mut self) {
+    /// Takes the last change back, or the last corner of what is being drawn. Gives whether the plan's
+    /// last step was undone.
+    fn undo(&mut self) -> bool {
+        if self.tools.take_back() == TakenBack::Corner {
+            return false;
+        }
         if let Some(title) = self.document.as_mut().and_then(|document| document.history.undo()) {
             self.status = format!("Undone: {title}");
         }
+        true
     }
 
     fn redo(&mut self) {
         if let Some(title) = self.document.as_mut().and_then(|document| document.history.redo()) {
             self.status = format!("Redone: {title}");
         }
+    }
+
+    /// Goes to a step of the history, counted from 0; gives why not where there is none.
+    fn jump_to_step(&mut self, step: usize) -> Result<(), String> {
+        let Some(document) = &mut self.document else { return Ok(()) };
+        let number = document.history.steps().len();
+        let Some(title) = document.history.steps().get(step).map(|step| step.title.clone()) else {
+            return Err(format!("the history has {}", panels::status::count(number, "step")));
+        };
+        document.history.jump_to(step);
+        self.status = format!("Step {} of {number}: {title}", step + 1);
+        Ok(())
     }
 
     /// The colours of the plan, in the window's theme.

@@ -1,4 +1,4 @@
-//! What a person has set, kept in a file from session to session: the shortcuts.
+//! What a person has set, kept in a file from session to session: the shortcuts, the units, the grid.
 //!
 //! The file is JSON. What this version does not know in it is kept. A file that cannot be read is
 //! moved aside and never overwritten.
@@ -11,12 +11,16 @@ use serde_json::{Map, Value, json};
 use super::commands::{self, COMMANDS, Command, Keys};
 use super::{Message, Severity};
 use crate::store;
+use crate::units::Units;
 
 /// Names the settings file in place of the system's; empty for none: nothing is read or kept.
 const VARIABLE: &str = "ENFILADE_SETTINGS";
 
 /// The version of the file that is written.
 const VERSION: u64 = 1;
+
+/// Lines of the grid are at least so far apart, and at most, in metres.
+pub(super) const GRID_RANGE_M: std::ops::RangeInclusive<f64> = 0.001..=1000.0;
 
 /// No settings file is larger.
 const MOST_BYTES: u64 = 1 << 20;
@@ -38,6 +42,9 @@ pub(super) struct Settings {
     kept: Map<String, Value>,
     /// The shortcuts that are not those the commands come with.
     changed: BTreeMap<&'static str, Vec<Keys>>,
+    units: Units,
+    /// Distance of the grid's lines in metres; `None` for as the zoom has it.
+    grid_m: Option<f64>,
 }
 
 /// Why a command does not get a shortcut.
@@ -115,7 +122,11 @@ impl Settings {
                 };
             }
         };
-        let mut settings = Self { file: Some(file), kept, changed: BTreeMap::new() };
+        // A word or a number of another version leaves what the program comes with.
+        let units = kept.get("units").and_then(Value::as_str).and_then(Units::from_name).unwrap_or_default();
+        let is_grid = |grid_m: &f64| GRID_RANGE_M.contains(grid_m);
+        let grid_m = kept.get("grid_m").and_then(Value::as_f64).filter(is_grid);
+        let mut settings = Self { file: Some(file), kept, changed: BTreeMap::new(), units, grid_m };
         problems.extend(settings.read_shortcuts());
         (settings, problems)
     }
@@ -148,6 +159,29 @@ impl Settings {
         let place = file.map(|file| file.to_string()).unwrap_or_default();
         let text = "Some shortcuts in your settings cannot be used".to_owned();
         (!wrong.is_empty()).then(|| warning(text, format!("{}\n{place}", wrong.join("\n"))))
+    }
+
+    /// In which units lengths and areas are shown and typed.
+    pub(super) fn units(&self) -> Units {
+        self.units
+    }
+
+    pub(super) fn set_units(&mut self, units: Units) {
+        self.units = units;
+        self.kept.insert("units".to_owned(), json!(units.name()));
+    }
+
+    /// The distance of the grid's lines in metres; `None` for as the zoom has it.
+    pub(super) fn grid_m(&self) -> Option<f64> {
+        self.grid_m
+    }
+
+    pub(super) fn set_grid_m(&mut self, grid_m: Option<f64>) {
+        self.grid_m = grid_m;
+        match grid_m {
+            Some(grid_m) => drop(self.kept.insert("grid_m".to_owned(), json!(grid_m))),
+            None => drop(self.kept.shift_remove("grid_m")),
+        }
     }
 
     /// The shortcuts of a command, the first of which is shown.

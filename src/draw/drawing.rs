@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 use super::openings::OpeningDrawing;
 use super::scene::{Frame, Group, Item, Layer, Length, Scene, View};
 use super::walls::{self, Faces, Walls};
-use super::{Fill, Rgba, Style, names};
+use super::{Fill, Grid, Rgba, Style, names};
 use crate::features::{Analysis, RoomStatus};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::labels::{Label, normalised_function};
 use crate::plan::{Joint, Meta, Plan, RoomId};
+use crate::units::Units;
 
 /// A plan as shapes, before zoom and colours: made once a plan, asked for a [`Scene`] once a view.
 pub struct Drawing {
@@ -403,18 +404,13 @@ const THINNEST_WALL_PX: f64 = 1.5;
 /// Thickness in metres of the thinner walls seen: a wall of it is as thick on the screen as drawn.
 const TYPICAL_WALL_M: f64 = 0.1;
 
-/// Distance of the grid's lines in metres: the least of 0.1, 1, 10, … that keeps them 12 pixels apart.
-pub fn grid_step_m(px_per_m: f64) -> Option<f64> {
-    [0.1, 1.0, 10.0, 100.0, 1000.0].into_iter().find(|step| step * px_per_m >= 12.0)
-}
-
 /// The grid over a part of the plan.
 pub(super) fn grid(style: &Style, px_per_m: f64, seen: Bounds) -> Vec<Group> {
     let palette = style.palette();
-    let Some(step_m) = grid_step_m(px_per_m) else { return Vec::new() };
+    let Some(Grid { step_m, lines }) = style.grid(px_per_m) else { return Vec::new() };
     let mut items = Vec::new();
     let mut line = |from: Point, to: Point, index: i64| {
-        let colour = if index % 10 == 0 { palette.grid_major } else { palette.grid };
+        let colour = if index % lines == 0 { palette.grid_major } else { palette.grid };
         items.push(Item::Line { points: vec![from, to], closed: false, colour, width: Length::Px(1.0), dash: None });
     };
     let indices = |low: f64, high: f64| (low / step_m).ceil() as i64..=(high / step_m).floor() as i64;
@@ -443,7 +439,7 @@ fn room_title(room: &RoomDrawing) -> String {
         (false, true) => room.name.clone(),
         (false, false) => format!("{}: {}", room.name, normalised_function(&room.function)),
     };
-    format!("{head}, {label}, {}", names::area_text(room.area_m2))
+    format!("{head}, {label}, {}", Units::Metric.area(room.area_m2))
 }
 
 /// The pieces of boundaries that are left beside openings that stand in no wall.

@@ -24,10 +24,10 @@ pub mod svg;
 mod walls;
 
 pub use colour::Rgba;
-pub use drawing::{Drawing, grid_step_m};
+pub use drawing::Drawing;
 pub use palette::{LabelColours, Palette, Theme};
 pub use scene::{Anchor, Dash, Frame, Group, Item, Layer, Length, Scene, Text, View, Weight};
-pub use style::{Fill, Layers, SMALLEST_TEXT_PX, Style};
+pub use style::{Fill, Grid, Layers, SMALLEST_TEXT_PX, Style};
 
 use crate::features::Analysis;
 use crate::plan::Plan;

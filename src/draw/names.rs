@@ -7,11 +7,6 @@ use super::scene::{Anchor, Frame, Group, Item, Layer, Text, View, Weight};
 use super::{Rgba, SMALLEST_TEXT_PX, Style};
 use crate::geometry::{Bounds, Point, Segment, Vector, polygon};
 
-/// An area for people: '12.4 m²', one decimal as on architects' plans, none from 1000 m² on.
-pub fn area_text(area_m2: f64) -> String {
-    if area_m2 >= 999.95 { format!("{area_m2:.0} m²") } else { format!("{area_m2:.1} m²") }
-}
-
 /// A function as written in a file, for people: 'LIVING_ROOM' and 'living room' become 'Living room'.
 pub fn sentence_case(function: &str) -> String {
     let words = crate::labels::normalised_function(function);
@@ -341,7 +336,7 @@ fn blocks(room: &RoomDrawing, style: &Style) -> [Vec<Block>; 3] {
     } else {
         room.name.split_whitespace().collect::<Vec<_>>().join(" ")
     };
-    let area = if style.layers.areas && room.area_m2 > 0.0 { area_text(room.area_m2) } else { String::new() };
+    let area = if style.layers.areas && room.area_m2 > 0.0 { style.units.area(room.area_m2) } else { String::new() };
     let wraps: Vec<Vec<String>> = if name.is_empty() { vec![Vec::new()] } else { wrapped(&name) };
     let mut sizes = Vec::new();
     for factor in [1.0, 0.86, 0.74] {
@@ -577,7 +572,5 @@ mod tests {
     #[test]
     fn functions_read_as_sentences() {
         assert_eq!(sentence_case("LIVING_DINING"), "Living dining");
-        assert_eq!(area_text(12.44), "12.4 m²");
-        assert_eq!(area_text(1234.5), "1234 m²");
     }
 }

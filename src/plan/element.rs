@@ -186,6 +186,16 @@ pub enum LeafSide {
     Right,
 }
 
+impl LeafSide {
+    /// The opposite side.
+    pub const fn other(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+        }
+    }
+}
+
 /// A picture under the plan, to trace over.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Backdrop {

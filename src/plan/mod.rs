@@ -108,6 +108,14 @@ impl Plan {
         self.openings.iter().map(|(&id, opening)| (id, opening.as_ref()))
     }
 
+    /// The identities of all elements, sorted.
+    pub fn elements(&self) -> impl Iterator<Item = ElementId> + '_ {
+        let corners = self.corners.keys().copied().map(ElementId::Corner);
+        let walls = self.walls.keys().copied().map(ElementId::Wall);
+        let rooms = self.rooms.keys().copied().map(ElementId::Room);
+        corners.chain(walls).chain(rooms).chain(self.openings.keys().copied().map(ElementId::Opening))
+    }
+
     /// Whether an element is part of the plan.
     pub fn has(&self, element: ElementId) -> bool {
         match element {
@@ -170,4 +178,14 @@ impl Plan {
             && self.openings.ptr_eq(&other.openings)
             && self.backdrop.as_ref().map(Arc::as_ptr) == other.backdrop.as_ref().map(Arc::as_ptr)
     }
+}
+
+/// The edges of a ring, the closing one last.
+pub(crate) fn ring_edges<T: Copy>(ring: &[T]) -> impl Iterator<Item = (T, T)> + '_ {
+    ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| (a, b))
+}
+
+/// The corners of an edge, the smaller first: an edge has no direction.
+pub(crate) fn ordered(a: CornerId, b: CornerId) -> [CornerId; 2] {
+    if a < b { [a, b] } else { [b, a] }
 }

@@ -20,6 +20,11 @@ impl RoomShape {
         polygon::area(&self.outer, &self.holes)
     }
 
+    /// The length in metres of all its rings, holes included.
+    pub fn perimeter_m(&self) -> f64 {
+        self.rings().map(|ring| polygon::perimeter(ring)).sum()
+    }
+
     /// Where a point lies in relation to the room.
     pub fn locate(&self, point: Point) -> Location {
         if self.bounds.contains(point) { polygon::locate(&self.outer, &self.holes, point) } else { Location::Outside }

@@ -10,9 +10,10 @@ use crate::app::canvas::{room_title, sentence};
 use crate::app::document::bundled;
 use crate::features::RoomStatus;
 use crate::formats;
-use crate::geometry::Point;
-use crate::labels::{Meaning, Typology};
+use crate::geometry::{Point, trim_m};
+use crate::labels::Typology;
 use crate::plan::{COORDINATE_LIMIT_M, ElementId, Joint, Opening, OpeningId, Plan, Room, RoomId};
+use crate::units::Units;
 
 /// Something a command takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +40,8 @@ pub enum ArgumentKind {
     Text,
     /// A number with a decimal point.
     Number { unit: &'static str, least: f64, most: f64 },
+    /// A length, typed in the units that are set or with its own; see [`crate::units`].
+    Length { least_m: f64, most_m: f64 },
     /// 1, 2, 3, …
     Count,
     /// A room of the open plan: its name, where no other room has it, or its id.
@@ -130,6 +133,8 @@ pub struct Choice {
     pub title: String,
     /// What tells it from others of the same title; may be empty.
     pub detail: String,
+    /// At the end: how often there is such a thing; may be empty.
+    pub trail: String,
     /// What a room is labelled, or a function means: for a swatch.
     pub status: Option<RoomStatus>,
 }
@@ -146,6 +151,13 @@ impl ArgumentKind {
             Self::PictureFile => "a file with a picture".to_owned(),
             Self::Text => "a text".to_owned(),
             Self::Number { unit, least, most } => format!("a number{unit} from {least} to {most}"),
+            Self::Length { least_m, most_m } => {
+                format!(
+                    "a length from {} to {}",
+                    Units::Metric.exact_length(least_m),
+                    Units::Metric.exact_length(most_m)
+                )
+            }
             Self::Count => "1, 2, 3, …".to_owned(),
             Self::Room => "the name of a room of this plan, or its id".to_owned(),
             Self::Opening => "the id of an opening of this plan".to_owned(),
@@ -164,6 +176,11 @@ impl ArgumentKind {
                 or_list(&words)
             }
         }
+    }
+
+    /// Whether it can be something else than its choices.
+    pub(in crate::app) const fn is_open(self) -> bool {
+        matches!(self, Self::Function)
     }
 
     /// Reads an argument.
@@ -190,6 +207,11 @@ impl ArgumentKind {
             Self::Number { least, most, .. } => {
                 let number = text.trim().parse::<f64>().ok().filter(|number| (least..=most).contains(number));
                 number.map(Value::Number).ok_or_else(|| self.expected())
+            }
+            Self::Length { least_m, most_m } => {
+                let length_m = app.units().parse_length(text).map_err(|error| error.to_string())?;
+                let length_m = trim_m(length_m);
+                if (least_m..=most_m).contains(&length_m) { Ok(Value::Number(length_m)) } else { Err(self.expected()) }
             }
             Self::Count => {
                 let count = text.trim().parse::<usize>().ok().filter(|count| *count > 0);
@@ -253,6 +275,8 @@ impl ArgumentKind {
         match value {
             Value::Path(path) => path.to_string_lossy().into_owned(),
             Value::Text(text) => text.clone(),
+            // With its unit: another's numbers without one may mean feet.
+            Value::Number(number) if matches!(self, Self::Length { .. }) => format!("{number}m"),
             Value::Number(number) => number.to_string(),
             Value::Count(count) => count.to_string(),
             Value::Room(id) => app.plan().map_or_else(|| id.to_string(), |plan| room_word(plan, *id)),
@@ -275,6 +299,7 @@ impl ArgumentKind {
             word: word.to_owned(),
             title: title.to_owned(),
             detail: String::new(),
+            trail: String::new(),
             status: None,
         };
         Some(match self {
@@ -283,26 +308,14 @@ impl ArgumentKind {
             | Self::PictureFile
             | Self::Text
             | Self::Number { .. }
+            | Self::Length { .. }
             | Self::Count
             | Self::Keys
             | Self::Elements
             | Self::Points { .. } => return None,
             Self::Room => room_choices(app),
             Self::Opening => opening_choices(app),
-            Self::Function => {
-                let typology = app.plan().and_then(|plan| plan.meta().typology.as_ref())?;
-                let status = |meaning| match meaning {
-                    Meaning::Labelled(label) => RoomStatus::Labelled(label),
-                    Meaning::NotClassified => RoomStatus::NotClassified,
-                };
-                let functions = app.schemes.functions(typology);
-                let choice = |(function, meaning)| Choice {
-                    status: Some(status(meaning)),
-                    detail: status(meaning).label().map_or("not classified", crate::labels::Label::name).to_owned(),
-                    ..plain(function, &sentence(function))
-                };
-                functions.map(choice).collect()
-            }
+            Self::Function => app.function_choices(),
             Self::Typology => {
                 let known = app.schemes.typologies().map(|typology| plain(typology.as_str(), &typology.title()));
                 known.chain([plain(UNKNOWN, "Unknown")]).collect()
@@ -428,10 +441,16 @@ fn room_choices(app: &App) -> Vec<Choice> {
         // As `room_word` has it, quicker for thousands of rooms.
         let word = if is_unique && is_own_word(&room.name) { room.name.clone() } else { id.to_string() };
         let area = document.derived().and_then(|derived| derived.analysis.shapes.get(id));
-        let area = area.map(|shape| format!("{:.1} m²", shape.area_m2()));
+        let area = area.map(|shape| app.units().area(shape.area_m2()));
         let detail = [status.label().map(|label| label.name().to_owned()), area];
         let detail: Vec<String> = detail.into_iter().flatten().collect();
-        Some(Choice { word, title: room_title(room), detail: detail.join(", "), status: Some(status) })
+        Some(Choice {
+            word,
+            title: room_title(room),
+            detail: detail.join(", "),
+            trail: String::new(),
+            status: Some(status),
+        })
     };
     ids.into_iter().filter_map(choice).collect()
 }
@@ -452,6 +471,7 @@ fn opening_choices(app: &App) -> Vec<Choice> {
             word: id.to_string(),
             title: sentence(opening.kind.name()),
             detail: detail.unwrap_or_default(),
+            trail: String::new(),
             status: None,
         }
     };

@@ -41,7 +41,11 @@ pub struct Command {
     pub menu: Option<(Menu, u8)>,
     /// Its icon in the tool bar, and the group it stands in; `None` for not there.
     pub tool: Option<(Icon, u8)>,
+    /// Its icon in the strip of drawing tools, and the group it stands in; `None` for not there.
+    pub strip: Option<(Icon, u8)>,
     availability: fn(&App) -> Availability,
+    /// When it can be called with all its arguments, where that needs less.
+    complete_availability: Option<fn(&App) -> Availability>,
     action: Action,
 }
 
@@ -65,6 +69,8 @@ enum Action {
         run: fn(&mut App, &Values, &Context) -> Ran,
         /// Asks for what is missing; the palette does without.
         ask: Option<fn(&mut App, &Context)>,
+        /// For what is on or off: which it is.
+        is_on: Option<fn(&App) -> bool>,
     },
 }
 
@@ -72,6 +78,8 @@ enum Action {
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Ran {
     Done,
+    /// It was done, and running it again with these arguments does the same.
+    DoneWith(Vec<String>),
     /// It asks for something, or shows it; the answer is a command of its own.
     Asks,
     /// Nothing was done, and why.
@@ -130,7 +138,8 @@ impl Command {
     pub fn is_on(&self, app: &App) -> Option<bool> {
         match self.action {
             Action::Switch { is_on, .. } | Action::Choose { is_on, .. } => Some(is_on(app)),
-            Action::Plain(_) | Action::With { .. } => None,
+            Action::With { is_on, .. } => is_on.map(|is_on| is_on(app)),
+            Action::Plain(_) => None,
         }
     }
 

@@ -11,6 +11,7 @@ use crate::app::backdrop::PictureChange;
 use crate::app::panels::palette::Palette;
 use crate::app::settings::Settings;
 use crate::app::{App, Question, Severity};
+use crate::units::Units;
 
 /// Why a command was not run.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -91,7 +92,9 @@ impl App {
         {
             return Err(not_now(format!("answer '{}' first", question.title(self))));
         }
-        (command.availability)(self).map_err(|reason| not_now(reason.to_owned()))?;
+        let is_complete = !arguments.is_empty() && arguments.len() == command.arguments.len();
+        let availability = command.complete_availability.filter(|_| is_complete).unwrap_or(command.availability);
+        availability(self).map_err(|reason| not_now(reason.to_owned()))?;
         let values = self.read_arguments(command, arguments)?;
         self.run_with_values(command, values, context).map_err(not_now)
     }
@@ -138,6 +141,7 @@ impl App {
             }
             Action::With { run, .. } if is_complete => match run(self, &values, context) {
                 Ran::Done => self.note_executed(command.id, written),
+                Ran::DoneWith(arguments) => self.note_executed(command.id, arguments),
                 Ran::Asks => {}
                 Ran::Refused(reason) => return Err(reason),
             },
@@ -186,6 +190,10 @@ impl Question {
             }
             Self::Drawing(PictureChange::Measurements(_)) => "Scale the drawing along with the picture?".to_owned(),
             Self::Drawing(PictureChange::Turn { .. }) => "Turn the drawing along with the picture?".to_owned(),
+            Self::Delete { selected, .. } if selected.len() == 1 => {
+                format!("Delete the {} and what depends on it?", selected[0].kind())
+            }
+            Self::Delete { selected, .. } => format!("Delete {} elements and what depends on them?", selected.len()),
             Self::Replace { path, .. } => format!("Replace {}?", crate::app::document::file_name(path)),
         }
     }
@@ -195,6 +203,7 @@ impl Question {
         match self {
             Self::Unsaved(_) => &[("save", "Save"), ("discard", "Don't save"), ("cancel", "Cancel")],
             Self::Drawing(_) => &[("along", "Drawing too"), ("stays", "Picture only"), ("cancel", "Cancel")],
+            Self::Delete { .. } => &[("delete", "Delete"), ("cancel", "Cancel")],
             Self::Replace { .. } => &[("elsewhere", "Save as…"), ("replace", "Replace"), ("cancel", "Cancel")],
         }
     }
@@ -233,6 +242,22 @@ impl App {
 
     pub(super) fn reset_all_shortcuts(&mut self) {
         self.settings.reset_all_keys();
+        self.keep_settings();
+    }
+
+    /// In which units lengths and areas are shown and typed.
+    pub fn units(&self) -> Units {
+        self.settings.units()
+    }
+
+    pub(super) fn set_units(&mut self, units: Units) {
+        self.settings.set_units(units);
+        self.keep_settings();
+    }
+
+    /// Sets the distance of the grid's lines in metres; `None` for as the zoom has it.
+    pub(super) fn set_grid_m(&mut self, grid_m: Option<f64>) {
+        self.settings.set_grid_m(grid_m);
         self.keep_settings();
     }
 

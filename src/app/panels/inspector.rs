@@ -19,6 +19,7 @@ use crate::plan::{
     ElementId, Joint, LabelOrigin, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, ScaleOrigin,
 };
 use crate::topology::RoomShape;
+use crate::units::Units;
 
 /// What a person did in the inspector.
 enum Act {
@@ -130,7 +131,11 @@ impl Inspected<'_> {
         section(ui, "Features");
         match analysed {
             None => drop(caption(ui, "Being worked out…")),
-            Some(analysed) => features(ui, analysed),
+            Some(analysed) => {
+                let perimeter_m =
+                    derived.and_then(|derived| derived.analysis.shapes.get(id)).map(RoomShape::perimeter_m);
+                features(ui, analysed, perimeter_m, self.app.units());
+            }
         }
         if let Some(derived) = derived {
             hairline(ui);
@@ -313,7 +318,7 @@ impl Inspected<'_> {
                     Joint::Outside => ("Outside".to_owned(), ElementId::Opening(opening_id)),
                 };
                 let trail = match self.plan.opening_segment(opening) {
-                    Some(segment) => format!("{kind} {:.2} m", segment.length()),
+                    Some(segment) => format!("{kind} {}", self.app.units().length(segment.length())),
                     None => kind.to_owned(),
                 };
                 let row = Row::new(Lead::Icon(opening_icon(opening.kind)), &text).trail(&trail);
@@ -350,21 +355,22 @@ impl Inspected<'_> {
             .collect();
         if let Some(&(_, thickness_m)) = walls.first() {
             let length_m: f64 = walls.iter().map(|(length_m, _)| length_m).sum();
-            value(ui, if walls.len() == 1 { "Length" } else { "Length together" }, &format!("{length_m:.2} m"));
+            value(ui, if walls.len() == 1 { "Length" } else { "Length together" }, &self.app.units().length(length_m));
             if walls.iter().all(|(_, other_m)| *other_m == thickness_m) {
-                value(ui, "Thickness", &format!("{:.0} mm", thickness_m * 1000.0));
+                value(ui, "Thickness", &thickness(self.app.units(), thickness_m));
             }
         }
         let areas_m2: Vec<f64> = self.document.derived().map_or_else(Vec::new, |derived| {
             selection.rooms().filter_map(|id| derived.analysis.shapes.get(id)).map(RoomShape::area_m2).collect()
         });
         if !areas_m2.is_empty() {
-            value(ui, "Area together", &format!("{:.1} m²", areas_m2.iter().sum::<f64>()));
+            value(ui, "Area together", &self.app.units().area(areas_m2.iter().sum()));
         }
         if let Some(ElementId::Corner(id)) = selection.one()
             && let Some(place) = self.plan.position(id)
         {
-            value(ui, "Place", &format!("{:.3}, {:.3} m", place.x, place.y));
+            let units = self.app.units();
+            value(ui, "Place", &format!("{}, {}", units.exact_length(place.x), units.exact_length(place.y)));
         }
         None
     }
@@ -379,7 +385,7 @@ impl Inspected<'_> {
         header(ui, None, Some(opening_icon(opening.kind)), &sentence(opening.kind.name()), subtitle);
         ui.add_space(6.0);
         if let Some(segment) = self.plan.opening_segment(opening) {
-            value(ui, "Width", &format!("{:.2} m", segment.length()));
+            value(ui, "Width", &self.app.units().length(segment.length()));
         }
         if !opening.kind.is_passable() {
             caption(ui, "Windows are for drawing only: they join nothing.");
@@ -458,8 +464,10 @@ impl Inspected<'_> {
         value(ui, "Openings", &doors.to_string());
         value(ui, "Windows", &(plan.openings().len() - doors).to_string());
         if let Some(derived) = self.document.derived() {
-            let area_m2: f64 = derived.analysis.shapes.all().iter().map(crate::topology::RoomShape::area_m2).sum();
-            value(ui, "Floor area", &format!("{area_m2:.1} m²"));
+            // A sum of nothing is minus zero.
+            let areas_m2 = derived.analysis.shapes.all().iter().map(crate::topology::RoomShape::area_m2);
+            let area_m2 = areas_m2.fold(0.0, |sum, area_m2| sum + area_m2);
+            value(ui, "Floor area", &self.app.units().area(area_m2));
             self.gaps(ui, derived);
         }
         if let Some(predictions) = self.document.derived().and_then(|derived| derived.predictions.as_ref())
@@ -553,7 +561,7 @@ fn header(
 }
 
 /// `F_r` with names that can be read.
-fn features(ui: &mut Ui, analysed: &RoomAnalysis) {
+fn features(ui: &mut Ui, analysed: &RoomAnalysis, perimeter_m: Option<f64>, units: Units) {
     let Some(features) = &analysed.features else {
         let why = if analysed.status == RoomStatus::NotClassified {
             "Rooms that are not classified have none: they count like the outside."
@@ -566,10 +574,12 @@ fn features(ui: &mut Ui, analysed: &RoomAnalysis) {
     ui.spacing_mut().item_spacing.y = 0.0;
     let axes = analysed.axes.map(|axes| {
         let extent = if axes.minor_is_extent { " (extent: no wall is perpendicular)" } else { "" };
-        format!("Longest wall {:.2} m, longest wall perpendicular to it {:.2} m{extent}", axes.major_m, axes.minor_m)
+        let [major, minor] = [axes.major_m, axes.minor_m].map(|length_m| units.length(length_m));
+        format!("Longest wall {major}, longest wall perpendicular to it {minor}{extent}")
     });
     let names = Features::NAMES;
-    feature(ui, "Area", names[0], &format!("{:.1} m²", features.area_m2), false, None);
+    let around = perimeter_m.map(|perimeter_m| format!("Perimeter {}", units.length(perimeter_m)));
+    feature(ui, "Area", names[0], &units.area(features.area_m2), false, around.as_deref());
     feature(ui, "Axes ratio", names[1], &format!("{:.2}", features.axes_ratio), false, axes.as_deref());
     feature(ui, "Openings", names[2], &features.doors.to_string(), features.doors == 0, None);
     for label in Label::ALL {
@@ -604,6 +614,14 @@ fn feature(ui: &mut Ui, name: &str, symbol: &str, number: &str, is_zero: bool, h
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {number}")));
     if let Some(help) = help {
         response.on_hover_text(help);
+    }
+}
+
+/// A wall's thickness, which is stated in millimetres.
+fn thickness(units: Units, thickness_m: f64) -> String {
+    match units {
+        Units::Metric => format!("{:.0} mm", thickness_m * 1000.0),
+        Units::Imperial => units.length(thickness_m),
     }
 }
 

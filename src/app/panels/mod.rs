@@ -1,6 +1,7 @@
 //! The panels around the canvas, one file each.
 
 mod about;
+mod history;
 mod inspector;
 mod layers;
 mod messages;
@@ -12,6 +13,8 @@ mod prediction;
 mod questions;
 pub(super) mod shortcuts;
 pub(super) mod status;
+mod tool_options;
+mod tool_strip;
 mod top_bar;
 pub(super) mod welcome;
 
@@ -27,12 +30,21 @@ use crate::plan::{Plan, RoomId};
 /// So many points at least the list of plans keeps above the layers: its title and two plans.
 const LEAST_PLANS_HEIGHT: f32 = 110.0;
 
+/// Height in points of the history below the inspector, and the least it can be made.
+const HISTORY_HEIGHT: f32 = 240.0;
+const LEAST_HISTORY_HEIGHT: f32 = 90.0;
+
+/// So many points at least the inspector keeps above the history.
+const LEAST_INSPECTOR_HEIGHT: f32 = 160.0;
+
 /// What the panels remember.
 pub(super) struct Panels {
     /// Whether the panel of plans and layers is shown.
     pub left: bool,
     /// Whether the inspector is shown.
     pub right: bool,
+    /// Whether the history is shown, below the inspector.
+    pub history: bool,
     /// The text of a room whose field is to take the keyboard.
     pub focus: Option<FieldKind>,
     /// Whether the notes of the import are shown.
@@ -41,6 +53,8 @@ pub(super) struct Panels {
     pub palette: Option<Palette>,
     /// Commands that were done from the palette, the last one first.
     pub recent: Vec<&'static str>,
+    /// Functions that were set, the last one first, as schemes compare them.
+    pub recent_functions: Vec<String>,
     /// The shortcuts, while they are shown.
     pub sheet: Option<Sheet>,
     /// Whether it is shown what Enfilade is.
@@ -59,10 +73,12 @@ impl Default for Panels {
         Self {
             left: true,
             right: true,
+            history: false,
             focus: None,
             notes: false,
             palette: None,
             recent: Vec::new(),
+            recent_functions: Vec::new(),
             sheet: None,
             about: false,
             left_rect: None,
@@ -143,6 +159,24 @@ impl Panels {
     }
 }
 
+/// The inspector, and the history below it.
+fn show_right(app: &mut App, ui: &mut Ui) {
+    match (app.panels.right, app.panels.history) {
+        (_, false) => inspector::show(app, ui),
+        (false, true) => history::show(app, ui),
+        (true, true) => {
+            let most = (ui.available_height() - LEAST_INSPECTOR_HEIGHT).max(LEAST_HISTORY_HEIGHT);
+            Panel::bottom("history")
+                .resizable(true)
+                .default_size(HISTORY_HEIGHT.min(most))
+                .size_range(LEAST_HISTORY_HEIGHT..=most)
+                .frame(Frame::new().fill(theme::colours(ui.visuals()).panel))
+                .show(ui, |ui| history::show(app, ui));
+            inspector::show(app, ui);
+        }
+    }
+}
+
 /// Shows the window.
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let colours = theme::colours(ui.visuals());
@@ -185,13 +219,20 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             });
         app.panels.left_rect = Some(shown.response.rect);
     }
-    if app.panels.right && app.document.is_some() {
+    if (app.panels.right || app.panels.history) && app.document.is_some() {
         let shown = Panel::right("inspector")
             .default_size(300.0)
             .size_range(240.0..=520.0)
             .frame(frame(Margin::ZERO))
-            .show(ui, |ui| inspector::show(app, ui));
+            .show(ui, |ui| show_right(app, ui));
         app.panels.right_rect = Some(shown.response.rect);
+    }
+    if app.document.is_some() {
+        Panel::left("tools")
+            .exact_size(tool_strip::WIDTH)
+            .resizable(false)
+            .frame(frame(Margin::symmetric(6, 8)))
+            .show(ui, |ui| tool_strip::show(app, ui));
     }
     CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
@@ -203,6 +244,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         }
         welcome::show_drop_target(ui);
     });
+    tool_options::show(app, ui);
     status::show(app, &mut ui.new_child(UiBuilder::new().max_rect(status_rect).id_salt("status")));
     notes::show(app, ui);
     about::show(app, ui);

@@ -47,6 +47,10 @@ struct Asking {
     command: &'static Command,
     /// The arguments that were given already.
     given: Vec<String>,
+    /// The arguments behind the one that is asked for.
+    rest: Vec<String>,
+    /// What the command is about, beside its title; may be empty.
+    about: String,
     /// What the argument that comes next can be, once it is known; `None` within for anything.
     choices: Option<Option<Vec<Choice>>>,
     /// Why what was typed is not taken; empty when nothing is wrong.
@@ -57,7 +61,8 @@ struct Asking {
 
 impl Asking {
     fn new(command: &'static Command, given: Vec<String>) -> Self {
-        Self { command, given, choices: None, error: String::new(), is_from_list: false }
+        let (rest, about, error) = (Vec::new(), String::new(), String::new());
+        Self { command, given, rest, about, choices: None, error, is_from_list: false }
     }
 
     /// The argument that is asked for.
@@ -75,6 +80,22 @@ impl Palette {
     /// Asks for what a command needs after some given arguments.
     pub(in crate::app) fn asking(command: &'static Command, given: Vec<String>) -> Self {
         Self { asking: Some(Asking::new(command, given)), ..Self::default() }
+    }
+
+    /// Says what the command is about, with the arguments behind the one that is asked for.
+    pub(in crate::app) fn about(mut self, about: &str, rest: Vec<String>) -> Self {
+        if let Some(asking) = &mut self.asking {
+            (asking.about, asking.rest) = (about.to_owned(), rest);
+        }
+        self
+    }
+
+    /// Offers these choices.
+    pub(in crate::app) fn with_choices(mut self, choices: Vec<Choice>) -> Self {
+        if let Some(asking) = &mut self.asking {
+            asking.choices = Some(Some(choices));
+        }
+        self
     }
 
     /// Puts a text into the field, to be changed.
@@ -161,7 +182,21 @@ impl Palette {
         let argument = asking.argument();
         // Nothing changes while the palette is open.
         let choices = asking.choices.get_or_insert_with(|| argument.and_then(|argument| argument.kind.choices(app)));
-        argument_lines(app, ui, choices.as_deref().unwrap_or_default(), &mut search)
+        let mut lines = argument_lines(app, ui, choices.as_deref().unwrap_or_default(), &mut search);
+        let typed = self.query.trim();
+        let is_choice = choices.iter().flatten().any(|choice| choice.word.eq_ignore_ascii_case(typed));
+        if argument.is_some_and(|argument| argument.kind.is_open()) && !typed.is_empty() && !is_choice {
+            lines.push(Line {
+                title: format!("‘{typed}’"),
+                characters: Vec::new(),
+                detail: "as typed".to_owned(),
+                trail: String::new(),
+                lead: LineLead::None,
+                is_available: true,
+                taken: Taken::Argument(typed.to_owned()),
+            });
+        }
+        lines
     }
 
     // What is done. Each gives whether the palette stays open.
@@ -198,12 +233,12 @@ impl Palette {
         }
         asking.given.push(word);
         asking.choices = None;
-        if asking.command.asked_in_palette(asking.given.len()).is_some() {
+        if asking.rest.is_empty() && asking.command.asked_in_palette(asking.given.len()).is_some() {
             self.query.clear();
             self.at = 0;
             return true;
         }
-        let given: Vec<&str> = asking.given.iter().map(String::as_str).collect();
+        let given: Vec<&str> = asking.given.iter().chain(&asking.rest).map(String::as_str).collect();
         app.act(asking.command.id, &given, ui.ctx());
         false
     }
@@ -280,7 +315,7 @@ impl Palette {
                 asking.command.plain_title().to_owned(),
                 TextFormat::simple(title, colours.accent),
             );
-            for word in &asking.given {
+            for word in Some(&asking.about).filter(|about| !about.is_empty()).into_iter().chain(&asking.given) {
                 job.append(word, 8.0, TextFormat::simple(FontId::proportional(theme::BODY), colours.text));
             }
             // The field keeps half of the line.
@@ -504,14 +539,14 @@ fn argument_lines(app: &App, ui: &Ui, choices: &[Choice], search: &mut Search) -
     let palette = app.palette(ui);
     let mut found: Vec<(std::cmp::Reverse<u32>, Line)> = Vec::new();
     for choice in choices {
-        let Choice { word, title, detail, status } = choice;
+        let Choice { word, title, detail, trail, status } = choice;
         let Some(hit) = search.hit(title) else { continue };
         let lead = status.map_or(LineLead::None, |status| LineLead::Swatch(theme::colour(palette.status(status))));
         let line = Line {
             title: title.clone(),
             characters: hit.characters,
             detail: detail.clone(),
-            trail: String::new(),
+            trail: trail.clone(),
             lead,
             is_available: true,
             taken: Taken::Argument(word.clone()),

@@ -33,7 +33,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             zoom_button(app, ui, Icon::Minus, "zoom-out");
             ui.add_space(14.0);
             if let Some(point) = app.canvas.pointer {
-                ui.label(small(format!("x {:.2} m    y {:.2} m", point.x, point.y)));
+                let units = app.units();
+                ui.label(small(format!("x {}    y {}", units.length(point.x), units.length(point.y))));
             }
         });
     });
@@ -61,8 +62,10 @@ pub(in crate::app) fn left_text(app: &App) -> String {
     if document.derived().is_none() {
         return "Working out rooms and features…".to_owned();
     }
-    if !app.status.is_empty() {
-        return app.status.clone();
+    let said: Vec<&str> =
+        [app.status.as_str(), app.tools.hint.as_str()].into_iter().filter(|text| !text.is_empty()).collect();
+    if !said.is_empty() {
+        return said.join("  ·  ");
     }
     let plan = document.plan();
     let passable = plan.openings().filter(|(_, opening)| opening.kind.is_passable()).count();

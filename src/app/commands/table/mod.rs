@@ -21,13 +21,17 @@ use crate::app::icons::Icon;
 use crate::app::panels::FieldKind;
 use crate::app::panels::palette::Palette;
 use crate::app::panels::shortcuts::Sheet;
+use crate::app::settings::GRID_RANGE_M;
 use crate::app::theme::ThemeChoice;
 use crate::app::{App, Intent, Origin, SelectMode};
 use crate::classify::{Algorithm, Method};
 use crate::draw::{Fill, LabelColours};
-use crate::geometry::{Bounds, Point, Vector};
-use crate::labels::Label;
-use crate::plan::ElementId;
+use crate::features::RoomStatus;
+use crate::geometry::{Bounds, Point, Segment, Vector, polygon, trim_m};
+use crate::labels::{Label, normalised_function};
+use crate::plan::edit::EditError;
+use crate::plan::{ElementId, Plan};
+use crate::units::Units;
 
 const fn key(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::NONE, key)
@@ -52,7 +56,19 @@ const fn entry(
     availability: fn(&App) -> Availability,
     action: Action,
 ) -> Command {
-    Command { id, title, help, arguments: &[], shortcuts: &[], menu: None, tool: None, availability, action }
+    Command {
+        id,
+        title,
+        help,
+        arguments: &[],
+        shortcuts: &[],
+        menu: None,
+        tool: None,
+        strip: None,
+        availability,
+        complete_availability: None,
+        action,
+    }
 }
 
 const fn command(
@@ -101,7 +117,7 @@ const fn with(
     run: fn(&mut App, &Values, &Context) -> Ran,
     ask: Option<fn(&mut App, &Context)>,
 ) -> Command {
-    entry(id, title, help, availability, Action::With { run, ask }).takes(arguments)
+    entry(id, title, help, availability, Action::With { run, ask, is_on: None }).takes(arguments)
 }
 
 const fn needed(name: &'static str, kind: ArgumentKind, help: &'static str) -> Argument {
@@ -117,12 +133,30 @@ impl Command {
         Self { arguments, ..self }
     }
 
+    /// Can be called with all its arguments when less holds.
+    const fn when_complete(self, availability: fn(&App) -> Availability) -> Self {
+        Self { complete_availability: Some(availability), ..self }
+    }
+
+    /// One of several that are on in turn.
+    const fn shown_on(self, is_on: fn(&App) -> bool) -> Self {
+        match self.action {
+            Action::With { run, ask, .. } => Self { action: Action::With { run, ask, is_on: Some(is_on) }, ..self },
+            _ => self,
+        }
+    }
+
     const fn keys(self, shortcuts: &'static [KeyboardShortcut]) -> Self {
         Self { shortcuts, ..self }
     }
 
     const fn menu(self, menu: Menu, section: u8) -> Self {
         Self { menu: Some((menu, section)), ..self }
+    }
+
+    /// It stands in the strip of tools.
+    const fn strip(self, icon: Icon, group: u8) -> Self {
+        Self { strip: Some((icon, group)), ..self }
     }
 
     const fn tool(self, icon: Icon, group: u8) -> Self {
@@ -150,6 +184,10 @@ fn has_picked(app: &App) -> Availability {
     when(!app.selection.is_empty(), "select something first")
 }
 
+fn can_clear(app: &App) -> Availability {
+    when(!app.selection.is_empty() || !app.tools.is_selecting(), "nothing is selected")
+}
+
 fn has_room(app: &App) -> Availability {
     has_plan(app)?;
     when(matches!(app.picked(), Some(ElementId::Room(_))), "pick a room first")
@@ -168,7 +206,7 @@ fn has_openings(app: &App) -> Availability {
 fn can_undo(app: &App) -> Availability {
     has_plan(app)?;
     let can = app.document.as_ref().is_some_and(|document| document.history.can_undo());
-    when(can, "there is nothing to undo")
+    when(can || app.tools.tool().is_busy(), "there is nothing to undo")
 }
 
 fn can_redo(app: &App) -> Availability {
@@ -177,9 +215,16 @@ fn can_redo(app: &App) -> Availability {
     when(can, "nothing was undone")
 }
 
+/// Rooms are selected, or one is under the pointer.
+fn has_target(app: &App) -> Availability {
+    has_plan(app)?;
+    when(app.target(None).is_some(), "pick a room first, or point at one")
+}
+
 fn has_own_label(app: &App) -> Availability {
-    has_room(app)?;
-    let has = app.picked_room().is_some_and(|(_, room)| room.label.is_some());
+    has_target(app)?;
+    let Some((plan, target)) = app.plan().zip(app.target(None)) else { return Ok(()) };
+    let has = target.rooms.iter().any(|&room| plan.room(room).is_some_and(|room| room.label.is_some()));
     when(has, "the room has no label of its own")
 }
 

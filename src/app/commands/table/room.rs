@@ -1,6 +1,40 @@
 //! The picked room: finding, naming, labelling.
 
 use super::*;
+use crate::app::labelling::Target;
+use crate::plan::RoomId;
+
+const TARGET: Argument = optional(
+    "ROOM",
+    ArgumentKind::Room,
+    "a room's name or id; without, the selected rooms, or the one under the pointer where nothing is selected",
+);
+
+/// Gives rooms a label.
+const fn label(
+    id: &'static str,
+    title: &'static str,
+    help: &'static str,
+    run: fn(&mut App, &Values, &Context) -> Ran,
+    is_on: fn(&App) -> bool,
+) -> Command {
+    with(id, title, help, has_target, &[TARGET], run, None).when_complete(has_rooms).shown_on(is_on).menu(Menu::Room, 2)
+}
+
+fn label_target(app: &mut App, values: &Values, label: Option<Label>) -> Ran {
+    on_target(app, values.room(0).copied(), &[], |app, target| app.label_rooms(target, label))
+}
+
+/// Does something with the rooms that a command is about; a recording names one that was only under the
+/// pointer.
+fn on_target(app: &mut App, named: Option<RoomId>, given: &[&str], act: impl FnOnce(&mut App, &Target)) -> Ran {
+    let Some((plan, target)) = app.plan().zip(app.target(named)) else {
+        return Ran::Refused("pick a room first, or point at one".to_owned());
+    };
+    let words = given.iter().map(|word| (*word).to_owned()).chain(target.word(plan)).collect();
+    act(app, &target);
+    Ran::DoneWith(words)
+}
 
 pub(super) const COMMANDS: &[Command] = &[
     with(
@@ -37,20 +71,30 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "set-function",
         "Set function…",
-        "Write what the picked room is for",
-        has_room,
-        &[needed(
-            "FUNCTION",
-            ArgumentKind::Function,
-            "what the room is for, as the label scheme or as the source has it",
-        )],
+        "Say what the selected rooms are for, or the one under the pointer: functions of the typology, those \
+         most used first, or any other",
+        has_target,
+        &[
+            needed(
+                "FUNCTION",
+                ArgumentKind::Function,
+                "what the room is for, as the label scheme or as the source has it",
+            ),
+            TARGET,
+        ],
         |app, values, _| {
-            app.write_field(FieldKind::Function, values.text(0).unwrap_or_default());
-            Ran::Done
+            let function = values.text(0).unwrap_or_default().to_owned();
+            on_target(app, values.room(1).copied(), &[&function], |app, target| app.set_function_of(target, &function))
         },
-        Some(|app, _| app.ask_for_field(FieldKind::Function)),
+        Some(|app, _| {
+            let Some((plan, target)) = app.plan().zip(app.target(None)) else { return };
+            let (title, rest) = (target.title(plan), target.word(plan));
+            let asking = crate::app::commands::find("set-function").map(|command| Palette::asking(command, Vec::new()));
+            app.panels.palette = asking.map(|palette| palette.about(&title, rest.into_iter().collect()));
+        }),
     )
-    .keys(&[shift(Key::F2)])
+    .when_complete(has_rooms)
+    .keys(&[key(Key::F3), shift(Key::F2)])
     .menu(Menu::Room, 1),
     with(
         "set-note",
@@ -65,63 +109,56 @@ pub(super) const COMMANDS: &[Command] = &[
         Some(|app, _| app.ask_for_field(FieldKind::Note)),
     )
     .menu(Menu::Room, 1),
-    choose(
+    label(
         "label-small",
         "Small room",
-        "Label the picked room as a small room",
-        has_room,
-        |app| app.picked_label() == Some(Label::SmallRoom),
-        |app, _| app.label_picked(Some(Label::SmallRoom)),
+        "Label the selected rooms, or the one under the pointer, as a small room",
+        |app, values, _| label_target(app, values, Some(Label::SmallRoom)),
+        |app| app.selected_label() == Some(Label::SmallRoom),
     )
-    .keys(&[key(Key::S)])
-    .menu(Menu::Room, 2),
-    choose(
+    .keys(&[key(Key::S), key(Key::Num1)]),
+    label(
         "label-medium",
         "Medium room",
-        "Label the picked room as a medium room",
-        has_room,
-        |app| app.picked_label() == Some(Label::MediumRoom),
-        |app, _| app.label_picked(Some(Label::MediumRoom)),
+        "Label the selected rooms, or the one under the pointer, as a medium room",
+        |app, values, _| label_target(app, values, Some(Label::MediumRoom)),
+        |app| app.selected_label() == Some(Label::MediumRoom),
     )
-    .keys(&[key(Key::M)])
-    .menu(Menu::Room, 2),
-    choose(
+    .keys(&[key(Key::M), key(Key::Num2)]),
+    label(
         "label-big",
         "Big room",
-        "Label the picked room as a big room",
-        has_room,
-        |app| app.picked_label() == Some(Label::BigRoom),
-        |app, _| app.label_picked(Some(Label::BigRoom)),
+        "Label the selected rooms, or the one under the pointer, as a big room",
+        |app, values, _| label_target(app, values, Some(Label::BigRoom)),
+        |app| app.selected_label() == Some(Label::BigRoom),
     )
-    .keys(&[key(Key::B)])
-    .menu(Menu::Room, 2),
-    choose(
+    .keys(&[key(Key::B), key(Key::Num3)]),
+    label(
         "label-corridor",
         "Corridor",
-        "Label the picked room as a corridor",
-        has_room,
-        |app| app.picked_label() == Some(Label::Corridor),
-        |app, _| app.label_picked(Some(Label::Corridor)),
+        "Label the selected rooms, or the one under the pointer, as a corridor",
+        |app, values, _| label_target(app, values, Some(Label::Corridor)),
+        |app| app.selected_label() == Some(Label::Corridor),
     )
-    .keys(&[key(Key::C)])
-    .menu(Menu::Room, 2),
-    choose(
+    .keys(&[key(Key::C), key(Key::Num4)]),
+    label(
         "label-hall",
         "Hall",
-        "Label the picked room as a hall",
-        has_room,
-        |app| app.picked_label() == Some(Label::Hall),
-        |app, _| app.label_picked(Some(Label::Hall)),
+        "Label the selected rooms, or the one under the pointer, as a hall",
+        |app, values, _| label_target(app, values, Some(Label::Hall)),
+        |app| app.selected_label() == Some(Label::Hall),
     )
-    .keys(&[key(Key::H)])
-    .menu(Menu::Room, 2),
-    command(
+    .keys(&[key(Key::H), key(Key::Num5)]),
+    with(
         "label-by-function",
         "Label by function",
-        "Drop the picked room's own label: the label scheme's answer for its function counts",
+        "Drop the rooms' own labels: the label scheme's answer for their functions counts",
         has_own_label,
-        |app, _| app.label_picked(None),
+        &[TARGET],
+        |app, values, _| label_target(app, values, None),
+        None,
     )
+    .when_complete(has_rooms)
     .menu(Menu::Room, 2),
     command("next-room", "Next room", "Pick the next room, as one reads: from the top left", has_rooms, |app, _| {
         app.pick_neighbour(1);

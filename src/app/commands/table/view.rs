@@ -2,6 +2,9 @@
 
 use super::*;
 
+/// The grid's lines are as far apart as the zoom has it.
+const AUTO: &str = "auto";
+
 pub(super) const COMMANDS: &[Command] = &[
     command("fit", "Zoom to fit", "Show the whole plan", has_plan, |app, _| app.canvas.fit())
         .keys(&[key(Key::F)])
@@ -114,6 +117,55 @@ pub(super) const COMMANDS: &[Command] = &[
     .keys(&[shift(Key::G)])
     .menu(Menu::View, 2)
     .tool(Icon::Grid, 2),
+    with(
+        "grid-spacing",
+        "Grid spacing…",
+        "Set how far the grid's lines are apart, or leave it to the zoom",
+        always,
+        &[needed("SPACING", ArgumentKind::Text, "a length, or 'auto'")],
+        |app, values, _| {
+            let text = values.text(0).unwrap_or_default();
+            if text == AUTO {
+                app.set_grid_m(None);
+                return Ran::DoneWith(vec![AUTO.to_owned()]);
+            }
+            match app.units().parse_length(text).map(trim_m) {
+                Ok(grid_m) if GRID_RANGE_M.contains(&grid_m) => {
+                    app.set_grid_m(Some(grid_m));
+                    Ran::DoneWith(vec![format!("{grid_m}m")])
+                }
+                Ok(_) => {
+                    let [least, most] = [GRID_RANGE_M.start(), GRID_RANGE_M.end()].map(|end| app.units().length(*end));
+                    Ran::Refused(format!("the grid's lines are {least} to {most} apart"))
+                }
+                Err(error) => Ran::Refused(error.to_string()),
+            }
+        },
+        Some(|app, _| {
+            let now = app.settings.grid_m().map_or(AUTO.to_owned(), |grid_m| app.units().exact_length(grid_m));
+            let asking = crate::app::commands::find("grid-spacing").map(|command| Palette::asking(command, Vec::new()));
+            app.panels.palette = asking.map(|palette| palette.with_text(&now));
+        }),
+    )
+    .menu(Menu::View, 3),
+    choose(
+        "units-metric",
+        "Metres",
+        "Show lengths and areas in metres and square metres; numbers typed without a unit are metres",
+        always,
+        |app| app.units() == Units::Metric,
+        |app, _| app.set_units(Units::Metric),
+    )
+    .menu(Menu::View, 3),
+    choose(
+        "units-imperial",
+        "Feet and inches",
+        "Show lengths in feet and inches, areas in square feet; numbers typed without a unit are feet",
+        always,
+        |app| app.units() == Units::Imperial,
+        |app, _| app.set_units(Units::Imperial),
+    )
+    .menu(Menu::View, 3),
     switch(
         "plan-panel",
         "Plans and layers",
@@ -123,7 +175,7 @@ pub(super) const COMMANDS: &[Command] = &[
         |app, is_on| app.panels.left = is_on,
     )
     .keys(&[ctrl(Key::Num1)])
-    .menu(Menu::View, 3)
+    .menu(Menu::View, 4)
     .tool(Icon::Sidebar, 3),
     switch(
         "inspector",
@@ -134,8 +186,18 @@ pub(super) const COMMANDS: &[Command] = &[
         |app, is_on| app.panels.right = is_on,
     )
     .keys(&[ctrl(Key::Num2)])
-    .menu(Menu::View, 3)
+    .menu(Menu::View, 4)
     .tool(Icon::Inspector, 3),
+    switch(
+        "history",
+        "History",
+        "Show the steps that led to the plan, and go to any of them",
+        always,
+        |app| app.panels.history,
+        |app, is_on| app.panels.history = is_on,
+    )
+    .keys(&[ctrl(Key::Num3)])
+    .menu(Menu::View, 4),
     choose(
         "theme-system",
         "Follow the system",
@@ -144,7 +206,7 @@ pub(super) const COMMANDS: &[Command] = &[
         |app| app.theme == ThemeChoice::System,
         |app, context| app.set_theme(ThemeChoice::System, context),
     )
-    .menu(Menu::View, 4),
+    .menu(Menu::View, 5),
     choose(
         "theme-light",
         "Light",
@@ -153,7 +215,7 @@ pub(super) const COMMANDS: &[Command] = &[
         |app| app.theme == ThemeChoice::Light,
         |app, context| app.set_theme(ThemeChoice::Light, context),
     )
-    .menu(Menu::View, 4),
+    .menu(Menu::View, 5),
     choose(
         "theme-dark",
         "Dark",
@@ -162,5 +224,5 @@ pub(super) const COMMANDS: &[Command] = &[
         |app| app.theme == ThemeChoice::Dark,
         |app, context| app.set_theme(ThemeChoice::Dark, context),
     )
-    .menu(Menu::View, 4),
+    .menu(Menu::View, 5),
 ];
