@@ -52,8 +52,9 @@ pub(super) fn show(ui: &mut Ui, app: &App, backdrop: &Backdrop) -> Option<Pictur
         ui.spacing_mut().item_spacing = vec2(14.0, 6.0);
         let measure = if backdrop.is_measured() { "Measure another length…" } else { "Set scale…" };
         for (text, id) in [
-            (measure, "calibrate"),
-            ("Straighten…", "straighten"),
+            (measure, "tool-calibrate"),
+            ("By a door…", "tool-calibrate-door"),
+            ("Straighten…", "tool-straighten"),
             ("Relink…", "relink-picture"),
             ("Remove", "remove-picture"),
         ] {

@@ -111,9 +111,27 @@ pub(super) const COMMANDS: &[Command] = &[
         app.remove_picture();
     })
     .menu(Menu::Picture, 0),
+    choose(
+        "tool-calibrate",
+        "Set scale by a length",
+        "Click both ends of a length on the picture and type how long it is in truth; more lengths make it surer",
+        has_backdrop,
+        |app| app.tools.is("calibrate"),
+        |app, _| app.tools.take_up("calibrate"),
+    )
+    .menu(Menu::Picture, 1),
+    choose(
+        "tool-calibrate-door",
+        "Set scale by a door",
+        "Click both sides of a door on the picture: it is as wide as doors are drawn, 0.9 m unless set otherwise",
+        has_backdrop,
+        |app| app.tools.is("calibrate-door"),
+        |app, _| app.tools.take_up("calibrate-door"),
+    )
+    .menu(Menu::Picture, 1),
     with(
         "calibrate",
-        "Set scale…",
+        "Set scale",
         "Set the scale by the true length between two points of the picture; of several lengths, each added to those \
          before, the scale is the best fit",
         has_backdrop,
@@ -132,8 +150,7 @@ pub(super) const COMMANDS: &[Command] = &[
             _ => Ran::Done,
         },
         None,
-    )
-    .menu(Menu::Picture, 1),
+    ),
     with(
         "calibrate-by-door",
         "Set scale by the selected door",
@@ -162,9 +179,18 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .menu(Menu::Picture, 1),
+    choose(
+        "tool-straighten",
+        "Straighten",
+        "Click along a wall of the picture that should be level or upright: the picture turns",
+        has_backdrop,
+        |app| app.tools.is("straighten"),
+        |app, _| app.tools.take_up("straighten"),
+    )
+    .menu(Menu::Picture, 2),
     with(
         "straighten",
-        "Straighten…",
+        "Straighten by a line",
         "Turn the picture so that a line between two of its points is level or upright, whichever is nearer",
         has_backdrop,
         &[
@@ -179,8 +205,7 @@ pub(super) const COMMANDS: &[Command] = &[
             _ => Ran::Done,
         },
         None,
-    )
-    .menu(Menu::Picture, 2),
+    ),
     with(
         "turn-picture",
         "Turn picture…",
