@@ -157,6 +157,7 @@ impl Canvas {
     fn update_camera(&mut self, rect: Rect, document: &Document, shown: Option<&Derived>) {
         let (width_px, height_px) = (f64::from(rect.width()), f64::from(rect.height()));
         let bounds = shown.map_or_else(|| document.plan().bounds(), |derived| derived.drawing.bounds());
+        let bounds = bounds.union(self.backdrop.bounds(document.plan().backdrop()));
         let fitting = |bounds: Bounds| {
             // A small canvas is for the plan, not for the space about it.
             let margin = FIT_MARGIN.min(width_px.min(height_px) / 8.0);
@@ -393,11 +394,8 @@ impl Canvas {
         let palette = style.palette();
         let painter = ui.painter_at(rect);
         painter.rect_filled(rect, 0.0, theme::colour(palette.paper));
-        if app.layers.backdrop
-            && let Some(backdrop) = document.plan().backdrop()
-        {
-            self.backdrop.paint(&painter, rect, &view, backdrop);
-        }
+        let backdrop = document.plan().backdrop().filter(|_| app.layers.backdrop);
+        self.backdrop.paint(&painter, rect, &view, backdrop, app.background.is_inline());
         if let Some(derived) = shown {
             self.painter.paint(&painter, rect, derived, &style, &view);
         }

@@ -2,6 +2,7 @@
 
 use egui::{Id, Key, Popup, PopupCloseBehavior, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
 
+use super::picture::{self, PictureAct};
 use super::status::count;
 use super::{Field, FieldKind, prediction};
 use crate::app::canvas::{room_title, sentence, title_of};
@@ -29,6 +30,7 @@ enum Act {
     Revert,
     ShowNotes,
     Command(&'static str),
+    Picture(PictureAct),
 }
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
@@ -73,6 +75,12 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         Some(Act::Type(field)) => app.panels.field = Some(field),
         Some(Act::Commit) => app.commit_field(),
         Some(Act::Revert) => drop(app.panels.take_field()),
+        Some(Act::Picture(PictureAct::Opacity(opacity))) => app.canvas.backdrop.opacity = Some(opacity),
+        Some(Act::Picture(PictureAct::Command(id, arguments))) => {
+            app.canvas.backdrop.opacity = None;
+            let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+            app.act(id, &arguments, ui.ctx());
+        }
         Some(Act::Command(id)) => app.act(id, &[], ui.ctx()),
         Some(Act::ShowNotes) => app.act("import-notes", &["on"], ui.ctx()),
     }
@@ -443,6 +451,11 @@ impl Inspected<'_> {
             drop(response);
             caption(ui, &meta.scale.note);
         }
+        let mut act = None;
+        if let Some(backdrop) = self.plan.backdrop() {
+            hairline(ui);
+            act = picture::show(ui, self.app, backdrop).map(Act::Picture);
+        }
         hairline(ui);
         section(ui, "Contents");
         let plan = self.plan;
@@ -457,12 +470,11 @@ impl Inspected<'_> {
             value(ui, "Floor area", &self.app.units().area(area_m2));
             self.gaps(ui, derived);
         }
-        let mut act = None;
         if let Some(predictions) = self.document.derived().and_then(|derived| derived.predictions.as_ref())
             && !predictions.network.rooms.is_empty()
         {
             hairline(ui);
-            act = prediction::of_plan(ui, self.app, predictions).map(Act::Command);
+            act = act.or(prediction::of_plan(ui, self.app, predictions).map(Act::Command));
         }
         if !self.document.notes.is_empty() {
             hairline(ui);

@@ -19,6 +19,11 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         match act {
             None => {}
             Some(Act::Dismiss) => app.act("dismiss-message", &[&(first + index + 1).to_string()], ui.ctx()),
+            Some(Act::Remedy(Remedy::KeepPicture)) => {
+                if let Some(path) = app.shown_picture_word() {
+                    app.act("relink-picture", &[&path], ui.ctx());
+                }
+            }
             Some(Act::Remedy(remedy)) => {
                 let (id, argument) = remedy.command();
                 // A dialog asks for what it takes.
@@ -38,6 +43,7 @@ impl Remedy {
             Self::KeepMine => ("keep-mine", None),
             Self::Save => ("save", None),
             Self::SaveElsewhere => ("save-as", None),
+            Self::RelinkPicture | Self::KeepPicture => ("relink-picture", None),
         }
     }
 }

@@ -8,6 +8,7 @@ mod layers;
 mod messages;
 pub(super) mod notes;
 pub(super) mod palette;
+mod picture;
 pub(super) mod plan_picture;
 mod plans;
 mod prediction;

@@ -208,8 +208,15 @@ impl Recorder {
             self.lines.push(line);
             return;
         }
+        let files = &mut self.files;
         let words = arguments.iter().zip(command.arguments).map(|(word, argument)| match argument.kind {
             ArgumentKind::NewPlanFile => document::file_name(Path::new(word)),
+            ArgumentKind::PictureFile => {
+                let path = Path::new(word);
+                // One that cannot be read could not be used either.
+                let bytes = crate::store::pictures::read_picture_bytes(path).unwrap_or_default();
+                files.add(&document::file_name(path), bytes)
+            }
             _ => word.clone(),
         });
         let line = Line(std::iter::once((*id).to_owned()).chain(words).collect());
