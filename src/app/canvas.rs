@@ -10,9 +10,10 @@ use egui::{
 };
 
 use super::document::{Derived, Document};
+use super::ghost::GhostPainter;
 use super::scene_painter::{ScenePainter, earcut, on_screen, outline_mesh, polygon_mesh};
-use super::theme;
 use super::{App, Picture, commands};
+use super::{dimensions, guides, rulers, theme};
 use crate::draw::{self, Layers, Palette, Style, View};
 use crate::features::RoomStatus;
 use crate::geometry::{Bounds, Point, Vector};
@@ -36,6 +37,7 @@ pub(super) struct Canvas {
     pub pointer: Option<Point>,
     cycle: Option<Cycle>,
     painter: ScenePainter,
+    ghost: GhostPainter,
     backdrop: BackdropState,
     /// The triangles of the room whose fill marks it.
     marked: Option<(Arc<Derived>, ElementId, Vec<u32>)>,
@@ -136,6 +138,11 @@ impl Canvas {
     /// Moves the view at once, to a place nearby.
     pub(super) fn set_view(&mut self, centre: Point, px_per_m: f64) {
         self.camera = Some(Camera { centre, px_per_m, is_fitted: false });
+    }
+
+    /// The view of the last frame and where it was on the screen.
+    pub(super) fn seen(&self) -> Option<(View, Rect)> {
+        self.seen
     }
 
     /// Where the canvas was in the last frame.
@@ -334,7 +341,7 @@ fn is_touch_pad(unit: MouseWheelUnit, delta: Vec2) -> bool {
     }
 }
 
-fn plan_point(view: &View, rect: Rect, at: Pos2) -> Point {
+pub(super) fn plan_point(view: &View, rect: Rect, at: Pos2) -> Point {
     let from_corner = at - rect.min;
     view.plan_from_screen(Point::new(f64::from(from_corner.x), f64::from(from_corner.y)))
 }
@@ -373,6 +380,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         app.note_executed("view", numbers.map(|number| number.to_string()).to_vec());
     }
     app.canvas = canvas;
+    rulers::show(app, ui);
     match act {
         None => {}
         Some(Act::Pick(None)) => drop(app.run_command("clear-selection", ui.ctx())),
@@ -409,7 +417,7 @@ pub(super) fn canvas_id() -> Id {
 
 impl Canvas {
     fn show(&mut self, ui: &mut Ui, document: &Document, app: &App) -> Option<Act> {
-        let rect = ui.available_rect_before_wrap();
+        let rect = rulers::canvas_rect(app, ui.available_rect_before_wrap());
         let fresh = document.derived();
         // What was worked out for an earlier plan is better than nothing.
         let shown = fresh.or(document.last_derived().map(|(_, derived)| derived));
@@ -449,6 +457,7 @@ impl Canvas {
         {
             painter.add(Shape::mesh(backdrop_mesh(rect, &view, backdrop, texture)));
         }
+        self.ghost.paint(&painter, rect, app, &style, &view);
         if let Some(derived) = shown {
             self.painter.paint(&painter, rect, derived, &style, &view);
         }
@@ -466,6 +475,10 @@ impl Canvas {
                     self.mark(&painter, rect, &view, document.plan(), derived, picked, &Mark::picked(palette));
                 }
             }
+        }
+        guides::paint(&painter, rect, &view, app);
+        if let Some(derived) = fresh {
+            dimensions::paint(&painter, rect, &view, app, derived);
         }
         paint_scale_bar(&painter, rect, &view, palette, app.units());
         if response.has_focus() && self.shows_focus {
@@ -671,6 +684,12 @@ fn style(app: &App, plan: &Plan, is_dark: bool) -> Style {
             areas: layers.names,
         },
     }
+}
+
+/// The ground of the plan in the window's theme.
+pub(super) fn paper(app: &App, context: &Context) -> draw::Rgba {
+    let theme = if context.global_style().visuals.dark_mode { draw::Theme::Dark } else { draw::Theme::Light };
+    Palette::of(theme, app.layers.colours).paper
 }
 
 /// What the canvas shows, in a sentence.

@@ -8,8 +8,11 @@ mod canvas;
 pub mod commands;
 mod controls;
 mod dialogs;
+mod dimensions;
 mod document;
 mod files;
+mod ghost;
+mod guides;
 mod icons;
 mod labelling;
 mod offscreen;
@@ -18,6 +21,7 @@ mod picture;
 mod plan_list;
 mod raster;
 pub mod replay;
+mod rulers;
 mod scene_painter;
 mod search;
 mod selection;
@@ -71,6 +75,10 @@ pub struct App {
     canvas: Canvas,
     selection: Selection,
     layers: LayerSettings,
+    /// The storey drawn faintly under the plan.
+    ghost: Option<ghost::Ghost>,
+    /// A guide that is being dragged.
+    guide_drag: Option<guides::Drag>,
     /// Which models predict.
     predictor: Predictor,
     theme: ThemeChoice,
@@ -109,6 +117,12 @@ struct LayerSettings {
     names: bool,
     backdrop: bool,
     grid: bool,
+    guides: bool,
+    /// Lengths and area of what is selected.
+    dimensions: bool,
+    /// The storey that lies below.
+    ghost: bool,
+    rulers: bool,
 }
 
 impl Default for LayerSettings {
@@ -120,6 +134,10 @@ impl Default for LayerSettings {
             names: true,
             backdrop: true,
             grid: true,
+            guides: true,
+            dimensions: true,
+            ghost: true,
+            rulers: false,
         }
     }
 }
@@ -184,6 +202,7 @@ enum Done {
     Chosen(Answer),
     Saved { document: u64, path: PathBuf, plan: Plan, result: Result<Option<Stamp>, SaveFailure>, then: Option<Intent> },
     Backdrop(PathBuf, Result<egui::ColorImage, String>),
+    Ghost(Origin, Box<Result<ghost::Ghost, FileError>>),
     RecordingSaved { path: PathBuf, recording: Box<Recording>, result: Result<(), SaveError>, then: Option<Intent> },
 }
 
@@ -201,6 +220,8 @@ impl App {
             canvas: Canvas::default(),
             selection: Selection::default(),
             layers: LayerSettings::default(),
+            ghost: None,
+            guide_drag: None,
             predictor: Predictor::default(),
             theme: ThemeChoice::default(),
             settings: Settings::default(),
@@ -321,6 +342,7 @@ impl App {
                 Some(Done::RecordingSaved { path, recording, result, then }) => {
                     self.recording_was_saved(&path, *recording, result, then);
                 }
+                Some(Done::Ghost(origin, result)) => self.ghost_was_read(&origin, *result),
                 Some(Done::Backdrop(path, result)) => {
                     if let Err(what) = self.canvas.set_backdrop(context, &path, result) {
                         let text = format!("The picture under the plan is missing: {what}");

@@ -17,9 +17,9 @@ use super::{Format, Import, Place, ReadError};
 use crate::geometry::{Point, trim_m};
 use crate::labels::{Label, Schemes, Typology};
 use crate::plan::{
-    Backdrop, COORDINATE_LIMIT_M, Corner, CornerId, ElementId, Extra, Joint, LabelOrigin, LeafSide, Meta, Opening,
-    OpeningId, OpeningKind, Place as OpeningPlace, Plan, Room, RoomId, RoomLabel, Scale, ScaleOrigin, Swing, Wall,
-    WallId,
+    Backdrop, COORDINATE_LIMIT_M, Corner, CornerId, ElementId, Extra, Guide, GuideAxis, Joint, LabelOrigin, LeafSide,
+    Meta, Opening, OpeningId, OpeningKind, Place as OpeningPlace, Plan, Room, RoomId, RoomLabel, Scale, ScaleOrigin,
+    Swing, Wall, WallId, guides,
 };
 
 /// The newest version of the file that this program reads, and the one it writes.
@@ -114,6 +114,9 @@ pub fn to_bytes(plan: &Plan) -> Vec<u8> {
     if let Some(backdrop) = plan.backdrop() {
         file.push_str(",\n\"backdrop\": ");
         file.push_str(&json(&DiskBackdrop::of(backdrop)));
+    }
+    if !plan.guides().is_empty() {
+        push_list(&mut file, "guides", plan.guides().iter().map(DiskGuide::of));
     }
     push_list(&mut file, "corners", plan.corners().map(|(id, corner)| DiskCorner::of(id, corner)));
     push_list(&mut file, "walls", plan.walls().map(|(id, wall)| DiskWall::of(id, wall)));
@@ -214,6 +217,8 @@ struct DiskPlan {
     meta: DiskMeta,
     backdrop: Option<DiskBackdrop>,
     #[serde(default)]
+    guides: Vec<DiskGuide>,
+    #[serde(default)]
     corners: Vec<DiskCorner>,
     #[serde(default)]
     walls: Vec<DiskWall>,
@@ -263,6 +268,15 @@ struct DiskBackdrop {
     rotation_rad: Number,
     #[serde(default = "one", skip_serializing_if = "is_one")]
     opacity: Number,
+    #[serde(flatten)]
+    extra: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(expecting = "a guide")]
+struct DiskGuide {
+    axis: Text<GuideAxis>,
+    at: Metres,
     #[serde(flatten)]
     extra: Map<String, Value>,
 }
@@ -450,6 +464,16 @@ impl DiskBackdrop {
     }
 }
 
+impl DiskGuide {
+    fn of(guide: &Guide) -> Self {
+        Self { axis: Text(guide.axis), at: Metres(guide.at_m), extra: fields(&guide.extra) }
+    }
+
+    fn live(self) -> Guide {
+        Guide { axis: self.axis.0, at_m: self.at.0, extra: kept(self.extra) }
+    }
+}
+
 impl DiskCorner {
     fn of(id: CornerId, corner: &Corner) -> Self {
         let Point { x, y } = corner.position;
@@ -525,6 +549,7 @@ fn live(text: &str, disk: DiskPlan) -> Result<Plan, ReadError> {
     let mut plan = Plan {
         meta: Arc::new(disk.meta.live()),
         backdrop: disk.backdrop.map(|backdrop| Arc::new(backdrop.live())),
+        guides: guides::sorted(disk.guides.into_iter().take(guides::MOST_GUIDES).map(DiskGuide::live)),
         extra: kept(disk.extra),
         ..Plan::default()
     };

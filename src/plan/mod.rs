@@ -7,6 +7,7 @@
 mod builder;
 pub mod edit;
 mod element;
+pub mod guides;
 mod history;
 mod id;
 mod invariants;
@@ -20,6 +21,7 @@ pub use builder::Builder;
 pub use element::{
     Backdrop, Corner, Joint, LabelOrigin, LeafSide, Opening, OpeningKind, Place, Room, RoomLabel, Swing, Wall,
 };
+pub use guides::{Guide, GuideAxis};
 pub use history::{History, Step};
 pub use id::{CornerId, ElementId, IdError, OpeningId, RoomId, WallId, name_bits};
 pub use invariants::Violation;
@@ -54,6 +56,8 @@ pub struct Plan {
     pub(crate) rooms: OrdMap<RoomId, Arc<Room>>,
     pub(crate) openings: OrdMap<OpeningId, Arc<Opening>>,
     pub(crate) backdrop: Option<Arc<Backdrop>>,
+    /// In the order of [`guides::sorted`].
+    pub(crate) guides: Arc<[Guide]>,
     pub(crate) extra: Extra,
 }
 
@@ -163,5 +167,6 @@ impl Plan {
             && self.rooms.ptr_eq(&other.rooms)
             && self.openings.ptr_eq(&other.openings)
             && self.backdrop.as_ref().map(Arc::as_ptr) == other.backdrop.as_ref().map(Arc::as_ptr)
+            && Arc::ptr_eq(&self.guides, &other.guides)
     }
 }
