@@ -86,6 +86,8 @@ fn backdrop() -> Backdrop {
         metres_per_pixel: 0.5,
         rotation_rad: 0.0,
         opacity: 1.0,
+        page: 1,
+        measurements: Vec::new(),
         extra: None,
     }
 }

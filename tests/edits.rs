@@ -2,6 +2,11 @@
 //! and what an edit refuses leaves no trace.
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
+#[path = "edits/drawing.rs"]
+mod drawing;
+#[path = "edits/support.rs"]
+mod support;
+
 use enfilade::geometry::Point;
 use enfilade::labels::Label;
 use enfilade::plan::{

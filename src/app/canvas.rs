@@ -1,24 +1,23 @@
 //! The canvas: the plan, seen through a view that pans and zooms, and what can be picked on it.
 
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use egui::epaint::{Mesh, StrokeKind, Vertex};
+use egui::epaint::StrokeKind;
 use egui::{
-    Color32, ColorImage, Context, CursorIcon, EventFilter, Id, Key, MouseWheelUnit, Painter, PointerButton, Pos2, Rect,
-    Response, Role, Sense, Shape, Stroke, TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Color32, Context, CursorIcon, EventFilter, Id, Key, MouseWheelUnit, Painter, PointerButton, Pos2, Rect, Response,
+    Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, vec2,
 };
 
+use super::backdrop::BackdropView;
 use super::document::{Derived, Document};
 use super::ghost::GhostPainter;
 use super::scene_painter::{ScenePainter, earcut, on_screen, outline_mesh, polygon_mesh};
-use super::{App, Picture, commands};
-use super::{dimensions, guides, rulers, theme};
+use super::{App, commands, dimensions, guides, rulers, theme};
 use crate::draw::{self, Layers, Palette, Style, View};
 use crate::features::RoomStatus;
 use crate::geometry::{Bounds, Point, Vector};
 use crate::labels::normalised_function;
-use crate::plan::{Backdrop, ElementId, Plan};
+use crate::plan::{ElementId, Plan};
 use crate::topology::RoomShape;
 use crate::units::Units;
 
@@ -38,7 +37,8 @@ pub(super) struct Canvas {
     cycle: Option<Cycle>,
     painter: ScenePainter,
     ghost: GhostPainter,
-    backdrop: BackdropState,
+    /// The picture under the plan.
+    pub backdrop: BackdropView,
     /// The triangles of the room whose fill marks it.
     marked: Option<(Arc<Derived>, ElementId, Vec<u32>)>,
     /// Whether the last turn of a wheel came from fingers on a touch pad.
@@ -74,17 +74,11 @@ struct Cycle {
     index: usize,
 }
 
-#[derive(Default)]
-enum BackdropState {
-    #[default]
-    None,
-    Loading(PathBuf),
-    Shown(PathBuf, TextureHandle),
-    Missing(PathBuf),
-}
-
 /// Free space around a fitted plan, in points.
 const FIT_MARGIN: f64 = 48.0;
+
+/// A canvas on which nothing is drawn shows so many metres from side to side.
+const EMPTY_WIDTH_M: f64 = 20.0;
 
 /// Half a millimetre is as wide as a pixel: nothing smaller is drawn in a plan.
 const MOST_PX_PER_M: f64 = 2000.0;
@@ -164,57 +158,6 @@ impl Canvas {
         self.seen.map(|(view, rect)| on_screen(rect, &view, point))
     }
 
-    // The picture under the plan.
-
-    /// The path of a picture that a plan has and that is neither shown nor being read.
-    pub(super) fn wanted_backdrop(&mut self, backdrop: Option<&Backdrop>, folder: Option<&Path>) -> Option<PathBuf> {
-        let Some(backdrop) = backdrop else {
-            self.backdrop = BackdropState::None;
-            return None;
-        };
-        let path = folder.unwrap_or(Path::new("")).join(&backdrop.path);
-        let known = match &self.backdrop {
-            BackdropState::None => None,
-            BackdropState::Loading(path) | BackdropState::Shown(path, _) | BackdropState::Missing(path) => Some(path),
-        };
-        if known == Some(&path) {
-            return None;
-        }
-        self.backdrop = BackdropState::Loading(path.clone());
-        Some(path)
-    }
-
-    /// Takes over a picture that was read.
-    ///
-    /// # Errors
-    /// Why it cannot be shown, when it is still wanted.
-    pub(super) fn set_backdrop(
-        &mut self,
-        context: &Context,
-        path: &Path,
-        result: Result<ColorImage, String>,
-    ) -> Result<(), String> {
-        if !matches!(&self.backdrop, BackdropState::Loading(wanted) if wanted == path) {
-            return Ok(());
-        }
-        match result {
-            Ok(mut image) => {
-                let limit = context.input(|input| input.max_texture_side).max(1);
-                while image.size.iter().any(|side| *side > limit) {
-                    image = halved(&image);
-                }
-                let options = TextureOptions::LINEAR.with_mipmap_mode(Some(egui::TextureFilter::Linear));
-                let texture = context.load_texture("backdrop", image, options);
-                self.backdrop = BackdropState::Shown(path.to_owned(), texture);
-                Ok(())
-            }
-            Err(what) => {
-                self.backdrop = BackdropState::Missing(path.to_owned());
-                Err(what)
-            }
-        }
-    }
-
     // The view.
 
     /// Where the view stands in a canvas of this size, wishes fulfilled.
@@ -227,7 +170,14 @@ impl Canvas {
             let view = View::fitting(bounds, width_px, height_px, margin);
             Camera { centre: view.centre, px_per_m: view.px_per_m, is_fitted: false }
         };
-        let whole = || Camera { is_fitted: true, ..fitting(bounds) };
+        let whole = || match bounds.is_empty() {
+            // Room for a house. What is drawn then does not move the view.
+            true => {
+                let px_per_m = width_px.max(1.0) / EMPTY_WIDTH_M;
+                Camera { centre: Point::default(), px_per_m, is_fitted: false }
+            }
+            false => Camera { is_fitted: true, ..fitting(bounds) },
+        };
         let mut camera = self.camera.filter(|camera| !camera.is_fitted).unwrap_or_else(whole);
         match self.wish.take() {
             None => {}
@@ -453,9 +403,8 @@ impl Canvas {
         painter.rect_filled(rect, 0.0, theme::colour(palette.paper));
         if app.layers.backdrop
             && let Some(backdrop) = document.plan().backdrop()
-            && let BackdropState::Shown(_, texture) = &self.backdrop
         {
-            painter.add(Shape::mesh(backdrop_mesh(rect, &view, backdrop, texture)));
+            self.backdrop.paint(&painter, rect, &view, backdrop);
         }
         self.ghost.paint(&painter, rect, app, &style, &view);
         if let Some(derived) = shown {
@@ -763,49 +712,10 @@ fn paint_scale_bar(painter: &Painter, rect: Rect, view: &View, palette: &Palette
     painter.galley(beside, galley, ink);
 }
 
-/// The picture under the plan, at its place.
-fn backdrop_mesh(rect: Rect, view: &View, backdrop: &Backdrop, texture: &TextureHandle) -> Mesh {
-    let [width, height] = texture.size().map(|side| side as f64 * backdrop.metres_per_pixel);
-    let tint = Color32::WHITE.gamma_multiply(backdrop.opacity.clamp(0.0, 1.0) as f32);
-    let mut mesh = Mesh::with_texture(texture.id());
-    for (u, v) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
-        let from_origin = Vector::new(width * u, -height * v).rotated(backdrop.rotation_rad);
-        let pos = on_screen(rect, view, backdrop.origin + from_origin);
-        mesh.vertices.push(Vertex { pos, uv: pos2(u as f32, v as f32), color: tint });
-    }
-    mesh.indices = vec![0, 1, 2, 2, 1, 3];
-    mesh
-}
-
-/// No picture with more pixels is read: 16384 by 16384.
-const PICTURE_PIXELS: usize = 1 << 28;
-
-/// Reads a PNG.
-///
-/// # Errors
-/// When there is none, or it is damaged or too large, in words.
-pub(super) fn read_picture(path: &Path) -> Result<ColorImage, String> {
-    let file = std::fs::File::open(path).map_err(|error| error.to_string())?;
-    let picture = Picture::from_png(std::io::BufReader::new(file), PICTURE_PIXELS)?;
-    let size = [picture.width_px as usize, picture.height_px as usize];
-    Ok(ColorImage::from_rgba_unmultiplied(size, &picture.rgba))
-}
-
-/// A picture of half the size, each pixel the mean of four: for displays with small textures.
-fn halved(image: &ColorImage) -> ColorImage {
-    let [width, height] = image.size.map(|side| (side / 2).max(1));
-    let at = |x: usize, y: usize| image.pixels[y.min(image.size[1] - 1) * image.size[0] + x.min(image.size[0] - 1)];
-    let mean = |x: usize, y: usize| {
-        let four = [at(2 * x, 2 * y), at(2 * x + 1, 2 * y), at(2 * x, 2 * y + 1), at(2 * x + 1, 2 * y + 1)];
-        let channel = |i: usize| (four.iter().map(|c| u32::from(c.to_array()[i])).sum::<u32>() / 4) as u8;
-        Color32::from_rgba_premultiplied(channel(0), channel(1), channel(2), channel(3))
-    };
-    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| mean(x, y)).collect();
-    ColorImage::new([width, height], pixels)
-}
-
 #[cfg(test)]
 mod tests {
+    use egui::pos2;
+
     use super::*;
 
     #[test]
@@ -849,15 +759,5 @@ mod tests {
         assert_eq!(canvas.clicked(pos2(50.0, 10.0), || vec![b]), Some(b));
         assert_eq!(canvas.clicked(pos2(90.0, 10.0), Vec::new), None);
         assert_eq!(canvas.clicked(pos2(90.0, 10.0), || vec![a]), Some(a));
-    }
-
-    #[test]
-    fn pictures_halve_to_the_mean() {
-        let image = ColorImage::new([2, 2], [0, 100, 100, 200].map(Color32::from_gray).to_vec());
-        assert_eq!(
-            halved(&image).pixels,
-            [Color32::from_gray(100).to_array()].map(|[r, g, b, _]| Color32::from_rgba_premultiplied(r, g, b, 255))
-        );
-        assert_eq!(halved(&ColorImage::filled([1, 9], Color32::WHITE)).size, [1, 4]);
     }
 }

@@ -14,7 +14,7 @@ use crate::features::{Analysis, NeighbourLabels, analyse};
 use crate::formats::{self, FileError, Note, Place, ReadError};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::labels::Schemes;
-use crate::plan::{ElementId, History, OpeningId, Plan, RoomId};
+use crate::plan::{ElementId, History, Meta, OpeningId, Plan, RoomId, Scale, ScaleOrigin, edit};
 use crate::predict::{Predictions, Predictor};
 use crate::store;
 
@@ -38,6 +38,8 @@ pub(super) fn derived_sample(index: usize, plan: &Plan) -> Arc<Derived> {
 pub(super) enum Origin {
     /// One of [`bundled`], by its index.
     Bundled(usize),
+    /// Begun here, and in no file yet.
+    Untitled,
     /// A file; `storey` counts the plans in it from 0.
     File { path: PathBuf, storey: usize },
 }
@@ -46,7 +48,7 @@ impl Origin {
     /// The file, if it is one.
     pub(super) fn path(&self) -> Option<&Path> {
         match self {
-            Self::Bundled(_) => None,
+            Self::Bundled(_) | Self::Untitled => None,
             Self::File { path, .. } => Some(path),
         }
     }
@@ -60,6 +62,7 @@ impl Origin {
     pub(super) fn title(&self) -> String {
         match self {
             Self::Bundled(index) => bundled().get(*index).map_or("", |(_, plan)| &plan.meta().name).to_owned(),
+            Self::Untitled => "Untitled".to_owned(),
             Self::File { path, .. } => file_name(path),
         }
     }
@@ -70,6 +73,7 @@ impl Origin {
             Self::Bundled(index) => {
                 formats::file_stem(bundled().get(*index).map_or("plan", |(name, _)| name)).to_owned()
             }
+            Self::Untitled => "untitled".to_owned(),
             Self::File { path, .. } => formats::file_stem(&file_name(path)).to_owned(),
         }
     }
@@ -91,6 +95,15 @@ pub(super) struct Opened {
     pub stamp: Option<Stamp>,
 }
 
+impl Opened {
+    /// A plan on which nothing is drawn yet, of a typology yet unknown.
+    pub(super) fn untitled() -> Self {
+        let scale = Scale { origin: ScaleOrigin::Drawn, ..Scale::default() };
+        let plan = edit::set_meta(&Plan::default(), Meta { scale, ..Meta::default() });
+        Self { origin: Origin::Untitled, storeys: vec![plan], notes: Vec::new(), stamp: None }
+    }
+}
+
 /// Reads a plan from where it is.
 ///
 /// # Errors
@@ -101,6 +114,7 @@ pub(super) fn open(origin: Origin) -> Result<Opened, FileError> {
             let plan = bundled().get(*index).map(|(_, plan)| plan.clone()).unwrap_or_default();
             (vec![plan], Vec::new(), None)
         }
+        Origin::Untitled => return Ok(Opened::untitled()),
         Origin::File { path, storey } if path.is_dir() => {
             let first = plan_list::plans_in(path).into_iter().next();
             let Some(path) = first else {
@@ -165,7 +179,7 @@ impl Document {
     pub(super) fn new(number: u64, opened: Opened) -> Self {
         let Opened { origin, storeys, notes, stamp } = opened;
         let storey = match origin {
-            Origin::Bundled(_) => 0,
+            Origin::Bundled(_) | Origin::Untitled => 0,
             Origin::File { storey, .. } => storey,
         };
         let plan = storeys.get(storey).or(storeys.first()).cloned().unwrap_or_default();

@@ -18,6 +18,13 @@ impl App {
         self.dialogs.ask(Purpose::Open, folder, String::new(), &mut self.background);
     }
 
+    /// Shows a plan on which nothing is drawn yet.
+    pub(super) fn new_plan(&mut self) {
+        // What is still being read was asked for before.
+        self.opening = None;
+        self.request(Intent::Show(Box::new(Opened::untitled())));
+    }
+
     /// Reads a plan and shows it when it is there.
     pub(super) fn open(&mut self, origin: Origin) {
         self.opening = Some(origin.clone());
@@ -65,6 +72,7 @@ impl App {
     pub(super) fn open_listed(&mut self, origin: &Origin, context: &Context) {
         match origin {
             Origin::Bundled(index) => self.act("open-sample", &[sample_word(*index)], context),
+            Origin::Untitled => self.act("new-plan", &[], context),
             Origin::File { path, storey: 0 } => self.act("open", &[&path.to_string_lossy()], context),
             Origin::File { path, storey } => {
                 self.act("open", &[&path.to_string_lossy(), &(storey + 1).to_string()], context);

@@ -3,6 +3,7 @@
 //! [`App`] is the whole window apart from any display: it takes egui's input and gives shapes.
 //! [`run_window`] shows it on a screen; [`Offscreen`] drives the same one without.
 
+mod backdrop;
 mod background;
 mod canvas;
 pub mod commands;
@@ -56,7 +57,6 @@ use replay::{Recorder, Recording};
 use settings::Settings;
 
 use crate::draw::{self, Fill, LabelColours, Palette};
-use crate::features::RoomStatus;
 use crate::formats::FileError;
 use crate::geometry::Vector;
 use crate::labels::{Label, Schemes};
@@ -344,7 +344,7 @@ impl App {
                 }
                 Some(Done::Ghost(origin, result)) => self.ghost_was_read(&origin, *result),
                 Some(Done::Backdrop(path, result)) => {
-                    if let Err(what) = self.canvas.set_backdrop(context, &path, result) {
+                    if let Err(what) = self.canvas.backdrop.set_picture(context, &path, result) {
                         let text = format!("The picture under the plan is missing: {what}");
                         self.say(Severity::Warning, text, self.shown_path(&path));
                     }
@@ -393,9 +393,9 @@ impl App {
                 });
             }
         }
-        if let Some(path) = self.canvas.wanted_backdrop(plan.backdrop(), document.origin.folder()) {
+        if let Some(path) = self.canvas.backdrop.wanted(plan.backdrop(), document.origin.folder()) {
             self.background.start(move || {
-                let picture = canvas::read_picture(&path);
+                let picture = backdrop::read_picture(&path);
                 Done::Backdrop(path, picture)
             });
         }

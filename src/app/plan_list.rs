@@ -27,11 +27,12 @@ impl PlanList {
 
     /// The plan `step` places after the current one, in the list from top to bottom.
     pub(super) fn neighbour(&self, current: Option<&Origin>, step: isize) -> Option<Origin> {
-        let position = match current? {
-            Origin::Bundled(index) => self.files.len() + index,
-            Origin::File { path, .. } => self.files.iter().position(|file| file == path)?,
+        let next = match current? {
+            Origin::Bundled(index) => (self.files.len() + index).checked_add_signed(step)?,
+            Origin::File { path, .. } => self.files.iter().position(|file| file == path)?.checked_add_signed(step)?,
+            // In front of the first.
+            Origin::Untitled => usize::try_from(step - 1).ok()?,
         };
-        let next = position.checked_add_signed(step)?;
         match self.files.get(next) {
             Some(path) => Some(Origin::File { path: path.clone(), storey: 0 }),
             None => {

@@ -1,12 +1,12 @@
 use rstar::primitives::{GeomWithData, Rectangle};
 
 use super::FINDINGS_LIMIT;
-use super::edges::SegmentIndex;
 use super::names::{OpeningName, RoomName};
 use super::overlaps::{self, Region};
 use super::rings::{RingFaults, ring_faults};
 use super::sizes;
 use crate::features::{Analysis, RoomStatus};
+use crate::geometry::segments::SegmentIndex;
 use crate::geometry::{Bounds, Point, Segment, polygon};
 use crate::labels::Schemes;
 use crate::plan::{Opening, OpeningId, Plan, RoomId, WallId};

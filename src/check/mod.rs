@@ -5,7 +5,6 @@
 //! real plans, is in `docs/checks.md`.
 
 mod context;
-mod edges;
 mod finding;
 mod names;
 mod overlaps;

@@ -1,4 +1,4 @@
-use super::edges::{SegmentIndex, are_parallel};
+use crate::geometry::segments::{SegmentIndex, are_parallel};
 use super::{Check, Context, Kind, OpeningName, Place, Severity};
 use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
 use crate::geometry::{Point, Segment};

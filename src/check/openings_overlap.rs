@@ -1,4 +1,4 @@
-use super::edges::{SegmentIndex, are_parallel, common_stretch};
+use crate::geometry::segments::{SegmentIndex, are_parallel, common_stretch};
 use super::{Check, Context, FINDINGS_LIMIT, Kind, OpeningName, Place, Severity};
 use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
 use crate::geometry::{GRID_M, Point, Segment};

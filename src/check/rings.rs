@@ -1,13 +1,9 @@
 //! What can be wrong with a single ring.
 
 use super::FINDINGS_LIMIT;
-use super::edges::{SegmentIndex, crossing};
 use crate::geometry::runs::without_notches;
-use crate::geometry::{Point, Vector, polygon};
-
-/// Two pieces of a boundary touch when they come this close, in metres: far above the rounding to
-/// the 0.1 mm grid, far below [`crate::geometry::runs::NOTCH_M`], the finest detail of a boundary.
-pub const TOUCH_M: f64 = 0.001;
+use crate::geometry::segments::{SegmentIndex, crossing};
+use crate::geometry::{Point, TOUCH_M, Vector, polygon};
 
 /// Two directions closer than this, in radians, are not told apart when deciding whether a boundary
 /// that touches itself also crosses itself: it is what a corner shifted by [`TOUCH_M`] turns an edge

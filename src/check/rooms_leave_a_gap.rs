@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use super::edges::{are_parallel, common_stretch};
+use crate::geometry::segments::{are_parallel, common_stretch};
 use super::{Check, Context, Kind, Place, RoomName, Severity};
 use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
 use crate::geometry::{Point, Segment};

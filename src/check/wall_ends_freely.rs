@@ -1,8 +1,7 @@
 use std::collections::BTreeMap;
 
-use super::rings::TOUCH_M;
 use super::{Check, Context, Kind, Place, Severity};
-use crate::geometry::{Bounds, Point, Segment};
+use crate::geometry::{Bounds, Point, Segment, TOUCH_M};
 use crate::plan::{CornerId, ElementId, WallId};
 
 /// A wall with an end that meets nothing: it encloses no room there.

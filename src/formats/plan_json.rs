@@ -18,8 +18,8 @@ use crate::geometry::{Point, trim_m};
 use crate::labels::{Label, Schemes, Typology};
 use crate::plan::{
     Backdrop, COORDINATE_LIMIT_M, Corner, CornerId, ElementId, Extra, Guide, GuideAxis, Joint, LabelOrigin, LeafSide,
-    Meta, Opening, OpeningId, OpeningKind, Place as OpeningPlace, Plan, Room, RoomId, RoomLabel, Scale, ScaleOrigin,
-    Swing, Wall, WallId, guides,
+    Measurement, Meta, Opening, OpeningId, OpeningKind, Place as OpeningPlace, Plan, Room, RoomId, RoomLabel, Scale,
+    ScaleOrigin, Swing, Wall, WallId, guides,
 };
 
 /// The newest version of the file that this program reads, and the one it writes.
@@ -261,6 +261,8 @@ struct DiskBackdrop {
     path: String,
     #[serde(default, skip_serializing_if = "String::is_empty")]
     content_hash: String,
+    #[serde(default = "first_page", skip_serializing_if = "is_first_page")]
+    page: u32,
     x: Number,
     y: Number,
     metres_per_pixel: Number,
@@ -268,6 +270,8 @@ struct DiskBackdrop {
     rotation_rad: Number,
     #[serde(default = "one", skip_serializing_if = "is_one")]
     opacity: Number,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    measurements: Vec<DiskMeasurement>,
     #[serde(flatten)]
     extra: Map<String, Value>,
 }
@@ -279,6 +283,14 @@ struct DiskGuide {
     at: Metres,
     #[serde(flatten)]
     extra: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(expecting = "a measurement")]
+struct DiskMeasurement {
+    from: [Number; 2],
+    to: [Number; 2],
+    length: Number,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -418,6 +430,14 @@ fn one() -> Number {
     Number(1.0)
 }
 
+fn first_page() -> u32 {
+    1
+}
+
+fn is_first_page(page: &u32) -> bool {
+    *page == 1
+}
+
 fn is_zero(number: &Number) -> bool {
     number.0 == 0.0
 }
@@ -454,11 +474,13 @@ impl DiskBackdrop {
         Self {
             path: backdrop.path.clone(),
             content_hash: backdrop.content_hash.clone(),
+            page: backdrop.page,
             x: Number(backdrop.origin.x),
             y: Number(backdrop.origin.y),
             metres_per_pixel: Number(backdrop.metres_per_pixel),
             rotation_rad: Number(backdrop.rotation_rad),
             opacity: Number(backdrop.opacity),
+            measurements: backdrop.measurements.iter().map(DiskMeasurement::of).collect(),
             extra: fields(&backdrop.extra),
         }
     }
@@ -471,6 +493,19 @@ impl DiskGuide {
 
     fn live(self) -> Guide {
         Guide { axis: self.axis.0, at_m: self.at.0, extra: kept(self.extra) }
+    }
+}
+
+impl DiskMeasurement {
+    fn of(measurement: &Measurement) -> Self {
+        let Measurement { from, to, length_m } = measurement;
+        let pair = |point: &Point| [Number(point.x), Number(point.y)];
+        Self { from: pair(from), to: pair(to), length: Number(*length_m) }
+    }
+
+    fn live(self) -> Measurement {
+        let point = |[x, y]: [Number; 2]| Point::new(x.0, y.0);
+        Measurement { from: point(self.from), to: point(self.to), length_m: self.length.0 }
     }
 }
 
@@ -629,10 +664,12 @@ impl DiskBackdrop {
         Backdrop {
             path: self.path,
             content_hash: self.content_hash,
+            page: self.page,
             origin: Point::new(self.x.0, self.y.0),
             metres_per_pixel: self.metres_per_pixel.0,
             rotation_rad: self.rotation_rad.0,
             opacity: self.opacity.0,
+            measurements: self.measurements.into_iter().map(DiskMeasurement::live).collect(),
             extra: kept(self.extra),
         }
     }

@@ -9,6 +9,7 @@ mod point;
 pub mod polygon;
 pub mod runs;
 mod segment;
+pub mod segments;
 
 pub use bounds::Bounds;
 pub use point::{Point, Vector};
@@ -19,6 +20,10 @@ pub use segment::Segment;
 /// A tenth of a millimetre is far below what anyone measures in a building, and coordinates trimmed
 /// to it print with at most four decimals, which makes saving twice give the same bytes.
 pub const GRID_M: f64 = 1e-4;
+
+/// Two things touch when they come this close, in metres: far above the rounding to the grid of
+/// [`GRID_M`], far below [`runs::NOTCH_M`], the finest detail of a boundary.
+pub const TOUCH_M: f64 = 0.001;
 
 /// Rounds a length or coordinate in metres to the grid of [`GRID_M`]; never returns negative zero.
 ///

@@ -186,13 +186,26 @@ pub enum LeafSide {
     Right,
 }
 
+impl LeafSide {
+    /// The opposite side.
+    pub const fn other(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+        }
+    }
+}
+
 /// A picture under the plan, to trace over.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Backdrop {
-    /// Path relative to the plan's file, with forward slashes.
+    /// Path relative to the plan's file, with forward slashes; absolute while the plan has no file.
     pub path: String,
-    /// Hash of the picture's bytes, to find it again after a move; empty when unknown.
+    /// Hash of the picture's bytes (`sha256:` and 64 hexadecimal digits), to find it again after a
+    /// move; empty when unknown.
     pub content_hash: String,
+    /// Which page of a document it is, from 1; 1 for pictures.
+    pub page: u32,
     /// Where the picture's upper left corner lies in the plan.
     pub origin: Point,
     /// Size of a pixel in metres.
@@ -201,7 +214,19 @@ pub struct Backdrop {
     pub rotation_rad: f64,
     /// 0 invisible to 1 opaque.
     pub opacity: f64,
+    /// The lengths its scale was found from.
+    pub measurements: Vec<Measurement>,
     pub extra: Extra,
+}
+
+/// A known length on the picture under the plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measurement {
+    /// Its ends in pixels from the picture's upper left corner, x to the right, y down.
+    pub from: Point,
+    pub to: Point,
+    /// How long it is in truth, in metres, above 0.
+    pub length_m: f64,
 }
 
 impl Opening {

@@ -5,6 +5,7 @@
 //! [`edit`]); [`Plan::violations`] states the invariants; [`History`] keeps the plans for undo.
 
 mod builder;
+mod calibration;
 pub mod edit;
 mod element;
 pub mod guides;
@@ -18,8 +19,13 @@ use std::sync::Arc;
 use imbl::OrdMap;
 
 pub use builder::Builder;
+pub use calibration::{
+    Calibration, DrawingMoves, UNMEASURED_METRES_PER_PIXEL, move_picture, set_measurements, straightening_rad,
+    turn_picture,
+};
 pub use element::{
-    Backdrop, Corner, Joint, LabelOrigin, LeafSide, Opening, OpeningKind, Place, Room, RoomLabel, Swing, Wall,
+    Backdrop, Corner, Joint, LabelOrigin, LeafSide, Measurement, Opening, OpeningKind, Place, Room, RoomLabel, Swing,
+    Wall,
 };
 pub use guides::{Guide, GuideAxis};
 pub use history::{History, Step};
@@ -169,4 +175,14 @@ impl Plan {
             && self.backdrop.as_ref().map(Arc::as_ptr) == other.backdrop.as_ref().map(Arc::as_ptr)
             && Arc::ptr_eq(&self.guides, &other.guides)
     }
+}
+
+/// The edges of a ring, the closing one last.
+pub(crate) fn ring_edges<T: Copy>(ring: &[T]) -> impl Iterator<Item = (T, T)> + '_ {
+    ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| (a, b))
+}
+
+/// The corners of an edge, the smaller first: an edge has no direction.
+pub(crate) fn ordered(a: CornerId, b: CornerId) -> [CornerId; 2] {
+    if a < b { [a, b] } else { [b, a] }
 }

@@ -8,9 +8,10 @@ use super::arrangement::{Arrangement, NodeIndex};
 use super::exact::GridPoint;
 use super::faces::{Face, faces};
 use crate::geometry::polygon::{self, Location};
-use crate::geometry::{Point, Segment, trim_m};
+use crate::geometry::{Point, Segment};
+use crate::plan::edit::split::{Splits, split_edges};
 use crate::plan::edit::{self, EditError};
-use crate::plan::{CornerId, OpeningId, Place, Plan, Room, RoomId, WallId};
+use crate::plan::{CornerId, Plan, Room, RoomId, ordered, ring_edges};
 
 /// A face narrower than this on average (twice its area over its perimeter), in metres, is a sliver
 /// between lines that should be one, not a room. The smallest of 5,355 rooms in real dwellings are
@@ -29,7 +30,6 @@ pub struct Filled {
 /// A face that walls and boundaries of rooms enclose in a plan.
 #[derive(Clone, Debug)]
 pub struct PlanFace {
-    face: Face,
     /// The outer boundary in metres, counter-clockwise.
     pub outer: Vec<Point>,
     /// The boundaries of what lies inside, clockwise.
@@ -48,21 +48,21 @@ impl PlanFace {
 
     /// Whether it is too narrow for a room, see [`SLIVER_WIDTH_M`].
     pub fn is_sliver(&self) -> bool {
-        let perimeter_m: f64 =
-            polygon::perimeter(&self.outer) + self.holes.iter().map(|h| polygon::perimeter(h)).sum::<f64>();
-        2.0 * self.area_m2() < SLIVER_WIDTH_M * perimeter_m
+        is_sliver(&self.outer, &self.holes)
     }
+}
+
+/// Whether an area is too narrow for a room, see [`SLIVER_WIDTH_M`].
+pub(super) fn is_sliver(outer: &[Point], holes: &[Vec<Point>]) -> bool {
+    let perimeter_m = polygon::perimeter(outer) + holes.iter().map(|hole| polygon::perimeter(hole)).sum::<f64>();
+    2.0 * polygon::area(outer, holes) < SLIVER_WIDTH_M * perimeter_m
 }
 
 /// All faces that the walls of a plan and the boundaries of its rooms enclose: to show what a click
 /// would fill, and to fill it.
 #[derive(Debug)]
 pub struct PlanFaces<'a> {
-    plan: &'a Plan,
-    arrangement: Arrangement,
-    /// The edges of walls and boundaries, by their corners, the smaller first: in the order of the
-    /// arrangement's segments.
-    edges: Vec<[CornerId; 2]>,
+    edges: EdgeFaces<'a>,
     faces: Vec<PlanFace>,
 }
 
@@ -80,33 +80,25 @@ impl<'a> PlanFaces<'a> {
             }
         }
         by_corners.extend(plan.walls().map(|(_, wall)| (ordered(wall.from, wall.to), true)));
-        let (mut edges, mut segments, mut is_wall) = (Vec::new(), Vec::new(), Vec::new());
-        for (&[a, b], &wall) in &by_corners {
-            if let (Some(from), Some(to)) = (plan.position(a), plan.position(b)) {
-                edges.push([a, b]);
-                segments.push(Segment::new(from, to));
-                is_wall.push(wall);
-            }
-        }
-        let arrangement = Arrangement::new(&segments)
-            .map_err(|error| EditError(format!("the faces between the walls cannot be found: {error}")))?;
+        let edges = EdgeFaces::new(plan, by_corners.keys().copied())?;
         let mut walled: BTreeSet<[NodeIndex; 2]> = BTreeSet::new();
-        for i in (0..edges.len()).filter(|&i| is_wall[i]) {
-            walled.extend(arrangement.chain(i).windows(2).map(|pair| link(pair[0], pair[1])));
+        for (i, _) in edges.edges.iter().enumerate().filter(|(_, ends)| by_corners.get(*ends) == Some(&true)) {
+            walled.extend(edges.arrangement.chain(i).windows(2).map(|pair| link(pair[0], pair[1])));
         }
         let shapes = RoomShapes::new(plan);
-        let faces = faces(&arrangement)
-            .into_iter()
+        let faces = edges
+            .faces
+            .iter()
             .map(|face| {
-                let (outer, holes) = face.positions(&arrangement);
-                let inside = face.interior_point(&arrangement);
+                let (outer, holes) = face.positions(&edges.arrangement);
+                let inside = face.interior_point(&edges.arrangement);
                 let rooms = shapes.at(inside).into_iter().map(|index| shapes.all()[index].id).collect();
                 let by_walls =
                     face.rings().flat_map(|ring| ring_edges(ring)).all(|(u, v)| walled.contains(&link(u, v)));
-                PlanFace { face, outer, holes, by_walls, rooms }
+                PlanFace { outer, holes, by_walls, rooms }
             })
             .collect();
-        Ok(Self { plan, arrangement, edges, faces })
+        Ok(Self { edges, faces })
     }
 
     /// All faces, in a fixed order.
@@ -137,19 +129,95 @@ impl<'a> PlanFaces<'a> {
         if let Some(beyond) = indices.iter().find(|&&index| index >= self.faces.len()) {
             return Err(EditError(format!("there is no face {beyond}")));
         }
-        let chosen = || indices.iter().map(|&index| &self.faces[index].face);
+        let indices: Vec<usize> = indices.into_iter().collect();
+        let (mut next, boundaries) = self.edges.boundaries(&indices)?;
+        let mut rooms = Vec::with_capacity(indices.len());
+        for Boundary { outer, holes } in boundaries {
+            let (with_room, id) = edit::add_room(&next, Room { outer, holes, ..Room::default() })?;
+            next = with_room;
+            rooms.push(id);
+        }
+        Ok(Filled { plan: next, rooms })
+    }
+}
+
+/// The faces that edges between corners of a plan enclose.
+#[derive(Debug)]
+pub(super) struct EdgeFaces<'a> {
+    plan: &'a Plan,
+    arrangement: Arrangement,
+    /// The edges by their corners, the smaller first, each once: in the order of the arrangement's
+    /// segments.
+    edges: Vec<[CornerId; 2]>,
+    faces: Vec<Face>,
+}
+
+/// The rings around a face as corners.
+#[derive(Clone, Debug)]
+pub(super) struct Boundary {
+    pub outer: Arc<[CornerId]>,
+    pub holes: Vec<Arc<[CornerId]>>,
+}
+
+impl<'a> EdgeFaces<'a> {
+    /// The faces between edges of a plan, which need not belong to anything yet; each edge with its
+    /// smaller corner first.
+    ///
+    /// # Errors
+    /// When the edges meet more often than [`super::PASSINGS_LIMIT`].
+    pub fn new(plan: &'a Plan, edges: impl IntoIterator<Item = [CornerId; 2]>) -> Result<Self, EditError> {
+        let (mut known, mut segments) = (Vec::new(), Vec::new());
+        for [a, b] in edges {
+            if let (Some(from), Some(to)) = (plan.position(a), plan.position(b)) {
+                known.push([a, b]);
+                segments.push(Segment::new(from, to));
+            }
+        }
+        let arrangement = Arrangement::new(&segments)
+            .map_err(|error| EditError(format!("the faces between the walls cannot be found: {error}")))?;
+        let faces = faces(&arrangement);
+        Ok(Self { plan, arrangement, edges: known, faces })
+    }
+
+    /// How many faces there are.
+    pub fn count(&self) -> usize {
+        self.faces.len()
+    }
+
+    /// The outer ring and the holes of a face in metres.
+    pub fn positions(&self, index: usize) -> (Vec<Point>, Vec<Vec<Point>>) {
+        self.faces[index].positions(&self.arrangement)
+    }
+
+    /// A point inside a face.
+    pub fn interior_point(&self, index: usize) -> Point {
+        self.faces[index].interior_point(&self.arrangement)
+    }
+
+    /// The indices among the edges given of those that run along the boundary of a face.
+    pub fn edges_around(&self, index: usize) -> Vec<[CornerId; 2]> {
+        let links: BTreeSet<[NodeIndex; 2]> =
+            self.faces[index].rings().flat_map(|ring| ring_edges(ring)).map(|(u, v)| link(u, v)).collect();
+        let runs_along =
+            |i: usize| self.arrangement.chain(i).windows(2).any(|pair| links.contains(&link(pair[0], pair[1])));
+        (0..self.edges.len()).filter(|&i| runs_along(i)).map(|i| self.edges[i]).collect()
+    }
+
+    /// The rings around faces as corners, in the order of the indices, in a plan that has all of these
+    /// corners: where edges cross there are new ones, and whatever has one of the edges is split at
+    /// the corners that the rings have on it.
+    pub fn boundaries(&self, indices: &[usize]) -> Result<(Plan, Vec<Boundary>), EditError> {
+        let chosen = || indices.iter().map(|&index| &self.faces[index]);
         let mut corners = self.corners_at_nodes();
         let mut next = self.plan.clone();
+        let mut used = vec![false; self.arrangement.node_count()];
         for &node in chosen().flat_map(Face::rings).flatten() {
+            used[node as usize] = true;
             let corner = &mut corners[node as usize];
             if corner.is_none() {
                 let (with_corner, id) = edit::add_corner(&next, self.arrangement.position(node))?;
                 (next, *corner) = (with_corner, Some(id));
             }
-        }
-        let mut used = vec![false; self.arrangement.node_count()];
-        for &node in chosen().flat_map(Face::rings).flatten() {
-            used[node as usize] = true;
         }
         let mut splits = Splits::new();
         for (i, &ends) in self.edges.iter().enumerate() {
@@ -161,19 +229,16 @@ impl<'a> PlanFaces<'a> {
                 splits.insert(ends, inner);
             }
         }
-        let mut next = split_edges(&next, &splits)?;
-        let mut rooms = Vec::with_capacity(indices.len());
-        for face in chosen() {
-            let ring = |nodes: &Vec<NodeIndex>| -> Arc<[CornerId]> {
-                nodes.iter().filter_map(|&node| corners[node as usize]).collect()
-            };
-            let room =
-                Room { outer: ring(&face.outer), holes: face.holes.iter().map(ring).collect(), ..Room::default() };
-            let (with_room, id) = edit::add_room(&next, room)?;
-            next = with_room;
-            rooms.push(id);
+        if !splits.is_empty() {
+            next = split_edges(&next, &splits)?;
         }
-        Ok(Filled { plan: next, rooms })
+        let ring = |nodes: &Vec<NodeIndex>| -> Arc<[CornerId]> {
+            nodes.iter().filter_map(|&node| corners[node as usize]).collect()
+        };
+        let boundaries = chosen()
+            .map(|face| Boundary { outer: ring(&face.outer), holes: face.holes.iter().map(ring).collect() })
+            .collect();
+        Ok((next, boundaries))
     }
 
     /// The plan's corner at each node, if it has one there: of several in one place one at the end
@@ -182,9 +247,9 @@ impl<'a> PlanFaces<'a> {
         let nodes = self.arrangement.grid_points();
         let mut corners: Vec<Option<CornerId>> = vec![None; nodes.len()];
         let ends: BTreeSet<CornerId> = self.edges.iter().flatten().copied().collect();
-        let others = self.plan.corners().map(|(id, _)| id).filter(|id| !ends.contains(id));
-        for id in ends.iter().copied().chain(others) {
-            let place = self.plan.position(id).and_then(GridPoint::nearest);
+        let ends = ends.into_iter().filter_map(|id| Some((id, self.plan.position(id)?)));
+        for (id, position) in ends.chain(self.plan.corners().map(|(id, corner)| (id, corner.position))) {
+            let place = GridPoint::nearest(position);
             if let Some(node) = place.and_then(|place| nodes.binary_search(&place).ok()) {
                 corners[node].get_or_insert(id);
             }
@@ -226,93 +291,6 @@ pub fn fill_all(plan: &Plan) -> Result<Filled, EditError> {
         })
         .collect();
     faces.fill(&empty)
-}
-
-/// The corners to insert into edges: by the edge's corners, the smaller first, in the order from
-/// that to the larger.
-type Splits = BTreeMap<[CornerId; 2], Vec<CornerId>>;
-
-/// The corners from one end of an edge to the other, both included; `None` when it is not split.
-fn split_chain(splits: &Splits, from: CornerId, to: CornerId) -> Option<Vec<CornerId>> {
-    let inner = splits.get(&ordered(from, to))?;
-    let mut chain = vec![from];
-    if from < to {
-        chain.extend(inner)
-    } else {
-        chain.extend(inner.iter().rev())
-    }
-    chain.push(to);
-    Some(chain)
-}
-
-/// Splits the walls and the boundaries that have these edges, and moves their openings to the right
-/// part.
-fn split_edges(plan: &Plan, splits: &Splits) -> Result<Plan, EditError> {
-    let mut next = plan.clone();
-    let walls: Vec<(WallId, Vec<CornerId>)> =
-        plan.walls().filter_map(|(id, wall)| Some((id, split_chain(splits, wall.from, wall.to)?))).collect();
-    for (id, chain) in walls {
-        let Some(wall) = next.walls.get_mut(&id) else { continue };
-        wall.to = chain[1];
-        let (thickness_m, extra) = (wall.thickness_m, wall.extra.clone());
-        for pair in chain.windows(2).skip(1) {
-            let (with_wall, part) = edit::add_wall(&next, pair[0], pair[1], thickness_m)?;
-            next = with_wall;
-            if let Some(part) = next.walls.get_mut(&part) {
-                part.extra.clone_from(&extra);
-            }
-        }
-    }
-    let is_split = |ring: &[CornerId]| ring_edges(ring).any(|(a, b)| splits.contains_key(&ordered(a, b)));
-    let rooms: Vec<RoomId> =
-        plan.rooms().filter(|(_, room)| room.rings().any(|ring| is_split(ring))).map(|(id, _)| id).collect();
-    for id in rooms {
-        let Some(room) = next.rooms.get_mut(&id) else { continue };
-        let room = Arc::make_mut(room);
-        for ring in std::iter::once(&mut room.outer).chain(&mut room.holes) {
-            *ring = ring_edges(ring)
-                .flat_map(|(a, b)| {
-                    let mut chain = split_chain(splits, a, b).unwrap_or_else(|| vec![a, b]);
-                    chain.pop();
-                    chain
-                })
-                .collect();
-        }
-    }
-    let openings: Vec<(OpeningId, Place)> = plan
-        .openings()
-        .filter_map(|(id, opening)| Some((id, place_on_part(plan, &next, splits, opening.place)?)))
-        .collect();
-    for (id, place) in openings {
-        if let Some(opening) = next.openings.get_mut(&id) {
-            Arc::make_mut(opening).place = place;
-        }
-    }
-    Ok(next)
-}
-
-/// Where an opening on a split edge of `before` goes in `after`: on the part nearest to its middle.
-fn place_on_part(before: &Plan, after: &Plan, splits: &Splits, place: Place) -> Option<Place> {
-    let Place::Hosted { from, to, at_m, width_m } = place else { return None };
-    let chain = split_chain(splits, from, to)?;
-    let edge = Segment::new(before.position(from)?, before.position(to)?);
-    let middle = edge.a + edge.vector().unit()? * at_m;
-    let parts = chain.windows(2).filter_map(|pair| {
-        let part = Segment::new(after.position(pair[0])?, after.position(pair[1])?);
-        Some((part.distance(middle), part, pair[0], pair[1]))
-    });
-    let (_, part, from, to) = parts.min_by(|p, q| p.0.total_cmp(&q.0))?;
-    let at_m = trim_m(part.nearest_fraction(middle) * part.length());
-    Some(Place::Hosted { from, to, at_m, width_m })
-}
-
-/// The edges of a ring, the closing one last.
-fn ring_edges<T: Copy>(ring: &[T]) -> impl Iterator<Item = (T, T)> + '_ {
-    ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| (a, b))
-}
-
-fn ordered(a: CornerId, b: CornerId) -> [CornerId; 2] {
-    if a < b { [a, b] } else { [b, a] }
 }
 
 fn link(u: NodeIndex, v: NodeIndex) -> [NodeIndex; 2] {

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use enfilade::geometry::Point;
 use enfilade::labels::{Label, Typology};
 use enfilade::plan::{
-    Backdrop, Builder, CornerId, Extra, Joint, LabelOrigin, LeafSide, Meta, Opening, OpeningKind, Place, Plan, Room,
-    RoomId, RoomLabel, Scale, ScaleOrigin, Swing,
+    Backdrop, Builder, CornerId, Extra, Joint, LabelOrigin, LeafSide, Measurement, Meta, Opening, OpeningKind, Place,
+    Plan, Room, RoomId, RoomLabel, Scale, ScaleOrigin, Swing,
 };
 use proptest::collection::vec;
 use proptest::option;
@@ -66,6 +66,12 @@ fn backdrop() -> impl Strategy<Value = Backdrop> {
             metres_per_pixel,
             rotation_rad,
             opacity,
+            page: 1,
+            measurements: vec![Measurement {
+                from: origin,
+                to: Point::new(rotation_rad, opacity),
+                length_m: metres_per_pixel,
+            }],
             extra,
         },
     )

@@ -6,8 +6,8 @@ use enfilade::formats::plan_json::{from_bytes, to_bytes};
 use enfilade::geometry::Point;
 use enfilade::labels::{Label, Typology};
 use enfilade::plan::{
-    Backdrop, Builder, Joint, LabelOrigin, LeafSide, Meta, Opening, OpeningKind, Place, Plan, Room, RoomLabel, Scale,
-    ScaleOrigin, Swing,
+    Backdrop, Builder, Joint, LabelOrigin, LeafSide, Measurement, Meta, Opening, OpeningKind, Place, Plan, Room,
+    RoomLabel, Scale, ScaleOrigin, Swing,
 };
 
 /// A plan that uses every field of the model.
@@ -33,6 +33,8 @@ pub fn full_plan() -> Plan {
         metres_per_pixel: 1.0 / 300.0,
         rotation_rad: 0.1,
         opacity: 0.5,
+        page: 2,
+        measurements: vec![Measurement { from: Point::new(10.5, 20.0), to: Point::new(910.5, 20.25), length_m: 3.0 }],
         extra: None,
     });
     let rectangle = |x0: f64, y0: f64, x1: f64, y1: f64| {

@@ -259,6 +259,8 @@ fn with_backdrop(path: &str) -> Plan {
         metres_per_pixel: 0.5,
         rotation_rad: 0.0,
         opacity: 1.0,
+        page: 1,
+        measurements: Vec::new(),
         extra: None,
     };
     edit::set_backdrop(&plan, Some(backdrop))

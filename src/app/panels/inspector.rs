@@ -451,7 +451,9 @@ impl Inspected<'_> {
         value(ui, "Openings", &doors.to_string());
         value(ui, "Windows", &(plan.openings().len() - doors).to_string());
         if let Some(derived) = self.document.derived() {
-            let area_m2: f64 = derived.analysis.shapes.all().iter().map(crate::topology::RoomShape::area_m2).sum();
+            // A sum of nothing is minus zero.
+            let areas_m2 = derived.analysis.shapes.all().iter().map(crate::topology::RoomShape::area_m2);
+            let area_m2 = areas_m2.fold(0.0, |sum, area_m2| sum + area_m2);
             value(ui, "Floor area", &self.app.units().area(area_m2));
             self.gaps(ui, derived);
         }

@@ -36,17 +36,21 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     ScrollArea::vertical().show(&mut ui, |ui| {
         ui.label(strong("Enfilade", theme::DISPLAY));
         ui.add_space(2.0);
-        let text = "Open a floor plan to see its rooms, the doors that join them, and what both say of each room.";
+        let text =
+            "Draw or open a floor plan to see its rooms, the doors that join them, and what both say of each room.";
         ui.add(Label::new(RichText::new(text).color(colours(ui).text_weak)).wrap());
         ui.add_space(10.0);
         ui.horizontal(|ui| {
-            let Some(command) = commands::find("open") else { return };
-            if text_button(ui, "Open a plan…", true).on_hover_text(command.help).clicked() {
-                let context = ui.ctx().clone();
-                app.run_command(command.id, &context);
+            let Some((new, open)) = commands::find("new-plan").zip(commands::find("open")) else { return };
+            for (command, title) in [(new, "New plan"), (open, "Open a plan…")] {
+                let help = format!("{} ({})", command.help, app.keys_text(command, ui.ctx()));
+                if text_button(ui, title, command.id == new.id).on_hover_text(help).clicked() {
+                    let context = ui.ctx().clone();
+                    app.run_command(command.id, &context);
+                }
             }
             ui.add_space(4.0);
-            let hint = format!("{}, or drop a file anywhere here", app.keys_text(command, ui.ctx()));
+            let hint = "or drop a file anywhere here";
             ui.label(RichText::new(hint).color(colours(ui).text_weak));
         });
         ui.add_space(20.0);

@@ -229,6 +229,7 @@ impl Recorder {
     fn open(&mut self, origin: &Origin) -> Line {
         match origin {
             Origin::Bundled(index) => Line::new(&["open-sample", sample_word(*index)]),
+            Origin::Untitled => Line::new(&["new-plan"]),
             Origin::File { path, storey } => match self.files.add_file(path) {
                 None => Line::new(&["open-missing", &document::file_name(path)]),
                 Some(word) if *storey == 0 => Line::new(&["open", &word]),

@@ -1,6 +1,10 @@
 //! Edits: functions from plan to plan. Each returns a plan that keeps the invariants, or an error
 //! that says what stood in the way; the plan given is never changed.
 
+pub(crate) mod lay;
+mod openings;
+pub(crate) mod split;
+
 use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
@@ -8,9 +12,13 @@ use std::sync::Arc;
 use super::builder::{new_corner_id, new_opening_id, new_room_id, new_wall_id};
 use super::{
     Backdrop, COORDINATE_LIMIT_M, Corner, CornerId, ElementId, Joint, Meta, Opening, OpeningId, Place, Plan, Room,
-    RoomId, RoomLabel, Wall, WallId,
+    RoomId, RoomLabel, Wall, WallId, ordered, ring_edges,
 };
 use crate::geometry::{Point, trim_m};
+
+pub use openings::{
+    flip_hinge, flip_side, opening_at, place_opening, resize_opening, set_opening_kind, set_swing, slide_opening,
+};
 
 /// Why an edit could not be done, in words for the status line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,11 +32,11 @@ impl fmt::Display for EditError {
 
 impl std::error::Error for EditError {}
 
-fn fail<T>(what: impl Into<String>) -> Result<T, EditError> {
+pub(super) fn fail<T>(what: impl Into<String>) -> Result<T, EditError> {
     Err(EditError(what.into()))
 }
 
-fn checked_position(point: Point) -> Result<Point, EditError> {
+pub(super) fn checked_position(point: Point) -> Result<Point, EditError> {
     let position = point.trimmed();
     if position.is_finite() && position.x.abs() <= COORDINATE_LIMIT_M && position.y.abs() <= COORDINATE_LIMIT_M {
         return Ok(position);
@@ -190,9 +198,8 @@ pub fn removed_with(plan: &Plan, elements: &[ElementId]) -> BTreeSet<ElementId> 
         }
     }
     // Edges and corners that something still uses.
-    let mut edges: BTreeSet<(CornerId, CornerId)> = BTreeSet::new();
+    let mut edges: BTreeSet<[CornerId; 2]> = BTreeSet::new();
     let mut used: BTreeSet<CornerId> = BTreeSet::new();
-    let ordered = |a: CornerId, b: CornerId| if a < b { (a, b) } else { (b, a) };
     for (id, wall) in plan.walls() {
         if !gone.contains(&ElementId::Wall(id)) {
             edges.insert(ordered(wall.from, wall.to));
@@ -202,14 +209,14 @@ pub fn removed_with(plan: &Plan, elements: &[ElementId]) -> BTreeSet<ElementId> 
     for (id, room) in plan.rooms() {
         if !gone.contains(&ElementId::Room(id)) {
             for ring in room.rings() {
-                edges.extend((0..ring.len()).map(|i| ordered(ring[i], ring[(i + 1) % ring.len()])));
+                edges.extend(ring_edges(ring).map(|(a, b)| ordered(a, b)));
                 used.extend(ring.iter().copied());
             }
         }
     }
     // Only what loses its support goes: a free-standing corner or an opening whose edge never was
     // an edge of anything stays unless it is named.
-    let mut edges_before: BTreeSet<(CornerId, CornerId)> = edges.clone();
+    let mut edges_before: BTreeSet<[CornerId; 2]> = edges.clone();
     let mut losing: BTreeSet<CornerId> = BTreeSet::new();
     for element in &gone {
         match element {
@@ -221,7 +228,7 @@ pub fn removed_with(plan: &Plan, elements: &[ElementId]) -> BTreeSet<ElementId> 
             }
             ElementId::Room(id) => {
                 for ring in plan.room(*id).into_iter().flat_map(Room::rings) {
-                    edges_before.extend((0..ring.len()).map(|i| ordered(ring[i], ring[(i + 1) % ring.len()])));
+                    edges_before.extend(ring_edges(ring).map(|(a, b)| ordered(a, b)));
                     losing.extend(ring.iter().copied());
                 }
             }
@@ -344,6 +351,6 @@ fn require_corners(plan: &Plan, corners: &[CornerId]) -> Result<(), EditError> {
     }
 }
 
-fn require_room(plan: &Plan, id: RoomId) -> Result<(), EditError> {
+pub(crate) fn require_room(plan: &Plan, id: RoomId) -> Result<(), EditError> {
     if plan.rooms.contains_key(&id) { Ok(()) } else { fail(format!("the room {id} does not exist")) }
 }

@@ -3,6 +3,9 @@
 use super::*;
 
 pub(super) const COMMANDS: &[Command] = &[
+    command("new-plan", "New plan", "Begin a plan on which nothing is drawn yet", always, |app, _| app.new_plan())
+        .keys(&[ctrl(Key::N)])
+        .menu(Menu::File, 0),
     with(
         "open",
         "Open…",

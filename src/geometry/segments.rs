@@ -1,9 +1,10 @@
-//! Segments found by place.
+//! Segments found by place, and how two of them lie to each other.
 
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-use crate::geometry::{Bounds, Segment};
+use super::polygon::orientation;
+use super::{Bounds, Point, Segment};
 
 /// Segments with an index to find them by place.
 #[derive(Debug)]
@@ -37,8 +38,7 @@ impl SegmentIndex {
 }
 
 /// Where two segments cross each other inside, if they do; not where they touch.
-pub fn crossing(p: Segment, q: Segment) -> Option<crate::geometry::Point> {
-    use crate::geometry::polygon::orientation;
+pub fn crossing(p: Segment, q: Segment) -> Option<Point> {
     let opposite = |s: Segment, t: Segment| {
         let (u, v) = (orientation(s.a, s.b, t.a), orientation(s.a, s.b, t.b));
         (u > 0.0 && v < 0.0) || (u < 0.0 && v > 0.0)

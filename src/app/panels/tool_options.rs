@@ -1,0 +1,78 @@
+//! What the tool in the hand can be told, in a bar above the canvas.
+
+use egui::{Align, DragValue, Frame, Layout, Margin, Panel, RichText, Ui};
+
+use crate::app::commands;
+use crate::app::widgets::{colours, toggle};
+use crate::app::{App, theme};
+
+/// The tools for which something can be told, with the commands of their switches.
+fn switches(id: &str) -> &'static [(&'static str, &'static str)] {
+    const SNAPPING: (&str, &str) = ("snapping", "Snap");
+    const GRID: (&str, &str) = ("snap-to-grid", "Grid");
+    const ANGLES: (&str, &str) = ("right-angles", "Right angles");
+    const WALLS: (&str, &str) = ("walls-with-rooms", "Walls around rooms");
+    match id {
+        "walls" | "split" | "cut-out" => &[ANGLES, SNAPPING, GRID],
+        "room" => &[WALLS, ANGLES, SNAPPING, GRID],
+        "rectangle" => &[WALLS, SNAPPING, GRID],
+        "measure" => &[SNAPPING],
+        _ => &[],
+    }
+}
+
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    let id = app.tools.id();
+    if app.document.is_none() || app.tools.is_selecting() {
+        return;
+    }
+    let frame = Frame::new().fill(colours(ui).panel).inner_margin(Margin::symmetric(12, 0));
+    Panel::top("tool options").exact_size(36.0).frame(frame).show(ui, |ui| {
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            ui.spacing_mut().item_spacing.x = 8.0;
+            let title = commands::find(&format!("tool-{id}")).map_or("", |command| command.title);
+            ui.label(crate::app::widgets::strong(title, theme::BODY));
+            ui.add_space(8.0);
+            let has_thickness = id == "walls" || (matches!(id, "room" | "rectangle") && app.draw_options.walls_with_rooms);
+            if has_thickness {
+                let now = app.draw_options.thickness_m;
+                length(app, ui, "Thickness", "wall-thickness", now, 0.0..=10.0);
+            }
+            if matches!(id, "door" | "double-door" | "passage" | "window") {
+                let now = app.draw_options.opening_width_m;
+                length(app, ui, "Width", "opening-width", now, 0.1..=100.0);
+            }
+            for (id, name) in switches(id) {
+                let Some(command) = commands::find(id) else { continue };
+                let is_on = command.is_on(app) == Some(true);
+                let response = toggle(ui, name, is_on);
+                let keys = app.keys_text(command, ui.ctx());
+                let keys = if keys.is_empty() { keys } else { format!("  {keys}") };
+                if response.on_hover_text(format!("{}{keys}\n{}", command.title, command.help)).clicked() {
+                    let context = ui.ctx().clone();
+                    app.run_command(id, &context);
+                }
+            }
+        });
+    });
+}
+
+/// A length that is dragged or typed, in metres.
+fn length(
+    app: &mut App,
+    ui: &mut Ui,
+    name: &str,
+    command: &'static str,
+    now_m: f64,
+    range: std::ops::RangeInclusive<f64>,
+) {
+    let label = ui.label(RichText::new(name).color(colours(ui).text_weak));
+    let mut value_m = now_m;
+    let field = DragValue::new(&mut value_m).speed(0.005).range(range).max_decimals(3).min_decimals(2).suffix(" m");
+    let response = ui.add(field).labelled_by(label.id);
+    if response.changed() {
+        let word = ((value_m * 1000.0).round() / 1000.0).to_string();
+        let context = ui.ctx().clone();
+        app.act(command, &[&word], &context);
+    }
+}

@@ -1,0 +1,113 @@
+//! Cuts a courtyard or a shaft out of a room.
+
+use super::path::{Path, area};
+use super::preview::{Look, Preview};
+use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
+use crate::app::commands::points_word;
+use crate::geometry::{Point, polygon};
+
+pub(super) const ENTRY: Entry = Entry { id: "cut-out", make: || Box::new(CutOut::default()) };
+
+/// No corners yet, or some.
+#[derive(Default)]
+struct CutOut {
+    path: Path,
+}
+
+impl CutOut {
+    fn to(&mut self, point: Point) -> Vec<Call> {
+        if self.path.closes(point) || self.path.is_last(point) {
+            return self.close();
+        }
+        // Ready -> Drawing, Drawing -> Drawing
+        self.path.points.push(point);
+        Vec::new()
+    }
+
+    /// Drawing -> Ready
+    fn close(&mut self) -> Vec<Call> {
+        let points = rectangle_of_two(std::mem::take(&mut self.path.points));
+        if points.len() < 3 { Vec::new() } else { vec![("cut-out", vec![points_word(&points)])] }
+    }
+}
+
+/// Two corners are those of a rectangle.
+fn rectangle_of_two(points: Vec<Point>) -> Vec<Point> {
+    match points.as_slice() {
+        [a, b] => vec![*a, Point::new(b.x, a.y), *b, Point::new(a.x, b.y)],
+        _ => points,
+    }
+}
+
+impl Tool for CutOut {
+    fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
+        match input {
+            Input::Click => self.to(scope.at()),
+            Input::DragStart { at, .. } if self.path.is_empty() => {
+                self.path.points = vec![at];
+                Vec::new()
+            }
+            Input::Drop => {
+                self.path.points.push(scope.at());
+                self.close()
+            }
+            Input::Typed(typed) => match self.path.typed_point(typed, scope) {
+                Some(point) => self.to(point),
+                None => Vec::new(),
+            },
+            Input::Enter | Input::DoubleClick | Input::SecondaryClick => self.close(),
+            Input::Escape => {
+                self.path = Path::default();
+                Vec::new()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    fn hint(&self, _: &Scope<'_>) -> String {
+        if self.path.is_empty() {
+            "Courtyard: drag a rectangle inside a room, or click its corners".to_owned()
+        } else {
+            "Click the next corner · the first one again or Enter closes · Esc drops it".to_owned()
+        }
+    }
+
+    fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
+        if self.path.is_empty() {
+            return;
+        }
+        let mut points = self.path.points.clone();
+        points.push(scope.at());
+        let closed = rectangle_of_two(points);
+        if closed.len() >= 3 {
+            preview.label(scope.at(), area(polygon::signed_area(&closed).abs()), Look::Danger);
+            preview.fill(closed.clone(), Vec::new(), Look::Danger);
+        }
+        preview.dashed(closed, true, Look::Danger);
+        self.path.preview_corners(preview);
+    }
+
+    fn is_busy(&self) -> bool {
+        !self.path.is_empty()
+    }
+
+    fn anchor(&self) -> Option<Anchor> {
+        // The first two corners are a rectangle's: any direction.
+        self.path.anchor().filter(|_| self.path.points.len() > 1)
+    }
+
+    fn points(&self) -> Vec<Point> {
+        self.path.points.clone()
+    }
+
+    fn typing(&self) -> Option<Typing> {
+        self.is_busy().then_some(Typing::Length)
+    }
+
+    fn take_back(&mut self) -> TakenBack {
+        match self.path.points.pop() {
+            Some(_) => TakenBack::Corner,
+            None => TakenBack::Nothing,
+        }
+    }
+}

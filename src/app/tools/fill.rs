@@ -1,0 +1,63 @@
+//! Makes a room of what walls enclose.
+
+use std::cell::RefCell;
+
+use super::path::area;
+use super::preview::{Look, Preview};
+use super::{Call, Entry, Input, Scope, Tool, word};
+use crate::geometry::{Point, polygon};
+use crate::plan::Plan;
+use crate::topology::{PlanFace, PlanFaces};
+
+pub(super) const ENTRY: Entry = Entry { id: "fill", make: || Box::new(Fill::default()) };
+
+#[derive(Default)]
+struct Fill {
+    /// The faces of a plan: worked out once a plan, when the pointer is first over it.
+    faces: RefCell<Option<(Plan, Vec<PlanFace>)>>,
+}
+
+impl Fill {
+    /// Does something with the free face around a point.
+    fn with_face<R>(&self, scope: &Scope<'_>, point: Point, then: impl FnOnce(&PlanFace) -> R) -> Option<R> {
+        let mut known = self.faces.borrow_mut();
+        if !known.as_ref().is_some_and(|(plan, _)| plan.is_same_value(scope.plan)) {
+            let faces = PlanFaces::new(scope.plan).map(|faces| faces.all().to_vec()).unwrap_or_default();
+            *known = Some((scope.plan.clone(), faces));
+        }
+        let (_, faces) = known.as_ref()?;
+        let around = |face: &&PlanFace| {
+            polygon::bounds(&face.outer).contains(point)
+                && polygon::locate(&face.outer, &face.holes, point) == polygon::Location::Inside
+        };
+        faces.iter().filter(|face| face.rooms.is_empty()).find(around).map(then)
+    }
+}
+
+impl Tool for Fill {
+    fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
+        match input {
+            Input::Click => vec![("fill-at", vec![word(scope.pointer)])],
+            _ => Vec::new(),
+        }
+    }
+
+    fn hint(&self, scope: &Scope<'_>) -> String {
+        match self.with_face(scope, scope.pointer, PlanFace::area_m2) {
+            Some(area_m2) => format!("Click to make a room of these {}", area(area_m2)),
+            None => "Fill: point at a place that walls enclose and no room covers · Shift+E fills all".to_owned(),
+        }
+    }
+
+    fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
+        self.with_face(scope, scope.pointer, |face| {
+            preview.fill(face.outer.clone(), face.holes.clone(), Look::New);
+            preview.line(face.outer.clone(), true, Look::New);
+            preview.label(scope.pointer, area(face.area_m2()), Look::New);
+        });
+    }
+
+    fn snaps(&self) -> bool {
+        false
+    }
+}

@@ -1,0 +1,114 @@
+//! Measures distances, angles and areas. Changes nothing.
+
+use super::path::{Path, area, length};
+use super::preview::{Look, Preview, degrees};
+use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool};
+use crate::geometry::{Point, Segment, polygon};
+
+pub(super) const ENTRY: Entry = Entry { id: "measure", make: || Box::new(Measure::default()) };
+
+#[derive(Default)]
+struct Measure {
+    path: Path,
+    /// Whether the last point is set: what is shown stays until the next click.
+    is_done: bool,
+}
+
+impl Measure {
+    /// The points measured so far, the pointer's included.
+    fn points(&self, scope: &Scope<'_>) -> Vec<Point> {
+        let mut points = self.path.points.clone();
+        if !self.is_done && !points.is_empty() {
+            points.push(scope.at());
+        }
+        points
+    }
+}
+
+impl Tool for Measure {
+    fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
+        match input {
+            // Done -> Measuring
+            Input::Click if self.is_done || self.path.is_empty() => {
+                *self = Self { path: Path { points: vec![scope.at()] }, is_done: false };
+            }
+            // Measuring -> Done
+            Input::Click if self.path.closes(scope.at()) => {
+                self.path.points.push(scope.at());
+                self.is_done = true;
+            }
+            Input::Click if self.path.is_last(scope.at()) => self.is_done = true,
+            // Measuring -> Measuring
+            Input::Click => self.path.points.push(scope.at()),
+            Input::Enter | Input::DoubleClick | Input::SecondaryClick => self.is_done = !self.path.is_empty(),
+            Input::Escape => *self = Self::default(),
+            Input::DragStart { at, .. } => *self = Self { path: Path { points: vec![at] }, is_done: false },
+            Input::Drop => {
+                self.path.points.push(scope.at());
+                self.is_done = true;
+            }
+            _ => {}
+        }
+        Vec::new()
+    }
+
+    fn hint(&self, scope: &Scope<'_>) -> String {
+        let points = self.points(scope);
+        if points.len() < 2 {
+            return "Measure: click from point to point · the first one again closes an area".to_owned();
+        }
+        let total_m: f64 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        let mut text = format!("Length {}", length(total_m));
+        if let [.., a, b] = points.as_slice() {
+            let way = *b - *a;
+            text.push_str(&format!(" · across {} · up {}", length(way.x.abs()), length(way.y.abs())));
+        }
+        if points.len() >= 3 {
+            text.push_str(&format!(" · area {}", area(polygon::signed_area(&points).abs())));
+        }
+        text
+    }
+
+    fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
+        let points = self.points(scope);
+        if points.len() >= 3 {
+            preview.fill(points.clone(), Vec::new(), Look::Guide);
+            preview.label(polygon::centroid(&points), area(polygon::signed_area(&points).abs()), Look::Guide);
+        }
+        let mut along = None;
+        for pair in points.windows(2) {
+            let segment = Segment::new(pair[0], pair[1]);
+            let angle = degrees(along, segment.vector());
+            let angle = if angle > 180.0 { 360.0 - angle } else { angle };
+            // Between two lines, the angle that they enclose.
+            let shown = if along.is_some() { ((180.0 - angle) * 10.0).round() / 10.0 } else { angle };
+            preview.dimension(segment, format!("{}  {shown}°", length(segment.length())));
+            along = segment.vector().unit();
+        }
+        for &point in &points {
+            preview.handle(point, Look::Guide);
+        }
+        preview.dashed(points, false, Look::Guide);
+    }
+
+    fn is_busy(&self) -> bool {
+        !self.path.is_empty()
+    }
+
+    fn anchor(&self) -> Option<Anchor> {
+        // Distances are measured in any direction.
+        self.path.anchor().map(|anchor| Anchor { right_angles: false, ..anchor })
+    }
+
+    fn points(&self) -> Vec<Point> {
+        self.path.points.clone()
+    }
+
+    fn take_back(&mut self) -> TakenBack {
+        self.is_done = false;
+        match self.path.points.pop() {
+            Some(_) => TakenBack::Corner,
+            None => TakenBack::Nothing,
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! Puts doors, passages and windows into walls.
+
+use super::path::length;
+use super::preview::{Look, Preview};
+use super::{Call, Entry, Input, Scope, Tool, Typed, Typing, word};
+use crate::app::canvas::room_title;
+use crate::geometry::{Point, Segment};
+use crate::plan::edit::opening_at;
+use crate::plan::{Joint, LeafSide, Opening as PlanOpening, OpeningKind, Swing};
+use crate::topology::sides_by_geometry;
+
+pub(super) const DOOR: Entry = Entry { id: "door", make: || Box::new(Opening::new(OpeningKind::Door)) };
+pub(super) const DOUBLE_DOOR: Entry =
+    Entry { id: "double-door", make: || Box::new(Opening::new(OpeningKind::DoubleDoor)) };
+pub(super) const PASSAGE: Entry = Entry { id: "passage", make: || Box::new(Opening::new(OpeningKind::Passage)) };
+pub(super) const WINDOW: Entry = Entry { id: "window", make: || Box::new(Opening::new(OpeningKind::Window)) };
+
+struct Opening {
+    kind: OpeningKind,
+    /// Where a drag along the wall began: it says how wide the opening is.
+    from: Option<Point>,
+}
+
+/// An opening goes into a wall this near to the pointer, in points: nearer than the next wall of a narrow
+/// corridor at a usual zoom.
+const REACH_PX: f64 = 18.0;
+
+/// A drag shorter than this is a click with a trembling hand, in metres.
+const LEAST_WIDTH_M: f64 = 0.3;
+
+impl Opening {
+    fn new(kind: OpeningKind) -> Self {
+        Self { kind, from: None }
+    }
+
+    /// The opening that a click would make.
+    fn planned(&self, scope: &Scope<'_>) -> Option<PlanOpening> {
+        let dragged = self.from.map(|from| Segment::new(from, scope.pointer));
+        let dragged = dragged.filter(|way| way.length() >= LEAST_WIDTH_M);
+        let at = dragged.map_or(scope.pointer, Segment::midpoint);
+        let width_m = dragged.map_or(self.width_m(scope), Segment::length);
+        opening_at(scope.plan, self.kind, at, width_m, scope.metres(REACH_PX), Some(scope.pointer)).ok()
+    }
+
+    /// Two leaves are twice as wide.
+    fn width_m(&self, scope: &Scope<'_>) -> f64 {
+        let factor = if self.kind == OpeningKind::DoubleDoor { 2.0 } else { 1.0 };
+        scope.options.opening_width_m * factor
+    }
+
+    /// Ready -> Ready
+    fn place(&self, scope: &Scope<'_>) -> Vec<Call> {
+        let planned = self.planned(scope);
+        let Some(segment) = planned.and_then(|opening| scope.plan.opening_segment(&opening)) else { return Vec::new() };
+        let kind = self.kind.name().replace(' ', "-");
+        let width_m = (segment.length() * 1e4).round() / 1e4;
+        vec![("add-opening", vec![kind, word(segment.midpoint()), width_m.to_string(), word(scope.pointer)])]
+    }
+}
+
+impl Tool for Opening {
+    fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
+        match input {
+            Input::Click => self.place(scope),
+            // Ready -> Widening
+            Input::DragStart { pointer, .. } => {
+                self.from = Some(pointer);
+                Vec::new()
+            }
+            // Widening -> Ready
+            Input::Drop => {
+                let calls = self.place(scope);
+                self.from = None;
+                calls
+            }
+            Input::Escape => {
+                self.from = None;
+                Vec::new()
+            }
+            Input::Typed(Typed::Length { length_m, .. }) => vec![("opening-width", vec![length_m.to_string()])],
+            _ => Vec::new(),
+        }
+    }
+
+    fn hint(&self, scope: &Scope<'_>) -> String {
+        let name = crate::app::canvas::sentence(self.kind.name());
+        match self.planned(scope) {
+            Some(_) => format!("{name}: click to place it, drag along the wall for another width, or type a width"),
+            None => format!("{name}: point at a wall or at a room's boundary"),
+        }
+    }
+
+    fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
+        let Some(opening) = self.planned(scope) else { return };
+        let Some(segment) = scope.plan.opening_segment(&opening) else { return };
+        preview.wall(segment, scope.metres(8.0), Look::New);
+        for [hinge, shut, tip] in leaves(segment, self.kind, opening.swing) {
+            preview.line(vec![hinge, tip], false, Look::New);
+            preview.arc(hinge, shut, tip, Look::New);
+        }
+        let mut said = length(segment.length());
+        if self.kind.is_passable()
+            && let Some(derived) = scope.derived
+        {
+            let name = |joint: Joint| match joint {
+                Joint::Outside => "outside".to_owned(),
+                Joint::Room(id) => scope.plan.room(id).map(room_title).unwrap_or_default(),
+            };
+            let [left, right] = sides_by_geometry(scope.plan, &derived.analysis.shapes, &opening).map(name);
+            said = format!("{said}  {left} – {right}");
+        }
+        preview.label(scope.pointer, said, Look::New);
+    }
+
+    fn is_busy(&self) -> bool {
+        self.from.is_some()
+    }
+
+    fn snaps(&self) -> bool {
+        false
+    }
+
+    fn typing(&self) -> Option<Typing> {
+        Some(Typing::Width)
+    }
+}
+
+/// The hinge, the closed and the open end of each leaf.
+fn leaves(segment: Segment, kind: OpeningKind, swing: Option<Swing>) -> Vec<[Point; 3]> {
+    let Some(swing) = swing else { return Vec::new() };
+    let to_side = segment.vector().left() * if swing.side == LeafSide::Left { 1.0 } else { -1.0 };
+    let leaf = |hinge: Point, shut: Point, share: f64| [hinge, shut, hinge + to_side * share];
+    match (kind, swing.hinge_at_start) {
+        (OpeningKind::DoubleDoor, _) => {
+            let middle = segment.midpoint();
+            vec![leaf(segment.a, middle, 0.5), leaf(segment.b, middle, 0.5)]
+        }
+        (_, true) => vec![leaf(segment.a, segment.b, 1.0)],
+        (_, false) => vec![leaf(segment.b, segment.a, 1.0)],
+    }
+}

@@ -1,0 +1,109 @@
+//! Draws a room as a rectangle: it takes what is free there.
+
+use super::path::{area, length};
+use super::preview::{Look, Preview};
+use super::{Call, Entry, Input, Scope, TakenBack, Tool, Typed, Typing};
+use crate::app::commands::points_word;
+use crate::geometry::{Point, Segment, Vector, polygon};
+
+pub(super) const ENTRY: Entry = Entry { id: "rectangle", make: || Box::new(Rectangle::Ready) };
+
+enum Rectangle {
+    Ready,
+    /// `along`: the direction of its sides.
+    Sized { from: Point, along: Vector },
+}
+
+/// Sides shorter than this are a slip of the hand: half of the smallest shaft.
+const LEAST_SIDE_M: f64 = 0.1;
+
+impl Rectangle {
+    /// Ready -> Sized
+    fn begin(&mut self, from: Point, scope: &Scope<'_>) {
+        // Along the wall it begins on, where that is slanted.
+        let index = scope.derived.map(|derived| &derived.index);
+        let edges = index.map(|index| index.edges_near(from, scope.metres(1.0))).unwrap_or_default();
+        let along = edges.first().and_then(|edge| edge.segment.vector().unit()).unwrap_or(Vector::new(1.0, 0.0));
+        *self = Self::Sized { from, along };
+    }
+
+    /// Sized -> Ready
+    fn end(&mut self, to: Point, scope: &Scope<'_>) -> Vec<Call> {
+        let Self::Sized { from, along } = *self else { return Vec::new() };
+        let corners = corners(from, to, along);
+        let sides = [corners[0].distance(corners[1]), corners[1].distance(corners[2])];
+        if sides.into_iter().any(|side| side < LEAST_SIDE_M) {
+            return Vec::new();
+        }
+        *self = Self::Ready;
+        let thickness_m = if scope.options.walls_with_rooms { scope.options.thickness_m } else { 0.0 };
+        vec![("draw-room", vec![points_word(&corners), "free".to_owned(), thickness_m.to_string()])]
+    }
+}
+
+/// The corners of a rectangle by two opposite ones and the direction of a side.
+fn corners(from: Point, to: Point, along: Vector) -> [Point; 4] {
+    let way = to - from;
+    let (x, y) = (along * way.dot(along), along.left() * way.dot(along.left()));
+    [from, from + x, to, from + y]
+}
+
+impl Tool for Rectangle {
+    fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
+        match (input, &self) {
+            (Input::Click, Self::Ready) => self.begin(scope.at(), scope),
+            (Input::DragStart { at, .. }, Self::Ready) => self.begin(at, scope),
+            (Input::Click | Input::Drop, Self::Sized { .. }) => return self.end(scope.at(), scope),
+            (Input::Typed(Typed::Size { width_m, height_m }), &&mut Self::Sized { from, along }) => {
+                // Towards the pointer.
+                let way = scope.at() - from;
+                let sign = |value: f64| if value < 0.0 { -1.0 } else { 1.0 };
+                let (u, v) = (along, along.left());
+                let to = from + u * (width_m * sign(way.dot(u))) + v * (height_m * sign(way.dot(v)));
+                return self.end(to, scope);
+            }
+            // Sized -> Ready
+            (Input::Escape | Input::SecondaryClick, _) => *self = Self::Ready,
+            _ => {}
+        }
+        Vec::new()
+    }
+
+    fn hint(&self, _: &Scope<'_>) -> String {
+        match self {
+            Self::Ready => "Rectangle: click a corner of the room, or drag from corner to corner · it takes what no room has".to_owned(),
+            Self::Sized { .. } => "Click the opposite corner, or type both sides (4x3) · Esc drops it".to_owned(),
+        }
+    }
+
+    fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
+        let Self::Sized { from, along } = *self else { return };
+        let corners = corners(from, scope.at(), along);
+        let area_m2 = polygon::signed_area(&corners).abs();
+        preview.fill(corners.to_vec(), Vec::new(), Look::New);
+        preview.line(corners.to_vec(), true, Look::New);
+        for pair in [[corners[0], corners[1]], [corners[1], corners[2]]] {
+            let side = Segment::new(pair[0], pair[1]);
+            preview.dimension(side, length(side.length()));
+        }
+        if area_m2 > 0.0 {
+            preview.label(scope.at(), area(area_m2), Look::New);
+        }
+    }
+
+    fn is_busy(&self) -> bool {
+        matches!(self, Self::Sized { .. })
+    }
+
+    fn typing(&self) -> Option<Typing> {
+        self.is_busy().then_some(Typing::Size)
+    }
+
+    fn take_back(&mut self) -> TakenBack {
+        if !self.is_busy() {
+            return TakenBack::Nothing;
+        }
+        *self = Self::Ready;
+        TakenBack::Corner
+    }
+}

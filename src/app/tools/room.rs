@@ -1,0 +1,148 @@
+//! Draws a room by its corners.
+
+use super::path::{Path, area};
+use super::preview::{Look, Preview};
+use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
+use crate::app::commands::points_word;
+use crate::geometry::{Point, Vector, polygon};
+
+pub(super) const ENTRY: Entry = Entry { id: "room", make: || Box::new(Room::default()) };
+
+/// No corners yet, or some.
+#[derive(Default)]
+struct Room {
+    path: Path,
+}
+
+impl Room {
+    fn to(&mut self, point: Point, scope: &Scope<'_>) -> Vec<Call> {
+        // Drawing -> Ready
+        if self.path.closes(point) || self.path.is_last(point) {
+            return self.close(scope);
+        }
+        // Ready -> Drawing, Drawing -> Drawing
+        self.path.points.push(point);
+        Vec::new()
+    }
+
+    /// Drawing -> Ready
+    fn close(&mut self, scope: &Scope<'_>) -> Vec<Call> {
+        let mut points = std::mem::take(&mut self.path.points);
+        points.extend(closing_corner(&points, scope));
+        if points.len() < 3 {
+            return Vec::new();
+        }
+        let thickness_m = if scope.options.walls_with_rooms { scope.options.thickness_m } else { 0.0 };
+        vec![("draw-room", vec![points_word(&points), "exact".to_owned(), thickness_m.to_string()])]
+    }
+}
+
+/// The corner that makes the last two angles right, where the room is closed without it and its first and
+/// last lines are at right angles or parallel: an L of six corners takes five clicks.
+fn closing_corner(points: &[Point], scope: &Scope<'_>) -> Option<Point> {
+    let [first, second, .., before, last] = points else {
+        // Three corners make a rectangle.
+        let [first, second, third] = points else { return None };
+        let is_right = is_right_angle(*second - *first, *third - *second);
+        return (scope.options.right_angles && is_right).then(|| (*first + (*third - *second)).trimmed());
+    };
+    if !scope.options.right_angles {
+        return None;
+    }
+    let (start, end) = ((*second - *first).unit()?, (*last - *before).unit()?);
+    let closing = *first - *last;
+    // Closed at a right angle already.
+    if closing.unit().is_none_or(|closing| closing.dot(start).abs() < 1e-3 || closing.dot(end).abs() < 1e-3) && is_right_angle(start, closing) {
+        return None;
+    }
+    // At right angles to the first line and to the last one.
+    let (p, q) = (start.left(), end.left());
+    let denominator = p.cross(q);
+    if denominator.abs() < 1e-6 {
+        return None;
+    }
+    let t = (*last - *first).cross(q) / denominator;
+    let corner = (*first + p * t).trimmed();
+    (corner.distance(*first) > 1e-3 && corner.distance(*last) > 1e-3).then_some(corner)
+}
+
+fn is_right_angle(p: Vector, q: Vector) -> bool {
+    match (p.unit(), q.unit()) {
+        (Some(p), Some(q)) => p.dot(q).abs() < 1e-3,
+        _ => false,
+    }
+}
+
+impl Tool for Room {
+    fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
+        match input {
+            Input::Click => self.to(scope.at(), scope),
+            Input::Typed(typed) => match self.path.typed_point(typed, scope) {
+                Some(point) => self.to(point, scope),
+                None => Vec::new(),
+            },
+            Input::Enter | Input::DoubleClick | Input::SecondaryClick => self.close(scope),
+            // Drawing -> Ready
+            Input::Escape => {
+                self.path = Path::default();
+                Vec::new()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    fn hint(&self, _: &Scope<'_>) -> String {
+        match self.path.points.len() {
+            0 => "Room: click its first corner".to_owned(),
+            1 | 2 => "Click the next corner, or type a length (3.2) · Shift frees the angle · Ctrl+Z takes a corner back".to_owned(),
+            _ => "Click the next corner · click the first one or press Enter to close; the last corner follows from right angles".to_owned(),
+        }
+    }
+
+    fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
+        if self.path.is_empty() {
+            return;
+        }
+        let mut points = self.path.points.clone();
+        if !self.path.is_last(scope.at()) && !self.path.closes(scope.at()) {
+            points.push(scope.at());
+        }
+        if points.len() >= 3 {
+            let closed: Vec<Point> = points.iter().copied().chain(closing_corner(&points, scope)).collect();
+            preview.fill(closed.clone(), Vec::new(), Look::New);
+            if let (Some(&last), Some(&first)) = (points.last(), points.first()) {
+                let mut rest = vec![last];
+                rest.extend(closed.get(points.len()).copied());
+                rest.push(first);
+                preview.dashed(rest, false, Look::New);
+            }
+            preview.label(scope.at(), area(polygon::signed_area(&closed).abs()), Look::New);
+        }
+        preview.line(points, false, Look::New);
+        self.path.preview_corners(preview);
+        self.path.preview_next(scope, preview);
+    }
+
+    fn is_busy(&self) -> bool {
+        !self.path.is_empty()
+    }
+
+    fn anchor(&self) -> Option<Anchor> {
+        self.path.anchor()
+    }
+
+    fn points(&self) -> Vec<Point> {
+        self.path.points.clone()
+    }
+
+    fn typing(&self) -> Option<Typing> {
+        self.is_busy().then_some(Typing::Length)
+    }
+
+    fn take_back(&mut self) -> TakenBack {
+        match self.path.points.pop() {
+            Some(_) => TakenBack::Corner,
+            None => TakenBack::Nothing,
+        }
+    }
+}

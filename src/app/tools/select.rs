@@ -1,0 +1,340 @@
+//! Selects, moves, drags corners, slides openings.
+
+use std::collections::BTreeSet;
+
+use egui::CursorIcon;
+
+use super::path::length;
+use super::preview::{Look, Preview};
+use super::{Anchor, Call, Entry, Input, Scope, Tool, word};
+use crate::app::LayerSettings;
+use crate::app::commands::{elements_word, points_word, room_word};
+use crate::app::document::Derived;
+use crate::app::{SelectMode, Selection};
+use crate::geometry::{Point, Segment, Vector};
+use crate::plan::{CornerId, ElementId, OpeningId, Place, Plan};
+
+pub(super) const ENTRY: Entry = Entry { id: "select", make: || Box::new(Select::default()) };
+
+#[derive(Default)]
+struct Select {
+    state: State,
+    cycle: Option<Cycle>,
+}
+
+#[derive(Default)]
+enum State {
+    #[default]
+    Ready,
+    /// A box is pulled open from here.
+    Boxing { from: Point },
+    /// A corner is dragged.
+    MovingCorner { corner: CornerId, from: Point },
+    /// What is selected is dragged; `from` is the point that snaps.
+    Moving { from: Point },
+    /// An opening is slid along its wall.
+    Sliding { opening: OpeningId },
+}
+
+/// Clicks at the same place go through all that lies there.
+struct Cycle {
+    at: Point,
+    candidates: Vec<ElementId>,
+    index: usize,
+}
+
+/// Something is hit from this far away, in points.
+pub(in crate::app) const REACH_PX: f64 = 7.0;
+
+/// Clicks closer than this are at the same place, in points.
+const SAME_PLACE_PX: f64 = 4.0;
+
+/// Of more corners no handles are shown: they would hide the plan.
+const MOST_HANDLES: usize = 400;
+
+/// What lies at a place, what is meant first in front: openings, walls, rooms from the smallest. What is
+/// locked is not there.
+pub(in crate::app) fn hit(
+    derived: &Derived,
+    plan: &Plan,
+    layers: &LayerSettings,
+    point: Point,
+    px_per_m: f64,
+) -> Vec<ElementId> {
+    let mut found = derived.at(point, REACH_PX / px_per_m);
+    found.retain(|&element| plan.has(element) && !layers.is_locked(element));
+    found
+}
+
+impl Select {
+    fn clicked(&mut self, scope: &Scope<'_>) -> Vec<Call> {
+        let same_place_m = scope.metres(SAME_PLACE_PX);
+        match &mut self.cycle {
+            Some(cycle) if cycle.at.distance(scope.pointer) <= same_place_m && !cycle.candidates.is_empty() => {
+                cycle.index = (cycle.index + 1) % cycle.candidates.len();
+            }
+            _ => {
+                let candidates = scope
+                    .derived
+                    .map(|derived| hit(derived, scope.plan, scope.layers, scope.pointer, scope.px_per_m))
+                    .unwrap_or_default();
+                self.cycle = Some(Cycle { at: scope.pointer, candidates, index: 0 });
+            }
+        }
+        let found = self.cycle.as_ref().and_then(|cycle| cycle.candidates.get(cycle.index)).copied();
+        let mode = mode(scope);
+        match (found, mode) {
+            (None, SelectMode::Replace) if scope.selection.is_empty() => Vec::new(),
+            (None, SelectMode::Replace) => vec![("clear-selection", Vec::new())],
+            (None, _) => Vec::new(),
+            (Some(ElementId::Room(id)), SelectMode::Replace) => vec![("pick", vec![room_word(scope.plan, id)])],
+            (Some(ElementId::Opening(id)), SelectMode::Replace) => vec![("pick-opening", vec![id.to_string()])],
+            (Some(element), mode) => vec![("select", vec![elements_word([element]), mode.word().to_owned()])],
+        }
+    }
+
+    /// Ready -> whatever is dragged
+    fn drag_start(&mut self, at: Point, pointer: Point, scope: &Scope<'_>) {
+        self.cycle = None;
+        self.state = match self.grabbed(pointer, scope) {
+            Some(Grabbed::Corner(corner, from)) => State::MovingCorner { corner, from },
+            Some(Grabbed::Opening(opening)) => State::Sliding { opening },
+            Some(Grabbed::Selection) => State::Moving { from: at },
+            None => State::Boxing { from: pointer },
+        };
+    }
+
+    /// What a press here takes hold of: only what is selected, so that nothing moves by accident.
+    fn grabbed(&self, pointer: Point, scope: &Scope<'_>) -> Option<Grabbed> {
+        if scope.modifiers.shift || scope.modifiers.command {
+            return None;
+        }
+        let reach_m = scope.metres(REACH_PX);
+        let handles = corners_of(scope.plan, scope.selection);
+        let nearest = handles
+            .iter()
+            .filter_map(|&corner| Some((corner, scope.plan.position(corner)?)))
+            .filter(|(_, place)| place.distance(pointer) <= reach_m)
+            .min_by(|p, q| p.1.distance(pointer).total_cmp(&q.1.distance(pointer)));
+        if let Some((corner, place)) = nearest
+            && handles.len() <= MOST_HANDLES
+        {
+            return Some(Grabbed::Corner(corner, place));
+        }
+        let found = hit(scope.derived?, scope.plan, scope.layers, pointer, scope.px_per_m);
+        let held = found.into_iter().find(|&element| scope.selection.contains(element))?;
+        match (held, scope.selection.one()) {
+            (ElementId::Opening(id), Some(_)) if scope.plan.opening(id).is_some_and(|opening| matches!(opening.place, Place::Hosted { .. })) => {
+                Some(Grabbed::Opening(id))
+            }
+            _ => Some(Grabbed::Selection),
+        }
+    }
+
+    /// Whatever is dragged -> Ready
+    fn drop(&mut self, scope: &Scope<'_>) -> Vec<Call> {
+        match std::mem::take(&mut self.state) {
+            State::Ready => Vec::new(),
+            State::Boxing { from } => {
+                let how = if is_inside(from, scope.pointer) { "inside" } else { "touching" };
+                let words = vec![points_word(&[from, scope.pointer]), how.to_owned(), mode(scope).word().to_owned()];
+                vec![("select-box", words)]
+            }
+            State::MovingCorner { corner, from } if from.distance(scope.at()) > 0.0 => {
+                vec![("move-corner", vec![corner.to_string(), word(scope.at())])]
+            }
+            State::Moving { from } => {
+                let by = moved_by(from, scope);
+                if by.length() <= 0.0 {
+                    return Vec::new();
+                }
+                let to = Point::default() + by;
+                vec![("move", vec![word(to)])]
+            }
+            State::Sliding { opening } => vec![("slide-opening", vec![opening.to_string(), word(scope.pointer)])],
+            State::MovingCorner { .. } => Vec::new(),
+        }
+    }
+}
+
+enum Grabbed {
+    Corner(CornerId, Point),
+    Opening(OpeningId),
+    /// Whatever is selected.
+    Selection,
+}
+
+/// What a click or a box does with what was selected before.
+fn mode(scope: &Scope<'_>) -> SelectMode {
+    if scope.modifiers.command {
+        SelectMode::Toggle
+    } else if scope.modifiers.shift {
+        SelectMode::Add
+    } else {
+        SelectMode::Replace
+    }
+}
+
+/// A box pulled to the right takes what is inside; to the left also what it touches, as in CAD programs.
+fn is_inside(from: Point, to: Point) -> bool {
+    to.x >= from.x
+}
+
+/// The corners that selected elements have.
+fn corners_of(plan: &Plan, selection: &Selection) -> BTreeSet<CornerId> {
+    let mut corners: BTreeSet<CornerId> = selection.corners().collect();
+    for wall in selection.walls().filter_map(|id| plan.wall(id)) {
+        corners.extend([wall.from, wall.to]);
+    }
+    for room in selection.rooms().filter_map(|id| plan.room(id)) {
+        corners.extend(room.rings().flat_map(|ring| ring.iter().copied()));
+    }
+    corners
+}
+
+/// How far what is selected is moved. A single wall moves across itself, unless Shift is held.
+fn moved_by(from: Point, scope: &Scope<'_>) -> Vector {
+    let by = scope.at() - from;
+    let wall = match scope.selection.one() {
+        Some(ElementId::Wall(id)) if !scope.modifiers.shift => scope.plan.wall(id),
+        _ => None,
+    };
+    let across = wall.and_then(|wall| scope.plan.wall_segment(wall)).and_then(|segment| segment.vector().left().unit());
+    across.map_or(by, |across| across * by.dot(across))
+}
+
+impl Tool for Select {
+    fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
+        match input {
+            Input::Click => return self.clicked(scope),
+            Input::DragStart { at, pointer } => self.drag_start(at, pointer, scope),
+            Input::Drop => return self.drop(scope),
+            // Whatever is dragged -> Ready
+            Input::Escape => self.state = State::Ready,
+            _ => {}
+        }
+        Vec::new()
+    }
+
+    fn hint(&self, scope: &Scope<'_>) -> String {
+        match self.state {
+            State::Ready => String::new(),
+            State::Boxing { from } if is_inside(from, scope.pointer) => {
+                "Selects what lies inside · pull to the left for what is touched · Shift adds".to_owned()
+            }
+            State::Boxing { .. } => "Selects what is inside or touched · Shift adds".to_owned(),
+            State::MovingCorner { .. } => "Everything that shares the corner follows · Alt suspends snapping · Esc drops it".to_owned(),
+            State::Moving { .. } => "Neighbours that share corners follow · Alt suspends snapping · Esc drops it".to_owned(),
+            State::Sliding { .. } => "The opening slides along its wall · Esc drops it".to_owned(),
+        }
+    }
+
+    fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
+        match self.state {
+            State::Ready => {
+                let handles = corners_of(scope.plan, scope.selection);
+                if handles.len() <= MOST_HANDLES {
+                    for place in handles.iter().filter_map(|&corner| scope.plan.position(corner)) {
+                        preview.handle(place, Look::New);
+                    }
+                }
+            }
+            State::Boxing { from } => {
+                let to = scope.pointer;
+                let corners = vec![from, Point::new(to.x, from.y), to, Point::new(from.x, to.y)];
+                preview.fill(corners.clone(), Vec::new(), Look::New);
+                if is_inside(from, to) {
+                    preview.line(corners, true, Look::New);
+                } else {
+                    preview.dashed(corners, true, Look::New);
+                }
+            }
+            State::MovingCorner { corner, from } => {
+                preview_moved(scope, &BTreeSet::from([corner]), scope.at() - from, preview);
+                preview.handle(scope.at(), Look::New);
+                preview.label(scope.at(), format!("moved {}", length(from.distance(scope.at()))), Look::New);
+            }
+            State::Moving { from } => {
+                let by = moved_by(from, scope);
+                preview_moved(scope, &corners_of(scope.plan, scope.selection), by, preview);
+                preview.dashed(vec![from, from + by], false, Look::Guide);
+                preview.label(scope.at(), format!("moved {}", length(by.length())), Look::New);
+            }
+            State::Sliding { opening } => {
+                let segment = scope.plan.opening(opening).and_then(|opening| slid(scope.plan, opening.place, scope.pointer));
+                if let Some(segment) = segment {
+                    preview.wall(segment, scope.metres(8.0), Look::New);
+                }
+            }
+        }
+    }
+
+    fn cursor(&self, scope: &Scope<'_>) -> CursorIcon {
+        match self.state {
+            State::Moving { .. } | State::MovingCorner { .. } | State::Sliding { .. } => CursorIcon::Grabbing,
+            State::Boxing { .. } => CursorIcon::Crosshair,
+            State::Ready => match self.grabbed(scope.pointer, scope) {
+                Some(Grabbed::Corner(..)) => CursorIcon::Grab,
+                Some(_) => CursorIcon::Move,
+                None => CursorIcon::Default,
+            },
+        }
+    }
+
+    fn is_busy(&self) -> bool {
+        !matches!(self.state, State::Ready)
+    }
+
+    fn snaps(&self) -> bool {
+        matches!(self.state, State::MovingCorner { .. } | State::Moving { .. })
+    }
+
+    fn anchor(&self) -> Option<Anchor> {
+        match self.state {
+            State::MovingCorner { from, .. } | State::Moving { from } => {
+                Some(Anchor { from, along: None, right_angles: false })
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Where an opening is when it slides as near to a point as its wall lets it.
+fn slid(plan: &Plan, place: Place, towards: Point) -> Option<Segment> {
+    let Place::Hosted { from, to, width_m, .. } = place else { return None };
+    let edge = Segment::new(plan.position(from)?, plan.position(to)?);
+    let half_m = (width_m / 2.0).min(edge.length() / 2.0);
+    let along = edge.vector().unit()?;
+    let at_m = (towards - edge.a).dot(along).clamp(half_m, edge.length() - half_m);
+    let middle = edge.a + along * at_m;
+    Some(Segment::new(middle + -along * half_m, middle + along * half_m))
+}
+
+/// The edges that have moved corners, at their new places.
+fn preview_moved(scope: &Scope<'_>, moved: &BTreeSet<CornerId>, by: Vector, preview: &mut Preview) {
+    let Some(derived) = scope.derived else { return };
+    let mut shown = BTreeSet::new();
+    for &corner in moved.iter().take(MOST_HANDLES) {
+        let Some(place) = scope.plan.position(corner) else { continue };
+        for edge in derived.index.edges_near(place, 1e-4) {
+            if !shown.insert(edge.corners) {
+                continue;
+            }
+            let [a, b] = edge.corners.map(|id| {
+                let place = scope.plan.position(id).unwrap_or_default();
+                if moved.contains(&id) { place + by } else { place }
+            });
+            let segment = Segment::new(a, b);
+            if edge.wall.is_some() {
+                preview.wall(segment, edge.thickness_m, Look::New);
+            } else {
+                preview.line(vec![a, b], false, Look::New);
+            }
+        }
+    }
+    for id in scope.selection.openings() {
+        if let Some(segment) = scope.plan.opening(id).and_then(|opening| scope.plan.opening_segment(opening)) {
+            preview.line(vec![segment.a + by, segment.b + by], false, Look::New);
+        }
+    }
+}

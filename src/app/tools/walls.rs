@@ -1,0 +1,115 @@
+//! Draws a chain of walls.
+
+use super::path::Path;
+use super::preview::{Look, Preview};
+use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
+use crate::app::commands::points_word;
+use crate::geometry::{Point, Segment};
+
+pub(super) const ENTRY: Entry = Entry { id: "walls", make: || Box::new(Walls::Ready) };
+
+enum Walls {
+    Ready,
+    /// Every wall between these corners is part of the plan.
+    Drawing(Path),
+}
+
+impl Walls {
+    /// Goes on to a corner.
+    fn to(&mut self, point: Point, scope: &Scope<'_>) -> Vec<Call> {
+        match self {
+            // Ready -> Drawing
+            Self::Ready => {
+                *self = Self::Drawing(Path { points: vec![point] });
+                Vec::new()
+            }
+            // Drawing -> Ready
+            Self::Drawing(path) if path.is_last(point) => {
+                *self = Self::Ready;
+                Vec::new()
+            }
+            // Drawing -> Drawing, or Ready where the chain is closed
+            Self::Drawing(path) => {
+                let is_closed = path.closes(point);
+                path.points.push(point);
+                let words = vec![points_word(&path.points), scope.options.thickness_m.to_string()];
+                if is_closed {
+                    *self = Self::Ready;
+                }
+                vec![("draw-walls", words)]
+            }
+        }
+    }
+}
+
+impl Tool for Walls {
+    fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
+        match (input, &self) {
+            (Input::Click, _) => self.to(scope.at(), scope),
+            (Input::Typed(typed), Self::Drawing(path)) => match path.typed_point(typed, scope) {
+                Some(point) => self.to(point, scope),
+                None => Vec::new(),
+            },
+            // Drawing -> Ready
+            (Input::Enter | Input::Escape | Input::DoubleClick | Input::SecondaryClick, _) => {
+                *self = Self::Ready;
+                Vec::new()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    fn hint(&self, _: &Scope<'_>) -> String {
+        match self {
+            Self::Ready => "Walls: click where the chain begins".to_owned(),
+            Self::Drawing(_) => {
+                "Click the next corner, or type a length (3.2) or with an angle (3.2<45) · Shift frees the angle · Enter ends"
+                    .to_owned()
+            }
+        }
+    }
+
+    fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
+        if let Self::Drawing(path) = self {
+            if let Some(last) = path.last() {
+                preview.wall(Segment::new(last, scope.at()), scope.options.thickness_m, Look::New);
+            }
+            path.preview_corners(preview);
+            path.preview_next(scope, preview);
+        }
+    }
+
+    fn is_busy(&self) -> bool {
+        matches!(self, Self::Drawing(_))
+    }
+
+    fn anchor(&self) -> Option<Anchor> {
+        match self {
+            Self::Ready => None,
+            Self::Drawing(path) => path.anchor(),
+        }
+    }
+
+    fn points(&self) -> Vec<Point> {
+        match self {
+            Self::Ready => Vec::new(),
+            Self::Drawing(path) => path.points.clone(),
+        }
+    }
+
+    fn typing(&self) -> Option<Typing> {
+        self.is_busy().then_some(Typing::Length)
+    }
+
+    fn take_back(&mut self) -> TakenBack {
+        let Self::Drawing(path) = self else { return TakenBack::Nothing };
+        path.points.pop();
+        // The first corner is no wall yet.
+        if path.is_empty() {
+            *self = Self::Ready;
+            TakenBack::Corner
+        } else {
+            TakenBack::CornerAndStep
+        }
+    }
+}
