@@ -406,10 +406,10 @@ impl Canvas {
         {
             self.backdrop.paint(&painter, rect, &view, backdrop);
         }
-        self.ghost.paint(&painter, rect, app, &style, &view);
         if let Some(derived) = shown {
             self.painter.paint(&painter, rect, derived, &style, &view);
         }
+        self.ghost.paint(&painter, rect, app, &style, &view);
         match fresh {
             // Never a stale label as a fresh one.
             None => {
@@ -427,7 +427,7 @@ impl Canvas {
         }
         guides::paint(&painter, rect, &view, app);
         if let Some(derived) = fresh {
-            dimensions::paint(&painter, rect, &view, app, derived);
+            dimensions::paint(&painter, rect, &view, app, derived, || self.painter.text_boxes(rect, &view));
         }
         paint_scale_bar(&painter, rect, &view, palette, app.units());
         if response.has_focus() && self.shows_focus {

@@ -1,4 +1,5 @@
 //! Live dimensions: the lengths of the selected rooms' walls beside their edges, area and perimeter below.
+//! They keep off each other and off the names.
 
 use std::sync::Arc;
 
@@ -61,8 +62,15 @@ impl Label {
     }
 }
 
-/// Paints the dimensions of the selected rooms.
-pub(super) fn paint(painter: &Painter, rect: Rect, view: &View, app: &App, derived: &Derived) {
+/// Paints the dimensions of the selected rooms where they cover no `names`.
+pub(super) fn paint(
+    painter: &Painter,
+    rect: Rect,
+    view: &View,
+    app: &App,
+    derived: &Derived,
+    names: impl FnOnce() -> Vec<Rect>,
+) {
     if !app.layers.dimensions {
         return;
     }
@@ -76,7 +84,7 @@ pub(super) fn paint(painter: &Painter, rect: Rect, view: &View, app: &App, deriv
     let Some(all) = all else { return };
     let colours = theme::colours(&painter.ctx().global_style().visuals);
     let paper = theme::colour(canvas::paper(app, painter.ctx()));
-    let sheet = Sheet { painter, rect, view, units: app.units(), colours };
+    let sheet = Sheet { painter, rect, view, units: app.units(), colours, names: names() };
     let mut labels: Vec<Label> = Vec::new();
     if shapes.len() <= MOST_ROOMS {
         for shape in &shapes {
@@ -85,7 +93,7 @@ pub(super) fn paint(painter: &Painter, rect: Rect, view: &View, app: &App, deriv
     }
     sheet.whole(&shapes, all, &mut labels);
     for label in &labels {
-        label.paint(painter, paper.gamma_multiply(0.88));
+        label.paint(painter, paper.gamma_multiply(0.9));
     }
 }
 
@@ -95,6 +103,8 @@ struct Sheet<'a> {
     view: &'a View,
     units: Units,
     colours: &'a Colours,
+    /// What is written on the plan.
+    names: Vec<Rect>,
 }
 
 impl Sheet<'_> {
@@ -136,8 +146,13 @@ impl Sheet<'_> {
                 }
                 let wall = (crate::plan::DEFAULT_WALL_THICKNESS_M * self.view.px_per_m) as f32;
                 let off = wall.min(12.0) + GAP + galley.size().y / 2.0;
-                let label = Label { galley, centre: a + along / 2.0 + outwards * off, angle_rad };
-                self.add(label, labels);
+                // In the middle if that is free, else nearer to an end, else inside.
+                for (part, side) in [(0.5, 1.0), (0.3, 1.0), (0.7, 1.0), (0.5, -1.0), (0.3, -1.0), (0.7, -1.0)] {
+                    let centre = a + along * part + outwards * off * side;
+                    if self.add(Label { galley: galley.clone(), centre, angle_rad }, labels) {
+                        break;
+                    }
+                }
             }
         }
     }
@@ -158,20 +173,29 @@ impl Sheet<'_> {
         if on_screen.width().max(on_screen.height()) < 24.0 {
             return;
         }
-        for off in [14.0, 32.0, 50.0] {
-            for y in [on_screen.bottom() + off, on_screen.top() - off] {
-                let centre = pos2(on_screen.center().x, y);
-                if self.add(Label { galley: galley.clone(), centre, angle_rad: 0.0 }, labels) {
-                    return;
-                }
+        let half = galley.size() / 2.0;
+        let below = [14.0, 32.0, 50.0].into_iter().flat_map(|off| {
+            [pos2(on_screen.center().x, on_screen.bottom() + off), pos2(on_screen.center().x, on_screen.top() - off)]
+        });
+        let beside = [
+            pos2(on_screen.right() + 40.0 + half.x, on_screen.center().y),
+            pos2(on_screen.left() - 40.0 - half.x, on_screen.center().y),
+            // Where it is always found.
+            pos2(self.rect.center().x, self.rect.bottom() - 18.0),
+        ];
+        for centre in below.chain(beside) {
+            if self.add(Label { galley: galley.clone(), centre, angle_rad: 0.0 }, labels) {
+                return;
             }
         }
     }
 
-    /// Adds a label if it is seen whole and over no other; gives whether.
+    /// Adds a label if it is seen whole and over no other and no name; gives whether.
     fn add(&self, label: Label, labels: &mut Vec<Label>) -> bool {
         let bounds = label.bounds();
-        let is_free = self.rect.contains_rect(bounds) && labels.iter().all(|other| !other.bounds().intersects(bounds));
+        let is_free = self.rect.contains_rect(bounds)
+            && labels.iter().all(|other| !other.bounds().intersects(bounds))
+            && self.names.iter().all(|name| !name.intersects(bounds));
         if is_free {
             labels.push(label);
         }

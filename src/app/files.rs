@@ -6,10 +6,12 @@ use egui::{Context, ViewportCommand};
 
 use super::commands::sample_word;
 use super::dialogs::{Answer, Purpose};
-use super::document::{self, Document, Expected, Opened, Origin, SaveFailure, Stamp};
+use super::document::{self, Begun, Document, Expected, Opened, Origin, SaveFailure, Stamp};
+use super::ghost::Ghost;
 use super::{App, Done, Intent, Message, Question, Remedy, Selection, Severity, plan_list};
 use crate::formats::FileError;
 use crate::plan::Plan;
+use crate::plan::storey::{Keep, copied};
 
 impl App {
     /// Asks which plan to open.
@@ -23,6 +25,15 @@ impl App {
         // What is still being read was asked for before.
         self.opening = None;
         self.request(Intent::Show(Box::new(Opened::untitled())));
+    }
+
+    /// Begins a plan of another storey as a copy of this one, which is shown below it.
+    pub(super) fn copy_storey(&mut self, storey: &str, keep: Keep) {
+        let Some(below) = self.plan().cloned() else { return };
+        self.opening = None;
+        let begun = Begun { title: format!("Copy storey as {storey}"), plan: copied(&below, storey, keep), below };
+        let opened = Opened { begun: Some(Box::new(begun)), ..Opened::untitled() };
+        self.request(Intent::Show(Box::new(opened)));
     }
 
     /// Reads a plan and shows it when it is there.
@@ -128,6 +139,9 @@ impl App {
             let remedy = Some(Remedy::ShowNotes);
             self.add_message(Message { severity: Severity::Info, text, detail: String::new(), remedy });
         }
+        let below = opened.begun.as_ref().map(|begun| begun.below.clone());
+        self.ghost = below.map(|below| Ghost::new(below.clone(), below.meta().name.clone(), &self.schemes));
+        self.guide_drag = None;
         self.documents += 1;
         self.document = Some(Document::new(self.documents, opened));
         if let Some(folder) = folder {

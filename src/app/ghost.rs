@@ -15,8 +15,9 @@ use crate::geometry::{Segment, polygon};
 use crate::labels::Schemes;
 use crate::plan::Plan;
 
-/// How strongly the storey below is drawn, from 0 to 1.
-const OPACITY: f32 = 0.28;
+/// How strongly the storey below is drawn, from 0 to 1: over the rooms, whose fills would hide it, and yet
+/// behind them to the eye.
+const OPACITY: f32 = 0.24;
 
 /// A plan that lies under the open one.
 pub(super) struct Ghost {

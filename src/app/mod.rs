@@ -5,6 +5,7 @@
 
 mod backdrop;
 mod background;
+mod bulk;
 mod canvas;
 pub mod commands;
 mod controls;

@@ -13,6 +13,8 @@ mod history;
 mod id;
 mod invariants;
 mod meta;
+pub mod naming;
+pub mod storey;
 
 use std::sync::Arc;
 

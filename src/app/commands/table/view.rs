@@ -166,7 +166,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "guides",
         "Guides",
         "Show the guide lines",
-        always,
+        has_guides,
         |app| app.layers.guides,
         |app, is_on| app.layers.guides = is_on,
     )
