@@ -202,7 +202,15 @@ impl App {
     /// What a change would come to, in a sentence without its point, and how many rooms it is about.
     pub(super) fn said_of_change(&self, which: &Which, change: &Change) -> (String, usize) {
         let number = self.rooms_of(which).len();
-        (format!("{} {}", which.counted(number), change.phrase(number)), number)
+        let typology = self.plan().and_then(|plan| plan.meta().typology.as_ref());
+        let is_new = match change {
+            Change::Function(function) => {
+                typology.is_some() && !function.is_empty() && self.schemes.meaning(typology, function).is_none()
+            }
+            Change::Label(_) => false,
+        };
+        let note = if is_new { ", which the label scheme does not know" } else { "" };
+        (format!("{} {}{note}", which.counted(number), change.phrase(number)), number)
     }
 
     /// Changes all rooms of a kind in one step.
@@ -214,7 +222,7 @@ impl App {
         if rooms.is_empty() {
             return Err(format!("there are {}", which.counted(0)));
         }
-        let (said, _) = self.said_of_change(which, change);
+        let said = format!("{} {}", which.counted(rooms.len()), change.phrase(rooms.len()));
         match change {
             Change::Function(function) => {
                 self.edit(&said, |plan| for_each(plan, &rooms, |plan, room| edit::set_function(plan, room, function)));

@@ -164,6 +164,7 @@ impl Canvas {
     fn update_camera(&mut self, rect: Rect, document: &Document, shown: Option<&Derived>) {
         let (width_px, height_px) = (f64::from(rect.width()), f64::from(rect.height()));
         let bounds = shown.map_or_else(|| document.plan().bounds(), |derived| derived.drawing.bounds());
+        let bounds = self.ghost.bounds().filter(|_| bounds.is_empty()).unwrap_or(bounds);
         let fitting = |bounds: Bounds| {
             // A small canvas is for the plan, not for the space about it.
             let margin = FIT_MARGIN.min(width_px.min(height_px) / 8.0);

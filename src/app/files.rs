@@ -140,7 +140,7 @@ impl App {
             self.add_message(Message { severity: Severity::Info, text, detail: String::new(), remedy });
         }
         let below = opened.begun.as_ref().map(|begun| begun.below.clone());
-        self.ghost = below.map(|below| Ghost::new(below.clone(), below.meta().name.clone(), &self.schemes));
+        self.ghost = below.map(|below| Ghost::new(below, None, &self.schemes));
         self.guide_drag = None;
         self.documents += 1;
         self.document = Some(Document::new(self.documents, opened));

@@ -11,7 +11,7 @@ use super::scene_painter::ScenePainter;
 use super::{App, Done, Severity};
 use crate::draw::{Fill, Layers, Style, View};
 use crate::formats::{self, FileError, building_name};
-use crate::geometry::{Segment, polygon};
+use crate::geometry::{Bounds, Segment, polygon};
 use crate::labels::Schemes;
 use crate::plan::Plan;
 
@@ -24,19 +24,23 @@ pub(super) struct Ghost {
     pub plan: Plan,
     /// What it is called.
     pub title: String,
+    /// Where it was read; `None` for a plan that was copied.
+    pub origin: Option<Origin>,
     derived: Arc<Derived>,
     segments: Vec<Segment>,
 }
 
 impl Ghost {
-    pub(super) fn new(plan: Plan, title: String, schemes: &Schemes) -> Self {
+    pub(super) fn new(plan: Plan, origin: Option<Origin>, schemes: &Schemes) -> Self {
         let derived = Arc::new(Derived::new(&plan, schemes, None));
         let walls = plan.walls().filter_map(|(_, wall)| plan.wall_segment(wall));
         let rings = derived.analysis.shapes.all().iter().flat_map(crate::topology::RoomShape::rings);
         let edges = rings.flat_map(|ring| polygon::edges(ring));
         let openings = plan.openings().filter_map(|(_, opening)| plan.opening_segment(opening));
         let segments = walls.chain(edges).chain(openings).collect();
-        Self { plan, title, derived, segments }
+        let name = plan.meta().name.clone();
+        let title = origin.as_ref().filter(|_| name.is_empty()).map_or(name, Origin::title);
+        Self { plan, title, origin, derived, segments }
     }
 }
 
@@ -71,8 +75,7 @@ impl App {
                 let number = storeys.len();
                 let plan =
                     if storeys.is_empty() { Plan::default() } else { storeys.swap_remove(storey.min(number - 1)) };
-                let name = plan.meta().name.clone();
-                Ghost::new(plan, if name.is_empty() { origin.title() } else { name }, &schemes)
+                Ghost::new(plan, Some(origin), &schemes)
             });
             Done::Ghost(origin, Box::new(read))
         });
@@ -132,16 +135,30 @@ impl App {
 
 /// Paints the storey below, keeping what can be used again.
 #[derive(Default)]
-pub(super) struct GhostPainter(ScenePainter);
+pub(super) struct GhostPainter {
+    painter: ScenePainter,
+    bounds: Option<Bounds>,
+}
 
 impl GhostPainter {
+    /// The box of the storey that was painted last: what is seen where nothing is drawn above it yet.
+    pub(super) fn bounds(&self) -> Option<Bounds> {
+        self.bounds
+    }
+
     /// Paints it in the style of the plan above: its walls and openings, faint.
     pub(super) fn paint(&mut self, painter: &Painter, rect: Rect, app: &App, style: &Style, view: &View) {
-        let Some(ghost) = app.shown_ghost() else { return };
+        let ghost = app.shown_ghost();
+        let bounds = ghost.map(|ghost| ghost.derived.drawing.bounds());
+        if std::mem::replace(&mut self.bounds, bounds) != bounds {
+            // The view may go by it.
+            painter.ctx().request_repaint();
+        }
+        let Some(ghost) = ghost else { return };
         let layers = Layers { grid: false, rooms: false, graph: false, names: false, areas: false, ..style.layers };
         let style = Style { fill: Fill::None, layers, ..style.clone() };
         let mut faint = painter.clone();
         faint.multiply_opacity(OPACITY);
-        self.0.paint(&faint, rect, &ghost.derived, &style, view);
+        self.painter.paint(&faint, rect, &ghost.derived, &style, view);
     }
 }

@@ -156,10 +156,7 @@ impl NameForm {
         let said = match (&names, start) {
             (Err(error), _) => Err(error.to_string()),
             (_, None) => Err("numbers start at 0, 1, 2, …".to_owned()),
-            (Ok(Names { kept: 0, changed }), _) => Ok(format!("{} get a name", count(changed.len(), "room"))),
-            (Ok(Names { kept, changed }), _) => {
-                Ok(format!("{} get another name, {kept} keep theirs", count(changed.len(), "room")))
-            }
+            (Ok(names), _) => Ok(said_of_names(names, self.which == Which::Unnamed)),
         };
         let can = said.is_ok() && number > 0;
         let is_done = foot(ui, &said, &format!("Name {}", count(number, "room")), can);
@@ -305,6 +302,18 @@ impl ChangeForm {
     }
 }
 
+/// What naming comes to, in a sentence without its point.
+fn said_of_names(Names { changed, kept }: &Names, are_unnamed: bool) -> String {
+    let verb = if changed.len() == 1 { "gets" } else { "get" };
+    let what = if are_unnamed { "a name" } else { "another name" };
+    let keep = match kept {
+        0 => String::new(),
+        1 => ", 1 keeps its name".to_owned(),
+        kept => format!(", {kept} keep theirs"),
+    };
+    format!("{} {verb} {what}{keep}", count(changed.len(), "room"))
+}
+
 /// A line of the form: a word, and its control in what is left.
 fn line(ui: &mut Ui, name: &str, control: impl FnOnce(&mut Ui)) {
     ui.horizontal_top(|ui| {
@@ -346,7 +355,7 @@ fn labels(ui: &mut Ui, palette: &Palette, value: &mut Option<Label>, none: &str,
 
 /// A field; gives whether it has, or had until Enter, the keyboard.
 fn text(ui: &mut Ui, name: &str, value: &mut String, width: f32, takes_focus: bool) -> bool {
-    let edit = TextEdit::singleline(value).id(Id::unique(("many rooms", name))).desired_width(width - 8.0);
+    let edit = TextEdit::singleline(value).id(Id::unique(("many rooms", name))).desired_width(width);
     let response = ui.add(edit.align(Align2::LEFT_CENTER)).accessible_name(name);
     if takes_focus {
         response.request_focus();
@@ -371,7 +380,7 @@ fn functions_of_plan(app: &App, ui: &mut Ui, function: &mut String) {
     }
     let current = choices.iter().find(|choice| choice.word == *function);
     let current = current.map_or_else(|| sentence(function), |choice| format!("{} ({})", choice.title, choice.trail));
-    let list = ComboBox::from_id_salt("functions of the plan").width(ui.available_width() - 8.0);
+    let list = ComboBox::from_id_salt("functions of the plan").width(ui.available_width());
     let shown = list.selected_text(&current).show_ui(ui, |ui| {
         for choice in &choices {
             let text = format!("{} ({})", choice.title, choice.trail);

@@ -210,6 +210,10 @@ impl Recorder {
         }
         let words = arguments.iter().zip(command.arguments).map(|(word, argument)| match argument.kind {
             ArgumentKind::NewPlanFile => document::file_name(Path::new(word)),
+            ArgumentKind::PlanFile => {
+                let path = Path::new(word);
+                self.files.add_file(path).unwrap_or_else(|| document::file_name(path))
+            }
             _ => word.clone(),
         });
         let line = Line(std::iter::once((*id).to_owned()).chain(words).collect());
@@ -299,6 +303,11 @@ impl App {
             recorder.start = Some((document.number, document.history.position()));
             let line = recorder.open(&document.origin);
             recorder.lines.push(line);
+        }
+        if let Some(Origin::File { path, storey }) = self.ghost.as_ref().and_then(|ghost| ghost.origin.as_ref())
+            && let Some(word) = recorder.files.add_file(path)
+        {
+            recorder.lines.push(Line::new(&["ghost", &word, &(storey + 1).to_string()]));
         }
         recorder.lines.extend(self.lines_of_state());
         if let Some((centre, px_per_m)) = self.canvas.free_view() {

@@ -185,7 +185,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Storey below",
         "Show the plan that was chosen as the storey below, faintly",
         has_ghost,
-        |app| app.layers.ghost && app.ghost.is_some(),
+        |app| app.layers.ghost,
         |app, is_on| app.layers.ghost = is_on,
     )
     .menu(Menu::View, 2),
