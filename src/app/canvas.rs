@@ -12,6 +12,7 @@ use super::backdrop::BackdropView;
 use super::document::{Derived, Document};
 use super::ghost::GhostPainter;
 use super::scene_painter::{ScenePainter, earcut, on_screen, outline_mesh, polygon_mesh};
+use super::tools::{self, Call, Input, Preview, Scope, Toolbox};
 use super::{App, commands, dimensions, guides, rulers, theme};
 use crate::draw::{self, Layers, Palette, Style, View};
 use crate::features::RoomStatus;
@@ -34,7 +35,6 @@ pub(super) struct Canvas {
     pub hovered_in_panel: Option<ElementId>,
     /// Where the pointer is in the plan.
     pub pointer: Option<Point>,
-    cycle: Option<Cycle>,
     painter: ScenePainter,
     ghost: GhostPainter,
     /// The picture under the plan.
@@ -47,6 +47,12 @@ pub(super) struct Canvas {
     shows_focus: bool,
     /// Whether the pointer moved the view in this frame.
     was_moved: bool,
+    /// Whether a drag moves the view, however it goes on.
+    is_panning: bool,
+    /// Where the button was pressed: what the place snapped to, and the place itself.
+    pressed_at: Option<(Point, Point)>,
+    /// Where the pointer was last.
+    last_pointer: Point,
 }
 
 /// Where the view stands.
@@ -67,13 +73,6 @@ enum Wish {
     Reveal(ElementId),
 }
 
-/// Clicks at the same place go through all that lies there.
-struct Cycle {
-    at: Pos2,
-    candidates: Vec<ElementId>,
-    index: usize,
-}
-
 /// Free space around a fitted plan, in points.
 const FIT_MARGIN: f64 = 48.0;
 
@@ -86,11 +85,11 @@ const MOST_PX_PER_M: f64 = 2000.0;
 /// A hundred kilometres, the whole drawing area, fit a window.
 const LEAST_PX_PER_M: f64 = 0.005;
 
-/// An opening is picked from this far away, in points.
-const PICK_REACH: f64 = 7.0;
+/// Of more selected elements not all are marked: it would take longer than a frame.
+const MOST_MARKED: usize = 2000;
 
-/// Clicks closer than this are at the same place, in points.
-const SAME_PLACE: f32 = 4.0;
+/// The grid's spacing in metres.
+const GRID_M: f64 = 1.0;
 
 /// How strongly a wheel zooms: egui's own measure for Ctrl and wheel.
 const ZOOM_PER_POINT: f64 = 1.0 / 200.0;
@@ -146,7 +145,7 @@ impl Canvas {
 
     /// How far from an opening a click picks it, in metres at the present zoom.
     pub(super) fn pick_reach_m(&self) -> f64 {
-        self.px_per_m().map_or(0.0, |px_per_m| PICK_REACH / px_per_m)
+        self.px_per_m().map_or(0.0, |px_per_m| tools::REACH_PX / px_per_m)
     }
 
     /// Points of the screen a metre of the plan is long.
@@ -246,10 +245,11 @@ impl Canvas {
 
     fn take_pointer(&mut self, ui: &Ui, response: &Response, view: &View) {
         let rect = response.rect;
-        let space = !ui.ctx().text_edit_focused() && ui.input(|input| input.key_down(Key::Space));
-        let is_panning = [PointerButton::Primary, PointerButton::Middle, PointerButton::Secondary]
-            .into_iter()
-            .any(|button| response.dragged_by(button));
+        let space = is_space_held(ui);
+        let is_panning = response.dragged_by(PointerButton::Middle)
+            || response.dragged_by(PointerButton::Secondary)
+            || (response.dragged_by(PointerButton::Primary) && (space || self.is_panning));
+        self.is_panning = is_panning;
         if is_panning {
             self.pan(response.drag_delta());
         }
@@ -311,7 +311,9 @@ fn on_whole_pixels(view: View, rect: Rect) -> View {
 
 /// What a person did on the canvas.
 enum Act {
-    Pick(Option<ElementId>),
+    /// What the tool in the hand does.
+    Calls(Vec<Call>),
+    Pick(ElementId),
     /// Pick the next or previous room; leave the canvas behind the last.
     PickNeighbour(isize),
     /// Pick the room nearest in a direction of the plan: the argument of the command.
@@ -322,29 +324,30 @@ enum Act {
 /// Shows the canvas in all that is left of `ui`.
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let Some(document) = &app.document else { return };
-    let mut canvas = std::mem::take(&mut app.canvas);
-    let act = canvas.show(ui, document, app);
+    let (mut canvas, mut toolbox) = (std::mem::take(&mut app.canvas), std::mem::take(&mut app.tools));
+    let act = canvas.show(ui, document, app, &mut toolbox);
     if std::mem::take(&mut canvas.was_moved)
         && let Some(camera) = canvas.camera
     {
         let numbers = [camera.centre.x, camera.centre.y, camera.px_per_m];
         app.note_executed("view", numbers.map(|number| number.to_string()).to_vec());
     }
-    app.canvas = canvas;
+    (app.canvas, app.tools) = (canvas, toolbox);
     rulers::show(app, ui);
     match act {
         None => {}
-        Some(Act::Pick(None)) => drop(app.run_command("clear-selection", ui.ctx())),
-        Some(Act::Pick(Some(ElementId::Room(room)))) => {
-            let word = app.plan().map(|plan| commands::room_word(plan, room)).unwrap_or_default();
-            app.act("pick", &[&word], ui.ctx());
+        Some(Act::Calls(calls)) => {
+            for (id, arguments) in calls {
+                let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+                if let Err(error) = app.run_command_with(id, &words, ui.ctx()) {
+                    app.status = match error {
+                        commands::CommandError::NotNow { reason, .. } => sentence(&reason),
+                        other => other.to_string(),
+                    };
+                }
+            }
         }
-        Some(Act::Pick(Some(element @ (ElementId::Wall(_) | ElementId::Corner(_))))) => {
-            app.act("select", &[&element.to_string()], ui.ctx());
-        }
-        Some(Act::Pick(Some(ElementId::Opening(opening)))) => {
-            app.act("pick-opening", &[&opening.to_string()], ui.ctx())
-        }
+        Some(Act::Pick(element)) => app.act("select", &[&element.to_string()], ui.ctx()),
         Some(Act::PickNeighbour(step)) if app.pick_neighbour(step) => {
             app.note_executed(if step > 0 { "next-room" } else { "previous-room" }, Vec::new());
         }
@@ -367,7 +370,7 @@ pub(super) fn canvas_id() -> Id {
 }
 
 impl Canvas {
-    fn show(&mut self, ui: &mut Ui, document: &Document, app: &App) -> Option<Act> {
+    fn show(&mut self, ui: &mut Ui, document: &Document, app: &App, toolbox: &mut Toolbox) -> Option<Act> {
         let rect = rulers::canvas_rect(app, ui.available_rect_before_wrap());
         let fresh = document.derived();
         // What was worked out for an earlier plan is better than nothing.
@@ -380,22 +383,18 @@ impl Canvas {
 
         // While the plan is worked out anew after an edit, what was there before can still be picked:
         // pressing on a room may be what ended the edit of another's name.
+        let (plan, px_per_m) = (document.plan(), view.px_per_m);
         let at = |point: Point| {
-            let mut found = shown.map(|derived| derived.at(point, PICK_REACH / view.px_per_m)).unwrap_or_default();
-            found.retain(|&picked| document.plan().has(picked));
-            found
+            shown.map(|derived| tools::hit(derived, plan, &app.layers, point, px_per_m)).unwrap_or_default()
         };
-        let is_panning = response.dragged();
-        self.hovered = self.pointer.filter(|_| !is_panning).and_then(|point| at(point).first().copied());
-        let mut act = None;
-        // Not Space, with which egui clicks what has the keyboard.
-        if response.clicked_by(PointerButton::Primary)
-            && let Some(place) = response.interact_pointer_pos()
-        {
-            act = Some(Act::Pick(self.clicked(place, || at(plan_point(&view, rect, place)))));
+        self.hovered = self.pointer.filter(|_| !response.dragged()).and_then(|point| at(point).first().copied());
+        if response.clicked_by(PointerButton::Primary) {
             response.request_focus();
             self.shows_focus = false;
         }
+        let mut act = None;
+        let scope = self.use_tool(ui, &response, document, shown, app, toolbox, &view, &mut act);
+        // With another tool in the hand the keyboard goes from room to room all the same.
         act = act.or(self.take_keys(ui, &response));
 
         let style = style(app, document.plan(), ui.visuals().dark_mode);
@@ -417,11 +416,13 @@ impl Canvas {
                 painter.rect_filled(rect, 0.0, theme::colour(palette.paper).gamma_multiply(0.6));
             }
             Some(derived) => {
-                let hovered = self.hovered.or(self.hovered_in_panel).filter(|hovered| app.picked() != Some(*hovered));
+                let under_pointer = self.hovered.filter(|_| toolbox.is_selecting());
+                let hovered = under_pointer.or(self.hovered_in_panel);
+                let hovered = hovered.filter(|hovered| !app.selection.contains(*hovered));
                 if let Some(hovered) = hovered {
                     self.mark(&painter, rect, &view, document.plan(), derived, hovered, &Mark::hover(palette));
                 }
-                if let Some(picked) = app.picked() {
+                for picked in app.selection.iter().take(MOST_MARKED) {
                     self.mark(&painter, rect, &view, document.plan(), derived, picked, &Mark::picked(palette));
                 }
             }
@@ -429,6 +430,16 @@ impl Canvas {
         guides::paint(&painter, rect, &view, app);
         if let Some(derived) = fresh {
             dimensions::paint(&painter, rect, &view, app, derived, || self.painter.text_boxes(rect, &view));
+        }
+        if let Some(scope) = scope {
+            let tool = toolbox.tool();
+            let mut preview = Preview::default();
+            tool.preview(&scope, &mut preview);
+            preview.paint(&painter, rect, &view, palette);
+            if tool.snaps() && self.pointer.is_some() {
+                tools::paint_snap(&painter, rect, &view, palette, &scope.snap);
+            }
+            paint_typed(&painter, rect, &view, palette, &scope, &toolbox.typed);
         }
         paint_scale_bar(&painter, rect, &view, palette, app.units());
         if response.has_focus() && self.shows_focus {
@@ -440,15 +451,81 @@ impl Canvas {
         self.tell_screen_reader(ui, rect, &view, document, fresh, app).or(act)
     }
 
-    /// What a click at a place picks, having clicked there before.
-    fn clicked(&mut self, place: Pos2, candidates: impl FnOnce() -> Vec<ElementId>) -> Option<ElementId> {
-        match &mut self.cycle {
-            Some(cycle) if cycle.at.distance(place) <= SAME_PLACE && !cycle.candidates.is_empty() => {
-                cycle.index = (cycle.index + 1) % cycle.candidates.len();
-            }
-            _ => self.cycle = Some(Cycle { at: place, candidates: candidates(), index: 0 }),
+    /// Lets the tool in the hand see what the pointer and the keys do.
+    fn use_tool<'a>(
+        &mut self,
+        ui: &Ui,
+        response: &Response,
+        document: &'a Document,
+        shown: Option<&'a Arc<Derived>>,
+        app: &'a App,
+        toolbox: &mut Toolbox,
+        view: &View,
+        act: &mut Option<Act>,
+    ) -> Option<Scope<'a>> {
+        let pointer = self.pointer.unwrap_or(self.last_pointer);
+        self.last_pointer = pointer;
+        let modifiers = ui.input(|input| input.modifiers);
+        let index = shown.map(|derived| &derived.index);
+        let is_over_picture = app.layers.backdrop && document.plan().backdrop().is_some();
+        // A picture's walls do not stand on the grid.
+        let grid_m = (!is_over_picture && app.layers.grid).then_some(GRID_M);
+        let seen = (view.bounds(), view.px_per_m);
+        let snap = toolbox.snap(index, pointer, seen, modifiers, &[], &[], &app.draw_options, grid_m);
+        let mut scope = Scope {
+            plan: document.plan(),
+            derived: shown,
+            selection: &app.selection,
+            options: &app.draw_options,
+            layers: &app.layers,
+            pointer,
+            snap,
+            px_per_m: view.px_per_m,
+            modifiers,
+        };
+        let mut inputs = toolbox.take_pending();
+        let is_primary = |input: &egui::InputState| input.pointer.button_pressed(PointerButton::Primary);
+        if response.contains_pointer() && ui.input(is_primary) {
+            self.pressed_at = Some((scope.at(), pointer));
         }
-        self.cycle.as_ref().and_then(|cycle| cycle.candidates.get(cycle.index)).copied()
+        if !self.is_panning {
+            if response.drag_started_by(PointerButton::Primary)
+                && let Some((at, pointer)) = self.pressed_at
+            {
+                inputs.push(Input::DragStart { at, pointer });
+            } else if response.dragged_by(PointerButton::Primary) {
+                inputs.push(Input::Drag);
+            }
+            if response.drag_stopped_by(PointerButton::Primary) {
+                inputs.push(Input::Drop);
+            }
+            if response.clicked_by(PointerButton::Primary) {
+                inputs.push(Input::Click);
+            }
+            if response.double_clicked_by(PointerButton::Primary) {
+                inputs.push(Input::DoubleClick);
+            }
+            if response.secondary_clicked() {
+                inputs.push(Input::SecondaryClick);
+            }
+        }
+        let mut calls = Vec::new();
+        for input in inputs {
+            let was_snapping = toolbox.tool().snaps();
+            calls.extend(toolbox.tool_mut().take(input, &scope));
+            // What it snaps to depends on what was begun.
+            if toolbox.tool().snaps() != was_snapping || !calls.is_empty() {
+                scope.snap = toolbox.snap(index, pointer, seen, modifiers, &[], &[], &app.draw_options, grid_m);
+            }
+        }
+        if !calls.is_empty() {
+            *act = Some(Act::Calls(calls));
+        }
+        toolbox.hint = toolbox.tool().hint(&scope);
+        if response.contains_pointer() && !self.is_panning && !is_space_held(ui) {
+            ui.ctx().set_cursor_icon(toolbox.tool().cursor(&scope));
+        }
+        Some(scope)
     }
 
     /// With the keyboard on the canvas: Tab goes from room to room, arrows to the next room that way.
@@ -585,11 +662,26 @@ impl Canvas {
                 node.set_description(said);
             });
             if ui.input(|input| input.has_accesskit_action_request(id, egui::accesskit::Action::Click)) {
-                act = Some(Act::Pick(Some(this)));
+                act = Some(Act::Pick(this));
             }
         }
         act
     }
+}
+
+/// Whether the key is held that makes every drag move the view.
+fn is_space_held(ui: &Ui) -> bool {
+    !ui.ctx().text_edit_focused() && ui.input(|input| input.key_down(Key::Space))
+}
+
+/// What has been typed for the tool, beside the pointer.
+fn paint_typed(painter: &Painter, rect: Rect, view: &View, palette: &Palette, scope: &Scope<'_>, typed: &str) {
+    if typed.is_empty() {
+        return;
+    }
+    let at = on_screen(rect, view, scope.at()) + vec2(14.0, 40.0);
+    let ink = theme::colour(palette.ink);
+    tools::tag(painter, at, egui::Align2::LEFT_TOP, &format!("{typed}|   Enter"), ink, palette);
 }
 
 /// How something is marked.
@@ -744,21 +836,5 @@ mod tests {
             let px_per_m = canvas.px_per_m().expect("has a camera");
             assert!((LEAST_PX_PER_M..=MOST_PX_PER_M).contains(&px_per_m));
         }
-    }
-
-    #[test]
-    fn clicking_again_cycles_and_elsewhere_starts_anew() {
-        let room = |key: &str| {
-            let mut builder = crate::plan::Builder::default();
-            ElementId::Room(builder.room(key, crate::plan::Room::default()))
-        };
-        let (a, b) = (room("a"), room("b"));
-        let mut canvas = Canvas::default();
-        let here = pos2(10.0, 10.0);
-        let picks: Vec<_> = (0..3).map(|_| canvas.clicked(here, || vec![a, b])).collect();
-        assert_eq!(picks, [Some(a), Some(b), Some(a)]);
-        assert_eq!(canvas.clicked(pos2(50.0, 10.0), || vec![b]), Some(b));
-        assert_eq!(canvas.clicked(pos2(90.0, 10.0), Vec::new), None);
-        assert_eq!(canvas.clicked(pos2(90.0, 10.0), || vec![a]), Some(a));
     }
 }

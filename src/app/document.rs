@@ -16,6 +16,7 @@ use crate::geometry::{Bounds, Point, Segment};
 use crate::labels::Schemes;
 use crate::plan::{ElementId, History, Meta, OpeningId, Plan, RoomId, Scale, ScaleOrigin, edit};
 use crate::predict::{Predictions, Predictor};
+use crate::snapping::PlanIndex;
 use crate::store;
 
 /// The plans that come with the program, each with its file's name, the one shown first in front.
@@ -297,6 +298,8 @@ pub(super) struct Derived {
     /// which the tests exclude.
     pub predictions: Option<Predictions>,
     predictor: Option<Predictor>,
+    /// Corners, walls and boundaries by place: to snap to, and to select.
+    pub index: PlanIndex,
     openings: RTree<OpeningPlace>,
     reading_order: Vec<RoomId>,
 }
@@ -339,7 +342,8 @@ impl Derived {
         let drawing = Drawing::new(plan, &analysis).with_predictions(&labels);
         let reading_order = reading_order(&analysis);
         let openings = RTree::bulk_load(openings);
-        Self { analysis, drawing, predictions, predictor, openings, reading_order }
+        let index = PlanIndex::new(plan);
+        Self { analysis, drawing, predictions, predictor, index, openings, reading_order }
     }
 
     /// The rooms with a boundary as one reads: from the top left, line by line.
@@ -352,8 +356,8 @@ impl Derived {
         in_lines(&self.analysis, |bounds| (bounds.min.x, bounds.width()), |bounds| -bounds.max.y)
     }
 
-    /// What can be picked at a point: openings within `reach_m` metres, the nearest first, then rooms,
-    /// the smallest first.
+    /// What can be picked at a point: openings within `reach_m` metres, then walls, the nearest first, then
+    /// rooms, the smallest first. A wall is reached half as far beside it as an opening.
     pub(super) fn at(&self, point: Point, reach_m: f64) -> Vec<ElementId> {
         let place = [point.x, point.y];
         let mut near: Vec<(f64, OpeningId)> = self
@@ -365,7 +369,9 @@ impl Derived {
         let openings = near.into_iter().map(|(_, id)| ElementId::Opening(id));
         let shapes = &self.analysis.shapes;
         let rooms = shapes.at(point).into_iter().map(|index| ElementId::Room(shapes.all()[index].id));
-        openings.chain(rooms).collect()
+        let walls =
+            self.index.edges_near(point, reach_m / 2.0).into_iter().filter_map(|edge| edge.wall).map(ElementId::Wall);
+        openings.chain(walls).chain(rooms).collect()
     }
 }
 

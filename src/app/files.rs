@@ -119,6 +119,7 @@ impl App {
             Intent::Close => {
                 self.document = None;
                 self.selection = Selection::default();
+                self.tools.drop_work();
                 self.canvas.forget();
             }
             // The recording first, or it would be lost.
@@ -130,6 +131,7 @@ impl App {
     fn show(&mut self, opened: Opened) {
         let folder = opened.origin.folder().map(Path::to_owned);
         self.selection = Selection::default();
+        self.tools.drop_work();
         self.canvas.forget();
         self.panels.forget();
         self.status.clear();
@@ -170,6 +172,10 @@ impl App {
             (Some(Question::Replace { then, .. }), "elsewhere") => then,
             (Some(Question::Unsaved(intent)), "discard") => {
                 self.perform(intent);
+                return true;
+            }
+            (Some(Question::Delete { selected, .. }), "delete") => {
+                self.delete(&selected);
                 return true;
             }
             (Some(Question::Replace { path, then, .. }), "replace") => {

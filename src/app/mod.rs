@@ -29,9 +29,11 @@ mod search;
 mod selection;
 mod settings;
 mod theme;
+mod tools;
 mod widgets;
 mod window;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -56,6 +58,7 @@ use panels::{Field, FieldKind, Panels};
 use plan_list::PlanList;
 use replay::{Recorder, Recording};
 use settings::Settings;
+use tools::{DrawOptions, TakenBack, Toolbox};
 
 use crate::draw::{self, Fill, LabelColours, Palette};
 use crate::formats::FileError;
@@ -75,6 +78,8 @@ pub struct App {
     list: PlanList,
     canvas: Canvas,
     selection: Selection,
+    tools: Toolbox,
+    draw_options: DrawOptions,
     layers: LayerSettings,
     /// The storey drawn faintly under the plan.
     ghost: Option<ghost::Ghost>,
@@ -124,6 +129,27 @@ struct LayerSettings {
     /// The storey that lies below.
     ghost: bool,
     rulers: bool,
+    /// Rooms, walls and openings that cannot be selected or moved with the pointer.
+    locked: Locked,
+}
+
+/// What the pointer leaves alone.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Locked {
+    rooms: bool,
+    walls: bool,
+    openings: bool,
+}
+
+impl LayerSettings {
+    fn is_locked(&self, element: ElementId) -> bool {
+        match element {
+            ElementId::Room(_) => self.locked.rooms,
+            ElementId::Wall(_) => self.locked.walls,
+            ElementId::Opening(_) => self.locked.openings,
+            ElementId::Corner(_) => false,
+        }
+    }
 }
 
 impl Default for LayerSettings {
@@ -139,6 +165,7 @@ impl Default for LayerSettings {
             dimensions: true,
             ghost: true,
             rulers: false,
+            locked: Locked::default(),
         }
     }
 }
@@ -191,6 +218,8 @@ enum Intent {
 enum Question {
     /// The plan has unsaved changes: save, give up, or keep working?
     Unsaved(Intent),
+    /// More would go than is selected: delete it all?
+    Delete { selected: Vec<ElementId>, gone: BTreeSet<ElementId> },
     /// Something else stands in the file to be saved: replace it?
     Replace { path: PathBuf, is_changed_since: bool, then: Option<Intent> },
 }
@@ -220,6 +249,8 @@ impl App {
             list: PlanList::default(),
             canvas: Canvas::default(),
             selection: Selection::default(),
+            tools: Toolbox::default(),
+            draw_options: DrawOptions::default(),
             layers: LayerSettings::default(),
             ghost: None,
             guide_drag: None,
@@ -253,6 +284,7 @@ impl App {
         self.take_outcomes(&context);
         self.take_dropped_files(&context);
         self.take_close_request(&context);
+        self.take_tool_keys(&context);
         self.take_shortcuts(&context);
         self.refresh();
         panels::show(self, ui);
@@ -476,11 +508,21 @@ impl App {
     // Editing. Every change goes through here and is a step of the history.
 
     fn edit(&mut self, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) {
-        let Some(document) = &mut self.document else { return };
-        match change(document.plan()) {
-            Ok(plan) => document.history.push(title, plan),
-            Err(error) => self.say(Severity::Warning, format!("Nothing was changed: {error}"), ""),
+        if let Err(error) = self.try_edit(title, change) {
+            self.say(Severity::Warning, format!("Nothing was changed: {error}"), "");
         }
+    }
+
+    /// As [`App::edit`], but leaves it to the caller to say why nothing was changed.
+    fn try_edit(
+        &mut self,
+        title: &str,
+        change: impl FnOnce(&Plan) -> Result<Plan, EditError>,
+    ) -> Result<(), EditError> {
+        let Some(document) = &mut self.document else { return Ok(()) };
+        let plan = change(document.plan())?;
+        document.history.push(title, plan);
+        Ok(())
     }
 
     // Predicting.
@@ -560,10 +602,16 @@ impl App {
         });
     }
 
-    fn undo(&mut self) {
+    /// Takes the last change back, or the last corner of what is being drawn. Gives whether the plan's
+    /// last step was undone.
+    fn undo(&mut self) -> bool {
+        if self.tools.take_back() == TakenBack::Corner {
+            return false;
+        }
         if let Some(title) = self.document.as_mut().and_then(|document| document.history.undo()) {
             self.status = format!("Undone: {title}");
         }
+        true
     }
 
     fn redo(&mut self) {

@@ -357,6 +357,35 @@ pub(super) fn value(ui: &mut Ui, name: &str, value: &str) -> Response {
     if is_elided { response.on_hover_text(value) } else { response }
 }
 
+/// A text that is on or off.
+pub(super) fn toggle(ui: &mut Ui, text: &str, is_on: bool) -> Response {
+    let colours = colours(ui);
+    let font = FontId::proportional(theme::BODY);
+    let ink = if is_on { colours.accent } else { colours.text_weak };
+    let galley = line(ui, text, font, ink, f32::INFINITY);
+    let mark = 14.0;
+    let (rect, response) = ui.allocate_exact_size(vec2(galley.size().x + mark + 18.0, 26.0), Sense::click());
+    let ground = if is_on {
+        colours.accent_soft
+    } else if response.hovered() {
+        colours.hover
+    } else {
+        Color32::TRANSPARENT
+    };
+    ui.painter().rect_filled(rect, RADIUS, ground);
+    let square = Rect::from_center_size(pos2(rect.left() + 6.0 + mark / 2.0, rect.center().y), Vec2::splat(mark));
+    if is_on {
+        Icon::Check.paint(ui.painter(), square, colours.accent);
+    } else {
+        let rim = Stroke::new(1.0, colours.outline);
+        ui.painter().rect_stroke(square.shrink(1.5), CornerRadius::same(2), rim, StrokeKind::Inside);
+    }
+    put(ui, galley, square.right() + 4.0, rect.center().y);
+    focus_ring(ui, rect, &response);
+    response.widget_info(|| WidgetInfo::selected(Role::CheckBox, ui.is_enabled(), is_on, text));
+    response
+}
+
 /// A small text that does something when it is clicked.
 pub(super) fn link(ui: &mut Ui, text: &str) -> Response {
     let response = ui.link(RichText::new(text).size(theme::SMALL));

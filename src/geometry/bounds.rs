@@ -1,4 +1,4 @@
-use super::Point;
+use super::{Point, Segment};
 
 /// An axis-parallel box in metres. [`Bounds::EMPTY`] contains nothing and grows from its first point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +57,31 @@ impl Bounds {
 
     pub fn contains(self, point: Point) -> bool {
         point.x >= self.min.x && point.x <= self.max.x && point.y >= self.min.y && point.y <= self.max.y
+    }
+
+    /// Whether a segment has a point in it, found by cutting the segment at the four sides (Liang and
+    /// Barsky 1984).
+    pub fn meets(self, segment: Segment) -> bool {
+        let way = segment.vector();
+        let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+        let sides = [
+            (-way.x, segment.a.x - self.min.x),
+            (way.x, self.max.x - segment.a.x),
+            (-way.y, segment.a.y - self.min.y),
+            (way.y, self.max.y - segment.a.y),
+        ];
+        for (towards, room) in sides {
+            if towards == 0.0 {
+                if room < 0.0 {
+                    return false;
+                }
+            } else if towards < 0.0 {
+                enters = enters.max(room / towards);
+            } else {
+                leaves = leaves.min(room / towards);
+            }
+        }
+        enters <= leaves
     }
 
     /// Whether the two boxes share at least a point.

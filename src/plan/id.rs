@@ -143,6 +143,18 @@ pub enum ElementId {
     Opening(OpeningId),
 }
 
+impl ElementId {
+    /// What it is, in a word: 'room'.
+    pub const fn kind(self) -> &'static str {
+        match self {
+            Self::Corner(_) => "corner",
+            Self::Wall(_) => "wall",
+            Self::Room(_) => "room",
+            Self::Opening(_) => "opening",
+        }
+    }
+}
+
 impl fmt::Display for ElementId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

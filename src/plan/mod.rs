@@ -114,6 +114,14 @@ impl Plan {
         self.openings.iter().map(|(&id, opening)| (id, opening.as_ref()))
     }
 
+    /// The identities of all elements, sorted.
+    pub fn elements(&self) -> impl Iterator<Item = ElementId> + '_ {
+        let corners = self.corners.keys().copied().map(ElementId::Corner);
+        let walls = self.walls.keys().copied().map(ElementId::Wall);
+        let rooms = self.rooms.keys().copied().map(ElementId::Room);
+        corners.chain(walls).chain(rooms).chain(self.openings.keys().copied().map(ElementId::Opening))
+    }
+
     /// Whether an element is part of the plan.
     pub fn has(&self, element: ElementId) -> bool {
         match element {

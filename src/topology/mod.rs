@@ -1,5 +1,6 @@
 //! Which rooms an opening joins, the graph of rooms that follows, and the faces that walls enclose.
 
+mod across;
 mod arrangement;
 mod draw;
 mod exact;
@@ -9,6 +10,7 @@ mod graph;
 mod shapes;
 mod snap;
 
+pub use across::{room_around, split_rooms};
 pub use arrangement::{Arrangement, ArrangementError, NodeIndex};
 pub use draw::{Drawn, cut_out, draw_room, draw_walls, split_room};
 pub use faces::{Face, faces};

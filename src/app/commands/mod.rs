@@ -41,6 +41,8 @@ pub struct Command {
     pub menu: Option<(Menu, u8)>,
     /// Its icon in the tool bar, and the group it stands in; `None` for not there.
     pub tool: Option<(Icon, u8)>,
+    /// Its icon in the strip of drawing tools, and the group it stands in; `None` for not there.
+    pub strip: Option<(Icon, u8)>,
     availability: fn(&App) -> Availability,
     /// When it can be called with all its arguments, where that needs less.
     complete_availability: Option<fn(&App) -> Availability>,

@@ -187,6 +187,10 @@ impl Question {
                 let name = app.document.as_ref().map(crate::app::Document::title).unwrap_or_default();
                 format!("Save changes to {name}?")
             }
+            Self::Delete { selected, .. } if selected.len() == 1 => {
+                format!("Delete the {} and what depends on it?", selected[0].kind())
+            }
+            Self::Delete { selected, .. } => format!("Delete {} elements and what depends on them?", selected.len()),
             Self::Replace { path, .. } => format!("Replace {}?", crate::app::document::file_name(path)),
         }
     }
@@ -195,6 +199,7 @@ impl Question {
     pub(in crate::app) const fn answers(&self) -> &'static [(&'static str, &'static str)] {
         match self {
             Self::Unsaved(_) => &[("save", "Save"), ("discard", "Don't save"), ("cancel", "Cancel")],
+            Self::Delete { .. } => &[("delete", "Delete"), ("cancel", "Cancel")],
             Self::Replace { .. } => &[("elsewhere", "Save as…"), ("replace", "Replace"), ("cancel", "Cancel")],
         }
     }

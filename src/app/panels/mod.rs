@@ -13,6 +13,8 @@ mod prediction;
 mod questions;
 pub(super) mod shortcuts;
 pub(super) mod status;
+mod tool_options;
+mod tool_strip;
 mod top_bar;
 pub(super) mod welcome;
 
@@ -233,6 +235,13 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             .show(ui, |ui| show_right(app, ui));
         app.panels.right_rect = Some(shown.response.rect);
     }
+    if app.document.is_some() {
+        Panel::left("tools")
+            .exact_size(tool_strip::WIDTH)
+            .resizable(false)
+            .frame(frame(Margin::symmetric(6, 8)))
+            .show(ui, |ui| tool_strip::show(app, ui));
+    }
     CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         messages::show(app, ui);
@@ -243,6 +252,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         }
         welcome::show_drop_target(ui);
     });
+    tool_options::show(app, ui);
     status::show(app, &mut ui.new_child(UiBuilder::new().max_rect(status_rect).id_salt("status")));
     notes::show(app, ui);
     about::show(app, ui);

@@ -2,8 +2,10 @@
 
 use egui::{Id, Key, Modal, Ui};
 
+use super::status::count;
 use crate::app::widgets::{dialog_frame, right, strong, text_button};
 use crate::app::{App, Intent, Question, theme};
+use crate::plan::ElementId;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let Some(question) = &app.question else { return };
@@ -15,6 +17,16 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
                 Intent::Close | Intent::Quit => "before it is closed",
             };
             format!("They are in no file yet. Save them {then}, or they are lost.")
+        }
+        Question::Delete { selected, gone } => {
+            let others = |kind: &str| {
+                let is_it = |element: &&ElementId| element.kind() == kind && !selected.contains(element);
+                gone.iter().filter(is_it).count()
+            };
+            let counts = ["room", "wall", "opening"].map(|kind| (others(kind), kind));
+            let said: Vec<String> =
+                counts.iter().filter(|(number, _)| *number > 0).map(|(number, kind)| count(*number, kind)).collect();
+            format!("{} cannot stand without it and would go as well: red on the plan.", said.join(", "))
         }
         Question::Replace { is_changed_since: true, .. } => {
             "Somebody else has changed the file since it was opened here. Replacing it loses their changes.".to_owned()

@@ -56,8 +56,10 @@ pub(in crate::app) fn left_text(app: &App) -> String {
     if document.derived().is_none() {
         return "Working out rooms and features…".to_owned();
     }
-    if !app.status.is_empty() {
-        return app.status.clone();
+    let said: Vec<&str> =
+        [app.status.as_str(), app.tools.hint.as_str()].into_iter().filter(|text| !text.is_empty()).collect();
+    if !said.is_empty() {
+        return said.join("  ·  ");
     }
     let plan = document.plan();
     let passable = plan.openings().filter(|(_, opening)| opening.kind.is_passable()).count();

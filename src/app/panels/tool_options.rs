@@ -1,6 +1,7 @@
-//! What the tool in the hand can be told, in a bar above the canvas.
+//! What the tool in the hand can be told, in a bar that floats over the canvas: nothing moves when it
+//! comes and goes.
 
-use egui::{Align, DragValue, Frame, Layout, Margin, Panel, RichText, Ui};
+use egui::{Area, DragValue, Frame, Id, Margin, Order, RichText, Ui, vec2};
 
 use crate::app::commands;
 use crate::app::widgets::{colours, toggle};
@@ -26,36 +27,49 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     if app.document.is_none() || app.tools.is_selecting() {
         return;
     }
-    let frame = Frame::new().fill(colours(ui).panel).inner_margin(Margin::symmetric(12, 0));
-    Panel::top("tool options").exact_size(36.0).frame(frame).show(ui, |ui| {
-        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-            ui.spacing_mut().item_spacing.x = 8.0;
-            let title = commands::find(&format!("tool-{id}")).map_or("", |command| command.title);
-            ui.label(crate::app::widgets::strong(title, theme::BODY));
-            ui.add_space(8.0);
-            let has_thickness = id == "walls" || (matches!(id, "room" | "rectangle") && app.draw_options.walls_with_rooms);
-            if has_thickness {
-                let now = app.draw_options.thickness_m;
-                length(app, ui, "Thickness", "wall-thickness", now, 0.0..=10.0);
-            }
-            if matches!(id, "door" | "double-door" | "passage" | "window") {
-                let now = app.draw_options.opening_width_m;
-                length(app, ui, "Width", "opening-width", now, 0.1..=100.0);
-            }
-            for (id, name) in switches(id) {
-                let Some(command) = commands::find(id) else { continue };
-                let is_on = command.is_on(app) == Some(true);
-                let response = toggle(ui, name, is_on);
-                let keys = app.keys_text(command, ui.ctx());
-                let keys = if keys.is_empty() { keys } else { format!("  {keys}") };
-                if response.on_hover_text(format!("{}{keys}\n{}", command.title, command.help)).clicked() {
-                    let context = ui.ctx().clone();
-                    app.run_command(id, &context);
+    let Some(canvas) = app.canvas.seen_rect() else { return };
+    let colours_of_bar = colours(ui);
+    let frame = Frame::new()
+        .fill(colours_of_bar.panel)
+        .stroke(egui::Stroke::new(1.0, colours_of_bar.outline))
+        .corner_radius(theme::RADIUS + 2)
+        .inner_margin(Margin { left: 12, right: 8, top: 4, bottom: 4 });
+    let area = Area::new(Id::unique("tool options")).order(Order::Middle).constrain_to(canvas.shrink(4.0));
+    area.fixed_pos(canvas.min + vec2(SPACE, SPACE)).show(ui.ctx(), |ui| {
+        frame.show(ui, |ui| {
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 8.0;
+                let title = commands::find(&format!("tool-{id}")).map_or("", |command| command.title);
+                ui.label(crate::app::widgets::strong(title, theme::BODY));
+                ui.add_space(8.0);
+                let has_thickness =
+                    id == "walls" || (matches!(id, "room" | "rectangle") && app.draw_options.walls_with_rooms);
+                if has_thickness {
+                    let now = app.draw_options.thickness_m;
+                    length(app, ui, "Thickness", "wall-thickness", now, 0.0..=10.0);
                 }
-            }
+                if matches!(id, "door" | "double-door" | "passage" | "window") {
+                    let now = app.draw_options.opening_width_m;
+                    length(app, ui, "Width", "opening-width", now, 0.1..=100.0);
+                }
+                for (id, name) in switches(id) {
+                    let Some(command) = commands::find(id) else { continue };
+                    let is_on = command.is_on(app) == Some(true);
+                    let response = toggle(ui, name, is_on);
+                    let keys = app.keys_text(command, ui.ctx());
+                    let keys = if keys.is_empty() { keys } else { format!("  {keys}") };
+                    if response.on_hover_text(format!("{}{keys}\n{}", command.title, command.help)).clicked() {
+                        let context = ui.ctx().clone();
+                        app.run_command(id, &context);
+                    }
+                }
+            });
         });
     });
 }
+
+/// Space between the bar and the canvas's edges, in points: beside rulers.
+const SPACE: f32 = 30.0;
 
 /// A length that is dragged or typed, in metres.
 fn length(

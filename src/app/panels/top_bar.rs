@@ -102,7 +102,7 @@ fn show_tools(app: &mut App, ui: &mut Ui) {
 }
 
 /// A command's title, shortcut and help under the pointer, and why it cannot be done now.
-fn with_tooltip(app: &App, response: Response, context: &Context, command: &Command) -> Response {
+pub(super) fn with_tooltip(app: &App, response: Response, context: &Context, command: &Command) -> Response {
     let keys = app.keys_text(command, context);
     let why_not = command.why_not(app);
     let show = |ui: &mut Ui| {

@@ -21,7 +21,7 @@ use std::sync::Arc;
 use egui::{Context, CursorIcon, Event, Key, Modifiers};
 
 pub(super) use preview::{Preview, paint_snap, tag};
-pub(super) use select::{REACH_PX, hit};
+pub(super) use select::{REACH_PX, corners_of, hit};
 pub(super) use typing::Typed;
 
 use super::document::Derived;
@@ -408,7 +408,9 @@ impl Toolbox {
                 && !modifiers.shift
                 && self.tool.snaps(),
             objects: options.snaps && !is_free,
-            grid_m: grid_m.filter(|_| options.snaps_to_grid && !is_free).map(|shown_m| attracting_grid_m(shown_m, px_per_m)),
+            grid_m: grid_m
+                .filter(|_| options.snaps_to_grid && !is_free)
+                .map(|shown_m| attracting_grid_m(shown_m, px_per_m)),
             points: &points,
             lines,
         };

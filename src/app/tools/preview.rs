@@ -17,8 +17,6 @@ pub(in crate::app) enum Look {
     New,
     /// A helping line.
     Guide,
-    /// What is meant.
-    Hover,
     /// What will be no more, or cannot be.
     Danger,
 }
@@ -30,13 +28,36 @@ pub(in crate::app) struct Preview {
 }
 
 enum Item {
-    Line { points: Vec<Point>, closed: bool, look: Look, dashed: bool },
-    Fill { outer: Vec<Point>, holes: Vec<Vec<Point>>, look: Look },
-    Wall { segment: Segment, thickness_m: f64, look: Look },
-    Label { at: Point, text: String, look: Look },
+    Line {
+        points: Vec<Point>,
+        closed: bool,
+        look: Look,
+        dashed: bool,
+    },
+    Fill {
+        outer: Vec<Point>,
+        holes: Vec<Vec<Point>>,
+        look: Look,
+    },
+    Wall {
+        segment: Segment,
+        thickness_m: f64,
+        look: Look,
+    },
+    Label {
+        at: Point,
+        text: String,
+        look: Look,
+    },
     /// A text beside the middle of a segment.
-    Dimension { segment: Segment, text: String },
-    Handle { at: Point, look: Look },
+    Dimension {
+        segment: Segment,
+        text: String,
+    },
+    Handle {
+        at: Point,
+        look: Look,
+    },
 }
 
 impl Preview {
@@ -116,11 +137,24 @@ impl Preview {
                     }
                     let normal = (b - a).normalized().rot90();
                     let up = if normal.y > 0.0 || (normal.y == 0.0 && normal.x < 0.0) { -normal } else { normal };
-                    tag(painter, a + (b - a) / 2.0 + up * 16.0, Align2::CENTER_CENTER, &text, theme::colour(palette.ink), palette);
+                    tag(
+                        painter,
+                        a + (b - a) / 2.0 + up * 16.0,
+                        Align2::CENTER_CENTER,
+                        &text,
+                        theme::colour(palette.ink),
+                        palette,
+                    );
                 }
                 Item::Handle { at, look } => {
                     let square = Rect::from_center_size(place(at), Vec2::splat(7.0));
-                    painter.rect(square, 1.0, theme::colour(palette.paper), Stroke::new(1.5, colour(look, palette)), StrokeKind::Middle);
+                    painter.rect(
+                        square,
+                        1.0,
+                        theme::colour(palette.paper),
+                        Stroke::new(1.5, colour(look, palette)),
+                        StrokeKind::Middle,
+                    );
                 }
             }
         }
@@ -128,7 +162,14 @@ impl Preview {
 }
 
 /// A text on a ground of its own.
-pub(in crate::app) fn tag(painter: &Painter, at: Pos2, anchor: Align2, text: &str, ink: Color32, palette: &Palette) -> Rect {
+pub(in crate::app) fn tag(
+    painter: &Painter,
+    at: Pos2,
+    anchor: Align2,
+    text: &str,
+    ink: Color32,
+    palette: &Palette,
+) -> Rect {
     let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(theme::SMALL), ink);
     let size = galley.rect.size();
     let ground = anchor.anchor_size(at, size + vec2(10.0, 4.0));
@@ -149,7 +190,6 @@ fn colour(look: Look, palette: &Palette) -> Color32 {
     theme::colour(match look {
         Look::New => palette.selection,
         Look::Guide => palette.snap,
-        Look::Hover => palette.hover,
         Look::Danger => palette.error,
     })
 }
@@ -171,20 +211,23 @@ pub(in crate::app) fn paint_snap(painter: &Painter, rect: Rect, view: &View, pal
     let stroke = Stroke::new(1.8, colour);
     let arm = |x: f32, y: f32| at + vec2(x, y);
     match snap.kind {
-        SnapKind::Corner => drop(painter.rect_stroke(Rect::from_center_size(at, Vec2::splat(11.0)), 0.0, stroke, StrokeKind::Middle)),
+        SnapKind::Corner => {
+            drop(painter.rect_stroke(Rect::from_center_size(at, Vec2::splat(11.0)), 0.0, stroke, StrokeKind::Middle))
+        }
         SnapKind::Intersection => {
             painter.line_segment([arm(-6.0, -6.0), arm(6.0, 6.0)], stroke);
             painter.line_segment([arm(-6.0, 6.0), arm(6.0, -6.0)], stroke);
         }
-        SnapKind::Midpoint => drop(painter.add(Shape::closed_line(vec![arm(-6.5, 5.0), arm(6.5, 5.0), arm(0.0, -6.5)], stroke))),
+        SnapKind::Midpoint => {
+            drop(painter.add(Shape::closed_line(vec![arm(-6.5, 5.0), arm(6.5, 5.0), arm(0.0, -6.5)], stroke)))
+        }
         SnapKind::Perpendicular => {
             painter.add(Shape::line(vec![arm(-6.0, -7.0), arm(-6.0, 6.0), arm(7.0, 6.0)], stroke));
             painter.add(Shape::line(vec![arm(-6.0, 0.0), arm(0.0, 0.0), arm(0.0, 6.0)], stroke));
         }
-        SnapKind::Wall => drop(painter.add(Shape::closed_line(
-            vec![arm(0.0, -6.5), arm(6.5, 0.0), arm(0.0, 6.5), arm(-6.5, 0.0)],
-            stroke,
-        ))),
+        SnapKind::Wall => drop(
+            painter.add(Shape::closed_line(vec![arm(0.0, -6.5), arm(6.5, 0.0), arm(0.0, 6.5), arm(-6.5, 0.0)], stroke)),
+        ),
         SnapKind::Alignment | SnapKind::Grid | SnapKind::Free => {
             let half = if snap.kind == SnapKind::Free { 3.0 } else { 5.0 };
             painter.line_segment([arm(-half, 0.0), arm(half, 0.0)], stroke);
@@ -204,4 +247,3 @@ pub(in crate::app) fn degrees(along: Option<Vector>, way: Vector) -> f64 {
     let tenths = (angle * 10.0).round() / 10.0;
     if tenths < 0.0 { tenths + 360.0 } else { tenths }
 }
-

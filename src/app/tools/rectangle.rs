@@ -11,7 +11,10 @@ pub(super) const ENTRY: Entry = Entry { id: "rectangle", make: || Box::new(Recta
 enum Rectangle {
     Ready,
     /// `along`: the direction of its sides.
-    Sized { from: Point, along: Vector },
+    Sized {
+        from: Point,
+        along: Vector,
+    },
 }
 
 /// Sides shorter than this are a slip of the hand: half of the smallest shaft.
@@ -71,7 +74,10 @@ impl Tool for Rectangle {
 
     fn hint(&self, _: &Scope<'_>) -> String {
         match self {
-            Self::Ready => "Rectangle: click a corner of the room, or drag from corner to corner · it takes what no room has".to_owned(),
+            Self::Ready => {
+                "Rectangle: click a corner of the room, or drag from corner to corner · it takes what no room has"
+                    .to_owned()
+            }
             Self::Sized { .. } => "Click the opposite corner, or type both sides (4x3) · Esc drops it".to_owned(),
         }
     }

@@ -52,7 +52,9 @@ fn closing_corner(points: &[Point], scope: &Scope<'_>) -> Option<Point> {
     let (start, end) = ((*second - *first).unit()?, (*last - *before).unit()?);
     let closing = *first - *last;
     // Closed at a right angle already.
-    if closing.unit().is_none_or(|closing| closing.dot(start).abs() < 1e-3 || closing.dot(end).abs() < 1e-3) && is_right_angle(start, closing) {
+    if closing.unit().is_none_or(|closing| closing.dot(start).abs() < 1e-3 || closing.dot(end).abs() < 1e-3)
+        && is_right_angle(start, closing)
+    {
         return None;
     }
     // At right angles to the first line and to the last one.

@@ -124,7 +124,9 @@ impl Select {
         let found = hit(scope.derived?, scope.plan, scope.layers, pointer, scope.px_per_m);
         let held = found.into_iter().find(|&element| scope.selection.contains(element))?;
         match (held, scope.selection.one()) {
-            (ElementId::Opening(id), Some(_)) if scope.plan.opening(id).is_some_and(|opening| matches!(opening.place, Place::Hosted { .. })) => {
+            (ElementId::Opening(id), Some(_))
+                if scope.plan.opening(id).is_some_and(|opening| matches!(opening.place, Place::Hosted { .. })) =>
+            {
                 Some(Grabbed::Opening(id))
             }
             _ => Some(Grabbed::Selection),
@@ -181,7 +183,7 @@ fn is_inside(from: Point, to: Point) -> bool {
 }
 
 /// The corners that selected elements have.
-fn corners_of(plan: &Plan, selection: &Selection) -> BTreeSet<CornerId> {
+pub(in crate::app) fn corners_of(plan: &Plan, selection: &Selection) -> BTreeSet<CornerId> {
     let mut corners: BTreeSet<CornerId> = selection.corners().collect();
     for wall in selection.walls().filter_map(|id| plan.wall(id)) {
         corners.extend([wall.from, wall.to]);
@@ -223,8 +225,12 @@ impl Tool for Select {
                 "Selects what lies inside · pull to the left for what is touched · Shift adds".to_owned()
             }
             State::Boxing { .. } => "Selects what is inside or touched · Shift adds".to_owned(),
-            State::MovingCorner { .. } => "Everything that shares the corner follows · Alt suspends snapping · Esc drops it".to_owned(),
-            State::Moving { .. } => "Neighbours that share corners follow · Alt suspends snapping · Esc drops it".to_owned(),
+            State::MovingCorner { .. } => {
+                "Everything that shares the corner follows · Alt suspends snapping · Esc drops it".to_owned()
+            }
+            State::Moving { .. } => {
+                "Neighbours that share corners follow · Alt suspends snapping · Esc drops it".to_owned()
+            }
             State::Sliding { .. } => "The opening slides along its wall · Esc drops it".to_owned(),
         }
     }
@@ -261,7 +267,8 @@ impl Tool for Select {
                 preview.label(scope.at(), format!("moved {}", length(by.length())), Look::New);
             }
             State::Sliding { opening } => {
-                let segment = scope.plan.opening(opening).and_then(|opening| slid(scope.plan, opening.place, scope.pointer));
+                let segment =
+                    scope.plan.opening(opening).and_then(|opening| slid(scope.plan, opening.place, scope.pointer));
                 if let Some(segment) = segment {
                     preview.wall(segment, scope.metres(8.0), Look::New);
                 }

@@ -32,7 +32,18 @@ pub(super) fn is_key(typed: &str, key: Key) -> bool {
         || (!typed.is_empty()
             && matches!(
                 key,
-                Key::Quote | Key::Minus | Key::Plus | Key::Slash | Key::Space | Key::X | Key::M | Key::C | Key::F | Key::T | Key::I | Key::N
+                Key::Quote
+                    | Key::Minus
+                    | Key::Plus
+                    | Key::Slash
+                    | Key::Space
+                    | Key::X
+                    | Key::M
+                    | Key::C
+                    | Key::F
+                    | Key::T
+                    | Key::I
+                    | Key::N
             ))
 }
 
@@ -76,7 +87,10 @@ mod tests {
     fn lengths_angles_and_sizes() {
         let length = |text: &str| read(Typing::Length, text);
         assert_eq!(length("3.2"), Some(Typed::Length { length_m: 3.2, angle_rad: None }));
-        assert_eq!(length("3,2<90"), Some(Typed::Length { length_m: 3.2, angle_rad: Some(std::f64::consts::FRAC_PI_2) }));
+        assert_eq!(
+            length("3,2<90"),
+            Some(Typed::Length { length_m: 3.2, angle_rad: Some(std::f64::consts::FRAC_PI_2) })
+        );
         assert_eq!(read(Typing::Size, "4x3"), Some(Typed::Size { width_m: 4.0, height_m: 3.0 }));
         for wrong in ["", "<", "x", "3<", "-2", "0", "1e999"] {
             assert_eq!(length(wrong), None, "{wrong}");

@@ -1,5 +1,380 @@
 //! Drawing: walls, rooms, openings.
 
 use super::*;
+use crate::app::tools::TOOLS;
+use crate::plan::OpeningKind;
+use crate::plan::edit;
+use crate::topology;
 
-pub(super) const COMMANDS: &[Command] = &[];
+/// Takes up a tool.
+const fn tool(
+    id: &'static str,
+    title: &'static str,
+    help: &'static str,
+    is_on: fn(&App) -> bool,
+    run: fn(&mut App, &Context),
+) -> Command {
+    choose(id, title, help, has_plan, is_on, run)
+}
+
+const PATH: Argument = needed(
+    "POINTS",
+    ArgumentKind::Points { least: 2 },
+    "points in metres, as '0,0 4.2,0', where the last may be the first",
+);
+const RING: Argument = needed("CORNERS", ArgumentKind::Points { least: 3 }, "corners in metres, as '0,0 4,0 4,3 0,3'");
+const PLACE: Argument = needed("PLACE", ArgumentKind::Points { least: 1 }, "a point in metres, as '2,1.5'");
+const THICKNESS: Argument = optional(
+    "THICKNESS",
+    ArgumentKind::Number { unit: " of metres", least: 0.0, most: 10.0 },
+    "of walls, in metres; what is set without",
+);
+
+/// The kinds of openings as words.
+const KINDS: &[(&str, &str)] =
+    &[("door", "Door"), ("double-door", "Double door"), ("passage", "Passage"), ("window", "Window")];
+
+fn kind_of(word: &str) -> OpeningKind {
+    match word {
+        "double-door" => OpeningKind::DoubleDoor,
+        "passage" => OpeningKind::Passage,
+        "window" => OpeningKind::Window,
+        _ => OpeningKind::Door,
+    }
+}
+
+/// An edit whose refusal is the command's.
+pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) -> Ran {
+    match app.try_edit(title, change) {
+        Ok(()) => Ran::Done,
+        Err(error) => Ran::Refused(error.to_string()),
+    }
+}
+
+pub(super) const COMMANDS: &[Command] = &[
+    tool(
+        "tool-select",
+        "Select",
+        "Select, move, drag corners; drag over free space for a box",
+        |app| app.tools.is(TOOLS[0].id),
+        |app, _| app.tools.take_up(TOOLS[0].id),
+    )
+    .keys(&[key(Key::V)])
+    .menu(Menu::Draw, 0)
+    .strip(Icon::Select, 0),
+    tool(
+        "tool-walls",
+        "Walls",
+        "Draw a chain of walls",
+        |app| app.tools.is("walls"),
+        |app, _| app.tools.take_up("walls"),
+    )
+    .keys(&[key(Key::W)])
+    .menu(Menu::Draw, 0)
+    .strip(Icon::Walls, 1),
+    tool(
+        "tool-rectangle",
+        "Rectangular room",
+        "Draw a room as a rectangle: it takes what no room covers yet",
+        |app| app.tools.is("rectangle"),
+        |app, _| app.tools.take_up("rectangle"),
+    )
+    .keys(&[key(Key::R)])
+    .menu(Menu::Draw, 0)
+    .strip(Icon::Rectangle, 1),
+    tool(
+        "tool-room",
+        "Room by corners",
+        "Draw a room corner by corner",
+        |app| app.tools.is("room"),
+        |app, _| app.tools.take_up("room"),
+    )
+    .keys(&[shift(Key::R)])
+    .menu(Menu::Draw, 0)
+    .strip(Icon::Polygon, 1),
+    tool(
+        "tool-fill",
+        "Fill",
+        "Make a room of what walls enclose",
+        |app| app.tools.is("fill"),
+        |app, _| app.tools.take_up("fill"),
+    )
+    .keys(&[key(Key::E)])
+    .menu(Menu::Draw, 0)
+    .strip(Icon::Bucket, 1),
+    tool(
+        "tool-split",
+        "Split",
+        "Split a room along a line",
+        |app| app.tools.is("split"),
+        |app, _| app.tools.take_up("split"),
+    )
+    .keys(&[key(Key::X)])
+    .menu(Menu::Draw, 0)
+    .strip(Icon::Split, 2),
+    tool(
+        "tool-cut-out",
+        "Courtyard",
+        "Cut a courtyard or a shaft out of a room",
+        |app| app.tools.is("cut-out"),
+        |app, _| app.tools.take_up("cut-out"),
+    )
+    .keys(&[shift(Key::X)])
+    .menu(Menu::Draw, 0)
+    .strip(Icon::CutOut, 2),
+    tool("tool-door", "Door", "Put a door into a wall", |app| app.tools.is("door"), |app, _| app.tools.take_up("door"))
+        .keys(&[key(Key::D)])
+        .menu(Menu::Draw, 1)
+        .strip(Icon::Door, 3),
+    tool(
+        "tool-double-door",
+        "Double door",
+        "Put a door with two leaves into a wall",
+        |app| app.tools.is("double-door"),
+        |app, _| app.tools.take_up("double-door"),
+    )
+    .keys(&[shift(Key::D)])
+    .menu(Menu::Draw, 1)
+    .strip(Icon::DoubleDoor, 3),
+    tool(
+        "tool-passage",
+        "Passage",
+        "Put a free passage into a wall or a boundary",
+        |app| app.tools.is("passage"),
+        |app, _| app.tools.take_up("passage"),
+    )
+    .keys(&[key(Key::O)])
+    .menu(Menu::Draw, 1)
+    .strip(Icon::Passage, 3),
+    tool(
+        "tool-window",
+        "Window",
+        "Put a window into a wall",
+        |app| app.tools.is("window"),
+        |app, _| app.tools.take_up("window"),
+    )
+    .keys(&[shift(Key::O)])
+    .menu(Menu::Draw, 1)
+    .strip(Icon::Window, 3),
+    tool(
+        "tool-measure",
+        "Measure",
+        "Measure distances, angles and areas",
+        |app| app.tools.is("measure"),
+        |app, _| app.tools.take_up("measure"),
+    )
+    .keys(&[key(Key::T)])
+    .menu(Menu::Draw, 2)
+    .strip(Icon::Measure, 4),
+    with(
+        "fill-all",
+        "Fill all",
+        "Make rooms of everything that walls enclose and no room covers",
+        has_walls,
+        &[],
+        |app, _, _| {
+            let mut filled = 0;
+            let ran = edited(app, "Fill all", |plan| {
+                let all = topology::fill_all(plan)?;
+                filled = all.rooms.len();
+                Ok(all.plan)
+            });
+            if filled == 0 && ran == Ran::Done {
+                return Ran::Refused("walls enclose nothing that has no room yet".to_owned());
+            }
+            app.status = format!("Made {}", crate::app::panels::status::count(filled, "room"));
+            ran
+        },
+        None,
+    )
+    .keys(&[shift(Key::E)])
+    .menu(Menu::Draw, 3),
+    switch(
+        "right-angles",
+        "Right angles",
+        "Keep lines to right angles; Shift frees them",
+        always,
+        |app| app.draw_options.right_angles,
+        |app, is_on| app.draw_options.right_angles = is_on,
+    )
+    .keys(&[key(Key::F8)])
+    .menu(Menu::Draw, 4),
+    switch(
+        "snapping",
+        "Snap to the drawing",
+        "Snap to corners, crossings, midpoints, walls and alignments; Alt suspends it, Tab goes on to the next",
+        always,
+        |app| app.draw_options.snaps,
+        |app, is_on| app.draw_options.snaps = is_on,
+    )
+    .keys(&[key(Key::F3)])
+    .menu(Menu::Draw, 4),
+    switch(
+        "snap-to-grid",
+        "Snap to the grid",
+        "Snap to the grid, and to round lengths, where it is shown and no picture is",
+        always,
+        |app| app.draw_options.snaps_to_grid,
+        |app, is_on| app.draw_options.snaps_to_grid = is_on,
+    )
+    .keys(&[key(Key::F9)])
+    .menu(Menu::Draw, 4),
+    switch(
+        "walls-with-rooms",
+        "Walls around rooms",
+        "Draw walls along the boundaries of new rooms",
+        always,
+        |app| app.draw_options.walls_with_rooms,
+        |app, is_on| app.draw_options.walls_with_rooms = is_on,
+    )
+    .menu(Menu::Draw, 4),
+    with(
+        "wall-thickness",
+        "Wall thickness…",
+        "Say how thick new walls are",
+        always,
+        &[needed(
+            "THICKNESS",
+            ArgumentKind::Number { unit: " of metres", least: 0.0, most: 10.0 },
+            "of new walls, in metres",
+        )],
+        |app, values, _| {
+            app.draw_options.thickness_m = values.number(0).copied().unwrap_or_default();
+            Ran::Done
+        },
+        None,
+    )
+    .menu(Menu::Draw, 4),
+    with(
+        "opening-width",
+        "Opening width…",
+        "Say how wide new doors, passages and windows are; double doors are twice as wide",
+        always,
+        &[needed(
+            "WIDTH",
+            ArgumentKind::Number { unit: " of metres", least: 0.1, most: 100.0 },
+            "of new openings, in metres",
+        )],
+        |app, values, _| {
+            app.draw_options.opening_width_m = values.number(0).copied().unwrap_or_default();
+            Ran::Done
+        },
+        None,
+    )
+    .menu(Menu::Draw, 4),
+    // What the tools do, for scripts.
+    with(
+        "draw-walls",
+        "Draw walls",
+        "Draw a chain of walls from point to point; a room that they cross is split",
+        has_plan,
+        &[PATH, THICKNESS],
+        |app, values, _| {
+            let thickness_m = values.number(1).copied().unwrap_or(app.draw_options.thickness_m);
+            let points = values.points(0).unwrap_or_default().to_vec();
+            edited(app, "Draw wall", |plan| Ok(topology::draw_walls(plan, &points, thickness_m)?.plan))
+        },
+        None,
+    ),
+    with(
+        "draw-room",
+        "Draw a room",
+        "Draw a room with these corners",
+        has_plan,
+        &[
+            RING,
+            optional(
+                "SPACE",
+                ArgumentKind::Word(&[("exact", "This boundary"), ("free", "What no room covers of it")]),
+                "exact (without) for this boundary, free for what no room covers of it",
+            ),
+            THICKNESS,
+        ],
+        |app, values, _| {
+            let given_m = values.number(2).copied();
+            let own_m = app.draw_options.walls_with_rooms.then_some(app.draw_options.thickness_m);
+            let thickness_m = given_m.or(own_m).filter(|thickness_m| *thickness_m > 0.0);
+            let points = values.points(0).unwrap_or_default().to_vec();
+            let takes_free = values.word(1) == Some(&"free");
+            edited(app, "Draw room", |plan| {
+                if takes_free {
+                    Ok(topology::draw_room(plan, &points, thickness_m)?.0)
+                } else {
+                    Ok(topology::draw_room(plan, &points, thickness_m)?.0)
+                }
+            })
+        },
+        None,
+    ),
+    with(
+        "fill-at",
+        "Fill at a place",
+        "Make a room of what encloses a point",
+        has_plan,
+        &[PLACE],
+        |app, values, _| {
+            let point = values.points(0).and_then(|points| points.first()).copied().unwrap_or_default();
+            edited(app, "Fill", |plan| Ok(topology::fill_at(plan, point)?.plan))
+        },
+        None,
+    ),
+    with(
+        "split-rooms",
+        "Split rooms along a line",
+        "Split the rooms that a line crosses from boundary to boundary, without a wall",
+        has_rooms,
+        &[PATH],
+        |app, values, _| {
+            let points = values.points(0).unwrap_or_default().to_vec();
+            edited(app, "Split", |plan| topology::split_rooms(plan, &points).map(|split| split.0))
+        },
+        None,
+    ),
+    with(
+        "cut-out",
+        "Cut out a courtyard",
+        "Cut an area out of the room that it lies in",
+        has_rooms,
+        &[RING],
+        |app, values, _| {
+            let points = values.points(0).unwrap_or_default().to_vec();
+            edited(app, "Cut out", |plan| topology::cut_out(plan, topology::room_around(plan, &points)?, &points))
+        },
+        None,
+    ),
+    with(
+        "add-opening",
+        "Add an opening",
+        "Put an opening into the wall or the boundary at a point",
+        has_plan,
+        &[
+            needed("KIND", ArgumentKind::Word(KINDS), "door, double-door, passage or window"),
+            PLACE,
+            optional(
+                "WIDTH",
+                ArgumentKind::Number { unit: " of metres", least: 0.01, most: 1000.0 },
+                "in metres; what is set without",
+            ),
+            optional("TOWARDS", ArgumentKind::Points { least: 1 }, "a point on the side that a door opens to"),
+        ],
+        |app, values, _| {
+            let kind = kind_of(values.word(0).copied().unwrap_or_default());
+            let point = |index: usize| values.points(index).and_then(|points| points.first()).copied();
+            let (at, towards) = (point(1).unwrap_or_default(), point(3));
+            let width_m = values.number(2).copied().unwrap_or(app.draw_options.opening_width_m);
+            edited(app, &format!("Add {}", kind.name()), |plan| {
+                Ok(edit::place_opening(plan, kind, at, width_m, OPENING_REACH_M, towards)?.0)
+            })
+        },
+        None,
+    ),
+];
+
+/// An opening goes into a wall this near to the point that a script names: points are rounded, and a
+/// drawing is not known to the millimetre.
+const OPENING_REACH_M: f64 = 0.1;
+
+fn has_walls(app: &App) -> Availability {
+    has_plan(app)?;
+    when(app.plan().is_some_and(|plan| plan.walls().len() > 0), "the plan has no walls")
+}

@@ -3,10 +3,19 @@
 use super::*;
 
 pub(super) const COMMANDS: &[Command] = &[
-    command("undo", "Undo", "Take the last change back", can_undo, |app, _| app.undo())
-        .keys(&[ctrl(Key::Z)])
-        .menu(Menu::Edit, 0)
-        .tool(Icon::Undo, 0),
+    with(
+        "undo",
+        "Undo",
+        "Take the last change back; while something is drawn, its last corner",
+        can_undo,
+        &[],
+        // A corner in the making is no change of the plan.
+        |app, _, _| if app.undo() { Ran::Done } else { Ran::Asks },
+        None,
+    )
+    .keys(&[ctrl(Key::Z)])
+    .menu(Menu::Edit, 0)
+    .tool(Icon::Undo, 0),
     command("redo", "Redo", "Do again what was taken back", can_redo, |app, _| app.redo())
         .keys(&[ctrl_shift(Key::Z), ctrl(Key::Y)])
         .menu(Menu::Edit, 0)
@@ -24,9 +33,11 @@ pub(super) const COMMANDS: &[Command] = &[
         Some(|app, _| app.panels.history = true),
     )
     .menu(Menu::Edit, 0),
-    command("clear-selection", "Clear selection", "Pick nothing", has_picked, |app, _| app.pick(None))
-        .keys(&[key(Key::Escape)])
-        .menu(Menu::Edit, 1),
+    command("clear-selection", "Clear selection", "Put the tool away, or select nothing", can_clear, |app, _| {
+        if app.tools.is_selecting() { app.pick(None) } else { app.put_tool_away() }
+    })
+    .keys(&[key(Key::Escape)])
+    .menu(Menu::Edit, 1),
     with(
         "rename-plan",
         "Rename the plan…",

@@ -26,9 +26,11 @@ use crate::app::theme::ThemeChoice;
 use crate::app::{App, Intent, Origin, SelectMode};
 use crate::classify::{Algorithm, Method};
 use crate::draw::{Fill, LabelColours};
-use crate::geometry::{Bounds, Point, Vector, trim_m};
-use crate::labels::Label;
-use crate::plan::ElementId;
+use crate::features::RoomStatus;
+use crate::geometry::{Bounds, Point, Segment, Vector, polygon, trim_m};
+use crate::labels::{Label, normalised_function};
+use crate::plan::edit::EditError;
+use crate::plan::{ElementId, Plan};
 use crate::units::Units;
 
 const fn key(key: Key) -> KeyboardShortcut {
@@ -62,6 +64,7 @@ const fn entry(
         shortcuts: &[],
         menu: None,
         tool: None,
+        strip: None,
         availability,
         complete_availability: None,
         action,
@@ -151,6 +154,11 @@ impl Command {
         Self { menu: Some((menu, section)), ..self }
     }
 
+    /// It stands in the strip of tools.
+    const fn strip(self, icon: Icon, group: u8) -> Self {
+        Self { strip: Some((icon, group)), ..self }
+    }
+
     const fn tool(self, icon: Icon, group: u8) -> Self {
         Self { tool: Some((icon, group)), ..self }
     }
@@ -176,6 +184,10 @@ fn has_picked(app: &App) -> Availability {
     when(!app.selection.is_empty(), "select something first")
 }
 
+fn can_clear(app: &App) -> Availability {
+    when(!app.selection.is_empty() || !app.tools.is_selecting(), "nothing is selected")
+}
+
 fn has_room(app: &App) -> Availability {
     has_plan(app)?;
     when(matches!(app.picked(), Some(ElementId::Room(_))), "pick a room first")
@@ -194,7 +206,7 @@ fn has_openings(app: &App) -> Availability {
 fn can_undo(app: &App) -> Availability {
     has_plan(app)?;
     let can = app.document.as_ref().is_some_and(|document| document.history.can_undo());
-    when(can, "there is nothing to undo")
+    when(can || app.tools.tool().is_busy(), "there is nothing to undo")
 }
 
 fn can_redo(app: &App) -> Availability {

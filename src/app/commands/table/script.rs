@@ -118,7 +118,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Press a button of the question that is asked",
         is_asked,
         &[
-            needed("ANSWER", ArgumentKind::Answer, "the button: save, discard, replace, elsewhere or cancel"),
+            needed("ANSWER", ArgumentKind::Answer, "the button: save, discard, replace, elsewhere, delete or cancel"),
             optional("PATH", ArgumentKind::NewPlanFile, "the file to save in, where a dialog would ask for it"),
         ],
         |app, values, _| {
