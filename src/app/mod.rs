@@ -5,12 +5,16 @@
 
 mod backdrop;
 mod background;
+mod bulk;
 mod canvas;
 pub mod commands;
 mod controls;
 mod dialogs;
+mod dimensions;
 mod document;
 mod files;
+mod ghost;
+mod guides;
 mod icons;
 mod labelling;
 mod offscreen;
@@ -20,6 +24,7 @@ mod plan_list;
 mod raster;
 mod recovery;
 pub mod replay;
+mod rulers;
 mod scene_painter;
 mod search;
 mod selection;
@@ -80,6 +85,10 @@ pub struct App {
     tools: Toolbox,
     draw_options: DrawOptions,
     layers: LayerSettings,
+    /// The storey drawn faintly under the plan.
+    ghost: Option<ghost::Ghost>,
+    /// A guide that is being dragged.
+    guide_drag: Option<guides::Drag>,
     /// Which models predict.
     predictor: Predictor,
     theme: ThemeChoice,
@@ -127,6 +136,12 @@ struct LayerSettings {
     names: bool,
     backdrop: bool,
     grid: bool,
+    guides: bool,
+    /// Lengths and area of what is selected.
+    dimensions: bool,
+    /// The storey that lies below.
+    ghost: bool,
+    rulers: bool,
     /// Rooms, walls and openings that cannot be selected or moved with the pointer.
     locked: Locked,
 }
@@ -159,6 +174,10 @@ impl Default for LayerSettings {
             names: true,
             backdrop: true,
             grid: true,
+            guides: true,
+            dimensions: true,
+            ghost: true,
+            rulers: false,
             locked: Locked::default(),
         }
     }
@@ -277,6 +296,7 @@ enum Done {
     },
     Leftovers(Vec<Offered>),
     Looked(Looked),
+    Ghost(Origin, Box<Result<ghost::Ghost, FileError>>),
 }
 
 /// A plan with more elements is analysed off the frame's path; below, that takes a few milliseconds.
@@ -295,6 +315,8 @@ impl App {
             tools: Toolbox::default(),
             draw_options: DrawOptions::default(),
             layers: LayerSettings::default(),
+            ghost: None,
+            guide_drag: None,
             predictor: Predictor::default(),
             theme: ThemeChoice::default(),
             settings: Settings::default(),
@@ -440,6 +462,7 @@ impl App {
                 Some(Done::RecordingSaved { path, recording, result, then }) => {
                     self.recording_was_saved(&path, *recording, result, then);
                 }
+                Some(Done::Ghost(origin, result)) => self.ghost_was_read(&origin, *result),
                 Some(Done::Backdrop(wanted, read)) => self.backdrop_was_read(wanted, &read),
                 Some(Done::PictureRead { document, use_, path, page, result }) => {
                     self.picture_was_read(document, use_, &path, page, result);

@@ -90,7 +90,7 @@ impl App {
                 (Severity::Warning, text, format!("{shown}{also}"), Remedy::RelinkPicture)
             }
         };
-        self.add_message(Message { severity, text, detail, remedy: Some(remedy) });
+        self.add_message(Message { severity, text, detail, remedies: vec![remedy], stays: false });
     }
 
     /// Asks which picture to use.
@@ -136,7 +136,7 @@ impl App {
         let (title, backdrop) = match (use_, before) {
             (PictureUse::Relink, Some(before)) => {
                 self.messages
-                    .retain(|message| !matches!(message.remedy, Some(Remedy::RelinkPicture | Remedy::KeepPicture)));
+                    .retain(|message| !message.remedies.iter().any(|remedy| matches!(remedy, Remedy::RelinkPicture | Remedy::KeepPicture)));
                 if !before.content_hash.is_empty() && before.content_hash != hash {
                     self.say(
                         Severity::Warning,
@@ -183,7 +183,7 @@ impl App {
     }
 
     pub(in crate::app) fn remove_picture(&mut self) {
-        self.messages.retain(|message| !matches!(message.remedy, Some(Remedy::RelinkPicture | Remedy::KeepPicture)));
+        self.messages.retain(|message| !message.remedies.iter().any(|remedy| matches!(remedy, Remedy::RelinkPicture | Remedy::KeepPicture)));
         self.edit("Remove picture", |plan| Ok(edit::set_backdrop(plan, None)));
     }
 
