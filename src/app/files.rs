@@ -202,6 +202,10 @@ impl App {
                 self.apply_picture_change(&change, DrawingMoves::of_word(word));
                 return true;
             }
+            (Some(Question::Change(change)), "weld" | "bridge") => {
+                self.edit(change.step, |_| Ok(change.plan));
+                return true;
+            }
             (Some(Question::Delete { selected, .. }), "delete") => {
                 self.delete(&selected);
                 return true;

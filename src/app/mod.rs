@@ -65,7 +65,7 @@ use tools::{DrawOptions, TakenBack, Toolbox};
 
 use crate::draw::{self, Fill, LabelColours, Palette};
 use crate::formats::FileError;
-use crate::geometry::Vector;
+use crate::geometry::{Segment, Vector};
 use crate::labels::{Label, Schemes};
 use crate::plan::edit::{self, EditError};
 use crate::plan::{ElementId, LabelOrigin, Meta, Plan, Room, RoomId, RoomLabel};
@@ -84,6 +84,8 @@ pub struct App {
     selection: Selection,
     tools: Toolbox,
     draw_options: DrawOptions,
+    /// What was copied: a part of a plan.
+    copied: Option<Plan>,
     layers: LayerSettings,
     /// The storey drawn faintly under the plan.
     ghost: Option<ghost::Ghost>,
@@ -259,12 +261,31 @@ enum Question {
     Unsaved(Intent),
     /// More would go than is selected: delete it all?
     Delete { selected: Vec<ElementId>, gone: BTreeSet<ElementId> },
+    /// Something large would be changed, as shown: do it?
+    Change(ProposedChange),
     /// Something else stands in the file to be saved: replace it?
     Replace { path: PathBuf, is_changed_since: bool, then: Option<Intent> },
     /// Give up what a program left behind?
     Discard { path: PathBuf, title: String },
     /// The picture is about to be scaled or turned: does the drawing go along?
     Drawing(PictureChange),
+}
+
+/// A change of the plan that is shown before it is made.
+#[derive(Debug)]
+struct ProposedChange {
+    /// What is asked, in a sentence.
+    title: String,
+    /// What it would do.
+    text: String,
+    /// The answer that makes it, and 'cancel'.
+    answers: &'static [(&'static str, &'static str)],
+    /// What it is called in the history.
+    step: &'static str,
+    /// The plan as it would be.
+    plan: Plan,
+    /// Where it would do something; a point is a segment without length.
+    marks: Vec<Segment>,
 }
 
 /// What a background job brought.
@@ -314,6 +335,7 @@ impl App {
             selection: Selection::default(),
             tools: Toolbox::default(),
             draw_options: DrawOptions::default(),
+            copied: None,
             layers: LayerSettings::default(),
             ghost: None,
             guide_drag: None,

@@ -8,7 +8,7 @@ use super::{Fill, Grid, Rgba, Style, names};
 use crate::features::{Analysis, RoomStatus};
 use crate::geometry::{Bounds, Point, Segment, areas};
 use crate::labels::{Label, normalised_function};
-use crate::plan::{Joint, Meta, Plan, RoomId};
+use crate::plan::{Joint, Meta, OpeningId, Plan, RoomId, Swing};
 use crate::units::Units;
 
 /// A plan as shapes, before zoom and colours: made once a plan, asked for a [`Scene`] once a view.
@@ -194,6 +194,12 @@ impl Drawing {
     /// The box of all that is drawn of the plan, in metres.
     pub fn bounds(&self) -> Bounds {
         self.bounds
+    }
+
+    /// How a door's leaf is drawn; `None` for what has no leaf. Openings are sorted by id.
+    pub fn swing_of(&self, id: OpeningId) -> Option<Swing> {
+        let index = self.openings.binary_search_by_key(&id, |opening| opening.id).ok()?;
+        self.openings[index].swing()
     }
 
     /// The scene in a view. Nothing is left out for lying outside the view but names: panning within
