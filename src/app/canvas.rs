@@ -4,16 +4,16 @@ use std::sync::Arc;
 
 use egui::epaint::StrokeKind;
 use egui::{
-    Color32, CursorIcon, EventFilter, Id, Key, MouseWheelUnit, Painter, PointerButton, Pos2, Rect, Response, Role,
-    Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, vec2,
+    Color32, Context, CursorIcon, EventFilter, Id, Key, MouseWheelUnit, Painter, PointerButton, Pos2, Rect, Response,
+    Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, vec2,
 };
 
 use super::backdrop::BackdropView;
 use super::document::{Derived, Document};
+use super::ghost::GhostPainter;
 use super::scene_painter::{ScenePainter, earcut, on_screen, outline_mesh, polygon_mesh};
-use super::theme;
 use super::tools::{self, Call, Input, Preview, Scope, Toolbox};
-use super::{App, commands};
+use super::{App, commands, dimensions, guides, rulers, theme};
 use crate::draw::{self, Layers, Palette, Style, View};
 use crate::features::RoomStatus;
 use crate::geometry::{Bounds, Point, Vector};
@@ -36,6 +36,7 @@ pub(super) struct Canvas {
     /// Where the pointer is in the plan.
     pub pointer: Option<Point>,
     painter: ScenePainter,
+    ghost: GhostPainter,
     /// The picture under the plan.
     pub backdrop: BackdropView,
     /// The triangles of the room whose fill marks it.
@@ -132,6 +133,11 @@ impl Canvas {
         self.camera = Some(Camera { centre, px_per_m, is_fitted: false });
     }
 
+    /// The view of the last frame and where it was on the screen.
+    pub(super) fn seen(&self) -> Option<(View, Rect)> {
+        self.seen
+    }
+
     /// Where the canvas was in the last frame.
     pub(super) fn seen_rect(&self) -> Option<Rect> {
         self.seen.map(|(_, rect)| rect)
@@ -157,6 +163,8 @@ impl Canvas {
     fn update_camera(&mut self, rect: Rect, document: &Document, shown: Option<&Derived>) {
         let (width_px, height_px) = (f64::from(rect.width()), f64::from(rect.height()));
         let bounds = shown.map_or_else(|| document.plan().bounds(), |derived| derived.drawing.bounds());
+        let bounds = bounds.union(self.backdrop.bounds(document.plan().backdrop()));
+        let bounds = self.ghost.bounds().filter(|_| bounds.is_empty()).unwrap_or(bounds);
         let fitting = |bounds: Bounds| {
             // A small canvas is for the plan, not for the space about it.
             let margin = FIT_MARGIN.min(width_px.min(height_px) / 8.0);
@@ -285,7 +293,7 @@ fn is_touch_pad(unit: MouseWheelUnit, delta: Vec2) -> bool {
     }
 }
 
-fn plan_point(view: &View, rect: Rect, at: Pos2) -> Point {
+pub(super) fn plan_point(view: &View, rect: Rect, at: Pos2) -> Point {
     let from_corner = at - rect.min;
     view.plan_from_screen(Point::new(f64::from(from_corner.x), f64::from(from_corner.y)))
 }
@@ -326,6 +334,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         app.note_executed("view", numbers.map(|number| number.to_string()).to_vec());
     }
     (app.canvas, app.tools) = (canvas, toolbox);
+    rulers::show(app, ui);
     match act {
         None => {}
         Some(Act::Calls(calls)) => {
@@ -363,7 +372,7 @@ pub(super) fn canvas_id() -> Id {
 
 impl Canvas {
     fn show(&mut self, ui: &mut Ui, document: &Document, app: &App, toolbox: &mut Toolbox) -> Option<Act> {
-        let rect = ui.available_rect_before_wrap();
+        let rect = rulers::canvas_rect(app, ui.available_rect_before_wrap());
         let fresh = document.derived();
         // What was worked out for an earlier plan is better than nothing.
         let shown = fresh.or(document.last_derived().map(|(_, derived)| derived));
@@ -393,14 +402,12 @@ impl Canvas {
         let palette = style.palette();
         let painter = ui.painter_at(rect);
         painter.rect_filled(rect, 0.0, theme::colour(palette.paper));
-        if app.layers.backdrop
-            && let Some(backdrop) = document.plan().backdrop()
-        {
-            self.backdrop.paint(&painter, rect, &view, backdrop);
-        }
+        let backdrop = document.plan().backdrop().filter(|_| app.layers.backdrop);
+        self.backdrop.paint(&painter, rect, &view, backdrop, app.background.is_inline());
         if let Some(derived) = shown {
             self.painter.paint(&painter, rect, derived, &style, &view);
         }
+        self.ghost.paint(&painter, rect, app, &style, &view);
         match fresh {
             // Never a stale label as a fresh one.
             None => {
@@ -417,6 +424,10 @@ impl Canvas {
                     self.mark(&painter, rect, &view, document.plan(), derived, picked, &Mark::picked(palette));
                 }
             }
+        }
+        guides::paint(&painter, rect, &view, app);
+        if let Some(derived) = fresh {
+            dimensions::paint(&painter, rect, &view, app, derived, || self.painter.text_boxes(rect, &view));
         }
         if let Some(scope) = scope {
             let tool = toolbox.tool();
@@ -713,6 +724,12 @@ fn style(app: &App, plan: &Plan, is_dark: bool) -> Style {
             areas: layers.names,
         },
     }
+}
+
+/// The ground of the plan in the window's theme.
+pub(super) fn paper(app: &App, context: &Context) -> draw::Rgba {
+    let theme = if context.global_style().visuals.dark_mode { draw::Theme::Dark } else { draw::Theme::Light };
+    Palette::of(theme, app.layers.colours).paper
 }
 
 /// What the canvas shows, in a sentence.

@@ -4,9 +4,11 @@ use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
+use super::backdrop::PictureUse;
 use super::background::Background;
 use super::replay::Recording;
 use super::{Done, Intent};
+use crate::store::pictures::PICTURE_ENDINGS;
 
 /// Who answers.
 pub(super) enum Dialogs {
@@ -28,6 +30,7 @@ pub(super) struct Given {
 #[derive(Debug)]
 pub(super) enum Purpose {
     Open,
+    Picture(PictureUse),
     /// `answering`: the answer to a question that a file is chosen for.
     Save {
         then: Option<Intent>,
@@ -84,6 +87,13 @@ impl Dialogs {
                             .add_filter("Plans", &["plan.json", "json", "xml", "geojson"])
                             .add_filter("All files", &["*"]);
                         Box::pin(dialog.pick_file()) as Waiting
+                    }
+                    Purpose::Picture(_) => {
+                        let dialog = dialog
+                            .set_title("Choose a picture to trace over")
+                            .add_filter("Pictures", PICTURE_ENDINGS)
+                            .add_filter("All files", &["*"]);
+                        Box::pin(dialog.pick_file())
                     }
                     Purpose::Save { .. } => {
                         let dialog = dialog

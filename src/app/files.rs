@@ -4,13 +4,16 @@ use std::path::{Path, PathBuf};
 
 use egui::{Context, ViewportCommand};
 
+use super::backdrop::{self, PictureUse};
 use super::commands::sample_word;
 use super::dialogs::{Answer, Purpose};
-use super::document::{self, Document, Expected, Opened, Origin, SaveFailure};
+use super::document::{self, Begun, Document, Expected, Opened, Origin, SaveFailure};
+use super::ghost::Ghost;
 use super::{App, Done, Intent, Message, Question, Remedy, Selection, Severity, plan_list};
 use crate::formats::FileError;
-use crate::plan::Plan;
-use crate::store::Stamp;
+use crate::plan::storey::{Keep, copied};
+use crate::plan::{DrawingMoves, Plan};
+use crate::store::{Stamp, pictures};
 
 impl App {
     /// Asks which plan to open.
@@ -24,6 +27,15 @@ impl App {
         // What is still being read was asked for before.
         self.opening = None;
         self.request(Intent::Show(Box::new(Opened::untitled())));
+    }
+
+    /// Begins a plan of another storey as a copy of this one, which is shown below it.
+    pub(super) fn copy_storey(&mut self, storey: &str, keep: Keep) {
+        let Some(below) = self.plan().cloned() else { return };
+        self.opening = None;
+        let begun = Begun { title: format!("Copy storey as {storey}"), plan: copied(&below, storey, keep), below };
+        let opened = Opened { begun: Some(Box::new(begun)), ..Opened::untitled() };
+        self.request(Intent::Show(Box::new(opened)));
     }
 
     /// Reads a plan and shows it when it is there.
@@ -66,7 +78,9 @@ impl App {
             let text = format!("{} files were dropped; the first is opened", dropped.len());
             self.say(Severity::Info, text, "Plans that lie in the same folder are in the list on the left.");
         }
-        self.act("open", &[&first.path().to_string_lossy()], context);
+        let word = first.path().to_string_lossy().into_owned();
+        let is_picture = pictures::is_picture_name(first.path());
+        self.act(if is_picture { "picture" } else { "open" }, &[&word], context);
     }
 
     /// Opens what a row of the list or a card stands for.
@@ -151,6 +165,9 @@ impl App {
             let (severity, detail) = (Severity::Info, String::new());
             self.add_message(Message { severity, text, detail, remedies, stays: false });
         }
+        let below = opened.begun.as_ref().map(|begun| begun.below.clone());
+        self.ghost = below.map(|below| Ghost::new(below, None, &self.schemes));
+        self.guide_drag = None;
         self.documents += 1;
         self.document = Some(Document::new(self.documents, opened));
         if let Some(folder) = folder {
@@ -179,6 +196,10 @@ impl App {
             (Some(Question::Replace { then, .. }), "elsewhere") => then,
             (Some(Question::Unsaved(intent)), "discard") => {
                 self.perform(intent);
+                return true;
+            }
+            (Some(Question::Drawing(change)), "along" | "stays") => {
+                self.apply_picture_change(&change, DrawingMoves::of_word(word));
                 return true;
             }
             (Some(Question::Delete { selected, .. }), "delete") => {
@@ -271,6 +292,8 @@ impl App {
         let word = path.to_string_lossy().into_owned();
         match purpose {
             Purpose::Open => self.act("open", &[&word], context),
+            Purpose::Picture(PictureUse::Add) => self.act("picture", &[&word], context),
+            Purpose::Picture(PictureUse::Relink) => self.act("relink-picture", &[&word], context),
             Purpose::Recording { recording, then } => self.save_recording(*recording, path, then),
             Purpose::Save { then: None, answering: None } => self.act("save-as", &[&word], context),
             Purpose::Save { then, answering } => {
@@ -284,7 +307,8 @@ impl App {
 
     pub(super) fn save_to(&mut self, path: PathBuf, expected: Expected, then: Option<Intent>) {
         let Some(document) = &self.document else { return };
-        let (document, plan) = (document.number, document.plan().clone());
+        let plan = backdrop::plan_in_folder(document.plan(), document.origin.folder(), path.parent());
+        let document = document.number;
         self.begins_to_save();
         self.background.start(move || {
             let result = document::save(&path, &plan, expected);
@@ -307,6 +331,8 @@ impl App {
                 self.status = format!("Saved in {}", document::file_name(&path));
                 let folder = path.parent().map(Path::to_owned);
                 if let Some(document) = self.document.as_mut().filter(|document| document.number == number) {
+                    let from = document.origin.folder().map(Path::to_owned);
+                    document.history.rewrite(|plan| backdrop::plan_in_folder(plan, from.as_deref(), folder.as_deref()));
                     document.was_saved(plan, path, stamp);
                     self.is_saved(context);
                 }

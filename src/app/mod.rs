@@ -5,12 +5,16 @@
 
 mod backdrop;
 mod background;
+mod bulk;
 mod canvas;
 pub mod commands;
 mod controls;
 mod dialogs;
+mod dimensions;
 mod document;
 mod files;
+mod ghost;
+mod guides;
 mod icons;
 mod labelling;
 mod offscreen;
@@ -20,6 +24,7 @@ mod plan_list;
 mod raster;
 mod recovery;
 pub mod replay;
+mod rulers;
 mod scene_painter;
 mod search;
 mod selection;
@@ -45,6 +50,7 @@ pub use selection::{SelectMode, Selection};
 pub use theme::ThemeChoice;
 pub use window::{WindowError, WindowOptions, run_window};
 
+use backdrop::PictureChange;
 use background::{Background, Mode};
 use canvas::Canvas;
 use dialogs::{Answer, Dialogs};
@@ -64,6 +70,7 @@ use crate::labels::{Label, Schemes};
 use crate::plan::edit::{self, EditError};
 use crate::plan::{ElementId, LabelOrigin, Meta, Plan, Room, RoomId, RoomLabel};
 use crate::predict::{Predictions, Predictor};
+use crate::store::pictures::{LoadedPicture, PictureError};
 use crate::store::{SaveError, Stamp};
 
 /// The window's state, apart from any display.
@@ -78,6 +85,10 @@ pub struct App {
     tools: Toolbox,
     draw_options: DrawOptions,
     layers: LayerSettings,
+    /// The storey drawn faintly under the plan.
+    ghost: Option<ghost::Ghost>,
+    /// A guide that is being dragged.
+    guide_drag: Option<guides::Drag>,
     /// Which models predict.
     predictor: Predictor,
     theme: ThemeChoice,
@@ -112,6 +123,8 @@ pub struct App {
     recorder: Option<Recorder>,
     /// A recording is to begin.
     wants_recording: bool,
+    /// The name of a picture that is being read to lie under the plan.
+    reading_picture: Option<String>,
 }
 
 /// What is shown of a plan.
@@ -123,6 +136,12 @@ struct LayerSettings {
     names: bool,
     backdrop: bool,
     grid: bool,
+    guides: bool,
+    /// Lengths and area of what is selected.
+    dimensions: bool,
+    /// The storey that lies below.
+    ghost: bool,
+    rulers: bool,
     /// Rooms, walls and openings that cannot be selected or moved with the pointer.
     locked: Locked,
 }
@@ -155,6 +174,10 @@ impl Default for LayerSettings {
             names: true,
             backdrop: true,
             grid: true,
+            guides: true,
+            dimensions: true,
+            ghost: true,
+            rulers: false,
             locked: Locked::default(),
         }
     }
@@ -189,6 +212,10 @@ pub enum Remedy {
     Save,
     /// Save it in another.
     SaveElsewhere,
+    /// Say where the picture under the plan is.
+    RelinkPicture,
+    /// Take the picture that is shown as the one that the plan means.
+    KeepPicture,
 }
 
 impl Remedy {
@@ -200,6 +227,8 @@ impl Remedy {
             Self::KeepMine => "Keep mine",
             Self::Save => "Save",
             Self::SaveElsewhere => "Save in another place…",
+            Self::RelinkPicture => "Relink…",
+            Self::KeepPicture => "Keep this picture",
         }
     }
 }
@@ -234,6 +263,8 @@ enum Question {
     Replace { path: PathBuf, is_changed_since: bool, then: Option<Intent> },
     /// Give up what a program left behind?
     Discard { path: PathBuf, title: String },
+    /// The picture is about to be scaled or turned: does the drawing go along?
+    Drawing(PictureChange),
 }
 
 /// What a background job brought.
@@ -242,11 +273,30 @@ enum Done {
     Derived(Plan, Arc<Derived>),
     Listed(PathBuf, Vec<PathBuf>),
     Chosen(Answer),
-    Saved { document: u64, path: PathBuf, plan: Plan, result: Result<Option<Stamp>, SaveFailure>, then: Option<Intent> },
-    Backdrop(PathBuf, Result<egui::ColorImage, String>),
+    Saved {
+        document: u64,
+        path: PathBuf,
+        plan: Plan,
+        result: Result<Option<Stamp>, SaveFailure>,
+        then: Option<Intent>,
+    },
+    Backdrop(backdrop::Wanted, backdrop::Read),
+    PictureRead {
+        document: u64,
+        use_: backdrop::PictureUse,
+        path: PathBuf,
+        page: u32,
+        result: Result<Box<LoadedPicture>, PictureError>,
+    },
+    RecordingSaved {
+        path: PathBuf,
+        recording: Box<Recording>,
+        result: Result<(), SaveError>,
+        then: Option<Intent>,
+    },
     Leftovers(Vec<Offered>),
     Looked(Looked),
-    RecordingSaved { path: PathBuf, recording: Box<Recording>, result: Result<(), SaveError>, then: Option<Intent> },
+    Ghost(Origin, Box<Result<ghost::Ghost, FileError>>),
 }
 
 /// A plan with more elements is analysed off the frame's path; below, that takes a few milliseconds.
@@ -265,6 +315,8 @@ impl App {
             tools: Toolbox::default(),
             draw_options: DrawOptions::default(),
             layers: LayerSettings::default(),
+            ghost: None,
+            guide_drag: None,
             predictor: Predictor::default(),
             theme: ThemeChoice::default(),
             settings: Settings::default(),
@@ -288,6 +340,7 @@ impl App {
             executed: None,
             recorder: None,
             wants_recording: false,
+            reading_picture: None,
         }
     }
 
@@ -409,11 +462,10 @@ impl App {
                 Some(Done::RecordingSaved { path, recording, result, then }) => {
                     self.recording_was_saved(&path, *recording, result, then);
                 }
-                Some(Done::Backdrop(path, result)) => {
-                    if let Err(what) = self.canvas.backdrop.set_picture(context, &path, result) {
-                        let text = format!("The picture under the plan is missing: {what}");
-                        self.say(Severity::Warning, text, self.shown_path(&path));
-                    }
+                Some(Done::Ghost(origin, result)) => self.ghost_was_read(&origin, *result),
+                Some(Done::Backdrop(wanted, read)) => self.backdrop_was_read(wanted, &read),
+                Some(Done::PictureRead { document, use_, path, page, result }) => {
+                    self.picture_was_read(document, use_, &path, page, result);
                 }
             }
         }
@@ -459,12 +511,7 @@ impl App {
                 });
             }
         }
-        if let Some(path) = self.canvas.backdrop.wanted(plan.backdrop(), document.origin.folder()) {
-            self.background.start(move || {
-                let picture = backdrop::read_picture(&path);
-                Done::Backdrop(path, picture)
-            });
-        }
+        self.refresh_backdrop();
     }
 
     // Picking.

@@ -101,6 +101,12 @@ impl Offscreen {
         }
     }
 
+    /// Runs as where no screen reader listens: what only it would hear is not worked out.
+    pub fn without_screen_reader(self) -> Self {
+        self.context.disable_accesskit();
+        self
+    }
+
     /// The window's state.
     pub fn app(&self) -> &App {
         &self.app
@@ -359,6 +365,18 @@ impl Offscreen {
     /// Changes the size of the window, in logical pixels.
     pub fn resize(&mut self, width: u32, height: u32) {
         self.set_options(OffscreenOptions { width, height, ..self.options });
+    }
+
+    /// Turns what the last frame painted into triangles, as a display has it done. Gives how many
+    /// corners they have.
+    pub fn tessellate(&self) -> usize {
+        let Some(output) = &self.output else { return 0 };
+        let primitives = self.context.tessellate(output.shapes.clone(), output.pixels_per_point);
+        let corners = primitives.iter().map(|primitive| match &primitive.primitive {
+            egui::epaint::Primitive::Mesh(mesh) => mesh.vertices.len(),
+            egui::epaint::Primitive::Callback(_) => 0,
+        });
+        corners.sum()
     }
 
     // Time.

@@ -78,6 +78,14 @@ impl History {
         Some(&self.steps[self.current].title)
     }
 
+    /// Replaces every plan by what it becomes: for what is no edit, such as the path of a picture that
+    /// starts at another folder from now on.
+    pub fn rewrite(&mut self, change: impl Fn(&Plan) -> Plan) {
+        for step in &mut self.steps {
+            step.plan = change(&step.plan);
+        }
+    }
+
     /// Jumps to a step; an index beyond the last goes to the last.
     pub fn jump_to(&mut self, position: usize) {
         self.current = position.min(self.steps.len() - 1);

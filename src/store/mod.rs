@@ -4,6 +4,7 @@
 mod bundled;
 mod journal;
 mod models;
+pub mod pictures;
 mod plan_file;
 mod save;
 mod stamp;

@@ -34,6 +34,8 @@ pub enum ArgumentKind {
     PlanFile,
     /// A file to write a plan to.
     NewPlanFile,
+    /// A file with a picture.
+    PictureFile,
     /// Any text, empty included.
     Text,
     /// A number with a decimal point.
@@ -146,6 +148,7 @@ impl ArgumentKind {
         match self {
             Self::PlanFile => "a file with a plan, or a folder".to_owned(),
             Self::NewPlanFile => "a file to write the plan to".to_owned(),
+            Self::PictureFile => "a file with a picture".to_owned(),
             Self::Text => "a text".to_owned(),
             Self::Number { unit, least, most } => format!("a number{unit} from {least} to {most}"),
             Self::Length { least_m, most_m } => {
@@ -198,8 +201,8 @@ impl ArgumentKind {
             }
         };
         match self {
-            Self::PlanFile | Self::NewPlanFile if text.is_empty() => Err(self.expected()),
-            Self::PlanFile | Self::NewPlanFile => Ok(Value::Path(PathBuf::from(text))),
+            Self::PlanFile | Self::NewPlanFile | Self::PictureFile if text.is_empty() => Err(self.expected()),
+            Self::PlanFile | Self::NewPlanFile | Self::PictureFile => Ok(Value::Path(PathBuf::from(text))),
             Self::Text | Self::Function => Ok(Value::Text(text.trim().to_owned())),
             Self::Number { least, most, .. } => {
                 let number = text.trim().parse::<f64>().ok().filter(|number| (least..=most).contains(number));
@@ -302,6 +305,7 @@ impl ArgumentKind {
         Some(match self {
             Self::PlanFile
             | Self::NewPlanFile
+            | Self::PictureFile
             | Self::Text
             | Self::Number { .. }
             | Self::Length { .. }

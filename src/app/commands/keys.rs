@@ -80,7 +80,7 @@ impl Keys {
     fn belongs_to_text(self) -> bool {
         let is_function_key = self.key >= Key::F1 && self.key <= Key::F35;
         let is_plain = !self.modifiers.command && !is_function_key;
-        is_plain || matches!(self.key, Key::Z | Key::Y)
+        is_plain || matches!(self.key, Key::Z | Key::Y | Key::A | Key::C | Key::V | Key::X)
     }
 }
 

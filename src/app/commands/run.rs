@@ -7,6 +7,7 @@ use egui::Context;
 
 use super::argument::{Values, or_list, similar, switch_word};
 use super::{Action, COMMANDS, Command, Keys, Ran, find};
+use crate::app::backdrop::PictureChange;
 use crate::app::panels::palette::Palette;
 use crate::app::settings::Settings;
 use crate::app::{App, Question, Severity};
@@ -187,6 +188,8 @@ impl Question {
                 let name = app.document.as_ref().map(crate::app::Document::title).unwrap_or_default();
                 format!("Save changes to {name}?")
             }
+            Self::Drawing(PictureChange::Measurements(_)) => "Scale the drawing along with the picture?".to_owned(),
+            Self::Drawing(PictureChange::Turn { .. }) => "Turn the drawing along with the picture?".to_owned(),
             Self::Delete { selected, .. } if selected.len() == 1 => {
                 format!("Delete the {} and what depends on it?", selected[0].kind())
             }
@@ -200,6 +203,7 @@ impl Question {
     pub(in crate::app) const fn answers(&self) -> &'static [(&'static str, &'static str)] {
         match self {
             Self::Unsaved(_) => &[("save", "Save"), ("discard", "Don't save"), ("cancel", "Cancel")],
+            Self::Drawing(_) => &[("along", "Drawing too"), ("stays", "Picture only"), ("cancel", "Cancel")],
             Self::Delete { .. } => &[("delete", "Delete"), ("cancel", "Cancel")],
             Self::Discard { .. } => &[("cancel", "Cancel"), ("discard", "Discard")],
             Self::Replace { .. } => &[("elsewhere", "Save as…"), ("replace", "Replace"), ("cancel", "Cancel")],

@@ -2,6 +2,7 @@
 
 use egui::{Id, Key, Popup, PopupCloseBehavior, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
 
+use super::picture::{self, PictureAct};
 use super::status::count;
 use super::{Field, FieldKind, prediction};
 use crate::app::canvas::{room_title, sentence, title_of};
@@ -29,6 +30,7 @@ enum Act {
     Revert,
     ShowNotes,
     Command(&'static str),
+    Picture(PictureAct),
 }
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
@@ -73,6 +75,12 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         Some(Act::Type(field)) => app.panels.field = Some(field),
         Some(Act::Commit) => app.commit_field(),
         Some(Act::Revert) => drop(app.panels.take_field()),
+        Some(Act::Picture(PictureAct::Opacity(opacity))) => app.canvas.backdrop.opacity = Some(opacity),
+        Some(Act::Picture(PictureAct::Command(id, arguments))) => {
+            app.canvas.backdrop.opacity = None;
+            let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+            app.act(id, &arguments, ui.ctx());
+        }
         Some(Act::Command(id)) => app.act(id, &[], ui.ctx()),
         Some(Act::ShowNotes) => app.act("import-notes", &["on"], ui.ctx()),
     }
@@ -246,7 +254,8 @@ impl Inspected<'_> {
         }
     }
 
-    fn label(&self, ui: &mut Ui, room: &Room, status: RoomStatus) -> Option<Act> {
+    /// The five labels side by side; gives one that was clicked.
+    fn label_segments(&self, ui: &mut Ui, current: Option<Label>) -> Option<Label> {
         let segments: Vec<Segment<'_>> = Label::ALL
             .into_iter()
             .zip(LABEL_COMMANDS)
@@ -256,13 +265,16 @@ impl Inspected<'_> {
                     text: label.letter(),
                     name: command.title,
                     help: command.help,
-                    is_on: status.label() == Some(label),
+                    is_on: current == Some(label),
                     colour: Some(theme::colour(self.palette.label(label))),
                 })
             })
             .collect();
-        let clicked = segmented(ui, &segments).map(|index| Act::Label(Some(Label::ALL[index])));
-        let mut act = clicked;
+        segmented(ui, &segments).map(|index| Label::ALL[index])
+    }
+
+    fn label(&self, ui: &mut Ui, room: &Room, status: RoomStatus) -> Option<Act> {
+        let mut act = self.label_segments(ui, status.label()).map(|label| Act::Label(Some(label)));
         caption(ui, self.label_origin(room, status));
         if room.label.is_some() && link(ui, "Use the function's label").clicked() {
             act = Some(Act::Label(None));
@@ -340,6 +352,20 @@ impl Inspected<'_> {
             counts.iter().filter(|(number, _)| *number > 0).map(|(number, thing)| count(*number, thing)).collect();
         header(ui, None, None, &said.join(", "), "Selected");
         ui.add_space(6.0);
+        let mut act = None;
+        if selection.rooms().next().is_some() {
+            act = self.label_segments(ui, self.app.selected_label()).map(|label| Act::Label(Some(label)));
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 12.0;
+                for (text, id) in [("Set function", "set-function"), ("Name", "name-rooms"), ("Change", "change-rooms")]
+                {
+                    if link(ui, text).clicked() {
+                        act = Some(Act::Command(id));
+                    }
+                }
+            });
+            ui.add_space(4.0);
+        }
         let walls: Vec<(f64, f64)> = selection
             .walls()
             .filter_map(|id| self.plan.wall(id))
@@ -364,7 +390,7 @@ impl Inspected<'_> {
             let units = self.app.units();
             value(ui, "Place", &format!("{}, {}", units.exact_length(place.x), units.exact_length(place.y)));
         }
-        None
+        act
     }
 
     // An opening.
@@ -443,6 +469,11 @@ impl Inspected<'_> {
             drop(response);
             caption(ui, &meta.scale.note);
         }
+        let mut act = None;
+        if let Some(backdrop) = self.plan.backdrop() {
+            hairline(ui);
+            act = picture::show(ui, self.app, backdrop).map(Act::Picture);
+        }
         hairline(ui);
         section(ui, "Contents");
         let plan = self.plan;
@@ -457,12 +488,11 @@ impl Inspected<'_> {
             value(ui, "Floor area", &self.app.units().area(area_m2));
             self.gaps(ui, derived);
         }
-        let mut act = None;
         if let Some(predictions) = self.document.derived().and_then(|derived| derived.predictions.as_ref())
             && !predictions.network.rooms.is_empty()
         {
             hairline(ui);
-            act = prediction::of_plan(ui, self.app, predictions).map(Act::Command);
+            act = act.or(prediction::of_plan(ui, self.app, predictions).map(Act::Command));
         }
         if !self.document.notes.is_empty() {
             hairline(ui);

@@ -19,6 +19,11 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         match act {
             None => {}
             Some(Act::Dismiss) => app.act("dismiss-message", &[&(first + index + 1).to_string()], ui.ctx()),
+            Some(Act::Remedy(Remedy::KeepPicture)) => {
+                if let Some(path) = app.shown_picture_word() {
+                    app.act("relink-picture", &[&path], ui.ctx());
+                }
+            }
             Some(Act::Remedy(remedy)) => {
                 let (id, argument) = remedy.command();
                 // A dialog asks for what it takes.
@@ -38,6 +43,7 @@ impl Remedy {
             Self::KeepMine => ("keep-mine", None),
             Self::Save => ("save", None),
             Self::SaveElsewhere => ("save-as", None),
+            Self::RelinkPicture | Self::KeepPicture => ("relink-picture", None),
         }
     }
 }
@@ -52,12 +58,12 @@ fn bar(ui: &mut Ui, message: &Message) -> Option<Act> {
     let mut act = None;
     let frame = Frame::new().fill(ground).inner_margin(Margin { left: 14, right: 8, top: 6, bottom: 6 });
     let shown = frame.show(ui, |ui| {
-        ui.set_width(ui.available_width());
+        ui.set_width(ui.available_width().max(0.0));
         ui.horizontal_top(|ui| {
             ui.spacing_mut().item_spacing.x = 10.0;
             let (square, _) = ui.allocate_exact_size(vec2(ICON, ROW), Sense::hover());
             icon.paint(ui.painter(), Rect::from_center_size(square.center(), Vec2::splat(ICON)), mark);
-            let width = ui.available_width() - ROW - 10.0;
+            let width = (ui.available_width() - ROW - 10.0).max(0.0);
             ui.vertical(|ui| {
                 ui.set_width(width);
                 ui.spacing_mut().item_spacing.y = 2.0;

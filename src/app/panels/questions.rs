@@ -32,6 +32,11 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             "Somebody else has changed the file since it was opened here. Replacing it loses their changes.".to_owned()
         }
         Question::Discard { .. } => "They are in no file and cannot be brought back.".to_owned(),
+        Question::Drawing(_) => {
+            "What was traced on the picture should go along, so that it stays on its lines. What was right before stays \
+             where it is."
+                .to_owned()
+        }
         Question::Replace { .. } => "There is a file of this name. Replacing it loses what it holds.".to_owned(),
     };
     let answers = question.answers();

@@ -57,6 +57,12 @@ pub(in crate::app) fn left_text(app: &App) -> String {
         return format!("Opening {}…", origin.title());
     }
     let Some(document) = &app.document else { return String::new() };
+    if let Some(name) = &app.reading_picture {
+        return format!("Reading {name}…");
+    }
+    if app.canvas.backdrop.is_loading() {
+        return "Reading the picture…".to_owned();
+    }
     if document.derived().is_none() {
         return "Working out rooms and features…".to_owned();
     }

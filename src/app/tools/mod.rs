@@ -3,6 +3,7 @@
 //! A tool is a state machine. It sees what the pointer does, already snapped, and answers with calls of
 //! commands: what is drawn by hand is what a script draws. Between two calls it only shows a preview.
 
+mod calibrate;
 mod cut_out;
 mod fill;
 mod measure;
@@ -13,6 +14,7 @@ mod rectangle;
 mod room;
 mod select;
 mod split;
+mod straighten;
 mod typing;
 mod walls;
 
@@ -51,6 +53,9 @@ pub(super) const TOOLS: &[Entry] = &[
     opening::PASSAGE,
     opening::WINDOW,
     measure::ENTRY,
+    calibrate::BY_LENGTH,
+    calibrate::BY_DOOR,
+    straighten::ENTRY,
 ];
 
 /// A command to run: its id and its arguments.

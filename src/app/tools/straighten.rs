@@ -1,0 +1,83 @@
+//! Turns the picture under the plan so that a line of it becomes level or upright.
+
+use super::preview::{Look, Preview};
+use super::{Call, Entry, Input, Scope, TakenBack, Tool};
+use crate::geometry::{Point, Segment};
+use crate::plan::straightening_rad;
+
+pub(super) const ENTRY: Entry = Entry { id: "straighten", make: || Box::new(Straighten { from: None }) };
+
+struct Straighten {
+    from: Option<Point>,
+}
+
+/// A line shorter than this, in points, has no direction to speak of.
+const LEAST_PX: f64 = 12.0;
+
+impl Straighten {
+    /// From -> Ready
+    fn end(&mut self, from: Point, scope: &Scope<'_>) -> Vec<Call> {
+        if from.distance(scope.pointer) < scope.metres(LEAST_PX) {
+            return Vec::new();
+        }
+        self.from = None;
+        let number = |value: f64| ((value * 1e5).round() / 1e5).to_string();
+        let words = [from.x, from.y, scope.pointer.x, scope.pointer.y].map(number);
+        vec![("straighten", words.to_vec())]
+    }
+}
+
+impl Tool for Straighten {
+    fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
+        match (input, self.from) {
+            // Ready -> From
+            (Input::Click, None) => self.from = Some(scope.pointer),
+            (Input::DragStart { pointer, .. }, None) => self.from = Some(pointer),
+            (Input::Click | Input::Drop, Some(from)) => return self.end(from, scope),
+            (Input::Escape | Input::SecondaryClick, _) => self.from = None,
+            _ => {}
+        }
+        Vec::new()
+    }
+
+    fn hint(&self, scope: &Scope<'_>) -> String {
+        if scope.plan.backdrop().is_none() {
+            return "The plan has no picture under it: add one first".to_owned();
+        }
+        match self.from {
+            None => "Straighten: click along a wall of the picture that should be level or upright".to_owned(),
+            Some(_) => "Click further along the wall, the further the better · Esc drops it".to_owned(),
+        }
+    }
+
+    fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
+        let Some(from) = self.from else { return };
+        let line = Segment::new(from, scope.pointer);
+        preview.line(vec![line.a, line.b], false, Look::New);
+        for end in [line.a, line.b] {
+            preview.handle(end, Look::New);
+        }
+        if let Some(turn_rad) = straightening_rad(line.vector()) {
+            let middle = line.midpoint();
+            let half = (line.b - middle).rotated(turn_rad);
+            preview.dashed(vec![middle + -half, middle + half], false, Look::Guide);
+            preview.label(scope.pointer, format!("turns by {:.2}°", turn_rad.to_degrees()), Look::New);
+        }
+    }
+
+    fn is_busy(&self) -> bool {
+        self.from.is_some()
+    }
+
+    // Places of the picture are meant, not of what is drawn.
+    fn snaps(&self) -> bool {
+        false
+    }
+
+    fn take_back(&mut self) -> TakenBack {
+        match self.from.take() {
+            Some(_) => TakenBack::Corner,
+            None => TakenBack::Nothing,
+        }
+    }
+}

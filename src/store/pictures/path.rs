@@ -1,0 +1,51 @@
+//! Where a picture lies, seen from its plan's folder.
+
+use std::path::{Path, PathBuf};
+
+use crate::plan::Backdrop;
+
+/// The path of a picture as a plan in `folder` states it: relative with forward slashes; absolute
+/// where the plan has no folder yet, or where no way leads from one to the other (another drive).
+pub fn relative_path(picture: &Path, folder: Option<&Path>) -> String {
+    let absolute = |path: &Path| {
+        // No folder at all is the one the program works in.
+        let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+        std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+    };
+    let picture = absolute(picture);
+    let relative = folder.and_then(|folder| pathdiff::diff_paths(&picture, absolute(folder)));
+    let path = relative.unwrap_or(picture);
+    let text = path.to_string_lossy();
+    if cfg!(windows) { text.replace('\\', "/") } else { text.into_owned() }
+}
+
+/// The file that a plan in `folder` means by the path of its picture.
+pub fn resolved_path(path: &str, folder: Option<&Path>) -> PathBuf {
+    // Joining an absolute path gives that path.
+    folder.unwrap_or(Path::new("")).join(path)
+}
+
+/// The same picture as seen from another folder: for a plan that is saved there.
+pub fn relocated(backdrop: &Backdrop, from: Option<&Path>, to: &Path) -> Backdrop {
+    let path = relative_path(&resolved_path(&backdrop.path, from), Some(to));
+    Backdrop { path, ..backdrop.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn paths_follow_the_plan() {
+        let backdrop = Backdrop::new("scans/ground.png", "");
+        let moved = |from: Option<&str>, to: &str| relocated(&backdrop, from.map(Path::new), Path::new(to)).path;
+        assert_eq!(moved(Some("/a/b"), "/a/b"), "scans/ground.png");
+        assert_eq!(moved(Some("/a/b"), "/a"), "b/scans/ground.png");
+        assert_eq!(moved(Some("/a/b"), "/a/c"), "../b/scans/ground.png");
+        assert_eq!(relative_path(Path::new("/x/y.png"), None), "/x/y.png");
+        let untitled = Backdrop::new("/a/scan.png", "");
+        assert_eq!(relocated(&untitled, None, Path::new("/a")).path, "scan.png");
+        assert_eq!(resolved_path("/x/y.png", Some(Path::new("/a"))), Path::new("/x/y.png"));
+    }
+}

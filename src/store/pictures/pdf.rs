@@ -1,0 +1,77 @@
+//! A page of a PDF as pixels.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use hayro::hayro_interpret::InterpreterSettings;
+use hayro::hayro_syntax::Pdf;
+use hayro::vello_cpu::color::palette::css::WHITE;
+use hayro::{PixmapSettings, RenderCache, RenderSettings, render};
+
+use super::{Level, MOST_PIXELS, PictureError, Samples};
+
+/// A page is drawn with so many dots to the inch of its paper, or a half, a quarter and so on of
+/// them where that would be too many pixels: a function of the page's size alone, so that what was
+/// traced stays on its lines.
+pub const DOTS_PER_INCH: f64 = 300.0;
+
+/// PDF's unit of length: 72 to the inch (ISO 32000-1, 8.3.2.3).
+const POINTS_PER_INCH: f64 = 72.0;
+
+/// The painter counts pixels of a side in 16 bits; and no more pixels in all than this, a quarter of
+/// what other pictures may have, for it needs several times their memory.
+const MOST_PDF_PIXELS: f64 = (MOST_PIXELS / 4) as f64;
+const LONGEST_PDF_SIDE_PX: f64 = 32_767.0;
+
+/// Whether a file's bytes are a PDF's: some have bytes before the header.
+pub(super) fn is_pdf(bytes: &[u8]) -> bool {
+    bytes[..bytes.len().min(1024)].windows(5).any(|window| window == b"%PDF-")
+}
+
+/// A page as pixels, and how many pages there are.
+///
+/// # Errors
+/// When the file is damaged or encrypted, or lacks the page.
+pub(super) fn page(bytes: &[u8], number: u32) -> Result<(Level, u32), PictureError> {
+    let bytes = bytes.to_vec();
+    // The interpreter is young and files are of any making: should it break, only this picture does.
+    let outcome = catch_unwind(AssertUnwindSafe(|| drawn(bytes, number)));
+    outcome.unwrap_or_else(|_| Err(PictureError::new("is a PDF that cannot be drawn", "save its page as PNG")))
+}
+
+fn drawn(bytes: Vec<u8>, number: u32) -> Result<(Level, u32), PictureError> {
+    let pdf = Pdf::new(bytes).map_err(|error| {
+        PictureError::new(format!("is a PDF that cannot be read ({error:?})"), "save its page as PNG")
+    })?;
+    let pages = pdf.pages();
+    let count = pages.len() as u32;
+    let index = (number as usize).wrapping_sub(1);
+    let Some(page) = pages.get(index) else {
+        let has = if count == 1 { "has one page".to_owned() } else { format!("has {count} pages") };
+        return Err(PictureError::new(format!("{has}, and none with the number {number}"), "choose another page"));
+    };
+    let (width_pt, height_pt) = page.render_dimensions();
+    let (width_pt, height_pt) = (f64::from(width_pt), f64::from(height_pt));
+    if !(width_pt > 0.0 && height_pt > 0.0 && width_pt.is_finite() && height_pt.is_finite()) {
+        return Err(PictureError::new("is a page without a size", "choose another page"));
+    }
+    let mut scale = DOTS_PER_INCH / POINTS_PER_INCH;
+    while width_pt * height_pt * scale * scale > MOST_PDF_PIXELS
+        || width_pt.max(height_pt) * scale > LONGEST_PDF_SIDE_PX
+    {
+        scale /= 2.0;
+    }
+    if width_pt.min(height_pt) * scale < 1.0 {
+        return Err(PictureError::new("is a page that is thinner than a dot", "choose another page"));
+    }
+    let pixmap = render(
+        page,
+        &RenderCache::new(),
+        &InterpreterSettings::default(),
+        &RenderSettings::default(),
+        &PixmapSettings { x_scale: scale as f32, y_scale: scale as f32, bg_color: WHITE },
+    );
+    let (width_px, height_px) = (u32::from(pixmap.width()), u32::from(pixmap.height()));
+    // On white paper every pixel is opaque.
+    let data: Vec<u8> = pixmap.data_as_u8_slice().chunks_exact(4).flat_map(|pixel| &pixel[..3]).copied().collect();
+    Ok((Level { width_px, height_px, samples: Samples::Rgb, data }.simplified(), count))
+}
