@@ -316,7 +316,8 @@ impl<'a> Writer<'a> {
     fn item(&mut self, item: &Item) {
         match item {
             // Polygons come with their triangles, texts are painted for each frame.
-            Item::Polygon { .. } | Item::Text(_) => {}
+            // The window has the picture in tiles of its own.
+            Item::Polygon { .. } | Item::Text(_) | Item::Picture(_) => {}
             Item::Line { points, closed, colour, width, dash } => {
                 let mut points: Vec<Pos2> = points.iter().map(|&point| self.place(point)).collect();
                 let stroke = self.stroke(*width, *colour);

@@ -101,6 +101,9 @@ impl App {
 
     /// Reads a picture, then makes it the one under the plan.
     pub(in crate::app) fn use_picture(&mut self, use_: PictureUse, path: PathBuf, page: u32) {
+        if self.document.is_none() {
+            self.new_plan();
+        }
         let Some(document) = self.document.as_ref().map(|document| document.number) else { return };
         self.reading_picture = Some(file_name(&path));
         self.background.start(move || {

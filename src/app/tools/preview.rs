@@ -225,9 +225,9 @@ pub(in crate::app) fn paint_snap(painter: &Painter, rect: Rect, view: &View, pal
             painter.add(Shape::line(vec![arm(-6.0, -7.0), arm(-6.0, 6.0), arm(7.0, 6.0)], stroke));
             painter.add(Shape::line(vec![arm(-6.0, 0.0), arm(0.0, 0.0), arm(0.0, 6.0)], stroke));
         }
-        SnapKind::Wall => drop(
-            painter.add(Shape::closed_line(vec![arm(0.0, -6.5), arm(6.5, 0.0), arm(0.0, 6.5), arm(-6.5, 0.0)], stroke)),
-        ),
+        SnapKind::Wall => {
+            painter.add(Shape::closed_line(vec![arm(0.0, -6.5), arm(6.5, 0.0), arm(0.0, 6.5), arm(-6.5, 0.0)], stroke));
+        }
         SnapKind::Alignment | SnapKind::Grid | SnapKind::Free => {
             let half = if snap.kind == SnapKind::Free { 3.0 } else { 5.0 };
             painter.line_segment([arm(-half, 0.0), arm(half, 0.0)], stroke);
