@@ -96,7 +96,7 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
     )
     .when_complete(has_rooms)
-    .keys(&[key(Key::F3), shift(Key::F2)])
+    .keys(&[key(Key::F4), shift(Key::F2)])
     .menu(Menu::Room, 1),
     with(
         "set-note",

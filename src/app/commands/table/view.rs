@@ -228,7 +228,7 @@ pub(super) const COMMANDS: &[Command] = &[
         |app| app.layers.rulers,
         |app, is_on| app.layers.rulers = is_on,
     )
-    .keys(&[shift(Key::R)])
+    .keys(&[ctrl(Key::R)])
     .menu(Menu::View, 3),
     with(
         "add-guide",
