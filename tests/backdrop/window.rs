@@ -36,8 +36,8 @@ fn backdrop(window: &Offscreen) -> &Backdrop {
     plan(window).backdrop().unwrap()
 }
 
-fn said(window: &Offscreen) -> Vec<&str> {
-    window.app().messages().iter().map(|message| message.text.as_str()).collect()
+fn said(window: &Offscreen) -> Vec<String> {
+    window.app().messages().iter().map(|message| message.text.clone()).collect()
 }
 
 #[test]
@@ -47,7 +47,7 @@ fn a_dropped_picture_begins_a_plan_that_is_traced_scaled_and_saved() {
     let mut window = window();
     window.drop_file(&scan);
     window.settle().unwrap();
-    assert_eq!(said(&window), Vec::<&str>::new());
+    assert_eq!(said(&window), Vec::<String>::new());
     assert!(Path::new(&backdrop(&window).path).is_absolute(), "{}", backdrop(&window).path);
     assert!(backdrop(&window).content_hash.starts_with("sha256:"));
     // Its upper left corner lies at the origin; a pixel is a centimetre until it is measured.
@@ -77,7 +77,7 @@ fn a_dropped_picture_begins_a_plan_that_is_traced_scaled_and_saved() {
     assert!(!window.app().has_unsaved_changes());
     run(&mut window, "undo", &[]);
     assert_eq!(backdrop(&window).path, "../scans/ground.png");
-    assert_eq!(said(&window), Vec::<&str>::new());
+    assert_eq!(said(&window), Vec::<String>::new());
 }
 
 #[test]
@@ -123,14 +123,14 @@ fn a_picture_that_is_gone_is_found_or_relinked() {
     save_plan(&path, &traced("gone/a.png", &content_hash(&bytes))).unwrap();
     // Nowhere: said with a way out; the plan is unchanged.
     let mut window = opened(&path);
-    assert_eq!(window.app().messages()[0].remedy, Some(Remedy::RelinkPicture), "{:?}", said(&window));
+    assert_eq!(window.app().messages()[0].remedies, [Remedy::RelinkPicture], "{:?}", said(&window));
     assert!(!window.app().has_unsaved_changes());
     let elsewhere = tempfile::tempdir().unwrap();
     let same = put(elsewhere.path(), "b.png", &bytes);
     window.answer_dialog(Some(same));
     assert!(window.click_control("Relink…"));
     window.settle().unwrap();
-    assert_eq!(said(&window), Vec::<&str>::new());
+    assert_eq!(said(&window), Vec::<String>::new());
     assert!(backdrop(&window).path.ends_with("/b.png") && backdrop(&window).metres_per_pixel == 0.2);
     // Another picture is taken, but not without a word.
     let other = put(root, "other.bmp", &encoded(&walls().rotate90(), ImageFormat::Bmp));
@@ -145,7 +145,7 @@ fn a_picture_that_is_gone_is_found_or_relinked() {
     assert!(window.click_control("Keep this picture"));
     window.settle().unwrap();
     assert_eq!(backdrop(&window).path, "scans/renamed.png");
-    assert_eq!(said(&window), Vec::<&str>::new());
+    assert_eq!(said(&window), Vec::<String>::new());
     // One that was changed by somebody is shown with a warning.
     run(&mut window, "save", &[]);
     put(root, "scans/renamed.png", &encoded(&walls().rotate180(), ImageFormat::Png));

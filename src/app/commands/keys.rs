@@ -65,7 +65,7 @@ impl Keys {
             }
             Key::Escape => Some("it leaves whatever is open"),
             Key::Backspace | Key::Home | Key::End if !command && !alt => Some("it belongs to text"),
-            Key::A | Key::C | Key::V | Key::X if command && !alt => Some("it belongs to text"),
+            Key::C | Key::V | Key::X if command && !alt => Some("it belongs to the clipboard"),
             Key::F4 if alt => Some("the system closes windows with it"),
             _ => None,
         }
@@ -80,7 +80,9 @@ impl Keys {
     fn belongs_to_text(self) -> bool {
         let is_function_key = self.key >= Key::F1 && self.key <= Key::F35;
         let is_plain = !self.modifiers.command && !is_function_key;
-        is_plain || matches!(self.key, Key::Z | Key::Y | Key::A | Key::C | Key::V | Key::X)
+        let is_of_clipboard = matches!(self.key, Key::A | Key::C | Key::V | Key::X);
+        let has_more = self.modifiers.alt || self.modifiers.shift;
+        is_plain || matches!(self.key, Key::Z | Key::Y) || (is_of_clipboard && !has_more)
     }
 }
 
@@ -193,7 +195,7 @@ mod tests {
 
     #[test]
     fn what_moves_the_keyboard_or_belongs_to_text_is_reserved() {
-        for text in ["Tab", "Shift+Tab", "Space", "Enter", "Up", "Escape", "Ctrl+C", "Ctrl+A", "Alt+F4", "Backspace"] {
+        for text in ["Tab", "Shift+Tab", "Space", "Enter", "Up", "Escape", "Ctrl+C", "Alt+F4", "Backspace"] {
             assert!(text.parse::<Keys>().unwrap().why_reserved().is_some(), "{text}");
         }
         for text in ["C", "Ctrl+B", "F4", "Delete", "Ctrl+Alt+C", "Alt+Home"] {

@@ -150,7 +150,7 @@ impl Select {
                     return Vec::new();
                 }
                 let to = Point::default() + by;
-                vec![("move", vec![word(to)])]
+                vec![("move-selection", vec![word(to)])]
             }
             State::Sliding { opening } => vec![("slide-opening", vec![opening.to_string(), word(scope.pointer)])],
             State::MovingCorner { .. } => Vec::new(),

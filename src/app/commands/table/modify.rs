@@ -460,8 +460,8 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     ),
     with(
-        "move",
-        "Move",
+        "move-selection",
+        "Move the selection",
         "Move what is selected; what shares its corners follows",
         has_picked,
         &[needed("BY", ArgumentKind::Points { least: 1 }, "how far right and up, in metres, as '0.5,-1'")],
