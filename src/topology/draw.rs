@@ -1,6 +1,6 @@
 //! The edits that draw walls and rooms, and divide rooms by what is drawn across them.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::fill::{Boundary, EdgeFaces, is_sliver};
@@ -8,7 +8,7 @@ use crate::geometry::polygon::{self, Location};
 use crate::geometry::{Bounds, Point, TOUCH_M};
 use crate::plan::edit::lay::{Laid, lay, plan_edges};
 use crate::plan::edit::{self, EditError, fail};
-use crate::plan::{CornerId, Joint, OpeningId, Plan, Room, RoomId, WallId, ordered, ring_edges};
+use crate::plan::{CornerId, Joint, OpeningId, Place, Plan, Room, RoomId, WallId, ordered, ring_edges};
 
 /// What drawing gives.
 #[derive(Clone, Debug)]
@@ -85,7 +85,7 @@ pub fn split_room(plan: &Plan, room: RoomId, path: &[Point]) -> Result<(Plan, Ve
     if rooms.is_empty() {
         return fail("the line must cross the room from boundary to boundary");
     }
-    Ok((without_unused(plan, &next, &chain), rooms))
+    Ok((without_leftovers(plan, &next, added(plan, &chain)), rooms))
 }
 
 /// Cuts an area out of a room: a courtyard or a shaft becomes a hole, at the boundary a notch. What
@@ -120,7 +120,8 @@ pub fn cut_out(plan: &Plan, room: RoomId, outer: &[Point]) -> Result<Plan, EditE
         return fail("nothing of the room would be left");
     }
     let (next, _) = replace_by_parts(room, &faces, &left)?;
-    Ok(without_unused(plan, &next, &ring))
+    let boundary = shape.rings().flat_map(|ring| ring.iter().copied());
+    Ok(without_leftovers(plan, &next, added(plan, &ring).chain(boundary)))
 }
 
 /// A room as it is called in a message.
@@ -358,16 +359,53 @@ fn pinned_to_parts(plan: &Plan, id: RoomId, new_rooms: &[RoomId]) -> Plan {
     next
 }
 
-/// `after` without those of the given corners that `before` did not have and nothing uses.
-pub(super) fn without_unused(before: &Plan, after: &Plan, corners: &[CornerId]) -> Plan {
-    let mut unused: BTreeSet<CornerId> = corners.iter().copied().filter(|&id| before.corner(id).is_none()).collect();
+/// `after` without the openings whose edge was one of a wall or a room in `before` and is none any
+/// more, and without those of the given corners that nothing uses.
+pub(super) fn without_leftovers(before: &Plan, after: &Plan, corners: impl IntoIterator<Item = CornerId>) -> Plan {
+    let mut unused: BTreeSet<CornerId> = corners.into_iter().collect();
+    let mut hosts: BTreeMap<[CornerId; 2], Vec<OpeningId>> = BTreeMap::new();
+    for (id, opening) in after.openings() {
+        if let Place::Hosted { from, to, .. } = opening.place {
+            hosts.entry(ordered(from, to)).or_default().push(id);
+        }
+    }
+    let mut lost = hosts.clone();
     for (a, b) in plan_edges(after) {
+        lost.remove(&ordered(a, b));
         unused.remove(&a);
         unused.remove(&b);
     }
     let mut next = after.clone();
+    if !lost.is_empty() {
+        let had_edge = |id: &OpeningId| {
+            // An opening that splitting moved is known by its edge before.
+            let Some(Place::Hosted { from, to, .. }) = before.opening(*id).map(|opening| opening.place) else {
+                return true;
+            };
+            plan_edges(before).any(|(a, b)| ordered(a, b) == ordered(from, to))
+        };
+        for (edge, openings) in lost {
+            let gone: Vec<OpeningId> = openings.into_iter().filter(had_edge).collect();
+            for id in &gone {
+                next.openings.remove(id);
+            }
+            if let Some(on_edge) = hosts.get_mut(&edge) {
+                on_edge.retain(|id| !gone.contains(id));
+            }
+        }
+    }
+    for (edge, _) in hosts.iter().filter(|(_, openings)| !openings.is_empty()) {
+        for corner in edge {
+            unused.remove(corner);
+        }
+    }
     for id in unused {
         next.corners.remove(&id);
     }
     next
+}
+
+/// Those of some corners that a plan does not have: what an edit added.
+pub(super) fn added<'a>(before: &'a Plan, corners: &'a [CornerId]) -> impl Iterator<Item = CornerId> + 'a {
+    corners.iter().copied().filter(|&id| before.corner(id).is_none())
 }

@@ -8,7 +8,7 @@ use i_overlay::float::simplify::SimplifyShape as _;
 use i_overlay::float::single::SingleFloatOverlay as _;
 
 use super::RoomShapes;
-use super::draw::{add_walls, closed, lay_ring, without_unused};
+use super::draw::{add_walls, added, closed, lay_ring, without_leftovers};
 use super::fill::{Boundary, EdgeFaces, is_sliver};
 use super::shapes::RoomShape;
 use crate::geometry::areas::{self, Shapes};
@@ -58,7 +58,7 @@ pub fn draw_room_in_free_space(
         }
     }
     let (next, id) = edit::add_room(&next, Room { outer, holes, ..Room::default() })?;
-    Ok((without_unused(plan, &next, &corners), id))
+    Ok((without_leftovers(plan, &next, added(plan, &corners)), id))
 }
 
 /// An area laid into a plan.

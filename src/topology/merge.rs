@@ -8,7 +8,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::simplify::SimplifyShape as _;
 use i_overlay::float::single::SingleFloatOverlay as _;
 
-use super::draw::{Inside, without_unused};
+use super::draw::{Inside, without_leftovers};
 use super::fill::is_sliver;
 use super::free_space::{LaidArea, lay_area, oriented};
 use super::{RoomShape, RoomShapes, sides_by_geometry};
@@ -16,9 +16,8 @@ use crate::geometry::areas::{self, Ring, Shapes};
 use crate::geometry::runs::NOTCH_M;
 use crate::geometry::segments::SegmentIndex;
 use crate::geometry::{Point, TOUCH_M, polygon};
-use crate::plan::edit::lay::plan_edges;
 use crate::plan::edit::{self, EditError, fail};
-use crate::plan::{CornerId, ElementId, Joint, OpeningId, Place, Plan, Room, RoomId, THICKEST_WALL_M, WallId, ordered};
+use crate::plan::{CornerId, ElementId, Joint, OpeningId, Plan, Room, RoomId, THICKEST_WALL_M, WallId};
 
 /// Makes one room of several that touch along an edge or across no more than the thickest wall
 /// ([`THICKEST_WALL_M`]); the gap between them becomes part of it. The largest stays: it keeps its
@@ -93,44 +92,22 @@ pub fn merge_rooms(plan: &Plan, rooms: &[RoomId]) -> Result<Plan, EditError> {
     gone.extend(between.into_iter().map(ElementId::Opening));
     next = edit::remove(&next, &gone)?;
     corners.extend(parts.iter().filter_map(|part| plan.room(part.id)).flat_map(Room::rings).flat_map(|r| r.to_vec()));
-    Ok(tidied(plan, next, &merged, largest.id, &corners))
+    Ok(without_leftovers(plan, &repinned(&next, &merged, largest.id), corners))
 }
 
-/// Pins what was pinned to merged rooms to the one that stays, and removes openings whose edge and
-/// corners which merging left without use.
-fn tidied(before: &Plan, mut next: Plan, merged: &BTreeSet<RoomId>, stays: RoomId, corners: &[CornerId]) -> Plan {
-    let edges: BTreeSet<[CornerId; 2]> = plan_edges(&next).map(|(a, b)| ordered(a, b)).collect();
-    let edges_before: BTreeSet<[CornerId; 2]> =
-        merged.iter().filter_map(|&id| before.room(id)).flat_map(super::draw::room_edges).collect();
-    let ids: Vec<OpeningId> = next.openings().map(|(id, _)| id).collect();
+/// Pins what was pinned to merged rooms to the one that stays.
+fn repinned(plan: &Plan, merged: &BTreeSet<RoomId>, stays: RoomId) -> Plan {
+    let is_gone = |joint: &Joint| joint.room().is_some_and(|room| room != stays && merged.contains(&room));
+    let pinned = plan.openings().filter(|(_, opening)| opening.pinned.iter().flatten().any(is_gone));
+    let ids: Vec<OpeningId> = pinned.map(|(id, _)| id).collect();
+    let mut next = plan.clone();
     for id in ids {
-        let Some(opening) = next.opening(id) else { continue };
-        if let Place::Hosted { from, to, .. } = opening.place
-            && !edges.contains(&ordered(from, to))
-            && edges_before.contains(&ordered(from, to))
-        {
-            next.openings.remove(&id);
-            continue;
-        }
-        let is_gone = |joint: &Joint| joint.room().is_some_and(|room| room != stays && merged.contains(&room));
-        if opening.pinned.iter().flatten().any(is_gone)
-            && let Some(shared) = next.openings.get_mut(&id)
-        {
-            for joint in Arc::make_mut(shared).pinned.iter_mut().flatten().filter(|joint| is_gone(joint)) {
-                *joint = Joint::Room(stays);
-            }
+        let Some(shared) = next.openings.get_mut(&id) else { continue };
+        for joint in Arc::make_mut(shared).pinned.iter_mut().flatten().filter(|joint| is_gone(joint)) {
+            *joint = Joint::Room(stays);
         }
     }
-    let used: BTreeSet<CornerId> = next
-        .openings()
-        .filter_map(|(_, opening)| match opening.place {
-            Place::Hosted { from, to, .. } => Some([from, to]),
-            Place::Free { .. } => None,
-        })
-        .flatten()
-        .collect();
-    let unused: Vec<CornerId> = corners.iter().copied().filter(|corner| !used.contains(corner)).collect();
-    without_unused(&Plan::default(), &next, &unused)
+    next
 }
 
 /// The union of rooms with the gaps between them, less what other rooms cover of the gaps.

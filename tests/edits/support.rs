@@ -2,6 +2,7 @@
 
 use enfilade::geometry::{Point, polygon};
 use enfilade::plan::{Plan, Room};
+use proptest::prelude::ProptestConfig;
 
 pub fn points(coordinates: &[(f64, f64)]) -> Vec<Point> {
     coordinates.iter().map(|&(x, y)| Point::new(x, y)).collect()
@@ -22,4 +23,15 @@ pub fn areas(plan: &Plan) -> Vec<f64> {
     let mut areas: Vec<f64> = plan.rooms().map(|(_, room)| (area_m2(plan, room) * 1e4).round() / 1e4).collect();
     areas.sort_by(f64::total_cmp);
     areas
+}
+
+/// So many cases, or as many as `PROPTEST_CASES` says.
+pub fn config(cases: u32) -> ProptestConfig {
+    let default = ProptestConfig { failure_persistence: None, ..ProptestConfig::default() };
+    if std::env::var_os("PROPTEST_CASES").is_some() { default } else { ProptestConfig { cases, ..default } }
+}
+
+/// The area of all rooms together.
+pub fn total_area(plan: &Plan) -> f64 {
+    plan.rooms().map(|(_, room)| area_m2(plan, room)).sum()
 }

@@ -24,7 +24,7 @@ pub use moving::{Alignment, align, distribute, move_elements, set_thickness, squ
 pub use openings::{
     flip_hinge, flip_side, opening_at, place_opening, resize_opening, set_opening_kind, set_swing, slide_opening,
 };
-pub use weld::{Weld, weld};
+pub use weld::{Weld, settle, weld};
 
 /// Why an edit could not be done, in words for the status line.
 #[derive(Clone, Debug, PartialEq, Eq)]

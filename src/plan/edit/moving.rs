@@ -234,10 +234,14 @@ fn groups(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<Vec<Group>, Edi
     Ok(groups)
 }
 
+/// A drawing whose main direction strays from the axes by no more than this (1 degree) is meant to lie
+/// along them.
+const UPRIGHT_RAD: f64 = std::f64::consts::PI / 180.0;
+
 /// Makes nearly right angles right, in rooms or (`None`) in the whole plan, walls included.
 ///
 /// The main direction is the mean of all edges' directions, each by its length and up to quarter
-/// turns. An edge that strays from it or from its perpendicular by at most `max_angle_rad` becomes
+/// turns; the axes of the drawing where it is within a degree of them. An edge that strays from it or from its perpendicular by at most `max_angle_rad` becomes
 /// parallel to it: its ends get the same coordinate across. Corners linked that way get the mean of
 /// their coordinates, which moves them least (in the sum of squares). Corners are shared before and
 /// after; edges at other angles stay between theirs.
@@ -268,6 +272,7 @@ pub fn square_up(plan: &Plan, rooms: Option<&BTreeSet<RoomId>>, max_angle_rad: f
         return fail("there is no main direction to square up to");
     }
     let main_rad = mean.angle_rad() / 4.0;
+    let main_rad = if main_rad.abs() <= UPRIGHT_RAD { 0.0 } else { main_rad };
     let (along, across) = (Vector::new(1.0, 0.0).rotated(main_rad), Vector::new(0.0, 1.0).rotated(main_rad));
     // Corners linked by edges along the main direction share the coordinate across it, and vice versa.
     let mut linked = [Links::default(), Links::default()];

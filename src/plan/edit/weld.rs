@@ -10,7 +10,7 @@ use super::lay::plan_edges;
 use super::split::{Splits, nearest_part, split_edges};
 use super::{EditError, fail};
 use crate::geometry::segments::SegmentIndex;
-use crate::geometry::{Bounds, Point, Segment, polygon};
+use crate::geometry::{Bounds, Point, Segment, TOUCH_M, polygon};
 use crate::plan::{CornerId, OpeningId, Place, Plan, RoomId, WallId, ordered};
 
 /// What welding does, to show before it is done.
@@ -42,12 +42,27 @@ impl Weld {
 /// # Errors
 /// When the tolerance is not above 0, or a room would vanish or turn inside out.
 pub fn weld(plan: &Plan, tolerance_m: f64) -> Result<Weld, EditError> {
+    weld_some(plan, tolerance_m, None)
+}
+
+/// Welds what was moved to where it came to lie, within [`TOUCH_M`]: a moved corner that lies on
+/// another becomes that one, one that lies on an edge splits it, and so does a corner on which a moved
+/// edge lies. To be done when a drag ends, so that a corner exists once.
+///
+/// # Errors
+/// As [`weld`].
+pub fn settle(plan: &Plan, moved: &BTreeSet<CornerId>) -> Result<Plan, EditError> {
+    weld_some(plan, TOUCH_M, Some(moved)).map(|weld| weld.plan)
+}
+
+/// Welds everything, or only where one of some corners takes part.
+fn weld_some(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -> Result<Weld, EditError> {
     if !(tolerance_m > 0.0 && tolerance_m.is_finite()) {
         return fail(format!("a tolerance is above 0 m, not {tolerance_m} m"));
     }
-    let becomes = joined(plan, tolerance_m);
+    let becomes = joined(plan, tolerance_m, only);
     let mut next = with_openings_in_place(plan, with_joined(plan, &becomes), &becomes);
-    let (splits, onto_edges) = near_edges(&next, tolerance_m);
+    let (splits, onto_edges) = near_edges(&next, tolerance_m, only);
     if !splits.is_empty() {
         next = without_repeated_walls(split_edges(&next, &splits)?);
     }
@@ -73,17 +88,25 @@ pub fn weld(plan: &Plan, tolerance_m: f64) -> Result<Weld, EditError> {
     Ok(Weld { merged, onto_edges, plan: next })
 }
 
-/// Which corner each corner that goes becomes.
-fn joined(plan: &Plan, tolerance_m: f64) -> BTreeMap<CornerId, CornerId> {
+/// Which corner each corner that goes becomes; with `only`, those join others, not others them.
+fn joined(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -> BTreeMap<CornerId, CornerId> {
     let mut uses: BTreeMap<CornerId, usize> = BTreeMap::new();
     let edges: BTreeSet<[CornerId; 2]> = plan_edges(plan).map(|(a, b)| ordered(a, b)).collect();
     for corner in edges.iter().flatten() {
         *uses.entry(*corner).or_default() += 1;
     }
-    let mut order: Vec<(CornerId, Point)> = plan.corners().map(|(id, corner)| (id, corner.position)).collect();
+    let around = around(plan, only).inflated(tolerance_m);
+    let mut order: Vec<(CornerId, Point)> = plan
+        .corners()
+        .map(|(id, corner)| (id, corner.position))
+        .filter(|&(_, at)| only.is_none() || around.contains(at))
+        .collect();
     let points = order.iter().map(|&(id, at)| GeomWithData::new([at.x, at.y], id)).collect();
     let tree = RTree::bulk_load(points);
-    order.sort_by_key(|&(id, _)| (std::cmp::Reverse(uses.get(&id).copied().unwrap_or(0)), id));
+    let may_go = |id: &CornerId| only.is_none_or(|only| only.contains(id));
+    order.sort_by_key(|&(id, _)| {
+        (only.is_some() && may_go(&id), std::cmp::Reverse(uses.get(&id).copied().unwrap_or(0)), id)
+    });
     let mut becomes: BTreeMap<CornerId, CornerId> = BTreeMap::new();
     let mut stays: BTreeSet<CornerId> = BTreeSet::new();
     for (id, at) in order {
@@ -92,7 +115,7 @@ fn joined(plan: &Plan, tolerance_m: f64) -> BTreeMap<CornerId, CornerId> {
         }
         stays.insert(id);
         for near in tree.locate_within_distance([at.x, at.y], tolerance_m * tolerance_m) {
-            if !stays.contains(&near.data) {
+            if may_go(&near.data) && !stays.contains(&near.data) {
                 becomes.entry(near.data).or_insert(id);
             }
         }
@@ -146,8 +169,13 @@ fn without_repeated_walls(plan: Plan) -> Plan {
     next
 }
 
-/// The corners that edges pass within a tolerance: as splits, and as a list.
-fn near_edges(plan: &Plan, tolerance_m: f64) -> (Splits, Vec<(CornerId, [CornerId; 2])>) {
+/// The corners that edges pass within a tolerance, as splits and as a list; with `only`, where one of
+/// those is the corner or an end of the edge.
+fn near_edges(
+    plan: &Plan,
+    tolerance_m: f64,
+    only: Option<&BTreeSet<CornerId>>,
+) -> (Splits, Vec<(CornerId, [CornerId; 2])>) {
     let edges: BTreeSet<[CornerId; 2]> = plan_edges(plan).filter(|(a, b)| a != b).map(|(a, b)| ordered(a, b)).collect();
     let known: Vec<([CornerId; 2], Segment)> =
         edges.iter().filter_map(|&[a, b]| Some(([a, b], Segment::new(plan.position(a)?, plan.position(b)?)))).collect();
@@ -162,7 +190,9 @@ fn near_edges(plan: &Plan, tolerance_m: f64) -> (Splits, Vec<(CornerId, [CornerI
         for i in near {
             let (ends, segment) = known[i];
             let apart = at.distance(segment.a) > tolerance_m && at.distance(segment.b) > tolerance_m;
-            if !ends.contains(&corner) && apart && segment.distance(at) <= tolerance_m {
+            let concerned =
+                only.is_none_or(|only| [corner, ends[0], ends[1]].iter().any(|corner| only.contains(corner)));
+            if concerned && !ends.contains(&corner) && apart && segment.distance(at) <= tolerance_m {
                 along.entry(ends).or_default().push((segment.nearest_fraction(at), corner));
                 list.push((corner, ends));
             }
@@ -176,6 +206,13 @@ fn near_edges(plan: &Plan, tolerance_m: f64) -> (Splits, Vec<(CornerId, [CornerI
         })
         .collect();
     (splits, list)
+}
+
+/// The box of some corners and of all edges that end at one of them; empty for `None`.
+fn around(plan: &Plan, only: Option<&BTreeSet<CornerId>>) -> Bounds {
+    let Some(only) = only else { return Bounds::EMPTY };
+    let at_edges = plan_edges(plan).filter(|(a, b)| only.contains(a) || only.contains(b)).flat_map(|(a, b)| [a, b]);
+    Bounds::of(only.iter().copied().chain(at_edges).filter_map(|id| plan.position(id)))
 }
 
 /// A ring without corners that follow themselves and without ways that go somewhere and straight
