@@ -135,8 +135,9 @@ impl App {
         let [width, height] = picture.levels.size_px();
         let (title, backdrop) = match (use_, before) {
             (PictureUse::Relink, Some(before)) => {
-                self.messages
-                    .retain(|message| !message.remedies.iter().any(|remedy| matches!(remedy, Remedy::RelinkPicture | Remedy::KeepPicture)));
+                self.messages.retain(|message| {
+                    !message.remedies.iter().any(|remedy| matches!(remedy, Remedy::RelinkPicture | Remedy::KeepPicture))
+                });
                 if !before.content_hash.is_empty() && before.content_hash != hash {
                     self.say(
                         Severity::Warning,
@@ -183,7 +184,9 @@ impl App {
     }
 
     pub(in crate::app) fn remove_picture(&mut self) {
-        self.messages.retain(|message| !message.remedies.iter().any(|remedy| matches!(remedy, Remedy::RelinkPicture | Remedy::KeepPicture)));
+        self.messages.retain(|message| {
+            !message.remedies.iter().any(|remedy| matches!(remedy, Remedy::RelinkPicture | Remedy::KeepPicture))
+        });
         self.edit("Remove picture", |plan| Ok(edit::set_backdrop(plan, None)));
     }
 
