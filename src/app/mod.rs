@@ -225,7 +225,7 @@ impl Remedy {
         match self {
             Self::ShowNotes => "Show notes",
             Self::ShowDifferences => "Show differences",
-            Self::LoadTheirs => "Load the file as it is now",
+            Self::LoadTheirs => "Load the file",
             Self::KeepMine => "Keep mine",
             Self::Save => "Save",
             Self::SaveElsewhere => "Save in another place…",

@@ -164,7 +164,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
                 let hint = "Saving then replaces what somebody else put in the file";
                 let keep = text_button(ui, "Keep mine", false).on_hover_text(hint).clicked();
                 let hint = "A step that can be undone";
-                let load = text_button(ui, "Load the file as it is now", true).on_hover_text(hint).clicked();
+                let load = text_button(ui, "Load the file", true).on_hover_text(hint).clicked();
                 act = close.or(keep.then_some(("keep-mine", None))).or(load.then_some(("load-theirs", None)));
             });
         });
