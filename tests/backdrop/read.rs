@@ -139,13 +139,15 @@ fn promises_of_too_many_pixels_are_refused_before_memory_is_taken() {
         let error = refused(&promising(width, height));
         assert!(error.what.contains("pixels"), "{width} x {height}: {error}");
     }
-    // A TIFF: width and height are entries 256 and 257.
+    // A TIFF: the tags 256 and 257, width and height, in entries of 12 bytes (TIFF 6.0, section 2).
     let mut tiff = encoded(&walls(), ImageFormat::Tiff);
-    let at = |tag: [u8; 2], bytes: &[u8]| bytes.windows(4).rposition(|four| four[..2] == tag && four[3] == 0).unwrap();
-    for tag in [[0, 1], [1, 1]] {
-        let entry = at(tag, &tiff);
-        tiff[entry + 2] = 4;
-        tiff[entry + 8..entry + 12].copy_from_slice(&60_000u32.to_le_bytes());
+    let start = u32::from_le_bytes(tiff[4..8].try_into().unwrap()) as usize;
+    let count = usize::from(u16::from_le_bytes([tiff[start], tiff[start + 1]]));
+    for entry in (0..count).map(|i| start + 2 + 12 * i) {
+        if matches!(u16::from_le_bytes([tiff[entry], tiff[entry + 1]]), 256 | 257) {
+            tiff[entry + 2..entry + 4].copy_from_slice(&4u16.to_le_bytes());
+            tiff[entry + 8..entry + 12].copy_from_slice(&60_000u32.to_le_bytes());
+        }
     }
     assert!(!refused(&tiff).what.is_empty());
 }

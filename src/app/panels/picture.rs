@@ -7,7 +7,7 @@ use crate::app::backdrop::{Known, millimetres};
 use crate::app::icons::Icon;
 use crate::app::theme;
 use crate::app::widgets::{ROW, caption, colours, icon_button, link, put_line, section, value};
-use crate::plan::{Backdrop, Calibration, Measurement};
+use crate::plan::{Backdrop, Calibration, Measurement, ScaleOrigin};
 
 /// What a person did in the section.
 pub(super) enum PictureAct {
@@ -40,29 +40,32 @@ pub(super) fn show(ui: &mut Ui, app: &App, backdrop: &Backdrop) -> Option<Pictur
         }
     }
     act = act.or(opacity(ui, app, backdrop));
-    let scale = if backdrop.is_measured() { "1 px is" } else { "1 px is taken as" };
+    // A plan may come with a scale that was measured before the lengths were kept.
+    let is_known =
+        backdrop.is_measured() || app.plan().is_some_and(|plan| plan.meta().scale.origin == ScaleOrigin::Measured);
+    let scale = if is_known { "1 px is" } else { "1 px is taken as" };
     value(ui, "Scale", &format!("{scale} {}", millimetres(backdrop.metres_per_pixel)));
     if backdrop.is_measured() {
         act = act.or(measurements(ui, &backdrop.measurements));
-    } else {
+    } else if !is_known {
         caption(ui, "Its scale is not set: measure a length that you know, or the width of a door.");
     }
     ui.add_space(4.0);
-    ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().item_spacing = vec2(14.0, 6.0);
-        let measure = if backdrop.is_measured() { "Measure another length…" } else { "Set scale…" };
-        for (text, id) in [
-            (measure, "tool-calibrate"),
-            ("By a door…", "tool-calibrate-door"),
-            ("Straighten…", "tool-straighten"),
-            ("Relink…", "relink-picture"),
-            ("Remove", "remove-picture"),
-        ] {
-            if link(ui, text).clicked() {
-                act = Some(PictureAct::Command(id, Vec::new()));
+    let measure = if backdrop.is_measured() { "Measure another…" } else { "Set scale…" };
+    let rows: [&[(&str, &str)]; 2] = [
+        &[(measure, "tool-calibrate"), ("By a door…", "tool-calibrate-door"), ("Straighten…", "tool-straighten")],
+        &[("Relink…", "relink-picture"), ("Remove", "remove-picture")],
+    ];
+    for links in rows {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 14.0;
+            for (text, id) in links {
+                if link(ui, text).clicked() {
+                    act = Some(PictureAct::Command(id, Vec::new()));
+                }
             }
-        }
-    });
+        });
+    }
     act
 }
 
@@ -79,7 +82,7 @@ fn opacity(ui: &mut Ui, app: &App, backdrop: &Backdrop) -> Option<PictureAct> {
     let slot = egui::Rect::from_min_max(from, pos2(rect.right() - text_width, rect.bottom()));
     let mut child = ui.new_child(egui::UiBuilder::new().max_rect(slot).id_salt("opacity"));
     child.spacing_mut().slider_width = slot.width();
-    let slider = Slider::new(&mut percent, 0.0..=100.0).step_by(1.0).show_value(false);
+    let slider = Slider::new(&mut percent, 0.0..=100.0).step_by(1.0).show_value(false).trailing_fill(true);
     let response = child.add_sized(slot.size(), slider);
     response.widget_info(|| WidgetInfo::slider(true, percent, "Opacity"));
     let font = FontId::proportional(theme::BODY);

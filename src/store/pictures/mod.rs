@@ -7,6 +7,7 @@ mod pdf;
 
 use std::fmt;
 use std::io::{Cursor, Read as _};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use image::metadata::Orientation;
@@ -118,8 +119,12 @@ pub fn load_picture(path: &Path, page: u32) -> Result<LoadedPicture, PictureErro
 /// # Errors
 /// As [`load_picture`].
 pub fn decode_picture(bytes: &[u8], page: u32) -> Result<LoadedPicture, PictureError> {
-    let (full, pages) = if pdf::is_pdf(bytes) { pdf::page(bytes, page)? } else { (raster(bytes)?, 1) };
-    Ok(LoadedPicture { levels: PictureLevels::new(full), content_hash: content_hash(bytes), pages })
+    // Decoders are others' work and files are of any making: should one break, only this picture does.
+    let read = catch_unwind(AssertUnwindSafe(|| {
+        let (full, pages) = if pdf::is_pdf(bytes) { pdf::page(bytes, page)? } else { (raster(bytes)?, 1) };
+        Ok(LoadedPicture { levels: PictureLevels::new(full), content_hash: content_hash(bytes), pages })
+    }));
+    read.unwrap_or_else(|_| Err(PictureError::new("cannot be read", "save it anew, as PNG or JPEG")))
 }
 
 /// Refuses what would not fit into memory.

@@ -1,7 +1,5 @@
 //! A page of a PDF as pixels.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
-
 use hayro::hayro_interpret::InterpreterSettings;
 use hayro::hayro_syntax::Pdf;
 use hayro::vello_cpu::color::palette::css::WHITE;
@@ -32,14 +30,7 @@ pub(super) fn is_pdf(bytes: &[u8]) -> bool {
 /// # Errors
 /// When the file is damaged or encrypted, or lacks the page.
 pub(super) fn page(bytes: &[u8], number: u32) -> Result<(Level, u32), PictureError> {
-    let bytes = bytes.to_vec();
-    // The interpreter is young and files are of any making: should it break, only this picture does.
-    let outcome = catch_unwind(AssertUnwindSafe(|| drawn(bytes, number)));
-    outcome.unwrap_or_else(|_| Err(PictureError::new("is a PDF that cannot be drawn", "save its page as PNG")))
-}
-
-fn drawn(bytes: Vec<u8>, number: u32) -> Result<(Level, u32), PictureError> {
-    let pdf = Pdf::new(bytes).map_err(|error| {
+    let pdf = Pdf::new(bytes.to_vec()).map_err(|error| {
         PictureError::new(format!("is a PDF that cannot be read ({error:?})"), "save its page as PNG")
     })?;
     let pages = pdf.pages();
