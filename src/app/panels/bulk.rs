@@ -79,7 +79,7 @@ impl Bulk {
             from_label: Some(Label::MediumRoom),
             change: Change::Function(String::new()),
             to_function: String::new(),
-            to_label: Some(Label::MediumRoom),
+            to_label: Some(Label::BigRoom),
             is_shown: false,
         })
     }
@@ -348,7 +348,8 @@ fn labels(ui: &mut Ui, palette: &Palette, value: &mut Option<Label>, none: &str,
         })
         .collect();
     segments.push(Segment { text: none, name: none, help: none_help, is_on: value.is_none(), colour: None });
-    if let Some(index) = segmented(ui, &segments) {
+    // Two of them may stand in one form.
+    if let Some(index) = ui.push_id(none, |ui| segmented(ui, &segments)).inner {
         *value = Label::ALL.get(index).copied();
     }
 }
