@@ -437,6 +437,10 @@ impl Canvas {
             }
             paint_typed(&painter, rect, &view, palette, &scope, &toolbox.typed);
         }
+        let is_blank = document.plan().is_empty() && document.plan().backdrop().is_none() && app.ghost_plan().is_none();
+        if is_blank && toolbox.is_selecting() {
+            paint_beginning(&painter, rect, palette, app, ui.ctx());
+        }
         paint_scale_bar(&painter, rect, &view, palette, app.units());
         if response.has_focus() && self.shows_focus {
             let colours = theme::colours(ui.visuals());
@@ -741,6 +745,32 @@ fn more_to_snap_to(app: &App, view: &View, pointer: Point) -> (Vec<Segment>, Vec
 
 /// The storey below attracts from this far away, in points.
 const GHOST_REACH_PX: f64 = 16.0;
+
+/// What to do with an empty plan: the tools one begins with, by their keys.
+fn paint_beginning(painter: &Painter, rect: Rect, palette: &Palette, app: &App, context: &Context) {
+    let keys = |id: &str| commands::find(id).map(|command| app.keys_text(command, context)).unwrap_or_default();
+    let lines = [
+        ("Nothing is drawn yet".to_owned(), theme::TITLE, palette.ink),
+        (
+            format!("{}   Draw walls, then {} makes rooms of what they enclose", keys("tool-walls"), keys("fill-all")),
+            theme::BODY,
+            palette.ink_muted,
+        ),
+        (format!("{}   Draw rooms as rectangles", keys("tool-rectangle")), theme::BODY, palette.ink_muted),
+        (format!("{}   Put doors in", keys("tool-door")), theme::BODY, palette.ink_muted),
+        ("Or drop a picture of a plan here, to trace it".to_owned(), theme::BODY, palette.ink_muted),
+    ];
+    const LINE: f32 = 26.0;
+    // Of a small canvas the hints would hide all.
+    if rect.width() < 420.0 || rect.height() < 240.0 {
+        return;
+    }
+    let mut at = rect.center() - vec2(0.0, LINE * lines.len() as f32 / 2.0);
+    for (text, size, colour) in lines {
+        painter.text(at, egui::Align2::CENTER_TOP, text, egui::FontId::proportional(size), theme::colour(colour));
+        at.y += LINE;
+    }
+}
 
 /// Whether the key is held that makes every drag move the view.
 fn is_space_held(ui: &Ui) -> bool {

@@ -39,7 +39,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         frame.show(ui, |ui| {
             ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = 8.0;
-                let title = commands::find(&format!("tool-{id}")).map_or("", |command| command.title);
+                let command = commands::find(&format!("tool-{id}")).or(commands::find(id));
+                let title = command.map_or("", |command| command.title);
                 ui.label(crate::app::widgets::strong(title, theme::BODY));
                 ui.add_space(8.0);
                 let has_thickness =
