@@ -2,17 +2,18 @@
 
 use std::collections::BTreeSet;
 
-use super::App;
 use super::document::Document;
 use super::labelling::for_each;
 use super::panels::status::count;
+use super::{App, commands};
 use crate::features::RoomStatus;
+use crate::geometry::Point;
 use crate::labels::{Label, normalised_function};
 use crate::plan::naming::{Pattern, PatternError};
 use crate::plan::{LabelOrigin, RoomId, RoomLabel, edit};
 
 /// Rooms by what they are.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum Which {
     Selected,
     Unnamed,
@@ -21,11 +22,13 @@ pub(super) enum Which {
     Function(String),
     /// Their label, whoever gave it; `None` for rooms without one.
     Label(Option<Label>),
+    /// Those that a line goes through, counted as it comes to them.
+    Along(Vec<Point>),
 }
 
 impl Which {
     /// What is understood, for errors.
-    pub(super) const FORMS: &'static str = "selected, unnamed, all, 'function office', or 'label big'";
+    pub(super) const FORMS: &'static str = "selected, unnamed, all, 'function office', 'label big', or 'along 1,2 5,2'";
 
     /// Reads a call's word.
     pub(super) fn of_word(word: &str) -> Result<Self, String> {
@@ -39,6 +42,11 @@ impl Which {
             ("label", label) => label_of_word(label)
                 .map(|label| Self::Label(Some(label)))
                 .ok_or_else(|| not_understood(word, Self::FORMS)),
+            ("along", points) => {
+                let points: Option<Vec<Point>> = points.split_whitespace().map(commands::point).collect();
+                let points = points.filter(|points| points.len() > 1);
+                points.map(Self::Along).ok_or_else(|| not_understood(word, Self::FORMS))
+            }
             _ => Err(not_understood(word, Self::FORMS)),
         }
     }
@@ -46,6 +54,7 @@ impl Which {
     /// As it is written in a call.
     pub(super) fn word(&self) -> String {
         match self {
+            Self::Along(points) => format!("along {}", commands::points_word(points)),
             Self::Selected => "selected".to_owned(),
             Self::Unnamed => "unnamed".to_owned(),
             Self::All => "all".to_owned(),
@@ -60,6 +69,7 @@ impl Which {
         let rooms = count(number, "room");
         match self {
             Self::Selected => format!("{} selected {}", number, if number == 1 { "room" } else { "rooms" }),
+            Self::Along(_) => format!("{rooms} along the line"),
             Self::Unnamed => format!("{rooms} without a name"),
             Self::All if number == 1 => "The only room".to_owned(),
             Self::All => format!("All {rooms}"),
@@ -165,12 +175,16 @@ impl App {
     /// The rooms of a kind, as one reads.
     pub(super) fn rooms_of(&self, which: &Which) -> Vec<RoomId> {
         let Some(plan) = self.plan() else { return Vec::new() };
+        if let Which::Along(points) = which {
+            let derived = self.document.as_ref().and_then(Document::derived);
+            return derived.map(|derived| derived.analysis.shapes.along(points)).unwrap_or_default();
+        }
         let is_it = |id: RoomId| {
             let Some(room) = plan.room(id) else { return false };
             match which {
                 Which::Selected => self.selection.contains(crate::plan::ElementId::Room(id)),
                 Which::Unnamed => room.name.trim().is_empty(),
-                Which::All => true,
+                Which::All | Which::Along(_) => true,
                 Which::Function(function) => normalised_function(&room.function) == *function,
                 Which::Label(label) => match RoomStatus::of(plan, &self.schemes, room) {
                     RoomStatus::Labelled(given) => Some(given) == *label,
@@ -252,7 +266,9 @@ impl App {
     ) -> Result<Names, PatternError> {
         let pattern: Pattern = pattern.parse()?;
         let Some(plan) = self.plan() else { return Ok(Names { changed: Vec::new(), kept: 0 }) };
-        let rooms = self.ordered(self.rooms_of(which), order);
+        let rooms = self.rooms_of(which);
+        // A line is an order of its own.
+        let rooms = if matches!(which, Which::Along(_)) { rooms } else { self.ordered(rooms, order) };
         let label = |_, room: &crate::plan::Room| RoomStatus::of(plan, &self.schemes, room).label();
         let mut changed = pattern.names(plan, &rooms, start, label)?;
         let all = changed.len();
@@ -292,6 +308,7 @@ mod tests {
             Which::Function(String::new()),
             Which::Label(None),
             Which::Label(Some(Label::BigRoom)),
+            Which::Along(vec![Point::new(0.5, -2.0), Point::new(3.0, 4.25)]),
         ] {
             assert_eq!(Which::of_word(&which.word()), Ok(which));
         }

@@ -139,6 +139,30 @@ impl RoomShapes {
         found
     }
 
+    /// The rooms that a line goes through, in the order in which it comes to them.
+    pub fn along(&self, line: &[Point]) -> Vec<RoomId> {
+        let mut rooms: Vec<RoomId> = Vec::new();
+        for pair in line.windows(2) {
+            let way = pair[1] - pair[0];
+            let Some(direction) = way.unit() else { continue };
+            let near = self.near(Bounds::of([pair[0], pair[1]])).into_iter();
+            let mut entered: Vec<(f64, RoomId)> = near
+                .filter_map(|index| {
+                    let shape = &self.shapes[index];
+                    let (from, _) = shape.stretches(pair[0], direction, way.length()).into_iter().next()?;
+                    Some((from, shape.id))
+                })
+                .collect();
+            entered.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+            for (_, room) in entered {
+                if !rooms.contains(&room) {
+                    rooms.push(room);
+                }
+            }
+        }
+        rooms
+    }
+
     /// Indices of the rooms that contain a point (their boundary included), the smallest first.
     pub fn at(&self, point: Point) -> Vec<usize> {
         let mut found = self.near(Bounds::of([point]));

@@ -401,7 +401,7 @@ pub(in crate::app) fn elements_word(elements: impl IntoIterator<Item = ElementId
 }
 
 /// The point that a word means.
-fn point(word: &str) -> Option<Point> {
+pub(in crate::app) fn point(word: &str) -> Option<Point> {
     let (x, y) = word.split_once(',')?;
     let point = Point::new(x.parse().ok()?, y.parse().ok()?);
     (point.is_finite() && point.x.abs() <= COORDINATE_LIMIT_M && point.y.abs() <= COORDINATE_LIMIT_M).then_some(point)

@@ -17,7 +17,7 @@ pub use manual::{keys_of, manual};
 pub use run::{CommandError, Executed};
 pub use table::COMMANDS;
 
-pub(super) use argument::{Values, elements_word, points_word, room_word, sample_word};
+pub(super) use argument::{Values, elements_word, point, points_word, room_word, sample_word};
 pub(super) use keys::take_pressed;
 
 use super::App;

@@ -36,6 +36,8 @@ pub(in crate::app) struct NameForm {
     start: String,
     which: Which,
     order: Order,
+    /// The rooms along a line that was drawn, with what they are called here.
+    along: Option<(String, Which)>,
     /// Whether it was shown: the first time the pattern takes the keyboard.
     is_shown: bool,
 }
@@ -64,8 +66,13 @@ impl Bulk {
     pub(in crate::app) fn naming(app: &App) -> Self {
         let has = |which: &Which| !app.rooms_of(which).is_empty();
         let which = [Which::Selected, Which::Unnamed].into_iter().find(has).unwrap_or(Which::All);
+        Self::naming_these(app, which)
+    }
+
+    /// To name rooms of a kind.
+    pub(in crate::app) fn naming_these(app: &App, which: Which) -> Self {
         let pattern = app.panels.pattern.clone().unwrap_or_else(|| "{function} {n}".to_owned());
-        Self::Name(NameForm { pattern, start: "1".to_owned(), which, order: Order::Rows, is_shown: false })
+        Self::Name(NameForm { pattern, start: "1".to_owned(), which, order: Order::Rows, along: None, is_shown: false })
     }
 
     /// To change the selected rooms; without any those of the function that most have.
@@ -79,7 +86,7 @@ impl Bulk {
             from_label: Some(Label::MediumRoom),
             change: Change::Function(String::new()),
             to_function: String::new(),
-            to_label: Some(Label::MediumRoom),
+            to_label: Some(Label::BigRoom),
             is_shown: false,
         })
     }
@@ -121,12 +128,21 @@ impl NameForm {
             Which::Unnamed => format!("Unnamed ({number})"),
             _ => format!("All ({number})"),
         });
+        let along = match &self.which {
+            Which::Along(_) => Some((format!("Line ({})", app.rooms_of(&self.which).len()), self.which.clone())),
+            _ => self.along.take(),
+        };
         let options: Vec<(&str, Which)> =
             texts.iter().map(String::as_str).zip(numbers.iter().map(|(_, which)| which.clone())).collect();
+        let drawn = along.iter().map(|(text, which)| (text.as_str(), which.clone()));
+        let options: Vec<(&str, Which)> = drawn.chain(options).collect();
         line(ui, "Rooms", |ui| choose(ui, &mut self.which, &options));
-        line(ui, "Order", |ui| {
-            choose(ui, &mut self.order, &[("Line by line", Order::Rows), ("Column by column", Order::Columns)]);
-        });
+        self.along = along;
+        if !matches!(self.which, Which::Along(_)) {
+            line(ui, "Order", |ui| {
+                choose(ui, &mut self.order, &[("Line by line", Order::Rows), ("Column by column", Order::Columns)]);
+            });
+        }
         let mut is_typed = false;
         line(ui, "Pattern", |ui| {
             is_typed = text(ui, "Pattern", &mut self.pattern, ui.available_width(), !self.is_shown)
@@ -348,7 +364,8 @@ fn labels(ui: &mut Ui, palette: &Palette, value: &mut Option<Label>, none: &str,
         })
         .collect();
     segments.push(Segment { text: none, name: none, help: none_help, is_on: value.is_none(), colour: None });
-    if let Some(index) = segmented(ui, &segments) {
+    // Two of them may stand in one form.
+    if let Some(index) = ui.push_id(none, |ui| segmented(ui, &segments)).inner {
         *value = Label::ALL.get(index).copied();
     }
 }

@@ -7,6 +7,7 @@ mod calibrate;
 mod cut_out;
 mod fill;
 mod measure;
+mod number;
 mod opening;
 mod paste;
 mod path;
@@ -55,6 +56,7 @@ pub(super) const TOOLS: &[Entry] = &[
     opening::PASSAGE,
     opening::WINDOW,
     measure::ENTRY,
+    number::ENTRY,
     paste::ENTRY,
     calibrate::BY_LENGTH,
     calibrate::BY_DOOR,

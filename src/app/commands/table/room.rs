@@ -122,7 +122,11 @@ pub(super) const COMMANDS: &[Command] = &[
                 ArgumentKind::Text,
                 "text with {n}, {nn}, {function}, {label}, {letter}, {storey}, {building}",
             ),
-            optional("ROOMS", ArgumentKind::Text, "unnamed (without), selected, all, 'function office' or 'label big'"),
+            optional(
+                "ROOMS",
+                ArgumentKind::Text,
+                "unnamed (without), selected, all, 'function office', 'label big' or 'along 1,2 5,2'",
+            ),
             optional("ORDER", ArgumentKind::Word(Order::WORDS), "rows (without) or columns, from the top left"),
             optional("START", ArgumentKind::Number { unit: "", least: 0.0, most: 1e6 }, "the first number, 1 without"),
         ],
@@ -140,6 +144,31 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .keys(&[ctrl(Key::F2)])
     .menu(Menu::Room, 1),
+    choose(
+        "tool-number",
+        "Name along a line",
+        "Drag a line through rooms: they are named in the order in which it comes to them",
+        has_rooms,
+        |app| app.tools.is("number"),
+        |app, _| app.tools.take_up("number"),
+    )
+    .menu(Menu::Room, 1),
+    with(
+        "name-along",
+        "Name rooms along a line",
+        "Name the rooms that a line goes through, in the order in which it comes to them; asks for a pattern",
+        has_rooms,
+        &[needed("POINTS", ArgumentKind::Points { least: 2 }, "the line's points, X,Y in metres with blanks between")],
+        |app, values, _| {
+            let which = Which::Along(values.points(0).unwrap_or_default().to_vec());
+            if app.rooms_of(&which).is_empty() {
+                return Ran::Refused("the line goes through no room".to_owned());
+            }
+            app.panels.bulk = Some(Bulk::naming_these(app, which));
+            Ran::Asks
+        },
+        None,
+    ),
     with(
         "change-rooms",
         "Change rooms…",

@@ -1,0 +1,82 @@
+//! Names rooms in the order in which a line is drawn through them.
+
+use super::preview::{Look, Preview};
+use super::{Call, Entry, Input, Scope, Tool};
+use crate::app::commands::points_word;
+use crate::geometry::{Point, polygon};
+
+pub(super) const ENTRY: Entry = Entry { id: "number", make: || Box::new(Number::default()) };
+
+/// The line has a point at least every so many pixels of the way.
+const STEP_PX: f64 = 4.0;
+
+/// Ready while the line is empty, Drawing while it is not.
+#[derive(Default)]
+struct Number {
+    line: Vec<Point>,
+}
+
+impl Number {
+    fn add(&mut self, scope: &Scope<'_>) {
+        let is_far = |last: &Point| last.distance(scope.pointer) >= scope.metres(STEP_PX);
+        if self.line.last().is_none_or(is_far) {
+            self.line.push(scope.pointer);
+        }
+    }
+}
+
+impl Tool for Number {
+    fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
+        match input {
+            // Ready -> Drawing
+            Input::DragStart { pointer, .. } => {
+                self.line = vec![pointer];
+                self.add(scope);
+            }
+            // Drawing -> Drawing
+            Input::Drag if !self.line.is_empty() => self.add(scope),
+            // Drawing -> Ready
+            Input::Drop if !self.line.is_empty() => {
+                self.add(scope);
+                let line = std::mem::take(&mut self.line);
+                if line.len() > 1 {
+                    return vec![("name-along", vec![points_word(&line)])];
+                }
+            }
+            Input::Escape => self.line.clear(),
+            _ => {}
+        }
+        Vec::new()
+    }
+
+    fn hint(&self, _: &Scope<'_>) -> String {
+        if self.line.is_empty() {
+            "Number: drag a line through the rooms, in the order in which they are to be counted".to_owned()
+        } else {
+            "Let go to name these rooms · Escape drops the line".to_owned()
+        }
+    }
+
+    fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
+        if self.line.is_empty() {
+            return;
+        }
+        if let Some(derived) = scope.derived {
+            let shapes = &derived.analysis.shapes;
+            for (index, room) in shapes.along(&self.line).into_iter().enumerate() {
+                let Some(shape) = shapes.get(room) else { continue };
+                preview.fill(shape.outer.clone(), shape.holes.clone(), Look::New);
+                preview.label(polygon::centroid(&shape.outer), (index + 1).to_string(), Look::New);
+            }
+        }
+        preview.line(self.line.clone(), false, Look::New);
+    }
+
+    fn is_busy(&self) -> bool {
+        !self.line.is_empty()
+    }
+
+    fn snaps(&self) -> bool {
+        false
+    }
+}
