@@ -2,6 +2,8 @@
 //! and what an edit refuses leaves no trace.
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
+#[path = "edits/areas.rs"]
+mod areas;
 #[path = "edits/drawing.rs"]
 mod drawing;
 #[path = "edits/support.rs"]

@@ -6,7 +6,7 @@ use super::scene::{Frame, Group, Item, Layer, Length, Scene, View};
 use super::walls::{self, Faces, Walls};
 use super::{Fill, Grid, Rgba, Style, names};
 use crate::features::{Analysis, RoomStatus};
-use crate::geometry::{Bounds, Point, Segment};
+use crate::geometry::{Bounds, Point, Segment, areas};
 use crate::labels::{Label, normalised_function};
 use crate::plan::{Joint, Meta, Plan, RoomId};
 use crate::units::Units;
@@ -149,14 +149,14 @@ impl Drawing {
             }
         }
         let cuts: Vec<_> = openings.iter().filter_map(|opening| opening.cut.clone()).collect();
-        let solid = walls::without(walls.solid, &cuts);
+        let solid = areas::without(walls.solid, &cuts);
         // From here on what is left of the walls bounds the rooms for their names.
         let faces = Faces::new(&solid);
         let walls_drawn: Vec<WallDrawing> = solid
             .iter()
             .filter_map(|shape| {
                 let (outer, holes) = shape.split_first()?;
-                Some(WallDrawing { outer: walls::points(outer), holes: holes.iter().map(walls::points).collect() })
+                Some(WallDrawing { outer: areas::points(outer), holes: holes.iter().map(areas::points).collect() })
             })
             .collect();
         let bounds =
@@ -185,7 +185,7 @@ impl Drawing {
             room.within_rim = Vec::new();
             if room.missed_label().is_some() {
                 let narrow_m = room.bounds.width().min(room.bounds.height());
-                room.within_rim = walls::shrunk(&room.outer, &room.holes, RIM_M.min(narrow_m * RIM_SHARE));
+                room.within_rim = areas::shrunk(&room.outer, &room.holes, RIM_M.min(narrow_m * RIM_SHARE));
             }
         }
         self

@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 
 use super::drawing::RoomDrawing;
 use super::scene::{Dash, Frame, Group, Item, Layer, Length, View};
-use super::walls::{self, Faces};
+use super::walls::Faces;
 use super::{Rgba, Style};
 use crate::features::{Analysis, RoomStatus};
 use crate::geometry::polygon::Location;
-use crate::geometry::{Bounds, Point, Segment, Vector};
+use crate::geometry::{Bounds, Point, Segment, Vector, areas};
 use crate::labels::Label;
 use crate::plan::{LeafSide, Opening, OpeningId, OpeningKind, Plan, THICKEST_WALL_M};
 
@@ -117,7 +117,7 @@ impl OpeningDrawing {
         let half_depth = (left - right) / 2.0;
         let cut = wall.is_some().then(|| {
             let (u, v) = (along * half_width, normal * (half_depth + CUT_BEYOND_M));
-            walls::ring(&[centre - u - v, centre + u - v, centre + u + v, centre - u + v])
+            areas::ring(&[centre - u - v, centre + u - v, centre + u + v, centre - u + v])
         });
         Some(Self {
             id,

@@ -8,20 +8,15 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::simplify::SimplifyShape as _;
 use i_overlay::float::single::SingleFloatOverlay as _;
-use i_overlay::mesh::float::outline::offset::OutlineOffset as _;
 use i_overlay::mesh::float::stroke::offset::StrokeOffset as _;
-use i_overlay::mesh::float::style::{LineJoin, OutlineStyle, StrokeStyle};
+use i_overlay::mesh::float::style::{LineJoin, StrokeStyle};
 use rstar::primitives::{GeomWithData, Line};
 use rstar::{AABB, RTree};
 
 use super::drawing::RoomDrawing;
+use crate::geometry::areas::{Ring, SHARPEST_RAD, Shapes, area_m2, cleaned, directed, grown, points, ring};
 use crate::geometry::{Point, Segment, Vector, polygon};
 use crate::plan::{CornerId, Plan, THICKEST_WALL_M};
-
-/// A ring as the polygon library takes it.
-type Ring = Vec<[f64; 2]>;
-/// Polygons, each an outer ring (counter-clockwise) and its holes (clockwise).
-pub(super) type Shapes = Vec<Vec<Ring>>;
 
 /// The walls of a plan before openings are cut.
 pub(super) struct Walls {
@@ -69,29 +64,6 @@ impl Walls {
         }
         Self { solid, lines: index.lines, boundaries }
     }
-}
-
-/// `shapes` less the given counter-clockwise rings.
-pub(super) fn without(shapes: Shapes, cuts: &[Ring]) -> Shapes {
-    if cuts.is_empty() || shapes.is_empty() {
-        return shapes;
-    }
-    shapes.overlay(&cuts, OverlayRule::Difference, FillRule::NonZero)
-}
-
-/// Points as a counter-clockwise ring.
-pub(super) fn ring(points: &[Point]) -> Ring {
-    directed(points, true)
-}
-
-fn directed(points: &[Point], counter_clockwise: bool) -> Ring {
-    let ring = points.iter().map(|point| [point.x, point.y]);
-    if (polygon::signed_area(points) >= 0.0) == counter_clockwise { ring.collect() } else { ring.rev().collect() }
-}
-
-/// A ring as points.
-pub(super) fn points(ring: &Ring) -> Vec<Point> {
-    ring.iter().map(|&[x, y]| Point::new(x, y)).collect()
 }
 
 /// The drawn walls by place.
@@ -312,55 +284,10 @@ const THICKEST_DRAWN_M: f64 = 0.75;
 /// askew.
 const SMALLEST_PIECE_M2: f64 = 0.2;
 
-/// The joint of a made-up wall is mitred down to this angle in radians (30 degrees), else cut off.
-const SHARPEST_RAD: f64 = std::f64::consts::PI / 6.0;
-
 /// Gaps between rooms amount to this many metres of thickness along all boundaries when rooms are
 /// drawn to the walls' faces: each side of a wall of 0.1 m has half of it, and part of the boundaries
 /// is on the outside.
 const SHARE_OF_FACES_M: f64 = 0.03;
-
-/// Shapes grown (or shrunk, when negative) by a distance in metres.
-fn grown(shapes: &Shapes, by_m: f64) -> Shapes {
-    cleaned(&shapes.outline(&OutlineStyle::new(by_m).line_join(LineJoin::Miter(SHARPEST_RAD))))
-}
-
-/// A room's rings shrunk by a distance in metres: pieces with their holes, none when nothing is left.
-pub(super) fn shrunk(outer: &[Point], holes: &[Vec<Point>], by_m: f64) -> Vec<(Vec<Point>, Vec<Vec<Point>>)> {
-    let ring = |ring: &Vec<Point>| -> Ring { ring.iter().map(|point| [point.x, point.y]).collect() };
-    let shape: Vec<Ring> = std::iter::once(&outer.to_vec()).chain(holes).map(ring).collect();
-    let shapes = shape.simplify_shape(FillRule::EvenOdd);
-    grown(&shapes, -by_m)
-        .iter()
-        .filter_map(|shape| {
-            let (outer, holes) = shape.split_first()?;
-            Some((points(outer), holes.iter().map(points).collect()))
-        })
-        .collect()
-}
-
-/// Shapes without what rounding leaves: points within a millimetre of the one before, rings of less than
-/// 10 cm². Grown again, such a splinter would become a spur as long as its mitre.
-fn cleaned(shapes: &Shapes) -> Shapes {
-    let clean_ring = |ring: &Ring| {
-        let mut kept = points(ring);
-        kept.dedup_by(|next, point| next.distance(*point) < 1e-3);
-        while kept.len() > 2 && kept[0].distance(kept[kept.len() - 1]) < 1e-3 {
-            kept.pop();
-        }
-        let is_kept = kept.len() >= 3 && polygon::signed_area(&kept).abs() >= 1e-3;
-        is_kept.then(|| kept.iter().map(|point| [point.x, point.y]).collect::<Ring>())
-    };
-    let clean_shape = |shape: &Vec<Ring>| {
-        let (outer, holes) = shape.split_first()?;
-        Some(std::iter::once(clean_ring(outer)?).chain(holes.iter().filter_map(clean_ring)).collect())
-    };
-    shapes.iter().filter_map(clean_shape).collect()
-}
-
-fn area_m2(shapes: &Shapes) -> f64 {
-    shapes.iter().flatten().map(|ring| polygon::signed_area(&points(ring))).sum::<f64>().abs()
-}
 
 /// The faces of solid walls by place, to look along rays.
 pub(super) struct Faces {

@@ -3,17 +3,21 @@
 //! Lengths are metres, areas square metres, angles radians; the y axis points up, so that a
 //! counter-clockwise ring has a positive area.
 
+pub mod areas;
 mod bounds;
 pub mod hull;
+pub mod path;
 mod point;
 pub mod polygon;
 pub mod runs;
 mod segment;
 pub mod segments;
+mod transform;
 
 pub use bounds::Bounds;
 pub use point::{Point, Vector};
 pub use segment::Segment;
+pub use transform::Transform;
 
 /// The grid on which every stored length lies: 0.1 mm.
 ///

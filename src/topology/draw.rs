@@ -7,7 +7,7 @@ use super::fill::{Boundary, EdgeFaces, is_sliver};
 use crate::geometry::polygon::{self, Location};
 use crate::geometry::{Bounds, Point, TOUCH_M};
 use crate::plan::edit::lay::{Laid, lay, plan_edges};
-use crate::plan::edit::{self, EditError};
+use crate::plan::edit::{self, EditError, fail};
 use crate::plan::{CornerId, Joint, OpeningId, Plan, Room, RoomId, WallId, ordered, ring_edges};
 
 /// What drawing gives.
@@ -42,7 +42,7 @@ pub fn draw_walls(plan: &Plan, path: &[Point], thickness_m: f64) -> Result<Drawn
     if chain.len() < 2 {
         return fail("a wall needs two different ends");
     }
-    let (next, walls) = add_walls(&laid, &chain, thickness_m)?;
+    let (next, walls) = add_walls(&laid, &[(&chain, thickness_m)])?;
     let (next, rooms) = divide_rooms(&next, &edges_of(&chain), None)?;
     if walls.is_empty() && rooms.is_empty() {
         return fail("a wall stands here already");
@@ -66,7 +66,7 @@ pub fn draw_room(plan: &Plan, outer: &[Point], wall_thickness_m: Option<f64>) ->
     }
     let (next, id) = edit::add_room(&laid, Room { outer: ring.as_slice().into(), ..Room::default() })?;
     match wall_thickness_m {
-        Some(thickness_m) => Ok((add_walls(&next, &closed(&ring), thickness_m)?.0, id)),
+        Some(thickness_m) => Ok((add_walls(&next, &[(&closed(&ring), thickness_m)])?.0, id)),
         None => Ok((next, id)),
     }
 }
@@ -123,10 +123,6 @@ pub fn cut_out(plan: &Plan, room: RoomId, outer: &[Point]) -> Result<Plan, EditE
     Ok(without_unused(plan, &next, &ring))
 }
 
-fn fail<T>(what: impl Into<String>) -> Result<T, EditError> {
-    Err(EditError(what.into()))
-}
-
 /// A room as it is called in a message.
 pub(super) fn named(room: &Room) -> String {
     if room.name.is_empty() { "a room".to_owned() } else { format!("the room '{}'", room.name) }
@@ -162,54 +158,56 @@ pub(super) fn closed(ring: &[CornerId]) -> Vec<CornerId> {
 }
 
 /// The edges along a chain of corners.
-fn edges_of(chain: &[CornerId]) -> BTreeSet<[CornerId; 2]> {
+pub(super) fn edges_of(chain: &[CornerId]) -> BTreeSet<[CornerId; 2]> {
     chain.windows(2).map(|pair| ordered(pair[0], pair[1])).collect()
 }
 
-fn room_edges(room: &Room) -> BTreeSet<[CornerId; 2]> {
+pub(super) fn room_edges(room: &Room) -> BTreeSet<[CornerId; 2]> {
     room.rings().flat_map(|ring| ring_edges(ring)).map(|(a, b)| ordered(a, b)).collect()
 }
 
-/// Adds walls along a chain of corners where none stands yet.
-pub(super) fn add_walls(plan: &Plan, chain: &[CornerId], thickness_m: f64) -> Result<(Plan, Vec<WallId>), EditError> {
-    let mut missing = edges_of(chain);
+/// Adds walls of a thickness in metres along chains of corners where none stands yet, and gives them.
+pub(super) fn add_walls(plan: &Plan, chains: &[(&[CornerId], f64)]) -> Result<(Plan, Vec<WallId>), EditError> {
+    let mut missing: BTreeSet<[CornerId; 2]> = chains.iter().flat_map(|(chain, _)| edges_of(chain)).collect();
     for (_, wall) in plan.walls() {
         missing.remove(&ordered(wall.from, wall.to));
     }
     let mut next = plan.clone();
     let mut walls = Vec::new();
-    for pair in chain.windows(2) {
-        if missing.remove(&ordered(pair[0], pair[1])) {
-            let (with_wall, id) = edit::add_wall(&next, pair[0], pair[1], thickness_m)?;
-            next = with_wall;
-            walls.push(id);
+    for &(chain, thickness_m) in chains {
+        for pair in chain.windows(2) {
+            if missing.remove(&ordered(pair[0], pair[1])) {
+                let (with_wall, id) = edit::add_wall(&next, pair[0], pair[1], thickness_m)?;
+                next = with_wall;
+                walls.push(id);
+            }
         }
     }
     Ok((next, walls))
 }
 
 /// The inside of a room, to ask which points lie in it.
-struct Inside {
+pub(super) struct Inside {
     outer: Vec<Point>,
     holes: Vec<Vec<Point>>,
     bounds: Bounds,
 }
 
 impl Inside {
-    fn new(plan: &Plan, room: &Room) -> Self {
+    pub fn new(plan: &Plan, room: &Room) -> Self {
         let outer = plan.ring_points(&room.outer);
         let bounds = polygon::bounds(&outer);
         Self { outer, holes: room.holes.iter().map(|hole| plan.ring_points(hole)).collect(), bounds }
     }
 
-    fn holds(&self, point: Point) -> bool {
+    pub fn holds(&self, point: Point) -> bool {
         self.bounds.contains(point) && polygon::locate(&self.outer, &self.holes, point) == Location::Inside
     }
 }
 
 /// Divides the rooms that new edges cross (`only` that one, if given), and gives those divided and
 /// the new ones, by id.
-fn divide_rooms(
+pub(super) fn divide_rooms(
     plan: &Plan,
     new_edges: &BTreeSet<[CornerId; 2]>,
     only: Option<RoomId>,

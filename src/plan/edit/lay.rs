@@ -4,6 +4,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
 use super::split::{Splits, split_edges};
 use super::{EditError, add_corner, checked_position, fail};
 use crate::geometry::segments::{SegmentIndex, crossing};
@@ -23,7 +26,8 @@ pub(crate) struct Laid {
 /// and where it crosses an edge or a path both get a corner. What is there never moves by more than
 /// the rounding to the grid.
 ///
-/// Takes time linear in the number of edges of the plan for a path that meets few of them.
+/// Takes time linear in the number of edges of the plan, and a logarithm of it for each edge that the
+/// paths have or meet.
 ///
 /// # Errors
 /// When a point lies outside the drawing area.
@@ -93,12 +97,23 @@ struct Stop {
 /// The part of a plan around paths, while they are laid.
 struct Ground {
     stops: Vec<Stop>,
+    stop_tree: RTree<GeomWithData<[f64; 2], usize>>,
     /// The edges of the plan, then the pieces of paths: each as the stops along it.
     lines: Vec<Vec<usize>>,
+    /// What lies between two neighbouring stops of a line.
+    pieces: RTree<GeomWithData<Rectangle<[f64; 2]>, Piece>>,
+}
+
+/// A piece of a line, from a stop to the next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Piece {
+    line: usize,
+    from: usize,
+    to: usize,
 }
 
 /// A piece of a path that meets more things than this is refused: no drawing has so many on one
-/// line, and each costs a look at all others.
+/// line.
 const MEETINGS_LIMIT: usize = 20_000;
 
 impl Ground {
@@ -117,15 +132,16 @@ impl Ground {
             all.intersects(bounds)
                 && pieces.near(bounds.inflated(reach_m)).any(|piece| !lies_beside(edge, pieces.get(piece), reach_m))
         };
-        let mut ground = Self { stops: Vec::new(), lines: Vec::new() };
+        let mut stops = Vec::new();
         let mut stop_of: BTreeMap<CornerId, usize> = BTreeMap::new();
         for (id, corner) in plan.corners() {
             if near(Segment::new(corner.position, corner.position)) {
-                stop_of.insert(id, ground.stops.len());
-                ground.stops.push(Stop { id: Some(id), at: corner.position });
+                stop_of.insert(id, stops.len());
+                stops.push(Stop { id: Some(id), at: corner.position });
             }
         }
         let mut edges: BTreeSet<[CornerId; 2]> = BTreeSet::new();
+        let mut lines: Vec<Vec<usize>> = Vec::new();
         for (a, b) in plan_edges(plan) {
             if let (Some(from), Some(to)) = (plan.position(a), plan.position(b))
                 && near(Segment::new(from, to))
@@ -133,42 +149,57 @@ impl Ground {
             {
                 let ends = [(a, from), (b, to)].map(|(id, at)| {
                     *stop_of.entry(id).or_insert_with(|| {
-                        ground.stops.push(Stop { id: Some(id), at });
-                        ground.stops.len() - 1
+                        stops.push(Stop { id: Some(id), at });
+                        stops.len() - 1
                     })
                 });
-                ground.lines.push(ends.to_vec());
+                lines.push(ends.to_vec());
             }
         }
-        ground
+        let points = stops.iter().enumerate().map(|(i, stop)| GeomWithData::new([stop.at.x, stop.at.y], i)).collect();
+        let boxes = lines.iter().enumerate().map(|(line, ends)| {
+            boxed(Segment::new(stops[ends[0]].at, stops[ends[1]].at), Piece { line, from: ends[0], to: ends[1] })
+        });
+        let pieces = RTree::bulk_load(boxes.collect());
+        Self { stop_tree: RTree::bulk_load(points), stops, lines, pieces }
     }
 
     fn at(&self, stop: usize) -> Point {
         self.stops[stop].at
     }
 
-    fn piece(&self, line: usize, k: usize) -> Segment {
-        Segment::new(self.at(self.lines[line][k]), self.at(self.lines[line][k + 1]))
+    fn segment(&self, piece: Piece) -> Segment {
+        Segment::new(self.at(piece.from), self.at(piece.to))
+    }
+
+    /// The stops in a box, by index.
+    fn stops_in(&self, bounds: Bounds) -> Vec<usize> {
+        let mut found: Vec<usize> =
+            self.stop_tree.locate_in_envelope(envelope(bounds)).map(|found| found.data).collect();
+        found.sort_unstable();
+        found
+    }
+
+    /// The pieces whose boxes meet a box, by line.
+    fn pieces_in(&self, bounds: Bounds) -> Vec<Piece> {
+        let mut found: Vec<Piece> =
+            self.pieces.locate_in_envelope_intersecting(envelope(bounds)).map(|found| found.data).collect();
+        found.sort_unstable();
+        found
     }
 
     /// The stop nearest to a point, if one is close enough to be the same place.
     fn stop_at(&self, point: Point) -> Option<usize> {
-        let near = self.stops.iter().enumerate().map(|(i, stop)| (stop.at.distance(point), i));
+        let near = self.stops_in(Bounds::of([point]).inflated(TOUCH_M));
+        let near = near.into_iter().map(|i| (self.at(i).distance(point), i));
         near.filter(|&(distance_m, _)| distance_m <= TOUCH_M).min_by(|p, q| p.0.total_cmp(&q.0)).map(|(_, i)| i)
     }
 
-    /// The pieces of lines that come within the touching distance of a point and do not end there.
-    fn pieces_at(&self, point: Point) -> Vec<(f64, usize, usize)> {
-        let mut found = Vec::new();
-        for (line, stops) in self.lines.iter().enumerate() {
-            for k in 0..stops.len().saturating_sub(1) {
-                let piece = self.piece(line, k);
-                if piece.bounds().inflated(TOUCH_M).contains(point) && piece.distance(point) <= TOUCH_M {
-                    found.push((piece.distance(point), line, k));
-                }
-            }
-        }
-        found
+    /// The pieces that come within the touching distance of a point, with that distance.
+    fn pieces_at(&self, point: Point) -> Vec<(f64, Piece)> {
+        let near = self.pieces_in(Bounds::of([point]).inflated(TOUCH_M));
+        let near = near.into_iter().map(|piece| (self.segment(piece).distance(point), piece));
+        near.filter(|&(distance_m, _)| distance_m <= TOUCH_M).collect()
     }
 
     /// The stop for a point of a path: an existing one, else a new one, on an edge where one passes.
@@ -177,8 +208,8 @@ impl Ground {
             return stop;
         }
         let nearest = self.pieces_at(point).into_iter().min_by(|p, q| p.0.total_cmp(&q.0));
-        let Some((_, line, k)) = nearest else { return self.new_stop(point) };
-        let on_edge = self.piece(line, k).nearest_point(point).trimmed();
+        let Some((_, piece)) = nearest else { return self.new_stop(point) };
+        let on_edge = self.segment(piece).nearest_point(point).trimmed();
         self.stop_at(on_edge).unwrap_or_else(|| self.new_stop(on_edge))
     }
 
@@ -187,20 +218,34 @@ impl Ground {
         let mut passing = self.pieces_at(at);
         let stop = self.stops.len();
         self.stops.push(Stop { id: None, at });
-        // From the back, so that earlier places in a line stay valid; a line that comes by twice is
-        // split once, where it comes closest.
-        passing.sort_by(|p, q| (p.1, p.0).partial_cmp(&(q.1, q.0)).unwrap_or(std::cmp::Ordering::Equal));
-        passing.dedup_by_key(|passing| passing.1);
-        for (_, line, k) in passing {
-            self.lines[line].insert(k + 1, stop);
+        self.stop_tree.insert(GeomWithData::new([at.x, at.y], stop));
+        // A line that comes by twice is split once, where it comes closest.
+        passing.sort_by(|p, q| p.1.line.cmp(&q.1.line).then(p.0.total_cmp(&q.0)));
+        passing.dedup_by_key(|passing| passing.1.line);
+        for (_, piece) in passing {
+            self.split(piece, stop);
         }
         stop
+    }
+
+    /// Inserts a stop into a line.
+    fn split(&mut self, piece: Piece, stop: usize) {
+        let Piece { line, from, to } = piece;
+        let stops = &mut self.lines[line];
+        let Some(k) = stops.windows(2).position(|pair| pair == [from, to]) else { return };
+        stops.insert(k + 1, stop);
+        self.pieces.remove(&boxed(self.segment(piece), piece));
+        for part in [Piece { line, from, to: stop }, Piece { line, from: stop, to }] {
+            self.pieces.insert(boxed(self.segment(part), part));
+        }
     }
 
     /// Draws a line between two stops, through all it meets, and gives its index.
     fn draw(&mut self, from: usize, to: usize) -> Result<usize, EditError> {
         let line = self.lines.len();
         self.lines.push(vec![from, to]);
+        let whole = Piece { line, from, to };
+        self.pieces.insert(boxed(self.segment(whole), whole));
         let mut k = 0;
         // Crossings that give no new corner: the lines meet in one already, up to rounding.
         let mut settled: BTreeSet<[usize; 4]> = BTreeSet::new();
@@ -208,66 +253,67 @@ impl Ground {
             if self.lines[line].len() > MEETINGS_LIMIT {
                 return fail("the line meets too many others");
             }
-            let (a, b) = (self.lines[line][k], self.lines[line][k + 1]);
-            if let Some(stop) = self.stop_between(line, a, b) {
-                self.lines[line].insert(k + 1, stop);
-            } else if !self.cross_one(line, k, &mut settled) {
+            let piece = Piece { line, from: self.lines[line][k], to: self.lines[line][k + 1] };
+            if let Some(stop) = self.stop_between(piece) {
+                self.split(piece, stop);
+            } else if !self.cross_one(piece, &mut settled) {
                 k += 1;
             }
         }
         Ok(line)
     }
 
-    /// The first stop that a piece of a line passes close enough to go through it, and which the line
-    /// does not have yet.
-    fn stop_between(&self, line: usize, a: usize, b: usize) -> Option<usize> {
-        let piece = Segment::new(self.at(a), self.at(b));
-        let bounds = piece.bounds().inflated(TOUCH_M);
-        let candidates = self.stops.iter().enumerate().filter(|&(i, stop)| {
-            bounds.contains(stop.at)
-                && piece.distance(stop.at) <= TOUCH_M
-                && stop.at.distance(piece.a) > TOUCH_M
-                && stop.at.distance(piece.b) > TOUCH_M
-                && !self.lines[line].contains(&i)
+    /// The first stop that a piece passes close enough to go through it, and which its line does not
+    /// have yet.
+    fn stop_between(&self, piece: Piece) -> Option<usize> {
+        let segment = self.segment(piece);
+        let candidates = self.stops_in(segment.bounds().inflated(TOUCH_M)).into_iter().filter(|&i| {
+            let at = self.at(i);
+            segment.distance(at) <= TOUCH_M
+                && at.distance(segment.a) > TOUCH_M
+                && at.distance(segment.b) > TOUCH_M
+                && !self.lines[piece.line].contains(&i)
         });
-        candidates.map(|(i, stop)| (piece.nearest_fraction(stop.at), i)).min_by(|p, q| p.0.total_cmp(&q.0)).map(|p| p.1)
+        let along = candidates.map(|i| (segment.nearest_fraction(self.at(i)), i));
+        along.min_by(|p, q| p.0.total_cmp(&q.0)).map(|(_, i)| i)
     }
 
     /// Finds a line that crosses a piece and gives both a stop there; whether anything changed.
-    fn cross_one(&mut self, line: usize, k: usize, settled: &mut BTreeSet<[usize; 4]>) -> bool {
-        let (a, b) = (self.lines[line][k], self.lines[line][k + 1]);
-        let piece = self.piece(line, k);
-        let bounds = piece.bounds();
-        for other in (0..self.lines.len()).filter(|&other| other != line) {
-            for j in 0..self.lines[other].len().saturating_sub(1) {
-                let (c, d) = (self.lines[other][j], self.lines[other][j + 1]);
-                if c == a || c == b || d == a || d == b {
-                    continue;
-                }
-                let crossed = self.piece(other, j);
-                if !bounds.intersects(crossed.bounds()) {
-                    continue;
-                }
-                let Some(at) = crossing(piece, crossed) else { continue };
-                if !settled.insert([a, b, c, d]) {
-                    continue;
-                }
-                let at = at.trimmed();
-                let Some(stop) = self.stop_at(at) else {
-                    // Splits both lines, and all others that pass there.
-                    self.new_stop(at);
-                    return true;
-                };
-                for (line, k) in [(line, k), (other, j)] {
-                    if !self.lines[line].contains(&stop) {
-                        self.lines[line].insert(k + 1, stop);
-                    }
-                }
-                return true;
+    fn cross_one(&mut self, piece: Piece, settled: &mut BTreeSet<[usize; 4]>) -> bool {
+        let segment = self.segment(piece);
+        for other in self.pieces_in(segment.bounds()) {
+            let ends = [piece.from, piece.to];
+            if other.line == piece.line || ends.contains(&other.from) || ends.contains(&other.to) {
+                continue;
             }
+            let Some(at) = crossing(segment, self.segment(other)) else { continue };
+            if !settled.insert([piece.from, piece.to, other.from, other.to]) {
+                continue;
+            }
+            let at = at.trimmed();
+            let Some(stop) = self.stop_at(at) else {
+                // Splits both lines, and all others that pass there.
+                self.new_stop(at);
+                return true;
+            };
+            for piece in [piece, other] {
+                if !self.lines[piece.line].contains(&stop) {
+                    self.split(piece, stop);
+                }
+            }
+            return true;
         }
         false
     }
+}
+
+fn boxed(segment: Segment, piece: Piece) -> GeomWithData<Rectangle<[f64; 2]>, Piece> {
+    let Bounds { min, max } = segment.bounds();
+    GeomWithData::new(Rectangle::from_corners([min.x, min.y], [max.x, max.y]), piece)
+}
+
+fn envelope(bounds: Bounds) -> AABB<[f64; 2]> {
+    AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y])
 }
 
 /// Whether an edge lies on one side of the line through a piece, further than `reach_m` from it.

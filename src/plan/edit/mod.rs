@@ -1,9 +1,12 @@
 //! Edits: functions from plan to plan. Each returns a plan that keeps the invariants, or an error
 //! that says what stood in the way; the plan given is never changed.
 
+mod copy;
 pub(crate) mod lay;
+mod moving;
 mod openings;
 pub(crate) mod split;
+mod weld;
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -16,9 +19,12 @@ use super::{
 };
 use crate::geometry::{Point, trim_m};
 
+pub use copy::{Array, array, copy_elements, fragment, insert};
+pub use moving::{Alignment, align, distribute, move_elements, set_thickness, square_up};
 pub use openings::{
     flip_hinge, flip_side, opening_at, place_opening, resize_opening, set_opening_kind, set_swing, slide_opening,
 };
+pub use weld::{Weld, weld};
 
 /// Why an edit could not be done, in words for the status line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,7 +38,7 @@ impl fmt::Display for EditError {
 
 impl std::error::Error for EditError {}
 
-pub(super) fn fail<T>(what: impl Into<String>) -> Result<T, EditError> {
+pub(crate) fn fail<T>(what: impl Into<String>) -> Result<T, EditError> {
     Err(EditError(what.into()))
 }
 
@@ -112,9 +118,7 @@ pub fn add_wall(plan: &Plan, from: CornerId, to: CornerId, thickness_m: f64) -> 
     if from == to {
         return fail("a wall needs two different corners");
     }
-    if !(0.0..=10.0).contains(&thickness_m) {
-        return fail(format!("a wall's thickness is between 0 and 10 m, not {thickness_m} m"));
-    }
+    check_thickness(thickness_m)?;
     let id = new_wall_id(plan, from, to);
     let mut next = plan.clone();
     next.walls.insert(id, Wall { from, to, thickness_m: trim_m(thickness_m), extra: None });
@@ -342,6 +346,13 @@ pub fn set_label(plan: &Plan, id: RoomId, label: Option<RoomLabel>) -> Result<Pl
 /// When the room does not exist.
 pub fn set_name(plan: &Plan, id: RoomId, name: &str) -> Result<Plan, EditError> {
     change_room(plan, id, |room| room.name = name.trim().to_owned())
+}
+
+fn check_thickness(thickness_m: f64) -> Result<(), EditError> {
+    if (0.0..=10.0).contains(&thickness_m) {
+        return Ok(());
+    }
+    fail(format!("a wall's thickness is between 0 and 10 m, not {thickness_m} m"))
 }
 
 fn require_corners(plan: &Plan, corners: &[CornerId]) -> Result<(), EditError> {

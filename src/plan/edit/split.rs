@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::EditError;
-use crate::geometry::{Segment, trim_m};
+use crate::geometry::{Point, Segment, trim_m};
 use crate::plan::{CornerId, OpeningId, Place, Plan, RoomId, WallId, ordered, ring_edges};
 
 /// The corners to insert into edges: by the edge's corners, the smaller first, in the order from
@@ -75,10 +75,15 @@ fn place_on_part(before: &Plan, after: &Plan, splits: &Splits, place: Place) -> 
     let Place::Hosted { from, to, at_m, width_m } = place else { return None };
     let chain = split_chain(splits, from, to)?;
     let edge = Segment::new(before.position(from)?, before.position(to)?);
-    let middle = edge.a + edge.vector().unit()? * at_m;
+    nearest_part(after, &chain, edge.a + edge.vector().unit()? * at_m, width_m)
+}
+
+/// The place of an opening with this middle on a chain of edges: on the part nearest to it; `None`
+/// where no part has a length.
+pub(crate) fn nearest_part(plan: &Plan, chain: &[CornerId], middle: Point, width_m: f64) -> Option<Place> {
     let parts = chain.windows(2).filter_map(|pair| {
-        let part = Segment::new(after.position(pair[0])?, after.position(pair[1])?);
-        Some((part.distance(middle), part, pair[0], pair[1]))
+        let part = Segment::new(plan.position(pair[0])?, plan.position(pair[1])?);
+        (part.length() > 0.0).then(|| (part.distance(middle), part, pair[0], pair[1]))
     });
     let (_, part, from, to) = parts.min_by(|p, q| p.0.total_cmp(&q.0))?;
     let at_m = trim_m(part.nearest_fraction(middle) * part.length());

@@ -298,7 +298,8 @@ pub(super) const COMMANDS: &[Command] = &[
             let takes_free = values.word(1) == Some(&"free");
             edited(app, "Draw room", |plan| {
                 if takes_free {
-                    Ok(topology::draw_room(plan, &points, thickness_m)?.0)
+                    let gap_m = topology::GAP_BETWEEN_ROOMS_M;
+                    Ok(topology::draw_room_in_free_space(plan, &points, thickness_m, gap_m)?.0)
                 } else {
                     Ok(topology::draw_room(plan, &points, thickness_m)?.0)
                 }

@@ -1,0 +1,192 @@
+//! Doorways left open in walls.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::RangeInclusive;
+
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
+
+use super::draw::{add_walls, divide_rooms, edges_of};
+use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
+use crate::geometry::segments::{SegmentIndex, crossing};
+use crate::geometry::{Bounds, Point, Segment, TOUCH_M, Vector};
+use crate::plan::edit::lay::{Laid, lay};
+use crate::plan::edit::split::nearest_part;
+use crate::plan::edit::{self, EditError, fail};
+use crate::plan::{CornerId, DEFAULT_WALL_THICKNESS_M, Opening, OpeningId, OpeningKind, Plan, WallId};
+
+/// How wide a gap in a wall is that is a doorway, in metres: 'more than 30 cm and less than 150 cm'
+/// (paper, section 3.3).
+pub const DOORWAY_WIDTH_M: RangeInclusive<f64> = 0.30..=1.50;
+
+/// A gap between the free ends of two collinear walls that has the size of a doorway.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gap {
+    /// The walls' free ends, the smaller id first.
+    pub ends: [CornerId; 2],
+    /// The walls that end there, in the same order.
+    pub walls: [WallId; 2],
+    /// From the first end to the second.
+    pub segment: Segment,
+    pub width_m: f64,
+}
+
+/// The gaps in walls that have the size of a doorway, by their ends.
+///
+/// Two walls are collinear when their directions, and the direction across the gap, differ by at most
+/// 10 degrees (paper, section 3.3), and the end of one lies aside from the line of the other by less
+/// than the thicker of them is thick (a wall without thickness counts as a usual partition). An end is
+/// free when one wall alone ends there. Each end has one gap at most, the narrowest. Where another wall
+/// crosses, or an opening stands already, is no gap.
+pub fn gaps(plan: &Plan) -> Vec<Gap> {
+    let ends = free_ends(plan);
+    let points = ends.iter().enumerate().map(|(i, end)| GeomWithData::new([end.at.x, end.at.y], i)).collect();
+    let tree = RTree::bulk_load(points);
+    let reach_m = *DOORWAY_WIDTH_M.end();
+    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+    for (i, end) in ends.iter().enumerate() {
+        for near in tree.locate_within_distance([end.at.x, end.at.y], (reach_m + TOUCH_M).powi(2)) {
+            let width_m = end.at.distance(ends[near.data].at);
+            if near.data > i && fits(end, &ends[near.data]) {
+                pairs.push((width_m, i, near.data));
+            }
+        }
+    }
+    pairs.sort_by(|p, q| p.0.total_cmp(&q.0).then((p.1, p.2).cmp(&(q.1, q.2))));
+    let obstacles = Obstacles::new(plan);
+    let mut taken: BTreeSet<usize> = BTreeSet::new();
+    let mut found: Vec<Gap> = Vec::new();
+    for (width_m, i, j) in pairs {
+        if taken.contains(&i) || taken.contains(&j) {
+            continue;
+        }
+        let (p, q) = (&ends[i], &ends[j]);
+        let segment = Segment::new(p.at, q.at);
+        if obstacles.block(segment, [p.wall, q.wall]) {
+            continue;
+        }
+        taken.extend([i, j]);
+        found.push(Gap { ends: [p.corner, q.corner], walls: [p.wall, q.wall], segment, width_m });
+    }
+    found.sort_by_key(|gap| gap.ends);
+    found
+}
+
+/// Closes gaps with walls, each as thick as the thicker of the two beside it, and puts an opening of the
+/// gap's width into each; gives the openings in the order of the gaps. Rooms are divided as by
+/// [`super::draw_walls`].
+///
+/// # Errors
+/// When no gap is given, one is no longer there, or a wall cannot be drawn.
+pub fn bridge_gaps(plan: &Plan, gaps: &[Gap], kind: OpeningKind) -> Result<(Plan, Vec<OpeningId>), EditError> {
+    if gaps.is_empty() {
+        return fail("no gap between walls in line is 0.30 to 1.50 m wide");
+    }
+    let (mut paths, mut thicknesses_m) = (Vec::new(), Vec::new());
+    for gap in gaps {
+        let ([Some(a), Some(b)], [Some(first), Some(second)]) =
+            (gap.ends.map(|end| plan.position(end)), gap.walls.map(|wall| plan.wall(wall)))
+        else {
+            return fail("the gap is gone");
+        };
+        paths.push(vec![a, b]);
+        thicknesses_m.push(first.thickness_m.max(second.thickness_m));
+    }
+    let Laid { plan: laid, chains } = lay(plan, &paths)?;
+    let along: Vec<(&[CornerId], f64)> = chains.iter().map(Vec::as_slice).zip(thicknesses_m).collect();
+    let (next, walls) = add_walls(&laid, &along)?;
+    if walls.len() < gaps.len() {
+        return fail("a wall stands in the gap already");
+    }
+    let edges: BTreeSet<[CornerId; 2]> = chains.iter().flat_map(|chain| edges_of(chain)).collect();
+    let (mut next, _) = divide_rooms(&next, &edges, None)?;
+    let mut openings = Vec::new();
+    for (gap, chain) in gaps.iter().zip(&chains) {
+        // Something may cross the gap: the opening goes on the piece under its middle.
+        let Some(place) = nearest_part(&next, chain, gap.segment.midpoint(), gap.width_m) else {
+            return fail("a wall stands in the gap already");
+        };
+        let (with_opening, id) = edit::add_opening(&next, Opening::new(kind, place))?;
+        next = with_opening;
+        openings.push(id);
+    }
+    Ok((next, openings))
+}
+
+/// The end of a wall where no other wall ends.
+struct FreeEnd {
+    corner: CornerId,
+    at: Point,
+    wall: WallId,
+    thickness_m: f64,
+    /// Out of the wall, into the open.
+    outward: Vector,
+}
+
+/// The free ends of walls, by corner.
+fn free_ends(plan: &Plan) -> Vec<FreeEnd> {
+    let mut walls_at: BTreeMap<CornerId, (usize, WallId)> = BTreeMap::new();
+    for (id, wall) in plan.walls() {
+        for corner in [wall.from, wall.to] {
+            walls_at.entry(corner).or_insert((0, id)).0 += 1;
+        }
+    }
+    let single = walls_at.into_iter().filter(|(_, (count, _))| *count == 1);
+    single
+        .filter_map(|(corner, (_, id))| {
+            let wall = plan.wall(id)?;
+            let (at, other) =
+                (plan.position(corner)?, plan.position(if wall.from == corner { wall.to } else { wall.from })?);
+            let thickness_m = if wall.thickness_m > 0.0 { wall.thickness_m } else { DEFAULT_WALL_THICKNESS_M };
+            Some(FreeEnd { corner, at, wall: id, thickness_m, outward: (at - other).unit()? })
+        })
+        .collect()
+}
+
+/// Whether two free ends look at each other across a gap of a doorway's width.
+fn fits(p: &FreeEnd, q: &FreeEnd) -> bool {
+    let across = q.at - p.at;
+    let width_m = across.length();
+    // Half a grid step of slack: a gap drawn as 1.5 m is one.
+    let in_range = width_m >= DOORWAY_WIDTH_M.start() - TOUCH_M && width_m <= DOORWAY_WIDTH_M.end() + TOUCH_M;
+    let is_along = |direction: Vector, of: Vector| {
+        direction.dot(of) > 0.0 && direction.cross(of).abs() <= direction.dot(of) * ANGLE_TOLERANCE_RAD.tan()
+    };
+    let aside_m = across.cross(p.outward).abs().max(across.cross(q.outward).abs());
+    p.wall != q.wall
+        && in_range
+        && is_along(p.outward, -q.outward)
+        && is_along(p.outward, across)
+        && is_along(-q.outward, across)
+        && aside_m < p.thickness_m.max(q.thickness_m)
+}
+
+/// The walls and openings of a plan by place.
+struct Obstacles {
+    walls: Vec<WallId>,
+    wall_index: SegmentIndex,
+    opening_index: SegmentIndex,
+}
+
+impl Obstacles {
+    fn new(plan: &Plan) -> Self {
+        let known = plan.walls().filter_map(|(id, wall)| Some((id, plan.wall_segment(wall)?)));
+        let (walls, segments): (Vec<WallId>, Vec<Segment>) = known.unzip();
+        let openings = plan.openings().filter_map(|(_, opening)| plan.opening_segment(opening));
+        Self { walls, wall_index: SegmentIndex::new(segments), opening_index: SegmentIndex::new(openings.collect()) }
+    }
+
+    /// Whether a wall other than those beside it crosses a gap, or an opening stands in it.
+    fn block(&self, gap: Segment, beside: [WallId; 2]) -> bool {
+        let touches =
+            |end: Point| gap.distance(end) <= TOUCH_M && end.distance(gap.a) > TOUCH_M && end.distance(gap.b) > TOUCH_M;
+        let bounds = gap.bounds().inflated(TOUCH_M);
+        let mut walls = self.wall_index.near(bounds).filter(|&i| !beside.contains(&self.walls[i]));
+        let middle = gap.midpoint();
+        let around = Bounds::of([middle]).inflated(gap.length() / 4.0);
+        walls.any(|i| {
+            let wall = self.wall_index.get(i);
+            crossing(gap, wall).is_some() || touches(wall.a) || touches(wall.b)
+        }) || self.opening_index.near(around).any(|i| self.opening_index.get(i).distance(middle) <= gap.length() / 4.0)
+    }
+}
