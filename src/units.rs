@@ -204,7 +204,7 @@ impl Units {
             Self::Metric => trimmed(place_m, 4),
             Self::Imperial => {
                 let text = self.length(place_m);
-                text.strip_suffix(" 0\"").unwrap_or(&text).to_owned()
+                if text == "0\"" { "0".to_owned() } else { text.strip_suffix(" 0\"").unwrap_or(&text).to_owned() }
             }
         }
     }
@@ -318,6 +318,7 @@ mod tests {
         assert_eq!(Units::Metric.tick(2.5), "2.5");
         assert_eq!(Units::Imperial.tick(foot(8.5)), "8' 6\"");
         assert_eq!(Units::Imperial.tick(foot(8.0)), "8'");
+        assert_eq!(Units::Imperial.tick(0.0), "0");
     }
 
     proptest! {

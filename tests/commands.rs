@@ -18,6 +18,8 @@ mod pictures;
 mod recorded;
 #[path = "commands/shortcuts.rs"]
 mod shortcuts;
+#[path = "commands/units.rs"]
+mod units;
 
 use egui::{Key, Modifiers};
 use enfilade::app::{Executed, Offscreen, OffscreenOptions};

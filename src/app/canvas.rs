@@ -4,23 +4,23 @@ use std::sync::Arc;
 
 use egui::epaint::StrokeKind;
 use egui::{
-    Color32, CursorIcon, EventFilter, Id, Key, MouseWheelUnit, Painter, PointerButton, Pos2, Rect, Response, Role,
-    Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, vec2,
+    Color32, Context, CursorIcon, EventFilter, Id, Key, MouseWheelUnit, Painter, PointerButton, Pos2, Rect, Response,
+    Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, vec2,
 };
 
 use super::backdrop::BackdropView;
 use super::document::{Derived, Document};
+use super::ghost::GhostPainter;
 use super::scene_painter::{ScenePainter, earcut, on_screen, outline_mesh, polygon_mesh};
-use super::theme;
-use super::tools::{self, Call, Input, Preview, Scope, Toolbox};
-use super::{App, commands};
+use super::tools::{self, Call, Input, Look, Preview, Scope, Toolbox};
+use super::{App, Question, commands, dimensions, guides, rulers, theme};
 use crate::draw::{self, Layers, Palette, Style, View};
 use crate::features::RoomStatus;
-use crate::geometry::{Bounds, Point, Vector};
+use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::labels::normalised_function;
-use crate::plan::{ElementId, Plan};
+use crate::plan::{ElementId, GuideAxis, Plan};
 use crate::topology::RoomShape;
-use crate::units::Units;
+use crate::units::{METRES_PER_FOOT, Units};
 
 /// What the canvas remembers from frame to frame.
 #[derive(Default)]
@@ -36,6 +36,7 @@ pub(super) struct Canvas {
     /// Where the pointer is in the plan.
     pub pointer: Option<Point>,
     painter: ScenePainter,
+    ghost: GhostPainter,
     /// The picture under the plan.
     pub backdrop: BackdropView,
     /// The triangles of the room whose fill marks it.
@@ -87,9 +88,6 @@ const LEAST_PX_PER_M: f64 = 0.005;
 /// Of more selected elements not all are marked: it would take longer than a frame.
 const MOST_MARKED: usize = 2000;
 
-/// The grid's spacing in metres.
-const GRID_M: f64 = 1.0;
-
 /// How strongly a wheel zooms: egui's own measure for Ctrl and wheel.
 const ZOOM_PER_POINT: f64 = 1.0 / 200.0;
 
@@ -132,6 +130,11 @@ impl Canvas {
         self.camera = Some(Camera { centre, px_per_m, is_fitted: false });
     }
 
+    /// The view of the last frame and where it was on the screen.
+    pub(super) fn seen(&self) -> Option<(View, Rect)> {
+        self.seen
+    }
+
     /// Where the canvas was in the last frame.
     pub(super) fn seen_rect(&self) -> Option<Rect> {
         self.seen.map(|(_, rect)| rect)
@@ -158,6 +161,7 @@ impl Canvas {
         let (width_px, height_px) = (f64::from(rect.width()), f64::from(rect.height()));
         let bounds = shown.map_or_else(|| document.plan().bounds(), |derived| derived.drawing.bounds());
         let bounds = bounds.union(self.backdrop.bounds(document.plan().backdrop()));
+        let bounds = self.ghost.bounds().filter(|_| bounds.is_empty()).unwrap_or(bounds);
         let fitting = |bounds: Bounds| {
             // A small canvas is for the plan, not for the space about it.
             let margin = FIT_MARGIN.min(width_px.min(height_px) / 8.0);
@@ -286,7 +290,7 @@ fn is_touch_pad(unit: MouseWheelUnit, delta: Vec2) -> bool {
     }
 }
 
-fn plan_point(view: &View, rect: Rect, at: Pos2) -> Point {
+pub(super) fn plan_point(view: &View, rect: Rect, at: Pos2) -> Point {
     let from_corner = at - rect.min;
     view.plan_from_screen(Point::new(f64::from(from_corner.x), f64::from(from_corner.y)))
 }
@@ -327,6 +331,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         app.note_executed("view", numbers.map(|number| number.to_string()).to_vec());
     }
     (app.canvas, app.tools) = (canvas, toolbox);
+    rulers::show(app, ui);
     match act {
         None => {}
         Some(Act::Calls(calls)) => {
@@ -364,7 +369,7 @@ pub(super) fn canvas_id() -> Id {
 
 impl Canvas {
     fn show(&mut self, ui: &mut Ui, document: &Document, app: &App, toolbox: &mut Toolbox) -> Option<Act> {
-        let rect = ui.available_rect_before_wrap();
+        let rect = rulers::canvas_rect(app, ui.available_rect_before_wrap());
         let fresh = document.derived();
         // What was worked out for an earlier plan is better than nothing.
         let shown = fresh.or(document.last_derived().map(|(_, derived)| derived));
@@ -399,6 +404,7 @@ impl Canvas {
         if let Some(derived) = shown {
             self.painter.paint(&painter, rect, derived, &style, &view);
         }
+        self.ghost.paint(&painter, rect, app, &style, &view);
         match fresh {
             // Never a stale label as a fresh one.
             None => {
@@ -416,9 +422,14 @@ impl Canvas {
                 }
             }
         }
+        guides::paint(&painter, rect, &view, app);
+        if let Some(derived) = fresh {
+            dimensions::paint(&painter, rect, &view, app, derived, || self.painter.text_boxes(rect, &view));
+        }
         if let Some(scope) = scope {
             let tool = toolbox.tool();
             let mut preview = Preview::default();
+            preview_question(app, document.plan(), &mut preview);
             tool.preview(&scope, &mut preview);
             preview.paint(&painter, rect, &view, palette);
             if tool.snaps() && self.pointer.is_some() {
@@ -454,15 +465,32 @@ impl Canvas {
         let index = shown.map(|derived| &derived.index);
         let is_over_picture = app.layers.backdrop && document.plan().backdrop().is_some();
         // A picture's walls do not stand on the grid.
-        let grid_m = (!is_over_picture && app.layers.grid).then_some(GRID_M);
-        let seen = (view.bounds(), view.px_per_m);
-        let snap = toolbox.snap(index, pointer, seen, modifiers, &[], &[], &app.draw_options, grid_m);
+        let grid_m = (!is_over_picture && app.layers.grid).then(|| {
+            app.settings.grid_m().unwrap_or(match app.units() {
+                Units::Metric => 1.0,
+                Units::Imperial => METRES_PER_FOOT,
+            })
+        });
+        let (lines, points) = more_to_snap_to(app, view, pointer);
+        let ground = tools::Ground {
+            index,
+            seen: view.bounds(),
+            px_per_m: view.px_per_m,
+            modifiers,
+            lines: &lines,
+            points: &points,
+            options: &app.draw_options,
+            grid_m,
+        };
+        let snap = toolbox.snap(&ground, pointer);
         let mut scope = Scope {
             plan: document.plan(),
             derived: shown,
             selection: &app.selection,
             options: &app.draw_options,
             layers: &app.layers,
+            copied: app.copied.as_ref(),
+            units: app.units(),
             pointer,
             snap,
             px_per_m: view.px_per_m,
@@ -500,7 +528,7 @@ impl Canvas {
             calls.extend(toolbox.tool_mut().take(input, &scope));
             // What it snaps to depends on what was begun.
             if toolbox.tool().snaps() != was_snapping || !calls.is_empty() {
-                scope.snap = toolbox.snap(index, pointer, seen, modifiers, &[], &[], &app.draw_options, grid_m);
+                scope.snap = toolbox.snap(&ground, pointer);
             }
         }
         if !calls.is_empty() {
@@ -654,6 +682,66 @@ impl Canvas {
     }
 }
 
+/// What an open question is about.
+fn preview_question(app: &App, plan: &Plan, preview: &mut Preview) {
+    match &app.question {
+        Some(Question::Delete { gone, .. }) => {
+            for &element in gone.iter().take(MOST_MARKED) {
+                match element {
+                    ElementId::Room(id) => {
+                        let points = plan.room(id).map(|room| plan.ring_points(&room.outer)).unwrap_or_default();
+                        preview.fill(points, Vec::new(), Look::Danger);
+                    }
+                    ElementId::Wall(id) => {
+                        let wall = plan.wall(id).and_then(|wall| Some((plan.wall_segment(wall)?, wall.thickness_m)));
+                        if let Some((segment, thickness_m)) = wall {
+                            preview.wall(segment, thickness_m, Look::Danger);
+                        }
+                    }
+                    ElementId::Opening(id) => {
+                        let segment = plan.opening(id).and_then(|opening| plan.opening_segment(opening));
+                        if let Some(segment) = segment {
+                            preview.line(vec![segment.a, segment.b], false, Look::Danger);
+                        }
+                    }
+                    ElementId::Corner(_) => {}
+                }
+            }
+        }
+        Some(Question::Change(change)) => {
+            for mark in change.marks.iter().take(MOST_MARKED) {
+                preview.line(vec![mark.a, mark.b], false, Look::Danger);
+                preview.handle(mark.b, Look::Danger);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Guide lines, and what lies near the pointer of the storey below.
+fn more_to_snap_to(app: &App, view: &View, pointer: Point) -> (Vec<Segment>, Vec<Point>) {
+    let seen = view.bounds();
+    let mut lines: Vec<Segment> = app
+        .guides()
+        .iter()
+        .map(|guide| match guide.axis {
+            GuideAxis::Horizontal => {
+                Segment::new(Point::new(seen.min.x, guide.at_m), Point::new(seen.max.x, guide.at_m))
+            }
+            GuideAxis::Vertical => Segment::new(Point::new(guide.at_m, seen.min.y), Point::new(guide.at_m, seen.max.y)),
+        })
+        .collect();
+    // As far as something attracts, and more.
+    let near = Bounds::of([pointer]).inflated(GHOST_REACH_PX / view.px_per_m);
+    let below: Vec<Segment> = app.ghost_segments().iter().copied().filter(|line| near.meets(*line)).collect();
+    let points = below.iter().flat_map(|line| [line.a, line.b]).collect();
+    lines.extend(below);
+    (lines, points)
+}
+
+/// The storey below attracts from this far away, in points.
+const GHOST_REACH_PX: f64 = 16.0;
+
 /// Whether the key is held that makes every drag move the view.
 fn is_space_held(ui: &Ui) -> bool {
     !ui.ctx().text_edit_focused() && ui.input(|input| input.key_down(Key::Space))
@@ -711,6 +799,12 @@ fn style(app: &App, plan: &Plan, is_dark: bool) -> Style {
             areas: layers.names,
         },
     }
+}
+
+/// The ground of the plan in the window's theme.
+pub(super) fn paper(app: &App, context: &Context) -> draw::Rgba {
+    let theme = if context.global_style().visuals.dark_mode { draw::Theme::Dark } else { draw::Theme::Light };
+    Palette::of(theme, app.layers.colours).paper
 }
 
 /// What the canvas shows, in a sentence.

@@ -93,6 +93,18 @@ pub(super) struct Opened {
     pub notes: Vec<Note>,
     /// What the file held when it was read; `None` for what cannot be saved in place.
     pub stamp: Option<Stamp>,
+    /// The first step of a plan that begins as something else.
+    pub begun: Option<Box<Begun>>,
+}
+
+/// How a plan begins.
+#[derive(Debug)]
+pub(super) struct Begun {
+    /// What was done, as in the history.
+    pub title: String,
+    pub plan: Plan,
+    /// The storey it came from.
+    pub below: Plan,
 }
 
 impl Opened {
@@ -100,7 +112,7 @@ impl Opened {
     pub(super) fn untitled() -> Self {
         let scale = Scale { origin: ScaleOrigin::Drawn, ..Scale::default() };
         let plan = edit::set_meta(&Plan::default(), Meta { scale, ..Meta::default() });
-        Self { origin: Origin::Untitled, storeys: vec![plan], notes: Vec::new(), stamp: None }
+        Self { origin: Origin::Untitled, storeys: vec![plan], notes: Vec::new(), stamp: None, begun: None }
     }
 }
 
@@ -132,7 +144,7 @@ pub(super) fn open(origin: Origin) -> Result<Opened, FileError> {
             (import.plans, import.notes, stamp)
         }
     };
-    Ok(Opened { origin, storeys, notes, stamp })
+    Ok(Opened { origin, storeys, notes, stamp, begun: None })
 }
 
 /// Whether a path names a file of Enfilade's own, which can be saved in place.
@@ -164,13 +176,16 @@ pub(super) struct Document {
 
 impl Document {
     pub(super) fn new(number: u64, opened: Opened) -> Self {
-        let Opened { origin, storeys, notes, stamp } = opened;
+        let Opened { origin, storeys, notes, stamp, begun } = opened;
         let storey = match origin {
             Origin::Bundled(_) | Origin::Untitled => 0,
             Origin::File { storey, .. } => storey,
         };
         let plan = storeys.get(storey).or(storeys.first()).cloned().unwrap_or_default();
-        let history = History::new("Open", plan.clone());
+        let mut history = History::new("Open", plan.clone());
+        if let Some(begun) = begun {
+            history.push(begun.title, begun.plan);
+        }
         let (derived, awaited, predictor) = (None, None, Predictor::default());
         let (saved, is_gone) = (Some(plan), false);
         Self { number, history, origin, storeys, notes, stamp, saved, is_gone, derived, awaited, predictor }
@@ -336,6 +351,11 @@ impl Derived {
         &self.reading_order
     }
 
+    /// The rooms with a boundary from the top left, column by column.
+    pub(super) fn column_order(&self) -> Vec<RoomId> {
+        in_lines(&self.analysis, |bounds| (bounds.min.x, bounds.width()), |bounds| -bounds.max.y)
+    }
+
     /// What can be picked at a point: openings within `reach_m` metres, then walls, the nearest first, then
     /// rooms, the smallest first. A wall is reached half as far beside it as an opening.
     pub(super) fn at(&self, point: Point, reach_m: f64) -> Vec<ElementId> {
@@ -355,8 +375,18 @@ impl Derived {
     }
 }
 
-/// Rooms from the top left, line by line. A line is as high as half a typical room.
+/// Rooms from the top left, line by line.
 fn reading_order(analysis: &Analysis) -> Vec<RoomId> {
+    in_lines(analysis, |bounds| (-bounds.max.y, bounds.height()), |bounds| bounds.min.x)
+}
+
+/// Rooms in lines, and in order within each. `across` tells where a room begins across the lines and how
+/// far it extends: a line is as wide as half a typical room.
+fn in_lines(
+    analysis: &Analysis,
+    across: impl Fn(&Bounds) -> (f64, f64),
+    along: impl Fn(&Bounds) -> f64,
+) -> Vec<RoomId> {
     let mut rooms: Vec<(RoomId, Bounds)> = analysis
         .shapes
         .all()
@@ -364,12 +394,13 @@ fn reading_order(analysis: &Analysis) -> Vec<RoomId> {
         .filter(|shape| !shape.bounds.is_empty())
         .map(|shape| (shape.id, shape.bounds))
         .collect();
-    let mut heights: Vec<f64> = rooms.iter().map(|(_, bounds)| bounds.height()).collect();
-    heights.sort_by(f64::total_cmp);
-    let line_m = heights.get(heights.len() / 2).map_or(1.0, |height| (height / 2.0).max(0.1));
-    let line = |bounds: &Bounds| -(bounds.max.y / line_m).floor() as i64;
+    let mut extents: Vec<f64> = rooms.iter().map(|(_, bounds)| across(bounds).1).collect();
+    extents.sort_by(f64::total_cmp);
+    let line_m = extents.get(extents.len() / 2).map_or(1.0, |extent| (extent / 2.0).max(0.1));
+    let line = |bounds: &Bounds| (across(bounds).0 / line_m).ceil() as i64;
     rooms.sort_by(|(p, a), (q, b)| {
-        line(a).cmp(&line(b)).then(a.min.x.total_cmp(&b.min.x)).then(b.max.y.total_cmp(&a.max.y)).then(p.cmp(q))
+        let within = along(a).total_cmp(&along(b)).then(across(a).0.total_cmp(&across(b).0));
+        line(a).cmp(&line(b)).then(within).then(p.cmp(q))
     });
     rooms.into_iter().map(|(id, _)| id).collect()
 }

@@ -7,9 +7,11 @@ use egui::{Context, ViewportCommand};
 use super::backdrop::{self, PictureUse};
 use super::commands::sample_word;
 use super::dialogs::{Answer, Purpose};
-use super::document::{self, Document, Expected, Opened, Origin, SaveFailure};
+use super::document::{self, Begun, Document, Expected, Opened, Origin, SaveFailure};
+use super::ghost::Ghost;
 use super::{App, Done, Intent, Message, Question, Remedy, Selection, Severity, plan_list};
 use crate::formats::FileError;
+use crate::plan::storey::{Keep, copied};
 use crate::plan::{DrawingMoves, Plan};
 use crate::store::{Stamp, pictures};
 
@@ -25,6 +27,15 @@ impl App {
         // What is still being read was asked for before.
         self.opening = None;
         self.request(Intent::Show(Box::new(Opened::untitled())));
+    }
+
+    /// Begins a plan of another storey as a copy of this one, which is shown below it.
+    pub(super) fn copy_storey(&mut self, storey: &str, keep: Keep) {
+        let Some(below) = self.plan().cloned() else { return };
+        self.opening = None;
+        let begun = Begun { title: format!("Copy storey as {storey}"), plan: copied(&below, storey, keep), below };
+        let opened = Opened { begun: Some(Box::new(begun)), ..Opened::untitled() };
+        self.request(Intent::Show(Box::new(opened)));
     }
 
     /// Reads a plan and shows it when it is there.
@@ -154,6 +165,9 @@ impl App {
             let (severity, detail) = (Severity::Info, String::new());
             self.add_message(Message { severity, text, detail, remedies, stays: false });
         }
+        let below = opened.begun.as_ref().map(|begun| begun.below.clone());
+        self.ghost = below.map(|below| Ghost::new(below, None, &self.schemes));
+        self.guide_drag = None;
         self.documents += 1;
         self.document = Some(Document::new(self.documents, opened));
         if let Some(folder) = folder {
@@ -186,6 +200,10 @@ impl App {
             }
             (Some(Question::Drawing(change)), "along" | "stays") => {
                 self.apply_picture_change(&change, DrawingMoves::of_word(word));
+                return true;
+            }
+            (Some(Question::Change(change)), "weld" | "bridge") => {
+                self.edit(change.step, |_| Ok(change.plan));
                 return true;
             }
             (Some(Question::Delete { selected, .. }), "delete") => {

@@ -42,15 +42,22 @@ impl App {
     /// the pointer, if nothing is selected. `None` without any.
     pub(super) fn target(&self, named: Option<RoomId>) -> Option<Target> {
         let plan = self.plan()?;
-        let pointed = || match self.canvas.hovered {
-            Some(ElementId::Room(room)) if self.selection.is_empty() => Some(room),
-            _ => None,
-        };
+        let pointed = || self.room_under_pointer().filter(|_| self.selection.is_empty());
         if let Some(room) = named.or_else(pointed).filter(|&room| plan.room(room).is_some()) {
             return Some(Target { rooms: vec![room], is_selection: false });
         }
         let rooms: Vec<RoomId> = self.selection.rooms().collect();
         (!rooms.is_empty()).then_some(Target { rooms, is_selection: true })
+    }
+
+    /// The room under the pointer, also where a wall or a door lies above it.
+    fn room_under_pointer(&self) -> Option<RoomId> {
+        if let Some(ElementId::Room(room)) = self.canvas.hovered {
+            return Some(room);
+        }
+        let shapes = &self.document.as_ref()?.derived()?.analysis.shapes;
+        let index = shapes.at(self.canvas.pointer?).into_iter().next()?;
+        shapes.all().get(index).map(|shape| shape.id)
     }
 
     /// The label that all selected rooms have, whoever gave it.

@@ -5,12 +5,16 @@
 
 mod backdrop;
 mod background;
+mod bulk;
 mod canvas;
 pub mod commands;
 mod controls;
 mod dialogs;
+mod dimensions;
 mod document;
 mod files;
+mod ghost;
+mod guides;
 mod icons;
 mod labelling;
 mod offscreen;
@@ -20,6 +24,7 @@ mod plan_list;
 mod raster;
 mod recovery;
 pub mod replay;
+mod rulers;
 mod scene_painter;
 mod search;
 mod selection;
@@ -60,7 +65,7 @@ use tools::{DrawOptions, TakenBack, Toolbox};
 
 use crate::draw::{self, Fill, LabelColours, Palette};
 use crate::formats::FileError;
-use crate::geometry::Vector;
+use crate::geometry::{Segment, Vector};
 use crate::labels::{Label, Schemes};
 use crate::plan::edit::{self, EditError};
 use crate::plan::{ElementId, LabelOrigin, Meta, Plan, Room, RoomId, RoomLabel};
@@ -79,7 +84,13 @@ pub struct App {
     selection: Selection,
     tools: Toolbox,
     draw_options: DrawOptions,
+    /// What was copied: a part of a plan.
+    copied: Option<Plan>,
     layers: LayerSettings,
+    /// The storey drawn faintly under the plan.
+    ghost: Option<ghost::Ghost>,
+    /// A guide that is being dragged.
+    guide_drag: Option<guides::Drag>,
     /// Which models predict.
     predictor: Predictor,
     theme: ThemeChoice,
@@ -127,6 +138,12 @@ struct LayerSettings {
     names: bool,
     backdrop: bool,
     grid: bool,
+    guides: bool,
+    /// Lengths and area of what is selected.
+    dimensions: bool,
+    /// The storey that lies below.
+    ghost: bool,
+    rulers: bool,
     /// Rooms, walls and openings that cannot be selected or moved with the pointer.
     locked: Locked,
 }
@@ -159,6 +176,10 @@ impl Default for LayerSettings {
             names: true,
             backdrop: true,
             grid: true,
+            guides: true,
+            dimensions: true,
+            ghost: true,
+            rulers: false,
             locked: Locked::default(),
         }
     }
@@ -240,12 +261,31 @@ enum Question {
     Unsaved(Intent),
     /// More would go than is selected: delete it all?
     Delete { selected: Vec<ElementId>, gone: BTreeSet<ElementId> },
+    /// Something large would be changed, as shown: do it?
+    Change(ProposedChange),
     /// Something else stands in the file to be saved: replace it?
     Replace { path: PathBuf, is_changed_since: bool, then: Option<Intent> },
     /// Give up what a program left behind?
     Discard { path: PathBuf, title: String },
     /// The picture is about to be scaled or turned: does the drawing go along?
     Drawing(PictureChange),
+}
+
+/// A change of the plan that is shown before it is made.
+#[derive(Debug)]
+struct ProposedChange {
+    /// What is asked, in a sentence.
+    title: String,
+    /// What it would do.
+    text: String,
+    /// The answer that makes it, and 'cancel'.
+    answers: &'static [(&'static str, &'static str)],
+    /// What it is called in the history.
+    step: &'static str,
+    /// The plan as it would be.
+    plan: Plan,
+    /// Where it would do something; a point is a segment without length.
+    marks: Vec<Segment>,
 }
 
 /// What a background job brought.
@@ -277,6 +317,7 @@ enum Done {
     },
     Leftovers(Vec<Offered>),
     Looked(Looked),
+    Ghost(Origin, Box<Result<ghost::Ghost, FileError>>),
 }
 
 /// A plan with more elements is analysed off the frame's path; below, that takes a few milliseconds.
@@ -294,7 +335,10 @@ impl App {
             selection: Selection::default(),
             tools: Toolbox::default(),
             draw_options: DrawOptions::default(),
+            copied: None,
             layers: LayerSettings::default(),
+            ghost: None,
+            guide_drag: None,
             predictor: Predictor::default(),
             theme: ThemeChoice::default(),
             settings: Settings::default(),
@@ -440,6 +484,7 @@ impl App {
                 Some(Done::RecordingSaved { path, recording, result, then }) => {
                     self.recording_was_saved(&path, *recording, result, then);
                 }
+                Some(Done::Ghost(origin, result)) => self.ghost_was_read(&origin, *result),
                 Some(Done::Backdrop(wanted, read)) => self.backdrop_was_read(wanted, &read),
                 Some(Done::PictureRead { document, use_, path, page, result }) => {
                     self.picture_was_read(document, use_, &path, page, result);

@@ -309,6 +309,7 @@ impl App {
             storeys: vec![recovered.base().clone()],
             notes: Vec::new(),
             stamp: recovered.start.stamp,
+            begun: None,
         };
         let changes = super::panels::status::count(recovered.history.position(), "change");
         self.show(opened);

@@ -100,6 +100,24 @@ impl ScenePainter {
         }
     }
 
+    /// Where the names stand on the screen.
+    pub(super) fn text_boxes(&self, rect: Rect, view: &View) -> Vec<Rect> {
+        let texts = self.names.iter().flat_map(|names| &names.groups).flat_map(|group| &group.items);
+        let boxed = |item: &Item| {
+            let Item::Text(text) = item else { return None };
+            let width = crate::draw::font::Font::of(text.weight).width_px(&text.content, text.size_px) as f32;
+            let height = text.size_px as f32;
+            let at = on_screen(rect, view, text.at) + vec2(text.offset_px.x as f32, text.offset_px.y as f32);
+            // From the baseline up.
+            Some(if text.upright {
+                Rect::from_min_max(at - vec2(height, width / 2.0), at + vec2(0.0, width / 2.0))
+            } else {
+                Rect::from_min_max(at - vec2(width / 2.0, height), at + vec2(width / 2.0, 0.0))
+            })
+        };
+        texts.filter_map(boxed).collect()
+    }
+
     fn update_shapes(&mut self, derived: &Arc<Derived>, style: &Style, view: &View, is_moving: bool) {
         if let Some(shapes) = &self.shapes {
             let same_plan = Arc::ptr_eq(&shapes.derived, derived);
@@ -298,7 +316,8 @@ impl<'a> Writer<'a> {
     fn item(&mut self, item: &Item) {
         match item {
             // Polygons come with their triangles, texts are painted for each frame.
-            Item::Polygon { .. } | Item::Text(_) => {}
+            // The window has the picture in tiles of its own.
+            Item::Polygon { .. } | Item::Text(_) | Item::Picture(_) => {}
             Item::Line { points, closed, colour, width, dash } => {
                 let mut points: Vec<Pos2> = points.iter().map(|&point| self.place(point)).collect();
                 let stroke = self.stroke(*width, *colour);

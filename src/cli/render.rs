@@ -1,5 +1,6 @@
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::builder::PossibleValuesParser;
 
@@ -10,7 +11,8 @@ use crate::draw::sheet::{self, Furniture, PageSize};
 use crate::draw::{Drawing, Fill, LabelColours, Layers, Scene, Style, Theme, png, svg};
 use crate::features::{NeighbourLabels, analyse};
 use crate::labels::Schemes;
-use crate::plan::Plan;
+use crate::plan::{Backdrop, Plan};
+use crate::store::pictures::{self, PictureLevels};
 
 /// `enfilade render`: plans as pictures.
 #[derive(clap::Args)]
@@ -44,6 +46,9 @@ pub struct RenderCommand {
     #[arg(long, value_name = "PALETTE", default_value = "standard",
           value_parser = PossibleValuesParser::new(LabelColours::ALL.map(LabelColours::name)))]
     palette: String,
+    /// Leave out the picture that the plan was traced over
+    #[arg(long)]
+    no_picture: bool,
     /// Leave out the rooms' names and areas
     #[arg(long)]
     no_names: bool,
@@ -88,7 +93,19 @@ impl Subcommand for RenderCommand {
                         target.display()
                     )));
                 }
-                let bytes = self.picture(plan, &schemes, &style, ending)?;
+                let backdrop = plan.backdrop().filter(|_| !self.no_picture);
+                let traced = backdrop.and_then(|backdrop| {
+                    let path = pictures::resolved_path(&backdrop.path, file.parent());
+                    match pictures::load_picture(&path, backdrop.page) {
+                        Ok(loaded) => Some((Arc::new(loaded.levels), backdrop)),
+                        // The plan can be drawn all the same.
+                        Err(error) => {
+                            let _ = writeln!(terminal.err, "{}: left out: {error}", path.display());
+                            None
+                        }
+                    }
+                });
+                let bytes = self.picture(plan, traced, &schemes, &style, ending)?;
                 if let (None, Some(folder)) = (single, target.parent()) {
                     std::fs::create_dir_all(folder)?;
                 }
@@ -125,7 +142,15 @@ impl RenderCommand {
         }
     }
 
-    fn picture(&self, plan: &Plan, schemes: &Schemes, style: &Style, ending: &str) -> Result<Vec<u8>, CliError> {
+    /// `traced`: the picture under the plan.
+    fn picture(
+        &self,
+        plan: &Plan,
+        traced: Option<(Arc<PictureLevels>, &Backdrop)>,
+        schemes: &Schemes,
+        style: &Style,
+        ending: &str,
+    ) -> Result<Vec<u8>, CliError> {
         let analysis = analyse(plan, schemes, NeighbourLabels::True);
         let furniture = Furniture { title: !self.bare, legend: !self.bare, scale: !self.bare };
         let mut drawing = Drawing::new(plan, &analysis);
@@ -134,10 +159,22 @@ impl RenderCommand {
             let known = network.known_labels();
             drawing = drawing.with_predictions(&self.predictor.predictor().predict(network, &known, None)?.labels());
         }
+        let mut style = style.clone();
+        if let Some((levels, backdrop)) = traced {
+            drawing = drawing.with_picture(levels, backdrop);
+            // As in the window: the picture is seen through the rooms.
+            style.fill_opacity = OVER_PICTURE;
+            style.halo = true;
+            style.layers.rooms = style.fill != Fill::None;
+        }
+        let style = &style;
         let scene: Scene = sheet::page(&drawing, style, self.size, furniture);
         Ok(if ending == "svg" { svg::svg(&scene).into_bytes() } else { png::png(&scene)? })
     }
 }
+
+/// How strongly rooms are filled over a picture.
+const OVER_PICTURE: f64 = 0.55;
 
 /// The ending of a picture's file name, if it has one.
 fn picture_ending(path: &Path) -> Option<&'static str> {

@@ -1,14 +1,16 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::openings::OpeningDrawing;
-use super::scene::{Frame, Group, Item, Layer, Length, Scene, View};
-use super::walls::{self, Faces, Walls};
+use super::scene::{Frame, Group, Item, Layer, Length, PlacedPicture, Scene, View};
+use super::walls::{Faces, Walls};
 use super::{Fill, Grid, Rgba, Style, names};
 use crate::features::{Analysis, RoomStatus};
 use crate::geometry::{Bounds, Point, Segment, areas};
 use crate::labels::{Label, normalised_function};
-use crate::plan::{Joint, Meta, Plan, RoomId};
+use crate::plan::{Backdrop, Joint, Meta, OpeningId, Plan, RoomId, Swing};
+use crate::store::pictures::PictureLevels;
 use crate::units::Units;
 
 /// A plan as shapes, before zoom and colours: made once a plan, asked for a [`Scene`] once a view.
@@ -21,6 +23,7 @@ pub struct Drawing {
     pub(super) openings: Vec<OpeningDrawing>,
     pub(super) graph: Vec<GraphEdge>,
     pub(super) faces: Faces,
+    picture: Option<PlacedPicture>,
     bounds: Bounds,
 }
 
@@ -173,6 +176,7 @@ impl Drawing {
             openings,
             graph,
             faces,
+            picture: None,
             bounds,
         }
     }
@@ -191,9 +195,30 @@ impl Drawing {
         self
     }
 
+    /// The same with the picture it was traced over. Where nothing is drawn, the picture is all there is
+    /// to see.
+    #[must_use]
+    pub fn with_picture(mut self, levels: Arc<PictureLevels>, backdrop: &Backdrop) -> Self {
+        let [width, height] = levels.size_px().map(f64::from);
+        let corners = [(0.0, 0.0), (width, 0.0), (0.0, height)];
+        let corners = corners.map(|(x, y)| backdrop.plan_from_picture(Point::new(x, y)));
+        let picture = PlacedPicture { levels, corners, opacity: backdrop.opacity.clamp(0.0, 1.0) };
+        if self.bounds.is_empty() {
+            self.bounds = picture.bounds();
+        }
+        self.picture = Some(picture);
+        self
+    }
+
     /// The box of all that is drawn of the plan, in metres.
     pub fn bounds(&self) -> Bounds {
         self.bounds
+    }
+
+    /// How a door's leaf is drawn; `None` for what has no leaf. Openings are sorted by id.
+    pub fn swing_of(&self, id: OpeningId) -> Option<Swing> {
+        let index = self.openings.binary_search_by_key(&id, |opening| opening.id).ok()?;
+        self.openings[index].swing()
     }
 
     /// The scene in a view. Nothing is left out for lying outside the view but names: panning within
@@ -209,6 +234,10 @@ impl Drawing {
     pub fn layer(&self, layer: Layer, style: &Style, view: &View) -> Vec<Group> {
         let layers = &style.layers;
         match layer {
+            Layer::Picture => {
+                let picture = self.picture.iter().cloned().map(Item::Picture);
+                picture.map(|picture| Group::new(layer, Frame::Plan, vec![picture])).collect()
+            }
             Layer::Grid if layers.grid => grid(style, view.px_per_m, view.bounds()),
             Layer::Rooms if layers.rooms => self.room_fills(style),
             Layer::Boundaries if layers.walls => self.boundary_lines(style),

@@ -11,7 +11,7 @@ use crate::features::{Analysis, RoomStatus};
 use crate::geometry::polygon::Location;
 use crate::geometry::{Bounds, Point, Segment, Vector, areas};
 use crate::labels::Label;
-use crate::plan::{LeafSide, Opening, OpeningId, OpeningKind, Plan, THICKEST_WALL_M};
+use crate::plan::{LeafSide, Opening, OpeningId, OpeningKind, Plan, Swing, THICKEST_WALL_M};
 
 /// An opening as drawn.
 pub(super) struct OpeningDrawing {
@@ -205,6 +205,13 @@ impl OpeningDrawing {
         let (near, far) = if hinge_at_start { (to_start, to_end) } else { (to_end, to_start) };
         // Steps of 5 cm, so that rounding does not choose between equals.
         f64::from(((near - far) * 20.0).round() > 0.0)
+    }
+
+    /// How its first leaf is hung; `None` without one.
+    pub fn swing(&self) -> Option<Swing> {
+        let leaf = self.leaves.first()?;
+        let side = if (leaf.tip - leaf.hinge).dot(self.normal()) >= 0.0 { LeafSide::Left } else { LeafSide::Right };
+        Some(Swing { hinge_at_start: (leaf.shut - leaf.hinge).dot(self.along) > 0.0, side })
     }
 
     /// Unit vector to the left of `along`.

@@ -6,12 +6,13 @@ use std::collections::HashMap;
 use std::fmt;
 
 use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Mask, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, StrokeDash, Transform,
+    Color, ColorU8, FillRule, FilterQuality, LineCap, LineJoin, Mask, Paint, Path, PathBuilder, Pattern, Pixmap, Rect,
+    SpreadMode, Stroke, StrokeDash, Transform,
 };
 
 use super::Rgba;
 use super::font::{Font, Step};
-use super::scene::{Anchor, Dash, Frame, Group, Item, Layer, Length, Scene, Text, View, Weight};
+use super::scene::{Anchor, Dash, Frame, Group, Item, Layer, Length, PlacedPicture, Scene, Text, View, Weight};
 use crate::geometry::polygon::edges;
 use crate::geometry::{Bounds, Point, Vector};
 
@@ -107,6 +108,53 @@ fn paint_of(rgba: Rgba) -> Paint<'static> {
     paint
 }
 
+/// The part of a picture that is seen, at the size that suits.
+struct SeenPart {
+    pixels: Pixmap,
+    /// Where it begins, in pixels of the full picture.
+    from_px: Point,
+    /// Pixels of the full picture that one of these stands for, along a side.
+    stride: f64,
+}
+
+impl SeenPart {
+    /// `place`: where a pixel of the full picture lies on the page.
+    fn of(picture: &PlacedPicture, place: impl Fn(f64, f64) -> Point, page: &Pixmap) -> Option<Self> {
+        let start = place(0.0, 0.0);
+        let (x_way, y_way) = (place(1.0, 0.0) - start, place(0.0, 1.0) - start);
+        let turn = x_way.cross(y_way);
+        if !(turn.abs() > 1e-12 && turn.is_finite()) {
+            return None;
+        }
+        let index = picture.levels.index_for(x_way.length());
+        let level = picture.levels.all().get(index)?;
+        let stride = (index as f64).exp2();
+        // The page's corners in the picture.
+        let (width, height) = (f64::from(page.width()), f64::from(page.height()));
+        let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)].map(|(x, y)| {
+            let from_start = Point::new(x, y) - start;
+            Point::new(from_start.cross(y_way) / turn / stride, x_way.cross(from_start) / turn / stride)
+        });
+        let seen = Bounds::of(corners);
+        // A pixel more, for what lies between two.
+        let range = |from: f64, to: f64, side: u32| {
+            let from = (from.floor() - 1.0).clamp(0.0, f64::from(side)) as u32;
+            let to = (to.ceil() + 1.0).clamp(0.0, f64::from(side)) as u32;
+            (from, to.saturating_sub(from))
+        };
+        let (left, columns) = range(seen.min.x, seen.max.x, level.width_px);
+        let (top, rows) = range(seen.min.y, seen.max.y, level.height_px);
+        let mut pixels = Pixmap::new(columns, rows)?;
+        let places = (0..rows).flat_map(|y| (0..columns).map(move |x| (left + x, top + y)));
+        for (pixel, (x, y)) in pixels.pixels_mut().iter_mut().zip(places) {
+            let [r, g, b, a] = level.pixel(i64::from(x), i64::from(y));
+            *pixel = ColorU8::from_rgba(r, g, b, a).premultiply();
+        }
+        let from_px = Point::new(f64::from(left) * stride, f64::from(top) * stride);
+        Some(Self { pixels, from_px, stride })
+    }
+}
+
 struct Painter {
     pixmap: Pixmap,
     view: View,
@@ -138,7 +186,42 @@ impl Painter {
                     }
                 }
                 Item::Text(text) => self.text(group.frame, text),
+                Item::Picture(picture) => self.picture(group.frame, picture),
             }
+        }
+    }
+
+    /// Paints a picture, of which no more is made ready than is seen.
+    fn picture(&mut self, frame: Frame, picture: &PlacedPicture) {
+        let Some(part) = SeenPart::of(picture, |x, y| self.at(frame, picture.at(x, y)), &self.pixmap) else { return };
+        let SeenPart { pixels, from_px, stride } = part;
+        let at = |x: f64, y: f64| self.at(frame, picture.at(from_px.x + x * stride, from_px.y + y * stride));
+        let (start, right, below) = (at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0));
+        let (x_way, y_way) = (right - start, below - start);
+        let transform = Transform::from_row(
+            x_way.x as f32,
+            x_way.y as f32,
+            y_way.x as f32,
+            y_way.y as f32,
+            start.x as f32,
+            start.y as f32,
+        );
+        let shader =
+            Pattern::new(pixels.as_ref(), SpreadMode::Pad, FilterQuality::Bilinear, picture.opacity as f32, transform);
+        let paint = Paint { shader, anti_alias: true, ..Paint::default() };
+        let (width, height) = (f64::from(pixels.width()), f64::from(pixels.height()));
+        let mut outline = PathBuilder::new();
+        for (index, (x, y)) in [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)].into_iter().enumerate() {
+            let corner = at(x, y);
+            if index == 0 {
+                outline.move_to(corner.x as f32, corner.y as f32);
+            } else {
+                outline.line_to(corner.x as f32, corner.y as f32);
+            }
+        }
+        outline.close();
+        if let Some(outline) = outline.finish() {
+            self.pixmap.fill_path(&outline, &paint, FillRule::Winding, Transform::identity(), None);
         }
     }
 

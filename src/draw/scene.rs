@@ -1,8 +1,11 @@
 //! What is drawn: shapes with units and colours, in the order of painting. The painters ([`super::png`],
 //! [`super::svg`], the window) know no plans.
 
+use std::sync::Arc;
+
 use super::Rgba;
 use crate::geometry::{Bounds, Point, Vector};
+use crate::store::pictures::PictureLevels;
 
 /// Shapes in the order of painting, and the view they were laid out for.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,6 +87,8 @@ pub enum Length {
 /// What a group of shapes is part of. In the order of painting.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Layer {
+    /// A picture that was traced over.
+    Picture,
     Grid,
     /// Rooms' fills; one group a room.
     Rooms,
@@ -100,12 +105,22 @@ pub enum Layer {
 }
 
 impl Layer {
-    pub const ALL: [Self; 8] =
-        [Self::Grid, Self::Rooms, Self::Boundaries, Self::Walls, Self::Openings, Self::Graph, Self::Names, Self::Sheet];
+    pub const ALL: [Self; 9] = [
+        Self::Picture,
+        Self::Grid,
+        Self::Rooms,
+        Self::Boundaries,
+        Self::Walls,
+        Self::Openings,
+        Self::Graph,
+        Self::Names,
+        Self::Sheet,
+    ];
 
     /// The word for files and for people.
     pub const fn name(self) -> &'static str {
         match self {
+            Self::Picture => "picture",
             Self::Grid => "grid",
             Self::Rooms => "rooms",
             Self::Boundaries => "boundaries",
@@ -150,15 +165,68 @@ impl Group {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Item {
     /// A filled polygon with holes.
-    Polygon { outer: Vec<Point>, holes: Vec<Vec<Point>>, colour: Rgba },
+    Polygon {
+        outer: Vec<Point>,
+        holes: Vec<Vec<Point>>,
+        colour: Rgba,
+    },
     /// A line through points. Joins are mitred; ends are cut off square at the last point.
-    Line { points: Vec<Point>, closed: bool, colour: Rgba, width: Length, dash: Option<Dash> },
+    Line {
+        points: Vec<Point>,
+        closed: bool,
+        colour: Rgba,
+        width: Length,
+        dash: Option<Dash>,
+    },
     /// A circular arc of at most half a turn about `centre`, the short way from `from` to `to`.
-    Arc { centre: Point, from: Point, to: Point, colour: Rgba, width: Length },
+    Arc {
+        centre: Point,
+        from: Point,
+        to: Point,
+        colour: Rgba,
+        width: Length,
+    },
     /// A disc, filled, outlined, or both.
-    Disc { centre: Point, radius: Length, fill: Option<Rgba>, outline: Option<(Rgba, Length)> },
+    Disc {
+        centre: Point,
+        radius: Length,
+        fill: Option<Rgba>,
+        outline: Option<(Rgba, Length)>,
+    },
     /// A line of text.
     Text(Text),
+    Picture(PlacedPicture),
+}
+
+/// A picture at its place.
+#[derive(Clone, Debug)]
+pub struct PlacedPicture {
+    pub levels: Arc<PictureLevels>,
+    /// Where its upper left, upper right and lower left corners lie, in the group's frame.
+    pub corners: [Point; 3],
+    /// 0 invisible to 1 opaque.
+    pub opacity: f64,
+}
+
+impl PartialEq for PlacedPicture {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.levels, &other.levels) && self.corners == other.corners && self.opacity == other.opacity
+    }
+}
+
+impl PlacedPicture {
+    /// The point of the frame at a place of the picture, in pixels of its full size.
+    pub fn at(&self, x_px: f64, y_px: f64) -> Point {
+        let [width, height] = self.levels.size_px().map(f64::from);
+        let [start, right, below] = self.corners;
+        start + (right - start) * (x_px / width) + (below - start) * (y_px / height)
+    }
+
+    /// The box around it.
+    pub fn bounds(&self) -> Bounds {
+        let [start, right, below] = self.corners;
+        Bounds::of([start, right, below, right + (below - start)])
+    }
 }
 
 /// A dashed line's lengths, starting with the dash.

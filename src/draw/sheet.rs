@@ -112,7 +112,8 @@ pub fn page(drawing: &Drawing, style: &Style, size: PageSize, furniture: Furnitu
         // Under the plan alone, a little beyond it.
         let beyond = bounds.inflated(margin / 2.0 / view.px_per_m);
         scene.groups.retain(|group| group.layer != Layer::Grid);
-        scene.groups.splice(0..0, super::drawing::grid(style, view.px_per_m, beyond));
+        let first = scene.groups.iter().take_while(|group| group.layer < Layer::Grid).count();
+        scene.groups.splice(first..first, super::drawing::grid(style, view.px_per_m, beyond));
     }
     let mut items = Vec::new();
     let palette = style.palette();

@@ -3,9 +3,12 @@
 
 use std::fmt::Write as _;
 
+use base64::Engine as _;
+
 use super::Rgba;
-use super::scene::{Anchor, Dash, Frame, Group, Item, Layer, Length, Scene, Text, View, Weight};
+use super::scene::{Anchor, Dash, Frame, Group, Item, Layer, Length, PlacedPicture, Scene, Text, View, Weight};
 use crate::geometry::Point;
+use crate::store::pictures::{Level, Samples};
 
 /// The fonts to look for: the bundled one, then what is metrically near.
 const FONTS: &str = "Inter,'Helvetica Neue',Helvetica,Arial,sans-serif";
@@ -108,7 +111,56 @@ fn write_item(out: &mut String, view: &View, frame: Frame, item: &Item) {
             )
         }
         Item::Text(text) => write_text(out, at(text.at), text),
+        Item::Picture(picture) => write_picture(out, view, picture, at),
     };
+}
+
+/// A picture, within the file: twice as fine as the page shows it, so that zooming in pays.
+fn write_picture(
+    out: &mut String,
+    view: &View,
+    picture: &PlacedPicture,
+    at: impl Fn(Point) -> Point,
+) -> std::fmt::Result {
+    let place = |x: f64, y: f64| at(picture.at(x, y));
+    let start = place(0.0, 0.0);
+    let index = picture.levels.index_for(start.distance(place(1.0, 0.0)) * view.pixel_ratio).saturating_sub(1);
+    let Some(level) = picture.levels.all().get(index) else { return Ok(()) };
+    let Some(data) = png_of(level) else { return Ok(()) };
+    // From pixels of this size to the page.
+    let stride = (index as f64).exp2();
+    let (x_way, y_way) = (place(stride, 0.0) - start, place(0.0, stride) - start);
+    writeln!(
+        out,
+        "<image width=\"{}\" height=\"{}\" transform=\"matrix({} {} {} {} {} {})\"{} href=\"data:image/png;base64,{}\"/>",
+        level.width_px,
+        level.height_px,
+        // A matrix needs more digits than a place: it is multiplied by thousands of pixels.
+        fine_number(x_way.x),
+        fine_number(x_way.y),
+        fine_number(y_way.x),
+        fine_number(y_way.y),
+        number(start.x),
+        number(start.y),
+        if picture.opacity < 1.0 { format!(" opacity=\"{}\"", number(picture.opacity)) } else { String::new() },
+        base64::engine::general_purpose::STANDARD.encode(data)
+    )
+}
+
+/// The PNG file of a picture at one size; `None` if it could not be encoded, which none fails to.
+fn png_of(level: &Level) -> Option<Vec<u8>> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, level.width_px, level.height_px);
+    encoder.set_color(match level.samples {
+        Samples::Grey => png::ColorType::Grayscale,
+        Samples::Rgb => png::ColorType::Rgb,
+        Samples::Rgba => png::ColorType::Rgba,
+    });
+    encoder.set_depth(png::BitDepth::Eight);
+    let mut writer = encoder.write_header().ok()?;
+    writer.write_image_data(&level.data).ok()?;
+    writer.finish().ok()?;
+    Some(bytes)
 }
 
 fn write_text(out: &mut String, at: Point, text: &Text) -> std::fmt::Result {
@@ -181,6 +233,13 @@ fn number(value: f64) -> String {
     // `+ 0.0` turns -0.0 into 0.0.
     let text = format!("{:.2}", (value * 100.0).round() / 100.0 + 0.0);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// A number to eight decimals, without trailing zeros.
+fn fine_number(value: f64) -> String {
+    let text = format!("{:.8}", value + 0.0);
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
 /// Text for XML 1.0: markup escaped, characters it does not allow replaced.

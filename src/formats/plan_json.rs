@@ -19,9 +19,9 @@ use super::{Format, Import, Place, ReadError};
 use crate::geometry::{Point, trim_m};
 use crate::labels::{Label, Schemes, Typology};
 use crate::plan::{
-    Backdrop, COORDINATE_LIMIT_M, Corner, CornerId, ElementId, Extra, Joint, LabelOrigin, LeafSide, Measurement, Meta,
-    Opening, OpeningId, OpeningKind, Place as OpeningPlace, Plan, Room, RoomId, RoomLabel, Scale, ScaleOrigin, Swing,
-    Wall, WallId,
+    Backdrop, COORDINATE_LIMIT_M, Corner, CornerId, ElementId, Extra, Guide, GuideAxis, Joint, LabelOrigin, LeafSide,
+    Measurement, Meta, Opening, OpeningId, OpeningKind, Place as OpeningPlace, Plan, Room, RoomId, RoomLabel, Scale,
+    ScaleOrigin, Swing, Wall, WallId, guides,
 };
 
 pub(crate) use change::{apply_change, change_to_bytes};
@@ -118,6 +118,9 @@ pub fn to_bytes(plan: &Plan) -> Vec<u8> {
     if let Some(backdrop) = plan.backdrop() {
         file.push_str(",\n\"backdrop\": ");
         file.push_str(&json(&DiskBackdrop::of(backdrop)));
+    }
+    if !plan.guides().is_empty() {
+        push_list(&mut file, "guides", plan.guides().iter().map(DiskGuide::of));
     }
     push_list(&mut file, "corners", plan.corners().map(|(id, corner)| DiskCorner::of(id, corner)));
     push_list(&mut file, "walls", plan.walls().map(|(id, wall)| DiskWall::of(id, wall)));
@@ -218,6 +221,8 @@ struct DiskPlan {
     meta: DiskMeta,
     backdrop: Option<DiskBackdrop>,
     #[serde(default)]
+    guides: Vec<DiskGuide>,
+    #[serde(default)]
     corners: Vec<DiskCorner>,
     #[serde(default)]
     walls: Vec<DiskWall>,
@@ -271,6 +276,15 @@ struct DiskBackdrop {
     opacity: Number,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     measurements: Vec<DiskMeasurement>,
+    #[serde(flatten)]
+    extra: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(expecting = "a guide")]
+struct DiskGuide {
+    axis: Text<GuideAxis>,
+    at: Metres,
     #[serde(flatten)]
     extra: Map<String, Value>,
 }
@@ -476,6 +490,16 @@ impl DiskBackdrop {
     }
 }
 
+impl DiskGuide {
+    fn of(guide: &Guide) -> Self {
+        Self { axis: Text(guide.axis), at: Metres(guide.at_m), extra: fields(&guide.extra) }
+    }
+
+    fn live(self) -> Guide {
+        Guide { axis: self.axis.0, at_m: self.at.0, extra: kept(self.extra) }
+    }
+}
+
 impl DiskMeasurement {
     fn of(measurement: &Measurement) -> Self {
         let Measurement { from, to, length_m } = measurement;
@@ -564,6 +588,7 @@ fn live(text: &str, disk: DiskPlan) -> Result<Plan, ReadError> {
     let mut plan = Plan {
         meta: Arc::new(disk.meta.live()),
         backdrop: disk.backdrop.map(|backdrop| Arc::new(backdrop.live())),
+        guides: guides::sorted(disk.guides.into_iter().take(guides::MOST_GUIDES).map(DiskGuide::live)),
         extra: kept(disk.extra),
         ..Plan::default()
     };

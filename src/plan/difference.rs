@@ -39,6 +39,8 @@ pub struct Difference {
     pub meta: bool,
     /// Whether the picture under the plan differs.
     pub backdrop: bool,
+    /// Whether the guide lines differ.
+    pub guides: bool,
     /// Whether fields differ that this version does not know.
     pub extra: bool,
 }
@@ -59,22 +61,25 @@ fn collect<K: Ord + Copy, V: PartialEq>(
 impl Difference {
     /// What differs between two plans.
     pub fn between(before: &Plan, after: &Plan) -> Self {
+        // Named one by one: a new part of plans must say here how it differs.
+        let Plan { meta, corners, walls, rooms, openings, backdrop, guides, extra } = before;
         let mut elements = BTreeMap::new();
-        collect::<CornerId, _>(&before.corners, &after.corners, ElementId::Corner, &mut elements);
-        collect::<WallId, _>(&before.walls, &after.walls, ElementId::Wall, &mut elements);
-        collect::<RoomId, _>(&before.rooms, &after.rooms, ElementId::Room, &mut elements);
-        collect::<OpeningId, _>(&before.openings, &after.openings, ElementId::Opening, &mut elements);
+        collect::<CornerId, _>(corners, &after.corners, ElementId::Corner, &mut elements);
+        collect::<WallId, _>(walls, &after.walls, ElementId::Wall, &mut elements);
+        collect::<RoomId, _>(rooms, &after.rooms, ElementId::Room, &mut elements);
+        collect::<OpeningId, _>(openings, &after.openings, ElementId::Opening, &mut elements);
         Self {
             elements,
-            meta: !Arc::ptr_eq(&before.meta, &after.meta) && before.meta != after.meta,
-            backdrop: before.backdrop != after.backdrop,
-            extra: before.extra != after.extra,
+            meta: !Arc::ptr_eq(meta, &after.meta) && *meta != after.meta,
+            backdrop: *backdrop != after.backdrop,
+            guides: *guides != after.guides,
+            extra: *extra != after.extra,
         }
     }
 
     /// Whether the plans are the same.
     pub fn is_empty(&self) -> bool {
-        self.elements.is_empty() && !self.meta && !self.backdrop && !self.extra
+        self.elements.is_empty() && !self.meta && !self.backdrop && !self.guides && !self.extra
     }
 
     /// What a person sees of it: walls, rooms and openings, those included that are as they were but for a

@@ -9,10 +9,13 @@ mod calibration;
 mod difference;
 pub mod edit;
 mod element;
+pub mod guides;
 mod history;
 mod id;
 mod invariants;
 mod meta;
+pub mod naming;
+pub mod storey;
 
 use std::sync::Arc;
 
@@ -28,6 +31,7 @@ pub use element::{
     Backdrop, Corner, Joint, LabelOrigin, LeafSide, Measurement, Opening, OpeningKind, Place, Room, RoomLabel, Swing,
     Wall,
 };
+pub use guides::{Guide, GuideAxis};
 pub use history::{History, Step};
 pub use id::{CornerId, ElementId, IdError, OpeningId, RoomId, WallId, name_bits};
 pub use invariants::Violation;
@@ -62,6 +66,8 @@ pub struct Plan {
     pub(crate) rooms: OrdMap<RoomId, Arc<Room>>,
     pub(crate) openings: OrdMap<OpeningId, Arc<Opening>>,
     pub(crate) backdrop: Option<Arc<Backdrop>>,
+    /// In the order of [`guides::sorted`].
+    pub(crate) guides: Arc<[Guide]>,
     pub(crate) extra: Extra,
 }
 
@@ -180,6 +186,7 @@ impl Plan {
             && self.openings.ptr_eq(&other.openings)
             && self.backdrop.as_ref().map(Arc::as_ptr) == other.backdrop.as_ref().map(Arc::as_ptr)
             && self.extra.as_ref().map(Arc::as_ptr) == other.extra.as_ref().map(Arc::as_ptr)
+            && Arc::ptr_eq(&self.guides, &other.guides)
     }
 }
 

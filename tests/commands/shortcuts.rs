@@ -52,6 +52,7 @@ fn every_shortcut_does_its_command() {
                     "the palette",
                 ),
                 "shortcuts" => (window.control("Search shortcuts").is_some(), "the sheet"),
+                "name-rooms" => (window.control("Name rooms").is_some(), "the form"),
                 "rename" | "set-function" => {
                     type_in(&mut window, "x");
                     keys(&mut window, "Enter");

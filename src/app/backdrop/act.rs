@@ -90,7 +90,7 @@ impl App {
                 (Severity::Warning, text, format!("{shown}{also}"), Remedy::RelinkPicture)
             }
         };
-        self.add_message(Message { severity, text, detail, remedy: Some(remedy) });
+        self.add_message(Message { severity, text, detail, remedies: vec![remedy], stays: false });
     }
 
     /// Asks which picture to use.
@@ -101,6 +101,9 @@ impl App {
 
     /// Reads a picture, then makes it the one under the plan.
     pub(in crate::app) fn use_picture(&mut self, use_: PictureUse, path: PathBuf, page: u32) {
+        if self.document.is_none() {
+            self.new_plan();
+        }
         let Some(document) = self.document.as_ref().map(|document| document.number) else { return };
         self.reading_picture = Some(file_name(&path));
         self.background.start(move || {
@@ -135,8 +138,9 @@ impl App {
         let [width, height] = picture.levels.size_px();
         let (title, backdrop) = match (use_, before) {
             (PictureUse::Relink, Some(before)) => {
-                self.messages
-                    .retain(|message| !matches!(message.remedy, Some(Remedy::RelinkPicture | Remedy::KeepPicture)));
+                self.messages.retain(|message| {
+                    !message.remedies.iter().any(|remedy| matches!(remedy, Remedy::RelinkPicture | Remedy::KeepPicture))
+                });
                 if !before.content_hash.is_empty() && before.content_hash != hash {
                     self.say(
                         Severity::Warning,
@@ -183,7 +187,9 @@ impl App {
     }
 
     pub(in crate::app) fn remove_picture(&mut self) {
-        self.messages.retain(|message| !matches!(message.remedy, Some(Remedy::RelinkPicture | Remedy::KeepPicture)));
+        self.messages.retain(|message| {
+            !message.remedies.iter().any(|remedy| matches!(remedy, Remedy::RelinkPicture | Remedy::KeepPicture))
+        });
         self.edit("Remove picture", |plan| Ok(edit::set_backdrop(plan, None)));
     }
 

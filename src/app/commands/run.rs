@@ -190,6 +190,7 @@ impl Question {
             }
             Self::Drawing(PictureChange::Measurements(_)) => "Scale the drawing along with the picture?".to_owned(),
             Self::Drawing(PictureChange::Turn { .. }) => "Turn the drawing along with the picture?".to_owned(),
+            Self::Change(change) => change.title.clone(),
             Self::Delete { selected, .. } if selected.len() == 1 => {
                 format!("Delete the {} and what depends on it?", selected[0].kind())
             }
@@ -204,6 +205,7 @@ impl Question {
         match self {
             Self::Unsaved(_) => &[("save", "Save"), ("discard", "Don't save"), ("cancel", "Cancel")],
             Self::Drawing(_) => &[("along", "Drawing too"), ("stays", "Picture only"), ("cancel", "Cancel")],
+            Self::Change(change) => change.answers,
             Self::Delete { .. } => &[("delete", "Delete"), ("cancel", "Cancel")],
             Self::Discard { .. } => &[("cancel", "Cancel"), ("discard", "Discard")],
             Self::Replace { .. } => &[("elsewhere", "Save as…"), ("replace", "Replace"), ("cancel", "Cancel")],

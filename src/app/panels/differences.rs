@@ -59,6 +59,7 @@ fn lines_of(
     let parts = [
         (difference.meta, "What is known of the plan"),
         (difference.backdrop, "The picture under the plan"),
+        (difference.guides, "The guide lines"),
         (difference.extra, "Fields of another version"),
     ];
     let parts = parts.into_iter().filter(|(differs, _)| *differs);
@@ -90,6 +91,9 @@ pub(in crate::app) fn summary(seen: &BTreeMap<ElementId, ChangeKind>, difference
     }
     if difference.backdrop {
         parts.push("the picture under it".to_owned());
+    }
+    if difference.guides {
+        parts.push("the guide lines".to_owned());
     }
     match parts.split_last() {
         None if difference.is_empty() => "nothing differs".to_owned(),

@@ -254,7 +254,8 @@ impl Inspected<'_> {
         }
     }
 
-    fn label(&self, ui: &mut Ui, room: &Room, status: RoomStatus) -> Option<Act> {
+    /// The five labels side by side; gives one that was clicked.
+    fn label_segments(&self, ui: &mut Ui, current: Option<Label>) -> Option<Label> {
         let segments: Vec<Segment<'_>> = Label::ALL
             .into_iter()
             .zip(LABEL_COMMANDS)
@@ -264,13 +265,16 @@ impl Inspected<'_> {
                     text: label.letter(),
                     name: command.title,
                     help: command.help,
-                    is_on: status.label() == Some(label),
+                    is_on: current == Some(label),
                     colour: Some(theme::colour(self.palette.label(label))),
                 })
             })
             .collect();
-        let clicked = segmented(ui, &segments).map(|index| Act::Label(Some(Label::ALL[index])));
-        let mut act = clicked;
+        segmented(ui, &segments).map(|index| Label::ALL[index])
+    }
+
+    fn label(&self, ui: &mut Ui, room: &Room, status: RoomStatus) -> Option<Act> {
+        let mut act = self.label_segments(ui, status.label()).map(|label| Act::Label(Some(label)));
         caption(ui, self.label_origin(room, status));
         if room.label.is_some() && link(ui, "Use the function's label").clicked() {
             act = Some(Act::Label(None));
@@ -348,6 +352,20 @@ impl Inspected<'_> {
             counts.iter().filter(|(number, _)| *number > 0).map(|(number, thing)| count(*number, thing)).collect();
         header(ui, None, None, &said.join(", "), "Selected");
         ui.add_space(6.0);
+        let mut act = None;
+        if selection.rooms().next().is_some() {
+            act = self.label_segments(ui, self.app.selected_label()).map(|label| Act::Label(Some(label)));
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 12.0;
+                for (text, id) in [("Set function", "set-function"), ("Name", "name-rooms"), ("Change", "change-rooms")]
+                {
+                    if link(ui, text).clicked() {
+                        act = Some(Act::Command(id));
+                    }
+                }
+            });
+            ui.add_space(4.0);
+        }
         let walls: Vec<(f64, f64)> = selection
             .walls()
             .filter_map(|id| self.plan.wall(id))
@@ -372,7 +390,7 @@ impl Inspected<'_> {
             let units = self.app.units();
             value(ui, "Place", &format!("{}, {}", units.exact_length(place.x), units.exact_length(place.y)));
         }
-        None
+        act
     }
 
     // An opening.

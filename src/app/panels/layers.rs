@@ -12,6 +12,9 @@ use crate::labels::{Label, normalised_function};
 /// The section of the view menu that holds the layers.
 const LAYERS: (Menu, u8) = (Menu::View, 2);
 
+/// Layers that are listed only where the plan has them.
+const RARE: [&str; 2] = ["guides", "ghost-layer"];
+
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     hairline(ui);
     section(ui, "Fill");
@@ -44,6 +47,10 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         let is_on = command.is_on(app) == Some(true);
         let shortcut = app.keys_text(command, &context);
         let is_available = command.why_not(app).is_none();
+        // What most plans never have takes no place in the list.
+        if !is_available && RARE.contains(&command.id) {
+            continue;
+        }
         let row = Row::new(Lead::Eye(is_on), command.title).trail(&shortcut).on(is_on);
         let response = ui.add_enabled_ui(is_available, |ui| row.button(ui, Role::CheckBox)).inner;
         if response.on_hover_text(command.help).clicked() {

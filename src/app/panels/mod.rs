@@ -1,6 +1,7 @@
 //! The panels around the canvas, one file each.
 
 mod about;
+pub(super) mod bulk;
 pub(super) mod differences;
 mod history;
 mod inspector;
@@ -23,6 +24,7 @@ pub(super) mod welcome;
 
 use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, UiBuilder};
 
+use bulk::Bulk;
 use palette::Palette;
 use shortcuts::Sheet;
 
@@ -65,6 +67,10 @@ pub(super) struct Panels {
     pub recent_functions: Vec<String>,
     /// The shortcuts, while they are shown.
     pub sheet: Option<Sheet>,
+    /// Naming or changing many rooms, while that is asked for.
+    pub bulk: Option<Bulk>,
+    /// The pattern by which rooms were named last.
+    pub pattern: Option<String>,
     /// Whether it is shown what Enfilade is.
     pub about: bool,
     /// Where the panel on the left and the inspector were in the last frame, as far as shown.
@@ -91,6 +97,8 @@ impl Default for Panels {
             recent: Vec::new(),
             recent_functions: Vec::new(),
             sheet: None,
+            bulk: None,
+            pattern: None,
             about: false,
             left_rect: None,
             right_rect: None,
@@ -161,13 +169,20 @@ impl Panels {
     pub(super) fn forget(&mut self) {
         self.field = None;
         self.notes = false;
+        self.bulk = None;
         self.differences = false;
         self.focus = None;
     }
 
     /// Whether a dialog covers the window.
     pub(super) fn is_dialog_open(&self) -> bool {
-        self.notes || self.recovery || self.differences || self.palette.is_some() || self.sheet.is_some() || self.about
+        self.notes
+            || self.recovery
+            || self.differences
+            || self.palette.is_some()
+            || self.sheet.is_some()
+            || self.bulk.is_some()
+            || self.about
     }
 }
 
@@ -263,6 +278,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     recovery::show(app, ui);
     about::show(app, ui);
     shortcuts::show(app, ui);
+    bulk::show(app, ui);
     palette::show(app, ui);
     questions::show(app, ui);
 }

@@ -18,6 +18,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             };
             format!("They are in no file yet. Save them {then}, or they are lost.")
         }
+        Question::Change(change) => change.text.clone(),
         Question::Delete { selected, gone } => {
             let others = |kind: &str| {
                 let is_it = |element: &&ElementId| element.kind() == kind && !selected.contains(element);

@@ -217,6 +217,10 @@ impl Recorder {
                 let bytes = crate::store::pictures::read_picture_bytes(path).unwrap_or_default();
                 files.add(&document::file_name(path), bytes)
             }
+            ArgumentKind::PlanFile => {
+                let path = Path::new(word);
+                files.add_file(path).unwrap_or_else(|| document::file_name(path))
+            }
             _ => word.clone(),
         });
         let line = Line(std::iter::once((*id).to_owned()).chain(words).collect());
@@ -306,6 +310,11 @@ impl App {
             recorder.start = Some((document.number, document.history.position()));
             let line = recorder.open(&document.origin);
             recorder.lines.push(line);
+        }
+        if let Some(Origin::File { path, storey }) = self.ghost.as_ref().and_then(|ghost| ghost.origin.as_ref())
+            && let Some(word) = recorder.files.add_file(path)
+        {
+            recorder.lines.push(Line::new(&["ghost", &word, &(storey + 1).to_string()]));
         }
         recorder.lines.extend(self.lines_of_state());
         if let Some((centre, px_per_m)) = self.canvas.free_view() {

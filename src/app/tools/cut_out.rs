@@ -1,6 +1,6 @@
 //! Cuts a courtyard or a shaft out of a room.
 
-use super::path::{Path, area};
+use super::path::Path;
 use super::preview::{Look, Preview};
 use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
 use crate::app::commands::points_word;
@@ -80,7 +80,7 @@ impl Tool for CutOut {
         points.push(scope.at());
         let closed = rectangle_of_two(points);
         if closed.len() >= 3 {
-            preview.label(scope.at(), area(polygon::signed_area(&closed).abs()), Look::Danger);
+            preview.label(scope.at(), scope.units.area(polygon::signed_area(&closed).abs()), Look::Danger);
             preview.fill(closed.clone(), Vec::new(), Look::Danger);
         }
         preview.dashed(closed, true, Look::Danger);

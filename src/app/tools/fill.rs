@@ -2,7 +2,6 @@
 
 use std::cell::RefCell;
 
-use super::path::area;
 use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, Tool, word};
 use crate::geometry::{Point, polygon};
@@ -44,7 +43,7 @@ impl Tool for Fill {
 
     fn hint(&self, scope: &Scope<'_>) -> String {
         match self.with_face(scope, scope.pointer, PlanFace::area_m2) {
-            Some(area_m2) => format!("Click to make a room of these {}", area(area_m2)),
+            Some(area_m2) => format!("Click to make a room of these {}", scope.units.area(area_m2)),
             None => "Fill: point at a place that walls enclose and no room covers · Shift+E fills all".to_owned(),
         }
     }
@@ -53,7 +52,7 @@ impl Tool for Fill {
         self.with_face(scope, scope.pointer, |face| {
             preview.fill(face.outer.clone(), face.holes.clone(), Look::New);
             preview.line(face.outer.clone(), true, Look::New);
-            preview.label(scope.pointer, area(face.area_m2()), Look::New);
+            preview.label(scope.pointer, scope.units.area(face.area_m2()), Look::New);
         });
     }
 

@@ -1,6 +1,6 @@
 //! Measures distances, angles and areas. Changes nothing.
 
-use super::path::{Path, area, length};
+use super::path::Path;
 use super::preview::{Look, Preview, degrees};
 use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool};
 use crate::geometry::{Point, Segment, polygon};
@@ -58,13 +58,17 @@ impl Tool for Measure {
             return "Measure: click from point to point · the first one again closes an area".to_owned();
         }
         let total_m: f64 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
-        let mut text = format!("Length {}", length(total_m));
+        let mut text = format!("Length {}", scope.units.length(total_m));
         if let [.., a, b] = points.as_slice() {
             let way = *b - *a;
-            text.push_str(&format!(" · across {} · up {}", length(way.x.abs()), length(way.y.abs())));
+            text.push_str(&format!(
+                " · across {} · up {}",
+                scope.units.length(way.x.abs()),
+                scope.units.length(way.y.abs())
+            ));
         }
         if points.len() >= 3 {
-            text.push_str(&format!(" · area {}", area(polygon::signed_area(&points).abs())));
+            text.push_str(&format!(" · area {}", scope.units.area(polygon::signed_area(&points).abs())));
         }
         text
     }
@@ -73,7 +77,11 @@ impl Tool for Measure {
         let points = self.points(scope);
         if points.len() >= 3 {
             preview.fill(points.clone(), Vec::new(), Look::Guide);
-            preview.label(polygon::centroid(&points), area(polygon::signed_area(&points).abs()), Look::Guide);
+            preview.label(
+                polygon::centroid(&points),
+                scope.units.area(polygon::signed_area(&points).abs()),
+                Look::Guide,
+            );
         }
         let mut along = None;
         for pair in points.windows(2) {
@@ -82,7 +90,7 @@ impl Tool for Measure {
             let angle = if angle > 180.0 { 360.0 - angle } else { angle };
             // Between two lines, the angle that they enclose.
             let shown = if along.is_some() { ((180.0 - angle) * 10.0).round() / 10.0 } else { angle };
-            preview.dimension(segment, format!("{}  {shown}°", length(segment.length())));
+            preview.dimension(segment, format!("{}  {shown}°", scope.units.length(segment.length())));
             along = segment.vector().unit();
         }
         for &point in &points {

@@ -8,6 +8,7 @@ mod cut_out;
 mod fill;
 mod measure;
 mod opening;
+mod paste;
 mod path;
 mod preview;
 mod rectangle;
@@ -22,8 +23,8 @@ use std::sync::Arc;
 
 use egui::{Context, CursorIcon, Event, Key, Modifiers};
 
-pub(super) use preview::{Preview, paint_snap, tag};
-pub(super) use select::{REACH_PX, corners_of, hit};
+pub(super) use preview::{Look, Preview, paint_snap, tag};
+pub(super) use select::{REACH_PX, hit};
 pub(super) use typing::Typed;
 
 use super::document::Derived;
@@ -31,6 +32,7 @@ use super::{App, LayerSettings, Selection};
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::plan::{DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, Plan};
 use crate::snapping::{self, PlanIndex, Query, Snap, SnapKind};
+use crate::units::Units;
 
 /// A tool as the table has it.
 pub(super) struct Entry {
@@ -53,6 +55,7 @@ pub(super) const TOOLS: &[Entry] = &[
     opening::PASSAGE,
     opening::WINDOW,
     measure::ENTRY,
+    paste::ENTRY,
     calibrate::BY_LENGTH,
     calibrate::BY_DOOR,
     straighten::ENTRY,
@@ -99,6 +102,9 @@ pub(super) struct Scope<'a> {
     pub selection: &'a Selection,
     pub options: &'a DrawOptions,
     pub layers: &'a LayerSettings,
+    /// What was copied.
+    pub copied: Option<&'a Plan>,
+    pub units: Units,
     /// Where the pointer is in the plan, in metres; the last place when it has left the canvas.
     pub pointer: Point,
     /// What it snaps to.
@@ -225,6 +231,22 @@ pub(super) trait Tool {
     }
 }
 
+/// What places can snap to.
+#[derive(Clone, Copy)]
+pub(super) struct Ground<'a> {
+    pub index: Option<&'a PlanIndex>,
+    pub seen: Bounds,
+    pub px_per_m: f64,
+    pub modifiers: Modifiers,
+    /// Guide lines, and lines of the storey below.
+    pub lines: &'a [Segment],
+    /// Corners of the storey below.
+    pub points: &'a [Point],
+    pub options: &'a DrawOptions,
+    /// Spacing of the grid that is shown, in metres; `None` where it does not attract.
+    pub grid_m: Option<f64>,
+}
+
 /// The tool in the hand.
 pub(super) struct Toolbox {
     entry: &'static Entry,
@@ -314,16 +336,21 @@ impl Toolbox {
         self.tool.take_back()
     }
 
-    /// Takes the keys that are for the tool out of the input.
-    pub(super) fn take_keys(&mut self, context: &Context) {
+    /// Takes the keys that are for the tool out of the input, and gives what is for the clipboard.
+    pub(super) fn take_keys(&mut self, context: &Context, units: Units) -> Vec<Event> {
         let typing = self.tool.typing();
         let is_busy = self.tool.is_busy();
         let letters = if is_busy { self.tool.keys() } else { &[] };
         let (typed, pending, cycled) = (&mut self.typed, &mut self.pending, &mut self.cycled);
         // Tab is for the next thing to snap to only where something is drawn.
+        let mut clipboard = Vec::new();
         let takes_tab = self.entry.id != TOOLS[0].id && self.snap.is_some();
         context.input_mut(|input| {
             input.events.retain(|event| match event {
+                Event::Copy | Event::Cut | Event::Paste(_) => {
+                    clipboard.push(event.clone());
+                    false
+                }
                 Event::Text(text) if typing.is_some() => {
                     let is_for_tool = typing::is_part(typed, text);
                     if is_for_tool {
@@ -346,7 +373,7 @@ impl Toolbox {
                             false
                         }
                         Key::Enter if !typed.is_empty() => {
-                            if let Some(value) = typing.and_then(|typing| typing::read(typing, typed)) {
+                            if let Some(value) = typing.and_then(|typing| typing::read(typing, typed, units)) {
                                 typed.clear();
                                 pending.push(Input::Typed(value));
                             }
@@ -372,6 +399,7 @@ impl Toolbox {
                 _ => true,
             });
         });
+        clipboard
     }
 
     /// The keys taken since the canvas was last shown.
@@ -380,18 +408,8 @@ impl Toolbox {
     }
 
     /// What a place snaps to now.
-    pub(super) fn snap(
-        &mut self,
-        index: Option<&PlanIndex>,
-        pointer: Point,
-        view: (Bounds, f64),
-        modifiers: Modifiers,
-        lines: &[Segment],
-        points: &[Point],
-        options: &DrawOptions,
-        grid_m: Option<f64>,
-    ) -> Snap {
-        let (seen, px_per_m) = view;
+    pub(super) fn snap(&mut self, ground: &Ground<'_>, pointer: Point) -> Snap {
+        let &Ground { index, seen, px_per_m, modifiers, lines, points, options, grid_m } = ground;
         let empty = PlanIndex::default();
         let anchor = self.tool.anchor();
         if self.cycled_at.is_none_or(|at| at.distance(pointer) * px_per_m > SAME_PLACE_PX) {
@@ -445,8 +463,24 @@ impl App {
     pub(super) fn take_tool_keys(&mut self, context: &Context) {
         let is_typing = self.was_typing || context.text_edit_focused();
         let is_covered = self.question.is_some() || self.panels.is_dialog_open() || egui::Popup::is_any_open(context);
-        if !is_typing && !is_covered && self.document.is_some() {
-            self.tools.take_keys(context);
+        if is_typing || is_covered || self.document.is_none() {
+            return;
+        }
+        let units = self.units();
+        for event in self.tools.take_keys(context, units) {
+            match event {
+                Event::Copy => {
+                    self.run_command("copy", context);
+                }
+                Event::Cut => {
+                    self.run_command("cut", context);
+                }
+                Event::Paste(text) => {
+                    self.take_pasted(&text);
+                    self.run_command("paste", context);
+                }
+                _ => {}
+            }
         }
     }
 

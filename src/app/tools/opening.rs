@@ -1,13 +1,14 @@
-//! Puts doors, passages and windows into walls.
+//! Puts doors, passages and windows into walls, and closes gaps between walls with them.
 
-use super::path::length;
+use std::cell::RefCell;
+
 use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, Tool, Typed, Typing, word};
 use crate::app::canvas::room_title;
 use crate::geometry::{Point, Segment};
 use crate::plan::edit::opening_at;
-use crate::plan::{Joint, LeafSide, Opening as PlanOpening, OpeningKind, Swing};
-use crate::topology::sides_by_geometry;
+use crate::plan::{Joint, LeafSide, Opening as PlanOpening, OpeningKind, Plan, Swing};
+use crate::topology::{Gap, gaps, sides_by_geometry};
 
 pub(super) const DOOR: Entry = Entry { id: "door", make: || Box::new(Opening::new(OpeningKind::Door)) };
 pub(super) const DOUBLE_DOOR: Entry =
@@ -17,6 +18,8 @@ pub(super) const WINDOW: Entry = Entry { id: "window", make: || Box::new(Opening
 
 struct Opening {
     kind: OpeningKind,
+    /// The gaps of a plan's walls: looked for once a plan.
+    gaps: RefCell<Option<(Plan, Vec<Gap>)>>,
     /// Where a drag along the wall began: it says how wide the opening is.
     from: Option<Point>,
 }
@@ -30,7 +33,7 @@ const LEAST_WIDTH_M: f64 = 0.3;
 
 impl Opening {
     fn new(kind: OpeningKind) -> Self {
-        Self { kind, from: None }
+        Self { kind, gaps: RefCell::new(None), from: None }
     }
 
     /// The opening that a click would make.
@@ -42,6 +45,21 @@ impl Opening {
         opening_at(scope.plan, self.kind, at, width_m, scope.metres(REACH_PX), Some(scope.pointer)).ok()
     }
 
+    /// The gap between two collinear walls that is meant: the pointer is in it.
+    fn gap(&self, scope: &Scope<'_>) -> Option<Gap> {
+        let mut known = self.gaps.borrow_mut();
+        if !known.as_ref().is_some_and(|(plan, _)| plan.is_same_value(scope.plan)) {
+            *known = Some((scope.plan.clone(), gaps(scope.plan)));
+        }
+        let (_, gaps) = known.as_ref()?;
+        let reach_m = scope.metres(REACH_PX);
+        let distance = |gap: &Gap| gap.segment.distance(scope.pointer);
+        let nearest = gaps.iter().min_by(|p, q| distance(p).total_cmp(&distance(q)))?;
+        // Beside the gap the walls are meant.
+        let fraction = nearest.segment.nearest_fraction(scope.pointer);
+        (distance(nearest) <= reach_m && (0.02..=0.98).contains(&fraction)).then(|| nearest.clone())
+    }
+
     /// Two leaves are twice as wide.
     fn width_m(&self, scope: &Scope<'_>) -> f64 {
         let factor = if self.kind == OpeningKind::DoubleDoor { 2.0 } else { 1.0 };
@@ -50,6 +68,10 @@ impl Opening {
 
     /// Ready -> Ready
     fn place(&self, scope: &Scope<'_>) -> Vec<Call> {
+        if let Some(gap) = self.gap(scope) {
+            let kind = self.kind.name().replace(' ', "-");
+            return vec![("bridge-gap", vec![word(gap.segment.midpoint()), kind])];
+        }
         let planned = self.planned(scope);
         let Some(segment) = planned.and_then(|opening| scope.plan.opening_segment(&opening)) else { return Vec::new() };
         let kind = self.kind.name().replace(' ', "-");
@@ -84,6 +106,10 @@ impl Tool for Opening {
 
     fn hint(&self, scope: &Scope<'_>) -> String {
         let name = crate::app::canvas::sentence(self.kind.name());
+        if let Some(gap) = self.gap(scope) {
+            let width = scope.units.length(gap.width_m);
+            return format!("{name}: click to close this gap of {width} with a doorway");
+        }
         match self.planned(scope) {
             Some(_) => format!("{name}: click to place it, drag along the wall for another width, or type a width"),
             None => format!("{name}: point at a wall or at a room's boundary"),
@@ -91,6 +117,12 @@ impl Tool for Opening {
     }
 
     fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
+        if let Some(gap) = self.gap(scope) {
+            let thickness_m = gap.walls.iter().filter_map(|&id| scope.plan.wall(id)).map(|wall| wall.thickness_m);
+            preview.wall(gap.segment, thickness_m.fold(scope.metres(4.0), f64::max), Look::New);
+            preview.label(scope.pointer, format!("gap of {}", scope.units.length(gap.width_m)), Look::New);
+            return;
+        }
         let Some(opening) = self.planned(scope) else { return };
         let Some(segment) = scope.plan.opening_segment(&opening) else { return };
         preview.wall(segment, scope.metres(8.0), Look::New);
@@ -98,7 +130,7 @@ impl Tool for Opening {
             preview.line(vec![hinge, tip], false, Look::New);
             preview.arc(hinge, shut, tip, Look::New);
         }
-        let mut said = length(segment.length());
+        let mut said = scope.units.length(segment.length());
         if self.kind.is_passable()
             && let Some(derived) = scope.derived
         {

@@ -61,7 +61,7 @@ impl Path {
         let Some(last) = self.last().filter(|last| last.distance(scope.at()) >= SAME_M) else { return };
         let segment = Segment::new(last, scope.at());
         let angle = degrees(self.along(), segment.vector());
-        let text = format!("{}  {angle}°", length(segment.length()));
+        let text = format!("{}  {angle}°", scope.units.length(segment.length()));
         preview.dimension(segment, text);
     }
 
@@ -71,14 +71,4 @@ impl Path {
             preview.handle(point, Look::New);
         }
     }
-}
-
-/// A length as it is shown while drawing.
-pub(super) fn length(length_m: f64) -> String {
-    format!("{length_m:.2} m")
-}
-
-/// An area as it is shown while drawing.
-pub(super) fn area(area_m2: f64) -> String {
-    format!("{area_m2:.1} m²")
 }

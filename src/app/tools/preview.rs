@@ -212,22 +212,22 @@ pub(in crate::app) fn paint_snap(painter: &Painter, rect: Rect, view: &View, pal
     let arm = |x: f32, y: f32| at + vec2(x, y);
     match snap.kind {
         SnapKind::Corner => {
-            drop(painter.rect_stroke(Rect::from_center_size(at, Vec2::splat(11.0)), 0.0, stroke, StrokeKind::Middle))
+            painter.rect_stroke(Rect::from_center_size(at, Vec2::splat(11.0)), 0.0, stroke, StrokeKind::Middle);
         }
         SnapKind::Intersection => {
             painter.line_segment([arm(-6.0, -6.0), arm(6.0, 6.0)], stroke);
             painter.line_segment([arm(-6.0, 6.0), arm(6.0, -6.0)], stroke);
         }
         SnapKind::Midpoint => {
-            drop(painter.add(Shape::closed_line(vec![arm(-6.5, 5.0), arm(6.5, 5.0), arm(0.0, -6.5)], stroke)))
+            painter.add(Shape::closed_line(vec![arm(-6.5, 5.0), arm(6.5, 5.0), arm(0.0, -6.5)], stroke));
         }
         SnapKind::Perpendicular => {
             painter.add(Shape::line(vec![arm(-6.0, -7.0), arm(-6.0, 6.0), arm(7.0, 6.0)], stroke));
             painter.add(Shape::line(vec![arm(-6.0, 0.0), arm(0.0, 0.0), arm(0.0, 6.0)], stroke));
         }
-        SnapKind::Wall => drop(
-            painter.add(Shape::closed_line(vec![arm(0.0, -6.5), arm(6.5, 0.0), arm(0.0, 6.5), arm(-6.5, 0.0)], stroke)),
-        ),
+        SnapKind::Wall => {
+            painter.add(Shape::closed_line(vec![arm(0.0, -6.5), arm(6.5, 0.0), arm(0.0, 6.5), arm(-6.5, 0.0)], stroke));
+        }
         SnapKind::Alignment | SnapKind::Grid | SnapKind::Free => {
             let half = if snap.kind == SnapKind::Free { 3.0 } else { 5.0 };
             painter.line_segment([arm(-half, 0.0), arm(half, 0.0)], stroke);

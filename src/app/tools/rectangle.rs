@@ -1,6 +1,5 @@
 //! Draws a room as a rectangle: it takes what is free there.
 
-use super::path::{area, length};
 use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, TakenBack, Tool, Typed, Typing};
 use crate::app::commands::points_word;
@@ -90,10 +89,10 @@ impl Tool for Rectangle {
         preview.line(corners.to_vec(), true, Look::New);
         for pair in [[corners[0], corners[1]], [corners[1], corners[2]]] {
             let side = Segment::new(pair[0], pair[1]);
-            preview.dimension(side, length(side.length()));
+            preview.dimension(side, scope.units.length(side.length()));
         }
         if area_m2 > 0.0 {
-            preview.label(scope.at(), area(area_m2), Look::New);
+            preview.label(scope.at(), scope.units.area(area_m2), Look::New);
         }
     }
 

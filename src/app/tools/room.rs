@@ -1,6 +1,6 @@
 //! Draws a room by its corners: it takes what is free there.
 
-use super::path::{Path, area};
+use super::path::Path;
 use super::preview::{Look, Preview};
 use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
 use crate::app::commands::points_word;
@@ -119,7 +119,7 @@ impl Tool for Room {
                 rest.push(first);
                 preview.dashed(rest, false, Look::New);
             }
-            preview.label(scope.at(), area(polygon::signed_area(&closed).abs()), Look::New);
+            preview.label(scope.at(), scope.units.area(polygon::signed_area(&closed).abs()), Look::New);
         }
         preview.line(points, false, Look::New);
         self.path.preview_corners(preview);

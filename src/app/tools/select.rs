@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 
 use egui::CursorIcon;
 
-use super::path::length;
 use super::preview::{Look, Preview};
 use super::{Anchor, Call, Entry, Input, Scope, Tool, word};
 use crate::app::LayerSettings;
@@ -183,7 +182,7 @@ fn is_inside(from: Point, to: Point) -> bool {
 }
 
 /// The corners that selected elements have.
-pub(in crate::app) fn corners_of(plan: &Plan, selection: &Selection) -> BTreeSet<CornerId> {
+fn corners_of(plan: &Plan, selection: &Selection) -> BTreeSet<CornerId> {
     let mut corners: BTreeSet<CornerId> = selection.corners().collect();
     for wall in selection.walls().filter_map(|id| plan.wall(id)) {
         corners.extend([wall.from, wall.to]);
@@ -258,13 +257,17 @@ impl Tool for Select {
             State::MovingCorner { corner, from } => {
                 preview_moved(scope, &BTreeSet::from([corner]), scope.at() - from, preview);
                 preview.handle(scope.at(), Look::New);
-                preview.label(scope.at(), format!("moved {}", length(from.distance(scope.at()))), Look::New);
+                preview.label(
+                    scope.at(),
+                    format!("moved {}", scope.units.length(from.distance(scope.at()))),
+                    Look::New,
+                );
             }
             State::Moving { from } => {
                 let by = moved_by(from, scope);
                 preview_moved(scope, &corners_of(scope.plan, scope.selection), by, preview);
                 preview.dashed(vec![from, from + by], false, Look::Guide);
-                preview.label(scope.at(), format!("moved {}", length(by.length())), Look::New);
+                preview.label(scope.at(), format!("moved {}", scope.units.length(by.length())), Look::New);
             }
             State::Sliding { opening } => {
                 let segment =

@@ -3,6 +3,7 @@
 use egui::Key;
 
 use super::Typing;
+use crate::units::{Units, parse_angle_rad};
 
 /// What was typed, read.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,7 +49,8 @@ pub(super) fn is_key(typed: &str, key: Key) -> bool {
 }
 
 /// Reads what was typed; `None` where it means nothing.
-pub(super) fn read(typing: Typing, typed: &str) -> Option<Typed> {
+pub(super) fn read(typing: Typing, typed: &str, units: Units) -> Option<Typed> {
+    let length_m = |text: &str| units.parse_length(text).ok().filter(|length_m| *length_m > 0.0);
     match typing {
         Typing::Length => {
             let (length, angle) = match typed.split_once('<') {
@@ -58,7 +60,7 @@ pub(super) fn read(typing: Typing, typed: &str) -> Option<Typed> {
             let length_m = length_m(length)?;
             let angle_rad = match angle {
                 None => None,
-                Some(text) => Some(number(text.trim_end_matches('°'))?.to_radians()),
+                Some(text) => Some(parse_angle_rad(text).ok()?),
             };
             Some(Typed::Length { length_m, angle_rad })
         }
@@ -70,32 +72,23 @@ pub(super) fn read(typing: Typing, typed: &str) -> Option<Typed> {
     }
 }
 
-fn number(text: &str) -> Option<f64> {
-    text.trim().replace(',', ".").parse::<f64>().ok().filter(|number| number.is_finite())
-}
-
-/// A length above 0 in metres.
-fn length_m(text: &str) -> Option<f64> {
-    number(text).filter(|length_m| *length_m > 0.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn lengths_angles_and_sizes() {
-        let length = |text: &str| read(Typing::Length, text);
+        let length = |text: &str| read(Typing::Length, text, Units::Metric);
         assert_eq!(length("3.2"), Some(Typed::Length { length_m: 3.2, angle_rad: None }));
         assert_eq!(
             length("3,2<90"),
             Some(Typed::Length { length_m: 3.2, angle_rad: Some(std::f64::consts::FRAC_PI_2) })
         );
-        assert_eq!(read(Typing::Size, "4x3"), Some(Typed::Size { width_m: 4.0, height_m: 3.0 }));
+        assert_eq!(read(Typing::Size, "4x3", Units::Metric), Some(Typed::Size { width_m: 4.0, height_m: 3.0 }));
         for wrong in ["", "<", "x", "3<", "-2", "0", "1e999"] {
             assert_eq!(length(wrong), None, "{wrong}");
         }
-        assert_eq!(read(Typing::Size, "4"), None);
+        assert_eq!(read(Typing::Size, "4", Units::Metric), None);
     }
 
     #[test]

@@ -13,6 +13,9 @@ struct DiskChange {
     /// Of one element where it changed: the picture, or null for none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     backdrop: Vec<Option<DiskBackdrop>>,
+    /// All guide lines, where they changed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    guides: Option<Vec<DiskGuide>>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     corners: Vec<DiskCorner>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -32,6 +35,7 @@ pub(crate) fn change_to_bytes(before: &Plan, after: &Plan) -> Vec<u8> {
     let difference = Difference::between(before, after);
     let mut disk = DiskChange {
         meta: difference.meta.then(|| DiskMeta::of(&after.meta)),
+        guides: difference.guides.then(|| after.guides().iter().map(DiskGuide::of).collect()),
         extra: difference.extra.then(|| fields(&after.extra)),
         ..DiskChange::default()
     };
@@ -67,6 +71,9 @@ pub(crate) fn apply_change(plan: &Plan, bytes: &[u8]) -> Result<Plan, String> {
     }
     if let Some(backdrop) = disk.backdrop.into_iter().next() {
         plan.backdrop = backdrop.map(|backdrop| Arc::new(backdrop.live()));
+    }
+    if let Some(guides) = disk.guides {
+        plan.guides = guides::sorted(guides.into_iter().take(guides::MOST_GUIDES).map(DiskGuide::live));
     }
     if let Some(extra) = disk.extra {
         plan.extra = kept(extra);

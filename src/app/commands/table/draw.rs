@@ -31,10 +31,10 @@ const THICKNESS: Argument = optional(
 );
 
 /// The kinds of openings as words.
-const KINDS: &[(&str, &str)] =
+pub(super) const KINDS: &[(&str, &str)] =
     &[("door", "Door"), ("double-door", "Double door"), ("passage", "Passage"), ("window", "Window")];
 
-fn kind_of(word: &str) -> OpeningKind {
+pub(super) fn kind_of(word: &str) -> OpeningKind {
     match word {
         "double-door" => OpeningKind::DoubleDoor,
         "passage" => OpeningKind::Passage,

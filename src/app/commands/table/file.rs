@@ -1,11 +1,32 @@
 //! Opening, saving, closing.
 
 use super::*;
+use crate::plan::storey::Keep;
 
 pub(super) const COMMANDS: &[Command] = &[
     command("new-plan", "New plan", "Begin a plan on which nothing is drawn yet", always, |app, _| app.new_plan())
         .keys(&[ctrl(Key::N)])
         .menu(Menu::File, 0),
+    with(
+        "copy-storey",
+        "Copy to another storey…",
+        "Begin a plan of another storey with the same walls and rooms; this one is drawn faintly below it",
+        has_plan,
+        &[
+            needed("STOREY", ArgumentKind::Text, "what the new storey is called, as on the drawing: 2, first floor"),
+            optional("KEEP", ArgumentKind::Word(Keep::WORDS), "what rooms keep: functions (without), all or outlines"),
+        ],
+        |app, values, _| {
+            let storey = values.text(0).unwrap_or_default().to_owned();
+            if storey.is_empty() {
+                return Ran::Refused("the new storey needs a name".to_owned());
+            }
+            app.copy_storey(&storey, Keep::of_word(values.word(1).copied().unwrap_or_default()));
+            Ran::Done
+        },
+        None,
+    )
+    .menu(Menu::File, 0),
     with(
         "open",
         "Open…",

@@ -1,9 +1,14 @@
 //! Selecting and changing what is drawn.
 
-use super::draw::edited;
+use std::collections::BTreeSet;
+
+use super::draw::{KINDS, edited, kind_of};
 use super::*;
-use crate::app::{Question, SelectMode};
-use crate::plan::{ElementId, edit};
+use crate::app::{Document, ProposedChange, Question};
+use crate::geometry::Transform;
+use crate::plan::edit::{self, Alignment, Array};
+use crate::plan::{LeafSide, OpeningId, OpeningKind, RoomId, Swing};
+use crate::topology;
 
 const MODE: Argument = optional("MODE", ArgumentKind::Word(SelectMode::WORDS), "replace (without), add or toggle");
 
@@ -64,6 +69,344 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .keys(&[key(Key::Delete)])
     .menu(Menu::Modify, 1),
+    // The clipboard.
+    with(
+        "copy",
+        "Copy",
+        "Keep what is selected, to paste it here or into another plan",
+        has_picked,
+        &[],
+        |app, _, context| app.copy_selected(context),
+        None,
+    )
+    .keys(&[ctrl(Key::C)])
+    .menu(Menu::Modify, 2),
+    with(
+        "cut",
+        "Cut",
+        "Keep what is selected, to paste it, and delete it here",
+        has_picked,
+        &[],
+        |app, _, context| match app.copy_selected(context) {
+            Ran::Done => app.delete_selected(),
+            other => other,
+        },
+        None,
+    )
+    .keys(&[ctrl(Key::X)])
+    .menu(Menu::Modify, 2),
+    command(
+        "paste",
+        "Paste",
+        "Place what was copied: it hangs on the pointer until you click",
+        has_copied,
+        |app, _| {
+            app.tools.take_up("paste");
+        },
+    )
+    .keys(&[ctrl(Key::V)])
+    .menu(Menu::Modify, 2),
+    with(
+        "duplicate",
+        "Duplicate",
+        "Place a copy of what is selected",
+        has_picked,
+        &[],
+        |app, _, context| {
+            let ran = app.copy_selected(context);
+            if ran == Ran::Done {
+                app.tools.take_up("paste");
+            }
+            ran
+        },
+        None,
+    )
+    .keys(&[ctrl(Key::D)])
+    .menu(Menu::Modify, 2),
+    // Turning and the like.
+    with(
+        "rotate",
+        "Rotate…",
+        "Turn what is selected about its middle, counter-clockwise; what shares its corners follows",
+        has_picked,
+        &[
+            needed(
+                "ANGLE",
+                ArgumentKind::Number { unit: " of degrees", least: -360.0, most: 360.0 },
+                "in degrees, counter-clockwise",
+            ),
+            CENTRE,
+        ],
+        |app, values, _| {
+            let angle_rad = values.number(0).copied().unwrap_or_default().to_radians();
+            let about = app.centre_of_selection(values, 1);
+            moved(app, "Rotate", Transform::rotation(about, angle_rad))
+        },
+        None,
+    )
+    .menu(Menu::Modify, 3),
+    command(
+        "rotate-left",
+        "Rotate left",
+        "Turn what is selected by a right angle, counter-clockwise",
+        has_picked,
+        |app, _| {
+            let about = app.centre_of_selection(&Values::default(), 0);
+            app.report(|app| moved(app, "Rotate", Transform::rotation(about, std::f64::consts::FRAC_PI_2)));
+        },
+    )
+    .menu(Menu::Modify, 3),
+    with(
+        "mirror",
+        "Mirror…",
+        "Mirror what is selected over the upright or the level line through its middle",
+        has_picked,
+        &[needed("WAY", ArgumentKind::Word(MIRRORS), "left-right or up-down"), CENTRE],
+        |app, values, _| {
+            let about = app.centre_of_selection(values, 1);
+            let way = if values.word(0) == Some(&"up-down") { Vector::new(1.0, 0.0) } else { Vector::new(0.0, 1.0) };
+            match Transform::reflection(about, about + way) {
+                Some(transform) => moved(app, "Mirror", transform),
+                None => Ran::Done,
+            }
+        },
+        None,
+    )
+    .menu(Menu::Modify, 3),
+    with(
+        "scale-selection",
+        "Scale…",
+        "Make what is selected larger or smaller about its middle",
+        has_picked,
+        &[
+            needed("FACTOR", ArgumentKind::Number { unit: "", least: 0.001, most: 1000.0 }, "2 is twice as large"),
+            CENTRE,
+        ],
+        |app, values, _| {
+            let about = app.centre_of_selection(values, 1);
+            moved(app, "Scale", Transform::scaling(about, values.number(0).copied().unwrap_or(1.0)))
+        },
+        None,
+    )
+    .menu(Menu::Modify, 3),
+    with(
+        "array",
+        "Array…",
+        "Copy what is selected into columns and rows",
+        has_picked,
+        &[
+            needed("COLUMNS", ArgumentKind::Count, "how many side by side, the original among them"),
+            needed("ROWS", ArgumentKind::Count, "how many above each other"),
+            needed(
+                "STEP",
+                ArgumentKind::Points { least: 1 },
+                "from column to column and from row to row, in metres, as '4,3'",
+            ),
+        ],
+        |app, values, _| {
+            let step = values.points(2).and_then(|points| points.first()).copied().unwrap_or_default();
+            let columns = values.count(0).copied().unwrap_or(1);
+            let rows = values.count(1).copied().unwrap_or(1);
+            let (column_step, row_step) = (Vector::new(step.x, 0.0), Vector::new(0.0, step.y));
+            copied(app, Array::Grid { columns, rows, column_step, row_step })
+        },
+        None,
+    )
+    .menu(Menu::Modify, 3),
+    with(
+        "polar-array",
+        "Array around a point…",
+        "Copy what is selected around a point",
+        has_picked,
+        &[
+            needed("ABOUT", ArgumentKind::Points { least: 1 }, "the point, in metres, as '4,3'"),
+            needed("COUNT", ArgumentKind::Count, "how many, the original among them"),
+            needed(
+                "ANGLE",
+                ArgumentKind::Number { unit: " of degrees", least: -360.0, most: 360.0 },
+                "from one to the next, in degrees",
+            ),
+        ],
+        |app, values, _| {
+            let about = values.points(0).and_then(|points| points.first()).copied().unwrap_or_default();
+            let count = values.count(1).copied().unwrap_or(1);
+            let step_rad = values.number(2).copied().unwrap_or_default().to_radians();
+            copied(app, Array::Polar { about, count, step_rad })
+        },
+        None,
+    )
+    .menu(Menu::Modify, 3),
+    with(
+        "align",
+        "Align…",
+        "Bring sides or middles of what is selected into line",
+        has_picked,
+        &[needed("SIDE", ArgumentKind::Word(ALIGNMENTS), "left, right, top, bottom, centre or middle")],
+        |app, values, _| {
+            let alignment = match values.word(0) {
+                Some(&"left") => Alignment::Left,
+                Some(&"right") => Alignment::Right,
+                Some(&"top") => Alignment::Top,
+                Some(&"bottom") => Alignment::Bottom,
+                Some(&"centre") => Alignment::Center,
+                _ => Alignment::Middle,
+            };
+            let selected = app.selection.elements().clone();
+            edited(app, "Align", |plan| edit::align(plan, &selected, alignment))
+        },
+        None,
+    )
+    .menu(Menu::Modify, 4),
+    with(
+        "distribute",
+        "Distribute…",
+        "Put what is selected at equal distances",
+        has_picked,
+        &[needed("WAY", ArgumentKind::Word(&[("across", "Side by side"), ("up", "Above each other")]), "across or up")],
+        |app, values, _| {
+            let is_upright = values.word(0) == Some(&"up");
+            let selected = app.selection.elements().clone();
+            edited(app, "Distribute", |plan| edit::distribute(plan, &selected, is_upright))
+        },
+        None,
+    )
+    .menu(Menu::Modify, 4),
+    with(
+        "square-up",
+        "Square up",
+        "Make angles that are nearly right ones right: of the selected rooms, or of all",
+        has_drawing,
+        &[optional(
+            "ANGLE",
+            ArgumentKind::Number { unit: " of degrees", least: 0.01, most: 44.0 },
+            "how far from right an angle may be, in degrees; 10 without, the paper's threshold",
+        )],
+        |app, values, _| {
+            let max_rad = values.number(0).copied().unwrap_or(10.0).to_radians();
+            let rooms: BTreeSet<RoomId> = app.selection.rooms().collect();
+            let of = (!rooms.is_empty()).then_some(rooms);
+            edited(app, "Square up", |plan| edit::square_up(plan, of.as_ref(), max_rad))
+        },
+        None,
+    )
+    .menu(Menu::Modify, 5),
+    with(
+        "weld",
+        "Weld corners…",
+        "Join corners that are no further apart than a tolerance; shows what it does before it does it",
+        has_drawing,
+        &[needed("TOLERANCE", ArgumentKind::Number { unit: " of metres", least: 0.0001, most: 10.0 }, "in metres")],
+        |app, values, _| app.ask_to_weld(values.number(0).copied().unwrap_or_default()),
+        None,
+    )
+    .menu(Menu::Modify, 5),
+    with(
+        "offset",
+        "Offset copy…",
+        "Draw walls beside the selected walls, or inside or outside the selected room",
+        has_picked,
+        &[
+            needed("DISTANCE", ArgumentKind::Number { unit: " of metres", least: 0.001, most: 1000.0 }, "in metres"),
+            optional(
+                "TOWARDS",
+                ArgumentKind::Points { least: 1 },
+                "a point on the side where the copy goes; without, where the pointer is",
+            ),
+        ],
+        |app, values, _| app.offset_selected(values),
+        None,
+    )
+    .menu(Menu::Modify, 5),
+    with(
+        "set-thickness",
+        "Thickness…",
+        "Make the selected walls as thick as this",
+        has_picked,
+        &[needed("THICKNESS", ArgumentKind::Number { unit: " of metres", least: 0.0, most: 10.0 }, "in metres")],
+        |app, values, _| {
+            let thickness_m = values.number(0).copied().unwrap_or_default();
+            let walls: Vec<_> = app.selection.walls().collect();
+            if walls.is_empty() {
+                return Ran::Refused("select a wall first".to_owned());
+            }
+            edited(app, "Set thickness", |plan| edit::set_thickness(plan, &walls, thickness_m))
+        },
+        None,
+    )
+    .menu(Menu::Modify, 5),
+    with(
+        "merge-rooms",
+        "Merge rooms",
+        "Make one room of the selected ones; walls and openings between them go",
+        has_picked,
+        &[],
+        |app, _, _| {
+            let rooms: Vec<RoomId> = app.selection.rooms().collect();
+            if rooms.len() < 2 {
+                return Ran::Refused("select two rooms or more first".to_owned());
+            }
+            edited(app, "Merge rooms", |plan| topology::merge_rooms(plan, &rooms))
+        },
+        None,
+    )
+    .keys(&[key(Key::J)])
+    .menu(Menu::Modify, 6),
+    with(
+        "bridge-gaps",
+        "Doors into all gaps",
+        "Close the gaps of 30 to 150 cm between collinear walls with doorways",
+        has_drawing,
+        &[],
+        |app, _, _| app.ask_to_bridge(),
+        None,
+    )
+    .menu(Menu::Modify, 6),
+    with(
+        "flip-hinge",
+        "Hinge at the other end",
+        "Hinge the selected doors at their other end",
+        has_opening,
+        &[],
+        |app, _, _| app.change_openings("Flip hinge", edit::flip_hinge),
+        None,
+    )
+    .menu(Menu::Modify, 7),
+    with(
+        "flip-side",
+        "Open to the other side",
+        "Let the selected doors open to their other side",
+        has_opening,
+        &[],
+        |app, _, _| app.change_openings("Flip side", edit::flip_side),
+        None,
+    )
+    .menu(Menu::Modify, 7),
+    with(
+        "set-opening-kind",
+        "Kind of opening…",
+        "Make doors, double doors, passages or windows of the selected openings",
+        has_opening,
+        &[needed("KIND", ArgumentKind::Word(KINDS), "door, double-door, passage or window")],
+        |app, values, _| {
+            let kind = kind_of(values.word(0).copied().unwrap_or_default());
+            app.change_openings("Change opening", |plan, id, _| edit::set_opening_kind(plan, id, kind))
+        },
+        None,
+    )
+    .menu(Menu::Modify, 7),
+    with(
+        "set-opening-width",
+        "Width of opening…",
+        "Make the selected openings as wide as this",
+        has_opening,
+        &[needed("WIDTH", ArgumentKind::Number { unit: " of metres", least: 0.01, most: 1000.0 }, "in metres")],
+        |app, values, _| {
+            let width_m = values.number(0).copied().unwrap_or_default();
+            app.change_openings("Set width", |plan, id, _| edit::resize_opening(plan, id, width_m))
+        },
+        None,
+    )
+    .menu(Menu::Modify, 7),
     switch(
         "lock-rooms",
         "Lock rooms",
@@ -124,10 +467,39 @@ pub(super) const COMMANDS: &[Command] = &[
         &[needed("BY", ArgumentKind::Points { least: 1 }, "how far right and up, in metres, as '0.5,-1'")],
         |app, values, _| {
             let by = values.points(0).and_then(|points| points.first()).copied().unwrap_or_default() - Point::default();
-            let corners = crate::app::tools::corners_of(app.plan().unwrap_or(&Plan::default()), &app.selection);
-            edited(app, "Move", |plan| {
-                let targets: Vec<_> = corners.iter().filter_map(|&id| Some((id, plan.position(id)? + by))).collect();
-                edit::move_corners(plan, &targets)
+            moved(app, "Move", Transform::translation(by))
+        },
+        None,
+    ),
+    with(
+        "paste-at",
+        "Paste at a place",
+        "Place what was copied with its middle at a point",
+        has_copied,
+        &[needed("PLACE", ArgumentKind::Points { least: 1 }, "a point in metres, as '2,1.5'")],
+        |app, values, _| {
+            let at = values.points(0).and_then(|points| points.first()).copied().unwrap_or_default();
+            app.paste_at(at)
+        },
+        None,
+    ),
+    with(
+        "bridge-gap",
+        "Door into a gap",
+        "Close the gap between two collinear walls that is nearest to a point with an opening",
+        has_drawing,
+        &[
+            needed("PLACE", ArgumentKind::Points { least: 1 }, "a point in metres, as '2,1.5'"),
+            optional("KIND", ArgumentKind::Word(KINDS), "door (without), double-door, passage or window"),
+        ],
+        |app, values, _| {
+            let at = values.points(0).and_then(|points| points.first()).copied().unwrap_or_default();
+            let kind = kind_of(values.word(1).copied().unwrap_or("door"));
+            edited(app, "Bridge gap", |plan| {
+                let gaps = topology::gaps(plan);
+                let nearest = gaps.iter().min_by(|p, q| p.segment.distance(at).total_cmp(&q.segment.distance(at)));
+                let Some(gap) = nearest else { return Err(EditError(NO_GAPS.to_owned())) };
+                Ok(topology::bridge_gaps(plan, std::slice::from_ref(gap), kind)?.0)
             })
         },
         None,
@@ -168,6 +540,63 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     ),
 ];
+
+const CENTRE: Argument = optional(
+    "ABOUT",
+    ArgumentKind::Points { least: 1 },
+    "a point, in metres, as '4,3'; the middle of what is selected without",
+);
+
+const MIRRORS: &[(&str, &str)] = &[("left-right", "Left and right"), ("up-down", "Up and down")];
+
+const ALIGNMENTS: &[(&str, &str)] = &[
+    ("left", "Left sides"),
+    ("right", "Right sides"),
+    ("top", "Upper sides"),
+    ("bottom", "Lower sides"),
+    ("centre", "Middles, on an upright line"),
+    ("middle", "Middles, on a level line"),
+];
+
+const NO_GAPS: &str = "there is no gap of 30 to 150 cm between collinear walls";
+
+/// Moves what is selected.
+fn moved(app: &mut App, title: &str, transform: Transform) -> Ran {
+    let selected = app.selection.elements().clone();
+    edited(app, title, |plan| edit::move_elements(plan, &selected, transform))
+}
+
+/// Copies what is selected and selects the copies.
+fn copied(app: &mut App, array: Array) -> Ran {
+    let selected = app.selection.elements().clone();
+    let mut made = BTreeSet::new();
+    let ran = edited(app, "Array", |plan| {
+        let (next, copies) = edit::array(plan, &selected, array)?;
+        made = copies;
+        Ok(next)
+    });
+    select_made(app, &made);
+    ran
+}
+
+/// Selects what was made, but for corners.
+fn select_made(app: &mut App, made: &BTreeSet<ElementId>) {
+    let made: Vec<ElementId> =
+        made.iter().copied().filter(|element| !matches!(element, ElementId::Corner(_))).collect();
+    if !made.is_empty() {
+        app.select(made, SelectMode::Replace);
+    }
+}
+
+fn has_copied(app: &App) -> Availability {
+    has_plan(app)?;
+    when(app.copied.is_some(), "nothing was copied yet")
+}
+
+fn has_opening(app: &App) -> Availability {
+    has_picked(app)?;
+    when(app.selection.openings().next().is_some(), "select a door or another opening first")
+}
 
 /// The labels as words, and rooms without one.
 const LABELS: &[(&str, &str)] = &[
@@ -236,6 +665,153 @@ impl App {
         }
         found.retain(|&element| is_selectable(self, element));
         found
+    }
+
+    /// Says why something was refused, where the command cannot.
+    fn report(&mut self, act: impl FnOnce(&mut Self) -> Ran) {
+        if let Ran::Refused(reason) = act(self) {
+            self.status = reason;
+        }
+    }
+
+    /// The point that an argument names, or the middle of what is selected.
+    fn centre_of_selection(&self, values: &Values, index: usize) -> Point {
+        let named = values.points(index).and_then(|points| points.first()).copied();
+        named.unwrap_or_else(|| {
+            let document = self.document.as_ref();
+            let bounds = self.selection.iter().filter_map(|element| document?.bounds_of(element));
+            bounds.reduce(Bounds::union).map_or(Point::default(), Bounds::center)
+        })
+    }
+
+    /// Keeps what is selected, here and in the system's clipboard.
+    fn copy_selected(&mut self, context: &Context) -> Ran {
+        let Some(plan) = self.plan() else { return Ran::Done };
+        match edit::fragment(plan, self.selection.elements()) {
+            Ok(fragment) => {
+                let text = String::from_utf8_lossy(&crate::formats::plan_json::to_bytes(&fragment)).into_owned();
+                context.copy_text(text);
+                self.status = format!("Copied {} elements", self.selection.len());
+                self.copied = Some(fragment);
+                Ran::Done
+            }
+            Err(error) => Ran::Refused(error.to_string()),
+        }
+    }
+
+    /// Takes over what the system's clipboard holds, where that is part of a plan.
+    pub(in crate::app) fn take_pasted(&mut self, text: &str) {
+        if let Ok(plan) = crate::formats::plan_json::from_bytes(text.as_bytes())
+            && !plan.is_empty()
+        {
+            self.copied = Some(plan);
+        }
+    }
+
+    fn paste_at(&mut self, at: Point) -> Ran {
+        let Some(fragment) = self.copied.clone() else { return Ran::Done };
+        let by = at - fragment.bounds().center();
+        let mut made = BTreeSet::new();
+        let ran = edited(self, "Paste", |plan| {
+            let (next, elements) = edit::insert(plan, &fragment, Transform::translation(by))?;
+            made = elements;
+            Ok(next)
+        });
+        select_made(self, &made);
+        ran
+    }
+
+    /// Shows which corners would be joined, and asks.
+    fn ask_to_weld(&mut self, tolerance_m: f64) -> Ran {
+        let Some(plan) = self.plan() else { return Ran::Done };
+        match edit::weld(plan, tolerance_m) {
+            Err(error) => Ran::Refused(error.to_string()),
+            Ok(weld) if weld.is_empty() => {
+                Ran::Refused(format!("no corners are within {}", self.units().length(tolerance_m)))
+            }
+            Ok(weld) => {
+                let place = |id| plan.position(id).unwrap_or_default();
+                let mut marks: Vec<Segment> =
+                    weld.merged.iter().map(|&(from, to)| Segment::new(place(from), place(to))).collect();
+                marks.extend(weld.onto_edges.iter().map(|&(corner, _)| Segment::new(place(corner), place(corner))));
+                let count = crate::app::panels::status::count;
+                let (corners, edges) = (count(weld.merged.len(), "corner"), count(weld.onto_edges.len(), "edge"));
+                let text = format!(
+                    "{corners} would become another within {}, and {edges} would be split at a corner: marked on the plan.",
+                    self.units().length(tolerance_m)
+                );
+                self.question = Some(Question::Change(ProposedChange {
+                    title: "Weld these corners?".to_owned(),
+                    text,
+                    answers: &[("weld", "Weld"), ("cancel", "Cancel")],
+                    step: "Weld",
+                    plan: weld.plan,
+                    marks,
+                }));
+                Ran::Asks
+            }
+        }
+    }
+
+    /// Shows the gaps in walls, and asks.
+    fn ask_to_bridge(&mut self) -> Ran {
+        let Some(plan) = self.plan() else { return Ran::Done };
+        let gaps = topology::gaps(plan);
+        if gaps.is_empty() {
+            return Ran::Refused(NO_GAPS.to_owned());
+        }
+        match topology::bridge_gaps(plan, &gaps, OpeningKind::Door) {
+            Err(error) => Ran::Refused(error.to_string()),
+            Ok((next, _)) => {
+                let gaps_said = crate::app::panels::status::count(gaps.len(), "gap");
+                self.question = Some(Question::Change(ProposedChange {
+                    title: "Put doors into these gaps?".to_owned(),
+                    text: format!("{gaps_said} between collinear walls, 30 to 150 cm wide: marked on the plan."),
+                    answers: &[("bridge", "Put doors in"), ("cancel", "Cancel")],
+                    step: "Bridge gaps",
+                    plan: next,
+                    marks: gaps.into_iter().map(|gap| gap.segment).collect(),
+                }));
+                Ran::Asks
+            }
+        }
+    }
+
+    /// Draws walls beside what is selected.
+    fn offset_selected(&mut self, values: &Values) -> Ran {
+        let distance_m = values.number(0).copied().unwrap_or_default();
+        let named = values.points(1).and_then(|points| points.first()).copied();
+        let towards = named.or(self.canvas.pointer).unwrap_or_default();
+        let walls: Vec<_> = self.selection.walls().collect();
+        let room = self.selection.rooms().next();
+        let thickness_m = self.draw_options.thickness_m;
+        edited(self, "Offset", |plan| match (walls.is_empty(), room) {
+            (false, _) => Ok(topology::offset_walls(plan, &walls, distance_m, towards)?.plan),
+            (true, Some(room)) => {
+                let points = plan.room(room).map(|room| plan.ring_points(&room.outer)).unwrap_or_default();
+                let is_inside = polygon::locate_in_ring(&points, towards) != polygon::Location::Outside;
+                Ok(topology::offset_room(plan, room, distance_m, is_inside, thickness_m)?.plan)
+            }
+            (true, None) => Err(EditError("select walls or a room first".to_owned())),
+        })
+    }
+
+    /// Changes the selected openings; the change is told how each is drawn.
+    fn change_openings(
+        &mut self,
+        title: &str,
+        change: impl Fn(&Plan, OpeningId, Swing) -> Result<Plan, EditError>,
+    ) -> Ran {
+        let derived = self.document.as_ref().and_then(Document::derived).cloned();
+        let drawn = |id: OpeningId| derived.as_ref().and_then(|derived| derived.drawing.swing_of(id));
+        let openings: Vec<(OpeningId, Swing)> = self
+            .selection
+            .openings()
+            .map(|id| (id, drawn(id).unwrap_or(Swing { hinge_at_start: true, side: LeafSide::Left })))
+            .collect();
+        edited(self, title, |plan| {
+            openings.iter().try_fold(plan.clone(), |plan, &(id, swing)| change(&plan, id, swing))
+        })
     }
 
     /// Deletes what is selected; asks first where more would go with it.

@@ -61,8 +61,9 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "picture",
         "Add picture…",
-        "Lay a picture under the plan to trace over: PNG, JPEG, TIFF, WebP, BMP, GIF or a page of a PDF",
-        has_plan,
+        "Lay a picture under the plan, or under a new one, to trace over: PNG, JPEG, TIFF, WebP, BMP, GIF or a page of a \
+         PDF",
+        always,
         &[needed("PATH", ArgumentKind::PictureFile, "the picture's file"), PAGE],
         |app, values, _| {
             if let Some(path) = values.path(0) {

@@ -1,7 +1,9 @@
 //! The picked room: finding, naming, labelling.
 
 use super::*;
+use crate::app::bulk::{Change, Order, Which};
 use crate::app::labelling::Target;
+use crate::app::panels::bulk::Bulk;
 use crate::plan::RoomId;
 
 const TARGET: Argument = optional(
@@ -94,7 +96,7 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
     )
     .when_complete(has_rooms)
-    .keys(&[key(Key::F3), shift(Key::F2)])
+    .keys(&[key(Key::F4), shift(Key::F2)])
     .menu(Menu::Room, 1),
     with(
         "set-note",
@@ -107,6 +109,56 @@ pub(super) const COMMANDS: &[Command] = &[
             Ran::Done
         },
         Some(|app, _| app.ask_for_field(FieldKind::Note)),
+    )
+    .menu(Menu::Room, 1),
+    with(
+        "name-rooms",
+        "Name rooms…",
+        "Name many rooms by a pattern such as {function} {n}, after showing what each would be called",
+        has_rooms,
+        &[
+            needed(
+                "PATTERN",
+                ArgumentKind::Text,
+                "text with {n}, {nn}, {function}, {label}, {letter}, {storey}, {building}",
+            ),
+            optional("ROOMS", ArgumentKind::Text, "unnamed (without), selected, all, 'function office' or 'label big'"),
+            optional("ORDER", ArgumentKind::Word(Order::WORDS), "rows (without) or columns, from the top left"),
+            optional("START", ArgumentKind::Number { unit: "", least: 0.0, most: 1e6 }, "the first number, 1 without"),
+        ],
+        |app, values, _| {
+            let which = Which::of_word(values.text(1).unwrap_or("unnamed"));
+            let order = Order::of_word(values.word(2).copied().unwrap_or_default());
+            let start = values.number(3).map_or(1, |start| start.round() as u32);
+            let pattern = values.text(0).unwrap_or_default();
+            match which.and_then(|which| app.name_rooms(pattern, &which, order, start)) {
+                Ok(()) => Ran::Done,
+                Err(reason) => Ran::Refused(reason),
+            }
+        },
+        Some(|app, _| app.panels.bulk = Some(Bulk::naming(app))),
+    )
+    .keys(&[ctrl(Key::F2)])
+    .menu(Menu::Room, 1),
+    with(
+        "change-rooms",
+        "Change rooms…",
+        "Give all rooms of a function, of a label, or selected, another function or label, after showing how many \
+         they are",
+        has_rooms,
+        &[
+            needed("ROOMS", ArgumentKind::Text, "selected, unnamed, all, 'function office' or 'label big'"),
+            needed("CHANGE", ArgumentKind::Text, "'function meeting room', 'label hall' or 'label by-function'"),
+        ],
+        |app, values, _| {
+            let which = Which::of_word(values.text(0).unwrap_or_default());
+            let change = Change::of_word(values.text(1).unwrap_or_default());
+            match which.and_then(|which| app.change_rooms(&which, &change?)) {
+                Ok(()) => Ran::Done,
+                Err(reason) => Ran::Refused(reason),
+            }
+        },
+        Some(|app, _| app.panels.bulk = Some(Bulk::changing(app))),
     )
     .menu(Menu::Room, 1),
     label(

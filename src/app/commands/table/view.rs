@@ -1,6 +1,51 @@
 //! What is seen, and how.
 
 use super::*;
+use crate::plan::edit::EditError;
+use crate::plan::guides::{add_guide, clear_guides, move_guide, remove_guide};
+use crate::plan::{GuideAxis, Plan};
+
+const AXES: &[(&str, &str)] = &[("horizontal", "Horizontal"), ("vertical", "Vertical")];
+
+const AXIS: Argument = needed("WAY", ArgumentKind::Word(AXES), "horizontal or vertical");
+
+const POSITION: Argument = needed(
+    "POSITION",
+    ArgumentKind::Length { least_m: -FAR_M, most_m: FAR_M },
+    "y of a horizontal guide, x of a vertical one",
+);
+
+fn has_ghost(app: &App) -> Availability {
+    has_plan(app)?;
+    when(app.ghost.is_some(), "show a storey below first")
+}
+
+fn has_guides(app: &App) -> Availability {
+    has_plan(app)?;
+    when(app.plan().is_some_and(|plan| !plan.guides().is_empty()), "there are no guides")
+}
+
+impl App {
+    /// Changes guides as a command says: its way, its place, and where it is to be.
+    fn change_guides(
+        &mut self,
+        title: &str,
+        values: &Values,
+        change: impl FnOnce(&Plan, GuideAxis, f64, f64) -> Result<Plan, EditError>,
+    ) -> Ran {
+        let axis = values.word(0).and_then(|word| word.parse().ok()).unwrap_or(GuideAxis::Horizontal);
+        let number = |index: usize| values.number(index).copied().unwrap_or_default();
+        let Some(plan) = self.plan() else { return Ran::Done };
+        match change(plan, axis, number(1), number(2)) {
+            Ok(plan) => {
+                self.layers.guides = true;
+                self.edit(title, |_| Ok(plan));
+                Ran::Done
+            }
+            Err(error) => Ran::Refused(error.0),
+        }
+    }
+}
 
 /// The grid's lines are as far apart as the zoom has it.
 const AUTO: &str = "auto";
@@ -117,6 +162,108 @@ pub(super) const COMMANDS: &[Command] = &[
     .keys(&[shift(Key::G)])
     .menu(Menu::View, 2)
     .tool(Icon::Grid, 2),
+    switch(
+        "guides",
+        "Guides",
+        "Show the guide lines",
+        has_guides,
+        |app| app.layers.guides,
+        |app, is_on| app.layers.guides = is_on,
+    )
+    .menu(Menu::View, 2),
+    switch(
+        "dimensions",
+        "Dimensions",
+        "Show lengths, area and perimeter of what is selected",
+        always,
+        |app| app.layers.dimensions,
+        |app, is_on| app.layers.dimensions = is_on,
+    )
+    .menu(Menu::View, 2),
+    switch(
+        "ghost-layer",
+        "Storey below",
+        "Show the plan that was chosen as the storey below, faintly",
+        has_ghost,
+        |app| app.layers.ghost,
+        |app, is_on| app.layers.ghost = is_on,
+    )
+    .menu(Menu::View, 2),
+    with(
+        "ghost",
+        "Show a storey below…",
+        "Draw another plan faintly under this one: the storey below, say",
+        has_plan,
+        &[
+            needed("PATH", ArgumentKind::PlanFile, "a file with a plan"),
+            optional(
+                "STOREY",
+                ArgumentKind::Count,
+                "which plan of the file, from 1; without, the first, of the open file the one before",
+            ),
+        ],
+        |app, values, _| {
+            if let Some(path) = values.path(0) {
+                app.read_ghost(path.to_owned(), values.count(1).map(|storey| storey - 1));
+            }
+            Ran::Done
+        },
+        Some(|app, _| {
+            let choices = app.ghost_choices();
+            let asking = crate::app::commands::find("ghost").map(|command| Palette::asking(command, Vec::new()));
+            app.panels.palette =
+                asking.map(|palette| if choices.is_empty() { palette } else { palette.with_choices(choices) });
+        }),
+    )
+    .menu(Menu::View, 3),
+    command("clear-ghost", "Show no storey below", "Take the storey below away", has_ghost, |app, _| {
+        app.show_ghost(None);
+    })
+    .menu(Menu::View, 3),
+    switch(
+        "rulers",
+        "Rulers",
+        "Show rulers along the canvas, out of which guide lines are dragged",
+        always,
+        |app| app.layers.rulers,
+        |app, is_on| app.layers.rulers = is_on,
+    )
+    .keys(&[ctrl(Key::R)])
+    .menu(Menu::View, 3),
+    with(
+        "add-guide",
+        "Add a guide…",
+        "Add a line to draw along; or drag one out of a ruler",
+        has_plan,
+        &[AXIS, POSITION],
+        |app, values, _| app.change_guides("Add guide", values, |plan, axis, at_m, _| add_guide(plan, axis, at_m)),
+        None,
+    )
+    .menu(Menu::View, 3),
+    with(
+        "move-guide",
+        "Move a guide",
+        "Move a guide line; or drag its mark along a ruler",
+        has_guides,
+        &[AXIS, POSITION, needed("TO", ArgumentKind::Length { least_m: -FAR_M, most_m: FAR_M }, "where it is to be")],
+        |app, values, _| app.change_guides("Move guide", values, move_guide),
+        None,
+    ),
+    with(
+        "remove-guide",
+        "Remove a guide",
+        "Take a guide line away; or drag its mark off the ruler, or double-click the mark",
+        has_guides,
+        &[AXIS, POSITION],
+        |app, values, _| {
+            app.change_guides("Remove guide", values, |plan, axis, at_m, _| remove_guide(plan, axis, at_m))
+        },
+        None,
+    ),
+    command("clear-guides", "Clear guides", "Take all guide lines away", has_guides, |app, _| {
+        app.edit("Clear guides", |plan| Ok(clear_guides(plan)));
+    })
+    .menu(Menu::View, 3),
     with(
         "grid-spacing",
         "Grid spacing…",

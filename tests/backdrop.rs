@@ -1,0 +1,20 @@
+//! Pictures to trace over: reading any kind of file, bad ones included; their place, scale and way home;
+//! how they are shown in the window and by `enfilade render`.
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]
+
+#[path = "backdrop/files.rs"]
+mod files;
+#[path = "backdrop/pdf.rs"]
+mod pdf;
+#[path = "backdrop/read.rs"]
+mod read;
+#[path = "backdrop/real.rs"]
+mod real;
+#[path = "backdrop/render.rs"]
+mod render;
+#[path = "backdrop/scan.rs"]
+mod scan;
+#[cfg(feature = "gui")]
+#[path = "backdrop/window.rs"]
+mod window;
