@@ -1,6 +1,6 @@
 //! Splits rooms, without a wall: straight across by one click, or along a line.
 
-use super::path::{Path, area};
+use super::path::Path;
 use super::preview::{Look, Preview};
 use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
 use crate::app::commands::points_word;
@@ -95,7 +95,7 @@ impl Tool for Split {
                     // The smaller x first, as they lie.
                     let is_upward = line.b.y > line.a.y;
                     let (first, second) = if is_upward { (left, right) } else { (right, left) };
-                    preview.label(scope.pointer, format!("{} | {}", area(first), area(second)), Look::New);
+                    preview.label(scope.pointer, format!("{} | {}", scope.units.area(first), scope.units.area(second)), Look::New);
                 }
             }
             return;
