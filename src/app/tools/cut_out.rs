@@ -15,12 +15,12 @@ struct CutOut {
 }
 
 impl CutOut {
-    fn to(&mut self, point: Point) -> Vec<Call> {
+    fn to(&mut self, point: Point, scope: &Scope<'_>) -> Vec<Call> {
         if self.path.closes(point) || self.path.is_last(point) {
             return self.close();
         }
         // Ready -> Drawing, Drawing -> Drawing
-        self.path.points.push(point);
+        self.path.go_to(point, scope);
         Vec::new()
     }
 
@@ -42,17 +42,17 @@ fn rectangle_of_two(points: Vec<Point>) -> Vec<Point> {
 impl Tool for CutOut {
     fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
         match input {
-            Input::Click => self.to(scope.at()),
+            Input::Click => self.to(scope.at(), scope),
             Input::DragStart { at, .. } if self.path.is_empty() => {
-                self.path.points = vec![at];
+                self.path = Path::from(at);
                 Vec::new()
             }
             Input::Drop => {
-                self.path.points.push(scope.at());
+                self.path.go_to(scope.at(), scope);
                 self.close()
             }
             Input::Typed(typed) => match self.path.typed_point(typed, scope) {
-                Some(point) => self.to(point),
+                Some(point) => self.to(point, scope),
                 None => Vec::new(),
             },
             Input::Enter | Input::DoubleClick | Input::SecondaryClick => self.close(),
@@ -105,9 +105,6 @@ impl Tool for CutOut {
     }
 
     fn take_back(&mut self) -> TakenBack {
-        match self.path.points.pop() {
-            Some(_) => TakenBack::Corner,
-            None => TakenBack::Nothing,
-        }
+        if self.path.take_back().0 { TakenBack::Corner } else { TakenBack::Nothing }
     }
 }

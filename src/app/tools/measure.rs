@@ -30,11 +30,11 @@ impl Tool for Measure {
         match input {
             // Done -> Measuring
             Input::Click if self.is_done || self.path.is_empty() => {
-                *self = Self { path: Path { points: vec![scope.at()] }, is_done: false };
+                *self = Self { path: Path::from(scope.at()), is_done: false };
             }
             // Measuring -> Done
             Input::Click if self.path.closes(scope.at()) => {
-                self.path.points.push(scope.at());
+                self.path.go_to(scope.at(), scope);
                 self.is_done = true;
             }
             Input::Click if self.path.is_last(scope.at()) => self.is_done = true,
@@ -42,9 +42,9 @@ impl Tool for Measure {
             Input::Click => self.path.points.push(scope.at()),
             Input::Enter | Input::DoubleClick | Input::SecondaryClick => self.is_done = !self.path.is_empty(),
             Input::Escape => *self = Self::default(),
-            Input::DragStart { at, .. } => *self = Self { path: Path { points: vec![at] }, is_done: false },
+            Input::DragStart { at, .. } => *self = Self { path: Path::from(at), is_done: false },
             Input::Drop => {
-                self.path.points.push(scope.at());
+                self.path.go_to(scope.at(), scope);
                 self.is_done = true;
             }
             _ => {}
@@ -114,9 +114,6 @@ impl Tool for Measure {
 
     fn take_back(&mut self) -> TakenBack {
         self.is_done = false;
-        match self.path.points.pop() {
-            Some(_) => TakenBack::Corner,
-            None => TakenBack::Nothing,
-        }
+        if self.path.take_back().0 { TakenBack::Corner } else { TakenBack::Nothing }
     }
 }

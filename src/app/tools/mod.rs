@@ -73,6 +73,8 @@ pub(super) struct DrawOptions {
     pub walls_with_rooms: bool,
     /// Clear width of new openings in metres.
     pub opening_width_m: f64,
+    /// Arcs are drawn as chords that stay this near to them, in metres.
+    pub arc_tolerance_m: f64,
     /// Whether lines keep to right angles unless Shift is held.
     pub right_angles: bool,
     /// Whether corners, walls and alignments attract.
@@ -81,12 +83,16 @@ pub(super) struct DrawOptions {
     pub snaps_to_grid: bool,
 }
 
+/// A hand's breadth of a curtain wall's facets: 2 cm is what a drawing at 1:100 shows as the width of a line.
+const ARC_TOLERANCE_M: f64 = 0.02;
+
 impl Default for DrawOptions {
     fn default() -> Self {
         Self {
             thickness_m: DEFAULT_WALL_THICKNESS_M,
             walls_with_rooms: true,
             opening_width_m: DEFAULT_DOOR_WIDTH_M,
+            arc_tolerance_m: ARC_TOLERANCE_M,
             right_angles: true,
             snaps: true,
             snaps_to_grid: true,

@@ -2,18 +2,97 @@
 
 use super::preview::{Look, Preview, degrees};
 use super::{Anchor, Scope, Typed};
+use crate::geometry::path::arc;
 use crate::geometry::{Point, Segment, Vector};
 
 /// Corners clicked so far.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Path {
     pub points: Vec<Point>,
+    /// How many corners there were before each click.
+    before: Vec<usize>,
+    /// Whether an arc comes next.
+    bend: Bend,
+}
+
+/// What the next click is.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+enum Bend {
+    /// A corner.
+    #[default]
+    Straight,
+    /// A point that the arc passes through.
+    Through,
+    /// The arc's end.
+    To { through: Point },
 }
 
 /// Two points closer than this are one: the grid that plans are kept on.
 const SAME_M: f64 = 1e-4;
 
 impl Path {
+    /// A path that begins at a point.
+    pub(super) fn from(point: Point) -> Self {
+        Self { points: vec![point], before: vec![0], bend: Bend::Straight }
+    }
+
+    /// Makes the next piece an arc, or a straight line again.
+    pub(super) fn toggle_arc(&mut self) {
+        self.bend = if self.bend == Bend::Straight { Bend::Through } else { Bend::Straight };
+    }
+
+    /// Whether an arc is begun.
+    pub(super) fn is_bending(&self) -> bool {
+        self.bend != Bend::Straight
+    }
+
+    /// Goes on to a point. Gives whether corners were added: the point that an arc passes through is none.
+    pub(super) fn go_to(&mut self, point: Point, scope: &Scope<'_>) -> bool {
+        match (self.bend, self.last()) {
+            (Bend::Through, Some(_)) => {
+                self.bend = Bend::To { through: point };
+                false
+            }
+            (Bend::To { through }, Some(last)) => {
+                self.before.push(self.points.len());
+                self.bend = Bend::Straight;
+                let chords = arc(last, through, point, scope.options.arc_tolerance_m);
+                self.points.extend(chords.into_iter().skip(1).map(Point::trimmed));
+                true
+            }
+            _ => {
+                self.before.push(self.points.len());
+                self.points.push(point);
+                true
+            }
+        }
+    }
+
+    /// Takes the last click back: a corner, an arc, or the point that an arc was to pass through. Gives
+    /// whether there was one, and whether corners went.
+    pub(super) fn take_back(&mut self) -> (bool, bool) {
+        if self.bend != Bend::Straight {
+            self.bend = Bend::Straight;
+            return (true, false);
+        }
+        match self.before.pop() {
+            Some(before) => {
+                self.points.truncate(before);
+                (true, true)
+            }
+            None => (false, false),
+        }
+    }
+
+    /// The line from the last corner to the pointer, an arc where one is begun.
+    pub(super) fn next_line(&self, scope: &Scope<'_>) -> Vec<Point> {
+        match (self.bend, self.last()) {
+            (Bend::To { through }, Some(last)) => arc(last, through, scope.at(), scope.options.arc_tolerance_m),
+            (_, Some(last)) => vec![last, scope.at()],
+            (_, None) => Vec::new(),
+        }
+    }
+
     pub(super) fn is_empty(&self) -> bool {
         self.points.is_empty()
     }
@@ -40,7 +119,7 @@ impl Path {
 
     pub(super) fn anchor(&self) -> Option<Anchor> {
         let from = self.last()?;
-        Some(Anchor { from, along: self.along(), right_angles: true })
+        Some(Anchor { from, along: self.along(), right_angles: !self.is_bending() })
     }
 
     /// The corner that a typed length means: towards the pointer, or at the typed angle from the last
@@ -69,6 +148,9 @@ impl Path {
     pub(super) fn preview_corners(&self, preview: &mut Preview) {
         for &point in &self.points {
             preview.handle(point, Look::New);
+        }
+        if let Bend::To { through } = self.bend {
+            preview.handle(through, Look::Guide);
         }
     }
 }

@@ -1,5 +1,7 @@
 //! Draws a room by its corners: it takes what is free there.
 
+use egui::Key;
+
 use super::path::Path;
 use super::preview::{Look, Preview};
 use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
@@ -17,11 +19,11 @@ struct Room {
 impl Room {
     fn to(&mut self, point: Point, scope: &Scope<'_>) -> Vec<Call> {
         // Drawing -> Ready
-        if self.path.closes(point) || self.path.is_last(point) {
+        if !self.path.is_bending() && (self.path.closes(point) || self.path.is_last(point)) {
             return self.close(scope);
         }
         // Ready -> Drawing, Drawing -> Drawing
-        self.path.points.push(point);
+        self.path.go_to(point, scope);
         Vec::new()
     }
 
@@ -84,6 +86,10 @@ impl Tool for Room {
                 Some(point) => self.to(point, scope),
                 None => Vec::new(),
             },
+            Input::Key(Key::A) => {
+                self.path.toggle_arc();
+                Vec::new()
+            }
             Input::Enter | Input::DoubleClick | Input::SecondaryClick => self.close(scope),
             // Drawing -> Ready
             Input::Escape => {
@@ -95,6 +101,10 @@ impl Tool for Room {
     }
 
     fn hint(&self, _: &Scope<'_>) -> String {
+        if self.path.is_bending() {
+            return "Arc: click a point that it passes through, then its end · A goes back to straight lines"
+                .to_owned();
+        }
         match self.path.points.len() {
             0 => "Room: click its first corner · it takes what no room has: lines may run through rooms".to_owned(),
             1 | 2 => "Click the next corner, or type a length (3.2) · Shift frees the angle · Ctrl+Z takes a corner back".to_owned(),
@@ -108,7 +118,7 @@ impl Tool for Room {
         }
         let mut points = self.path.points.clone();
         if !self.path.is_last(scope.at()) && !self.path.closes(scope.at()) {
-            points.push(scope.at());
+            points.extend(self.path.next_line(scope).into_iter().skip(1));
         }
         if points.len() >= 3 {
             let closed: Vec<Point> = points.iter().copied().chain(closing_corner(&points, scope)).collect();
@@ -142,10 +152,11 @@ impl Tool for Room {
         self.is_busy().then_some(Typing::Length)
     }
 
+    fn keys(&self) -> &'static [Key] {
+        &[Key::A]
+    }
+
     fn take_back(&mut self) -> TakenBack {
-        match self.path.points.pop() {
-            Some(_) => TakenBack::Corner,
-            None => TakenBack::Nothing,
-        }
+        if self.path.take_back().0 { TakenBack::Corner } else { TakenBack::Nothing }
     }
 }

@@ -34,7 +34,7 @@ impl Split {
         }
         // Ready -> Cutting, Cutting -> Cutting
         let is_first = self.path.is_empty();
-        self.path.points.push(point);
+        self.path.go_to(point, scope);
         // On a boundary the line has come through.
         let index = scope.derived.map(|derived| &derived.index);
         let is_through = index.is_some_and(|index| !index.edges_near(point, SAME_PLACE_M).is_empty());
@@ -120,9 +120,6 @@ impl Tool for Split {
     }
 
     fn take_back(&mut self) -> TakenBack {
-        match self.path.points.pop() {
-            Some(_) => TakenBack::Corner,
-            None => TakenBack::Nothing,
-        }
+        if self.path.take_back().0 { TakenBack::Corner } else { TakenBack::Nothing }
     }
 }

@@ -1,5 +1,7 @@
 //! Draws a chain of walls.
 
+use egui::Key;
+
 use super::path::Path;
 use super::preview::{Look, Preview};
 use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
@@ -20,18 +22,20 @@ impl Walls {
         match self {
             // Ready -> Drawing
             Self::Ready => {
-                *self = Self::Drawing(Path { points: vec![point] });
+                *self = Self::Drawing(Path::from(point));
                 Vec::new()
             }
             // Drawing -> Ready
-            Self::Drawing(path) if path.is_last(point) => {
+            Self::Drawing(path) if path.is_last(point) && !path.is_bending() => {
                 *self = Self::Ready;
                 Vec::new()
             }
             // Drawing -> Drawing, or Ready where the chain is closed
             Self::Drawing(path) => {
                 let is_closed = path.closes(point);
-                path.points.push(point);
+                if !path.go_to(point, scope) {
+                    return Vec::new();
+                }
                 let words = vec![points_word(&path.points), scope.options.thickness_m.to_string()];
                 if is_closed {
                     *self = Self::Ready;
@@ -50,6 +54,12 @@ impl Tool for Walls {
                 Some(point) => self.to(point, scope),
                 None => Vec::new(),
             },
+            (Input::Key(Key::A), Self::Drawing(_)) => {
+                if let Self::Drawing(path) = self {
+                    path.toggle_arc();
+                }
+                Vec::new()
+            }
             // Drawing -> Ready
             (Input::Enter | Input::Escape | Input::DoubleClick | Input::SecondaryClick, _) => {
                 *self = Self::Ready;
@@ -62,8 +72,11 @@ impl Tool for Walls {
     fn hint(&self, _: &Scope<'_>) -> String {
         match self {
             Self::Ready => "Walls: click where the chain begins".to_owned(),
+            Self::Drawing(path) if path.is_bending() => {
+                "Arc: click a point that it passes through, then its end · A goes back to straight lines".to_owned()
+            }
             Self::Drawing(_) => {
-                "Click the next corner, or type a length (3.2) or with an angle (3.2<45) · Shift frees the angle · Enter ends"
+                "Click the next corner, or type a length (3.2) or with an angle (3.2<45) · A draws an arc · Shift frees the angle · Enter ends"
                     .to_owned()
             }
         }
@@ -71,8 +84,8 @@ impl Tool for Walls {
 
     fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
         if let Self::Drawing(path) = self {
-            if let Some(last) = path.last() {
-                preview.wall(Segment::new(last, scope.at()), scope.options.thickness_m, Look::New);
+            for pair in path.next_line(scope).windows(2) {
+                preview.wall(Segment::new(pair[0], pair[1]), scope.options.thickness_m, Look::New);
             }
             path.preview_corners(preview);
             path.preview_next(scope, preview);
@@ -101,9 +114,16 @@ impl Tool for Walls {
         self.is_busy().then_some(Typing::Length)
     }
 
+    fn keys(&self) -> &'static [Key] {
+        &[Key::A]
+    }
+
     fn take_back(&mut self) -> TakenBack {
         let Self::Drawing(path) = self else { return TakenBack::Nothing };
-        path.points.pop();
+        let (_, had_corners) = path.take_back();
+        if !had_corners {
+            return TakenBack::Corner;
+        }
         // The first corner is no wall yet.
         if path.is_empty() {
             *self = Self::Ready;

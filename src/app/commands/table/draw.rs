@@ -262,6 +262,19 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .menu(Menu::Draw, 4),
+    with(
+        "arc-tolerance",
+        "Arc tolerance…",
+        "Say how near the chords stay to the arcs that they draw; press A while drawing for an arc",
+        always,
+        &[needed("TOLERANCE", ArgumentKind::Number { unit: " of metres", least: 0.0005, most: 10.0 }, "in metres")],
+        |app, values, _| {
+            app.draw_options.arc_tolerance_m = values.number(0).copied().unwrap_or_default();
+            Ran::Done
+        },
+        None,
+    )
+    .menu(Menu::Draw, 4),
     // What the tools do, for scripts.
     with(
         "draw-walls",
