@@ -14,7 +14,7 @@ mod offset;
 mod shapes;
 mod snap;
 
-pub use across::{room_around, split_rooms};
+pub use across::{Across, room_around, split_rooms, straight_across};
 pub use arrangement::{Arrangement, ArrangementError, NodeIndex};
 pub use draw::{Drawn, cut_out, draw_room, draw_walls, split_room};
 pub use faces::{Face, faces};

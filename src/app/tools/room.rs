@@ -1,4 +1,4 @@
-//! Draws a room by its corners.
+//! Draws a room by its corners: it takes what is free there.
 
 use egui::Key;
 
@@ -35,7 +35,8 @@ impl Room {
             return Vec::new();
         }
         let thickness_m = if scope.options.walls_with_rooms { scope.options.thickness_m } else { 0.0 };
-        vec![("draw-room", vec![points_word(&points), "exact".to_owned(), thickness_m.to_string()])]
+        // Along rooms that are there the boundary need not be drawn exactly: it may run through them.
+        vec![("draw-room", vec![points_word(&points), "free".to_owned(), thickness_m.to_string()])]
     }
 }
 
@@ -105,7 +106,7 @@ impl Tool for Room {
                 .to_owned();
         }
         match self.path.points.len() {
-            0 => "Room: click its first corner".to_owned(),
+            0 => "Room: click its first corner · it takes what no room has: lines may run through rooms".to_owned(),
             1 | 2 => "Click the next corner, or type a length (3.2) · Shift frees the angle · Ctrl+Z takes a corner back".to_owned(),
             _ => "Click the next corner · click the first one or press Enter to close; the last corner follows from right angles".to_owned(),
         }

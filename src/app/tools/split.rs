@@ -1,20 +1,33 @@
-//! Splits rooms along a line, without a wall.
+//! Splits rooms, without a wall: straight across by one click, or along a line.
 
 use super::path::Path;
 use super::preview::{Look, Preview};
 use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
 use crate::app::commands::points_word;
 use crate::geometry::Point;
+use crate::topology::{Across, straight_across};
 
 pub(super) const ENTRY: Entry = Entry { id: "split", make: || Box::new(Split::default()) };
 
-/// No points yet, or some.
+/// No points yet: a click splits straight across. Or some.
 #[derive(Default)]
 struct Split {
     path: Path,
 }
 
+/// A boundary is pointed at from this far away, in points: as far as things attract.
+const REACH_PX: f64 = 10.0;
+
 impl Split {
+    /// Where a click would split.
+    fn across(&self, scope: &Scope<'_>) -> Option<Across> {
+        if !self.path.is_empty() || scope.modifiers.shift {
+            return None;
+        }
+        let shapes = &scope.derived?.analysis.shapes;
+        straight_across(shapes, scope.pointer, scope.at(), scope.metres(REACH_PX))
+    }
+
     fn to(&mut self, point: Point, scope: &Scope<'_>) -> Vec<Call> {
         if self.path.is_last(point) {
             return self.end();
@@ -41,7 +54,14 @@ const SAME_PLACE_M: f64 = 1e-3;
 impl Tool for Split {
     fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
         match input {
-            Input::Click => self.to(scope.at(), scope),
+            // Ready -> Ready
+            Input::Click if self.path.is_empty() && !scope.modifiers.shift => match self.across(scope) {
+                Some(Across { line, .. }) => vec![("split-rooms", vec![points_word(&[line.a, line.b])])],
+                None => Vec::new(),
+            },
+            Input::Click | Input::Drop => self.to(scope.at(), scope),
+            // Ready -> Cutting
+            Input::DragStart { at, .. } if self.path.is_empty() => self.to(at, scope),
             Input::Typed(typed) => match self.path.typed_point(typed, scope) {
                 Some(point) => self.to(point, scope),
                 None => Vec::new(),
@@ -55,9 +75,13 @@ impl Tool for Split {
         }
     }
 
-    fn hint(&self, _: &Scope<'_>) -> String {
+    fn hint(&self, scope: &Scope<'_>) -> String {
         if self.path.is_empty() {
-            "Split: click on a room's boundary, then on the other side".to_owned()
+            match self.across(scope) {
+                Some(_) => "Click to split straight across · drag, or Shift+click, to begin another line".to_owned(),
+                None if scope.modifiers.shift => "Click where the line begins, on a room's boundary".to_owned(),
+                None => "Split: point at a room's boundary; a click splits the room straight across".to_owned(),
+            }
         } else {
             "Click on the boundary across · points in between bend the line · Esc drops it".to_owned()
         }
@@ -65,6 +89,15 @@ impl Tool for Split {
 
     fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
         if self.path.is_empty() {
+            if let Some(Across { line, areas_m2, .. }) = self.across(scope) {
+                preview.dashed(vec![line.a, line.b], false, Look::Danger);
+                if let Some([left, right]) = areas_m2 {
+                    // The smaller x first, as they lie.
+                    let is_upward = line.b.y > line.a.y;
+                    let (first, second) = if is_upward { (left, right) } else { (right, left) };
+                    preview.label(scope.pointer, format!("{} | {}", scope.units.area(first), scope.units.area(second)), Look::New);
+                }
+            }
             return;
         }
         let mut points = self.path.points.clone();
