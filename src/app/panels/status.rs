@@ -22,7 +22,12 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             ui.label(RichText::new("● Not kept safe").size(theme::SMALL).color(colours(ui).error));
             ui.add_space(6.0);
         }
-        ui.label(small(left_text(app)));
+        // Never over what stands on the right.
+        let width = (ui.available_width() - RIGHT_WIDTH).max(0.0);
+        ui.scope(|ui| {
+            ui.set_max_width(width);
+            ui.add(egui::Label::new(small(left_text(app))).truncate());
+        });
         right(ui, |ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
             let Some(px_per_m) = app.canvas.px_per_m().filter(|_| app.document.is_some()) else { return };
@@ -43,6 +48,9 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         });
     });
 }
+
+/// What the coordinates and the zoom take, in points.
+const RIGHT_WIDTH: f32 = 290.0;
 
 fn zoom_button(app: &mut App, ui: &mut Ui, icon: Icon, id: &str) {
     let Some(command) = commands::find(id) else { return };

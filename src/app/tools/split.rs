@@ -95,7 +95,11 @@ impl Tool for Split {
                     // The smaller x first, as they lie.
                     let is_upward = line.b.y > line.a.y;
                     let (first, second) = if is_upward { (left, right) } else { (right, left) };
-                    preview.label(scope.pointer, format!("{} | {}", scope.units.area(first), scope.units.area(second)), Look::New);
+                    preview.label(
+                        scope.pointer,
+                        format!("{} | {}", scope.units.area(first), scope.units.area(second)),
+                        Look::New,
+                    );
                 }
             }
             return;

@@ -76,7 +76,7 @@ impl Tool for Walls {
                 "Arc: click a point that it passes through, then its end · A goes back to straight lines".to_owned()
             }
             Self::Drawing(_) => {
-                "Click the next corner, or type a length (3.2) or with an angle (3.2<45) · A draws an arc · Shift frees the angle · Enter ends"
+                "Click the next corner, or type a length: 3.2, 3.2<45 · A: arc · Shift: any angle · Enter ends"
                     .to_owned()
             }
         }
