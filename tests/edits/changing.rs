@@ -106,6 +106,14 @@ fn nearly_right_angles_become_right_and_stay_shared() {
     // A slanting wall stays slanting.
     let (slanting, _) = draw_room(&Plan::default(), &points(&[(0., 0.), (4., 0.), (6., 3.), (0., 3.)]), None).unwrap();
     assert_eq!(edit::square_up(&slanting, None, 0.1).unwrap(), slanting);
+    // Turned as a whole it is squared up along its own directions.
+    let turn = Transform::rotation(Point::default(), 0.5);
+    let all: BTreeSet<ElementId> = plan.rooms().map(|(id, _)| ElementId::Room(id)).collect();
+    let turned = edit::square_up(&edit::move_elements(&plan, &all, turn).unwrap(), None, 0.1).unwrap();
+    for (id, corner) in turned.corners() {
+        assert!(corner.position.distance(turn.point(plan.position(id).unwrap())) < 0.06);
+    }
+    assert!((total_area(&turned) - total_area(&squared)).abs() < 0.1);
     assert!(edit::square_up(&Plan::default(), None, 0.1).is_err());
 }
 

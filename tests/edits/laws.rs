@@ -324,8 +324,9 @@ proptest! {
             if let Ok((next, _)) = room(&here, outer) { here = next; }
             if let Ok((next, _)) = room(&moved, &map(outer)) { moved = next; }
         }
-        prop_assert_eq!((here.rooms().len(), here.walls().len(), here.corners().len()),
-            (moved.rooms().len(), moved.walls().len(), moved.corners().len()));
+        // Not the corners: in free space, whether a sharp corner at a narrow place is cut off hangs on
+        // rounding.
+        prop_assert_eq!((here.rooms().len(), here.walls().len()), (moved.rooms().len(), moved.walls().len()));
         for (p, q) in areas(&here).into_iter().zip(areas(&moved)) {
             prop_assert!((p - q).abs() < 0.02, "{} {}", p, q);
         }

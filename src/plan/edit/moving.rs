@@ -240,8 +240,9 @@ const UPRIGHT_RAD: f64 = std::f64::consts::PI / 180.0;
 
 /// Makes nearly right angles right, in rooms or (`None`) in the whole plan, walls included.
 ///
-/// The main direction is the mean of all edges' directions, each by its length and up to quarter
-/// turns; the axes of the drawing where it is within a degree of them. An edge that strays from it or from its perpendicular by at most `max_angle_rad` becomes
+/// The main direction is the one from which, or from whose perpendicular, the greatest length of edges
+/// strays by no more than `max_angle_rad`, and the mean of these; the axes of the drawing where it is
+/// within a degree of them. An edge that strays from it or from its perpendicular by at most `max_angle_rad` becomes
 /// parallel to it: its ends get the same coordinate across. Corners linked that way get the mean of
 /// their coordinates, which moves them least (in the sum of squares). Corners are shared before and
 /// after; edges at other angles stay between theirs.
@@ -261,18 +262,10 @@ pub fn square_up(plan: &Plan, rooms: Option<&BTreeSet<RoomId>>, max_angle_rad: f
         }
         None => edges.extend(super::lay::plan_edges(plan)),
     }
-    // Angles times four: quarter turns count as none.
-    let mut mean = Vector::default();
     let segment = |(a, b): (CornerId, CornerId)| Some(Segment::new(plan.position(a)?, plan.position(b)?));
-    for edge in edges.iter().filter_map(|&edge| segment(edge)) {
-        let vector = edge.vector();
-        mean = mean + Vector::new(vector.length(), 0.0).rotated(4.0 * vector.angle_rad());
-    }
-    if mean.length() <= TOUCH_M {
+    let Some(main_rad) = main_direction(edges.iter().filter_map(|&edge| segment(edge)), max_angle_rad) else {
         return fail("there is no main direction to square up to");
-    }
-    let main_rad = mean.angle_rad() / 4.0;
-    let main_rad = if main_rad.abs() <= UPRIGHT_RAD { 0.0 } else { main_rad };
+    };
     let (along, across) = (Vector::new(1.0, 0.0).rotated(main_rad), Vector::new(0.0, 1.0).rotated(main_rad));
     // Corners linked by edges along the main direction share the coordinate across it, and vice versa.
     let mut linked = [Links::default(), Links::default()];
@@ -306,6 +299,38 @@ pub fn square_up(plan: &Plan, rooms: Option<&BTreeSet<RoomId>>, max_angle_rad: f
     let next = move_corners(plan, &targets)?;
     check_shapes(plan, &next, &targets.iter().map(|&(id, _)| id).collect(), "squaring up")?;
     Ok(next)
+}
+
+/// The direction that most edges share up to quarter turns, in radians, in -π/4..=π/4; see
+/// [`square_up`].
+fn main_direction(edges: impl Iterator<Item = Segment>, max_angle_rad: f64) -> Option<f64> {
+    const QUARTER_RAD: f64 = std::f64::consts::FRAC_PI_2;
+    /// A quarter of a degree each: a fraction of what a hand-drawn line strays by.
+    const BINS: usize = 360;
+    let stray = |angle_rad: f64, from_rad: f64| {
+        (angle_rad - from_rad + QUARTER_RAD / 2.0).rem_euclid(QUARTER_RAD) - QUARTER_RAD / 2.0
+    };
+    let directions: Vec<(f64, f64)> = edges
+        .map(|edge| (edge.vector().angle_rad(), edge.length()))
+        .filter(|&(_, length_m)| length_m > TOUCH_M)
+        .collect();
+    let center = |bin: usize| QUARTER_RAD * bin as f64 / BINS as f64;
+    let mut lengths_m = vec![0.0; BINS];
+    for &(angle_rad, length_m) in &directions {
+        let bin = (angle_rad.rem_euclid(QUARTER_RAD) / QUARTER_RAD * BINS as f64).round() as usize % BINS;
+        lengths_m[bin] += length_m;
+    }
+    let window_rad = max_angle_rad.max(UPRIGHT_RAD);
+    let within = |bin: usize| -> f64 {
+        (0..BINS).filter(|&other| stray(center(other), center(bin)).abs() <= window_rad).map(|i| lengths_m[i]).sum()
+    };
+    let best = (0..BINS).map(|bin| (within(bin), bin)).max_by(|p, q| p.0.total_cmp(&q.0).then(q.1.cmp(&p.1)))?.1;
+    let near = directions.iter().map(|&(angle_rad, length_m)| (stray(angle_rad, center(best)), length_m));
+    let (weighted, length_m) = near
+        .filter(|(stray_rad, _)| stray_rad.abs() <= window_rad)
+        .fold((0.0, 0.0), |(sum, total), (stray_rad, length_m)| (sum + stray_rad * length_m, total + length_m));
+    let main_rad = (length_m > 0.0).then(|| stray(center(best) + weighted / length_m, 0.0))?;
+    Some(if main_rad.abs() <= UPRIGHT_RAD { 0.0 } else { main_rad })
 }
 
 /// Refuses an edit that moved corners where an edge lost its length, or a room turned inside out or
