@@ -382,6 +382,7 @@ impl App {
         self.take_tool_keys(&context);
         self.take_shortcuts(&context);
         self.refresh();
+        self.compare_with_theirs();
         panels::show(self, ui);
         self.was_typing = context.text_edit_focused();
         self.keep_journal(&context);

@@ -71,6 +71,14 @@ pub(super) struct Theirs {
     /// What the file holds; `None` when it is gone.
     stamp: Option<Stamp>,
     pub content: Content,
+    /// How much differs from the open plan, and from which: worked out once for each.
+    differs: Option<(Plan, String)>,
+}
+
+impl Theirs {
+    fn new(stamp: Option<Stamp>, content: Content) -> Self {
+        Self { stamp, content, differs: None }
+    }
 }
 
 pub(super) enum Content {
@@ -136,7 +144,7 @@ fn look(path: &Path, stamp: Option<Stamp>, seen: Option<&Facts>) -> (Option<Fact
     let facts = match Facts::of(path) {
         Ok(facts) => facts,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-            let gone = Theirs { stamp: None, content: Content::Gone };
+            let gone = Theirs::new(None, Content::Gone);
             return (None, if stamp.is_none() { Found::Nothing } else { Found::Theirs(gone) });
         }
         Err(_) => return (None, Found::Nothing),
@@ -159,7 +167,7 @@ fn look(path: &Path, stamp: Option<Stamp>, seen: Option<&Facts>) -> (Option<Fact
         ),
         Err(error) => Content::Broken(error.error.to_string()),
     };
-    (Some(facts), Found::Theirs(Theirs { stamp: Some(now), content }))
+    (Some(facts), Found::Theirs(Theirs::new(Some(now), content)))
 }
 
 /// Where a plan that a journal keeps came from.
@@ -369,7 +377,9 @@ impl App {
                 self.safety.theirs = None;
             }
             // Written anew, or otherwise, with the same in it.
-            Found::Theirs(Theirs { stamp, content: Content::Plan(plan, _) }) if document.saved() == Some(&*plan) => {
+            Found::Theirs(Theirs { stamp, content: Content::Plan(plan, _), .. })
+                if document.saved() == Some(&*plan) =>
+            {
                 document.is_gone = false;
                 document.stamp = stamp;
                 self.safety.theirs = None;
@@ -382,6 +392,21 @@ impl App {
         self.panels.differences &= self.their_plan().is_some();
     }
 
+    /// Says anew how much differs from the file that somebody else changed, where the plan is another.
+    pub(super) fn compare_with_theirs(&mut self) {
+        let (Some(Theirs { content: Content::Plan(theirs, _), differs, .. }), Some(document)) =
+            (&mut self.safety.theirs, &self.document)
+        else {
+            return;
+        };
+        let mine = document.plan();
+        if !differs.as_ref().is_some_and(|(of, _)| of.is_same_value(mine)) {
+            let difference = Difference::between(mine, theirs);
+            let summary = super::panels::differences::summary(&difference.seen(mine, theirs), &difference);
+            *differs = Some((mine.clone(), summary));
+        }
+    }
+
     /// The plan that somebody else put in the file.
     pub(super) fn their_plan(&self) -> Option<(&Plan, &Arc<Derived>)> {
         match &self.safety.theirs.as_ref()?.content {
@@ -392,7 +417,7 @@ impl App {
 
     /// Makes the plan what the file holds now, as a step that can be undone.
     pub(super) fn load_theirs(&mut self, context: &Context) {
-        let Some(Theirs { stamp, content: Content::Plan(plan, _) }) = self.safety.theirs.take() else { return };
+        let Some(Theirs { stamp, content: Content::Plan(plan, _), .. }) = self.safety.theirs.take() else { return };
         self.panels.differences = false;
         self.edit("Load the file as it is now", |_| Ok((*plan).clone()));
         if let Some(document) = &mut self.document {
@@ -404,7 +429,7 @@ impl App {
 
     /// Goes on with the plan as it is here: saving it replaces what somebody else put in the file.
     pub(super) fn keep_mine(&mut self, context: &Context) {
-        let Some(Theirs { stamp, content }) = self.safety.theirs.take() else { return };
+        let Some(Theirs { stamp, content, .. }) = self.safety.theirs.take() else { return };
         self.panels.differences = false;
         let plan = match content {
             Content::Plan(plan, _) => Some(*plan),
@@ -459,10 +484,8 @@ impl App {
             let file = document.origin.title();
             let by_somebody = format!("{file} was changed by somebody else");
             match &theirs.content {
-                Content::Plan(plan, _) => {
-                    let difference = Difference::between(document.plan(), plan);
-                    let differ =
-                        super::panels::differences::summary(&difference.seen(document.plan(), plan), &difference);
+                Content::Plan(..) => {
+                    let differ = theirs.differs.as_ref().map(|(_, differ)| differ.as_str()).unwrap_or_default();
                     let detail = match document.is_changed() {
                         true => format!("Your own changes are in no file yet. Between the two: {differ}."),
                         false => format!("What you see is what it held before. Between the two: {differ}."),

@@ -77,7 +77,16 @@ fn lines_of(
         let mark = if both.contains(&element) { MarkKind::Both } else { mark };
         (mark, format!("{} {}", title_of(of, element), kind.name()))
     }));
-    lines
+    counted(lines)
+}
+
+/// The same lines, those that follow each other and read the same as one with their number.
+fn counted(lines: Vec<(MarkKind, String)>) -> Vec<(MarkKind, String)> {
+    let of_one = |same: &[(MarkKind, String)]| match same {
+        [(mark, text)] => (*mark, text.clone()),
+        _ => (same[0].0, format!("{} ({})", same[0].1, same.len())),
+    };
+    lines.chunk_by(|p, q| p == q).map(of_one).collect()
 }
 
 /// How much differs, in words: '2 rooms, 1 wall and the picture'.
