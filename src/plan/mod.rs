@@ -6,6 +6,7 @@
 
 mod builder;
 mod calibration;
+mod changes;
 pub mod edit;
 mod element;
 mod history;
