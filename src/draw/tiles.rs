@@ -26,8 +26,9 @@ const MOST_IN_LINE: f64 = 128.0;
 /// plans are round numbers, these are not.
 const OFF_GRID_M: Vector = Vector { x: 0.137_035_99, y: 0.160_217_66 };
 
-/// Points closer than this to a border, in metres, are on it.
-const ON_BORDER_M: f64 = 1e-5;
+/// Points closer than this to a border, in metres, are on it: the raster of the polygon library is finer
+/// in any building.
+const ON_BORDER_M: f64 = 1e-4;
 
 impl TileGrid {
     /// The tiles of a plan of this extent; `None` where it is too small to be cut.

@@ -96,8 +96,12 @@ fn in_tiles(rings: Vec<Ring>, grid: &TileGrid) -> Vec<Shapes> {
             if rings.is_empty() {
                 return Shapes::new();
             }
-            let Bounds { min, max } = grid.bounds(tile);
-            let square: Ring = vec![[min.x, min.y], [max.x, min.y], [max.x, max.y], [min.x, max.y]];
+            // No larger than what is cut: the polygon library works on a raster over everything it is given.
+            let around = rings.iter().flatten().fold(Bounds::EMPTY, |box_m, &[x, y]| box_m.with(Point::new(x, y)));
+            let (tile, around) = (grid.bounds(tile), around.inflated(1.0));
+            let (left, right) = (tile.min.x.max(around.min.x), tile.max.x.min(around.max.x));
+            let (low, high) = (tile.min.y.max(around.min.y), tile.max.y.min(around.max.y));
+            let square: Ring = vec![[left, low], [right, low], [right, high], [left, high]];
             rings.overlay(&[square], OverlayRule::Intersect, FillRule::NonZero)
         })
         .collect()
