@@ -12,6 +12,12 @@ use enfilade::geometry::Point;
 use enfilade::plan::{Builder, Meta, Opening, OpeningKind, Place, Plan, Room};
 use enfilade::store::save_plan;
 
+/// Of a clock on the wall.
+fn wall_ms() -> f64 {
+    #[expect(clippy::disallowed_methods, reason = "a bench measures time")]
+    std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0.0, |since| since.as_secs_f64() * 1e3)
+}
+
 /// Of processor time where the system tells it (Linux), so that other programs do not disturb.
 fn now_ms() -> f64 {
     if let Ok(text) = std::fs::read_to_string("/proc/thread-self/schedstat")
@@ -19,8 +25,7 @@ fn now_ms() -> f64 {
     {
         return nanoseconds * 1e-6;
     }
-    #[expect(clippy::disallowed_methods, reason = "a bench measures time")]
-    std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0.0, |since| since.as_secs_f64() * 1e3)
+    wall_ms()
 }
 
 /// A grid of rooms of 4 m by 3 m with about so many walls, a door in every third.
@@ -106,13 +111,68 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         told("door: pointer moves", &mut window, 20, |window, run| still(window, along(run)));
         window.run_command("tool-select");
     }
+    told("box selects", &mut window, 1, |window, _| {
+        window.run_command("fit");
+        drop(window.run_command_with("select-box", &["200,150 380,300", "touching", "replace"]));
+        window.event(egui::Event::PointerMoved(centre));
+    });
+    println!("    {} selected", window.app().selection().len());
+    told("many selected: pointer moves", &mut window, 20, |window, run| still(window, along(run)));
+    window.run_command("clear-selection");
+    window.run_command_with("view", &["300", "230", "80"])?;
+    window.settle()?;
     window.run_command("tool-walls");
-    window.move_to(centre);
-    window.button(PointerButton::Primary, true);
-    window.button(PointerButton::Primary, false);
     let there = pos2(700.0, 420.0);
-    window.move_to(there);
+    window.click(centre);
     told("wall drawn, all worked out", &mut window, 1, |window, _| window.click(there));
-    told("changed: pointer moves", &mut window, 20, |window, run| still(window, along(run)));
+    window.key(egui::Modifiers::NONE, Key::Escape);
+    window.key(egui::Modifiers::NONE, Key::Escape);
+    window.run_command("tool-select");
+    drop(window);
+
+    // As on a screen: what follows from an edit is worked out beside the frames.
+    let mut window = Offscreen::new(OffscreenOptions::default()).without_screen_reader().working_beside();
+    window.open(&path);
+    rest(&mut window);
+    window.run_command_with("view", &["300", "230", "80"])?;
+    rest(&mut window);
+    println!("edits, worked out beside");
+    window.run_command("tool-walls");
+    window.click(centre);
+    told("wall drawn", &mut window, 1, |window, _| window.click(there));
+    told("not worked out: pointer moves", &mut window, 20, |window, run| still(window, along(run)));
+    window.key(egui::Modifiers::NONE, Key::Escape);
+    window.key(egui::Modifiers::NONE, Key::Escape);
+    window.run_command("tool-select");
+    told("undone", &mut window, 1, |window, _| drop(window.run_command("undo")));
+    told("redone", &mut window, 1, |window, _| drop(window.run_command("redo")));
+    rest(&mut window);
+    // A corner of rooms, with all that share it.
+    let corner = window.app().screen_position(300.0, 231.0).unwrap_or(centre);
+    window.click(corner + egui::vec2(60.0, 40.0));
+    window.move_to(corner);
+    window.button(PointerButton::Primary, true);
+    told("a corner is dragged", &mut window, 20, |window, run| {
+        still(window, corner + egui::vec2(run as f32 * 2.0, 9.0))
+    });
+    told("and dropped", &mut window, 1, |window, _| window.button(PointerButton::Primary, false));
+    println!("    {}", window.app().plan().map_or(0, |plan| usize::from(*plan != grid(walls))));
+    told("edit after edit", &mut window, 6, |window, run| {
+        drop(window.run_command(if run % 2 == 0 { "undo" } else { "redo" }));
+        still(window, centre);
+    });
+    let before = wall_ms();
+    rest(&mut window);
+    println!("  {:32} {:7.2} ms", "all worked out after", wall_ms() - before);
     Ok(())
+}
+
+/// Frames until nothing is worked out any more.
+fn rest(window: &mut Offscreen) {
+    window.event(egui::Event::PointerGone);
+    while window.is_working() {
+        std::thread::sleep(std::time::Duration::from_millis(2));
+        window.event(egui::Event::PointerGone);
+    }
+    drop(window.settle());
 }

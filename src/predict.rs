@@ -7,6 +7,7 @@ use std::str::FromStr;
 use std::sync::Arc;
 
 use crate::classify::in_plan::{self, InPlan};
+use crate::classify::joint::FirstRound;
 use crate::classify::model_file::ModelFileError;
 use crate::classify::{Distribution, Method, PlanClassifier};
 use crate::dataset::RoomNetwork;
@@ -163,6 +164,8 @@ pub struct Predictions {
     /// Which labels of neighbours counted.
     pub neighbours: NeighbourLabels,
     pub result: InPlan,
+    /// Of the joint classifier, to explain from.
+    first_round: Option<FirstRound>,
     index_of: BTreeMap<RoomId, usize>,
 }
 
@@ -177,20 +180,22 @@ impl Predictions {
         neighbours: Option<NeighbourLabels>,
     ) -> Self {
         let neighbours = neighbours.unwrap_or(model.about.neighbours);
-        let (neighbours, result) = match &model.classifier {
+        let (neighbours, result, first_round) = match &model.classifier {
             PlanClassifier::Each(classifier) => {
-                (neighbours, in_plan::classify(classifier, &network, known, neighbours))
+                (neighbours, in_plan::classify(classifier, &network, known, neighbours), None)
             }
             PlanClassifier::Joint(joint) => {
-                let distributions = joint.predict(&network, known);
+                let first_round = joint.first_round(&network);
+                let distributions = joint.predict_from(&first_round, known);
                 // Its own two rounds: predicted labels of neighbours, known ones where they are.
                 let seen: Vec<Label> = distributions.iter().map(Distribution::label).collect();
                 let features = (0..network.rooms.len()).map(|room| network.features(room, &seen)).collect();
-                (NeighbourLabels::Predicted, InPlan { distributions, features, rounds: 2, settled: true })
+                let result = InPlan { distributions, features, rounds: 2, settled: true };
+                (NeighbourLabels::Predicted, result, Some(first_round))
             }
         };
         let index_of = network.rooms.iter().enumerate().map(|(index, room)| (room.id, index)).collect();
-        Self { choice, model, network, known: known.to_vec(), neighbours, result, index_of }
+        Self { choice, model, network, known: known.to_vec(), neighbours, result, first_round, index_of }
     }
 
     /// The distribution for a room; `None` for one that is not classified.
@@ -208,7 +213,10 @@ impl Predictions {
         let &index = self.index_of.get(&room)?;
         match &self.model.classifier {
             PlanClassifier::Each(classifier) => Some(classifier.explain(&self.result.features[index].values()).words()),
-            PlanClassifier::Joint(joint) => Some(joint.explain(&self.network, &self.known, index)?.words()),
+            PlanClassifier::Joint(joint) => {
+                let round = self.first_round.as_ref()?;
+                Some(joint.explain_from(round, &self.network, &self.known, index)?.words())
+            }
         }
     }
 

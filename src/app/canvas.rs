@@ -11,6 +11,7 @@ use egui::{
 use super::backdrop::BackdropView;
 use super::document::{Derived, Document};
 use super::ghost::GhostPainter;
+use super::pending::Pending;
 use super::scene_painter::{ScenePainter, earcut, on_screen, outline_mesh, polygon_mesh};
 use super::tools::{self, Call, Input, Look, Preview, Scope, Toolbox};
 use super::{App, Question, commands, dimensions, guides, rulers, theme};
@@ -37,6 +38,8 @@ pub(super) struct Canvas {
     pub pointer: Option<Point>,
     painter: ScenePainter,
     ghost: GhostPainter,
+    /// What is not worked out yet.
+    pending: Option<Pending>,
     /// The picture under the plan.
     pub backdrop: BackdropView,
     /// The triangles of the room whose fill marks it.
@@ -407,9 +410,7 @@ impl Canvas {
         self.ghost.paint(&painter, rect, app, &style, &view);
         match fresh {
             // Never a stale label as a fresh one.
-            None => {
-                painter.rect_filled(rect, 0.0, theme::colour(palette.paper).gamma_multiply(0.6));
-            }
+            None => self.paint_pending(&painter, rect, &view, document, app, &style),
             Some(derived) => {
                 let under_pointer = self.hovered.filter(|_| toolbox.is_selecting());
                 let hovered = under_pointer.or(self.hovered_in_panel);
@@ -449,6 +450,26 @@ impl Canvas {
         let description = describe(document, app.picked());
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, &description));
         self.tell_screen_reader(ui, rect, &view, document, fresh, app).or(act)
+    }
+
+    /// Shows what changed since everything was worked out last.
+    fn paint_pending(
+        &mut self,
+        painter: &Painter,
+        rect: Rect,
+        view: &View,
+        document: &Document,
+        app: &App,
+        style: &Style,
+    ) {
+        let Some((earlier, _)) = document.last_derived() else { return };
+        let plan = document.plan();
+        if !self.pending.as_ref().is_some_and(|pending| pending.is_between(earlier, plan)) {
+            self.pending = Some(Pending::new(earlier, plan));
+        }
+        if let Some(pending) = &self.pending {
+            pending.paint(painter, rect, view, style, &app.schemes);
+        }
     }
 
     /// Lets the tool in the hand see what the pointer and the keys do.

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
@@ -12,7 +13,7 @@ use crate::draw::Drawing;
 use crate::features::{Analysis, NeighbourLabels, analyse};
 use crate::formats::{self, FileError, Note, Place, ReadError};
 use crate::geometry::{Bounds, Point, Segment};
-use crate::labels::Schemes;
+use crate::labels::{Schemes, normalised_function};
 use crate::plan::{ElementId, History, Meta, OpeningId, Plan, RoomId, Scale, ScaleOrigin, edit};
 use crate::predict::{Predictions, Predictor};
 use crate::snapping::PlanIndex;
@@ -168,10 +169,24 @@ pub(super) struct Document {
     /// Whether its file was removed.
     pub is_gone: bool,
     derived: Option<(Plan, Arc<Derived>)>,
-    /// The plan for which a job is at work, and the models it uses.
-    awaited: Option<(Plan, Predictor)>,
+    /// What is being worked out.
+    awaited: Option<Awaited>,
     /// Which models predict.
     predictor: Predictor,
+}
+
+/// The plan for which a job is at work, and the models it uses.
+struct Awaited {
+    plan: Plan,
+    predictor: Predictor,
+    /// Tells the job that nobody waits for it any more.
+    outdated: Arc<AtomicBool>,
+}
+
+impl Drop for Awaited {
+    fn drop(&mut self) {
+        self.outdated.store(true, Ordering::Relaxed);
+    }
 }
 
 impl Document {
@@ -260,13 +275,17 @@ impl Document {
         let is_awaited = self
             .awaited
             .as_ref()
-            .is_some_and(|(plan, predictor)| plan.is_same_value(self.plan()) && *predictor == self.predictor);
+            .is_some_and(|awaited| awaited.plan.is_same_value(self.plan()) && awaited.predictor == self.predictor);
         self.derived().is_none() && !is_awaited
     }
 
-    /// Notes that a job is at work for the plan.
-    pub(super) fn await_derived(&mut self) {
-        self.awaited = Some((self.plan().clone(), self.predictor.clone()));
+    /// Notes that a job is at work for the plan. One that is for an earlier plan is told to give up. Gives
+    /// what will tell this one.
+    pub(super) fn await_derived(&mut self) -> Arc<AtomicBool> {
+        let outdated = Arc::new(AtomicBool::new(false));
+        let (plan, predictor) = (self.plan().clone(), self.predictor.clone());
+        self.awaited = Some(Awaited { plan, predictor, outdated: outdated.clone() });
+        outdated
     }
 
     /// Takes over what was worked out for a plan; dropped when the plan or the models are others by now.
@@ -298,10 +317,14 @@ pub(super) struct Derived {
     /// which the tests exclude.
     pub predictions: Option<Predictions>,
     predictor: Option<Predictor>,
+    /// Why a room got its label, as asked for last.
+    reason: Mutex<Option<(RoomId, Option<String>)>>,
     /// Corners, walls and boundaries by place: to snap to, and to select.
     pub index: PlanIndex,
     openings: RTree<OpeningPlace>,
     reading_order: Vec<RoomId>,
+    /// How many rooms have each function, as [`normalised_function`] writes it.
+    pub functions: BTreeMap<String, usize>,
 }
 
 #[derive(Debug)]
@@ -328,22 +351,59 @@ impl PointDistance for OpeningPlace {
 impl Derived {
     /// Works out all that follows from a plan; without a predictor all but predictions.
     pub(super) fn new(plan: &Plan, schemes: &Schemes, predictor: Option<Predictor>) -> Self {
+        let analysis = analyse(plan, schemes, NeighbourLabels::True);
+        let predictions = Self::predicted(plan, &analysis, predictor.as_ref());
+        let drawing = Drawing::in_tiles(plan, &analysis);
+        Self::of(plan, analysis, predictions, predictor, drawing)
+    }
+
+    /// The same, given up between its steps when it turns out that a later plan is worked out.
+    pub(super) fn unless_outdated(
+        plan: &Plan,
+        schemes: &Schemes,
+        predictor: Option<Predictor>,
+        outdated: &AtomicBool,
+    ) -> Option<Self> {
+        let goes_on = || (!outdated.load(Ordering::Relaxed)).then_some(());
+        goes_on()?;
+        let analysis = analyse(plan, schemes, NeighbourLabels::True);
+        goes_on()?;
+        let predictions = Self::predicted(plan, &analysis, predictor.as_ref());
+        goes_on()?;
+        let drawing = Drawing::in_tiles(plan, &analysis);
+        goes_on()?;
+        Some(Self::of(plan, analysis, predictions, predictor, drawing))
+    }
+
+    fn predicted(plan: &Plan, analysis: &Analysis, predictor: Option<&Predictor>) -> Option<Predictions> {
+        let predictor = predictor?;
+        let network = RoomNetwork::of(plan, analysis);
+        let known = network.known_labels();
+        predictor.predict(network, &known, None).ok()
+    }
+
+    fn of(
+        plan: &Plan,
+        analysis: Analysis,
+        predictions: Option<Predictions>,
+        predictor: Option<Predictor>,
+        drawing: Drawing,
+    ) -> Self {
         let openings = plan
             .openings()
             .filter_map(|(id, opening)| Some(OpeningPlace { id, segment: plan.opening_segment(opening)? }))
             .collect();
-        let analysis = analyse(plan, schemes, NeighbourLabels::True);
-        let predictions = predictor.as_ref().and_then(|predictor| {
-            let network = RoomNetwork::of(plan, &analysis);
-            let known = network.known_labels();
-            predictor.predict(network, &known, None).ok()
-        });
         let labels = predictions.as_ref().map(Predictions::labels).unwrap_or_default();
-        let drawing = Drawing::new(plan, &analysis).with_predictions(&labels);
+        let drawing = drawing.with_predictions(&labels);
         let reading_order = reading_order(&analysis);
         let openings = RTree::bulk_load(openings);
         let index = PlanIndex::new(plan);
-        Self { analysis, drawing, predictions, predictor, index, openings, reading_order }
+        let mut functions: BTreeMap<String, usize> = BTreeMap::new();
+        for (_, room) in plan.rooms() {
+            *functions.entry(normalised_function(&room.function)).or_default() += 1;
+        }
+        let reason = Mutex::default();
+        Self { analysis, drawing, predictions, predictor, reason, index, openings, reading_order, functions }
     }
 
     /// The rooms with a boundary as one reads: from the top left, line by line.
@@ -354,6 +414,18 @@ impl Derived {
     /// The rooms with a boundary from the top left, column by column.
     pub(super) fn column_order(&self) -> Vec<RoomId> {
         in_lines(&self.analysis, |bounds| (bounds.min.x, bounds.width()), |bounds| -bounds.max.y)
+    }
+
+    /// Why a room got the label that is predicted, in words; `None` where none is. Worked out when asked
+    /// for another room.
+    pub(super) fn reason(&self, room: RoomId) -> Option<String> {
+        let predictions = self.predictions.as_ref()?;
+        // A poisoned one holds what was there before, which is right.
+        let mut last = self.reason.lock().unwrap_or_else(PoisonError::into_inner);
+        if last.as_ref().is_none_or(|(of, _)| *of != room) {
+            *last = Some((room, predictions.reason(room)));
+        }
+        last.as_ref().and_then(|(_, reason)| reason.clone())
     }
 
     /// What can be picked at a point: openings within `reach_m` metres, then walls, the nearest first, then

@@ -19,6 +19,7 @@ mod icons;
 mod labelling;
 mod offscreen;
 mod panels;
+mod pending;
 mod picture;
 mod plan_list;
 mod raster;
@@ -291,7 +292,8 @@ struct ProposedChange {
 /// What a background job brought.
 enum Done {
     Opened(Origin, Box<Result<Opened, FileError>>),
-    Derived(Plan, Arc<Derived>),
+    /// `None` where it was given up for a later plan's.
+    Derived(Plan, Option<Arc<Derived>>),
     Listed(PathBuf, Vec<PathBuf>),
     Chosen(Answer),
     Saved {
@@ -468,7 +470,7 @@ impl App {
                 }
                 Some(Done::Opened(origin, result)) => self.was_opened(&origin, *result),
                 Some(Done::Derived(plan, derived)) => {
-                    if let Some(document) = &mut self.document {
+                    if let Some((document, derived)) = self.document.as_mut().zip(derived) {
                         document.set_derived(plan, derived);
                     }
                 }
@@ -526,10 +528,10 @@ impl App {
                 let derived = Arc::new(Derived::new(&plan, &schemes, Some(predictor)));
                 document.set_derived(plan.clone(), derived);
             } else {
-                document.await_derived();
+                let outdated = document.await_derived();
                 let plan = plan.clone();
                 self.background.start(move || {
-                    let derived = Arc::new(Derived::new(&plan, &schemes, Some(predictor)));
+                    let derived = Derived::unless_outdated(&plan, &schemes, Some(predictor), &outdated).map(Arc::new);
                     Done::Derived(plan, derived)
                 });
             }

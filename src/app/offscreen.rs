@@ -12,7 +12,7 @@ use egui::{
     TouchPhase, Vec2, ViewportCommand, ViewportId, vec2,
 };
 
-use super::background::Mode;
+use super::background::{Background, Mode};
 use super::dialogs::{Dialogs, Given};
 use super::document::{Origin, bundled};
 use super::raster::Raster;
@@ -105,6 +105,18 @@ impl Offscreen {
     pub fn without_screen_reader(self) -> Self {
         self.context.disable_accesskit();
         self
+    }
+
+    /// Works beside the frames on threads, as the window on a screen does: what is seen when then depends
+    /// on how fast the machine is.
+    pub fn working_beside(mut self) -> Self {
+        self.app.background = Background::new(Mode::Threads(self.context.clone()));
+        self
+    }
+
+    /// Whether something is being worked out beside the frames.
+    pub fn is_working(&self) -> bool {
+        self.app.background.is_busy()
     }
 
     /// The window's state.

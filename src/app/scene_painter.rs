@@ -1,6 +1,6 @@
 //! Paints the scene of a plan with egui: triangles made once a zoom level, moved while panning.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::hash::Hasher as _;
 use std::sync::Arc;
 
@@ -29,8 +29,24 @@ const SHARPEST_MITRE: f32 = -0.5;
 /// With more rooms, names are not placed anew for every frame of a gesture.
 const MANY_NAMES: usize = 60;
 
+/// Of a large plan so many names are placed in a frame, the others in the next ones.
+const NAMES_A_FRAME: usize = 80;
+
 /// Zooming further than this from where the triangles were made shows the scaled edges' blur.
 const SCALED_AT_MOST: f64 = 1.6;
+
+/// When more elements of a large plan are in sight, it is drawn as seen from afar.
+const MOST_IN_DETAIL: usize = 7000;
+
+/// Triangles start so many points from where the view was at most: further off, numbers of 32 bits are
+/// not exact to a hundredth of a pixel.
+const FAR_PX: f64 = 60_000.0;
+
+/// Tiles out of sight are kept while all have no more corners than this: 60 MB.
+const KEPT_VERTICES: usize = 1_500_000;
+
+/// Tiles are made this many points before they come into sight.
+const AHEAD_PX: f64 = 8.0;
 
 /// Paints a plan, keeping what can be used again.
 #[derive(Default)]
@@ -38,7 +54,7 @@ pub(super) struct ScenePainter {
     shapes: Option<Shapes>,
     names: Option<Names>,
     /// Triangles of each polygon, by a hash of its points: they do not change with zoom and style.
-    triangles: BTreeMap<u64, Vec<u32>>,
+    triangles: HashMap<u64, Vec<u32>>,
     last_view: Option<View>,
 }
 
@@ -46,13 +62,22 @@ pub(super) struct ScenePainter {
 struct Shapes {
     derived: Arc<Derived>,
     style: Style,
+    fills: Vec<Rgba>,
+    /// The view they were made for; its centre is where the triangles' coordinates start.
     view: View,
-    /// The point of the plan where the triangles' coordinates start.
-    anchor: Point,
-    chunks: Vec<Chunk>,
+    is_from_afar: bool,
+    /// By tile, as far as they have been in sight.
+    tiles: BTreeMap<usize, TileShapes>,
     vertices: usize,
     /// Where they were put last.
     placed: Option<Placed>,
+}
+
+/// A tile's triangles, by layer and level of rooms.
+#[derive(Default)]
+struct TileShapes {
+    parts: BTreeMap<(usize, usize), Vec<Chunk>>,
+    vertices: usize,
 }
 
 struct Chunk {
@@ -71,7 +96,19 @@ struct Names {
     derived: Arc<Derived>,
     style: Style,
     view: View,
-    groups: Vec<Group>,
+    fills: Vec<Rgba>,
+    /// The rooms in sight.
+    rooms: Vec<usize>,
+    /// What was placed at this zoom, by room.
+    placed: HashMap<usize, Option<Group>>,
+}
+
+impl Names {
+    /// The texts in sight.
+    fn texts(&self) -> impl Iterator<Item = &Text> + '_ {
+        let groups = self.rooms.iter().filter_map(|room| self.placed.get(room)?.as_ref());
+        groups.flat_map(|group| &group.items).filter_map(|item| if let Item::Text(text) = item { Some(text) } else { None })
+    }
 }
 
 impl ScenePainter {
@@ -84,99 +121,178 @@ impl ScenePainter {
             painter.ctx().request_repaint();
         }
         self.update_shapes(derived, style, view, is_moving);
-        self.update_names(derived, style, view, is_moving);
+        if self.update_names(derived, style, view, is_moving) {
+            painter.ctx().request_repaint();
+        }
         for group in derived.drawing.layer(Layer::Grid, style, view) {
             paint_grid(painter, rect, view, &group);
         }
         if let Some(shapes) = &mut self.shapes {
             painter.extend(shapes.placed_in(rect, view, painter.clip_rect()).iter().cloned());
         }
-        for group in self.names.iter().flat_map(|names| &names.groups) {
-            for item in &group.items {
-                if let Item::Text(text) = item {
-                    paint_text(painter, rect, view, text);
-                }
+        if let Some(names) = &self.names {
+            for text in names.texts() {
+                paint_text(painter, rect, view, text);
             }
         }
     }
 
     /// Where the names stand on the screen.
     pub(super) fn text_boxes(&self, rect: Rect, view: &View) -> Vec<Rect> {
-        let texts = self.names.iter().flat_map(|names| &names.groups).flat_map(|group| &group.items);
-        let boxed = |item: &Item| {
-            let Item::Text(text) = item else { return None };
+        let boxed = |text: &Text| {
             let width = crate::draw::font::Font::of(text.weight).width_px(&text.content, text.size_px) as f32;
             let height = text.size_px as f32;
             let at = on_screen(rect, view, text.at) + vec2(text.offset_px.x as f32, text.offset_px.y as f32);
             // From the baseline up.
-            Some(if text.upright {
+            if text.upright {
                 Rect::from_min_max(at - vec2(height, width / 2.0), at + vec2(0.0, width / 2.0))
             } else {
                 Rect::from_min_max(at - vec2(width / 2.0, height), at + vec2(width / 2.0, 0.0))
-            })
+            }
         };
-        texts.filter_map(boxed).collect()
+        self.names.iter().flat_map(Names::texts).map(boxed).collect()
     }
 
     fn update_shapes(&mut self, derived: &Arc<Derived>, style: &Style, view: &View, is_moving: bool) {
-        if let Some(shapes) = &self.shapes {
-            let same_plan = Arc::ptr_eq(&shapes.derived, derived);
-            if !same_plan {
-                self.triangles.clear();
-            }
+        let drawing = &derived.drawing;
+        let seen =
+            View { width_px: view.width_px + 2.0 * AHEAD_PX, height_px: view.height_px + 2.0 * AHEAD_PX, ..*view };
+        let seen = drawing.tiles_in(seen.bounds());
+        let elements: usize = seen.iter().map(|&tile| drawing.elements_in(tile)).sum();
+        let is_usable = |shapes: &Shapes| {
             let scale = view.px_per_m / shapes.view.px_per_m;
             let is_near = (1.0 / SCALED_AT_MOST..=SCALED_AT_MOST).contains(&scale);
-            let can_wait = is_moving && is_near && shapes.vertices > HEAVY_VERTICES;
+            // What is seen from afar has no edges to blur.
+            let can_wait = is_near && (shapes.is_from_afar || (is_moving && shapes.vertices > HEAVY_VERTICES));
             let same_zoom = scale == 1.0 || can_wait;
             let same_pixels = shapes.view.pixel_ratio == view.pixel_ratio;
-            if same_plan && shapes.style == *style && same_zoom && same_pixels {
-                return;
+            // Neither flickers to and fro at the limit.
+            let same_detail = if shapes.is_from_afar {
+                elements * 5 > MOST_IN_DETAIL * 4
+            } else {
+                elements * 4 <= MOST_IN_DETAIL * 5
+            };
+            let offset = (shapes.view.centre - view.centre) * shapes.view.px_per_m;
+            let is_exact = !drawing.is_in_tiles() || offset.length() < FAR_PX;
+            Arc::ptr_eq(&shapes.derived, derived)
+                && shapes.style == *style
+                && same_zoom
+                && same_pixels
+                && (same_detail || !drawing.is_in_tiles())
+                && is_exact
+        };
+        if !self.shapes.as_ref().is_some_and(is_usable) {
+            if self.shapes.as_ref().is_some_and(|shapes| !Arc::ptr_eq(&shapes.derived, derived)) {
+                self.triangles.clear();
+            }
+            self.shapes = Some(Shapes {
+                derived: derived.clone(),
+                style: style.clone(),
+                fills: drawing.fills(style),
+                view: *view,
+                is_from_afar: drawing.is_in_tiles() && elements > MOST_IN_DETAIL,
+                tiles: BTreeMap::new(),
+                vertices: 0,
+                placed: None,
+            });
+        }
+        let Some(shapes) = &mut self.shapes else { return };
+        if shapes.vertices > KEPT_VERTICES && seen.iter().any(|tile| !shapes.tiles.contains_key(tile)) {
+            shapes.tiles.retain(|tile, _| seen.binary_search(tile).is_ok());
+            shapes.vertices = shapes.tiles.values().map(|tile| tile.vertices).sum();
+            self.triangles.clear();
+        }
+        for tile in seen {
+            if !shapes.tiles.contains_key(&tile) {
+                let made = shapes.make(tile, &mut self.triangles);
+                shapes.vertices += made.vertices;
+                shapes.tiles.insert(tile, made);
+                shapes.placed = None;
             }
         }
-        let mut writer = Writer::new(view);
-        for layer in SHAPE_LAYERS {
-            for group in derived.drawing.layer(layer, style, view) {
-                for item in &group.items {
-                    if let Item::Polygon { outer, holes, colour } = item {
-                        let key = hash(outer, holes);
-                        let triangles = self.triangles.entry(key).or_insert_with(|| earcut(outer, holes));
-                        writer.polygon(outer, holes, triangles, theme::colour(*colour));
-                    } else {
-                        writer.item(item);
-                    }
-                }
-            }
-        }
-        let chunks = writer.finish();
-        let vertices = chunks.iter().map(|chunk| chunk.mesh.vertices.len()).sum();
-        self.shapes = Some(Shapes {
-            derived: derived.clone(),
-            style: style.clone(),
-            view: *view,
-            anchor: view.centre,
-            chunks,
-            vertices,
-            placed: None,
-        });
     }
 
-    fn update_names(&mut self, derived: &Arc<Derived>, style: &Style, view: &View, is_moving: bool) {
-        if let Some(names) = &self.names {
-            let can_wait = is_moving && derived.analysis.rooms.len() > MANY_NAMES;
-            let same_view = names.view == *view || can_wait;
-            if Arc::ptr_eq(&names.derived, derived) && names.style == *style && same_view {
-                return;
-            }
+    /// Gives whether some names are still to be placed.
+    fn update_names(&mut self, derived: &Arc<Derived>, style: &Style, view: &View, is_moving: bool) -> bool {
+        if !style.layers.names && !style.layers.areas {
+            self.names = None;
+            return false;
         }
-        let groups = derived.drawing.layer(Layer::Names, style, view);
-        self.names = Some(Names { derived: derived.clone(), style: style.clone(), view: *view, groups });
+        let drawing = &derived.drawing;
+        let same_plan = |names: &&mut Names| Arc::ptr_eq(&names.derived, derived) && names.style == *style;
+        let same_zoom =
+            |names: &Names| names.view.px_per_m == view.px_per_m && names.view.pixel_ratio == view.pixel_ratio;
+        let names = match self.names.as_mut().filter(same_plan) {
+            Some(names) => {
+                if !same_zoom(names) {
+                    if is_moving && derived.analysis.rooms.len() > MANY_NAMES {
+                        return false;
+                    }
+                    names.placed.clear();
+                }
+                names
+            }
+            None => self.names.insert(Names {
+                derived: derived.clone(),
+                style: style.clone(),
+                view: *view,
+                fills: drawing.fills(style),
+                rooms: Vec::new(),
+                placed: HashMap::new(),
+            }),
+        };
+        names.view = *view;
+        names.rooms = drawing.rooms_to_name(view);
+        let most = if drawing.is_in_tiles() { NAMES_A_FRAME } else { usize::MAX };
+        let missing: Vec<usize> = names.rooms.iter().copied().filter(|room| !names.placed.contains_key(room)).collect();
+        for &room in missing.iter().take(most) {
+            let group = drawing.name(room, names.fills[room], style, view);
+            names.placed.insert(room, group);
+        }
+        missing.len() > most
     }
 }
 
 impl Shapes {
+    /// The triangles of a tile.
+    fn make(&self, tile: usize, triangles: &mut HashMap<u64, Vec<u32>>) -> TileShapes {
+        let drawing = &self.derived.drawing;
+        let mut made = TileShapes::default();
+        for (place, layer) in SHAPE_LAYERS.into_iter().enumerate() {
+            let levels = if layer == Layer::Rooms { drawing.levels() } else { 1 };
+            for level in 0..levels {
+                let mut writer = Writer::new(&self.view);
+                if self.is_from_afar {
+                    for item in drawing.tile_from_afar(tile, layer, level, &self.fills, &self.style, &self.view) {
+                        writer.item_from_afar(&item);
+                    }
+                } else {
+                    let is_cut = |a: Point, b: Point| layer == Layer::Walls && drawing.is_cut(a, b);
+                    for group in drawing.tile_layer(tile, layer, level, &self.fills, &self.style, &self.view) {
+                        for item in &group.items {
+                            if let Item::Polygon { outer, holes, colour } = item {
+                                let key = hash(outer, holes);
+                                let triangles = triangles.entry(key).or_insert_with(|| earcut(outer, holes));
+                                writer.polygon_cut(outer, holes, triangles, theme::colour(*colour), &is_cut);
+                            } else {
+                                writer.item(item);
+                            }
+                        }
+                    }
+                }
+                let chunks = writer.finish();
+                made.vertices += chunks.iter().map(|chunk| chunk.mesh.vertices.len()).sum::<usize>();
+                if !chunks.is_empty() {
+                    made.parts.insert((place, level), chunks);
+                }
+            }
+        }
+        made
+    }
+
     /// The triangles at their place for a view.
     fn placed_in(&mut self, rect: Rect, view: &View, clip: Rect) -> &[Shape] {
-        let origin = on_screen(rect, view, self.anchor);
+        let origin = on_screen(rect, view, self.view.centre);
         let scale = (view.px_per_m / self.view.px_per_m) as f32;
         let is_there = self
             .placed
@@ -184,22 +300,30 @@ impl Shapes {
             .is_some_and(|placed| placed.origin == origin && placed.scale == scale && placed.clip == clip);
         if !is_there {
             let mut shapes = Vec::new();
-            for chunk in &self.chunks {
-                let bounds = Rect::from_min_max(
-                    origin + chunk.bounds.min.to_vec2() * scale,
-                    origin + chunk.bounds.max.to_vec2() * scale,
-                );
-                if bounds.intersects(clip) {
-                    let mut mesh = chunk.mesh.clone();
-                    for vertex in &mut mesh.vertices {
-                        vertex.pos = origin + vertex.pos.to_vec2() * scale;
-                    }
-                    shapes.push(Shape::mesh(mesh));
+            for place in 0..SHAPE_LAYERS.len() {
+                let levels = if SHAPE_LAYERS[place] == Layer::Rooms { self.derived.drawing.levels() } else { 1 };
+                for part in (0..levels).map(|level| (place, level)) {
+                    let chunks = self.tiles.values().filter_map(|tile| tile.parts.get(&part)).flatten();
+                    shapes.extend(chunks.filter_map(|chunk| chunk.placed(origin, scale, clip)));
                 }
             }
             self.placed = Some(Placed { origin, scale, clip, shapes });
         }
         self.placed.as_ref().map(|placed| placed.shapes.as_slice()).unwrap_or_default()
+    }
+}
+
+impl Chunk {
+    /// The triangles moved and scaled; `None` where they are out of sight.
+    fn placed(&self, origin: Pos2, scale: f32, clip: Rect) -> Option<Shape> {
+        let bounds =
+            Rect::from_min_max(origin + self.bounds.min.to_vec2() * scale, origin + self.bounds.max.to_vec2() * scale);
+        if !bounds.intersects(clip) {
+            return None;
+        }
+        let moved = |vertex: &Vertex| Vertex { pos: origin + vertex.pos.to_vec2() * scale, ..*vertex };
+        let vertices = self.mesh.vertices.iter().map(moved).collect();
+        Some(Shape::mesh(Mesh { indices: self.mesh.indices.clone(), vertices, texture_id: self.mesh.texture_id }))
     }
 }
 
@@ -421,8 +545,60 @@ impl<'a> Writer<'a> {
         }
     }
 
+    /// A part of what is seen from afar: fills without soft edges, which walls cover, and lines.
+    fn item_from_afar(&mut self, item: &Item) {
+        match item {
+            Item::Polygon { outer, holes, colour } => {
+                let first = self.mesh.vertices.len() as u32;
+                let color = theme::colour(*colour);
+                for &point in outer.iter().chain(holes.iter().flatten()) {
+                    self.mesh.vertices.push(Vertex { pos: self.place(point), uv: WHITE_UV, color });
+                }
+                // Nearly all rooms are.
+                if outer.len() == 4 && holes.is_empty() && is_convex(outer) {
+                    self.mesh.indices.extend([0, 1, 2, 0, 2, 3].map(|corner| first + corner));
+                } else {
+                    self.mesh.indices.extend(earcut(outer, holes).into_iter().map(|corner| first + corner));
+                }
+            }
+            Item::Line { points, colour, width, .. } => {
+                let stroke = self.stroke(*width, *colour);
+                for ends in points.windows(2) {
+                    self.line_from_afar(self.place(ends[0]), self.place(ends[1]), stroke);
+                }
+            }
+            Item::Arc { .. } | Item::Disc { .. } | Item::Text(_) | Item::Picture(_) => {}
+        }
+    }
+
+    /// A line that fades from its middle to both sides, with two thirds of the corners of a whole one; as
+    /// much of it as its width says is seen.
+    fn line_from_afar(&mut self, from: Pos2, to: Pos2, stroke: Stroke) {
+        let across = (to - from).normalized().rot90() * stroke.width.max(self.feather);
+        let color = stroke.color.gamma_multiply((stroke.width / self.feather).min(1.0));
+        let first = self.mesh.vertices.len() as u32;
+        for at in [from, to] {
+            for (side, color) in [(-1.0, Color32::TRANSPARENT), (0.0, color), (1.0, Color32::TRANSPARENT)] {
+                self.mesh.vertices.push(Vertex { pos: at + across * side, uv: WHITE_UV, color });
+            }
+        }
+        self.mesh.indices.extend([0, 3, 1, 1, 3, 4, 1, 4, 2, 2, 4, 5].map(|corner| first + corner));
+    }
+
     /// A filled polygon: its triangles, drawn half a pixel in, and a rim that fades out.
     fn polygon(&mut self, outer: &[Point], holes: &[Vec<Point>], triangles: &[u32], colour: Color32) {
+        self.polygon_cut(outer, holes, triangles, colour, &|_, _| false);
+    }
+
+    /// The same for a piece of a polygon, without a rim where it `is_cut` from the next piece.
+    fn polygon_cut(
+        &mut self,
+        outer: &[Point],
+        holes: &[Vec<Point>],
+        triangles: &[u32],
+        colour: Color32,
+        is_cut: &dyn Fn(Point, Point) -> bool,
+    ) {
         if colour == Color32::TRANSPARENT {
             return;
         }
@@ -431,7 +607,11 @@ impl<'a> Writer<'a> {
         // Inner and outer rim of a corner follow each other.
         for (index, ring) in rings.enumerate() {
             let points: Vec<Pos2> = ring.iter().map(|&point| self.place(point)).collect();
-            let outward = outward_normals(&points, index > 0);
+            let cut: Vec<bool> = (0..ring.len()).map(|i| is_cut(ring[i], ring[(i + 1) % ring.len()])).collect();
+            let mut outward = outward_normals(&points, index > 0);
+            if cut.contains(&true) {
+                keep_on_cuts(&mut outward, &points, &cut);
+            }
             let start = self.mesh.vertices.len() as u32;
             for (&point, normal) in points.iter().zip(outward) {
                 let half = normal * (self.feather / 2.0);
@@ -439,7 +619,7 @@ impl<'a> Writer<'a> {
                 self.mesh.vertices.push(Vertex { pos: point + half, uv: WHITE_UV, color: Color32::TRANSPARENT });
             }
             let count = points.len() as u32;
-            for i in 0..count {
+            for i in (0..count).filter(|&i| !cut[i as usize]) {
                 let (a, b) = (start + 2 * i, start + 2 * ((i + 1) % count));
                 self.mesh.indices.extend([a, b, a + 1, a + 1, b, b + 1]);
             }
@@ -474,6 +654,37 @@ fn outward_normals(ring: &[Pos2], is_hole: bool) -> Vec<Vec2> {
             sum / (1.0 + before.dot(after)).max(0.5)
         })
         .collect()
+}
+
+/// Turns the directions out of a polygon at corners where it was cut along the cut, so that both pieces
+/// end at the same place: half a pixel from the edge that is none of a cut.
+fn keep_on_cuts(outward: &mut [Vec2], ring: &[Pos2], cut: &[bool]) {
+    let n = ring.len();
+    for i in 0..n {
+        let (before, after) = ((i + n - 1) % n, i);
+        let along = match (cut[before], cut[after]) {
+            (false, false) => continue,
+            (true, true) => {
+                outward[i] = Vec2::ZERO;
+                continue;
+            }
+            (true, false) => ring[i] - ring[before],
+            (false, true) => ring[(i + 1) % n] - ring[i],
+        };
+        let edge = if cut[before] { ring[(i + 1) % n] - ring[i] } else { ring[i] - ring[before] };
+        let (along, edge) = (along.normalized(), edge.normalized());
+        let sine = cross(edge, along);
+        // The side of the edge that the direction was on before is out.
+        let side = if cross(edge, outward[i]) < 0.0 { -1.0 } else { 1.0 };
+        outward[i] = if sine.abs() < 0.1 { Vec2::ZERO } else { along * (side / sine) };
+    }
+}
+
+/// Whether a ring turns one way only.
+fn is_convex(ring: &[Point]) -> bool {
+    let n = ring.len();
+    let turn = |i: usize| (ring[(i + 1) % n] - ring[i]).cross(ring[(i + 2) % n] - ring[(i + 1) % n]);
+    (0..n).all(|i| turn(i) >= 0.0) || (0..n).all(|i| turn(i) <= 0.0)
 }
 
 fn cross(p: Vec2, q: Vec2) -> f32 {

@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use super::openings::OpeningDrawing;
 use super::scene::{Frame, Group, Item, Layer, Length, PlacedPicture, Scene, View};
-use super::walls::{Faces, Walls};
+use super::tiles::{Contents, Tile, TileGrid, Tiles};
+use super::walls::{self, Faces, Walls};
 use super::{Fill, Grid, Rgba, Style, names};
 use crate::features::{Analysis, RoomStatus};
-use crate::geometry::{Bounds, Point, Segment, areas};
+use crate::geometry::{Bounds, Point, Segment, areas, polygon};
 use crate::labels::{Label, normalised_function};
-use crate::plan::{Backdrop, Joint, Meta, OpeningId, Plan, RoomId, Swing};
+use crate::plan::{Backdrop, Joint, Meta, OpeningId, Plan, RoomId, Swing, Wall};
 use crate::store::pictures::PictureLevels;
 use crate::units::Units;
 
@@ -25,6 +26,8 @@ pub struct Drawing {
     pub(super) faces: Faces,
     picture: Option<PlacedPicture>,
     bounds: Bounds,
+    /// Where a large plan is cut; `None` for one in one piece.
+    tiles: Option<Tiles>,
 }
 
 /// A room as drawn.
@@ -97,7 +100,7 @@ const OPEN_AIR: [&str; 12] = [
 ];
 
 /// The order of painting: large rooms first, so that one that lies in or over another is seen.
-fn painting_order(rooms: &[RoomDrawing], one: usize, other: usize) -> Ordering {
+pub(super) fn painting_order(rooms: &[RoomDrawing], one: usize, other: usize) -> Ordering {
     rooms[other].area_m2.total_cmp(&rooms[one].area_m2).then(one.cmp(&other))
 }
 
@@ -118,6 +121,17 @@ pub(super) struct GraphEdge {
 impl Drawing {
     /// The shapes of a plan. `analysis` must be that of the same plan.
     pub fn new(plan: &Plan, analysis: &Analysis) -> Self {
+        Self::cut(plan, analysis, None)
+    }
+
+    /// The same cut into tiles where the plan is large, so that a window works only on what it shows:
+    /// see [`Drawing::tiles_in`]. As a whole it shows where its walls were cut.
+    pub fn in_tiles(plan: &Plan, analysis: &Analysis) -> Self {
+        let elements = plan.rooms().len() + plan.walls().len() + plan.openings().len();
+        Self::cut(plan, analysis, TileGrid::of(plan.bounds(), elements))
+    }
+
+    fn cut(plan: &Plan, analysis: &Analysis, grid: Option<TileGrid>) -> Self {
         let mut rooms: Vec<RoomDrawing> = plan
             .rooms()
             .zip(&analysis.rooms)
@@ -143,8 +157,8 @@ impl Drawing {
             let near = analysis.shapes.near(rooms[i].bounds.inflated(-0.01));
             rooms[i].above = near.into_iter().filter(|&j| painting_order(&rooms, j, i).is_gt()).collect();
         }
-        let walls = Walls::new(plan, &rooms);
-        let faces = Faces::new(&walls.solid);
+        let walls = Walls::new(plan, &rooms, grid.as_ref());
+        let faces = Faces::new(&walls.solid, grid.as_ref());
         let openings = OpeningDrawing::all(plan, analysis, &rooms, &faces);
         for (i, opening) in openings.iter().enumerate() {
             for room in analysis.shapes.near(opening.bounds()) {
@@ -152,21 +166,42 @@ impl Drawing {
             }
         }
         let cuts: Vec<_> = openings.iter().filter_map(|opening| opening.cut.clone()).collect();
-        let solid = areas::without(walls.solid, &cuts);
+        let solid = walls::without(walls.solid, cuts, grid.as_ref());
         // From here on what is left of the walls bounds the rooms for their names.
-        let faces = Faces::new(&solid);
-        let walls_drawn: Vec<WallDrawing> = solid
+        let faces = Faces::new(&solid, grid.as_ref());
+        let (wall_tiles, walls_drawn): (Vec<usize>, Vec<WallDrawing>) = solid
             .iter()
-            .filter_map(|shape| {
+            .enumerate()
+            .flat_map(|(tile, shapes)| shapes.iter().map(move |shape| (tile, shape)))
+            .filter_map(|(tile, shape)| {
                 let (outer, holes) = shape.split_first()?;
-                Some(WallDrawing { outer: areas::points(outer), holes: holes.iter().map(areas::points).collect() })
+                let holes = holes.iter().map(areas::points).collect();
+                Some((tile, WallDrawing { outer: areas::points(outer), holes }))
             })
-            .collect();
+            .unzip();
         let bounds =
             walls_drawn.iter().fold(plan.bounds(), |bounds, wall| bounds.union(Bounds::of(wall.outer.iter().copied())));
         let bounds = openings.iter().fold(bounds, |bounds, opening| bounds.union(opening.bounds()));
         let graph = graph_edges(analysis, &rooms, &openings);
         let boundaries = without_openings(walls.boundaries, &openings);
+        let tiles = grid.map(|grid| {
+            let axis = |wall: &Wall| Some((plan.wall_segment(wall)?, wall.thickness_m));
+            let mut axes: Vec<(Segment, f64)> = plan.walls().filter_map(|(_, wall)| axis(wall)).collect();
+            // Of rooms that came without walls, their boundaries.
+            let unwalled = walls.unwalled.iter().flat_map(|&room| rooms[room].rings());
+            axes.extend(unwalled.flat_map(|ring| polygon::edges(ring)).map(|edge| (edge, 0.0)));
+            let contents = Contents {
+                rooms: &rooms,
+                walls: &walls_drawn,
+                wall_tiles: &wall_tiles,
+                wall_lines: &walls.lines,
+                boundaries: &boundaries,
+                openings: &openings,
+                graph: &graph,
+                axes,
+            };
+            Tiles::new(grid, contents)
+        });
         Self {
             meta: plan.meta().clone(),
             rooms,
@@ -178,6 +213,7 @@ impl Drawing {
             faces,
             picture: None,
             bounds,
+            tiles,
         }
     }
 
@@ -240,20 +276,164 @@ impl Drawing {
             }
             Layer::Grid if layers.grid => grid(style, view.px_per_m, view.bounds()),
             Layer::Rooms if layers.rooms => self.room_fills(style),
-            Layer::Boundaries if layers.walls => self.boundary_lines(style),
-            Layer::Walls if layers.walls => self.wall_fills(style, view),
+            Layer::Boundaries if layers.walls => self.boundary_lines(self.boundaries.iter().copied(), style),
+            Layer::Walls if layers.walls => {
+                self.wall_fills(self.walls.iter(), self.wall_lines.iter().copied(), style, view)
+            }
             Layer::Openings if layers.openings => {
                 let floors = self.fills(style);
                 self.openings.iter().map(|opening| opening.group(style, view, &floors)).collect()
             }
-            Layer::Graph if layers.graph => self.graph_marks(style),
+            Layer::Graph if layers.graph => {
+                let rooms = self.rooms.iter().filter(|room| !room.outer.is_empty());
+                self.graph_marks(self.graph.iter(), rooms, style)
+            }
             Layer::Names if layers.names || layers.areas => names::groups(self, style, view),
             _ => Vec::new(),
         }
     }
 
+    /// Indices of the tiles that meet a part of the plan; of a plan in one piece, the one.
+    pub fn tiles_in(&self, seen: Bounds) -> Vec<usize> {
+        match &self.tiles {
+            None => vec![0],
+            Some(tiles) => (0..tiles.all.len()).filter(|&tile| tiles.all[tile].bounds.intersects(seen)).collect(),
+        }
+    }
+
+    /// Whether the plan is cut into tiles.
+    pub fn is_in_tiles(&self) -> bool {
+        self.tiles.is_some()
+    }
+
+    /// Rooms, walls and openings in a tile, as far as that takes time to draw.
+    pub fn elements_in(&self, tile: usize) -> usize {
+        self.tile(tile).map_or(0, |tile| {
+            tile.rooms.iter().map(Vec::len).sum::<usize>() + tile.axes.len() + 2 * tile.openings.len()
+        })
+    }
+
+    /// How often the layer of rooms is painted: rooms of a level are painted in all tiles before those of
+    /// the next.
+    pub fn levels(&self) -> usize {
+        self.tiles.as_ref().map_or(1, |tiles| tiles.levels)
+    }
+
+    /// Whether a piece of a wall's outline is where it was cut between tiles: no edge of what is drawn.
+    pub fn is_cut(&self, a: Point, b: Point) -> bool {
+        self.tiles.as_ref().is_some_and(|tiles| tiles.grid.is_cut(a, b))
+    }
+
+    fn tile(&self, tile: usize) -> Option<&Tile> {
+        self.tiles.as_ref().and_then(|tiles| tiles.all.get(tile))
+    }
+
+    /// One layer of a tile, of rooms those of a level. `fills` are [`Drawing::fills`].
+    pub fn tile_layer(
+        &self,
+        tile: usize,
+        layer: Layer,
+        level: usize,
+        fills: &[Rgba],
+        style: &Style,
+        view: &View,
+    ) -> Vec<Group> {
+        let Some(tile) = self.tile(tile) else { return self.layer(layer, style, view) };
+        let layers = &style.layers;
+        match layer {
+            Layer::Rooms if layers.rooms => {
+                let rooms = tile.rooms.get(level).map(Vec::as_slice).unwrap_or_default();
+                rooms.iter().map(|&room| self.room_fill(room, fills, style)).collect()
+            }
+            Layer::Boundaries if layers.walls => {
+                self.boundary_lines(tile.boundaries.iter().map(|&index| self.boundaries[index]), style)
+            }
+            Layer::Walls if layers.walls => {
+                let walls = tile.walls.iter().map(|&index| &self.walls[index]);
+                self.wall_fills(walls, tile.wall_lines.iter().map(|&index| self.wall_lines[index]), style, view)
+            }
+            Layer::Openings if layers.openings => {
+                tile.openings.iter().map(|&opening| self.openings[opening].group(style, view, fills)).collect()
+            }
+            Layer::Graph if layers.graph => {
+                let rooms = tile.rooms.iter().flatten().map(|&room| &self.rooms[room]);
+                self.graph_marks(tile.graph.iter().map(|&edge| &self.graph[edge]), rooms, style)
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// A tile seen from afar, where doors are a few pixels wide: a room is its fill, a wall its axis.
+    pub fn tile_from_afar(
+        &self,
+        tile: usize,
+        layer: Layer,
+        level: usize,
+        fills: &[Rgba],
+        style: &Style,
+        view: &View,
+    ) -> Vec<Item> {
+        let Some(tile) = self.tile(tile) else { return Vec::new() };
+        let (layers, palette) = (&style.layers, style.palette());
+        let line = |segment: Segment, colour: Rgba, width_px: f64| Item::Line {
+            points: vec![segment.a, segment.b],
+            closed: false,
+            colour,
+            width: Length::Px(width_px),
+            dash: None,
+        };
+        match layer {
+            Layer::Rooms if layers.rooms => {
+                let rooms = tile.rooms.get(level).map(Vec::as_slice).unwrap_or_default();
+                let fill = |&room: &usize| {
+                    let RoomDrawing { outer, holes, .. } = &self.rooms[room];
+                    Item::Polygon { outer: outer.clone(), holes: holes.clone(), colour: fills[room] }
+                };
+                rooms.iter().map(fill).collect()
+            }
+            Layer::Boundaries if layers.walls => {
+                tile.boundaries.iter().map(|&index| line(self.boundaries[index], palette.boundary, 1.0)).collect()
+            }
+            Layer::Walls if layers.walls => {
+                let width_px = |thickness_m: f64| (thickness_m * view.px_per_m).max(THINNEST_WALL_PX);
+                tile.axes.iter().map(|&(axis, thickness_m)| line(axis, palette.wall, width_px(thickness_m))).collect()
+            }
+            Layer::Graph if layers.graph => {
+                let edges = tile.graph.iter().map(|&index| &self.graph[index]);
+                let halves = edges.flat_map(|edge| {
+                    let second = edge.to.ok().map(|to| Segment::new(edge.through, to));
+                    std::iter::once(Segment::new(edge.from, edge.through)).chain(second)
+                });
+                halves.map(|half| line(half, palette.graph_edge, 1.5)).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Indices of the rooms seen in a view that are large enough for the least text there is.
+    pub fn rooms_to_name(&self, view: &View) -> Vec<usize> {
+        let seen = view.bounds();
+        let is_meant = |&index: &usize| {
+            let room = &self.rooms[index];
+            !room.outer.is_empty() && room.bounds.intersects(seen) && names::may_fit(room, view)
+        };
+        match &self.tiles {
+            None => (0..self.rooms.len()).filter(is_meant).collect(),
+            Some(tiles) => {
+                let near = self.tiles_in(seen).into_iter().flat_map(|tile| tiles.all[tile].rooms.iter().flatten());
+                near.copied().filter(is_meant).collect()
+            }
+        }
+    }
+
+    /// The name of a room where it fits best; `None` where it fits nowhere. `fill` is the room's of
+    /// [`Drawing::fills`]. Of the view only the zoom matters.
+    pub fn name(&self, room: usize, fill: Rgba, style: &Style, view: &View) -> Option<Group> {
+        names::group(self, room, fill, style, view)
+    }
+
     /// The colours of the rooms' fills.
-    pub(super) fn fills(&self, style: &Style) -> Vec<Rgba> {
+    pub fn fills(&self, style: &Style) -> Vec<Rgba> {
         let palette = style.palette();
         let functions = match style.fill {
             Fill::Function => palette.functions(self.rooms.iter().map(|room| room.function.as_str())),
@@ -274,43 +454,37 @@ impl Drawing {
         let fills = self.fills(style);
         let mut order: Vec<usize> = (0..self.rooms.len()).filter(|&i| !self.rooms[i].outer.is_empty()).collect();
         order.sort_by(|&p, &q| painting_order(&self.rooms, p, q));
-        order
-            .into_iter()
-            .map(|i| {
-                let room = &self.rooms[i];
-                let polygon = Item::Polygon { outer: room.outer.clone(), holes: room.holes.clone(), colour: fills[i] };
-                let missed = room.missed_label().filter(|_| style.fill == Fill::Prediction);
-                let items = match missed {
-                    None => vec![polygon],
-                    Some(known) => {
-                        let colour = style.palette().label(known).faded(style.fill_opacity);
-                        let within = &room.within_rim;
-                        let rim = within.iter().fold(room.holes.clone(), |mut holes, (outer, _)| {
-                            holes.push(outer.clone());
-                            holes
-                        });
-                        let inner = within.iter().map(|(outer, holes)| Item::Polygon {
-                            outer: outer.clone(),
-                            holes: holes.clone(),
-                            colour: fills[i],
-                        });
-                        let rim = Item::Polygon { outer: room.outer.clone(), holes: rim, colour };
-                        std::iter::once(rim).chain(inner).collect()
-                    }
-                };
-                Group {
-                    element: room.id.to_string(),
-                    title: room_title(room),
-                    ..Group::new(Layer::Rooms, Frame::Plan, items)
-                }
-            })
-            .collect()
+        order.into_iter().map(|room| self.room_fill(room, &fills, style)).collect()
     }
 
-    fn boundary_lines(&self, style: &Style) -> Vec<Group> {
-        let items: Vec<Item> = self
-            .boundaries
-            .iter()
+    fn room_fill(&self, index: usize, fills: &[Rgba], style: &Style) -> Group {
+        let (room, fill) = (&self.rooms[index], fills[index]);
+        let polygon = Item::Polygon { outer: room.outer.clone(), holes: room.holes.clone(), colour: fill };
+        let missed = room.missed_label().filter(|_| style.fill == Fill::Prediction);
+        let items = match missed {
+            None => vec![polygon],
+            Some(known) => {
+                let colour = style.palette().label(known).faded(style.fill_opacity);
+                let within = &room.within_rim;
+                let rim = within.iter().fold(room.holes.clone(), |mut holes, (outer, _)| {
+                    holes.push(outer.clone());
+                    holes
+                });
+                let inner = within.iter().map(|(outer, holes)| Item::Polygon {
+                    outer: outer.clone(),
+                    holes: holes.clone(),
+                    colour: fill,
+                });
+                let rim = Item::Polygon { outer: room.outer.clone(), holes: rim, colour };
+                std::iter::once(rim).chain(inner).collect()
+            }
+        };
+        let title = room_title(room);
+        Group { element: room.id.to_string(), title, ..Group::new(Layer::Rooms, Frame::Plan, items) }
+    }
+
+    fn boundary_lines(&self, boundaries: impl Iterator<Item = Segment>, style: &Style) -> Vec<Group> {
+        let items: Vec<Item> = boundaries
             .map(|segment| Item::Line {
                 points: vec![segment.a, segment.b],
                 closed: false,
@@ -322,26 +496,29 @@ impl Drawing {
         if items.is_empty() { Vec::new() } else { vec![Group::new(Layer::Boundaries, Frame::Plan, items)] }
     }
 
-    fn wall_fills(&self, style: &Style, view: &View) -> Vec<Group> {
+    fn wall_fills<'a>(
+        &self,
+        walls: impl Iterator<Item = &'a WallDrawing> + Clone,
+        lines: impl Iterator<Item = Segment>,
+        style: &Style,
+        view: &View,
+    ) -> Vec<Group> {
         let colour = style.palette().wall;
         let mut items: Vec<Item> = Vec::new();
-        for wall in &self.walls {
+        for wall in walls.clone() {
             items.push(Item::Polygon { outer: wall.outer.clone(), holes: wall.holes.clone(), colour });
         }
         // Walls that are too thin to see at this zoom get a rim.
         let rim_px = THINNEST_WALL_PX - TYPICAL_WALL_M * view.px_per_m;
         if rim_px > 0.0 {
-            for ring in self.walls.iter().flat_map(|wall| std::iter::once(&wall.outer).chain(&wall.holes)) {
-                items.push(Item::Line {
-                    points: ring.clone(),
-                    closed: true,
-                    colour,
-                    width: Length::Px(rim_px),
-                    dash: None,
-                });
+            let width = Length::Px(rim_px);
+            for ring in walls.flat_map(|wall| std::iter::once(&wall.outer).chain(&wall.holes)) {
+                for (points, closed) in self.uncut(ring) {
+                    items.push(Item::Line { points, closed, colour, width, dash: None });
+                }
             }
         }
-        for segment in &self.wall_lines {
+        for segment in lines {
             items.push(Item::Line {
                 points: vec![segment.a, segment.b],
                 closed: false,
@@ -353,7 +530,31 @@ impl Drawing {
         if items.is_empty() { Vec::new() } else { vec![Group::new(Layer::Walls, Frame::Plan, items)] }
     }
 
-    fn graph_marks(&self, style: &Style) -> Vec<Group> {
+    /// The stretches of a wall's outline between cuts, and whether it is the whole of it.
+    fn uncut(&self, ring: &[Point]) -> Vec<(Vec<Point>, bool)> {
+        let n = ring.len();
+        let is_cut = |i: usize| self.is_cut(ring[i % n], ring[(i + 1) % n]);
+        let Some(first) = (0..n).find(|&i| self.tiles.is_some() && is_cut(i)) else {
+            return vec![(ring.to_vec(), true)];
+        };
+        let mut stretches = Vec::new();
+        let mut stretch = Vec::new();
+        for i in first + 1..=first + n {
+            stretch.push(ring[i % n]);
+            if is_cut(i) {
+                stretches.push((std::mem::take(&mut stretch), false));
+            }
+        }
+        stretches.retain(|(points, _)| points.len() > 1);
+        stretches
+    }
+
+    fn graph_marks<'a>(
+        &self,
+        edges: impl Iterator<Item = &'a GraphEdge>,
+        rooms: impl Iterator<Item = &'a RoomDrawing>,
+        style: &Style,
+    ) -> Vec<Group> {
         let palette = style.palette();
         let mut items = Vec::new();
         let line = |points: Vec<Point>| Item::Line {
@@ -363,7 +564,7 @@ impl Drawing {
             width: Length::Px(1.5),
             dash: None,
         };
-        for edge in &self.graph {
+        for edge in edges {
             match edge.to {
                 Ok(to) => items.push(line(vec![edge.from, edge.through, to])),
                 Err(outward) => {
@@ -378,7 +579,7 @@ impl Drawing {
                 }
             }
         }
-        for room in self.rooms.iter().filter(|room| !room.outer.is_empty()) {
+        for room in rooms {
             let fill = match room.status {
                 RoomStatus::Labelled(label) => palette.label_strong(label),
                 RoomStatus::NotClassified | RoomStatus::Unlabelled => palette.ink_muted,

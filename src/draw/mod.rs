@@ -21,6 +21,7 @@ pub mod scene;
 pub mod sheet;
 mod style;
 pub mod svg;
+mod tiles;
 mod walls;
 
 pub use colour::Rgba;

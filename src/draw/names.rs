@@ -285,28 +285,26 @@ const AREA_SIZE: f64 = 0.88;
 
 /// The names of all rooms that are seen.
 pub(super) fn groups(drawing: &Drawing, style: &Style, view: &View) -> Vec<Group> {
-    let seen = view.bounds();
     let floors = drawing.fills(style);
-    let mut groups = Vec::new();
-    for (i, room) in drawing.rooms.iter().enumerate() {
-        if room.outer.is_empty() || !room.bounds.intersects(seen) {
-            continue;
-        }
-        if let Some(items) = place(drawing, i, style, view, floors[i]) {
-            groups.push(Group { element: room.id.to_string(), ..Group::new(Layer::Names, Frame::Plan, items) });
-        }
-    }
-    groups
+    let rooms = drawing.rooms_to_name(view).into_iter();
+    rooms.filter_map(|room| group(drawing, room, floors[room], style, view)).collect()
+}
+
+/// The name of a room on a floor of this colour; `None` where it fits nowhere.
+pub(super) fn group(drawing: &Drawing, room: usize, floor: Rgba, style: &Style, view: &View) -> Option<Group> {
+    let items = place(drawing, room, style, view, floor)?;
+    Some(Group { element: drawing.rooms[room].id.to_string(), ..Group::new(Layer::Names, Frame::Plan, items) })
+}
+
+/// Whether the least text there is fits into the box of a room.
+pub(super) fn may_fit(room: &RoomDrawing, view: &View) -> bool {
+    let (width_px, height_px) = (room.bounds.width() * view.px_per_m, room.bounds.height() * view.px_per_m);
+    width_px.max(height_px) >= 2.0 * SMALLEST_TEXT_PX && width_px.min(height_px) >= SMALLEST_TEXT_PX
 }
 
 /// The text of a room where it fits best; `None` where it fits nowhere.
 fn place(drawing: &Drawing, index: usize, style: &Style, view: &View, floor: Rgba) -> Option<Vec<Item>> {
     let room = &drawing.rooms[index];
-    // The least text there is does not fit into the box: done.
-    let (width_px, height_px) = (room.bounds.width() * view.px_per_m, room.bounds.height() * view.px_per_m);
-    if width_px.max(height_px) < 2.0 * SMALLEST_TEXT_PX || width_px.min(height_px) < SMALLEST_TEXT_PX {
-        return None;
-    }
     let space = Space::new(drawing, index, style, view);
     for blocks in blocks(room, style) {
         // Off the doors' ways if it can be; else the letters stand clear of the arcs by a halo.

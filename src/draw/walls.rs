@@ -14,17 +14,21 @@ use rstar::primitives::{GeomWithData, Line};
 use rstar::{AABB, RTree};
 
 use super::drawing::RoomDrawing;
-use crate::geometry::areas::{Ring, SHARPEST_RAD, Shapes, area_m2, cleaned, directed, grown, points, ring};
-use crate::geometry::{Point, Segment, Vector, polygon};
+use super::tiles::TileGrid;
+use crate::geometry::areas::{self, Ring, SHARPEST_RAD, Shapes, area_m2, cleaned, directed, grown, points, ring};
+use crate::geometry::{Bounds, Point, Segment, Vector, polygon};
 use crate::plan::{CornerId, Plan, THICKEST_WALL_M};
 
 /// The walls of a plan before openings are cut.
 pub(super) struct Walls {
-    pub solid: Shapes,
+    /// Tile by tile; without tiles, all in one.
+    pub solid: Vec<Shapes>,
     /// Walls without thickness.
     pub lines: Vec<Segment>,
     /// Where rooms end and no wall stands.
     pub boundaries: Vec<Segment>,
+    /// The rooms, by index, that came without walls.
+    pub unwalled: Vec<usize>,
 }
 
 /// Half the thickness in metres of the wall drawn along a boundary that came without walls: a light
@@ -41,7 +45,8 @@ const OUTER_WALL_M: [f64; 2] = [0.10, 0.25];
 const USUAL_ROOM_M: f64 = 3.0;
 
 impl Walls {
-    pub fn new(plan: &Plan, rooms: &[RoomDrawing]) -> Self {
+    /// The walls of a plan, cut where tiles meet.
+    pub fn new(plan: &Plan, rooms: &[RoomDrawing], grid: Option<&TileGrid>) -> Self {
         let index = WallIndex::new(plan);
         let mut boundaries = Vec::new();
         let mut unwalled = Vec::new();
@@ -55,15 +60,66 @@ impl Walls {
             }
         }
         let mut rings = index.rings(plan);
-        let mut solid = if rings.is_empty() { Shapes::new() } else { rings.simplify_shape(FillRule::NonZero) };
-        if !unwalled.is_empty() {
-            let derived = Derived::new(rooms, &unwalled);
+        let derived = (!unwalled.is_empty()).then(|| Derived::new(rooms, &unwalled)).map(|derived| {
             boundaries.extend(derived.railings);
-            rings = solid.drain(..).chain(derived.solid).flatten().collect();
-            solid = rings.simplify_shape(FillRule::NonZero);
-        }
-        Self { solid, lines: index.lines, boundaries }
+            derived.solid
+        });
+        let solid = match grid {
+            Some(grid) => {
+                rings.extend(derived.into_iter().flatten().flatten());
+                in_tiles(rings, grid)
+            }
+            None => {
+                let mut solid = if rings.is_empty() { Shapes::new() } else { rings.simplify_shape(FillRule::NonZero) };
+                if let Some(derived) = derived {
+                    rings = solid.drain(..).chain(derived).flatten().collect();
+                    solid = rings.simplify_shape(FillRule::NonZero);
+                }
+                vec![solid]
+            }
+        };
+        Self { solid, lines: index.lines, boundaries, unwalled }
     }
+}
+
+/// Counter-clockwise rings as polygons cut where tiles meet, tile by tile.
+fn in_tiles(rings: Vec<Ring>, grid: &TileGrid) -> Vec<Shapes> {
+    by_tile(rings, grid)
+        .into_iter()
+        .enumerate()
+        .map(|(tile, rings)| {
+            if rings.is_empty() {
+                return Shapes::new();
+            }
+            // No larger than what is cut: the polygon library works on a raster over everything it is given.
+            let around = rings.iter().flatten().fold(Bounds::EMPTY, |box_m, &[x, y]| box_m.with(Point::new(x, y)));
+            let (tile, around) = (grid.bounds(tile), around.inflated(1.0));
+            let (left, right) = (tile.min.x.max(around.min.x), tile.max.x.min(around.max.x));
+            let (low, high) = (tile.min.y.max(around.min.y), tile.max.y.min(around.max.y));
+            let square: Ring = vec![[left, low], [right, low], [right, high], [left, high]];
+            rings.overlay(&[square], OverlayRule::Intersect, FillRule::NonZero)
+        })
+        .collect()
+}
+
+/// Rings by the tiles their boxes meet: what winds around no point of a tile's matters not there.
+fn by_tile(rings: Vec<Ring>, grid: &TileGrid) -> Vec<Vec<Ring>> {
+    let mut tiles: Vec<Vec<Ring>> = vec![Vec::new(); grid.count()];
+    for ring in rings {
+        for tile in grid.meeting(Bounds::of(ring.iter().map(|&[x, y]| Point::new(x, y)))) {
+            tiles[tile].push(ring.clone());
+        }
+    }
+    tiles
+}
+
+/// Walls, tile by tile, less the given counter-clockwise rings.
+pub(super) fn without(solid: Vec<Shapes>, cuts: Vec<Ring>, grid: Option<&TileGrid>) -> Vec<Shapes> {
+    let cuts = match grid {
+        None => vec![cuts],
+        Some(grid) => by_tile(cuts, grid),
+    };
+    solid.into_iter().zip(cuts).map(|(shapes, cuts)| areas::without(shapes, &cuts)).collect()
 }
 
 /// The drawn walls by place.
@@ -295,11 +351,16 @@ pub(super) struct Faces {
 }
 
 impl Faces {
-    pub fn new(solid: &Shapes) -> Self {
+    /// The faces of walls, tile by tile; where a tile cuts a wall is none.
+    pub fn new(solid: &[Shapes], grid: Option<&TileGrid>) -> Self {
         let mut lines = Vec::new();
-        for ring in solid.iter().flatten() {
+        for ring in solid.iter().flatten().flatten() {
             for (i, &from) in ring.iter().enumerate() {
-                lines.push(Line::new(from, ring[(i + 1) % ring.len()]));
+                let to = ring[(i + 1) % ring.len()];
+                let is_cut = |grid: &TileGrid| grid.is_cut(Point::new(from[0], from[1]), Point::new(to[0], to[1]));
+                if !grid.is_some_and(is_cut) {
+                    lines.push(Line::new(from, to));
+                }
             }
         }
         Self { tree: RTree::bulk_load(lines) }

@@ -146,7 +146,8 @@ impl Inspected<'_> {
 
     fn predicted(&self, ui: &mut Ui, id: RoomId, status: RoomStatus, derived: &Derived) -> Option<Act> {
         let predictions = derived.predictions.as_ref()?;
-        prediction::of_room(ui, self.app, self.palette, predictions, id, status).map(Act::Command)
+        let reason = derived.reason(id);
+        prediction::of_room(ui, self.app, self.palette, predictions, reason, id, status).map(Act::Command)
     }
 
     /// A text of a room that can be changed.

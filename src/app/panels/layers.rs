@@ -7,7 +7,7 @@ use crate::app::widgets::{Lead, ROW, Row, Segment, caption, hairline, section, s
 use crate::app::{App, Document, theme};
 use crate::draw::{self, Fill, Palette};
 use crate::features::RoomStatus;
-use crate::labels::{Label, normalised_function};
+use crate::labels::Label;
 
 /// The section of the view menu that holds the layers.
 const LAYERS: (Menu, u8) = (Menu::View, 2);
@@ -86,10 +86,8 @@ fn legend(ui: &mut Ui, document: &Document, fill: Fill, palette: &Palette) {
                 .then(|| format!("{} rimmed in the colour of a known label that is another", derived.drawing.missed()));
         }
         Fill::Function => {
-            let functions: Vec<String> =
-                document.plan().rooms().map(|(_, room)| normalised_function(&room.function)).collect();
-            let number = |function: &str| functions.iter().filter(|other| *other == function).count();
-            for (function, colour) in palette.functions(functions.iter().map(String::as_str)) {
+            let number = |function: &str| derived.functions.get(function).copied().unwrap_or_default();
+            for (function, colour) in palette.functions(derived.functions.keys().map(String::as_str)) {
                 rows.push((colour, crate::app::canvas::sentence(&function), number(&function)));
             }
             if number("") > 0 {

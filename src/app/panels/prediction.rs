@@ -18,6 +18,7 @@ pub(super) fn of_room(
     app: &App,
     palette: &Palette,
     predictions: &Predictions,
+    reason: Option<String>,
     room: RoomId,
     status: RoomStatus,
 ) -> Option<&'static str> {
@@ -34,7 +35,7 @@ pub(super) fn of_room(
     }
     ui.spacing_mut().item_spacing.y = 4.0;
     ui.add_space(4.0);
-    if let Some(reason) = predictions.reason(room) {
+    if let Some(reason) = reason {
         caption(ui, reason);
     }
     let mut asked = None;

@@ -42,51 +42,64 @@ pub const FEATURES: &[(Group, &str)] = &[
 /// area there.
 const LEAST_WEIGHT: f64 = 0.05;
 
-/// The features of every room from the first opinions and what is known of the others: lists as long as
-/// [`FEATURES`], all finite. A room's own known label is not among what it is told.
-pub(super) fn features(view: &View, first: &[Distribution], known: &[Option<Label>]) -> Vec<Vec<f32>> {
-    let believed: Vec<[f64; 5]> = first
-        .iter()
-        .enumerate()
-        .map(|(room, first)| match known.get(room).copied().flatten() {
-            Some(label) => std::array::from_fn(|index| f64::from(u8::from(index == label.index()))),
-            None => *first.probabilities(),
-        })
-        .collect();
-    let mut all = Sums::default();
-    for (room, believed) in believed.iter().enumerate() {
-        all.add(believed, view.log_area[room], 1.0);
+/// What is believed of the rooms of a plan.
+pub(super) struct Around<'a> {
+    view: &'a View,
+    first: &'a [Distribution],
+    /// The known label, else the first opinion.
+    believed: Vec<[f64; 5]>,
+    all: Sums,
+}
+
+impl<'a> Around<'a> {
+    /// From the first opinions and what is known of the rooms.
+    pub fn new(view: &'a View, first: &'a [Distribution], known: &[Option<Label>]) -> Self {
+        let believed: Vec<[f64; 5]> = first
+            .iter()
+            .enumerate()
+            .map(|(room, first)| match known.get(room).copied().flatten() {
+                Some(label) => std::array::from_fn(|index| f64::from(u8::from(index == label.index()))),
+                None => *first.probabilities(),
+            })
+            .collect();
+        let mut all = Sums::default();
+        for (room, believed) in believed.iter().enumerate() {
+            all.add(believed, view.log_area[room], 1.0);
+        }
+        Self { view, first, believed, all }
     }
-    let sum = |rooms: &[usize]| {
+
+    fn sum(&self, rooms: &[usize]) -> Sums {
         let mut sums = Sums::default();
         for &room in rooms {
-            sums.add(&believed[room], view.log_area[room], 1.0);
+            sums.add(&self.believed[room], self.view.log_area[room], 1.0);
         }
         sums
-    };
-    (0..first.len())
-        .map(|room| {
-            let area = view.log_area[room];
-            let joined = sum(&view.joined[room]);
-            let siblings = sum(&view.siblings[room]);
-            let mut others = all;
-            others.add(&believed[room], area, -1.0);
-            let against = |label: usize| {
-                let weight = others.weights[label];
-                if weight > LEAST_WEIGHT { area - others.areas[label] / weight } else { 0.0 }
-            };
-            let against: [f64; 5] = std::array::from_fn(against);
-            let numbers = [
-                *first[room].probabilities(),
-                joined.weights,
-                joined.shares(),
-                siblings.shares(),
-                others.shares(),
-                against,
-            ];
-            numbers.iter().flatten().map(|&number| number as f32).collect()
-        })
-        .collect()
+    }
+
+    /// The features of a room: a list as long as [`FEATURES`], all finite. Its own known label is not
+    /// among what it is told.
+    pub fn of_room(&self, room: usize) -> Vec<f32> {
+        let area = self.view.log_area[room];
+        let joined = self.sum(&self.view.joined[room]);
+        let siblings = self.sum(&self.view.siblings[room]);
+        let mut others = self.all;
+        others.add(&self.believed[room], area, -1.0);
+        let against = |label: usize| {
+            let weight = others.weights[label];
+            if weight > LEAST_WEIGHT { area - others.areas[label] / weight } else { 0.0 }
+        };
+        let against: [f64; 5] = std::array::from_fn(against);
+        let numbers = [
+            *self.first[room].probabilities(),
+            joined.weights,
+            joined.shares(),
+            siblings.shares(),
+            others.shares(),
+            against,
+        ];
+        numbers.iter().flatten().map(|&number| number as f32).collect()
+    }
 }
 
 /// Weights of labels over rooms, and logarithms of areas in proportion to them.

@@ -1,6 +1,7 @@
 //! Why the joint classifier gave a room its label.
 
-use super::{Group, Joint, Looked, group_of};
+use super::around::Around;
+use super::{FirstRound, Group, Joint, group_of};
 use crate::classify::Distribution;
 use crate::classify::explain::readable;
 use crate::classify::numbers::percent;
@@ -58,17 +59,32 @@ impl Joint {
     /// Why a room gets its label; `None` for a room that the network does not have. `known` as in
     /// [`Joint::predict`].
     pub fn explain(&self, network: &RoomNetwork, known: &[Option<Label>], room: usize) -> Option<JointExplanation> {
+        self.explain_from(&self.first_round(network), network, known, room)
+    }
+
+    /// The same after the first round over the same network.
+    pub fn explain_from(
+        &self,
+        round: &FirstRound,
+        network: &RoomNetwork,
+        known: &[Option<Label>],
+        room: usize,
+    ) -> Option<JointExplanation> {
         let it = network.rooms.get(room)?;
-        let looked = Looked::new(network, &self.left_out);
-        let first = self.first_opinions(&looked);
-        let values = looked.with_labels(&first, known, &self.left_out).swap_remove(room);
-        let distribution = self.answer(&values);
+        let FirstRound { looked, opinions: first } = round;
+        let values = |first: &[Distribution], known: &[Option<Label>]| {
+            looked.with_labels_around(room, &Around::new(&looked.view, first, known), &self.left_out)
+        };
+        // What is left out for one neighbour is put back for the next.
+        let (mut without, mut unsure) = (known.to_vec(), first.clone());
+        let told = values(first, known);
+        let distribution = self.answer(&told);
         let label = distribution.label();
         let probability = distribution.probability(label);
         let mut groups: Vec<GroupEffect> = Group::ALL
             .into_iter()
             .map(|group| {
-                let mut typical = values.clone();
+                let mut typical = told.clone();
                 for (feature, value) in typical.iter_mut().enumerate() {
                     if group_of(feature) == Some(group) {
                         *value = self.typical[feature];
@@ -83,19 +99,21 @@ impl Joint {
             .filter(|&&other| other != room)
             .map(|&other| {
                 let known_label = known.get(other).copied().flatten();
-                let mut without = known.to_vec();
                 if let Some(label) = without.get_mut(other) {
                     *label = None;
                 }
-                let mut nothing = first.clone();
-                nothing[other] = Distribution::UNIFORM;
-                let values = looked.with_labels(&nothing, &without, &self.left_out).swap_remove(room);
+                unsure[other] = Distribution::UNIFORM;
+                let told = values(&unsure, &without);
+                if let Some(label) = without.get_mut(other) {
+                    *label = known_label;
+                }
+                unsure[other] = first[other];
                 NeighbourEffect {
                     room: other,
                     key: network.rooms[other].key.clone(),
                     label: known_label.unwrap_or_else(|| first[other].label()),
                     is_known: known_label.is_some(),
-                    probability_if_unknown: self.answer(&values).probability(label),
+                    probability_if_unknown: self.answer(&told).probability(label),
                 }
             })
             .collect();

@@ -21,6 +21,7 @@ pub use explain::{GroupEffect, JointExplanation, NeighbourEffect};
 pub use store::JointModelError;
 pub use view::Group;
 
+use self::around::Around;
 use self::trees::{Forest, Job, Samples};
 use self::view::View;
 use super::calibration::fitted_temperature;
@@ -100,6 +101,7 @@ pub struct JointValidated {
 }
 
 /// The features of one plan's rooms, first round, and what the second needs to go on.
+#[derive(Clone, Debug)]
 struct Looked {
     view: View,
     features: Vec<Vec<f32>>,
@@ -122,12 +124,23 @@ impl Looked {
         known: &[Option<Label>],
         left_out: &BTreeSet<Group>,
     ) -> Vec<Vec<f32>> {
-        let mut around = around::features(&self.view, first, known);
-        for room in &mut around {
-            blank(room, around::FEATURES, left_out);
-        }
-        self.features.iter().zip(around).map(|(own, around)| [own.as_slice(), &around].concat()).collect()
+        let around = Around::new(&self.view, first, known);
+        (0..self.features.len()).map(|room| self.with_labels_around(room, &around, left_out)).collect()
     }
+
+    /// The same for one room.
+    fn with_labels_around(&self, room: usize, around: &Around<'_>, left_out: &BTreeSet<Group>) -> Vec<f32> {
+        let mut told = around.of_room(room);
+        blank(&mut told, around::FEATURES, left_out);
+        [self.features[room].as_slice(), &told].concat()
+    }
+}
+
+/// The first round over a plan: what both predictions and their explanations start from.
+#[derive(Clone, Debug)]
+pub struct FirstRound {
+    looked: Looked,
+    opinions: Vec<Distribution>,
 }
 
 /// Sets the features of some groups to 0, so that no tree can ask about them.
@@ -238,9 +251,19 @@ impl Joint {
     /// they are evidence for the other rooms, never for the room itself. A list that is too short knows
     /// no more.
     pub fn predict(&self, network: &RoomNetwork, known: &[Option<Label>]) -> Vec<Distribution> {
+        self.predict_from(&self.first_round(network), known)
+    }
+
+    /// The first round, which asks for no label.
+    pub fn first_round(&self, network: &RoomNetwork) -> FirstRound {
         let looked = Looked::new(network, &self.left_out);
-        let first = self.first_opinions(&looked);
-        self.second_opinions(&looked, &first, known)
+        let opinions = self.first_opinions(&looked);
+        FirstRound { looked, opinions }
+    }
+
+    /// As [`Joint::predict`], after the first round over the same network.
+    pub fn predict_from(&self, round: &FirstRound, known: &[Option<Label>]) -> Vec<Distribution> {
+        self.second_opinions(&round.looked, &round.opinions, known)
     }
 
     fn first_opinions(&self, looked: &Looked) -> Vec<Distribution> {

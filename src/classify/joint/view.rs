@@ -131,6 +131,7 @@ const LEAST: f64 = 1e-9;
 const MOST_SEARCHES: usize = 1000;
 
 /// Lists of a plan that features and labels around rooms follow from, one entry for each room.
+#[derive(Clone, Debug)]
 pub(super) struct View {
     /// Natural logarithm of the area in m².
     pub log_area: Vec<f64>,
