@@ -638,9 +638,14 @@ fn next_record<'a>(rest: &mut &'a [u8], checksum: &mut u64) -> Option<(Head, &'a
     // A length of at most ten digits, a blank, a checksum of sixteen.
     const LONGEST_LINE: usize = 10 + 1 + 16;
     let line_end = rest.iter().take(LONGEST_LINE + 1).position(|&byte| byte == b'\n')?;
-    let (length, sum) = std::str::from_utf8(&rest[..line_end]).ok()?.split_once(' ')?;
+    let line = std::str::from_utf8(&rest[..line_end]).ok()?;
+    let (length, sum) = line.split_once(' ')?;
     let length: usize = length.parse().ok()?;
     let sum = u64::from_str_radix(sum, 16).ok()?;
+    // Written otherwise, as with a capital digit, it is damaged.
+    if format!("{length} {sum:016x}") != line {
+        return None;
+    }
     let behind = &rest[line_end + 1..];
     let payload = behind.get(..length)?;
     if fnv(fnv(*checksum, &checksum.to_le_bytes()), payload) != sum || behind.get(length) != Some(&b'\n') {
