@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use super::fill::{Boundary, EdgeFaces, is_sliver};
 use crate::geometry::polygon::{self, Location};
-use crate::geometry::{Bounds, Point, TOUCH_M};
+use crate::geometry::segments::SegmentIndex;
+use crate::geometry::{Bounds, Point, Segment, TOUCH_M};
 use crate::plan::edit::lay::{Laid, lay, plan_edges};
 use crate::plan::edit::{self, EditError, fail};
 use crate::plan::{CornerId, Joint, OpeningId, Place, Plan, Room, RoomId, WallId, ordered, ring_edges};
@@ -227,10 +228,14 @@ pub(super) fn divide_rooms(
         })
         .map(|(id, _)| id)
         .collect();
+    if crossed.is_empty() {
+        return Ok((plan.clone(), Vec::new()));
+    }
+    let edges = NearEdges::new(plan, new_edges);
     let mut next = plan.clone();
     let mut touched = Vec::new();
     for id in crossed {
-        if let Some((divided, new_rooms)) = divide_room(&next, id, new_edges)? {
+        if let Some((divided, new_rooms)) = divide_room(&next, id, &edges)? {
             next = divided;
             touched.push(id);
             touched.extend(new_rooms);
@@ -240,26 +245,40 @@ pub(super) fn divide_rooms(
     Ok((next, touched))
 }
 
+/// The new edges and the walls of a plan by place: a path may cross many rooms, and each looks only
+/// at what is near it.
+struct NearEdges<'a> {
+    new_edges: &'a BTreeSet<[CornerId; 2]>,
+    edges: Vec<[CornerId; 2]>,
+    index: SegmentIndex,
+}
+
+impl<'a> NearEdges<'a> {
+    fn new(plan: &Plan, new_edges: &'a BTreeSet<[CornerId; 2]>) -> Self {
+        let walls = plan.walls().map(|(_, wall)| ordered(wall.from, wall.to));
+        let known = walls.chain(new_edges.iter().copied()).filter_map(|[a, b]| {
+            let segment = Segment::new(plan.position(a)?, plan.position(b)?);
+            Some(([a, b], segment))
+        });
+        let (edges, segments): (Vec<_>, Vec<_>) = known.unzip();
+        Self { new_edges, edges, index: SegmentIndex::new(segments) }
+    }
+}
+
 /// Divides a room along new edges and the walls that end freely in it; `None` when it stays whole.
-fn divide_room(
-    plan: &Plan,
-    id: RoomId,
-    new_edges: &BTreeSet<[CornerId; 2]>,
-) -> Result<Option<(Plan, Vec<RoomId>)>, EditError> {
+fn divide_room(plan: &Plan, id: RoomId, near: &NearEdges) -> Result<Option<(Plan, Vec<RoomId>)>, EditError> {
     let Some(room) = plan.room(id) else { return Ok(None) };
     let inside = Inside::new(plan, room);
     let boundary = room_edges(room);
-    let is_within = |&[a, b]: &[CornerId; 2]| {
-        !boundary.contains(&[a, b])
-            && plan.position(a).zip(plan.position(b)).is_some_and(|(a, b)| inside.holds(a.midpoint(b)))
-    };
-    let mut new_within: BTreeSet<[CornerId; 2]> = new_edges.iter().filter(|edge| is_within(edge)).copied().collect();
+    let within = near.index.near(inside.bounds).filter(|&i| inside.holds(near.index.get(i).midpoint()));
+    let within: BTreeSet<[CornerId; 2]> =
+        within.map(|i| near.edges[i]).filter(|edge| !boundary.contains(edge)).collect();
+    let (mut new_within, walls): (BTreeSet<[CornerId; 2]>, BTreeSet<[CornerId; 2]>) =
+        within.into_iter().partition(|edge| near.new_edges.contains(edge));
     if new_within.is_empty() {
         return Ok(None);
     }
-    let walls = plan.walls().map(|(_, wall)| ordered(wall.from, wall.to));
-    let mut before: BTreeSet<[CornerId; 2]> =
-        walls.filter(|edge| !new_within.contains(edge) && is_within(edge)).chain(boundary.iter().copied()).collect();
+    let mut before: BTreeSet<[CornerId; 2]> = walls.union(&boundary).copied().collect();
     let in_room = |faces: &EdgeFaces| -> Vec<usize> {
         (0..faces.count()).filter(|&i| inside.holds(faces.interior_point(i))).collect()
     };

@@ -248,11 +248,16 @@ impl<'a> EdgeFaces<'a> {
         let mut corners: Vec<Option<CornerId>> = vec![None; nodes.len()];
         let ends: BTreeSet<CornerId> = self.edges.iter().flatten().copied().collect();
         let ends = ends.into_iter().filter_map(|id| Some((id, self.plan.position(id)?)));
-        for (id, position) in ends.chain(self.plan.corners().map(|(id, corner)| (id, corner.position))) {
+        let note = |corners: &mut Vec<Option<CornerId>>, id: CornerId, position: Point| {
             let place = GridPoint::nearest(position);
             if let Some(node) = place.and_then(|place| nodes.binary_search(&place).ok()) {
                 corners[node].get_or_insert(id);
             }
+        };
+        ends.for_each(|(id, position)| note(&mut corners, id, position));
+        // Only where edges cross without a corner of their own can another corner stand on a node.
+        if corners.iter().any(Option::is_none) {
+            self.plan.corners().for_each(|(id, corner)| note(&mut corners, id, corner.position));
         }
         corners
     }

@@ -140,7 +140,7 @@ pub fn insert(plan: &Plan, fragment: &Plan, transform: Transform) -> Result<(Pla
     }
     for (id, opening) in fragment.openings() {
         let mut copy = opening.clone();
-        copy.place = opening_place(fragment, &next, opening, transform, &chain)?;
+        copy.place = opening_place(fragment, &next, opening, transform, chain)?;
         mirror_swing(&mut copy, transform);
         let room =
             |joint: Joint| joint.room().and_then(|room| room_of.get(&room)).map_or(Joint::Outside, |&r| Joint::Room(r));
