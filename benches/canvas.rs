@@ -88,7 +88,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let still = |window: &mut Offscreen, at: Pos2| window.move_to(at);
     for (name, px_per_m) in [("whole plan", None), ("a wing", Some("12")), ("a room", Some("80"))] {
         match px_per_m {
-            None => drop(window.run_command("fit")),
+            None => {
+                window.run_command("fit");
+            }
             Some(px_per_m) => window.run_command_with("view", &["300", "230", px_per_m])?,
         }
         window.settle()?;
@@ -144,8 +146,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     window.key(egui::Modifiers::NONE, Key::Escape);
     window.key(egui::Modifiers::NONE, Key::Escape);
     window.run_command("tool-select");
-    told("undone", &mut window, 1, |window, _| drop(window.run_command("undo")));
-    told("redone", &mut window, 1, |window, _| drop(window.run_command("redo")));
+    told("undone", &mut window, 1, |window, _| {
+        window.run_command("undo");
+    });
+    told("redone", &mut window, 1, |window, _| {
+        window.run_command("redo");
+    });
     rest(&mut window);
     // A corner of rooms, with all that share it.
     let corner = window.app().screen_position(300.0, 231.0).unwrap_or(centre);
@@ -158,7 +164,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     told("and dropped", &mut window, 1, |window, _| window.button(PointerButton::Primary, false));
     println!("    {}", window.app().plan().map_or(0, |plan| usize::from(*plan != grid(walls))));
     told("edit after edit", &mut window, 6, |window, run| {
-        drop(window.run_command(if run % 2 == 0 { "undo" } else { "redo" }));
+        window.run_command(if run % 2 == 0 { "undo" } else { "redo" });
         still(window, centre);
     });
     let before = wall_ms();

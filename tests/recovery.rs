@@ -4,6 +4,7 @@
 #![cfg(feature = "gui")]
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]
+#![allow(clippy::print_stdout, reason = "says why it was skipped, and what it measured")]
 
 #[path = "recovery/full_disk.rs"]
 mod full_disk;

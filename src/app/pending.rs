@@ -11,13 +11,16 @@ use crate::draw::{Fill, Palette, Style, View};
 use crate::features::RoomStatus;
 use crate::geometry::{Point, Segment};
 use crate::labels::Schemes;
-use crate::plan::{Difference, CornerId, ElementId, OpeningId, Place, Plan, RoomId, Wall};
+use crate::plan::{CornerId, Difference, ElementId, OpeningId, Place, Plan, RoomId, Wall};
 
 /// With more changes everything is veiled until it is worked out: they would take longer than a frame.
 const MOST_CHANGES: usize = 1500;
 
 /// No wall is drawn thinner than this, in points.
 const THINNEST_WALL_PX: f64 = 1.5;
+
+/// An outer ring, its holes, and the room that is there now.
+type Area = (Vec<Point>, Vec<Vec<Point>>, Option<RoomId>);
 
 /// The difference between two plans, as far as it can be seen.
 pub(super) struct Pending {
@@ -27,7 +30,7 @@ pub(super) struct Pending {
     is_all: bool,
     /// Areas to be drawn over, where what was drawn is no more so, each with the fill it gets: none where
     /// there is no room now.
-    areas: Vec<(Vec<Point>, Vec<Vec<Point>>, Option<RoomId>)>,
+    areas: Vec<Area>,
     /// Walls that are no more.
     gone: Vec<(Segment, f64)>,
     /// Walls that changed, and those around rooms that did, which are drawn over.

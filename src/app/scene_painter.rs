@@ -107,7 +107,9 @@ impl Names {
     /// The texts in sight.
     fn texts(&self) -> impl Iterator<Item = &Text> + '_ {
         let groups = self.rooms.iter().filter_map(|room| self.placed.get(room)?.as_ref());
-        groups.flat_map(|group| &group.items).filter_map(|item| if let Item::Text(text) = item { Some(text) } else { None })
+        groups
+            .flat_map(|group| &group.items)
+            .filter_map(|item| if let Item::Text(text) = item { Some(text) } else { None })
     }
 }
 
@@ -300,8 +302,8 @@ impl Shapes {
             .is_some_and(|placed| placed.origin == origin && placed.scale == scale && placed.clip == clip);
         if !is_there {
             let mut shapes = Vec::new();
-            for place in 0..SHAPE_LAYERS.len() {
-                let levels = if SHAPE_LAYERS[place] == Layer::Rooms { self.derived.drawing.levels() } else { 1 };
+            for (place, layer) in SHAPE_LAYERS.into_iter().enumerate() {
+                let levels = if layer == Layer::Rooms { self.derived.drawing.levels() } else { 1 };
                 for part in (0..levels).map(|level| (place, level)) {
                     let chunks = self.tiles.values().filter_map(|tile| tile.parts.get(&part)).flatten();
                     shapes.extend(chunks.filter_map(|chunk| chunk.placed(origin, scale, clip)));

@@ -64,9 +64,8 @@ impl TileGrid {
     /// The tiles a box meets.
     pub fn meeting(&self, bounds: Bounds) -> impl Iterator<Item = usize> + '_ {
         let (left, right) = (self.column(bounds.min.x), self.column(bounds.max.x));
-        let rows = self.row(bounds.min.y)..=self.row(bounds.max.y);
-        let rows = if bounds.is_empty() { 1..=0 } else { rows };
-        rows.flat_map(move |row| (left..=right).map(move |column| row * self.columns + column))
+        let end = if bounds.is_empty() { 0 } else { self.row(bounds.max.y) + 1 };
+        (self.row(bounds.min.y)..end).flat_map(move |row| (left..=right).map(move |column| row * self.columns + column))
     }
 
     /// The square itself. Those at the rim reach as far as anything is drawn.

@@ -252,7 +252,7 @@ fn alignments(index: &PlanIndex, query: &Query<'_>, ray: Option<(Point, Vector)>
 
 /// The nearest point of the grid: along a ray, a length that is a multiple of its spacing.
 fn on_grid(query: &Query<'_>, ray: Option<(Point, Vector)>, free: Point, spacing_m: f64) -> Option<Point> {
-    if !(spacing_m > 0.0) {
+    if spacing_m.is_nan() || spacing_m <= 0.0 {
         return None;
     }
     let round = |value: f64| (value / spacing_m).round() * spacing_m;

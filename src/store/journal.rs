@@ -164,7 +164,7 @@ impl Shared {
 }
 
 enum Event {
-    Record(Record),
+    Record(Box<Record>),
     Remove,
 }
 
@@ -257,7 +257,7 @@ impl Journal {
         self.noted += 1;
         if let Some(sender) = &self.sender {
             // The thread ends only after this.
-            let _ = sender.send(Event::Record(record));
+            let _ = sender.send(Event::Record(Box::new(record)));
         }
     }
 
@@ -329,7 +329,7 @@ impl Writer {
             events.extend(receiver.try_iter());
             for event in events {
                 match event {
-                    Event::Record(record) => self.queue.push_back(record),
+                    Event::Record(record) => self.queue.push_back(*record),
                     Event::Remove => {
                         self.remove();
                         is_over = true;

@@ -27,6 +27,7 @@ fn units_and_grid_are_kept() {
     let text = std::fs::read_to_string(&file).unwrap();
     assert!(!text.contains("grid_m"), "{text}");
     // What another version wrote is no error.
+    #[expect(clippy::disallowed_methods, reason = "a test's files are no user's")]
     std::fs::write(&file, r#"{"version": 1, "units": "cubits", "grid_m": -4}"#).unwrap();
     assert_eq!(open().app().units(), Units::Metric);
 }
