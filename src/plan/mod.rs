@@ -11,6 +11,7 @@ mod history;
 mod id;
 mod invariants;
 mod meta;
+mod positions;
 
 use std::sync::Arc;
 
@@ -24,6 +25,7 @@ pub use history::{History, Step};
 pub use id::{CornerId, ElementId, IdError, OpeningId, RoomId, WallId, name_bits};
 pub use invariants::Violation;
 pub use meta::{Meta, Scale, ScaleOrigin};
+pub(crate) use positions::Positions;
 
 use crate::geometry::{Bounds, Point, Segment};
 
