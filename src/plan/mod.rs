@@ -15,6 +15,7 @@ mod id;
 mod invariants;
 mod meta;
 pub mod naming;
+mod positions;
 pub mod storey;
 
 use std::sync::Arc;
@@ -36,6 +37,7 @@ pub use history::{History, Step};
 pub use id::{CornerId, ElementId, IdError, OpeningId, RoomId, WallId, name_bits};
 pub use invariants::Violation;
 pub use meta::{Meta, Scale, ScaleOrigin};
+pub(crate) use positions::Positions;
 
 use crate::geometry::{Bounds, Point, Segment};
 

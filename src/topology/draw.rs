@@ -9,7 +9,7 @@ use crate::geometry::segments::SegmentIndex;
 use crate::geometry::{Bounds, Point, Segment, TOUCH_M};
 use crate::plan::edit::lay::{Laid, lay, plan_edges};
 use crate::plan::edit::{self, EditError, fail};
-use crate::plan::{CornerId, Joint, OpeningId, Place, Plan, Room, RoomId, WallId, ordered, ring_edges};
+use crate::plan::{CornerId, Joint, OpeningId, Place, Plan, Positions, Room, RoomId, WallId, ordered, ring_edges};
 
 /// What drawing gives.
 #[derive(Clone, Debug)]
@@ -217,12 +217,13 @@ pub(super) fn divide_rooms(
     let middle = |&[a, b]: &[CornerId; 2]| Some(plan.position(a)?.midpoint(plan.position(b)?));
     let middles: Vec<Point> = new_edges.iter().filter_map(middle).collect();
     let around = Bounds::of(middles.iter().copied());
+    let positions = Positions::new(plan);
     let crossed: Vec<RoomId> = plan
         .rooms()
         .filter(|(id, room)| {
             // The box first: most rooms of a large plan are far away.
             only.is_none_or(|only| only == *id) && {
-                let bounds = Bounds::of(room.outer.iter().filter_map(|&corner| plan.position(corner)));
+                let bounds = Bounds::of(room.outer.iter().filter_map(|&corner| positions.get(corner)));
                 bounds.intersects(around) && middles.iter().any(|&middle| bounds.contains(middle))
             }
         })
@@ -256,8 +257,9 @@ struct NearEdges<'a> {
 impl<'a> NearEdges<'a> {
     fn new(plan: &Plan, new_edges: &'a BTreeSet<[CornerId; 2]>) -> Self {
         let walls = plan.walls().map(|(_, wall)| ordered(wall.from, wall.to));
+        let positions = Positions::new(plan);
         let known = walls.chain(new_edges.iter().copied()).filter_map(|[a, b]| {
-            let segment = Segment::new(plan.position(a)?, plan.position(b)?);
+            let segment = Segment::new(positions.get(a)?, positions.get(b)?);
             Some(([a, b], segment))
         });
         let (edges, segments): (Vec<_>, Vec<_>) = known.unzip();

@@ -11,7 +11,7 @@ use super::split::{Splits, split_edges};
 use super::{EditError, add_corner, checked_position, fail};
 use crate::geometry::segments::{SegmentIndex, crossing};
 use crate::geometry::{Bounds, Point, Segment, TOUCH_M};
-use crate::plan::{CornerId, Plan, ordered, ring_edges};
+use crate::plan::{CornerId, Plan, Positions, ordered, ring_edges};
 
 /// Paths laid into a plan.
 pub(crate) struct Laid {
@@ -142,8 +142,9 @@ impl Ground {
         }
         let mut edges: BTreeSet<[CornerId; 2]> = BTreeSet::new();
         let mut lines: Vec<Vec<usize>> = Vec::new();
+        let positions = Positions::new(plan);
         for (a, b) in plan_edges(plan) {
-            if let (Some(from), Some(to)) = (plan.position(a), plan.position(b))
+            if let (Some(from), Some(to)) = (positions.get(a), positions.get(b))
                 && near(Segment::new(from, to))
                 && edges.insert(ordered(a, b))
             {

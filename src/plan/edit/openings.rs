@@ -8,7 +8,9 @@ use super::{EditError, add_opening, fail};
 use crate::geometry::polygon::orientation;
 use crate::geometry::runs::NOTCH_M;
 use crate::geometry::{Point, Segment, trim_m};
-use crate::plan::{CornerId, LeafSide, Opening, OpeningId, OpeningKind, Place, Plan, Swing, ordered, ring_edges};
+use crate::plan::{
+    CornerId, LeafSide, Opening, OpeningId, OpeningKind, Place, Plan, Positions, Swing, ordered, ring_edges,
+};
 
 /// The opening that [`place_opening`] would add: to show it beforehand.
 ///
@@ -180,8 +182,9 @@ fn nearest_edge(
     at: Point,
     reach_m: f64,
 ) -> Option<(CornerId, CornerId)> {
+    let positions = Positions::new(plan);
     let near = edges.filter_map(|(from, to)| {
-        let segment = Segment::new(plan.position(from)?, plan.position(to)?);
+        let segment = Segment::new(positions.get(from)?, positions.get(to)?);
         let distance_m = segment.distance(at);
         (distance_m <= reach_m && segment.length() > 0.0).then_some((distance_m, (from, to)))
     });
