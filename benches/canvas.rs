@@ -162,7 +162,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         still(window, corner + egui::vec2(run as f32 * 2.0, 9.0))
     });
     told("and dropped", &mut window, 1, |window, _| window.button(PointerButton::Primary, false));
-    println!("    {}", window.app().plan().map_or(0, |plan| usize::from(*plan != grid(walls))));
     told("edit after edit", &mut window, 6, |window, run| {
         window.run_command(if run % 2 == 0 { "undo" } else { "redo" });
         still(window, centre);
