@@ -50,9 +50,8 @@ pub fn straight_across(shapes: &RoomShapes, pointer: Point, through: Point, reac
         let all = shape.rings().flat_map(|ring| polygon::edges(ring)).filter(|edge| edge.length() > TOUCH_M);
         all.collect()
     };
-    let distance = |shape: &RoomShape| {
-        edges(shape).into_iter().map(|edge| edge.distance(pointer)).fold(f64::INFINITY, f64::min)
-    };
+    let distance =
+        |shape: &RoomShape| edges(shape).into_iter().map(|edge| edge.distance(pointer)).fold(f64::INFINITY, f64::min);
     let around = shapes.at(pointer).into_iter().map(|index| &shapes.all()[index]).next();
     let near = || {
         let near = shapes.near(Bounds::of([pointer]).inflated(reach_m)).into_iter().map(|index| &shapes.all()[index]);

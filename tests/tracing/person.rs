@@ -175,8 +175,9 @@ impl Person {
         }
         for &corner in corners {
             let aimed = self.aim(corner, alt, &path);
+            // Two that attract to one place are one.
             if path.iter().any(|point| point.distance(aimed.got) < 1e-3) {
-                return None;
+                continue;
             }
             path.push(aimed.got);
             next.click(aimed.pointer, false);

@@ -402,7 +402,12 @@ impl<'a> Planner<'a> {
         for slack in [0.03, 0.015, 0.0] {
             let corners = self.few_corners(room, covered, slack);
             for alt in [false, true] {
-                if let Some(found) = self.right(index, person.room(&corners, alt)) {
+                let drawn = person.room(&corners, alt);
+                self.say(|| {
+                    let off = drawn.as_ref().and_then(|(next, id)| next.shapes.get(*id)).map(|shape| shape.area_m2());
+                    format!("    room {index}, {} corners: {off:?} of {:.2} m2", corners.len(), room.area_m2)
+                });
+                if let Some(found) = self.right(index, drawn) {
                     return Some(found);
                 }
             }

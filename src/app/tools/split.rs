@@ -43,7 +43,7 @@ impl Split {
 
     /// Cutting -> Ready
     fn end(&mut self) -> Vec<Call> {
-        let points = std::mem::take(&mut self.path.points);
+        let points = std::mem::take(&mut self.path).points;
         if points.len() < 2 { Vec::new() } else { vec![("split-rooms", vec![points_word(&points)])] }
     }
 }
@@ -95,7 +95,11 @@ impl Tool for Split {
                     // The smaller x first, as they lie.
                     let is_upward = line.b.y > line.a.y;
                     let (first, second) = if is_upward { (left, right) } else { (right, left) };
-                    preview.label(scope.pointer, format!("{} | {}", scope.units.area(first), scope.units.area(second)), Look::New);
+                    preview.label(
+                        scope.pointer,
+                        format!("{} | {}", scope.units.area(first), scope.units.area(second)),
+                        Look::New,
+                    );
                 }
             }
             return;
