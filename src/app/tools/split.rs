@@ -43,7 +43,7 @@ impl Split {
 
     /// Cutting -> Ready
     fn end(&mut self) -> Vec<Call> {
-        let points = std::mem::take(&mut self.path.points);
+        let points = std::mem::take(&mut self.path).points;
         if points.len() < 2 { Vec::new() } else { vec![("split-rooms", vec![points_word(&points)])] }
     }
 }
