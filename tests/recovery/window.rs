@@ -140,7 +140,7 @@ fn nothing_is_left_where_nothing_is_unsaved() {
     run(&mut window, "answer", &["discard"]);
     assert!(files(&state).is_empty(), "it is given up");
     run(&mut window, "open", &[&file.to_string_lossy()]);
-    change(&mut window);
+    run(&mut window, "pick", &["Study"]);
     run(&mut window, "label-big", &[]);
     assert_eq!(files(&state).len(), 1);
     window.ask_to_close();

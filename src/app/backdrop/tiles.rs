@@ -229,7 +229,7 @@ mod tests {
         };
         let keys = seen_tiles(&view, &shown, 0);
         let places: Vec<(u32, u32)> = keys.iter().map(|key| (key.column, key.row)).collect();
-        assert_eq!(places, [(1, 0), (0, 0), (1, 1), (0, 1)], "the middle first");
+        assert_eq!(places, [(1, 0), (1, 1), (0, 0), (0, 1)], "the middle first");
         let whole = View { px_per_m: 1.0, ..view };
         assert_eq!(seen_tiles(&whole, &shown, 3).len(), 1);
         assert_eq!(seen_tiles(&whole, &shown, 0).len(), 12);

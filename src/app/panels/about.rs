@@ -10,7 +10,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         return;
     }
     let response = Modal::new(Id::unique("about")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
-        ui.set_width(440.0_f32.min(ui.ctx().content_rect().width() - 80.0));
+        ui.set_width(440.0_f32.min(ui.ctx().content_rect().width() - 80.0).max(0.0));
         ui.label(strong("Enfilade", theme::DISPLAY));
         caption(ui, concat!("Version ", env!("CARGO_PKG_VERSION")));
         ui.add_space(10.0);

@@ -98,7 +98,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     }
     let Some(mut bulk) = app.panels.bulk.take() else { return };
     let response = Modal::new(Id::unique("many rooms")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
-        ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 80.0));
+        ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 80.0).max(0.0));
         match &mut bulk {
             Bulk::Name(form) => form.show(app, ui),
             Bulk::Change(form) => form.show(app, ui),

@@ -21,7 +21,7 @@ pub(in crate::app) fn summary(notes: &[Note]) -> String {
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let Some(document) = app.document.as_ref().filter(|_| app.panels.notes) else { return };
     let response = Modal::new(Id::unique("import notes")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
-        ui.set_width(620.0_f32.min(ui.ctx().content_rect().width() - 80.0));
+        ui.set_width(620.0_f32.min(ui.ctx().content_rect().width() - 80.0).max(0.0));
         ui.label(strong("Import notes", theme::TITLE));
         caption(ui, format!("{}: {}", document.origin.title(), summary(&document.notes)));
         ui.add_space(8.0);

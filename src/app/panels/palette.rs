@@ -253,7 +253,7 @@ impl Palette {
         let backdrop = Color32::from_black_alpha(if ui.visuals().dark_mode { 90 } else { 40 });
         let modal = Modal { area, ..Modal::new(id).frame(frame).backdrop_color(backdrop) };
         let response = modal.show(ui.ctx(), |ui| {
-            ui.set_width(WIDTH.min(screen.width() - 40.0));
+            ui.set_width(WIDTH.min(screen.width() - 40.0).max(0.0));
             ui.spacing_mut().item_spacing = Vec2::ZERO;
             let keys = self.take_keys(ui, lines.len());
             self.show_field(ui);

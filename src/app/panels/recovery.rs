@@ -27,7 +27,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let mut leftovers = std::mem::take(&mut app.safety.leftovers);
     let now = app.safety.clock.map(|clock| clock());
     let response = Modal::new(Id::unique("recovery")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
-        ui.set_width(680.0_f32.min(ui.ctx().content_rect().width() - 80.0));
+        ui.set_width(680.0_f32.min(ui.ctx().content_rect().width() - 80.0).max(0.0));
         ui.label(strong("Recover unsaved work", theme::TITLE));
         let text = "Enfilade ended before these changes were saved. Recovering opens them as they were; nothing is \
                     written to a file until you save.";

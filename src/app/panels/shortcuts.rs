@@ -199,7 +199,7 @@ impl Sheet {
                     if *is_error { (colours.error_soft, colours.error) } else { (colours.info_soft, colours.text) };
                 let frame = egui::Frame::new().fill(ground).corner_radius(theme::RADIUS);
                 let shown = frame.inner_margin(egui::Margin::symmetric(10, 6)).show(ui, |ui| {
-                    ui.set_width(ui.available_width());
+                    ui.set_width(ui.available_width().max(0.0));
                     let text = if *is_error { format!("{text}. Press other keys, or Esc.") } else { text.clone() };
                     ui.label(RichText::new(text).color(ink));
                 });

@@ -6,8 +6,9 @@ use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, Tool, Typed, Typing, word};
 use crate::app::canvas::room_title;
 use crate::geometry::{Point, Segment};
-use crate::plan::edit::opening_at;
+use crate::plan::edit::opening_on;
 use crate::plan::{Joint, LeafSide, Opening as PlanOpening, OpeningKind, Plan, Swing};
+use crate::snapping::IndexedEdge;
 use crate::topology::{Gap, gaps, sides_by_geometry};
 
 pub(super) const DOOR: Entry = Entry { id: "door", make: || Box::new(Opening::new(OpeningKind::Door)) };
@@ -42,7 +43,12 @@ impl Opening {
         let dragged = dragged.filter(|way| way.length() >= LEAST_WIDTH_M);
         let at = dragged.map_or(scope.pointer, Segment::midpoint);
         let width_m = dragged.map_or(self.width_m(scope), Segment::length);
-        opening_at(scope.plan, self.kind, at, width_m, scope.metres(REACH_PX), Some(scope.pointer)).ok()
+        // A wall before a boundary, the nearer first.
+        let near = scope.derived?.index.edges_near(at, scope.metres(REACH_PX));
+        let is_there = |edge: &&IndexedEdge| edge.corners.iter().all(|&id| scope.plan.corner(id).is_some());
+        let walls = near.iter().filter(|edge| edge.wall.is_some_and(|id| scope.plan.wall(id).is_some()));
+        let host = walls.chain(&near).find(is_there)?.corners;
+        opening_on(scope.plan, self.kind, host.into(), at, width_m, Some(scope.pointer)).ok()
     }
 
     /// The gap between two collinear walls that is meant: the pointer is in it.

@@ -20,9 +20,10 @@ use super::{
 use crate::geometry::{Point, trim_m};
 
 pub use copy::{Array, array, copy_elements, fragment, insert};
-pub use moving::{Alignment, align, distribute, move_elements, set_thickness, square_up};
+pub use moving::{Alignment, align, corners_of, distribute, move_elements, set_thickness, square_up};
 pub use openings::{
-    flip_hinge, flip_side, opening_at, place_opening, resize_opening, set_opening_kind, set_swing, slide_opening,
+    flip_hinge, flip_side, opening_at, opening_on, place_opening, resize_opening, set_opening_kind, set_swing,
+    slide_opening,
 };
 pub use weld::{Weld, settle, weld};
 

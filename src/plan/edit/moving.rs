@@ -84,7 +84,7 @@ pub(super) fn mirror_swing(opening: &mut crate::plan::Opening, transform: Transf
 ///
 /// # Errors
 /// When an element does not exist.
-pub(super) fn corners_of(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<BTreeSet<CornerId>, EditError> {
+pub fn corners_of(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<BTreeSet<CornerId>, EditError> {
     let mut corners = BTreeSet::new();
     for element in elements {
         match element {

@@ -36,6 +36,21 @@ pub fn opening_at(
     else {
         return fail("no wall or boundary of a room is near enough for an opening");
     };
+    opening_on(plan, kind, host, at, width_m, swing_towards)
+}
+
+/// The same on an edge that is known: for who has looked for it already.
+///
+/// # Errors
+/// When the edge has no length, or the width is not a width.
+pub fn opening_on(
+    plan: &Plan,
+    kind: OpeningKind,
+    host: (CornerId, CornerId),
+    at: Point,
+    width_m: f64,
+    swing_towards: Option<Point>,
+) -> Result<Opening, EditError> {
     let mut opening = Opening::new(kind, fitted(plan, host, at, width_m)?);
     if matches!(kind, OpeningKind::Door | OpeningKind::DoubleDoor)
         && let (Some(towards), Some(segment)) = (swing_towards, plan.opening_segment(&opening))

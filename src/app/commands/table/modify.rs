@@ -519,7 +519,9 @@ pub(super) const COMMANDS: &[Command] = &[
             else {
                 return Ran::Refused("this is no corner".to_owned());
             };
-            edited(app, "Move corner", |plan| edit::move_corners(plan, &[(corner, to)]))
+            edited(app, "Move corner", |plan| {
+                edit::settle(&edit::move_corners(plan, &[(corner, to)])?, &BTreeSet::from([corner]))
+            })
         },
         None,
     ),
@@ -563,7 +565,11 @@ const NO_GAPS: &str = "there is no gap of 30 to 150 cm between collinear walls";
 /// Moves what is selected.
 fn moved(app: &mut App, title: &str, transform: Transform) -> Ran {
     let selected = app.selection.elements().clone();
-    edited(app, title, |plan| edit::move_elements(plan, &selected, transform))
+    edited(app, title, |plan| {
+        let next = edit::move_elements(plan, &selected, transform)?;
+        // What comes to lie on something else shares its corners.
+        edit::settle(&next, &edit::corners_of(plan, &selected)?)
+    })
 }
 
 /// Copies what is selected and selects the copies.
