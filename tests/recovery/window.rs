@@ -72,7 +72,7 @@ fn a_full_disk_stays_in_sight_until_a_save_works() {
     window.ask_to_close();
     window.settle().unwrap();
     window.answer_dialog(Some(full.clone()));
-    press(&mut window, "Save");
+    run(&mut window, "answer", &["save"]);
     assert!(!window.is_closed() && window.app().has_unsaved_changes());
     // Another place.
     let other = folder.path().join("other.plan.json");
@@ -102,6 +102,14 @@ fn a_journal_that_cannot_be_written_stays_in_sight_until_it_can() {
     compare(&mut window, "journal_fails_dark.png");
     std::fs::remove_file(&state).unwrap();
     run(&mut window, "label-small", &[]);
+    // It is tried again every two seconds.
+    for _ in 0..100 {
+        if window.app().messages().is_empty() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(100));
+        window.settle().unwrap();
+    }
     assert_eq!(window.app().messages(), []);
     assert_eq!(files(&state).len(), 1);
     let plan = window.app().plan().unwrap().clone();
