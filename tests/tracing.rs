@@ -2,6 +2,7 @@
 //! the truth, are replayed, and what comes out is compared with the truth.
 #![cfg(feature = "gui")]
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "the table is what the test is for")]
 
 #[path = "tracing/person.rs"]
@@ -28,9 +29,11 @@ use truth::{Grid, Judged, Truth, judge};
 /// its truth.
 const OFFICES: [&str; 6] = ["AtlanticSuites", "ED21", "OfficePlan", "floorplanMAIN", "magenta", "poli"];
 
-/// Those that are traced in full; the others are measured with `TRACING_ALL=1`, and what they lack is
-/// told, see `docs/tracing-figures.md`.
-const IN_FULL: [&str; 1] = ["ED21"];
+/// Those that are traced in full. Of the others a room or two are missing, see `docs/tracing-figures.md`.
+const IN_FULL: [&str; 3] = ["ED21", "OfficePlan", "floorplanMAIN"];
+
+/// So many rooms at most are missing elsewhere.
+const MOST_MISSING: usize = 2;
 
 const WINDOW: (u32, u32) = (1920, 1200);
 
@@ -190,6 +193,8 @@ fn trace(name: &str) -> Option<Traced> {
     let [imported] = import.plans.as_slice() else { panic!("{name} is one storey") };
     // Kept to look at.
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("tracing").join(name);
+    // What an earlier run left would be judged in place of this one's.
+    let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).unwrap();
     let picture = ["png", "jpg"].map(|ending| data().join(format!("images/{name}.{ending}")));
     let picture = picture.into_iter().find(|path| path.is_file())?;
@@ -253,11 +258,7 @@ fn trace(name: &str) -> Option<Traced> {
 #[test]
 fn offices_are_traced_with_at_most_60_percent_of_the_clicks() {
     let only = std::env::var("TRACING_OFFICE").ok();
-    let is_all = std::env::var_os("TRACING_ALL").is_some();
-    let offices = OFFICES.into_iter().filter(|name| match only.as_deref() {
-        Some(only) => only == *name,
-        None => is_all || IN_FULL.contains(name),
-    });
+    let offices = OFFICES.into_iter().filter(|name| only.as_deref().is_none_or(|only| only == *name));
     let traced: Vec<Traced> = std::thread::scope(|scope| {
         let threads: Vec<_> = offices.map(|name| scope.spawn(move || trace(name))).collect();
         threads.into_iter().filter_map(|thread| thread.join().unwrap()).collect()
@@ -296,7 +297,9 @@ fn offices_are_traced_with_at_most_60_percent_of_the_clicks() {
             assert!(judged.worst() <= 0.05, "{}: a room is off by more than 5 %", office.name);
             assert!(judged.wrong.is_empty(), "{}: wrong connections {:?}", office.name, judged.wrong);
             assert_eq!(judged.surplus, 0, "{}: rooms too many", office.name);
-            assert!(count.all() * 100 <= strict * 60, "{}: {} of {strict}", office.name, count.all());
         }
+        let missing = judged.errors.iter().filter(|off| **off > 0.05).count();
+        assert!(missing <= MOST_MISSING, "{}: {missing} rooms are off", office.name);
+        assert!(count.all() * 100 <= drawn * 60, "{}: {} of {drawn}", office.name, count.all());
     }
 }

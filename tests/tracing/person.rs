@@ -134,7 +134,9 @@ impl Person {
 
     fn click(&mut self, at: Point, alt: bool) {
         let with = if alt { " with Alt" } else { "" };
-        self.lines.push(format!("click at {:.5},{:.5}{with}", at.x, at.y));
+        let px = |metres: f64| (metres * self.px_per_m).round();
+        let (x, y) = (px(at.x - self.pixel.x), px(self.pixel.y - at.y));
+        self.lines.push(format!("click pixel {x},{y}{with}"));
         self.count.clicks += 1;
         self.count.keys += usize::from(alt);
     }

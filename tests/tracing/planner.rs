@@ -11,6 +11,9 @@ use super::truth::{CELL_M, Grid, Room, Truth};
 /// A room whose area is off by more is drawn otherwise: the goal is 5 %.
 const MOST_OFF: f64 = 0.042;
 
+/// More rooms are not drawn before the others.
+const MOST_FIRST: usize = 14;
+
 /// Of a traced room at least this share lies where the room is in truth.
 const LEAST_RIGHT: f64 = 0.85;
 
@@ -90,9 +93,37 @@ impl<'a> Planner<'a> {
     }
 
     pub fn trace(&mut self, person: Person) -> Person {
-        let person = self.rows(person);
-        let person = self.others(person);
-        self.doors(person)
+        // What others left too little of is drawn before them the next time.
+        let mut first: Vec<usize> = Vec::new();
+        loop {
+            self.traced.fill(None);
+            let drawn = self.by_corners_first(person.clone(), &first);
+            let drawn = self.rows(drawn);
+            let drawn = self.others(drawn);
+            let left: Vec<usize> = (0..self.traced.len()).filter(|&room| self.traced[room].is_none()).collect();
+            let is_new = left.iter().any(|room| !first.contains(room));
+            if !is_new || first.len() > MOST_FIRST {
+                return self.doors(drawn);
+            }
+            self.say(|| format!("  again, these first: {left:?}"));
+            first.extend(left);
+            first.sort_unstable();
+            first.dedup();
+        }
+    }
+
+    /// Rooms drawn by their corners before any other.
+    fn by_corners_first(&mut self, mut person: Person, rooms: &[usize]) -> Person {
+        let mut is_freed = false;
+        for &room in rooms {
+            let covered = self.covered(&person);
+            if let Some((next, id)) = self.by_corners(&person, room, &covered, is_freed) {
+                is_freed |= next.lines.iter().any(|line| line == "key F8");
+                person = next;
+                self.traced[room] = Some(id);
+            }
+        }
+        person
     }
 
     // Rows of rectangles.
@@ -113,10 +144,11 @@ impl<'a> Planner<'a> {
     fn groups(&self) -> Vec<Group> {
         let mut groups: Vec<Group> = (0..self.truth.rooms.len())
             .map(|room| {
-                let (row, rect) = (Row::One(room), box_of(self.truth.rooms[room].bounds));
+                let row = Row::One(room);
+                let rect = self.without_others(&row, box_of(self.truth.rooms[room].bounds));
                 Group { off: self.off(&row, rect), row, rect }
             })
-            .filter(|group| group.off <= MOST_OFF)
+            .filter(|group| group.off <= MOST_OFF && group.row.rooms().iter().all(|&room| self.traced[room].is_none()))
             .collect();
         loop {
             let mut best: Option<(usize, usize, Group)> = None;
@@ -166,7 +198,43 @@ impl<'a> Planner<'a> {
                 }
             }
         }
-        best
+        best.map(|best| {
+            let rect = self.without_others(&best.row, best.rect);
+            Group { off: self.off(&best.row, rect), rect, ..best }
+        })
+    }
+
+    /// What a box takes of rooms that are not in its row, in m².
+    fn taken(&self, row: &Row, rect: Box4) -> f64 {
+        let own = row.rooms();
+        let [x0, y0, x1, y1] = rect;
+        let ring = vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)];
+        let is_others = |cell: &usize| self.grid.room[*cell].is_some_and(|room| !own.contains(&usize::from(room)));
+        self.grid.cells(&[&ring]).into_iter().filter(is_others).count() as f64 * CELL_M * CELL_M
+    }
+
+    /// A box that takes less of the rooms beside its row: drawn on the inner side of what is not quite
+    /// straight, as far as its own rooms let it.
+    fn without_others(&self, row: &Row, mut rect: Box4) -> Box4 {
+        let mut taken = self.taken(row, rect);
+        for _ in 0..12 {
+            let mut best: Option<(f64, Box4)> = None;
+            for side in 0..4 {
+                let mut next = rect;
+                next[side] += if side < 2 { 0.05 } else { -0.05 };
+                if self.off(row, next) > MOST_OFF * 0.7 {
+                    continue;
+                }
+                let less = taken - self.taken(row, next);
+                if less > 0.02 && best.as_ref().is_none_or(|(most, _)| less > *most) {
+                    best = Some((less, next));
+                }
+            }
+            let Some((less, next)) = best else { break };
+            taken -= less;
+            rect = next;
+        }
+        rect
     }
 
     /// Rectangles first, all splits afterwards: each tool is taken up once.
@@ -222,9 +290,11 @@ impl<'a> Planner<'a> {
                 let Some(shape) = next.shapes.get(id) else { continue };
                 let rect = box_of(shape.bounds);
                 let off = self.off(&group.row, rect).max(self.off_in(&next, &group.row, rect, id));
-                drawn.push((off, next, rect, id));
+                if off <= MOST_OFF {
+                    // Of what is right, that which leaves others most.
+                    drawn.push((self.taken(&group.row, rect), next, rect, id));
+                }
             }
-            drawn.retain(|(off, ..)| *off <= MOST_OFF);
             drawn.sort_by(|p, q| p.0.total_cmp(&q.0));
             let is_split = |(_, next, rect, id): &(f64, Person, Box4, RoomId)| {
                 self.split_row(next, &group.row, *rect, *id).is_some()
@@ -256,8 +326,16 @@ impl<'a> Planner<'a> {
         };
         let (axis, across) = (*axis, 1 - *axis);
         let depth = rect[across + 2] - rect[across];
-        let ends = [rect[across], rect[across + 2], rect[across] + 0.1 * depth, rect[across + 2] - 0.1 * depth];
+        // Just inside: on the boundary itself the room beyond may be meant.
+        let in_m = person.metres(4.0).min(depth / 4.0);
+        let ends = [
+            rect[across] + in_m,
+            rect[across + 2] - in_m,
+            rect[across] + 0.15 * depth,
+            rect[across + 2] - 0.15 * depth,
+        ];
         for alt in [false, true] {
+            #[allow(clippy::type_complexity, reason = "used once")]
             let mut best: Option<(f64, Person, [(Box4, RoomId); 2])> = None;
             for end in ends {
                 for aside in [0.0, 0.1, -0.1, 0.2, -0.2] {
@@ -299,14 +377,17 @@ impl<'a> Planner<'a> {
         let Some(shape) = person.shapes.get(id) else { return false };
         let off = (shape.area_m2() / room.area_m2 - 1.0).abs();
         let cells = self.grid.cells(&shape.rings().collect::<Vec<_>>());
-        let here = cells.iter().filter(|&&cell| self.grid.room[cell].map(usize::from) == Some(index)).count();
+        // Rooms of the truth overlap here and there: what is right is what lies in its own boundary.
+        let own: std::collections::BTreeSet<usize> = self.grid.cells(&[&room.outer]).into_iter().collect();
+        let is_own = |cell: &usize| own.contains(cell) || self.grid.room[*cell].map(usize::from) == Some(index);
+        let here = cells.iter().filter(|cell| is_own(cell)).count();
         off <= MOST_OFF && here as f64 >= LEAST_RIGHT * cells.len() as f64
     }
 
     // All other rooms.
 
     fn others(&mut self, mut person: Person) -> Person {
-        let mut is_freed = false;
+        let mut is_freed = person.lines.iter().any(|line| line == "key F8");
         loop {
             let left: Vec<usize> = (0..self.traced.len()).filter(|&room| self.traced[room].is_none()).collect();
             if left.is_empty() {
@@ -400,7 +481,7 @@ impl<'a> Planner<'a> {
             person.key("F8");
         }
         for slack in [0.03, 0.015, 0.0] {
-            let corners = self.few_corners(room, covered, slack);
+            let corners = apart(&self.few_corners(room, covered, slack));
             for alt in [false, true] {
                 let drawn = person.room(&corners, alt);
                 self.say(|| {
@@ -412,7 +493,13 @@ impl<'a> Planner<'a> {
                 }
             }
         }
-        self.right(index, person.room(&room.outer, true))
+        let drawn = person.room(&apart(&room.outer), true);
+        self.say(|| {
+            let off = drawn.as_ref().and_then(|(next, id)| next.shapes.get(*id)).map(|shape| shape.area_m2());
+            let why = enfilade::topology::draw_room(&person.plan, &room.outer, None).err();
+            format!("    room {index} whole: {off:?} of {:.2} m2 {why:?}", room.area_m2)
+        });
+        self.right(index, drawn)
     }
 
     /// A place in a room where nothing is drawn.
@@ -552,6 +639,22 @@ fn meeting(p: Segment, q: Segment) -> Option<Point> {
     (point.distance(p.b) < 30.0).then_some(point)
 }
 
+/// A boundary that touches itself, as some of the truth do, drawn a pencil's width apart there.
+fn apart(corners: &[Point]) -> Vec<Point> {
+    const TOUCH_M: f64 = 0.03;
+    const APART_M: f64 = 0.08;
+    let n = corners.len();
+    let edges: Vec<Segment> = polygon::edges(corners).collect();
+    (0..n)
+        .map(|i| {
+            let touches = (0..n).any(|j| j != i && (j + 1) % n != i && edges[j].distance(corners[i]) < TOUCH_M);
+            let (before, after) = (corners[(i + n - 1) % n], corners[(i + 1) % n]);
+            let way = (before.midpoint(after) - corners[i]).unit().filter(|_| touches);
+            way.map_or(corners[i], |way| corners[i] + way * APART_M)
+        })
+        .collect()
+}
+
 fn is_simple(corners: &[Point]) -> bool {
     let edges: Vec<Segment> = polygon::edges(corners).collect();
     let n = edges.len();
@@ -577,10 +680,10 @@ fn is_simple(corners: &[Point]) -> bool {
 /// The part of a polygon in a box (Sutherland and Hodgman 1974).
 fn clipped(outer: &[Point], rect: Box4) -> Vec<Point> {
     let mut ring = outer.to_vec();
-    for side in 0..4 {
+    for (side, limit) in rect.into_iter().enumerate() {
         let inside = |point: Point| {
             let value = if side % 2 == 0 { point.x } else { point.y };
-            if side < 2 { value - rect[side] } else { rect[side] - value }
+            if side < 2 { value - limit } else { limit - value }
         };
         let mut next = Vec::new();
         for edge in polygon::edges(&ring) {
