@@ -841,7 +841,8 @@ fn style(app: &App, plan: &Plan, is_dark: bool) -> Style {
         units: app.units(),
         grid_m: app.settings.grid_m(),
         layers: Layers {
-            grid: layers.grid,
+            // Over a picture its lines would be taken for walls.
+            grid: layers.grid && !is_over_picture,
             rooms: !(is_over_picture && layers.fill == draw::Fill::None),
             walls: true,
             openings: true,
