@@ -341,6 +341,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             for (id, arguments) in calls {
                 let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
                 if let Err(error) = app.run_command_with(id, &words, ui.ctx()) {
+                    app.tools.tool_mut().was_refused();
                     app.status = match error {
                         commands::CommandError::NotNow { reason, .. } => sentence(&reason),
                         other => other.to_string(),

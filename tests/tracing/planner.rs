@@ -551,7 +551,7 @@ impl<'a> Planner<'a> {
             }
             (free - hit + beside) as f64 / cells.len().max(1) as f64
         };
-        let mut corners = room.outer.clone();
+        let mut corners = without_spikes(&room.outer);
         let limit = slack + off(&corners);
         loop {
             let n = corners.len();
@@ -643,8 +643,9 @@ fn meeting(p: Segment, q: Segment) -> Option<Point> {
 fn apart(corners: &[Point]) -> Vec<Point> {
     const TOUCH_M: f64 = 0.03;
     const APART_M: f64 = 0.08;
+    let corners = without_spikes(corners);
     let n = corners.len();
-    let edges: Vec<Segment> = polygon::edges(corners).collect();
+    let edges: Vec<Segment> = polygon::edges(&corners).collect();
     (0..n)
         .map(|i| {
             let touches = (0..n).any(|j| j != i && (j + 1) % n != i && edges[j].distance(corners[i]) < TOUCH_M);
@@ -653,6 +654,19 @@ fn apart(corners: &[Point]) -> Vec<Point> {
             way.map_or(corners[i], |way| corners[i] + way * APART_M)
         })
         .collect()
+}
+
+/// A boundary without places where it goes to a point and back the same way.
+fn without_spikes(corners: &[Point]) -> Vec<Point> {
+    let mut kept = corners.to_vec();
+    loop {
+        let n = kept.len();
+        let spike = (0..n).find(|&i| n > 3 && kept[(i + n - 1) % n].distance(kept[(i + 1) % n]) < 0.03);
+        let Some(tip) = spike else { return kept };
+        let again = (tip + 1) % n;
+        kept.remove(tip.max(again));
+        kept.remove(tip.min(again));
+    }
 }
 
 fn is_simple(corners: &[Point]) -> bool {

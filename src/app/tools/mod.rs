@@ -234,6 +234,9 @@ pub(super) trait Tool {
         &[]
     }
 
+    /// The plan did not take what it called for last.
+    fn was_refused(&mut self) {}
+
     fn take_back(&mut self) -> TakenBack {
         TakenBack::Nothing
     }

@@ -9,10 +9,18 @@ use crate::geometry::{Point, Segment, Vector};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Path {
     pub points: Vec<Point>,
-    /// How many corners there were before each click.
-    before: Vec<usize>,
+    /// What was there before each click.
+    before: Vec<Before>,
     /// Whether an arc comes next.
     bend: Bend,
+}
+
+/// What was there before a click.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Before {
+    corners: usize,
+    /// Whether the click changed nothing of the plan, though it was to.
+    was_refused: bool,
 }
 
 /// What the next click is.
@@ -33,7 +41,7 @@ const SAME_M: f64 = 1e-4;
 impl Path {
     /// A path that begins at a point.
     pub(super) fn from(point: Point) -> Self {
-        Self { points: vec![point], before: vec![0], bend: Bend::Straight }
+        Self { points: vec![point], before: vec![Before { corners: 0, was_refused: false }], bend: Bend::Straight }
     }
 
     /// Makes the next piece an arc, or a straight line again.
@@ -54,22 +62,29 @@ impl Path {
                 false
             }
             (Bend::To { through }, Some(last)) => {
-                self.before.push(self.points.len());
+                self.before.push(Before { corners: self.points.len(), was_refused: false });
                 self.bend = Bend::Straight;
                 let chords = arc(last, through, point, scope.options.arc_tolerance_m);
                 self.points.extend(chords.into_iter().skip(1).map(Point::trimmed));
                 true
             }
             _ => {
-                self.before.push(self.points.len());
+                self.before.push(Before { corners: self.points.len(), was_refused: false });
                 self.points.push(point);
                 true
             }
         }
     }
 
+    /// Notes that the plan did not take what the last click was to draw.
+    pub(super) fn was_refused(&mut self) {
+        if let Some(last) = self.before.last_mut() {
+            last.was_refused = true;
+        }
+    }
+
     /// Takes the last click back: a corner, an arc, or the point that an arc was to pass through. Gives
-    /// whether there was one, and whether corners went.
+    /// whether there was one, and whether corners went that the plan had taken.
     pub(super) fn take_back(&mut self) -> (bool, bool) {
         if self.bend != Bend::Straight {
             self.bend = Bend::Straight;
@@ -77,8 +92,8 @@ impl Path {
         }
         match self.before.pop() {
             Some(before) => {
-                self.points.truncate(before);
-                (true, true)
+                self.points.truncate(before.corners);
+                (true, !before.was_refused)
             }
             None => (false, false),
         }

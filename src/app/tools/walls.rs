@@ -118,6 +118,12 @@ impl Tool for Walls {
         &[Key::A]
     }
 
+    fn was_refused(&mut self) {
+        if let Self::Drawing(path) = self {
+            path.was_refused();
+        }
+    }
+
     fn take_back(&mut self) -> TakenBack {
         let Self::Drawing(path) = self else { return TakenBack::Nothing };
         let (_, had_corners) = path.take_back();
