@@ -109,15 +109,13 @@ impl Select {
             return None;
         }
         let reach_m = scope.metres(REACH_PX);
-        let handles = corners_of(scope.plan, scope.selection);
+        let handles = handles_of(scope.plan, scope.selection);
         let nearest = handles
             .iter()
             .filter_map(|&corner| Some((corner, scope.plan.position(corner)?)))
             .filter(|(_, place)| place.distance(pointer) <= reach_m)
             .min_by(|p, q| p.1.distance(pointer).total_cmp(&q.1.distance(pointer)));
-        if let Some((corner, place)) = nearest
-            && handles.len() <= MOST_HANDLES
-        {
+        if let Some((corner, place)) = nearest {
             return Some(Grabbed::Corner(corner, place));
         }
         let found = hit(scope.derived?, scope.plan, scope.layers, pointer, scope.px_per_m);
@@ -181,6 +179,16 @@ fn is_inside(from: Point, to: Point) -> bool {
     to.x >= from.x
 }
 
+/// The corners that selected elements have, where they are few enough to be shown and grabbed.
+fn handles_of(plan: &Plan, selection: &Selection) -> BTreeSet<CornerId> {
+    // Each element has corners of its own or shares them: so many elements have more.
+    if selection.len() > MOST_HANDLES {
+        return BTreeSet::new();
+    }
+    let handles = corners_of(plan, selection);
+    if handles.len() > MOST_HANDLES { BTreeSet::new() } else { handles }
+}
+
 /// The corners that selected elements have.
 fn corners_of(plan: &Plan, selection: &Selection) -> BTreeSet<CornerId> {
     let mut corners: BTreeSet<CornerId> = selection.corners().collect();
@@ -237,9 +245,8 @@ impl Tool for Select {
     fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
         match self.state {
             State::Ready => {
-                let handles = corners_of(scope.plan, scope.selection);
-                if handles.len() <= MOST_HANDLES {
-                    for place in handles.iter().filter_map(|&corner| scope.plan.position(corner)) {
+                for corner in handles_of(scope.plan, scope.selection) {
+                    if let Some(place) = scope.plan.position(corner) {
                         preview.handle(place, Look::New);
                     }
                 }
