@@ -21,7 +21,7 @@ use enfilade::formats;
 use enfilade::geometry::{Bounds, Point, polygon};
 use enfilade::plan::Plan;
 
-use person::{Count, Person};
+use person::{Count, Person, View};
 use planner::Planner;
 use truth::{Grid, Judged, Truth, judge};
 
@@ -173,6 +173,18 @@ impl Start {
         }
     }
 
+    /// What is on the screen now; the gestures since the last time are handed over.
+    fn view(&mut self) -> View {
+        let canvas = self.canvas();
+        View {
+            px_per_m: self.px_per_m(),
+            seen: Bounds::of([self.plan_point(canvas.min), self.plan_point(canvas.max)]),
+            pixel: self.plan_point(pos2(0.0, 0.0)),
+            lines: std::mem::take(&mut self.lines),
+            count: std::mem::take(&mut self.count),
+        }
+    }
+
     fn wheel(&mut self, lines: i32, at: Pos2) {
         self.window.move_to(at);
         self.window.settle().unwrap();
@@ -219,14 +231,13 @@ fn trace(name: &str) -> Option<Traced> {
     });
     let grid = Grid::new(&truth);
     start.look_at(truth.bounds());
-    let canvas = start.canvas();
-    let seen = Bounds::of([start.plan_point(canvas.min), start.plan_point(canvas.max)]);
-    let mut person = Person::new(Plan::default(), start.px_per_m(), seen, start.plan_point(pos2(0.0, 0.0)));
-    person.lines = start.lines.clone();
-    person.count = start.count;
+    let person = Person::new(start.view());
     let mut planner = Planner::new(&truth, &grid);
     planner.talk = std::env::var_os("TRACING_TALK").is_some();
-    let person = planner.trace(person);
+    let person = planner.trace(person, |area| {
+        start.look_at(area);
+        start.view()
+    });
 
     let mut lines = person.lines.clone();
     lines.extend(

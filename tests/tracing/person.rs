@@ -58,9 +58,18 @@ pub struct Person {
     index: std::rc::Rc<PlanIndex>,
     px_per_m: f64,
     seen: Bounds,
-    /// A corner of a pixel of the screen.
     pixel: Point,
     tool: Option<Tool>,
+    pub lines: Vec<String>,
+    pub count: Count,
+}
+
+/// A part of the drawing on the screen, and what bringing it there took.
+pub struct View {
+    pub px_per_m: f64,
+    pub seen: Bounds,
+    /// A corner of a pixel of the screen.
+    pub pixel: Point,
     pub lines: Vec<String>,
     pub count: Count,
 }
@@ -73,9 +82,19 @@ struct Aimed {
 }
 
 impl Person {
-    pub fn new(plan: Plan, px_per_m: f64, seen: Bounds, pixel: Point) -> Self {
+    /// A person in front of an empty plan.
+    pub fn new(view: View) -> Self {
+        let plan = Plan::default();
         let (shapes, index) = (RoomShapes::new(&plan).into(), PlanIndex::new(&plan).into());
-        Self { plan, shapes, index, px_per_m, seen, pixel, tool: None, lines: Vec::new(), count: Count::default() }
+        let View { px_per_m, seen, pixel, lines, count } = view;
+        Self { plan, shapes, index, px_per_m, seen, pixel, tool: None, lines, count }
+    }
+
+    /// Goes on in another view.
+    pub fn look(&mut self, view: View) {
+        (self.px_per_m, self.seen, self.pixel) = (view.px_per_m, view.seen, view.pixel);
+        self.lines.extend(view.lines);
+        self.count.view += view.count.view;
     }
 
     pub fn metres(&self, px: f64) -> f64 {
@@ -108,10 +127,17 @@ impl Person {
         Point::new(round(point.x, self.pixel.x), round(point.y, self.pixel.y))
     }
 
-    fn aim(&self, at: Point, alt: bool, path: &[Point]) -> Aimed {
+    /// Where the pointer is for a place that is on the screen.
+    fn pointer(&self, at: Point) -> Option<Point> {
         let pointer = self.on_pixel(at);
+        self.seen.contains(pointer).then_some(pointer)
+    }
+
+    /// `None` where the place is not on the screen.
+    fn aim(&self, at: Point, alt: bool, path: &[Point]) -> Option<Aimed> {
+        let pointer = self.pointer(at)?;
         if alt {
-            return Aimed { pointer, got: pointer.trimmed() };
+            return Some(Aimed { pointer, got: pointer.trimmed() });
         }
         let along = match path {
             [.., before, last] => (*last - *before).unit(),
@@ -129,7 +155,7 @@ impl Person {
             points: path,
             lines: &[],
         };
-        Aimed { pointer, got: candidates(&self.index, &query).first().map_or(pointer, |snap| snap.point) }
+        Some(Aimed { pointer, got: candidates(&self.index, &query).first().map_or(pointer, |snap| snap.point) })
     }
 
     fn click(&mut self, at: Point, alt: bool) {
@@ -150,10 +176,10 @@ impl Person {
     pub fn rectangle(&self, from: Point, to: Point, alt: [bool; 2]) -> Option<(Self, RoomId)> {
         let mut next = self.clone();
         next.take_up(Tool::Rectangle);
-        let start = self.aim(from, alt[0], &[]);
+        let start = self.aim(from, alt[0], &[])?;
         let edges = self.index.edges_near(start.got, self.metres(1.0));
         let along = edges.first().and_then(|edge| edge.segment.vector().unit()).unwrap_or(Vector::new(1.0, 0.0));
-        let end = self.aim(to, alt[1], &[]);
+        let end = self.aim(to, alt[1], &[])?;
         let way = end.got - start.got;
         let (x, y) = (along * way.dot(along), along.left() * way.dot(along.left()));
         if x.length() < 0.1 || y.length() < 0.1 {
@@ -176,7 +202,7 @@ impl Person {
             next.count.keys += 1;
         }
         for &corner in corners {
-            let aimed = self.aim(corner, alt, &path);
+            let aimed = self.aim(corner, alt, &path)?;
             // Two that attract to one place are one.
             if path.iter().any(|point| point.distance(aimed.got) < 1e-3) {
                 continue;
@@ -195,7 +221,7 @@ impl Person {
 
     /// Splits the room at a place straight across; the parts.
     pub fn split(&self, at: Point, alt: bool) -> Option<(Self, [RoomId; 2])> {
-        let aimed = self.aim(at, alt, &[]);
+        let aimed = self.aim(at, alt, &[])?;
         let across = topology::straight_across(&self.shapes, aimed.pointer, aimed.got, self.metres(SNAP_RADIUS_PX))?;
         let (plan, made) = topology::split_rooms(&self.plan, &[across.line.a, across.line.b]).ok()?;
         let [made] = made[..] else { return None };
@@ -208,7 +234,7 @@ impl Person {
 
     /// Makes a room of what is enclosed.
     pub fn fill(&self, at: Point) -> Option<(Self, RoomId)> {
-        let pointer = self.on_pixel(at);
+        let pointer = self.pointer(at)?;
         let filled = topology::fill_at(&self.plan, pointer).ok()?;
         let [id] = filled.rooms[..] else { return None };
         let mut next = self.clone();
@@ -220,7 +246,7 @@ impl Person {
 
     /// Puts a door or a passage where the pointer is; what it joins.
     pub fn door(&self, at: Point, kind: OpeningKind) -> Option<(Self, [Option<RoomId>; 2])> {
-        let pointer = self.on_pixel(at);
+        let pointer = self.pointer(at)?;
         let reach_m = self.metres(OPENING_REACH_PX);
         let opening = opening_at(&self.plan, kind, pointer, DEFAULT_DOOR_WIDTH_M, reach_m, Some(pointer)).ok()?;
         let segment = self.plan.opening_segment(&opening)?;

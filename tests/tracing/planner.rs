@@ -5,7 +5,7 @@
 use enfilade::geometry::{Bounds, Point, Segment, Vector, polygon};
 use enfilade::plan::{OpeningKind, RoomId};
 
-use super::person::{Person, Tool};
+use super::person::{Person, Tool, View};
 use super::truth::{CELL_M, Grid, Room, Truth};
 
 /// A room whose area is off by more is drawn otherwise: the goal is 5 %.
@@ -16,6 +16,9 @@ const MOST_FIRST: usize = 14;
 
 /// Of a traced room at least this share lies where the room is in truth.
 const LEAST_RIGHT: f64 = 0.85;
+
+/// What is too small is looked at with so much around it, in metres.
+const AROUND_M: f64 = 4.0;
 
 /// Neighbours in a row are at most a wall apart, and about as deep, in metres.
 const WALL_M: f64 = 0.5;
@@ -92,7 +95,32 @@ impl<'a> Planner<'a> {
         }
     }
 
-    pub fn trace(&mut self, person: Person) -> Person {
+    /// Traces the office; `closer` fills the screen with a part of it.
+    pub fn trace(&mut self, person: Person, mut closer: impl FnMut(Bounds) -> View) -> Person {
+        let (mut person, mut doors) = self.from_afar(person);
+        // A person goes nearer for what is too small to be pointed at.
+        let left = |planner: &Self, doors: &[usize]| {
+            let rooms = (0..planner.traced.len()).filter(|&room| planner.traced[room].is_none());
+            let rooms = rooms.map(|room| planner.truth.rooms[room].bounds);
+            rooms.chain(doors.iter().map(|&door| Bounds::of([planner.truth.doors[door].at]))).collect::<Vec<_>>()
+        };
+        let mut seen: Vec<Bounds> = Vec::new();
+        loop {
+            let small = left(self, &doors);
+            let is_new = |small: &&Bounds| !seen.iter().any(|seen| seen.contains(small.center()));
+            let Some(&next) = small.iter().find(is_new) else { return person };
+            let area = next.inflated(AROUND_M);
+            seen.push(area);
+            self.say(|| format!("  nearer: {area:?}"));
+            let mut near = person.clone();
+            near.look(closer(area));
+            near = self.others(near);
+            (person, doors) = self.doors(near, &doors);
+        }
+    }
+
+    /// Traces what can be traced in one view; the doors that are left.
+    fn from_afar(&mut self, person: Person) -> (Person, Vec<usize>) {
         // What others left too little of is drawn before them the next time.
         let mut first: Vec<usize> = Vec::new();
         loop {
@@ -103,7 +131,7 @@ impl<'a> Planner<'a> {
             let left: Vec<usize> = (0..self.traced.len()).filter(|&room| self.traced[room].is_none()).collect();
             let is_new = left.iter().any(|room| !first.contains(room));
             if !is_new || first.len() > MOST_FIRST {
-                return self.doors(drawn);
+                return self.doors(drawn, &(0..self.truth.doors.len()).collect::<Vec<_>>());
             }
             self.say(|| format!("  again, these first: {left:?}"));
             first.extend(left);
@@ -593,14 +621,15 @@ impl<'a> Planner<'a> {
 
     // Doors.
 
-    fn doors(&self, mut person: Person) -> Person {
+    /// Places doors, and gives those that found no place.
+    fn doors(&self, mut person: Person, doors: &[usize]) -> (Person, Vec<usize>) {
+        let mut left = Vec::new();
         for kind in [OpeningKind::Door, OpeningKind::Passage] {
-            for door in self
-                .truth
-                .doors
-                .iter()
-                .filter(|door| (door.kind == OpeningKind::Passage) == (kind == OpeningKind::Passage))
-            {
+            for &index in doors {
+                let door = &self.truth.doors[index];
+                if (door.kind == OpeningKind::Passage) != (kind == OpeningKind::Passage) {
+                    continue;
+                }
                 let mut wanted = door.sides.map(|side| side.and_then(|room| self.traced[room]));
                 wanted.sort_unstable();
                 let mut places: Vec<Point> = Vec::new();
@@ -619,11 +648,14 @@ impl<'a> Planner<'a> {
                 });
                 match placed {
                     Some(next) => person = next,
-                    None => self.say(|| format!("  no door between {:?} at {:?}", door.sides, door.at)),
+                    None => {
+                        self.say(|| format!("  no door between {:?} at {:?}", door.sides, door.at));
+                        left.push(index);
+                    }
                 }
             }
         }
-        person
+        (person, left)
     }
 }
 
