@@ -60,6 +60,8 @@ pub struct Person {
     seen: Bounds,
     pixel: Point,
     tool: Option<Tool>,
+    /// Whether rooms are drawn over others.
+    is_over: bool,
     pub lines: Vec<String>,
     pub count: Count,
 }
@@ -87,7 +89,7 @@ impl Person {
         let plan = Plan::default();
         let (shapes, index) = (RoomShapes::new(&plan).into(), PlanIndex::new(&plan).into());
         let View { px_per_m, seen, pixel, lines, count } = view;
-        Self { plan, shapes, index, px_per_m, seen, pixel, tool: None, lines, count }
+        Self { plan, shapes, index, px_per_m, seen, pixel, tool: None, is_over: false, lines, count }
     }
 
     /// Goes on in another view.
@@ -167,8 +169,21 @@ impl Person {
         self.count.keys += usize::from(alt);
     }
 
+    /// The same person, who draws rooms over others or leaves those what they have.
+    pub fn drawing_over(&self, is_over: bool) -> Self {
+        let mut next = self.clone();
+        if next.is_over != is_over {
+            next.key("F7");
+            next.is_over = is_over;
+        }
+        next
+    }
+
     fn drawn(&self, corners: &[Point]) -> Option<(Plan, RoomId)> {
         let thickness_m = Some(DEFAULT_WALL_THICKNESS_M);
+        if self.is_over {
+            return topology::draw_room(&self.plan, corners, thickness_m).ok();
+        }
         topology::draw_room_in_free_space(&self.plan, corners, thickness_m, GAP_BETWEEN_ROOMS_M).ok()
     }
 

@@ -422,13 +422,15 @@ impl<'a> Planner<'a> {
                 return person;
             }
             let covered = self.covered(&person);
+            // By one key, once it is needed.
+            let beside = person.drawing_over(false);
             let mut found = left.iter().find_map(|&room| {
                 let (next, id) = self.by_one_click(&person, room, &covered)?;
                 Some((room, next, id))
             });
             found = found.or_else(|| {
                 left.iter().find_map(|&room| {
-                    let (next, id) = self.by_rectangle(&person, room)?;
+                    let (next, id) = self.by_rectangle(&beside, room)?;
                     Some((room, next, id))
                 })
             });
@@ -437,7 +439,14 @@ impl<'a> Planner<'a> {
             by_corners.sort_by_key(|&room| self.truth.rooms[room].outer.len());
             found = found.or_else(|| {
                 by_corners.iter().find_map(|&room| {
-                    let (next, id) = self.by_corners(&person, room, &covered, is_freed)?;
+                    let (next, id) = self.by_corners(&beside, room, &covered, is_freed)?;
+                    Some((room, next, id))
+                })
+            });
+            // What lies within another room is drawn over it.
+            found = found.or_else(|| {
+                left.iter().find_map(|&room| {
+                    let (next, id) = self.by_rectangle(&person.drawing_over(true), room)?;
                     Some((room, next, id))
                 })
             });
@@ -508,7 +517,7 @@ impl<'a> Planner<'a> {
             person.take_up(Tool::Room);
             person.key("F8");
         }
-        for slack in [0.03, 0.015, 0.0] {
+        for slack in [0.04, 0.03, 0.015, 0.0] {
             let corners = apart(&self.few_corners(room, covered, slack));
             for alt in [false, true] {
                 let drawn = person.room(&corners, alt);
