@@ -47,6 +47,11 @@ pub fn grown(shapes: &Shapes, by_m: f64) -> Shapes {
     cleaned(&shapes.outline(&OutlineStyle::new(by_m).line_join(LineJoin::Miter(SHARPEST_RAD))))
 }
 
+/// Shapes without what is narrower than twice a distance in metres: shrunk, and grown by the same.
+pub fn opened(shapes: &Shapes, by_m: f64) -> Shapes {
+    grown(&grown(&cleaned(shapes), -by_m), by_m)
+}
+
 /// A room's rings shrunk by a distance in metres: pieces with their holes, none when nothing is left.
 pub fn shrunk(outer: &[Point], holes: &[Vec<Point>], by_m: f64) -> Vec<(Vec<Point>, Vec<Vec<Point>>)> {
     let ring = |ring: &Vec<Point>| -> Ring { ring.iter().map(|point| [point.x, point.y]).collect() };

@@ -59,9 +59,14 @@ impl Bounds {
         point.x >= self.min.x && point.x <= self.max.x && point.y >= self.min.y && point.y <= self.max.y
     }
 
-    /// Whether a segment has a point in it, found by cutting the segment at the four sides (Liang and
-    /// Barsky 1984).
+    /// Whether a segment has a point in it.
     pub fn meets(self, segment: Segment) -> bool {
+        self.part_of(segment).is_some()
+    }
+
+    /// From where to where a segment lies in it, as fractions in 0..=1; found by cutting the segment at
+    /// the four sides (Liang and Barsky 1984).
+    pub fn part_of(self, segment: Segment) -> Option<(f64, f64)> {
         let way = segment.vector();
         let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
         let sides = [
@@ -73,7 +78,7 @@ impl Bounds {
         for (towards, room) in sides {
             if towards == 0.0 {
                 if room < 0.0 {
-                    return false;
+                    return None;
                 }
             } else if towards < 0.0 {
                 enters = enters.max(room / towards);
@@ -81,7 +86,7 @@ impl Bounds {
                 leaves = leaves.min(room / towards);
             }
         }
-        enters <= leaves
+        (enters <= leaves).then_some((enters, leaves))
     }
 
     /// Whether the two boxes share at least a point.

@@ -14,12 +14,12 @@ use super::shapes::RoomShape;
 use crate::geometry::areas::{self, Shapes};
 use crate::geometry::polygon::{self, Location};
 use crate::geometry::segments::SegmentIndex;
-use crate::geometry::{Bounds, Point, Segment, TOUCH_M};
+use crate::geometry::{Bounds, GRID_M, Point, Segment, TOUCH_M};
 use crate::plan::edit::lay::{Laid, lay};
 use crate::plan::edit::{self, EditError, fail};
 use crate::plan::{CornerId, Plan, Room, RoomId, ordered};
 
-/// What is left between drawn rooms is no part of a new one where it is narrower than this, in
+/// What is left between drawn rooms is no part of a new one where it is no wider than this, in
 /// metres: neighbours in real drawings leave gaps of some centimetres up to the thickness of an inner
 /// wall (`data`: rooms are drawn one by one).
 pub const GAP_BETWEEN_ROOMS_M: f64 = 0.3;
@@ -27,7 +27,7 @@ pub const GAP_BETWEEN_ROOMS_M: f64 = 0.3;
 /// Draws a room with what of an area no room covers yet; holes are left where rooms lie inside it.
 ///
 /// Of several pieces the largest becomes the room. Arms that reach between or along existing rooms
-/// and are narrower than `gap_m` (see [`GAP_BETWEEN_ROOMS_M`]) are cut off; slivers are dropped.
+/// and are no wider than `gap_m` (see [`GAP_BETWEEN_ROOMS_M`]) are cut off; slivers are dropped.
 /// Edges along rooms are shared with them. Walls as for [`super::draw_room`].
 ///
 /// # Errors
@@ -98,53 +98,90 @@ pub(super) fn oriented(room: &RoomShape) -> impl Iterator<Item = areas::Ring> + 
     room.rings().enumerate().map(|(i, ring)| areas::directed(ring, i == 0))
 }
 
-/// The pieces of an area that no room covers, without narrow arms along rooms.
+/// The pieces of an area that no room covers, without narrow arms along rooms; on the grid.
 fn free_pieces(outer: &[Point], rooms: &[&RoomShape], gap_m: f64) -> Vec<(Vec<Point>, Vec<Vec<Point>>)> {
-    let area: Shapes = vec![vec![areas::ring(outer)]];
-    let covered: Vec<areas::Ring> = rooms.iter().flat_map(|room| oriented(room)).collect();
-    let mut free = areas::without(area, &covered);
-    let reach_m = gap_m / 2.0;
-    if rooms.is_empty() || reach_m <= 0.0 {
-        return areas::pieces(&free);
-    }
-    // Opening (shrunk, then grown by the same) leaves out what is narrower than the gap.
-    let wide = areas::grown(&areas::grown(&areas::cleaned(&free), -reach_m), reach_m);
-    if wide.is_empty() {
-        // All of it is narrow: a shaft, drawn on purpose.
-        return areas::pieces(&free);
-    }
-    let edges = rooms.iter().flat_map(|room| room.rings()).flat_map(|ring| polygon::edges(ring));
-    let edges = SegmentIndex::new(edges.collect());
-    let along_rooms = |ring: &Vec<Point>| -> f64 {
-        polygon::edges(ring).filter(|&edge| runs_along(edge, &edges)).map(Segment::length).sum()
+    // As if the area lay at the origin: the same comes out wherever it lies, to the last digit.
+    let origin = polygon::bounds(outer).min;
+    let here = |ring: &[Point]| -> Vec<Point> {
+        ring.iter().map(|&point| (Point::default() + (point - origin)).trimmed()).collect()
     };
-    let narrow = free.overlay(&wide, OverlayRule::Difference, FillRule::NonZero);
-    let arms: Vec<areas::Ring> = areas::pieces(&narrow)
-        .into_iter()
-        .filter(|(outer, holes)| {
-            let rings = || std::iter::once(outer).chain(holes);
-            let perimeter_m: f64 = rings().map(|ring| polygon::perimeter(ring)).sum();
-            rings().map(along_rooms).sum::<f64>() > ARM_SHARE * perimeter_m
-        })
-        .flat_map(|(outer, holes)| {
-            std::iter::once(areas::directed(&outer, true))
-                .chain(holes.iter().map(|hole| areas::directed(hole, false)))
-                .collect::<Vec<_>>()
-        })
-        .collect();
-    free = areas::without(free, &arms);
-    // Cutting along the same lines twice leaves threads as thin as rounding.
-    let threadless = areas::cleaned(&free).simplify_shape(FillRule::NonZero);
-    areas::pieces(&threadless)
+    let there = |ring: &[Point]| -> Vec<Point> {
+        ring.iter().map(|&point| (point.trimmed() + (origin - Point::default())).trimmed()).collect()
+    };
+    let rooms: Vec<Vec<Vec<Point>>> = rooms.iter().map(|room| room.rings().map(|ring| here(ring)).collect()).collect();
+    areas::pieces(&free_shapes(&here(outer), &rooms, gap_m))
+        .iter()
+        .map(|(outer, holes)| (there(outer), holes.iter().map(|hole| there(hole)).collect()))
+        .collect()
 }
 
-/// A narrow part is an arm along rooms when more than this share of its boundary is theirs: both
-/// sides of a gap between two rooms are, one side of a strip beside one room; the tip of a sharp
-/// corner that the person drew in the open is not.
-const ARM_SHARE: f64 = 0.3;
+/// What [`free_pieces`] gives, of rooms as rings, the outer one first.
+fn free_shapes(outer: &[Point], rooms: &[Vec<Vec<Point>>], gap_m: f64) -> Shapes {
+    let covered: Vec<areas::Ring> = rooms
+        .iter()
+        .flat_map(|rings| rings.iter().enumerate().map(|(i, ring)| areas::directed(ring, i == 0)))
+        .collect();
+    let free = areas::without(vec![vec![areas::ring(outer)]], &covered);
+    if rooms.is_empty() || gap_m <= 0.0 {
+        return free;
+    }
+    let wide = areas::opened(&free, (gap_m + BETWEEN_GRID_M) / 2.0);
+    if wide.is_empty() {
+        // All of it is narrow: a shaft, drawn on purpose.
+        return free;
+    }
+    let edges = SegmentIndex::new(rooms.iter().flatten().flat_map(|ring| polygon::edges(ring)).collect());
+    // What was opened has the same edges up to rounding, which leaves threads along them; they would
+    // join narrow parts that lie apart.
+    let narrow = areas::opened(&free.overlay(&wide, OverlayRule::Difference, FillRule::NonZero), THREAD_M / 2.0);
+    let arms: Shapes = narrow.into_iter().filter(|part| is_along(part, &edges)).collect();
+    if arms.is_empty() {
+        return free;
+    }
+    // A little more than the arms, so that no thread joins what lies beyond; of the wide part nothing.
+    let cut = areas::grown(&arms, THREAD_M / 2.0).overlay(&wide, OverlayRule::Difference, FillRule::NonZero);
+    let left = free.overlay(&cut, OverlayRule::Difference, FillRule::NonZero);
+    areas::cleaned(&left).simplify_shape(FillRule::NonZero)
+}
 
-/// Whether the middle of an edge lies on one of the edges indexed.
-fn runs_along(edge: Segment, edges: &SegmentIndex) -> bool {
-    let middle = edge.midpoint();
-    edges.near(Bounds::of([middle]).inflated(TOUCH_M)).any(|index| edges.get(index).distance(middle) <= TOUCH_M)
+/// Added to the gap: drawn lengths are multiples of the grid, so that rounding never decides whether a
+/// strip exactly as wide as the gap is narrow.
+const BETWEEN_GRID_M: f64 = 4.5 * GRID_M;
+
+/// What is narrower is no part of an area but left by rounding; below [`TOUCH_M`], between two lengths
+/// on the grid.
+const THREAD_M: f64 = 8.5 * GRID_M;
+
+/// A narrow part is an arm along rooms when more than this share of its boundary is theirs: both
+/// sides of a gap between two rooms are, about half of a strip beside one room; the tip of a sharp
+/// corner that the person drew in the open is not. No simple fraction: a strip that ends in the open
+/// has the share L / (2 L + 2 W), which would be just that for some W on the grid.
+const ARM_SHARE: f64 = 0.2937;
+
+/// Whether an area is an arm along the edges of rooms.
+fn is_along(area: &[areas::Ring], edges: &SegmentIndex) -> bool {
+    let rings: Vec<Vec<Point>> = area.iter().map(areas::points).collect();
+    let perimeter_m: f64 = rings.iter().map(|ring| polygon::perimeter(ring)).sum();
+    let along_m: f64 = rings.iter().flat_map(|ring| polygon::edges(ring)).map(|edge| length_along(edge, edges)).sum();
+    along_m > ARM_SHARE * perimeter_m
+}
+
+/// The length in metres on which an edge runs within [`TOUCH_M`] of others, however these are cut.
+fn length_along(edge: Segment, others: &SegmentIndex) -> f64 {
+    let near = others.near(edge.bounds().inflated(TOUCH_M)).map(|index| others.get(index));
+    let mut parts: Vec<(f64, f64)> = near.filter_map(|other| part_along(edge, other)).collect();
+    parts.sort_by(|p, q| p.0.total_cmp(&q.0));
+    let (mut share, mut counted_to) = (0.0, 0.0_f64);
+    for (from, to) in parts {
+        share += (to - from.max(counted_to)).max(0.0);
+        counted_to = counted_to.max(to);
+    }
+    share * edge.length()
+}
+
+/// From where to where an edge runs within [`TOUCH_M`] of another, as fractions.
+fn part_along(edge: Segment, other: Segment) -> Option<(f64, f64)> {
+    let along = other.vector().unit()?;
+    let seen = |point: Point| Point::new((point - other.a).dot(along), (point - other.a).dot(along.left()));
+    Bounds::of([seen(other.a), seen(other.b)]).inflated(TOUCH_M).part_of(Segment::new(seen(edge.a), seen(edge.b)))
 }

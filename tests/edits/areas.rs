@@ -44,6 +44,21 @@ fn a_room_drawn_over_others_takes_what_is_free() {
 }
 
 #[test]
+fn what_is_left_out_beside_rooms_does_not_hang_on_where_they_lie() {
+    let room = [(3., 9.), (0., 9.), (0., 7.2), (2.4, 7.2), (2.4, 0.), (3., 0.)];
+    // Above the room it leaves a strip 0.15 m wide and 3 m long.
+    let outer = [(5., 9.15), (0., 9.15), (0., 1.2026743418441947), (5., 1.2026743418441947)];
+    for (by_x, by_y) in [(0., 0.), (0., 3.), (-41., 17.), (0.1, 0.2), (1000.3, -777.7)] {
+        let shifted =
+            |ring: &[(f64, f64)]| -> Vec<Point> { ring.iter().map(|&(x, y)| Point::new(x + by_x, y + by_y)).collect() };
+        let (plan, _) = draw_room(&Plan::default(), &shifted(&room), None).unwrap();
+        let (plan, id) = draw_room_in_free_space(&plan, &shifted(&outer), None, GAP_BETWEEN_ROOMS_M).unwrap();
+        let area_m2 = area_m2(&plan, plan.room(id).unwrap());
+        assert!((area_m2 - 15.8946).abs() < 1e-3, "{area_m2} m² at {by_x} {by_y}");
+    }
+}
+
+#[test]
 fn rooms_are_merged_across_what_lies_between_and_split_again() {
     let (plan, left) = draw_room(&Plan::default(), &rectangle(0., 0., 4., 3.), Some(0.1)).unwrap();
     let (plan, right) = draw_room(&plan, &rectangle(4., 0., 9., 3.), Some(0.1)).unwrap();
