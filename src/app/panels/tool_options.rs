@@ -13,10 +13,11 @@ fn switches(id: &str) -> &'static [(&'static str, &'static str)] {
     const GRID: (&str, &str) = ("snap-to-grid", "Grid");
     const ANGLES: (&str, &str) = ("right-angles", "Right angles");
     const WALLS: (&str, &str) = ("walls-with-rooms", "Walls around rooms");
+    const OVER: (&str, &str) = ("over-rooms", "Over rooms");
     match id {
         "walls" | "split" | "cut-out" => &[ANGLES, SNAPPING, GRID],
-        "room" => &[WALLS, ANGLES, SNAPPING, GRID],
-        "rectangle" => &[WALLS, SNAPPING, GRID],
+        "room" => &[WALLS, OVER, ANGLES, SNAPPING, GRID],
+        "rectangle" => &[WALLS, OVER, SNAPPING, GRID],
         "measure" => &[SNAPPING],
         _ => &[],
     }

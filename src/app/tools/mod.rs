@@ -28,6 +28,7 @@ pub(super) use preview::{Look, Preview, paint_snap, tag};
 pub(super) use select::{REACH_PX, hit};
 pub(super) use typing::Typed;
 
+use super::commands::points_word;
 use super::document::Derived;
 use super::{App, LayerSettings, Selection};
 use crate::geometry::{Bounds, Point, Segment, Vector};
@@ -73,6 +74,8 @@ pub(super) struct DrawOptions {
     pub thickness_m: f64,
     /// Whether walls are drawn along the boundaries of new rooms.
     pub walls_with_rooms: bool,
+    /// Whether new rooms take what other rooms cover too.
+    pub over_rooms: bool,
     /// Clear width of new openings in metres.
     pub opening_width_m: f64,
     /// Arcs are drawn as chords that stay this near to them, in metres.
@@ -88,11 +91,22 @@ pub(super) struct DrawOptions {
 /// A hand's breadth of a curtain wall's facets: 2 cm is what a drawing at 1:100 shows as the width of a line.
 const ARC_TOLERANCE_M: f64 = 0.02;
 
+impl DrawOptions {
+    /// The call that draws a room with these corners.
+    fn draw_room(&self, corners: &[Point]) -> Call {
+        let thickness_m = if self.walls_with_rooms { self.thickness_m } else { 0.0 };
+        // Along rooms that are there the boundary need not be drawn exactly: it may run through them.
+        let space = if self.over_rooms { "exact" } else { "free" };
+        ("draw-room", vec![points_word(corners), space.to_owned(), thickness_m.to_string()])
+    }
+}
+
 impl Default for DrawOptions {
     fn default() -> Self {
         Self {
             thickness_m: DEFAULT_WALL_THICKNESS_M,
             walls_with_rooms: true,
+            over_rooms: false,
             opening_width_m: DEFAULT_DOOR_WIDTH_M,
             arc_tolerance_m: ARC_TOLERANCE_M,
             right_angles: true,
@@ -507,7 +521,7 @@ impl App {
 
 /// A point as a command's word.
 pub(super) fn word(point: Point) -> String {
-    super::commands::points_word(&[point])
+    points_word(&[point])
 }
 
 #[cfg(test)]

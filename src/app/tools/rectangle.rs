@@ -1,8 +1,7 @@
-//! Draws a room as a rectangle: it takes what is free there.
+//! Draws a room as a rectangle: it takes what is free there, or what rooms cover too.
 
 use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, TakenBack, Tool, Typed, Typing};
-use crate::app::commands::points_word;
 use crate::geometry::{Point, Segment, Vector, polygon};
 
 pub(super) const ENTRY: Entry = Entry { id: "rectangle", make: || Box::new(Rectangle::Ready) };
@@ -38,8 +37,7 @@ impl Rectangle {
             return Vec::new();
         }
         *self = Self::Ready;
-        let thickness_m = if scope.options.walls_with_rooms { scope.options.thickness_m } else { 0.0 };
-        vec![("draw-room", vec![points_word(&corners), "free".to_owned(), thickness_m.to_string()])]
+        vec![scope.options.draw_room(&corners)]
     }
 }
 
@@ -71,11 +69,11 @@ impl Tool for Rectangle {
         Vec::new()
     }
 
-    fn hint(&self, _: &Scope<'_>) -> String {
+    fn hint(&self, scope: &Scope<'_>) -> String {
         match self {
             Self::Ready => {
-                "Rectangle: click a corner of the room, or drag from corner to corner · it takes what no room has"
-                    .to_owned()
+                let takes = if scope.options.over_rooms { "what rooms cover too" } else { "what no room has" };
+                format!("Rectangle: click a corner of the room, or drag from corner to corner · it takes {takes}")
             }
             Self::Sized { .. } => "Click the opposite corner, or type both sides (4x3) · Esc drops it".to_owned(),
         }

@@ -1,11 +1,10 @@
-//! Draws a room by its corners: it takes what is free there.
+//! Draws a room by its corners: it takes what is free there, or what rooms cover too.
 
 use egui::Key;
 
 use super::path::Path;
 use super::preview::{Look, Preview};
 use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
-use crate::app::commands::points_word;
 use crate::geometry::{Point, Vector, polygon};
 
 pub(super) const ENTRY: Entry = Entry { id: "room", make: || Box::new(Room::default()) };
@@ -34,9 +33,7 @@ impl Room {
         if points.len() < 3 {
             return Vec::new();
         }
-        let thickness_m = if scope.options.walls_with_rooms { scope.options.thickness_m } else { 0.0 };
-        // Along rooms that are there the boundary need not be drawn exactly: it may run through them.
-        vec![("draw-room", vec![points_word(&points), "free".to_owned(), thickness_m.to_string()])]
+        vec![scope.options.draw_room(&points)]
     }
 }
 
@@ -100,12 +97,13 @@ impl Tool for Room {
         }
     }
 
-    fn hint(&self, _: &Scope<'_>) -> String {
+    fn hint(&self, scope: &Scope<'_>) -> String {
         if self.path.is_bending() {
             return "Arc: click a point that it passes through, then its end · A goes back to straight lines"
                 .to_owned();
         }
         match self.path.points.len() {
+            0 if scope.options.over_rooms => "Room: click its first corner · it takes what rooms cover too".to_owned(),
             0 => "Room: click its first corner · it takes what no room has: lines may run through rooms".to_owned(),
             1 | 2 => "Click the next corner, or type a length (3.2) · Shift frees the angle · Ctrl+Z takes a corner back".to_owned(),
             _ => "Click the next corner · click the first one or press Enter to close; the last corner follows from right angles".to_owned(),

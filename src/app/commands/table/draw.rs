@@ -228,6 +228,16 @@ pub(super) const COMMANDS: &[Command] = &[
         |app, is_on| app.draw_options.walls_with_rooms = is_on,
     )
     .menu(Menu::Draw, 4),
+    switch(
+        "over-rooms",
+        "Over rooms",
+        "Let new rooms take what rooms cover too, as a niche or a corridor that lies within another room",
+        always,
+        |app| app.draw_options.over_rooms,
+        |app, is_on| app.draw_options.over_rooms = is_on,
+    )
+    .keys(&[key(Key::F7)])
+    .menu(Menu::Draw, 4),
     with(
         "wall-thickness",
         "Wall thickness…",
