@@ -14,6 +14,10 @@ const MOST_OFF: f64 = 0.042;
 /// More rooms are not drawn before the others.
 const MOST_FIRST: usize = 14;
 
+/// By which share of its area a room may be off for the sake of fewer corners; tried in this order.
+const MORE_CORNERS: [f64; 3] = [0.03, 0.015, 0.0];
+const FEW_CORNERS: [f64; 4] = [0.04, 0.03, 0.015, 0.0];
+
 /// Of a traced room at least this share lies where the room is in truth.
 const LEAST_RIGHT: f64 = 0.85;
 
@@ -76,17 +80,34 @@ struct Group {
     off: f64,
 }
 
+/// What came of an order of work.
+struct Way {
+    person: Person,
+    /// Doors that found no place.
+    doors: Vec<usize>,
+    traced: Vec<Option<RoomId>>,
+}
+
+impl Way {
+    /// What is left, and what it took.
+    fn rank(&self) -> (usize, usize) {
+        let left = self.traced.iter().filter(|room| room.is_none()).count();
+        (left + self.doors.len(), self.person.count.all())
+    }
+}
+
 pub struct Planner<'a> {
     truth: &'a Truth,
     grid: &'a Grid,
     /// The traced room of each room of the truth.
     pub traced: Vec<Option<RoomId>>,
+    slacks: &'static [f64],
     pub talk: bool,
 }
 
 impl<'a> Planner<'a> {
     pub fn new(truth: &'a Truth, grid: &'a Grid) -> Self {
-        Self { truth, grid, traced: vec![None; truth.rooms.len()], talk: false }
+        Self { truth, grid, traced: vec![None; truth.rooms.len()], slacks: &MORE_CORNERS, talk: false }
     }
 
     fn say(&self, what: impl FnOnce() -> String) {
@@ -97,11 +118,11 @@ impl<'a> Planner<'a> {
 
     /// Traces the office; `closer` fills the screen with a part of it.
     pub fn trace(&mut self, person: Person, mut closer: impl FnMut(Bounds) -> View) -> Person {
-        let (mut person, mut doors) = self.from_afar(person);
+        let Way { mut person, mut doors, traced } = self.from_afar(&person);
+        self.traced = traced;
         // A person goes nearer for what is too small to be pointed at.
         let left = |planner: &Self, doors: &[usize]| {
-            let rooms = (0..planner.traced.len()).filter(|&room| planner.traced[room].is_none());
-            let rooms = rooms.map(|room| planner.truth.rooms[room].bounds);
+            let rooms = planner.left_rooms().map(|room| planner.truth.rooms[room].bounds);
             rooms.chain(doors.iter().map(|&door| Bounds::of([planner.truth.doors[door].at]))).collect::<Vec<_>>()
         };
         let mut seen: Vec<Bounds> = Vec::new();
@@ -114,30 +135,44 @@ impl<'a> Planner<'a> {
             self.say(|| format!("  nearer: {area:?}"));
             let mut near = person.clone();
             near.look(closer(area));
-            near = self.others(near);
+            near = self.others(near.drawing_over(false));
             (person, doors) = self.doors(near, &doors);
         }
     }
 
-    /// Traces what can be traced in one view; the doors that are left.
-    fn from_afar(&mut self, person: Person) -> (Person, Vec<usize>) {
-        // What others left too little of is drawn before them the next time.
-        let mut first: Vec<usize> = Vec::new();
-        loop {
-            self.traced.fill(None);
-            let drawn = self.by_corners_first(person.clone(), &first);
-            let drawn = self.rows(drawn);
-            let drawn = self.others(drawn);
-            let left: Vec<usize> = (0..self.traced.len()).filter(|&room| self.traced[room].is_none()).collect();
-            let is_new = left.iter().any(|room| !first.contains(room));
-            if !is_new || first.len() > MOST_FIRST {
-                return self.doors(drawn, &(0..self.truth.doors.len()).collect::<Vec<_>>());
+    /// Of several orders of work in one view, that which leaves least and costs least.
+    fn from_afar(&mut self, person: &Person) -> Way {
+        let mut ways: Vec<Way> = Vec::new();
+        for slacks in [&MORE_CORNERS[..], &FEW_CORNERS[..]] {
+            self.slacks = slacks;
+            // What others left too little of is drawn before them the next time.
+            let mut first: Vec<usize> = Vec::new();
+            loop {
+                self.traced.fill(None);
+                let drawn = self.by_corners_first(person.clone(), &first);
+                let drawn = self.rows(drawn);
+                let drawn = self.others(drawn);
+                let left: Vec<usize> = self.left_rooms().collect();
+                // What is left is drawn over others; what that left over, too.
+                let drawn = self.over_others(drawn);
+                let drawn = self.others(drawn);
+                let (person, doors) = self.doors(drawn, &(0..self.truth.doors.len()).collect::<Vec<_>>());
+                let way = Way { person, doors, traced: self.traced.clone() };
+                self.say(|| format!("  {:?}, first {first:?}", way.rank()));
+                ways.push(way);
+                if left.iter().all(|room| first.contains(room)) || first.len() > MOST_FIRST {
+                    break;
+                }
+                first.extend(left);
+                first.sort_unstable();
+                first.dedup();
             }
-            self.say(|| format!("  again, these first: {left:?}"));
-            first.extend(left);
-            first.sort_unstable();
-            first.dedup();
         }
+        ways.into_iter().min_by_key(Way::rank).expect("each number of corners is a way")
+    }
+
+    fn left_rooms(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.traced.len()).filter(|&room| self.traced[room].is_none())
     }
 
     /// Rooms drawn by their corners before any other.
@@ -417,20 +452,18 @@ impl<'a> Planner<'a> {
     fn others(&mut self, mut person: Person) -> Person {
         let mut is_freed = person.lines.iter().any(|line| line == "key F8");
         loop {
-            let left: Vec<usize> = (0..self.traced.len()).filter(|&room| self.traced[room].is_none()).collect();
+            let left: Vec<usize> = self.left_rooms().collect();
             if left.is_empty() {
                 return person;
             }
             let covered = self.covered(&person);
-            // By one key, once it is needed.
-            let beside = person.drawing_over(false);
             let mut found = left.iter().find_map(|&room| {
                 let (next, id) = self.by_one_click(&person, room, &covered)?;
                 Some((room, next, id))
             });
             found = found.or_else(|| {
                 left.iter().find_map(|&room| {
-                    let (next, id) = self.by_rectangle(&beside, room)?;
+                    let (next, id) = self.by_rectangle(&person, room)?;
                     Some((room, next, id))
                 })
             });
@@ -439,14 +472,7 @@ impl<'a> Planner<'a> {
             by_corners.sort_by_key(|&room| self.truth.rooms[room].outer.len());
             found = found.or_else(|| {
                 by_corners.iter().find_map(|&room| {
-                    let (next, id) = self.by_corners(&beside, room, &covered, is_freed)?;
-                    Some((room, next, id))
-                })
-            });
-            // What lies within another room is drawn over it.
-            found = found.or_else(|| {
-                left.iter().find_map(|&room| {
-                    let (next, id) = self.by_rectangle(&person.drawing_over(true), room)?;
+                    let (next, id) = self.by_corners(&person, room, &covered, is_freed)?;
                     Some((room, next, id))
                 })
             });
@@ -459,6 +485,17 @@ impl<'a> Planner<'a> {
             person = next;
             self.traced[room] = Some(id);
         }
+    }
+
+    /// What lies within another room and finds no place beside it is drawn over it.
+    fn over_others(&mut self, mut person: Person) -> Person {
+        for room in self.left_rooms().collect::<Vec<_>>() {
+            if let Some((next, id)) = self.by_rectangle(&person.drawing_over(true), room) {
+                person = next;
+                self.traced[room] = Some(id);
+            }
+        }
+        person
     }
 
     /// What is drawn, and gaps along it that belong to no room.
@@ -517,7 +554,7 @@ impl<'a> Planner<'a> {
             person.take_up(Tool::Room);
             person.key("F8");
         }
-        for slack in [0.04, 0.03, 0.015, 0.0] {
+        for &slack in self.slacks {
             let corners = apart(&self.few_corners(room, covered, slack));
             for alt in [false, true] {
                 let drawn = person.room(&corners, alt);
