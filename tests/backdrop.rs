@@ -16,6 +16,7 @@ mod real;
 mod render;
 #[path = "backdrop/scan.rs"]
 mod scan;
+mod support;
 #[cfg(feature = "gui")]
 #[path = "backdrop/window.rs"]
 mod window;

@@ -14,6 +14,7 @@ mod draft;
 mod golden;
 #[path = "check/real_plans.rs"]
 mod real_plans;
+mod support;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

@@ -18,3 +18,4 @@ mod plan_json;
 mod real;
 #[path = "formats/store.rs"]
 mod store;
+mod support;

@@ -5,42 +5,14 @@
 
 mod support;
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex};
 
 use enfilade::classify::Method;
-use enfilade::cli::{Terminal, run};
 use enfilade::labels::Schemes;
 use enfilade::plan::{LabelOrigin, Plan, edit};
 use enfilade::store::{bundled_model, bundled_plans, bundled_sets, bundled_typologies, load_plan, save_plan};
 
-#[derive(Clone, Default)]
-struct Buffer(Arc<Mutex<Vec<u8>>>);
-
-impl Write for Buffer {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.lock().unwrap().write(bytes)
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
-
-impl Buffer {
-    fn text(&self) -> String {
-        String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
-    }
-}
-
-/// Runs the program and gives its exit code, stdout and stderr.
-fn enfilade(arguments: &[&str]) -> (u8, String, String) {
-    let (out, err) = (Buffer::default(), Buffer::default());
-    let mut terminal = Terminal { out: Box::new(out.clone()), err: Box::new(err.clone()), is_interactive: false };
-    let code = run(std::iter::once(&"enfilade").chain(arguments).map(Into::into), &mut terminal);
-    (code, out.text(), err.text())
-}
+use support::enfilade;
 
 fn fixture(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/study").join(name)

@@ -1,37 +1,18 @@
 //! `enfilade render` shows the picture under the plan.
 
-use std::io::Write;
 use std::path::Path;
-use std::sync::{Arc, Mutex};
 
-use enfilade::cli::{self, Terminal};
 use enfilade::geometry::Point;
 use enfilade::plan::{Backdrop, Builder, Meta, Plan, Room};
 use enfilade::store::{pictures, save_plan};
 use image::{DynamicImage, ImageFormat};
 
 use super::scan::{encoded, put, quarters};
-
-#[derive(Clone, Default)]
-struct Sink(Arc<Mutex<Vec<u8>>>);
-
-impl Write for Sink {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.lock().unwrap().write(bytes)
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
+use super::support;
 
 /// Runs `enfilade render` and gives its exit code and what it said of trouble.
 fn render(arguments: &[&str]) -> (u8, String) {
-    let (out, err) = (Sink::default(), Sink::default());
-    let mut terminal = Terminal { out: Box::new(out), err: Box::new(err.clone()), is_interactive: false };
-    let call = ["enfilade", "render"].iter().chain(arguments).map(Into::into);
-    let code = cli::run(call, &mut terminal);
-    let said = String::from_utf8(err.0.lock().unwrap().clone()).unwrap();
+    let (code, _, said) = support::enfilade(["render"].iter().chain(arguments));
     (code, said)
 }
 

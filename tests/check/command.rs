@@ -1,38 +1,11 @@
 //! The subcommand: its words, its JSON, its exit codes.
 
-use std::io::Write;
-use std::sync::{Arc, Mutex};
-
-use enfilade::cli::{Terminal, run};
-
 use super::golden::assert_golden;
-
-#[derive(Clone, Default)]
-struct Buffer(Arc<Mutex<Vec<u8>>>);
-
-impl Write for Buffer {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.lock().unwrap().write(bytes)
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
-
-impl Buffer {
-    fn text(&self) -> String {
-        String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
-    }
-}
+use super::support;
 
 /// Runs `enfilade check` and gives its exit code, stdout and stderr.
 fn enfilade_check(arguments: &[&str]) -> (u8, String, String) {
-    let (out, err) = (Buffer::default(), Buffer::default());
-    let mut terminal = Terminal { out: Box::new(out.clone()), err: Box::new(err.clone()), is_interactive: false };
-    let arguments = ["enfilade", "check"].iter().chain(arguments).map(Into::into);
-    let code = run(arguments, &mut terminal);
-    (code, out.text(), err.text())
+    support::enfilade(["check"].iter().chain(arguments))
 }
 
 const FLAT: &str = "tests/check/flat.plan.json";

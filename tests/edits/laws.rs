@@ -4,14 +4,14 @@ use std::collections::BTreeSet;
 
 use enfilade::geometry::{Point, Segment, Transform, Vector};
 use enfilade::plan::edit::{self, Alignment, Array};
-use enfilade::plan::{CornerId, ElementId, History, LeafSide, OpeningId, OpeningKind, Plan, RoomId, Swing, WallId};
+use enfilade::plan::{CornerId, ElementId, LeafSide, OpeningId, OpeningKind, Plan, RoomId, Swing, WallId};
 use enfilade::topology::{
     bridge_gaps, cut_out, draw_room, draw_room_in_free_space, draw_walls, fill_all, fill_at, gaps, merge_rooms,
     offset_room, offset_walls, split_room,
 };
 use proptest::prelude::*;
 
-use crate::support::{areas, config, points, total_area};
+use crate::support::{Way, areas, config, invariants_hold_and_undo_is_exact_for, points, total_area};
 
 /// Coordinates as they come in drawing: whole metres that meet again and again, some of them missed
 /// by a little, and some anywhere.
@@ -270,37 +270,12 @@ proptest! {
 
     #[test]
     fn invariants_hold_after_every_edit_and_undo_is_exact(steps in proptest::collection::vec(step(), 1..30)) {
-        let mut history = History::new("New plan", Plan::default());
-        let mut expected = vec![Plan::default()];
-        let mut at = 0_usize;
-        for step in &steps {
-            match step {
-                Step::Undo => {
-                    prop_assert_eq!(history.undo().is_some(), at > 0);
-                    at = at.saturating_sub(1);
-                }
-                Step::Redo => {
-                    let possible = at + 1 < expected.len();
-                    prop_assert_eq!(history.redo().is_some(), possible);
-                    at += usize::from(possible);
-                }
-                edit => {
-                    if let Some(plan) = applied(history.plan(), edit) {
-                        if plan != *history.plan() {
-                            expected.truncate(at + 1);
-                            expected.push(plan.clone());
-                            at += 1;
-                        }
-                        history.push(format!("{edit:?}"), plan);
-                    }
-                }
-            }
-            prop_assert_eq!(history.plan(), &expected[at]);
-            let violations = history.plan().violations();
-            prop_assert!(violations.is_empty(), "{:?} after {:?}", violations, step);
-        }
-        while history.undo().is_some() {}
-        prop_assert_eq!(history.plan(), &Plan::default());
+        let way = |step: &Step| match step {
+            Step::Undo => Way::Back,
+            Step::Redo => Way::Forth,
+            _ => Way::On,
+        };
+        invariants_hold_and_undo_is_exact_for(&steps, way, applied)?;
     }
 
     #[test]

@@ -3,10 +3,12 @@
 use enfilade::geometry::Point;
 use enfilade::labels::Label;
 use enfilade::plan::{
-    CornerId, ElementId, History, Joint, LabelOrigin, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId,
-    RoomLabel, WallId, edit,
+    CornerId, ElementId, Joint, LabelOrigin, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, RoomLabel,
+    WallId, edit,
 };
 use proptest::prelude::*;
+
+use crate::support::{Way, invariants_hold_and_undo_is_exact_for};
 
 /// An edit with indices instead of ids: they pick among what the plan then has.
 #[derive(Clone, Debug)]
@@ -102,37 +104,12 @@ proptest! {
 
     #[test]
     fn invariants_hold_and_undo_is_exact(steps in proptest::collection::vec(step(), 1..60)) {
-        let mut history = History::new("New plan", Plan::default());
-        let mut expected = vec![Plan::default()];
-        let mut at = 0_usize;
-        for step in &steps {
-            match step {
-                Step::Undo => {
-                    prop_assert_eq!(history.undo().is_some(), at > 0);
-                    at = at.saturating_sub(1);
-                }
-                Step::Redo => {
-                    let possible = at + 1 < expected.len();
-                    prop_assert_eq!(history.redo().is_some(), possible);
-                    at += usize::from(possible);
-                }
-                edit => {
-                    if let Some(plan) = applied(history.plan(), edit) {
-                        if plan != *history.plan() {
-                            expected.truncate(at + 1);
-                            expected.push(plan.clone());
-                            at += 1;
-                        }
-                        history.push(format!("{edit:?}"), plan);
-                    }
-                }
-            }
-            prop_assert_eq!(history.plan(), &expected[at]);
-            let violations = history.plan().violations();
-            prop_assert!(violations.is_empty(), "{:?} after {:?}", violations, step);
-        }
-        while history.undo().is_some() {}
-        prop_assert_eq!(history.plan(), &Plan::default());
+        let way = |step: &Step| match step {
+            Step::Undo => Way::Back,
+            Step::Redo => Way::Forth,
+            _ => Way::On,
+        };
+        invariants_hold_and_undo_is_exact_for(&steps, way, applied)?;
     }
 }
 

@@ -1,8 +1,10 @@
 //! What the tests of edits share.
 
+use std::fmt::Debug;
+
 use enfilade::geometry::{Point, polygon};
-use enfilade::plan::{Plan, Room};
-use proptest::prelude::ProptestConfig;
+use enfilade::plan::{History, Plan, Room};
+use proptest::prelude::{ProptestConfig, TestCaseError, prop_assert, prop_assert_eq};
 
 pub fn points(coordinates: &[(f64, f64)]) -> Vec<Point> {
     coordinates.iter().map(|&(x, y)| Point::new(x, y)).collect()
@@ -34,4 +36,52 @@ pub fn config(cases: u32) -> ProptestConfig {
 /// The area of all rooms together.
 pub fn total_area(plan: &Plan) -> f64 {
     plan.rooms().map(|(_, room)| area_m2(plan, room)).sum()
+}
+
+/// Where a step goes in the history of a plan.
+pub enum Way {
+    Back,
+    Forth,
+    On,
+}
+
+/// Takes steps from an empty plan on: after each the plan is as expected and has no violation, and undoing
+/// all gives the empty plan. `applied` gives the plan after a step, `None` where it was refused.
+pub fn invariants_hold_and_undo_is_exact_for<S: Debug>(
+    steps: &[S],
+    way: impl Fn(&S) -> Way,
+    applied: impl Fn(&Plan, &S) -> Option<Plan>,
+) -> Result<(), TestCaseError> {
+    let mut history = History::new("New plan", Plan::default());
+    let mut expected = vec![Plan::default()];
+    let mut at = 0_usize;
+    for step in steps {
+        match way(step) {
+            Way::Back => {
+                prop_assert_eq!(history.undo().is_some(), at > 0);
+                at = at.saturating_sub(1);
+            }
+            Way::Forth => {
+                let possible = at + 1 < expected.len();
+                prop_assert_eq!(history.redo().is_some(), possible);
+                at += usize::from(possible);
+            }
+            Way::On => {
+                if let Some(plan) = applied(history.plan(), step) {
+                    if plan != *history.plan() {
+                        expected.truncate(at + 1);
+                        expected.push(plan.clone());
+                        at += 1;
+                    }
+                    history.push(format!("{step:?}"), plan);
+                }
+            }
+        }
+        prop_assert_eq!(history.plan(), &expected[at]);
+        let violations = history.plan().violations();
+        prop_assert!(violations.is_empty(), "{:?} after {:?}", violations, step);
+    }
+    while history.undo().is_some() {}
+    prop_assert_eq!(history.plan(), &Plan::default());
+    Ok(())
 }

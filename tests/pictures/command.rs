@@ -1,39 +1,12 @@
 //! `enfilade render`.
 
-use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex};
 
-use enfilade::cli::{self, Terminal};
-
-use super::support::Picture;
-
-#[derive(Clone, Default)]
-struct Sink(Arc<Mutex<Vec<u8>>>);
-
-impl Write for Sink {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.lock().unwrap().write(bytes)
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
-
-impl Sink {
-    fn text(&self) -> String {
-        String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
-    }
-}
+use super::support::{self, Picture};
 
 /// Runs `enfilade render` and gives its exit code, stdout and stderr.
 fn render(arguments: &[&Path]) -> (u8, String, String) {
-    let (out, err) = (Sink::default(), Sink::default());
-    let mut terminal = Terminal { out: Box::new(out.clone()), err: Box::new(err.clone()), is_interactive: false };
-    let call = [Path::new("enfilade"), Path::new("render")];
-    let code = cli::run(call.iter().chain(arguments).map(|word| word.as_os_str().to_owned()), &mut terminal);
-    (code, out.text(), err.text())
+    support::enfilade([Path::new("render")].iter().chain(arguments))
 }
 
 fn plan(name: &str) -> PathBuf {

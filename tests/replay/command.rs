@@ -1,37 +1,15 @@
 //! `enfilade replay` as it is called.
 
-use std::ffi::OsString;
-use std::io::Write;
 use std::path::Path;
-use std::sync::{Arc, Mutex};
 
-use enfilade::cli::{self, Terminal};
 use libtest_mimic::Trial;
 use serde_json::Value;
 
-use crate::tests;
-
-#[derive(Clone, Default)]
-struct Sink(Arc<Mutex<Vec<u8>>>);
-
-impl Write for Sink {
-    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
-        self.0.lock().unwrap().write(bytes)
-    }
-
-    fn flush(&mut self) -> std::io::Result<()> {
-        Ok(())
-    }
-}
+use crate::{support, tests};
 
 /// Calls `enfilade replay` and gives its exit code, stdout and stderr.
 pub fn replay(arguments: &[&str]) -> (u8, String, String) {
-    let (out, err) = (Sink::default(), Sink::default());
-    let mut terminal = Terminal { out: Box::new(out.clone()), err: Box::new(err.clone()), is_interactive: false };
-    let call = ["enfilade", "replay"].iter().chain(arguments).map(OsString::from);
-    let code = cli::run(call, &mut terminal);
-    let text = |sink: &Sink| String::from_utf8(sink.0.lock().unwrap().clone()).unwrap();
-    (code, text(&out), text(&err))
+    support::enfilade(["replay"].iter().chain(arguments))
 }
 
 pub fn trials() -> Vec<Trial> {

@@ -1,4 +1,5 @@
-//! Comparing with references beside the tests: pictures pixel for pixel, texts byte for byte.
+//! What tests share: calling the program in memory, and comparing with references beside the tests,
+//! pictures pixel for pixel, texts byte for byte.
 //!
 //! On a difference the actual thing is written beside the reference (`….out.png`, `….diff.png`,
 //! `….out.svg`); once it agrees again they are removed. `UPDATE_GOLDEN=1 cargo test` makes what comes
@@ -6,8 +7,41 @@
 #![allow(dead_code, reason = "each test binary uses a part")]
 #![allow(clippy::disallowed_methods, reason = "a test's output is no user's file")]
 
-use std::io::Cursor;
+use std::ffi::OsString;
+use std::io::{Cursor, Write};
 use std::path::Path;
+use std::sync::{Arc, Mutex};
+
+use enfilade::cli::{self, Terminal};
+
+/// What was written, kept in memory.
+#[derive(Clone, Default)]
+struct Sink(Arc<Mutex<Vec<u8>>>);
+
+impl Write for Sink {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        self.0.lock().unwrap().write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+impl Sink {
+    fn text(&self) -> String {
+        String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
+    }
+}
+
+/// Calls the program as with these words behind its name, and gives its exit code, stdout and stderr.
+pub fn enfilade(words: impl IntoIterator<Item = impl Into<OsString>>) -> (u8, String, String) {
+    let (out, err) = (Sink::default(), Sink::default());
+    let mut terminal = Terminal { out: Box::new(out.clone()), err: Box::new(err.clone()), is_interactive: false };
+    let words = std::iter::once(OsString::from("enfilade")).chain(words.into_iter().map(Into::into));
+    let code = cli::run(words, &mut terminal);
+    (code, out.text(), err.text())
+}
 
 /// A picture as 8-bit RGBA.
 pub struct Picture {
