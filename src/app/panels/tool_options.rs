@@ -38,8 +38,10 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let area = Area::new(Id::unique("tool options")).order(Order::Middle).constrain_to(canvas.shrink(4.0));
     area.fixed_pos(canvas.min + vec2(SPACE, SPACE)).show(ui.ctx(), |ui| {
         frame.show(ui, |ui| {
-            ui.horizontal(|ui| {
-                ui.spacing_mut().item_spacing.x = 8.0;
+            // A narrow canvas takes two lines or more.
+            ui.set_max_width(canvas.width() - 2.0 * SPACE - frame.total_margin().sum().x);
+            ui.horizontal_wrapped(|ui| {
+                ui.spacing_mut().item_spacing = vec2(8.0, 4.0);
                 let command = commands::find(&format!("tool-{id}")).or(commands::find(id));
                 let title = command.map_or("", |command| command.title);
                 ui.label(crate::app::widgets::strong(title, theme::BODY));
