@@ -428,17 +428,15 @@ impl Canvas {
         if let Some(derived) = fresh {
             dimensions::paint(&painter, rect, &view, app, derived, || self.painter.text_boxes(rect, &view));
         }
-        if let Some(scope) = scope {
-            let tool = toolbox.tool();
-            let mut preview = Preview::default();
-            preview_question(app, document.plan(), &mut preview);
-            tool.preview(&scope, &mut preview);
-            preview.paint(&painter, rect, &view, palette);
-            if tool.snaps() && self.pointer.is_some() {
-                tools::paint_snap(&painter, rect, &view, palette, &scope.snap);
-            }
-            paint_typed(&painter, rect, &view, palette, &scope, &toolbox.typed);
+        let tool = toolbox.tool();
+        let mut preview = Preview::default();
+        preview_question(app, document.plan(), &mut preview);
+        tool.preview(&scope, &mut preview);
+        preview.paint(&painter, rect, &view, palette);
+        if tool.snaps() && self.pointer.is_some() {
+            tools::paint_snap(&painter, rect, &view, palette, &scope.snap);
         }
+        paint_typed(&painter, rect, &view, palette, &scope, &toolbox.typed);
         let is_blank = document.plan().is_empty() && document.plan().backdrop().is_none() && app.ghost_plan().is_none();
         if is_blank && toolbox.is_selecting() {
             paint_beginning(&painter, rect, palette, app, ui.ctx());
@@ -484,14 +482,13 @@ impl Canvas {
         toolbox: &mut Toolbox,
         view: &View,
         act: &mut Option<Act>,
-    ) -> Option<Scope<'a>> {
+    ) -> Scope<'a> {
         let pointer = self.pointer.unwrap_or(self.last_pointer);
         self.last_pointer = pointer;
         let modifiers = ui.input(|input| input.modifiers);
         let index = shown.map(|derived| &derived.index);
-        let is_over_picture = app.layers.backdrop && document.plan().backdrop().is_some();
         // A picture's walls do not stand on the grid.
-        let grid_m = (!is_over_picture && app.layers.grid).then(|| {
+        let grid_m = (!is_over_picture(app, document.plan()) && app.layers.grid).then(|| {
             app.settings.grid_m().unwrap_or(match app.units() {
                 Units::Metric => 1.0,
                 Units::Imperial => METRES_PER_FOOT,
@@ -507,6 +504,7 @@ impl Canvas {
             points: &points,
             options: &app.draw_options,
             grid_m,
+            is_seen: self.pointer.is_some(),
         };
         let snap = toolbox.snap(&ground, pointer);
         let mut scope = Scope {
@@ -564,7 +562,7 @@ impl Canvas {
         if response.contains_pointer() && !self.is_panning && !is_space_held(ui) {
             ui.ctx().set_cursor_icon(toolbox.tool().cursor(&scope));
         }
-        Some(scope)
+        scope
     }
 
     /// With the keyboard on the canvas: Tab goes from room to room, arrows to the next room that way.
@@ -827,10 +825,15 @@ impl Mark {
     }
 }
 
+/// Whether a picture is shown under the plan.
+fn is_over_picture(app: &App, plan: &Plan) -> bool {
+    app.layers.backdrop && plan.backdrop().is_some()
+}
+
 /// How the plan is drawn now.
 fn style(app: &App, plan: &Plan, is_dark: bool) -> Style {
     let layers = app.layers;
-    let is_over_picture = layers.backdrop && plan.backdrop().is_some();
+    let is_over_picture = is_over_picture(app, plan);
     Style {
         theme: if is_dark { draw::Theme::Dark } else { draw::Theme::Light },
         fill: layers.fill,

@@ -644,16 +644,29 @@ impl App {
         }
     }
 
-    /// The picked room with what is said of it.
-    fn prediction_of_picked(&self) -> Option<(RoomId, Label)> {
-        let (id, _) = self.picked_room()?;
-        Some((id, self.predictions()?.label(id)?))
+    /// The selected rooms that are predicted, with what is said of them.
+    fn predictions_of_selected(&self) -> Vec<(RoomId, Label)> {
+        let Some(predictions) = self.predictions() else { return Vec::new() };
+        self.selection.rooms().filter_map(|id| Some((id, predictions.label(id)?))).collect()
     }
 
+    /// Labels the selected rooms as predicted, in one step.
     fn accept_prediction(&mut self) {
-        let Some((id, label)) = self.prediction_of_picked() else { return };
-        let given = RoomLabel { label, origin: LabelOrigin::AcceptedPrediction };
-        self.edit(&format!("Accept {label}"), |plan| edit::set_label(plan, id, Some(given)));
+        let said = self.predictions_of_selected();
+        match said.as_slice() {
+            [] => {}
+            [(_, label)] => self.accept(&format!("Accept {label}"), &said),
+            several => self.accept(&format!("Accept {} predictions", several.len()), &said),
+        }
+    }
+
+    fn accept(&mut self, title: &str, said: &[(RoomId, Label)]) {
+        self.edit(title, |plan| {
+            said.iter().try_fold(plan.clone(), |plan, &(id, label)| {
+                let given = RoomLabel { label, origin: LabelOrigin::AcceptedPrediction };
+                edit::set_label(&plan, id, Some(given))
+            })
+        });
     }
 
     /// Labels all rooms that have no label as predicted.
@@ -663,12 +676,7 @@ impl App {
         let said: Vec<(RoomId, Label)> =
             unlabelled.filter_map(|room| Some((room.id, predictions.label(room.id)?))).collect();
         let title = format!("Accept {} predictions", said.len());
-        self.edit(&title, |plan| {
-            said.iter().try_fold(plan.clone(), |plan, &(id, label)| {
-                let given = RoomLabel { label, origin: LabelOrigin::AcceptedPrediction };
-                edit::set_label(&plan, id, Some(given))
-            })
-        });
+        self.accept(&title, &said);
         self.status = title;
     }
 

@@ -2,7 +2,7 @@
 //! the width of a door.
 
 use super::preview::{Look, Preview};
-use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typed, Typing};
+use super::{Call, Entry, Input, Scope, TakenBack, Tool, Typed, Typing, picture_words};
 use crate::app::backdrop::millimetres;
 use crate::geometry::{Point, Segment};
 use crate::plan::{Backdrop, Calibration, Plan};
@@ -43,10 +43,7 @@ impl Calibrate {
     /// Between -> Ready
     fn measured(&mut self, line: Segment, length_m: f64) -> Vec<Call> {
         self.state = State::Ready;
-        // A hundredth of a millimetre of the plan is less than any pixel.
-        let number = |value: f64| ((value * 1e5).round() / 1e5).to_string();
-        let words = [line.a.x, line.a.y, line.b.x, line.b.y, length_m].map(number);
-        vec![("calibrate", words.to_vec())]
+        vec![("calibrate", picture_words([line.a.x, line.a.y, line.b.x, line.b.y, length_m]))]
     }
 
     /// From -> Between, or with a door -> Ready
@@ -142,10 +139,6 @@ impl Tool for Calibrate {
     // Places of the picture are meant, not of what is drawn.
     fn snaps(&self) -> bool {
         false
-    }
-
-    fn anchor(&self) -> Option<Anchor> {
-        None
     }
 
     fn typing(&self) -> Option<Typing> {

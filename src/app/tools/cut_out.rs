@@ -2,7 +2,7 @@
 
 use super::path::Path;
 use super::preview::{Look, Preview};
-use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
+use super::{Anchor, Call, Entry, Input, Scope, Tool};
 use crate::app::commands::points_word;
 use crate::geometry::{Point, polygon};
 
@@ -26,7 +26,7 @@ impl CutOut {
 
     /// Drawing -> Ready
     fn close(&mut self) -> Vec<Call> {
-        let points = rectangle_of_two(std::mem::take(&mut self.path.points));
+        let points = rectangle_of_two(std::mem::take(&mut self.path).points);
         if points.len() < 3 { Vec::new() } else { vec![("cut-out", vec![points_word(&points)])] }
     }
 }
@@ -87,8 +87,12 @@ impl Tool for CutOut {
         self.path.preview_corners(preview);
     }
 
-    fn is_busy(&self) -> bool {
-        !self.path.is_empty()
+    fn path(&self) -> Option<&Path> {
+        Some(&self.path)
+    }
+
+    fn path_mut(&mut self) -> Option<&mut Path> {
+        Some(&mut self.path)
     }
 
     fn anchor(&self) -> Option<Anchor> {
@@ -98,13 +102,5 @@ impl Tool for CutOut {
 
     fn points(&self) -> Vec<Point> {
         self.path.points.clone()
-    }
-
-    fn typing(&self) -> Option<Typing> {
-        self.is_busy().then_some(Typing::Length)
-    }
-
-    fn take_back(&mut self) -> TakenBack {
-        if self.path.take_back().0 { TakenBack::Corner } else { TakenBack::Nothing }
     }
 }

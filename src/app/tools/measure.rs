@@ -2,7 +2,7 @@
 
 use super::path::Path;
 use super::preview::{Look, Preview, degrees};
-use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool};
+use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
 use crate::geometry::{Point, Segment, polygon};
 
 pub(super) const ENTRY: Entry = Entry { id: "measure", make: || Box::new(Measure::default()) };
@@ -39,7 +39,9 @@ impl Tool for Measure {
             }
             Input::Click if self.path.is_last(scope.at()) => self.is_done = true,
             // Measuring -> Measuring
-            Input::Click => self.path.points.push(scope.at()),
+            Input::Click => {
+                self.path.go_to(scope.at(), scope);
+            }
             Input::Enter | Input::DoubleClick | Input::SecondaryClick => self.is_done = !self.path.is_empty(),
             Input::Escape => *self = Self::default(),
             Input::DragStart { at, .. } => *self = Self { path: Path::from(at), is_done: false },
@@ -99,8 +101,12 @@ impl Tool for Measure {
         preview.dashed(points, false, Look::Guide);
     }
 
-    fn is_busy(&self) -> bool {
-        !self.path.is_empty()
+    fn path(&self) -> Option<&Path> {
+        Some(&self.path)
+    }
+
+    fn path_mut(&mut self) -> Option<&mut Path> {
+        Some(&mut self.path)
     }
 
     fn anchor(&self) -> Option<Anchor> {
@@ -110,6 +116,11 @@ impl Tool for Measure {
 
     fn points(&self) -> Vec<Point> {
         self.path.points.clone()
+    }
+
+    // Nothing is drawn: no length is typed.
+    fn typing(&self) -> Option<Typing> {
+        None
     }
 
     fn take_back(&mut self) -> TakenBack {

@@ -24,16 +24,18 @@ use std::sync::Arc;
 
 use egui::{Context, CursorIcon, Event, Key, Modifiers};
 
+use path::Path;
 pub(super) use preview::{Look, Preview, paint_snap, tag};
 pub(super) use select::{REACH_PX, hit};
 pub(super) use typing::Typed;
 
+use super::canvas::canvas_id;
 use super::commands::points_word;
 use super::document::Derived;
 use super::{App, LayerSettings, Selection};
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::plan::{DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, Plan};
-use crate::snapping::{self, PlanIndex, Query, Snap, SnapKind};
+use crate::snapping::{self, PlanIndex, Query, Snap};
 use crate::units::Units;
 
 /// A tool as the table has it.
@@ -219,9 +221,18 @@ pub(super) trait Tool {
         CursorIcon::Crosshair
     }
 
+    /// The corners in the making, where it draws one after the other: what follows is then as they say.
+    fn path(&self) -> Option<&Path> {
+        None
+    }
+
+    fn path_mut(&mut self) -> Option<&mut Path> {
+        None
+    }
+
     /// Whether something is begun that Escape drops.
     fn is_busy(&self) -> bool {
-        false
+        self.path().is_some_and(|path| !path.is_empty())
     }
 
     /// Whether places snap.
@@ -230,7 +241,7 @@ pub(super) trait Tool {
     }
 
     fn anchor(&self) -> Option<Anchor> {
-        None
+        self.path()?.anchor()
     }
 
     /// Points in the making that attract like corners.
@@ -240,7 +251,7 @@ pub(super) trait Tool {
 
     /// What can be typed now.
     fn typing(&self) -> Option<Typing> {
-        None
+        self.path().filter(|path| !path.is_empty()).map(|_| Typing::Length)
     }
 
     /// Letters that it takes while it is busy.
@@ -252,7 +263,8 @@ pub(super) trait Tool {
     fn was_refused(&mut self) {}
 
     fn take_back(&mut self) -> TakenBack {
-        TakenBack::Nothing
+        let was_there = self.path_mut().is_some_and(|path| path.take_back().0);
+        if was_there { TakenBack::Corner } else { TakenBack::Nothing }
     }
 }
 
@@ -270,6 +282,8 @@ pub(super) struct Ground<'a> {
     pub options: &'a DrawOptions,
     /// Spacing of the grid that is shown, in metres; `None` where it does not attract.
     pub grid_m: Option<f64>,
+    /// Whether the pointer is on the canvas.
+    pub is_seen: bool,
 }
 
 /// The tool in the hand.
@@ -283,8 +297,8 @@ pub(super) struct Toolbox {
     /// How often Tab was pressed here, for the next thing to snap to.
     cycled: usize,
     cycled_at: Option<Point>,
-    /// The last snap: what the next press starts from.
-    pub snap: Option<Snap>,
+    /// Whether something attracts the pointer now: Tab goes on to the next.
+    attracts: bool,
     /// What the tool said last.
     pub hint: String,
 }
@@ -299,7 +313,7 @@ impl Default for Toolbox {
             pending: Vec::new(),
             cycled: 0,
             cycled_at: None,
-            snap: None,
+            attracts: false,
             hint: String::new(),
         }
     }
@@ -330,7 +344,7 @@ impl Toolbox {
         self.typed.clear();
         self.pending.clear();
         self.cycled = 0;
-        self.snap = None;
+        self.attracts = false;
         self.hint.clear();
     }
 
@@ -366,10 +380,13 @@ impl Toolbox {
         let typing = self.tool.typing();
         let is_busy = self.tool.is_busy();
         let letters = if is_busy { self.tool.keys() } else { &[] };
+        let cycled_before = self.cycled;
         let (typed, pending, cycled) = (&mut self.typed, &mut self.pending, &mut self.cycled);
-        // Tab is for the next thing to snap to only where something is drawn.
+        // Tab is for the next thing to snap to only where something attracts a drawing tool, and the keyboard
+        // is not in a panel.
+        let has_keyboard = context.memory(|memory| memory.focused().is_none_or(|id| id == canvas_id()));
+        let takes_tab = self.entry.id != TOOLS[0].id && self.attracts && has_keyboard;
         let mut clipboard = Vec::new();
-        let takes_tab = self.entry.id != TOOLS[0].id && self.snap.is_some();
         context.input_mut(|input| {
             input.events.retain(|event| match event {
                 Event::Copy | Event::Cut | Event::Paste(_) => {
@@ -424,6 +441,10 @@ impl Toolbox {
                 _ => true,
             });
         });
+        if self.cycled != cycled_before {
+            // The keyboard stays where it is.
+            context.memory_mut(|memory| memory.move_focus(egui::FocusDirection::None));
+        }
         clipboard
     }
 
@@ -434,7 +455,7 @@ impl Toolbox {
 
     /// What a place snaps to now.
     pub(super) fn snap(&mut self, ground: &Ground<'_>, pointer: Point) -> Snap {
-        let &Ground { index, seen, px_per_m, modifiers, lines, points, options, grid_m } = ground;
+        let &Ground { index, seen, px_per_m, modifiers, lines, points, options, grid_m, is_seen } = ground;
         let empty = PlanIndex::default();
         let anchor = self.tool.anchor();
         if self.cycled_at.is_none_or(|at| at.distance(pointer) * px_per_m > SAME_PLACE_PX) {
@@ -463,9 +484,9 @@ impl Toolbox {
             lines,
         };
         let mut found = snapping::candidates(index.unwrap_or(&empty), &query);
-        let chosen = self.cycled % found.len().max(1);
-        let fallback = Snap { point: pointer, kind: SnapKind::Free, corner: None, guides: Vec::new() };
-        if found.is_empty() { fallback } else { found.swap_remove(chosen) }
+        // The last one is the place itself.
+        self.attracts = is_seen && self.tool.snaps() && found.len() > 1;
+        found.swap_remove(self.cycled % found.len())
     }
 }
 
@@ -522,6 +543,12 @@ impl App {
 /// A point as a command's word.
 pub(super) fn word(point: Point) -> String {
     points_word(&[point])
+}
+
+/// Places and lengths of a picture as a command's words: a hundredth of a millimetre of the plan is less
+/// than any pixel.
+fn picture_words<const N: usize>(values: [f64; N]) -> Vec<String> {
+    values.map(|value| ((value * 1e5).round() / 1e5).to_string()).to_vec()
 }
 
 #[cfg(test)]

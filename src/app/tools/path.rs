@@ -7,7 +7,7 @@ use crate::geometry::{Point, Segment, Vector};
 
 /// Corners clicked so far.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Path {
+pub(in crate::app) struct Path {
     pub points: Vec<Point>,
     /// What was there before each click.
     before: Vec<Before>,
@@ -34,6 +34,10 @@ enum Bend {
     /// The arc's end.
     To { through: Point },
 }
+
+/// What can be done while an arc is begun.
+pub(super) const ARC_HINT: &str =
+    "Arc: click a point that it passes through, then its end · A goes back to straight lines";
 
 /// Two points closer than this are one: the grid that plans are kept on.
 const SAME_M: f64 = 1e-4;

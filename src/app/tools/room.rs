@@ -2,9 +2,9 @@
 
 use egui::Key;
 
-use super::path::Path;
+use super::path::{ARC_HINT, Path};
 use super::preview::{Look, Preview};
-use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
+use super::{Call, Entry, Input, Scope, Tool};
 use crate::geometry::{Point, Vector, polygon};
 
 pub(super) const ENTRY: Entry = Entry { id: "room", make: || Box::new(Room::default()) };
@@ -28,7 +28,7 @@ impl Room {
 
     /// Drawing -> Ready
     fn close(&mut self, scope: &Scope<'_>) -> Vec<Call> {
-        let mut points = std::mem::take(&mut self.path.points);
+        let mut points = std::mem::take(&mut self.path).points;
         points.extend(closing_corner(&points, scope));
         if points.len() < 3 {
             return Vec::new();
@@ -99,8 +99,7 @@ impl Tool for Room {
 
     fn hint(&self, scope: &Scope<'_>) -> String {
         if self.path.is_bending() {
-            return "Arc: click a point that it passes through, then its end · A goes back to straight lines"
-                .to_owned();
+            return ARC_HINT.to_owned();
         }
         match self.path.points.len() {
             0 if scope.options.over_rooms => "Room: click its first corner · it takes what rooms cover too".to_owned(),
@@ -134,27 +133,19 @@ impl Tool for Room {
         self.path.preview_next(scope, preview);
     }
 
-    fn is_busy(&self) -> bool {
-        !self.path.is_empty()
+    fn path(&self) -> Option<&Path> {
+        Some(&self.path)
     }
 
-    fn anchor(&self) -> Option<Anchor> {
-        self.path.anchor()
+    fn path_mut(&mut self) -> Option<&mut Path> {
+        Some(&mut self.path)
     }
 
     fn points(&self) -> Vec<Point> {
         self.path.points.clone()
     }
 
-    fn typing(&self) -> Option<Typing> {
-        self.is_busy().then_some(Typing::Length)
-    }
-
     fn keys(&self) -> &'static [Key] {
         &[Key::A]
-    }
-
-    fn take_back(&mut self) -> TakenBack {
-        if self.path.take_back().0 { TakenBack::Corner } else { TakenBack::Nothing }
     }
 }

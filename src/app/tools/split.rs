@@ -2,7 +2,7 @@
 
 use super::path::Path;
 use super::preview::{Look, Preview};
-use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
+use super::{Call, Entry, Input, Scope, Tool};
 use crate::app::commands::points_word;
 use crate::geometry::Point;
 use crate::topology::{Across, straight_across};
@@ -111,19 +111,11 @@ impl Tool for Split {
         self.path.preview_next(scope, preview);
     }
 
-    fn is_busy(&self) -> bool {
-        !self.path.is_empty()
+    fn path(&self) -> Option<&Path> {
+        Some(&self.path)
     }
 
-    fn anchor(&self) -> Option<Anchor> {
-        self.path.anchor()
-    }
-
-    fn typing(&self) -> Option<Typing> {
-        self.is_busy().then_some(Typing::Length)
-    }
-
-    fn take_back(&mut self) -> TakenBack {
-        if self.path.take_back().0 { TakenBack::Corner } else { TakenBack::Nothing }
+    fn path_mut(&mut self) -> Option<&mut Path> {
+        Some(&mut self.path)
     }
 }

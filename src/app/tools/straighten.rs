@@ -1,7 +1,7 @@
 //! Turns the picture under the plan so that a line of it becomes level or upright.
 
 use super::preview::{Look, Preview};
-use super::{Call, Entry, Input, Scope, TakenBack, Tool};
+use super::{Call, Entry, Input, Scope, TakenBack, Tool, picture_words};
 use crate::geometry::{Point, Segment};
 use crate::plan::straightening_rad;
 
@@ -21,9 +21,7 @@ impl Straighten {
             return Vec::new();
         }
         self.from = None;
-        let number = |value: f64| ((value * 1e5).round() / 1e5).to_string();
-        let words = [from.x, from.y, scope.pointer.x, scope.pointer.y].map(number);
-        vec![("straighten", words.to_vec())]
+        vec![("straighten", picture_words([from.x, from.y, scope.pointer.x, scope.pointer.y]))]
     }
 }
 

@@ -2,9 +2,9 @@
 
 use egui::Key;
 
-use super::path::Path;
+use super::path::{ARC_HINT, Path};
 use super::preview::{Look, Preview};
-use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
+use super::{Call, Entry, Input, Scope, TakenBack, Tool};
 use crate::app::commands::points_word;
 use crate::geometry::{Point, Segment};
 
@@ -72,9 +72,7 @@ impl Tool for Walls {
     fn hint(&self, _: &Scope<'_>) -> String {
         match self {
             Self::Ready => "Walls: click where the chain begins".to_owned(),
-            Self::Drawing(path) if path.is_bending() => {
-                "Arc: click a point that it passes through, then its end · A goes back to straight lines".to_owned()
-            }
+            Self::Drawing(path) if path.is_bending() => ARC_HINT.to_owned(),
             Self::Drawing(_) => {
                 "Click the next corner, or type a length: 3.2, 3.2<45 · A: arc · Shift: any angle · Enter ends"
                     .to_owned()
@@ -92,26 +90,22 @@ impl Tool for Walls {
         }
     }
 
-    fn is_busy(&self) -> bool {
-        matches!(self, Self::Drawing(_))
-    }
-
-    fn anchor(&self) -> Option<Anchor> {
+    fn path(&self) -> Option<&Path> {
         match self {
             Self::Ready => None,
-            Self::Drawing(path) => path.anchor(),
+            Self::Drawing(path) => Some(path),
+        }
+    }
+
+    fn path_mut(&mut self) -> Option<&mut Path> {
+        match self {
+            Self::Ready => None,
+            Self::Drawing(path) => Some(path),
         }
     }
 
     fn points(&self) -> Vec<Point> {
-        match self {
-            Self::Ready => Vec::new(),
-            Self::Drawing(path) => path.points.clone(),
-        }
-    }
-
-    fn typing(&self) -> Option<Typing> {
-        self.is_busy().then_some(Typing::Length)
+        self.path().map(|path| path.points.clone()).unwrap_or_default()
     }
 
     fn keys(&self) -> &'static [Key] {
@@ -119,7 +113,7 @@ impl Tool for Walls {
     }
 
     fn was_refused(&mut self) {
-        if let Self::Drawing(path) = self {
+        if let Some(path) = self.path_mut() {
             path.was_refused();
         }
     }

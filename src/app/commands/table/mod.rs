@@ -229,8 +229,9 @@ fn has_own_label(app: &App) -> Availability {
 }
 
 fn has_prediction(app: &App) -> Availability {
-    has_room(app)?;
-    when(app.prediction_of_picked().is_some(), "the room is not one that is predicted")
+    has_plan(app)?;
+    when(app.selection.rooms().next().is_some(), "pick a room first")?;
+    when(!app.predictions_of_selected().is_empty(), "the room is not one that is predicted")
 }
 
 fn has_unlabelled(app: &App) -> Availability {

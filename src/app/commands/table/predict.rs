@@ -105,7 +105,7 @@ pub(super) const COMMANDS: &[Command] = &[
     command(
         "accept-prediction",
         "Accept the prediction",
-        "Make the predicted label the picked room's own",
+        "Make the predicted labels the selected rooms' own",
         has_prediction,
         |app, _| app.accept_prediction(),
     )
