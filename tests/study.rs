@@ -108,7 +108,7 @@ fn real_schools_and_offices() {
     let folder = folder();
     // Offices alone: the whole study takes minutes without optimisation.
     let office = format!("{REAL}/office");
-    let (code, out, _) = enfilade(&["evaluate", &office, "--folds", "5", "-o", text_of(folder.path())]);
+    let (code, out, _) = enfilade(["evaluate", &office, "--folds", "5", "-o", text_of(folder.path())]);
     assert_eq!(code, 0, "{out}");
     let json: serde_json::Value =
         serde_json::from_slice(&std::fs::read(folder.path().join("report.json")).unwrap()).unwrap();
@@ -133,7 +133,7 @@ fn every_bundled_model_reads_and_says_where_it_comes_from() {
         }
     }
     assert!(bundled_typologies().is_some());
-    let (code, out, err) = enfilade(&["models", "--json"]);
+    let (code, out, err) = enfilade(["models", "--json"]);
     let models: Vec<serde_json::Value> = serde_json::from_str(&out).unwrap();
     assert!(models.len() >= 20, "{out}");
     assert_eq!((code, err.as_str()), (0, ""));
@@ -144,11 +144,11 @@ fn every_bundled_model_reads_and_says_where_it_comes_from() {
 fn predictions_in_words() {
     let plan = format!("{PLANS}/office.plan.json");
     for method in Method::ALL {
-        let (code, out, err) = enfilade(&["classify", &plan, "--algorithm", method.name()]);
+        let (code, out, err) = enfilade(["classify", &plan, "--algorithm", method.name()]);
         assert_eq!((code, err.as_str()), (0, ""));
         support::assert_text(&fixture(&format!("office.{}.txt", method.name())), &out);
     }
-    let (code, out, err) = enfilade(&["classify", &plan, "--typology", "auto", "--hide-labels", "--json"]);
+    let (code, out, err) = enfilade(["classify", &plan, "--typology", "auto", "--hide-labels", "--json"]);
     assert_eq!((code, err.as_str()), (0, ""));
     support::assert_text(&fixture("office.auto.json"), &out);
 }
@@ -166,10 +166,10 @@ fn predictions_are_written_only_when_told_and_marked() {
     }
     save_plan(&path, &plan).unwrap();
     let before = std::fs::read(&path).unwrap();
-    assert_eq!(enfilade(&["classify", text_of(&path)]).0, 0);
+    assert_eq!(enfilade(["classify", text_of(&path)]).0, 0);
     assert_eq!(std::fs::read(&path).unwrap(), before, "written without being told");
     let copy = folder.path().join("copy.plan.json");
-    assert_eq!(enfilade(&["classify", text_of(&path), "--write", "-o", text_of(&copy)]).0, 0);
+    assert_eq!(enfilade(["classify", text_of(&path), "--write", "-o", text_of(&copy)]).0, 0);
     assert_eq!(std::fs::read(&path).unwrap(), before, "the source was written");
     let written = load_plan(&copy).unwrap();
     for (_, room) in written.rooms() {
@@ -179,7 +179,7 @@ fn predictions_are_written_only_when_told_and_marked() {
     assert!(network.rooms.iter().all(|room| room.label.is_none()), "a prediction was taken for the truth");
     // Again into itself: the same file.
     let once = std::fs::read(&copy).unwrap();
-    assert_eq!(enfilade(&["classify", text_of(&copy), "--write"]).0, 0);
+    assert_eq!(enfilade(["classify", text_of(&copy), "--write"]).0, 0);
     assert_eq!(std::fs::read(&copy).unwrap(), once);
 }
 
@@ -189,16 +189,16 @@ fn a_model_that_was_trained_is_used() {
     let model = folder.path().join("mine.model.json");
     for method in Method::ALL {
         let (code, out, err) =
-            enfilade(&["train", PLANS, "--algorithm", method.name(), "--typology", "office", "-o", text_of(&model)]);
+            enfilade(["train", PLANS, "--algorithm", method.name(), "--typology", "office", "-o", text_of(&model)]);
         assert_eq!(code, 0, "{out}{err}");
         let bytes = std::fs::read(&model).unwrap();
         assert_eq!(
-            enfilade(&["train", PLANS, "--algorithm", method.name(), "--typology", "office", "-o", text_of(&model)]).0,
+            enfilade(["train", PLANS, "--algorithm", method.name(), "--typology", "office", "-o", text_of(&model)]).0,
             0
         );
         assert!(std::fs::read(&model).unwrap() == bytes, "{method}: not the same bytes twice");
         let plan = format!("{PLANS}/office.plan.json");
-        let (code, out, err) = enfilade(&["classify", &plan, "--model", text_of(&model)]);
+        let (code, out, err) = enfilade(["classify", &plan, "--model", text_of(&model)]);
         assert_eq!((code, err.as_str()), (0, ""));
         assert!(out.starts_with("Office on a corner: typology office (the model's), model mine\n"), "{out}");
     }
@@ -240,7 +240,7 @@ fn refusals() {
     ];
     let mut text = String::new();
     for call in calls {
-        let (code, _, err) = enfilade(call);
+        let (code, _, err) = enfilade(call.iter().copied());
         let shown = call.join(" ").replace(text_of(folder.path()), "FOLDER").replace(PLANS, "plans");
         let err = err.replace(text_of(folder.path()), "FOLDER").replace(PLANS, "plans");
         text.push_str(&format!("$ enfilade {shown}\n{err}exit {code}\n\n"));
@@ -258,7 +258,7 @@ fn three_rooms_make_a_model() {
     let text = "label,a,rt,d,l_S,l_M,l_B,l_C,l_H\nS,4,1,1,0,0,0,0,0\nM,20,1,1,0,0,0,0,0\nC,9,4,5,0,0,0,0,0\n";
     enfilade::store::save_bytes(&table, text.as_bytes()).unwrap();
     let models = folder.path().join("models");
-    let (code, out, err) = enfilade(&["train", text_of(&table), "-o", text_of(&models)]);
+    let (code, out, err) = enfilade(["train", text_of(&table), "-o", text_of(&models)]);
     assert_eq!(code, 0, "{out}{err}");
     assert_eq!(std::fs::read_dir(models).unwrap().count(), 4, "{out}");
 }

@@ -510,6 +510,7 @@ impl Canvas {
         let mut scope = Scope {
             plan: document.plan(),
             derived: shown,
+            gaps: document.derived().map_or(&[], |derived| derived.gaps.as_slice()),
             selection: &app.selection,
             options: &app.draw_options,
             layers: &app.layers,

@@ -18,6 +18,7 @@ use crate::plan::{ElementId, History, Meta, OpeningId, Plan, RoomId, Scale, Scal
 use crate::predict::{Predictions, Predictor};
 use crate::snapping::PlanIndex;
 use crate::store::{self, Stamp};
+use crate::topology::{self, Gap};
 
 /// The plans that come with the program, each with its file's name, the one shown first in front.
 pub(super) fn bundled() -> &'static [(&'static str, Plan)] {
@@ -321,6 +322,8 @@ pub(super) struct Derived {
     reason: Mutex<Option<(RoomId, Option<String>)>>,
     /// Corners, walls and boundaries by place: to snap to, and to select.
     pub index: PlanIndex,
+    /// Doorways left open in walls.
+    pub gaps: Vec<Gap>,
     openings: RTree<OpeningPlace>,
     reading_order: Vec<RoomId>,
     /// How many rooms have each function, as [`normalised_function`] writes it.
@@ -402,8 +405,9 @@ impl Derived {
         for (_, room) in plan.rooms() {
             *functions.entry(normalised_function(&room.function)).or_default() += 1;
         }
+        let gaps = topology::gaps(plan);
         let reason = Mutex::default();
-        Self { analysis, drawing, predictions, predictor, reason, index, openings, reading_order, functions }
+        Self { analysis, drawing, predictions, predictor, reason, index, gaps, openings, reading_order, functions }
     }
 
     /// The rooms with a boundary as one reads: from the top left, line by line.

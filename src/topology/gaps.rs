@@ -1,6 +1,6 @@
 //! Doorways left open in walls.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 
 use rstar::RTree;
@@ -53,7 +53,7 @@ pub fn gaps(plan: &Plan) -> Vec<Gap> {
         }
     }
     pairs.sort_by(|p, q| p.0.total_cmp(&q.0).then((p.1, p.2).cmp(&(q.1, q.2))));
-    let obstacles = Obstacles::new(plan);
+    let obstacles = Obstacles::near(plan, pairs.iter().map(|&(_, i, j)| Segment::new(ends[i].at, ends[j].at)));
     let mut taken: BTreeSet<usize> = BTreeSet::new();
     let mut found: Vec<Gap> = Vec::new();
     for (width_m, i, j) in pairs {
@@ -125,15 +125,13 @@ struct FreeEnd {
 
 /// The free ends of walls, by corner.
 fn free_ends(plan: &Plan) -> Vec<FreeEnd> {
-    let mut walls_at: BTreeMap<CornerId, (usize, WallId)> = BTreeMap::new();
-    for (id, wall) in plan.walls() {
-        for corner in [wall.from, wall.to] {
-            walls_at.entry(corner).or_insert((0, id)).0 += 1;
-        }
-    }
-    let single = walls_at.into_iter().filter(|(_, (count, _))| *count == 1);
+    // Sorted, for a map of all ends of a large plan takes longer.
+    let mut walls_at: Vec<(CornerId, WallId)> =
+        plan.walls().flat_map(|(id, wall)| [(wall.from, id), (wall.to, id)]).collect();
+    walls_at.sort_unstable();
+    let single = walls_at.chunk_by(|p, q| p.0 == q.0).filter_map(|at| if let [only] = at { Some(*only) } else { None });
     single
-        .filter_map(|(corner, (_, id))| {
+        .filter_map(|(corner, id)| {
             let wall = plan.wall(id)?;
             let (at, other) =
                 (plan.position(corner)?, plan.position(if wall.from == corner { wall.to } else { wall.from })?);
@@ -161,7 +159,7 @@ fn fits(p: &FreeEnd, q: &FreeEnd) -> bool {
         && aside_m < p.thickness_m.max(q.thickness_m)
 }
 
-/// The walls and openings of a plan by place.
+/// The walls and openings of a plan near gaps, by place.
 struct Obstacles {
     walls: Vec<WallId>,
     wall_index: SegmentIndex,
@@ -169,11 +167,18 @@ struct Obstacles {
 }
 
 impl Obstacles {
-    fn new(plan: &Plan) -> Self {
-        let known = plan.walls().filter_map(|(id, wall)| Some((id, plan.wall_segment(wall)?)));
-        let (walls, segments): (Vec<WallId>, Vec<Segment>) = known.unzip();
-        let openings = plan.openings().filter_map(|(_, opening)| plan.opening_segment(opening));
-        Self { walls, wall_index: SegmentIndex::new(segments), opening_index: SegmentIndex::new(openings.collect()) }
+    fn near(plan: &Plan, gaps: impl Iterator<Item = Segment>) -> Self {
+        let gaps = SegmentIndex::new(gaps.collect());
+        let reach_m = *DOORWAY_WIDTH_M.end();
+        let is_near = |segment: Segment| gaps.near(segment.bounds().inflated(reach_m)).next().is_some();
+        let (mut walls, mut segments, mut openings) = (Vec::new(), Vec::new(), Vec::new());
+        if !gaps.all().is_empty() {
+            let known = plan.walls().filter_map(|(id, wall)| Some((id, plan.wall_segment(wall)?)));
+            (walls, segments) = known.filter(|&(_, segment)| is_near(segment)).unzip();
+            openings = plan.openings().filter_map(|(_, opening)| plan.opening_segment(opening)).collect();
+            openings.retain(|&segment| is_near(segment));
+        }
+        Self { walls, wall_index: SegmentIndex::new(segments), opening_index: SegmentIndex::new(openings) }
     }
 
     /// Whether a wall other than those beside it crosses a gap, or an opening stands in it.

@@ -1,6 +1,7 @@
 //! `enfilade render` shows the picture under the plan.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use enfilade::geometry::Point;
 use enfilade::plan::{Backdrop, Builder, Meta, Plan, Room};

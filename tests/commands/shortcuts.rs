@@ -248,7 +248,7 @@ fn plain_letters_go_to_a_text_field_and_others_do_not() {
     let mut window = window_with("dwelling");
     run(&mut window, "set-shortcut", &["graph", "Y"]);
     run(&mut window, "set-shortcut", &["grid", "Ctrl+Alt+X"]);
-    run(&mut window, "set-shortcut", &["names", "F7"]);
+    run(&mut window, "set-shortcut", &["names", "F6"]);
     run(&mut window, "pick", &["Study"]);
     run(&mut window, "rename", &[]);
     window.watch_commands(true);
@@ -256,7 +256,7 @@ fn plain_letters_go_to_a_text_field_and_others_do_not() {
     keys(&mut window, "Y");
     type_in(&mut window, "y");
     keys(&mut window, "Ctrl+Alt+X");
-    keys(&mut window, "F7");
+    keys(&mut window, "F6");
     let said = done(&mut window);
     assert!(!said.iter().any(|line| line.starts_with("graph")), "{said:?}");
     assert!(said.contains(&r#"grid "off""#.to_owned()) && said.contains(&r#"names "off""#.to_owned()), "{said:?}");

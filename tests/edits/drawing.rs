@@ -5,7 +5,9 @@ use enfilade::plan::edit;
 use enfilade::plan::{Joint, OpeningKind, Place, Plan, RoomId};
 use enfilade::topology::{Graph, RoomShapes, cut_out, draw_room, draw_walls, fill_all, opening_preview, split_room};
 
-use crate::support::{area_m2, areas, points, rectangle};
+use proptest::prelude::*;
+
+use crate::support::{area_m2, areas, config, points, rectangle};
 
 #[test]
 fn a_closed_chain_of_walls_is_filled_to_its_area() {
@@ -125,4 +127,52 @@ fn openings_are_placed_within_their_edge_and_over_collinear_ones_where_it_is_sho
     let (narrow, door) = edit::place_opening(&short, kind, Point::new(0.1, 0.), 3.0, 0.3, None).unwrap();
     let Place::Hosted { width_m, .. } = narrow.opening(door).unwrap().place else { panic!("hosted") };
     assert_eq!((width_m, narrow.violations()), (1.8, vec![]));
+}
+
+proptest! {
+    #![proptest_config(config(64))]
+
+    #[test]
+    fn openings_of_a_wall_stand_beside_each_other(
+        wanted in proptest::collection::vec((-1.0..7.0, 0.3..2.0, any::<bool>()), 1..12)
+    ) {
+        let (mut plan, _) = draw_room(&Plan::default(), &rectangle(0., 0., 6., 4.), Some(0.1)).unwrap();
+        let mut refused = 0;
+        for &(x, width_m, is_window) in &wanted {
+            let kind = if is_window { OpeningKind::Window } else { OpeningKind::Door };
+            match edit::place_opening(&plan, kind, Point::new(x, 0.0), width_m, 1.5, None) {
+                Ok((next, _)) => plan = next,
+                Err(error) => {
+                    prop_assert!(error.0.contains("leave no"), "{error}");
+                    refused += 1;
+                }
+            }
+        }
+        let mut taken: Vec<(f64, f64)> = plan
+            .openings()
+            .map(|(_, opening)| plan.opening_segment(opening).unwrap())
+            .map(|s| (s.a.x.min(s.b.x), s.a.x.max(s.b.x)))
+            .collect();
+        taken.sort_by(|p, q| p.0.total_cmp(&q.0));
+        prop_assert_eq!(taken.len() + refused, wanted.len());
+        prop_assert!(taken.iter().all(|&(from, to)| from > -2e-4 && to < 6.0 + 2e-4), "{taken:?}");
+        prop_assert!(taken.windows(2).all(|pair| pair[1].0 > pair[0].1 - 2e-4), "{taken:?}");
+    }
+}
+
+#[test]
+fn an_opening_goes_beside_one_that_stands_where_it_was_wanted() {
+    let plan = draw_walls(&Plan::default(), &points(&[(0., 0.), (4., 0.)]), 0.1).unwrap().plan;
+    let place = |plan: &Plan, x: f64, width_m: f64| {
+        edit::place_opening(plan, OpeningKind::Door, Point::new(x, 0.1), width_m, 0.3, None)
+    };
+    let (plan, first) = place(&plan, 2.0, 1.0).unwrap();
+    let (plan, second) = place(&plan, 2.2, 0.8).unwrap();
+    assert_eq!((middle(&plan, first), middle(&plan, second)), (Point::new(2.0, 0.0), Point::new(2.9, 0.0)));
+    let (plan, third) = place(&plan, 2.2, 1.4).unwrap();
+    assert_eq!(middle(&plan, third), Point::new(0.8, 0.0), "the nearest that is wide enough");
+    assert_eq!(
+        place(&plan, 2.0, 1.0).unwrap_err().0,
+        "the openings of this wall leave no 1 m for another; make it narrower"
+    );
 }

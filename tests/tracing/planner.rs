@@ -118,7 +118,7 @@ impl<'a> Planner<'a> {
 
     /// Traces the office; `closer` fills the screen with a part of it.
     pub fn trace(&mut self, person: Person, mut closer: impl FnMut(Bounds) -> View) -> Person {
-        let Way { mut person, mut doors, traced } = self.from_afar(&person);
+        let Way { mut person, mut doors, traced } = self.in_one_view(&person);
         self.traced = traced;
         // A person goes nearer for what is too small to be pointed at.
         let left = |planner: &Self, doors: &[usize]| {
@@ -141,7 +141,7 @@ impl<'a> Planner<'a> {
     }
 
     /// Of several orders of work in one view, that which leaves least and costs least.
-    fn from_afar(&mut self, person: &Person) -> Way {
+    fn in_one_view(&mut self, person: &Person) -> Way {
         let mut ways: Vec<Way> = Vec::new();
         for slacks in [&MORE_CORNERS[..], &FEW_CORNERS[..]] {
             self.slacks = slacks;

@@ -35,11 +35,11 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         .stroke(egui::Stroke::new(1.0, colours_of_bar.outline))
         .corner_radius(theme::RADIUS + 2)
         .inner_margin(Margin { left: 12, right: 8, top: 4, bottom: 4 });
-    let area = Area::new(Id::unique("tool options")).order(Order::Middle).constrain_to(canvas.shrink(4.0));
+    let area = Area::new(Id::unique("tool options")).order(Order::Middle).constrain_to(canvas.shrink(EDGE));
     area.fixed_pos(canvas.min + vec2(SPACE, SPACE)).show(ui.ctx(), |ui| {
         frame.show(ui, |ui| {
             // A narrow canvas takes two lines or more.
-            ui.set_max_width(canvas.width() - 2.0 * SPACE - frame.total_margin().sum().x);
+            ui.set_max_width((canvas.width() - SPACE - EDGE - frame.total_margin().sum().x).max(LEAST_WIDTH));
             ui.horizontal_wrapped(|ui| {
                 ui.spacing_mut().item_spacing = vec2(8.0, 4.0);
                 let command = commands::find(&format!("tool-{id}")).or(commands::find(id));
@@ -74,6 +74,12 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
 
 /// Space between the bar and the canvas's edges, in points: beside rulers.
 const SPACE: f32 = 30.0;
+
+/// Left of the canvas at its edges, in points.
+const EDGE: f32 = 4.0;
+
+/// The bar is at least so wide, in points, on however small a canvas.
+const LEAST_WIDTH: f32 = 120.0;
 
 /// A length that is dragged or typed, in metres.
 fn length(

@@ -36,6 +36,7 @@ use super::{App, LayerSettings, Selection};
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::plan::{DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, Plan};
 use crate::snapping::{self, PlanIndex, Query, Snap};
+use crate::topology::Gap;
 use crate::units::Units;
 
 /// A tool as the table has it.
@@ -123,6 +124,8 @@ pub(super) struct Scope<'a> {
     pub plan: &'a Plan,
     /// What follows from the plan, or from an earlier one while that is worked out anew.
     pub derived: Option<&'a Arc<Derived>>,
+    /// The doorways left open in the plan's walls; none while they are looked for anew.
+    pub gaps: &'a [Gap],
     pub selection: &'a Selection,
     pub options: &'a DrawOptions,
     pub layers: &'a LayerSettings,

@@ -1,15 +1,13 @@
 //! Puts doors, passages and windows into walls, and closes gaps between walls with them.
 
-use std::cell::RefCell;
-
 use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, Tool, Typed, Typing, word};
 use crate::app::canvas::room_title;
 use crate::geometry::{Point, Segment};
 use crate::plan::edit::opening_on;
-use crate::plan::{Joint, LeafSide, Opening as PlanOpening, OpeningKind, Plan, Swing};
+use crate::plan::{Joint, LeafSide, Opening as PlanOpening, OpeningKind, Swing};
 use crate::snapping::IndexedEdge;
-use crate::topology::{Gap, gaps, sides_by_geometry};
+use crate::topology::{Gap, sides_by_geometry};
 
 pub(super) const DOOR: Entry = Entry { id: "door", make: || Box::new(Opening::new(OpeningKind::Door)) };
 pub(super) const DOUBLE_DOOR: Entry =
@@ -19,8 +17,6 @@ pub(super) const WINDOW: Entry = Entry { id: "window", make: || Box::new(Opening
 
 struct Opening {
     kind: OpeningKind,
-    /// The gaps of a plan's walls: looked for once a plan.
-    gaps: RefCell<Option<(Plan, Vec<Gap>)>>,
     /// Where a drag along the wall began: it says how wide the opening is.
     from: Option<Point>,
 }
@@ -34,7 +30,7 @@ const LEAST_WIDTH_M: f64 = 0.3;
 
 impl Opening {
     fn new(kind: OpeningKind) -> Self {
-        Self { kind, gaps: RefCell::new(None), from: None }
+        Self { kind, from: None }
     }
 
     /// The opening that a click would make.
@@ -52,15 +48,10 @@ impl Opening {
     }
 
     /// The gap between two collinear walls that is meant: the pointer is in it.
-    fn gap(&self, scope: &Scope<'_>) -> Option<Gap> {
-        let mut known = self.gaps.borrow_mut();
-        if !known.as_ref().is_some_and(|(plan, _)| plan.is_same_value(scope.plan)) {
-            *known = Some((scope.plan.clone(), gaps(scope.plan)));
-        }
-        let (_, gaps) = known.as_ref()?;
+    fn gap(scope: &Scope<'_>) -> Option<Gap> {
         let reach_m = scope.metres(REACH_PX);
         let distance = |gap: &Gap| gap.segment.distance(scope.pointer);
-        let nearest = gaps.iter().min_by(|p, q| distance(p).total_cmp(&distance(q)))?;
+        let nearest = scope.gaps.iter().min_by(|p, q| distance(p).total_cmp(&distance(q)))?;
         // Beside the gap the walls are meant.
         let fraction = nearest.segment.nearest_fraction(scope.pointer);
         (distance(nearest) <= reach_m && (0.02..=0.98).contains(&fraction)).then(|| nearest.clone())
@@ -74,7 +65,7 @@ impl Opening {
 
     /// Ready -> Ready
     fn place(&self, scope: &Scope<'_>) -> Vec<Call> {
-        if let Some(gap) = self.gap(scope) {
+        if let Some(gap) = Self::gap(scope) {
             let kind = self.kind.name().replace(' ', "-");
             return vec![("bridge-gap", vec![word(gap.segment.midpoint()), kind])];
         }
@@ -112,7 +103,7 @@ impl Tool for Opening {
 
     fn hint(&self, scope: &Scope<'_>) -> String {
         let name = crate::app::canvas::sentence(self.kind.name());
-        if let Some(gap) = self.gap(scope) {
+        if let Some(gap) = Self::gap(scope) {
             let width = scope.units.length(gap.width_m);
             return format!("{name}: click to close this gap of {width} with a doorway");
         }
@@ -123,7 +114,7 @@ impl Tool for Opening {
     }
 
     fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
-        if let Some(gap) = self.gap(scope) {
+        if let Some(gap) = Self::gap(scope) {
             let thickness_m = gap.walls.iter().filter_map(|&id| scope.plan.wall(id)).map(|wall| wall.thickness_m);
             preview.wall(gap.segment, thickness_m.fold(scope.metres(4.0), f64::max), Look::New);
             preview.label(scope.pointer, format!("gap of {}", scope.units.length(gap.width_m)), Look::New);

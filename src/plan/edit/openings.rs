@@ -7,7 +7,7 @@ use super::lay::plan_edges;
 use super::{EditError, add_opening, fail};
 use crate::geometry::polygon::orientation;
 use crate::geometry::runs::NOTCH_M;
-use crate::geometry::{Point, Segment, trim_m};
+use crate::geometry::{GRID_M, Point, Segment, trim_m};
 use crate::plan::{
     CornerId, LeafSide, Opening, OpeningId, OpeningKind, Place, Plan, Positions, Swing, ordered, ring_edges,
 };
@@ -21,7 +21,8 @@ use crate::plan::{
 /// nearer to it.
 ///
 /// # Errors
-/// When nothing that could have an opening is within reach, or the width is not a width.
+/// When nothing that could have an opening is within reach, others leave no place for it on its edge, or
+/// the width is not a width.
 pub fn opening_at(
     plan: &Plan,
     kind: OpeningKind,
@@ -42,7 +43,7 @@ pub fn opening_at(
 /// The same on an edge that is known: for who has looked for it already.
 ///
 /// # Errors
-/// When the edge has no length, or the width is not a width.
+/// When the edge has no length, others leave no place on it, or the width is not a width.
 pub fn opening_on(
     plan: &Plan,
     kind: OpeningKind,
@@ -51,7 +52,8 @@ pub fn opening_on(
     width_m: f64,
     swing_towards: Option<Point>,
 ) -> Result<Opening, EditError> {
-    let mut opening = Opening::new(kind, fitted(plan, host, at, width_m)?);
+    let place = beside_others(plan, fitted(plan, host, at, width_m)?)?;
+    let mut opening = Opening::new(kind, place);
     if matches!(kind, OpeningKind::Door | OpeningKind::DoubleDoor)
         && let (Some(towards), Some(segment)) = (swing_towards, plan.opening_segment(&opening))
     {
@@ -230,6 +232,45 @@ fn fitted(plan: &Plan, (from, to): (CornerId, CornerId), at: Point, width_m: f64
         (wanted_m.clamp(least, most.max(least)).clamp(0.0, length_m), width_m)
     };
     Ok(Place::Hosted { from, to, at_m: trim_m(at_m), width_m: trim_m(width_m) })
+}
+
+/// A place on an edge, moved along it as little as need be to overlap no other opening of it; one that
+/// reaches over the edge's ends stays.
+fn beside_others(plan: &Plan, place: Place) -> Result<Place, EditError> {
+    let Place::Hosted { from, to, at_m, width_m } = place else { return Ok(place) };
+    let length_m = plan.position(from).zip(plan.position(to)).map_or(0.0, |(a, b)| a.distance(b));
+    if width_m > length_m {
+        return Ok(place);
+    }
+    let mut taken: Vec<(f64, f64)> = plan
+        .openings()
+        .filter_map(|(_, opening)| match opening.place {
+            Place::Hosted { from: p, to: q, at_m, width_m } if [p, q] == [from, to] => Some((at_m, width_m)),
+            Place::Hosted { from: p, to: q, at_m, width_m } if [p, q] == [to, from] => Some((length_m - at_m, width_m)),
+            _ => None,
+        })
+        .map(|(at_m, width_m)| (at_m - width_m / 2.0, at_m + width_m / 2.0))
+        .collect();
+    taken.sort_by(|p, q| p.0.total_cmp(&q.0));
+    taken.push((length_m, length_m));
+    // Free stretches from one to the next, and the nearest place in one that is wide enough.
+    let mut free_from_m = 0.0_f64;
+    let mut nearest_m: Option<f64> = None;
+    for (start_m, end_m) in taken {
+        let (least_m, most_m) = (free_from_m + width_m / 2.0, start_m - width_m / 2.0);
+        if most_m >= least_m - GRID_M / 2.0 {
+            let here_m = at_m.clamp(least_m, most_m.max(least_m));
+            // Of two as near, the first: rounding does not decide.
+            if nearest_m.is_none_or(|nearest_m| (here_m - at_m).abs() < (nearest_m - at_m).abs() - GRID_M / 2.0) {
+                nearest_m = Some(here_m);
+            }
+        }
+        free_from_m = free_from_m.max(end_m);
+    }
+    match nearest_m {
+        Some(at_m) => Ok(Place::Hosted { from, to, at_m: trim_m(at_m), width_m }),
+        None => fail(format!("the openings of this wall leave no {width_m} m for another; make it narrower")),
+    }
 }
 
 /// The collinear edges of walls and boundaries that an edge is part of, in its direction, from the
