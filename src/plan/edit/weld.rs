@@ -11,7 +11,7 @@ use super::split::{Splits, nearest_part, split_edges};
 use super::{EditError, fail};
 use crate::geometry::segments::SegmentIndex;
 use crate::geometry::{Bounds, Point, Segment, TOUCH_M, polygon};
-use crate::plan::{CornerId, OpeningId, Place, Plan, RoomId, WallId, ordered};
+use crate::plan::{CornerId, Place, Plan, Positions, RoomId, WallId, ordered};
 
 /// What welding does, to show before it is done.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,7 +64,9 @@ fn weld_some(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -
     let mut next = with_openings_in_place(plan, with_joined(plan, &becomes), &becomes);
     let (splits, onto_edges) = near_edges(&next, tolerance_m, only);
     if !splits.is_empty() {
-        next = without_repeated_walls(split_edges(&next, &splits)?);
+        let cut: BTreeSet<CornerId> =
+            splits.iter().flat_map(|(ends, inner)| ends.iter().chain(inner)).copied().collect();
+        next = without_repeated_walls(split_edges(&next, &splits)?, &cut);
     }
     let touched: BTreeSet<CornerId> = becomes.values().copied().chain(splits.values().flatten().copied()).collect();
     let rooms: Vec<RoomId> = next
@@ -91,16 +93,12 @@ fn weld_some(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -
 /// Which corner each corner that goes becomes; with `only`, those join others, not others them.
 fn joined(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -> BTreeMap<CornerId, CornerId> {
     let mut uses: BTreeMap<CornerId, usize> = BTreeMap::new();
-    let edges: BTreeSet<[CornerId; 2]> = plan_edges(plan).map(|(a, b)| ordered(a, b)).collect();
-    for corner in edges.iter().flatten() {
+    let (around, edges) = concerned(plan, tolerance_m, only);
+    for (corner, _) in edges.iter().flatten() {
         *uses.entry(*corner).or_default() += 1;
     }
-    let around = around(plan, only).inflated(tolerance_m);
-    let mut order: Vec<(CornerId, Point)> = plan
-        .corners()
-        .map(|(id, corner)| (id, corner.position))
-        .filter(|&(_, at)| only.is_none() || around.contains(at))
-        .collect();
+    let mut order: Vec<(CornerId, Point)> =
+        plan.corners().map(|(id, corner)| (id, corner.position)).filter(|&(_, at)| around.contains(at)).collect();
     let points = order.iter().map(|&(id, at)| GeomWithData::new([at.x, at.y], id)).collect();
     let tree = RTree::bulk_load(points);
     let may_go = |id: &CornerId| only.is_none_or(|only| only.contains(id));
@@ -154,14 +152,18 @@ fn with_joined(plan: &Plan, becomes: &BTreeMap<CornerId, CornerId>) -> Plan {
     for id in becomes.keys() {
         next.corners.remove(id);
     }
-    if becomes.is_empty() { next } else { without_repeated_walls(next) }
+    if becomes.is_empty() { next } else { without_repeated_walls(next, &becomes.values().copied().collect()) }
 }
 
-/// Of walls between the same corners only the first by id.
-fn without_repeated_walls(plan: Plan) -> Plan {
+/// Of walls between the same two of some corners only the first by id.
+fn without_repeated_walls(plan: Plan, between: &BTreeSet<CornerId>) -> Plan {
     let mut seen: BTreeSet<[CornerId; 2]> = BTreeSet::new();
-    let repeated: Vec<WallId> =
-        plan.walls().filter(|(_, wall)| !seen.insert(ordered(wall.from, wall.to))).map(|(id, _)| id).collect();
+    let repeated: Vec<WallId> = plan
+        .walls()
+        .filter(|(_, wall)| between.contains(&wall.from) || between.contains(&wall.to))
+        .filter(|(_, wall)| !seen.insert(ordered(wall.from, wall.to)))
+        .map(|(id, _)| id)
+        .collect();
     let mut next = plan;
     for id in repeated {
         next.walls.remove(&id);
@@ -176,15 +178,18 @@ fn near_edges(
     tolerance_m: f64,
     only: Option<&BTreeSet<CornerId>>,
 ) -> (Splits, Vec<(CornerId, [CornerId; 2])>) {
-    let edges: BTreeSet<[CornerId; 2]> = plan_edges(plan).filter(|(a, b)| a != b).map(|(a, b)| ordered(a, b)).collect();
-    let known: Vec<([CornerId; 2], Segment)> =
-        edges.iter().filter_map(|&[a, b]| Some(([a, b], Segment::new(plan.position(a)?, plan.position(b)?)))).collect();
+    let (_, edges) = concerned(plan, tolerance_m, only);
+    let known: Vec<([CornerId; 2], Segment)> = edges
+        .iter()
+        .filter(|[a, b]| a.0 != b.0)
+        .map(|&[(a, from), (b, to)]| ([a, b], Segment::new(from, to)))
+        .collect();
     let index = SegmentIndex::new(known.iter().map(|&(_, segment)| segment).collect());
-    let corners: BTreeSet<CornerId> = edges.iter().flatten().copied().collect();
+    let corners: BTreeMap<CornerId, Point> =
+        known.iter().flat_map(|&(ends, at)| ends.into_iter().zip([at.a, at.b])).collect();
     let mut along: BTreeMap<[CornerId; 2], Vec<(f64, CornerId)>> = BTreeMap::new();
     let mut list = Vec::new();
-    for corner in corners {
-        let Some(at) = plan.position(corner) else { continue };
+    for (corner, at) in corners {
         let mut near: Vec<usize> = index.near(Bounds::of([at]).inflated(tolerance_m)).collect();
         near.sort_unstable();
         for i in near {
@@ -208,11 +213,33 @@ fn near_edges(
     (splits, list)
 }
 
-/// The box of some corners and of all edges that end at one of them; empty for `None`.
-fn around(plan: &Plan, only: Option<&BTreeSet<CornerId>>) -> Bounds {
-    let Some(only) = only else { return Bounds::EMPTY };
-    let at_edges = plan_edges(plan).filter(|(a, b)| only.contains(a) || only.contains(b)).flat_map(|(a, b)| [a, b]);
-    Bounds::of(only.iter().copied().chain(at_edges).filter_map(|id| plan.position(id)))
+/// An edge by its ends and where they lie, the lower id first.
+type Edge = [(CornerId, Point); 2];
+
+/// The box, larger by a tolerance, of some corners and all edges that end at one of them, and the edges
+/// whose boxes meet it, each once, by the ids of their ends: nothing else can lie on those. For `None`
+/// everything.
+fn concerned(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -> (Bounds, Vec<Edge>) {
+    let positions = Positions::new(plan);
+    let located = |(a, b): (CornerId, CornerId)| -> Option<Edge> {
+        let [a, b] = ordered(a, b);
+        Some([(a, positions.get(a)?), (b, positions.get(b)?)])
+    };
+    let box_of = |edge: &Edge| Bounds::of(edge.map(|(_, at)| at));
+    let mut edges: Vec<Edge> = plan_edges(plan).filter_map(located).collect();
+    let around = match only {
+        None => Bounds::of(plan.corners().map(|(_, corner)| corner.position)),
+        Some(only) => {
+            let ends = edges.iter().filter(|edge| edge.iter().any(|(corner, _)| only.contains(corner)));
+            let ends = ends.flatten().map(|&(_, at)| at);
+            let around = Bounds::of(only.iter().filter_map(|&id| positions.get(id)).chain(ends)).inflated(tolerance_m);
+            edges.retain(|edge| box_of(edge).intersects(around));
+            around
+        }
+    };
+    edges.sort_unstable_by_key(|[(a, _), (b, _)]| (*a, *b));
+    edges.dedup_by_key(|[(a, _), (b, _)]| (*a, *b));
+    (around, edges)
 }
 
 /// A ring without corners that follow themselves and without ways that go somewhere and straight
@@ -252,16 +279,12 @@ fn without_spikes(ring: &[CornerId]) -> Arc<[CornerId]> {
 fn with_openings_in_place(before: &Plan, plan: Plan, becomes: &BTreeMap<CornerId, CornerId>) -> Plan {
     let now = |id: CornerId| becomes.get(&id).copied().unwrap_or(id);
     let mut next = plan;
-    let ids: Vec<OpeningId> = before.openings().map(|(id, _)| id).collect();
-    for id in ids {
-        let Some(opening) = before.opening(id) else { continue };
-        let (Place::Hosted { from, to, width_m, .. }, Some(segment)) = (opening.place, before.opening_segment(opening))
-        else {
-            continue;
-        };
+    for (id, opening) in before.openings() {
+        let Place::Hosted { from, to, width_m, .. } = opening.place else { continue };
         if now(from) == from && now(to) == to {
             continue;
         }
+        let Some(segment) = before.opening_segment(opening) else { continue };
         let place = nearest_part(&next, &[now(from), now(to)], segment.midpoint(), width_m)
             .unwrap_or(Place::Free { from: segment.a.trimmed(), to: segment.b.trimmed() });
         if let Some(shared) = next.openings.get_mut(&id) {
