@@ -8,6 +8,7 @@ use crate::app::icons::Icon;
 use crate::app::theme;
 use crate::app::widgets::{ROW, caption, colours, icon_button, link, put_line, section, value};
 use crate::plan::{Backdrop, Calibration, Measurement, ScaleOrigin};
+use crate::units::Units;
 
 /// What a person did in the section.
 pub(super) enum PictureAct {
@@ -46,7 +47,7 @@ pub(super) fn show(ui: &mut Ui, app: &App, backdrop: &Backdrop) -> Option<Pictur
     let scale = if is_known { "1 px is" } else { "1 px is taken as" };
     value(ui, "Scale", &format!("{scale} {}", millimetres(backdrop.metres_per_pixel)));
     if backdrop.is_measured() {
-        act = act.or(measurements(ui, &backdrop.measurements));
+        act = act.or(measurements(ui, app.units(), &backdrop.measurements));
     } else if !is_known {
         caption(ui, "Its scale is not set: measure a length that you know, or the width of a door.");
     }
@@ -100,7 +101,7 @@ fn opacity(ui: &mut Ui, app: &App, backdrop: &Backdrop) -> Option<PictureAct> {
 }
 
 /// The lengths the scale follows from, each with how well it fits.
-fn measurements(ui: &mut Ui, measurements: &[Measurement]) -> Option<PictureAct> {
+fn measurements(ui: &mut Ui, units: Units, measurements: &[Measurement]) -> Option<PictureAct> {
     let calibration = Calibration::of(measurements)?;
     let mut act = None;
     ui.add_space(4.0);
@@ -109,7 +110,12 @@ fn measurements(ui: &mut Ui, measurements: &[Measurement]) -> Option<PictureAct>
         ui.spacing_mut().item_spacing.y = 0.0;
         for (index, (measurement, residual)) in measurements.iter().zip(&calibration.residuals).enumerate() {
             let is_worst = calibration.worst == Some(index) && residual.abs() > AGREEMENT;
-            if ui.push_id(index, |ui| length(ui, index, measurement, *residual, is_worst)).inner {
+            if ui
+                .push_id(index, |ui| {
+                    length(ui, index, &units.exact_length(measurement.length_m), measurement, *residual, is_worst)
+                })
+                .inner
+            {
                 act = Some(PictureAct::Command("remove-measurement", vec![(index + 1).to_string()]));
             }
         }
@@ -123,17 +129,16 @@ fn measurements(ui: &mut Ui, measurements: &[Measurement]) -> Option<PictureAct>
 }
 
 /// A measured length and by how much it exceeds the stated one. Gives whether it is to be removed.
-fn length(ui: &mut Ui, index: usize, measurement: &Measurement, residual: f64, is_worst: bool) -> bool {
+fn length(ui: &mut Ui, index: usize, length: &str, measurement: &Measurement, residual: f64, is_worst: bool) -> bool {
     let colours = colours(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
     let body = FontId::proportional(theme::BODY);
-    let length = format!("{} m", (measurement.length_m * 1000.0).round() / 1000.0);
     let middle = rect.center().y;
     let put = |left: f32, align: egui::Align2, text: &str, colour| {
         ui.painter().text(pos2(left, middle), align, text, body.clone(), colour)
     };
     put(rect.left(), egui::Align2::LEFT_CENTER, &format!("{}", index + 1), colours.text_weak);
-    put(rect.left() + 22.0, egui::Align2::LEFT_CENTER, &length, colours.text);
+    put(rect.left() + 22.0, egui::Align2::LEFT_CENTER, length, colours.text);
     let pixels = format!("{:.0} px", measurement.length_px());
     put(rect.left() + 96.0, egui::Align2::LEFT_CENTER, &pixels, colours.text_weak);
     let colour = if is_worst { colours.warning } else { colours.text };

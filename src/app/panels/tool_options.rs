@@ -6,13 +6,14 @@ use egui::{Area, DragValue, Frame, Id, Margin, Order, RichText, Ui, vec2};
 use crate::app::commands;
 use crate::app::widgets::{colours, toggle};
 use crate::app::{App, theme};
+use crate::units::Units;
 
 /// The tools for which something can be told, with the commands of their switches.
 fn switches(id: &str) -> &'static [(&'static str, &'static str)] {
     const SNAPPING: (&str, &str) = ("snapping", "Snap");
     const GRID: (&str, &str) = ("snap-to-grid", "Grid");
     const ANGLES: (&str, &str) = ("right-angles", "Right angles");
-    const WALLS: (&str, &str) = ("walls-with-rooms", "Walls around rooms");
+    const WALLS: (&str, &str) = ("walls-with-rooms", "With walls");
     const OVER: (&str, &str) = ("over-rooms", "Over rooms");
     match id {
         "walls" | "split" | "cut-out" => &[ANGLES, SNAPPING, GRID],
@@ -92,7 +93,14 @@ fn length(
 ) {
     let label = ui.label(RichText::new(name).color(colours(ui).text_weak));
     let mut value_m = now_m;
-    let field = DragValue::new(&mut value_m).speed(0.005).range(range).max_decimals(3).min_decimals(2).suffix(" m");
+    let units = app.units();
+    let field = DragValue::new(&mut value_m).speed(0.005).range(range);
+    let field = match units {
+        Units::Metric => field.max_decimals(3).min_decimals(2).suffix(" m"),
+        Units::Imperial => field
+            .custom_formatter(move |value_m, _| units.exact_length(value_m))
+            .custom_parser(move |typed| units.parse_length(typed).ok()),
+    };
     let response = ui.add(field).labelled_by(label.id);
     if response.changed() {
         let word = ((value_m * 1000.0).round() / 1000.0).to_string();

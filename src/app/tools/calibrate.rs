@@ -5,7 +5,8 @@ use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, TakenBack, Tool, Typed, Typing, picture_words};
 use crate::app::backdrop::millimetres;
 use crate::geometry::{Point, Segment};
-use crate::plan::{Backdrop, Calibration, Plan};
+use crate::plan::{Backdrop, Calibration};
+use crate::units::Units;
 
 pub(super) const BY_LENGTH: Entry = Entry { id: "calibrate", make: || Box::new(Calibrate::new(Known::Typed)) };
 pub(super) const BY_DOOR: Entry = Entry { id: "calibrate-door", make: || Box::new(Calibrate::new(Known::Door)) };
@@ -96,7 +97,7 @@ impl Tool for Calibrate {
         if scope.plan.backdrop().is_none() {
             return "The plan has no picture under it: add one first".to_owned();
         }
-        let door = format!("{} m", scope.options.opening_width_m);
+        let door = scope.units.exact_length(scope.options.opening_width_m);
         match (self.state, self.known) {
             (State::Ready, Known::Typed) => {
                 "Scale: click one end of a length that you know, the longer the better".to_owned()
@@ -112,12 +113,12 @@ impl Tool for Calibrate {
 
     fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
         let Some(backdrop) = scope.plan.backdrop() else { return };
-        measured_before(scope.plan, backdrop, preview);
+        measured_before(scope.units, backdrop, preview);
         let Some(line) = self.line(scope) else { return };
         let pixels = line.length() / backdrop.metres_per_pixel;
         // What nobody has measured is no length yet.
         let said = if backdrop.is_measured() {
-            format!("{pixels:.0} px  {:.2} m", line.length())
+            format!("{pixels:.0} px  {}", scope.units.length(line.length()))
         } else {
             format!("{pixels:.0} px")
         };
@@ -157,7 +158,7 @@ impl Tool for Calibrate {
 }
 
 /// The lengths measured so far, each with how well it fits; the worst stands out.
-fn measured_before(plan: &Plan, backdrop: &Backdrop, preview: &mut Preview) {
+fn measured_before(units: Units, backdrop: &Backdrop, preview: &mut Preview) {
     let Some(calibration) = Calibration::of(&backdrop.measurements) else { return };
     for (index, (measurement, residual)) in backdrop.measurements.iter().zip(&calibration.residuals).enumerate() {
         let line =
@@ -168,12 +169,9 @@ fn measured_before(plan: &Plan, backdrop: &Backdrop, preview: &mut Preview) {
         for end in [line.a, line.b] {
             preview.handle(end, look);
         }
-        let length_m = measurement.length_m;
-        let fit = if plan.backdrop().is_some_and(|backdrop| backdrop.measurements.len() > 1) {
-            format!("{length_m} m  {:+.1} %", residual * 100.0)
-        } else {
-            format!("{length_m} m")
-        };
+        let length = units.exact_length(measurement.length_m);
+        let fit =
+            if backdrop.measurements.len() > 1 { format!("{length}  {:+.1} %", residual * 100.0) } else { length };
         preview.dimension(line, fit);
     }
 }
