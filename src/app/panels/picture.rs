@@ -110,12 +110,7 @@ fn measurements(ui: &mut Ui, units: Units, measurements: &[Measurement]) -> Opti
         ui.spacing_mut().item_spacing.y = 0.0;
         for (index, (measurement, residual)) in measurements.iter().zip(&calibration.residuals).enumerate() {
             let is_worst = calibration.worst == Some(index) && residual.abs() > AGREEMENT;
-            if ui
-                .push_id(index, |ui| {
-                    length(ui, index, &units.exact_length(measurement.length_m), measurement, *residual, is_worst)
-                })
-                .inner
-            {
+            if ui.push_id(index, |ui| length(ui, units, index, measurement, *residual, is_worst)).inner {
                 act = Some(PictureAct::Command("remove-measurement", vec![(index + 1).to_string()]));
             }
         }
@@ -129,16 +124,17 @@ fn measurements(ui: &mut Ui, units: Units, measurements: &[Measurement]) -> Opti
 }
 
 /// A measured length and by how much it exceeds the stated one. Gives whether it is to be removed.
-fn length(ui: &mut Ui, index: usize, length: &str, measurement: &Measurement, residual: f64, is_worst: bool) -> bool {
+fn length(ui: &mut Ui, units: Units, index: usize, measurement: &Measurement, residual: f64, is_worst: bool) -> bool {
     let colours = colours(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
     let body = FontId::proportional(theme::BODY);
+    let length = units.exact_length(measurement.length_m);
     let middle = rect.center().y;
     let put = |left: f32, align: egui::Align2, text: &str, colour| {
         ui.painter().text(pos2(left, middle), align, text, body.clone(), colour)
     };
     put(rect.left(), egui::Align2::LEFT_CENTER, &format!("{}", index + 1), colours.text_weak);
-    put(rect.left() + 22.0, egui::Align2::LEFT_CENTER, length, colours.text);
+    put(rect.left() + 22.0, egui::Align2::LEFT_CENTER, &length, colours.text);
     let pixels = format!("{:.0} px", measurement.length_px());
     put(rect.left() + 96.0, egui::Align2::LEFT_CENTER, &pixels, colours.text_weak);
     let colour = if is_worst { colours.warning } else { colours.text };

@@ -60,9 +60,13 @@ fn weld_some(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -
     if !(tolerance_m > 0.0 && tolerance_m.is_finite()) {
         return fail(format!("a tolerance is above 0 m, not {tolerance_m} m"));
     }
-    let becomes = joined(plan, tolerance_m, only);
+    let (around, mut edges) = concerned(plan, tolerance_m, only);
+    let becomes = joined(plan, tolerance_m, only, around, &edges);
     let mut next = with_openings_in_place(plan, with_joined(plan, &becomes), &becomes);
-    let (splits, onto_edges) = near_edges(&next, tolerance_m, only);
+    if !becomes.is_empty() {
+        edges = concerned(&next, tolerance_m, only).1;
+    }
+    let (splits, onto_edges) = near_edges(&edges, tolerance_m, only);
     if !splits.is_empty() {
         let cut: BTreeSet<CornerId> =
             splits.iter().flat_map(|(ends, inner)| ends.iter().chain(inner)).copied().collect();
@@ -91,9 +95,14 @@ fn weld_some(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -
 }
 
 /// Which corner each corner that goes becomes; with `only`, those join others, not others them.
-fn joined(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -> BTreeMap<CornerId, CornerId> {
+fn joined(
+    plan: &Plan,
+    tolerance_m: f64,
+    only: Option<&BTreeSet<CornerId>>,
+    around: Bounds,
+    edges: &[Edge],
+) -> BTreeMap<CornerId, CornerId> {
     let mut uses: BTreeMap<CornerId, usize> = BTreeMap::new();
-    let (around, edges) = concerned(plan, tolerance_m, only);
     for (corner, _) in edges.iter().flatten() {
         *uses.entry(*corner).or_default() += 1;
     }
@@ -174,11 +183,10 @@ fn without_repeated_walls(plan: Plan, between: &BTreeSet<CornerId>) -> Plan {
 /// The corners that edges pass within a tolerance, as splits and as a list; with `only`, where one of
 /// those is the corner or an end of the edge.
 fn near_edges(
-    plan: &Plan,
+    edges: &[Edge],
     tolerance_m: f64,
     only: Option<&BTreeSet<CornerId>>,
 ) -> (Splits, Vec<(CornerId, [CornerId; 2])>) {
-    let (_, edges) = concerned(plan, tolerance_m, only);
     let known: Vec<([CornerId; 2], Segment)> = edges
         .iter()
         .filter(|[a, b]| a.0 != b.0)
