@@ -422,11 +422,6 @@ impl App {
         self.document.as_ref().is_some_and(Document::is_changed)
     }
 
-    /// Whether the window is about to close, nothing standing against it.
-    pub fn is_quitting(&self) -> bool {
-        self.quitting
-    }
-
     /// Where a point of the plan (in metres) is on the screen, in egui's points; `None` before the
     /// first frame and without a plan.
     pub fn screen_position(&self, x_m: f64, y_m: f64) -> Option<egui::Pos2> {

@@ -58,7 +58,9 @@ impl Check for OpeningIsFarFromItsRooms {
 
     fn what(&self) -> String {
         match self.distance_m {
-            Some(distance_m) => format!("{} lies {distance_m:.2} m from {}, to which it leads", self.opening, self.room),
+            Some(distance_m) => {
+                format!("{} lies {distance_m:.2} m from {}, to which it leads", self.opening, self.room)
+            }
             None => format!("{} lies more than {LOOK_M} m from {}, to which it leads", self.opening, self.room),
         }
     }

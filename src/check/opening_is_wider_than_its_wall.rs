@@ -1,6 +1,6 @@
-use crate::geometry::segments::{SegmentIndex, are_parallel};
 use super::{Check, Context, Kind, OpeningName, Place, Severity};
 use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
+use crate::geometry::segments::{SegmentIndex, are_parallel};
 use crate::geometry::{Point, Segment};
 use crate::plan::{DEFAULT_DOOR_WIDTH_M, ElementId, THICKEST_WALL_M};
 

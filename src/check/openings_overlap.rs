@@ -1,6 +1,6 @@
-use crate::geometry::segments::{SegmentIndex, are_parallel, common_stretch};
 use super::{Check, Context, FINDINGS_LIMIT, Kind, OpeningName, Place, Severity};
 use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
+use crate::geometry::segments::{SegmentIndex, are_parallel, common_stretch};
 use crate::geometry::{GRID_M, Point, Segment};
 use crate::plan::{DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, ElementId};
 

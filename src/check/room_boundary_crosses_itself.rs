@@ -62,7 +62,8 @@ impl Check for RoomBoundaryCrossesItself {
     }
 
     fn what(&self) -> String {
-        let places = if self.crossings.len() == 1 { String::new() } else { format!(" in {} places", self.crossings.len()) };
+        let places =
+            if self.crossings.len() == 1 { String::new() } else { format!(" in {} places", self.crossings.len()) };
         format!("the boundary of {} crosses itself{places}; its area is {:.2} m² off", self.room, self.area_error_m2)
     }
 

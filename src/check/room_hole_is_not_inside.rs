@@ -26,8 +26,8 @@ impl Check for RoomHoleIsNotInside {
         let shapes = context.shapes().iter().enumerate();
         for (index, shape) in shapes.filter(|(index, _)| !context.ring_faults[*index].is_hopeless()) {
             for hole in &shape.holes {
-                let beyond = outside([hole], [&shape.outer])
-                    .filter(|region| region.depth_m > context.drawing_tolerance_m);
+                let beyond =
+                    outside([hole], [&shape.outer]).filter(|region| region.depth_m > context.drawing_tolerance_m);
                 if let Some(region) = beyond {
                     found.push(Self { room: context.name(index), area_outside_m2: region.area_m2, at: region.at });
                 }

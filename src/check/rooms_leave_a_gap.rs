@@ -1,8 +1,8 @@
 use std::collections::BTreeMap;
 
-use crate::geometry::segments::{are_parallel, common_stretch};
 use super::{Check, Context, Kind, Place, RoomName, Severity};
 use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
+use crate::geometry::segments::{are_parallel, common_stretch};
 use crate::geometry::{Point, Segment};
 use crate::plan::{ElementId, THICKEST_WALL_M};
 

@@ -69,11 +69,7 @@ impl Check for ScaleIsImplausible {
             reasons.push(format!("its rooms have {areas:.1} times the area usual for their labels"));
         }
         let (factor, way) = if self.factor > 1.0 { (self.factor, "long") } else { (1.0 / self.factor, "short") };
-        format!(
-            "lengths seem {factor:.1} times too {way}: {} (scale {})",
-            reasons.join(", "),
-            self.origin.name()
-        )
+        format!("lengths seem {factor:.1} times too {way}: {} (scale {})", reasons.join(", "), self.origin.name())
     }
 
     fn figures(&self) -> Vec<(&'static str, f64)> {

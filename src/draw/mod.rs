@@ -29,11 +29,3 @@ pub use drawing::Drawing;
 pub use palette::{LabelColours, Palette, Theme};
 pub use scene::{Anchor, Dash, Frame, Group, Item, Layer, Length, Scene, Text, View, Weight};
 pub use style::{Fill, Grid, Layers, SMALLEST_TEXT_PX, Style};
-
-use crate::features::Analysis;
-use crate::plan::Plan;
-
-/// The scene of a plan in a view: a [`Drawing`] and its [`Drawing::scene`] in one go.
-pub fn plan_scene(plan: &Plan, analysis: &Analysis, style: &Style, view: &View) -> Scene {
-    Drawing::new(plan, analysis).scene(style, view)
-}
