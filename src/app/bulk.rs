@@ -4,13 +4,16 @@ use std::collections::BTreeSet;
 
 use super::document::Document;
 use super::labelling::for_each;
-use super::panels::status::count;
 use super::{App, commands};
+use crate::base::wording::count;
+use crate::edit::{
+    self,
+    naming::{Pattern, PatternError},
+};
 use crate::features::RoomStatus;
 use crate::geometry::Point;
 use crate::labels::{Label, normalised_function};
-use crate::plan::naming::{Pattern, PatternError};
-use crate::plan::{LabelOrigin, RoomId, RoomLabel, edit};
+use crate::plan::{LabelOrigin, RoomId, RoomLabel};
 
 /// Rooms by what they are.
 #[derive(Clone, Debug, PartialEq)]

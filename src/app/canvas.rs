@@ -1,5 +1,7 @@
 //! The canvas: the plan, seen through a view that pans and zooms, and what can be picked on it.
 
+use crate::base::wording::sentence;
+use crate::plan::titles::title_of;
 use std::sync::Arc;
 
 use egui::epaint::StrokeKind;
@@ -15,13 +17,13 @@ use super::pending::Pending;
 use super::scene_painter::{ScenePainter, earcut, on_screen, outline_mesh, polygon_mesh};
 use super::tools::{self, Call, Input, Look, Preview, Scope, Toolbox};
 use super::{App, Question, commands, dimensions, guides, rulers, theme};
+use crate::base::units::{METRES_PER_FOOT, Units};
 use crate::draw::{self, Layers, Palette, Style, View};
 use crate::features::RoomStatus;
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::labels::normalised_function;
 use crate::plan::{ElementId, GuideAxis, Plan};
 use crate::topology::RoomShape;
-use crate::units::{METRES_PER_FOOT, Units};
 
 /// What the canvas remembers from frame to frame.
 #[derive(Default)]
@@ -885,33 +887,6 @@ fn said_of_room(plan: &Plan, derived: &Derived, shape: &RoomShape, units: Units)
     let function = plan.room(shape.id).map(|room| room.function.trim()).unwrap_or_default();
     let function = if function.is_empty() { String::new() } else { format!(", {}", normalised_function(function)) };
     format!("{label}{function}, {}", units.area(shape.area_m2()))
-}
-
-/// What something on the canvas is called.
-pub(super) fn title_of(plan: &Plan, picked: ElementId) -> String {
-    match picked {
-        ElementId::Room(id) => plan.room(id).map_or_else(String::new, room_title),
-        ElementId::Opening(id) => plan.opening(id).map_or_else(String::new, |opening| sentence(opening.kind.name())),
-        ElementId::Wall(_) => "Wall".to_owned(),
-        ElementId::Corner(_) => "Corner".to_owned(),
-    }
-}
-
-/// A room's name; without one its function.
-pub(super) fn room_title(room: &crate::plan::Room) -> String {
-    if !room.name.is_empty() {
-        room.name.clone()
-    } else if !room.function.is_empty() {
-        sentence(&crate::labels::normalised_function(&room.function))
-    } else {
-        "Unnamed room".to_owned()
-    }
-}
-
-/// A text with a capital letter.
-pub(super) fn sentence(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
 /// A bar of a round length in the lower left corner.

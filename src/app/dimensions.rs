@@ -10,11 +10,11 @@ use super::document::Derived;
 use super::scene_painter::on_screen;
 use super::theme::{self, Colours};
 use super::{App, canvas};
+use crate::base::units::Units;
 use crate::draw::View;
 use crate::geometry::polygon;
 use crate::geometry::runs::{Run, runs};
 use crate::topology::RoomShape;
-use crate::units::Units;
 
 /// With more rooms selected, only what they come to together is told.
 const MOST_ROOMS: usize = 6;

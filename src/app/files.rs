@@ -10,9 +10,12 @@ use super::dialogs::{Answer, Purpose};
 use super::document::{self, Begun, Document, Expected, Opened, Origin, SaveFailure};
 use super::ghost::Ghost;
 use super::{App, Done, Intent, Message, Question, Remedy, Selection, Severity, plan_list};
+use crate::edit::{
+    DrawingMoves,
+    storey::{Keep, copied},
+};
 use crate::formats::FileError;
-use crate::plan::storey::{Keep, copied};
-use crate::plan::{DrawingMoves, Plan};
+use crate::plan::Plan;
 use crate::store::{Stamp, pictures};
 
 impl App {

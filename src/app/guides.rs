@@ -5,10 +5,10 @@ use egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, vec2};
 use super::canvas::plan_point;
 use super::scene_painter::on_screen;
 use super::{App, theme};
+use crate::base::units::Units;
 use crate::draw::View;
 use crate::geometry::{Point, trim_m};
 use crate::plan::{Guide, GuideAxis};
-use crate::units::Units;
 
 /// A guide that the pointer holds.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use super::App;
-use super::canvas::{room_title, sentence};
 use super::commands::{self, Choice};
-use super::panels::status::count;
+use crate::base::wording::count;
+use crate::base::wording::sentence;
+use crate::edit::{self, EditError};
 use crate::features::RoomStatus;
 use crate::labels::{Label, Meaning, normalised_function};
-use crate::plan::edit::{self, EditError};
+use crate::plan::titles::room_title;
 use crate::plan::{ElementId, LabelOrigin, Plan, RoomId, RoomLabel};
 
 /// Functions that were set are remembered, so many of them.

@@ -20,7 +20,6 @@ mod labelling;
 mod offscreen;
 mod panels;
 mod pending;
-mod picture;
 mod plan_list;
 mod raster;
 mod recovery;
@@ -45,7 +44,6 @@ pub use commands::{CommandError, Executed};
 pub use controls::Control;
 pub use icons::Icon;
 pub use offscreen::{NotSettled, Offscreen, OffscreenOptions};
-pub use picture::{Difference, Picture};
 pub use raster::Raster;
 pub use selection::{SelectMode, Selection};
 pub use theme::ThemeChoice;
@@ -65,10 +63,10 @@ use settings::Settings;
 use tools::{DrawOptions, TakenBack, Toolbox};
 
 use crate::draw::{self, Fill, LabelColours, Palette};
+use crate::edit::{self, EditError};
 use crate::formats::FileError;
 use crate::geometry::{Segment, Vector};
 use crate::labels::{Label, Schemes};
-use crate::plan::edit::{self, EditError};
 use crate::plan::{ElementId, LabelOrigin, Meta, Plan, Room, RoomId, RoomLabel};
 use crate::predict::{Predictions, Predictor};
 use crate::store::pictures::{LoadedPicture, PictureError};
@@ -733,7 +731,7 @@ impl App {
         let Some(document) = &mut self.document else { return Ok(()) };
         let number = document.history.steps().len();
         let Some(title) = document.history.steps().get(step).map(|step| step.title.clone()) else {
-            return Err(format!("the history has {}", panels::status::count(number, "step")));
+            return Err(format!("the history has {}", crate::base::wording::count(number, "step")));
         };
         document.history.jump_to(step);
         self.status = format!("Step {} of {number}: {title}", step + 1);

@@ -17,7 +17,8 @@ use super::dialogs::{Dialogs, Given};
 use super::document::{Origin, bundled};
 use super::raster::Raster;
 use super::theme::Motion;
-use super::{App, CommandError, Control, Executed, Picture, controls};
+use super::{App, CommandError, Control, Executed, controls};
+use crate::picture::Picture;
 
 /// Two clicks are a double click only when they follow within 0.3 seconds.
 const CLICK_GAP_SECS: f64 = 0.5;

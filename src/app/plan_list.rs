@@ -1,9 +1,9 @@
 //! The plans of a folder, and those that come with the program.
 
-use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 
 use super::document::{Origin, bundled};
+use crate::base::natural_order::NaturalKey;
 use crate::formats;
 
 /// What the panel on the left lists.
@@ -61,56 +61,6 @@ pub(super) fn plans_in(folder: &Path) -> Vec<PathBuf> {
         .filter(|path| path.is_file())
         .take(LIST_LIMIT)
         .collect();
-    files.sort_by(|p, q| natural_order(&p.to_string_lossy(), &q.to_string_lossy()));
+    files.sort_by_cached_key(|path| NaturalKey::of(&path.to_string_lossy()));
     files
-}
-
-/// The order people expect of names with numbers: `floor 9` before `floor 10`.
-fn natural_order(p: &str, q: &str) -> Ordering {
-    let (p_parts, q_parts) = (parts(p), parts(q));
-    for (a, b) in p_parts.iter().zip(&q_parts) {
-        let order = match (a.starts_with(is_digit), b.starts_with(is_digit)) {
-            (true, true) => {
-                let (a, b) = (a.trim_start_matches('0'), b.trim_start_matches('0'));
-                a.len().cmp(&b.len()).then_with(|| a.cmp(b))
-            }
-            _ => a.to_lowercase().cmp(&b.to_lowercase()),
-        };
-        if order != Ordering::Equal {
-            return order;
-        }
-    }
-    p_parts.len().cmp(&q_parts.len()).then_with(|| p.cmp(q))
-}
-
-fn is_digit(c: char) -> bool {
-    c.is_ascii_digit()
-}
-
-/// A text cut where digits begin or end.
-fn parts(text: &str) -> Vec<&str> {
-    let mut parts = Vec::new();
-    let mut start = 0;
-    let mut before: Option<bool> = None;
-    for (at, c) in text.char_indices() {
-        if before.is_some_and(|before| before != is_digit(c)) {
-            parts.push(&text[start..at]);
-            start = at;
-        }
-        before = Some(is_digit(c));
-    }
-    parts.push(&text[start..]);
-    parts
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_in_names_count() {
-        let mut names = ["b 10", "b 9", "B 2", "a", "b 010", "b", "10", "9"];
-        names.sort_by(|p, q| natural_order(p, q));
-        assert_eq!(names, ["9", "10", "a", "b", "B 2", "b 9", "b 010", "b 10"]);
-    }
 }

@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use super::Picture;
+use crate::picture::Picture;
 use egui::epaint::{ClippedPrimitive, ImageData, ImageDelta, Primitive, Vertex};
 use egui::{Color32, Rect, TextureFilter, TextureId, TextureWrapMode, TexturesDelta};
 

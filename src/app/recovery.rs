@@ -319,7 +319,7 @@ impl App {
             stamp: recovered.start.stamp,
             begun: None,
         };
-        let changes = super::panels::status::count(recovered.history.position(), "change");
+        let changes = crate::base::wording::count(recovered.history.position(), "change");
         self.show(opened);
         if let Some(document) = &mut self.document {
             document.history = recovered.history;

@@ -14,10 +14,10 @@ use super::guides::{self, Drag};
 use super::scene_painter::on_screen;
 use super::theme::{self, Colours};
 use super::{App, commands};
+use crate::base::units::Units;
 use crate::draw::View;
 use crate::geometry::Point;
 use crate::plan::GuideAxis;
-use crate::units::Units;
 
 /// How wide a ruler is, in points.
 const WIDTH: f32 = 20.0;

@@ -10,8 +10,8 @@ use serde_json::{Map, Value, json};
 
 use super::commands::{self, COMMANDS, Command, Keys};
 use super::{Message, Severity};
+use crate::base::units::Units;
 use crate::store;
-use crate::units::Units;
 
 /// Names the settings file in place of the system's; empty for none: nothing is read or kept.
 const VARIABLE: &str = "ENFILADE_SETTINGS";

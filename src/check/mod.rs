@@ -9,7 +9,6 @@ mod corners_nearly_coincide;
 mod finding;
 mod function_is_unknown;
 mod invariant_is_broken;
-mod names;
 mod opening_contradicts_its_place;
 mod opening_is_far_from_its_rooms;
 mod opening_is_wider_than_its_wall;
@@ -45,7 +44,6 @@ mod walls_overlap;
 
 pub use context::Context;
 pub use finding::{Check, Kind, Place, Severity};
-pub use names::{OpeningName, RoomName};
 
 use crate::features::Analysis;
 use crate::labels::Schemes;

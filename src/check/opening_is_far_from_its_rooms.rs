@@ -1,5 +1,6 @@
-use super::{Check, Context, Kind, OpeningName, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::Point;
+use crate::plan::titles::{OpeningName, RoomName};
 use crate::plan::{ElementId, THICKEST_WALL_M};
 
 /// An opening that is stated to lead to a room whose boundary is further away than a wall is thick.

@@ -1,7 +1,8 @@
 use super::overlaps::shared;
-use super::{Check, Context, Kind, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::Point;
 use crate::plan::ElementId;
+use crate::plan::titles::RoomName;
 
 /// A room whose boundary passes over itself: what is inside, and so its area, is not what was meant.
 #[derive(Clone, Debug, PartialEq)]

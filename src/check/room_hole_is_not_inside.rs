@@ -1,7 +1,8 @@
 use super::overlaps::outside;
-use super::{Check, Context, Kind, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::Point;
 use crate::plan::ElementId;
+use crate::plan::titles::RoomName;
 
 /// A hole of a room that lies outside the room's outer boundary or crosses it: the area taken off is
 /// not the room's.

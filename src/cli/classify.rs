@@ -1,3 +1,4 @@
+use crate::base::wording::shortened;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -7,13 +8,14 @@ use serde_json::json;
 use super::collect::neighbour_labels;
 use super::train::method;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
-use crate::classify::{Distribution, Method};
-use crate::dataset::{NetworkRoom, RoomNetwork};
+use crate::classify::{Distribution, Method, models::StoredModel};
+use crate::dataset::{NetworkRoom, RoomNetwork, sets::set_name};
+use crate::edit;
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Schemes};
-use crate::plan::{LabelOrigin, OpeningId, Plan, RoomLabel, edit};
+use crate::plan::{LabelOrigin, OpeningId, Plan, RoomLabel};
 use crate::predict::{Agreement, Choice, DEFAULT_METHOD, ModelSet, Predictions, Predictor, UnknownSet};
-use crate::store::{StoredModel, load_model, save_plan, set_name};
+use crate::store::{load_model, save_plan};
 
 /// `enfilade classify`: labels for the rooms of plans.
 #[derive(clap::Args)]
@@ -276,12 +278,4 @@ fn json(plan: &Plan, said: &Predictions, with_unknown: bool) -> serde_json::Valu
         "rooms": rooms,
         "unknown": unknown,
     })
-}
-
-/// A text of at most so many characters, cut with an ellipsis.
-fn shortened(text: &str, most: usize) -> String {
-    if text.chars().count() <= most {
-        return text.to_owned();
-    }
-    text.chars().take(most.saturating_sub(1)).chain(['…']).collect()
 }

@@ -1,8 +1,8 @@
+use crate::plan::titles::room_keys;
 use std::path::PathBuf;
 
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::dataset::csv::feature_cells;
-use crate::dataset::room_keys;
 use crate::features::{Features, NeighbourLabels, analyse};
 use crate::labels::Label;
 

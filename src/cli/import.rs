@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 
 use super::{CliError, Outcome, Subcommand, Terminal};
-use crate::formats::plan_json::PlanJson;
-use crate::formats::{self, Format as _, Note, NoteKind, Place, building_name};
+use crate::edit;
+use crate::formats::{self, Format as _, Note, NoteKind, Place, building_name, plan_json::PlanJson};
 use crate::labels::{Schemes, Typology};
-use crate::plan::{Meta, Plan, edit};
+use crate::plan::{Meta, Plan};
 use crate::store::save_bytes_fast;
 
 /// How the files that are written end.

@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use super::Terminal;
-use crate::parallel::Work;
+use crate::base::work::Work;
 
 /// How often the line changes at most.
 const STEP: Duration = Duration::from_millis(200);

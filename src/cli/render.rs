@@ -7,12 +7,16 @@ use clap::builder::PossibleValuesParser;
 use super::classify::PredictorOptions;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::dataset::RoomNetwork;
-use crate::draw::sheet::{self, Furniture, PageSize};
-use crate::draw::{Drawing, Fill, LabelColours, Layers, Scene, Style, Theme, png, svg};
+use crate::draw::{
+    Drawing, Fill, LabelColours, Layers, Scene, Style, Theme, png,
+    sheet::{self, Furniture, PageSize},
+    svg,
+};
 use crate::features::{NeighbourLabels, analyse};
 use crate::labels::Schemes;
+use crate::picture::PictureLevels;
 use crate::plan::{Backdrop, Plan};
-use crate::store::pictures::{self, PictureLevels};
+use crate::store::pictures;
 
 /// `enfilade render`: plans as pictures.
 #[derive(clap::Args)]

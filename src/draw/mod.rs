@@ -12,6 +12,7 @@
 
 mod colour;
 mod drawing;
+mod elements;
 pub mod font;
 mod names;
 mod openings;
@@ -21,6 +22,7 @@ pub mod scene;
 pub mod sheet;
 mod style;
 pub mod svg;
+mod tile_grid;
 mod tiles;
 mod walls;
 

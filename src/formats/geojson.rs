@@ -4,6 +4,7 @@
 mod coordinates;
 mod disk;
 mod read;
+mod words;
 mod write;
 
 use super::{Format, Import, ReadError};

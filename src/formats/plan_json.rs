@@ -16,12 +16,12 @@ use serde_json::{Map, Value};
 
 use super::json_text::{Number, decode, id_on_line, json_fault, line_of_id};
 use super::{Format, Import, Place, ReadError};
-use crate::geometry::{Point, trim_m};
+use crate::geometry::{COORDINATE_LIMIT_M, Point, trim_m};
 use crate::labels::{Label, Schemes, Typology};
 use crate::plan::{
-    Backdrop, COORDINATE_LIMIT_M, Corner, CornerId, ElementId, Extra, Guide, GuideAxis, Joint, LabelOrigin, LeafSide,
-    Measurement, Meta, Opening, OpeningId, OpeningKind, Place as OpeningPlace, Plan, Room, RoomId, RoomLabel, Scale,
-    ScaleOrigin, Swing, Wall, WallId, guides,
+    Backdrop, Corner, CornerId, ElementId, Extra, Guide, GuideAxis, Joint, LabelOrigin, LeafSide, Measurement, Meta,
+    Opening, OpeningId, OpeningKind, Place as OpeningPlace, Plan, Room, RoomId, RoomLabel, Scale, ScaleOrigin, Swing,
+    Wall, WallId, guides,
 };
 
 pub(crate) use change::{apply_change, change_to_bytes};
@@ -56,7 +56,7 @@ impl Format for PlanJson {
         let mut plan = from_bytes(bytes)?;
         if plan.meta().name.is_empty() && !stem.is_empty() {
             let meta = Meta { name: stem.to_owned(), ..plan.meta().clone() };
-            plan = crate::plan::edit::set_meta(&plan, meta);
+            plan = crate::edit::set_meta(&plan, meta);
         }
         Ok(Import { plans: vec![plan], notes: Vec::new() })
     }

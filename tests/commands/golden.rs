@@ -1,7 +1,7 @@
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use enfilade::app::Picture;
+use enfilade::picture::Picture;
 
 /// A file beside this one.
 pub fn fixture(name: &str) -> PathBuf {

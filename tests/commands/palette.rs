@@ -3,7 +3,12 @@
 use enfilade::app::{Offscreen, OffscreenOptions};
 use enfilade::labels::Label;
 
-use crate::{done, keys, picked, run, type_in, window_with};
+use crate::done;
+use crate::keys;
+use crate::picked;
+use crate::run;
+use crate::type_in;
+use crate::window_with;
 
 /// The lines of the list, as a screen reader says them, and which one Enter takes.
 fn lines(window: &Offscreen) -> (Vec<String>, Option<String>) {

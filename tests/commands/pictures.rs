@@ -4,7 +4,10 @@ use egui::{Key, Modifiers};
 use enfilade::app::{Offscreen, OffscreenOptions};
 
 use crate::golden::assert_picture;
-use crate::{keys, press, run, type_in};
+use crate::keys;
+use crate::press;
+use crate::run;
+use crate::type_in;
 
 fn window(options: OffscreenOptions) -> Offscreen {
     let mut window = Offscreen::new(options);

@@ -3,7 +3,10 @@
 use egui::{Key, Modifiers, PointerButton, pos2, vec2};
 use enfilade::app::{Offscreen, OffscreenOptions};
 
-use crate::{done, press, run, window_with};
+use crate::done;
+use crate::press;
+use crate::run;
+use crate::window_with;
 
 #[test]
 fn all_that_is_done_by_hand_is_told_and_replays_to_the_same() {

@@ -1,10 +1,12 @@
 //! Units and the grid's spacing are kept with the settings; lengths in calls may have any unit.
 
 use enfilade::app::{Offscreen, OffscreenOptions};
+use enfilade::base::units::Units;
 use enfilade::plan::GuideAxis;
-use enfilade::units::Units;
 
-use crate::{refusal, run, window_with};
+use crate::refusal;
+use crate::run;
+use crate::window_with;
 
 #[test]
 fn units_and_grid_are_kept() {

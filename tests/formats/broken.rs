@@ -11,9 +11,10 @@ use enfilade::labels::Schemes;
 use proptest::prelude::*;
 use proptest::sample::Index;
 
+use crate::geojson;
 use crate::golden::{assert_golden, fixture};
 use crate::plan_json::full_plan;
-use crate::{geojson, real};
+use crate::real;
 
 /// The names of the fixtures in a folder, sorted.
 fn fixtures(folder: &str) -> Vec<String> {

@@ -9,7 +9,10 @@ use enfilade::app::commands::Menu;
 use enfilade::app::{Control, Offscreen, OffscreenOptions};
 use enfilade::plan::ElementId;
 
-use crate::{click_room, press, room, window_with};
+use crate::click_room;
+use crate::press;
+use crate::room;
+use crate::window_with;
 
 fn key(window: &mut Offscreen, key: Key) {
     window.key(Modifiers::NONE, key);
@@ -267,7 +270,7 @@ fn one_sees_where_the_keyboard_is() {
             if let Some(control) = focused.filter(|control| control.name != "Resize panel")
                 && was.is_none_or(|was| was.rect != control.rect)
             {
-                let part = |picture: &enfilade::app::Picture, rect: Rect| {
+                let part = |picture: &enfilade::picture::Picture, rect: Rect| {
                     let corner = |at: egui::Pos2| [at.x.max(0.0) as u32, at.y.max(0.0) as u32];
                     picture.part(corner(rect.min), corner(rect.max))
                 };

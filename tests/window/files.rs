@@ -3,12 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use egui::{Key, Modifiers};
-use enfilade::app::{Offscreen, OffscreenOptions, Picture, Severity};
+use enfilade::app::{Offscreen, OffscreenOptions, Severity};
+use enfilade::edit;
 use enfilade::geometry::Point;
-use enfilade::plan::{Backdrop, Builder, Meta, Plan, Room, edit};
+use enfilade::picture::Picture;
+use enfilade::plan::{Backdrop, Builder, Meta, Plan, Room};
 use enfilade::store::{BUNDLED, load_plan, save_plan};
 
-use crate::{click_room, press, texts, window_with};
+use crate::click_room;
+use crate::press;
+use crate::texts;
+use crate::window_with;
 
 /// A folder with two plans of our own and one that is broken.
 #[expect(clippy::disallowed_methods, reason = "a test's files are no user's")]

@@ -4,12 +4,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::{Read, Wanted, read};
-use crate::app::dialogs::Purpose;
-use crate::app::document::{Document, file_name};
-use crate::app::{App, Done, Message, Question, Remedy, Severity};
+use crate::app::{
+    App, Done, Message, Question, Remedy, Severity,
+    dialogs::Purpose,
+    document::{Document, file_name},
+};
+use crate::edit::{self, DrawingMoves, EditError};
 use crate::geometry::{Point, Vector};
-use crate::plan::edit::{self, EditError};
-use crate::plan::{self, Backdrop, DrawingMoves, Measurement, OpeningId, Plan};
+use crate::plan::{Backdrop, Measurement, OpeningId, Plan};
 use crate::store::pictures::{self, LoadedPicture, PictureError};
 
 /// What a picture is read for.
@@ -41,8 +43,8 @@ impl PictureChange {
 
     fn apply(&self, plan: &Plan, drawing: DrawingMoves) -> Result<Plan, EditError> {
         match self {
-            Self::Measurements(measurements) => plan::set_measurements(plan, measurements.clone(), drawing),
-            Self::Turn { about, angle_rad } => plan::turn_picture(plan, *about, *angle_rad, drawing),
+            Self::Measurements(measurements) => edit::set_measurements(plan, measurements.clone(), drawing),
+            Self::Turn { about, angle_rad } => edit::turn_picture(plan, *about, *angle_rad, drawing),
         }
     }
 }
@@ -257,7 +259,7 @@ impl App {
         to: Point,
         drawing: Option<DrawingMoves>,
     ) -> Result<(), String> {
-        let angle_rad = plan::straightening_rad(to - from).ok_or("the two points are the same")?;
+        let angle_rad = edit::straightening_rad(to - from).ok_or("the two points are the same")?;
         self.change_picture(PictureChange::Turn { about: from.midpoint(to), angle_rad }, drawing);
         Ok(())
     }
@@ -271,7 +273,7 @@ impl App {
     }
 
     pub(in crate::app) fn move_picture(&mut self, by: Vector) {
-        self.edit("Move picture", |plan| plan::move_picture(plan, by));
+        self.edit("Move picture", |plan| edit::move_picture(plan, by));
     }
 
     /// Changes the picture; where something is drawn and nobody has said what becomes of it, asks.

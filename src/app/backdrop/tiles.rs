@@ -9,8 +9,8 @@ use egui::{Color32, ColorImage, Context, Painter, Pos2, Rect, Shape, TextureHand
 use crate::app::scene_painter::on_screen;
 use crate::draw::View;
 use crate::geometry::{Bounds, Point};
+use crate::picture::{Level, PictureLevels, Samples};
 use crate::plan::Backdrop;
-use crate::store::pictures::{Level, PictureLevels, Samples};
 
 /// Pixels of a tile's side, without the rim of one pixel about it that neighbours share, so that no
 /// seam is seen between them.

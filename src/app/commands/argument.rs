@@ -5,15 +5,15 @@ use std::path::{Path, PathBuf};
 
 use super::keys::{Keys, NoKeys};
 use super::{COMMANDS, Command, find};
-use crate::app::App;
-use crate::app::canvas::{room_title, sentence};
-use crate::app::document::bundled;
+use crate::app::{App, document::bundled};
+use crate::base::units::Units;
+use crate::base::wording::{or_list, sentence, similar};
 use crate::features::RoomStatus;
 use crate::formats;
-use crate::geometry::{Point, trim_m};
+use crate::geometry::{COORDINATE_LIMIT_M, Point, trim_m};
 use crate::labels::Typology;
-use crate::plan::{COORDINATE_LIMIT_M, ElementId, Joint, Opening, OpeningId, Plan, Room, RoomId};
-use crate::units::Units;
+use crate::plan::titles::room_title;
+use crate::plan::{ElementId, Joint, Opening, OpeningId, Plan, Room, RoomId};
 
 /// Something a command takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +40,7 @@ pub enum ArgumentKind {
     Text,
     /// A number with a decimal point.
     Number { unit: &'static str, least: f64, most: f64 },
-    /// A length, typed in the units that are set or with its own; see [`crate::units`].
+    /// A length, typed in the units that are set or with its own; see [`crate::base::units`].
     Length { least_m: f64, most_m: f64 },
     /// 1, 2, 3, …
     Count,
@@ -322,7 +322,7 @@ impl ArgumentKind {
             }
             Self::Sample => {
                 let choice = |(name, plan): &(&str, Plan)| Choice {
-                    detail: crate::app::panels::status::count(plan.rooms().len(), "room"),
+                    detail: crate::base::wording::count(plan.rooms().len(), "room"),
                     ..plain(formats::file_stem(name), &plan.meta().name)
                 };
                 bundled().iter().map(choice).collect()
@@ -476,29 +476,4 @@ fn opening_choices(app: &App) -> Vec<Choice> {
         }
     };
     plan.openings().map(choice).collect()
-}
-
-/// The words most like one that is wrong, the likest first.
-pub(super) fn similar<'a>(wrong: &str, words: impl Iterator<Item = &'a str>, most: usize) -> Vec<&'a str> {
-    // Below, two words have hardly more in common than any two.
-    const LEAST: f64 = 0.75;
-    let wrong = wrong.trim().to_lowercase();
-    let mut found: Vec<(f64, &str)> = words
-        .map(|word| (strsim::jaro_winkler(&wrong, &word.to_lowercase()), word))
-        .filter(|(likeness, _)| *likeness >= LEAST)
-        .collect();
-    found.sort_by(|p, q| q.0.total_cmp(&p.0).then(p.1.cmp(q.1)));
-    // Next to a good guess, poor ones only distract.
-    let best = found.first().map_or(1.0, |(likeness, _)| *likeness);
-    found.retain(|(likeness, _)| *likeness >= best - 0.05);
-    found.into_iter().take(most).map(|(_, word)| word).collect()
-}
-
-/// 'a', 'b' or 'c'.
-pub(super) fn or_list(words: &[&str]) -> String {
-    let quoted: Vec<String> = words.iter().map(|word| format!("'{word}'")).collect();
-    match quoted.as_slice() {
-        [all @ .., last] if !all.is_empty() => format!("{} or {last}", all.join(", ")),
-        _ => quoted.concat(),
-    }
 }

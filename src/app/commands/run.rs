@@ -1,17 +1,18 @@
 //! Running commands by their words, and telling a recorder which ran.
 
+use crate::base::wording::{or_list, similar};
 use std::fmt;
 use std::path::PathBuf;
 
 use egui::Context;
 
-use super::argument::{Values, or_list, similar, switch_word};
+use super::argument::{Values, switch_word};
 use super::{Action, COMMANDS, Command, Keys, Ran, find};
 use crate::app::backdrop::PictureChange;
 use crate::app::panels::palette::Palette;
 use crate::app::settings::Settings;
 use crate::app::{App, Question, Severity};
-use crate::units::Units;
+use crate::base::units::Units;
 
 /// Why a command was not run.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -4,19 +4,20 @@ use egui::{
     Align2, ComboBox, FontId, Id, Key, Modal, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2,
 };
 
-use super::status::count;
 use crate::app::bulk::{Change, Names, Order, Which};
-use crate::app::canvas::{room_title, sentence};
 use crate::app::commands::Choice;
 use crate::app::widgets::{
     Lead, Row, Segment, caption, colours, dialog_frame, focus_ring, put_line, right, segmented, strong, swatch,
     text_button,
 };
 use crate::app::{App, theme};
+use crate::base::wording::count;
+use crate::base::wording::sentence;
 use crate::draw::Palette;
+use crate::edit::naming::{PARTS, PatternError};
 use crate::features::RoomStatus;
 use crate::labels::Label;
-use crate::plan::naming::{PARTS, PatternError};
+use crate::plan::titles::room_title;
 
 /// Width of the dialogs, in points.
 const WIDTH: f32 = 460.0;

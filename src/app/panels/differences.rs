@@ -7,11 +7,11 @@ use std::sync::Arc;
 use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
 use super::plan_picture::{MarkKind, PlanPicture, legend};
-use super::status::count;
-use crate::app::canvas::title_of;
 use crate::app::document::Derived;
 use crate::app::widgets::{caption, colours, dialog_frame, right, section, strong, text_button};
 use crate::app::{App, theme};
+use crate::base::wording::count;
+use crate::plan::titles::title_of;
 use crate::plan::{ChangeKind, Difference, ElementId, Plan};
 
 /// More lines than these are not read; how many there are is said.

@@ -3,23 +3,25 @@
 use egui::{Id, Key, Popup, PopupCloseBehavior, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::picture::{self, PictureAct};
-use super::status::count;
 use super::{Field, FieldKind, prediction};
-use crate::app::canvas::{room_title, sentence, title_of};
 use crate::app::document::{Derived, Document};
 use crate::app::icons::Icon;
 use crate::app::widgets::{
     Lead, Row, Segment, caption, colours, follow_focus, hairline, link, section, segmented, strong, value,
 };
 use crate::app::{App, commands, theme};
+use crate::base::units::Units;
+use crate::base::wording::count;
+use crate::base::wording::sentence;
 use crate::draw::Palette;
 use crate::features::{Features, RoomAnalysis, RoomStatus};
 use crate::labels::{Label, Meaning, normalised_function};
+use crate::plan::titles::room_title;
+use crate::plan::titles::title_of;
 use crate::plan::{
     ElementId, Joint, LabelOrigin, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, ScaleOrigin,
 };
 use crate::topology::RoomShape;
-use crate::units::Units;
 
 /// What a person did in the inspector.
 enum Act {

@@ -71,7 +71,7 @@ fn legend(ui: &mut Ui, document: &Document, fill: Fill, palette: &Palette) {
             let (labelled, unlabelled, not_classified) =
                 if is_predicted { derived.drawing.predicted_counts() } else { derived.drawing.counts() };
             for label in Label::ALL {
-                let name = crate::app::canvas::sentence(label.name());
+                let name = crate::base::wording::sentence(label.name());
                 rows.push((palette.label(label), name, labelled[label.index()]));
             }
             let unlabelled_name = if is_predicted { "No prediction" } else { "No label" };
@@ -88,7 +88,7 @@ fn legend(ui: &mut Ui, document: &Document, fill: Fill, palette: &Palette) {
         Fill::Function => {
             let number = |function: &str| derived.functions.get(function).copied().unwrap_or_default();
             for (function, colour) in palette.functions(derived.functions.keys().map(String::as_str)) {
-                rows.push((colour, crate::app::canvas::sentence(&function), number(&function)));
+                rows.push((colour, crate::base::wording::sentence(&function), number(&function)));
             }
             if number("") > 0 {
                 rows.push((palette.unlabelled, "No function".to_owned(), number("")));

@@ -29,7 +29,7 @@ use palette::Palette;
 use shortcuts::Sheet;
 
 use super::{App, canvas, theme};
-use crate::plan::edit::{self, EditError};
+use crate::edit::{self, EditError};
 use crate::plan::{Plan, RoomId};
 
 /// So many points at least the list of plans keeps above the layers: its title and two plans.

@@ -7,12 +7,12 @@ use egui::{
     Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use crate::app::canvas::sentence;
 use crate::app::commands::{Argument, COMMANDS, Choice, Command};
 use crate::app::icons::Icon;
 use crate::app::search::{Hit, Search};
 use crate::app::widgets::{ICON, ROW, colours, hairline_in, put_line, swatch};
 use crate::app::{App, theme};
+use crate::base::wording::sentence;
 
 /// Width of the palette, in points.
 const WIDTH: f32 = 580.0;

@@ -2,13 +2,16 @@
 
 use egui::{FontId, Role, Sense, Slider, Ui, WidgetInfo, pos2, vec2};
 
-use crate::app::App;
-use crate::app::backdrop::{Known, millimetres};
-use crate::app::icons::Icon;
-use crate::app::theme;
-use crate::app::widgets::{ROW, caption, colours, icon_button, link, put_line, section, value};
-use crate::plan::{Backdrop, Calibration, Measurement, ScaleOrigin};
-use crate::units::Units;
+use crate::app::{
+    App,
+    backdrop::{Known, millimetres},
+    icons::Icon,
+    theme,
+    widgets::{ROW, caption, colours, icon_button, link, put_line, section, value},
+};
+use crate::base::units::Units;
+use crate::edit::Calibration;
+use crate::plan::{Backdrop, Measurement, ScaleOrigin};
 
 /// What a person did in the section.
 pub(super) enum PictureAct {

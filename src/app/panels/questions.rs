@@ -2,9 +2,9 @@
 
 use egui::{Id, Key, Modal, Ui};
 
-use super::status::count;
 use crate::app::widgets::{dialog_frame, right, strong, text_button};
 use crate::app::{App, Intent, Question, theme};
+use crate::base::wording::count;
 use crate::plan::ElementId;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {

@@ -5,10 +5,10 @@ use std::time::SystemTime;
 use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
 use super::plan_picture::{MarkKind, legend};
-use super::status::count;
 use crate::app::recovery::Offered;
 use crate::app::widgets::{caption, colours, dialog_frame, right, strong, text_button};
 use crate::app::{App, theme};
+use crate::base::wording::count;
 
 /// Size of a picture, in points.
 const PICTURE: egui::Vec2 = vec2(300.0, 190.0);

@@ -1,5 +1,6 @@
 //! The line at the bottom: what is there, what was done, where the pointer is, how large.
 
+use crate::base::wording::{count, thousands};
 use egui::{Align, Layout, RichText, Sense, Ui, vec2};
 
 use crate::app::icons::Icon;
@@ -86,36 +87,4 @@ pub(in crate::app) fn left_text(app: &App) -> String {
         text.push_str(&format!("  ·  {}", count(plan.openings().len() - passable, "window")));
     }
     text
-}
-
-/// A number of things, in words.
-pub(in crate::app) fn count(number: usize, thing: &str) -> String {
-    let plural = if number == 1 { "" } else { "s" };
-    format!("{} {thing}{plural}", thousands(number as u64))
-}
-
-/// A number with its thousands apart.
-fn thousands(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            // A thin space that does not break, as ISO 80000 has it.
-            text.push('\u{202f}');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_read_well() {
-        assert_eq!(count(1, "room"), "1 room");
-        assert_eq!(count(0, "room"), "0 rooms");
-        assert_eq!(count(1234567, "wall"), "1\u{202f}234\u{202f}567 walls");
-    }
 }

@@ -6,7 +6,7 @@ use egui::{Area, DragValue, Frame, Id, Margin, Order, RichText, Ui, vec2};
 use crate::app::commands;
 use crate::app::widgets::{colours, toggle};
 use crate::app::{App, theme};
-use crate::units::Units;
+use crate::base::units::Units;
 
 /// The tools for which something can be told, with the commands of their switches.
 fn switches(id: &str) -> &'static [(&'static str, &'static str)] {

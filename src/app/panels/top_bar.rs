@@ -5,10 +5,10 @@ use egui::{
     vec2,
 };
 
-use crate::app::canvas::sentence;
 use crate::app::commands::{COMMANDS, Command, Menu};
 use crate::app::widgets::{Lead, ROW, Row, colours, focus_ring, icon_button, strong};
 use crate::app::{App, theme};
+use crate::base::wording::sentence;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let bar = ui.max_rect();

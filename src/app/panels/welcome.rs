@@ -9,11 +9,11 @@ use egui::{
     Stroke, Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use super::status::count;
 use crate::app::document::{Derived, Origin, bundled, derived_sample};
 use crate::app::scene_painter::ScenePainter;
 use crate::app::widgets::{colours, follow_focus, section, strong, text_button};
 use crate::app::{App, commands, theme};
+use crate::base::wording::count;
 use crate::draw::{Layers, Style, View};
 use crate::plan::Plan;
 

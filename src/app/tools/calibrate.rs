@@ -4,9 +4,10 @@
 use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, TakenBack, Tool, Typed, Typing, picture_words};
 use crate::app::backdrop::millimetres;
+use crate::base::units::Units;
+use crate::edit::Calibration;
 use crate::geometry::{Point, Segment};
-use crate::plan::{Backdrop, Calibration};
-use crate::units::Units;
+use crate::plan::Backdrop;
 
 pub(super) const BY_LENGTH: Entry = Entry { id: "calibrate", make: || Box::new(Calibrate::new(Known::Typed)) };
 pub(super) const BY_DOOR: Entry = Entry { id: "calibrate-door", make: || Box::new(Calibrate::new(Known::Door)) };

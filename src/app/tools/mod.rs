@@ -33,11 +33,11 @@ use super::canvas::canvas_id;
 use super::commands::points_word;
 use super::document::Derived;
 use super::{App, LayerSettings, Selection};
+use crate::base::units::Units;
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::plan::{DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, Plan};
 use crate::snapping::{self, PlanIndex, Query, Snap};
 use crate::topology::Gap;
-use crate::units::Units;
 
 /// A tool as the table has it.
 pub(super) struct Entry {

@@ -4,8 +4,8 @@ use super::path::Path;
 use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, Tool};
 use crate::app::commands::points_word;
+use crate::edit::{Across, straight_across};
 use crate::geometry::Point;
-use crate::topology::{Across, straight_across};
 
 pub(super) const ENTRY: Entry = Entry { id: "split", make: || Box::new(Split::default()) };
 

@@ -2,8 +2,8 @@
 
 use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, TakenBack, Tool, picture_words};
+use crate::edit::straightening_rad;
 use crate::geometry::{Point, Segment};
-use crate::plan::straightening_rad;
 
 pub(super) const ENTRY: Entry = Entry { id: "straighten", make: || Box::new(Straighten { from: None }) };
 

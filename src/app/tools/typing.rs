@@ -3,7 +3,7 @@
 use egui::Key;
 
 use super::Typing;
-use crate::units::{Units, parse_angle_rad};
+use crate::base::units::{Units, parse_angle_rad};
 
 /// What was typed, read.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,11 +13,11 @@ use self::document::{DAMAGED_HINT, Document, Floor, Offset, Portal, Space};
 use self::openings::Ring;
 use super::building_name;
 use super::{Format, Import, Note, NoteKind, Place, ReadError};
-use crate::geometry::{Bounds, Point, Segment, Vector};
+use crate::geometry::{Bounds, COORDINATE_LIMIT_M, Point, Segment, Vector};
 use crate::labels::{Schemes, Typology};
 use crate::plan::{
-    Builder, COORDINATE_LIMIT_M, CornerId, DEFAULT_DOOR_WIDTH_M, Extra, Joint, Meta, Opening, OpeningKind,
-    Place as OpeningPlace, Plan, Room, RoomId, THICKEST_WALL_M,
+    Builder, CornerId, DEFAULT_DOOR_WIDTH_M, Extra, Joint, Meta, Opening, OpeningKind, Place as OpeningPlace, Plan,
+    Room, RoomId, THICKEST_WALL_M,
 };
 
 /// Notes of one file. More than that help nobody, and a hostile file must not fill the memory.

@@ -1,6 +1,7 @@
 //! How many metres a pixel is.
 
 use super::document::{Document, Length, Offset};
+use crate::base::numbers::upper_median;
 use crate::geometry::polygon;
 use crate::plan::{Scale, ScaleOrigin};
 
@@ -127,6 +128,5 @@ fn median_room_px2(document: &Document) -> Option<f64> {
     let spaces = document.floors.iter().flat_map(|floor| &floor.spaces);
     let mut areas: Vec<f64> =
         spaces.map(|space| polygon::signed_area(&space.boundary).abs()).filter(|&area| area > 0.0).collect();
-    areas.sort_by(f64::total_cmp);
-    areas.get(areas.len() / 2).copied()
+    upper_median(&mut areas)
 }

@@ -8,14 +8,17 @@ use serde_json::{Map, Value};
 use super::KEPT;
 use super::coordinates::{Coordinates, Position};
 use super::disk::{DiskCollection, DiskFeature, DiskHost, DiskMeta, DiskProperties, Words};
-use crate::formats::json_text::{decode, id_on_line, json_fault};
-use crate::formats::plan_json::DiskHinge;
-use crate::formats::{Import, Note, NoteKind, Place, ReadError};
-use crate::geometry::{Bounds, Point, Segment, polygon, trim_m};
-use crate::labels::{Label, Typology, normalised_function};
+use super::words::{FROM_SCHEME, opening_kind, opening_word};
+use crate::formats::{
+    Import, Note, NoteKind, Place, ReadError,
+    json_text::{decode, id_on_line, json_fault},
+    plan_json::DiskHinge,
+};
+use crate::geometry::{Bounds, COORDINATE_LIMIT_M, Point, Segment, polygon, trim_m};
+use crate::labels::{Label, Typology};
 use crate::plan::{
-    Builder, COORDINATE_LIMIT_M, CornerId, DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, Extra, Joint, LabelOrigin,
-    Meta, Opening, OpeningKind, Place as OpeningPlace, Room, RoomId, RoomLabel, Scale, ScaleOrigin, Swing, Wall,
+    Builder, CornerId, DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, Extra, Joint, LabelOrigin, Meta, Opening,
+    OpeningKind, Place as OpeningPlace, Room, RoomId, RoomLabel, Scale, ScaleOrigin, Swing, Wall,
 };
 
 /// How far from an edge the ends of an opening may lie to be hosted by it: what rounding to four
@@ -299,7 +302,7 @@ impl Reader {
     /// A room with everything but its boundary.
     fn room_of(&mut self, properties: DiskProperties, place: &Place) -> Room {
         // A label that follows from the function is there for other readers.
-        let own_label = !properties.label.is_empty() && properties.label_origin.0 != super::write::FROM_SCHEME;
+        let own_label = !properties.label.is_empty() && properties.label_origin.0 != FROM_SCHEME;
         let label = own_label.then(|| properties.label.0.parse::<Label>());
         if let Some(Err(unknown)) = &label {
             self.note(NoteKind::Skipped, place.clone(), format!("{unknown}; left unlabelled"));
@@ -401,7 +404,7 @@ impl Reader {
             }
         };
         // The source's own word ('sliding_door') is kept where ours says less.
-        if !properties.opening.is_empty() && properties.opening.0 != super::write::opening_word(kind) {
+        if !properties.opening.is_empty() && properties.opening.0 != opening_word(kind) {
             properties.other.insert("opening".to_owned(), Value::String(properties.opening.0));
         }
         let pinned = match properties.rooms {
@@ -472,18 +475,6 @@ impl Reader {
             at_m,
             width_m,
         })
-    }
-}
-
-/// What the words of the property `opening` mean. An opening to the outside that is a door or a
-/// window, not told apart (`exterior_opening`), is a window: it must not count in `d`.
-pub(super) fn opening_kind(word: &str) -> Option<OpeningKind> {
-    match normalised_function(word).as_str() {
-        "door" | "entrance door" | "sliding door" => Some(OpeningKind::Door),
-        "double door" => Some(OpeningKind::DoubleDoor),
-        "passage" | "open" => Some(OpeningKind::Passage),
-        "window" | "exterior opening" => Some(OpeningKind::Window),
-        _ => None,
     }
 }
 

@@ -4,28 +4,14 @@ use serde_json::{Map, Value};
 use super::KEPT;
 use super::coordinates::{Coordinates, Position};
 use super::disk::{DiskFeature, DiskGeometry, DiskHost, DiskMeta, DiskProperties, Words};
+use super::words::{FROM_SCHEME, opening_kind, opening_word};
 use crate::features::RoomStatus;
 use crate::formats::json_text::Number;
 use crate::formats::plan_json::DiskHinge;
 use crate::geometry::Point;
 use crate::labels::Schemes;
-use crate::plan::{
-    CornerId, Extra, Joint, Meta, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, Wall, WallId,
-};
+use crate::plan::{CornerId, Extra, Joint, Meta, Opening, OpeningId, Place, Plan, Room, RoomId, Wall, WallId};
 use crate::topology::{Graph, RoomShapes};
-
-/// The origin of a label that follows from the room's function by the label scheme.
-pub(super) const FROM_SCHEME: &str = "scheme";
-
-/// The word for an opening's kind.
-pub(super) const fn opening_word(kind: OpeningKind) -> &'static str {
-    match kind {
-        OpeningKind::Door => "door",
-        OpeningKind::DoubleDoor => "double_door",
-        OpeningKind::Passage => "passage",
-        OpeningKind::Window => "window",
-    }
-}
 
 /// Members that Enfilade writes itself: kept properties of these names are not written twice.
 const OWN: &[&str] = &[
@@ -192,7 +178,7 @@ fn opening_feature(plan: &Plan, id: OpeningId, opening: &Opening, found: Option<
         .extra
         .as_ref()
         .and_then(|extra| extra.get(KEPT)?.get("opening")?.as_str())
-        .filter(|word| super::read::opening_kind(word) == Some(opening.kind))
+        .filter(|word| opening_kind(word) == Some(opening.kind))
         .unwrap_or(opening_word(opening.kind));
     let properties = DiskProperties {
         kind: "opening".into(),

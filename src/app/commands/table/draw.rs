@@ -2,9 +2,8 @@
 
 use super::*;
 use crate::app::tools::TOOLS;
+use crate::edit;
 use crate::plan::OpeningKind;
-use crate::plan::edit;
-use crate::topology;
 
 /// Takes up a tool.
 const fn tool(
@@ -175,14 +174,14 @@ pub(super) const COMMANDS: &[Command] = &[
         |app, _, _| {
             let mut filled = 0;
             let ran = edited(app, "Fill all", |plan| {
-                let all = topology::fill_all(plan)?;
+                let all = edit::fill_all(plan)?;
                 filled = all.rooms.len();
                 Ok(all.plan)
             });
             if filled == 0 && ran == Ran::Done {
                 return Ran::Refused("walls enclose nothing that has no room yet".to_owned());
             }
-            app.status = format!("Made {}", crate::app::panels::status::count(filled, "room"));
+            app.status = format!("Made {}", crate::base::wording::count(filled, "room"));
             ran
         },
         None,
@@ -295,7 +294,7 @@ pub(super) const COMMANDS: &[Command] = &[
         |app, values, _| {
             let thickness_m = values.number(1).copied().unwrap_or(app.draw_options.thickness_m);
             let points = values.points(0).unwrap_or_default().to_vec();
-            edited(app, "Draw wall", |plan| Ok(topology::draw_walls(plan, &points, thickness_m)?.plan))
+            edited(app, "Draw wall", |plan| Ok(edit::draw_walls(plan, &points, thickness_m)?.plan))
         },
         None,
     ),
@@ -321,10 +320,10 @@ pub(super) const COMMANDS: &[Command] = &[
             let takes_free = values.word(1) == Some(&"free");
             edited(app, "Draw room", |plan| {
                 if takes_free {
-                    let gap_m = topology::GAP_BETWEEN_ROOMS_M;
-                    Ok(topology::draw_room_in_free_space(plan, &points, thickness_m, gap_m)?.0)
+                    let gap_m = edit::GAP_BETWEEN_ROOMS_M;
+                    Ok(edit::draw_room_in_free_space(plan, &points, thickness_m, gap_m)?.0)
                 } else {
-                    Ok(topology::draw_room(plan, &points, thickness_m)?.0)
+                    Ok(edit::draw_room(plan, &points, thickness_m)?.0)
                 }
             })
         },
@@ -338,7 +337,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &[PLACE],
         |app, values, _| {
             let point = values.points(0).and_then(|points| points.first()).copied().unwrap_or_default();
-            edited(app, "Fill", |plan| Ok(topology::fill_at(plan, point)?.plan))
+            edited(app, "Fill", |plan| Ok(edit::fill_at(plan, point)?.plan))
         },
         None,
     ),
@@ -350,7 +349,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &[PATH],
         |app, values, _| {
             let points = values.points(0).unwrap_or_default().to_vec();
-            edited(app, "Split", |plan| topology::split_rooms(plan, &points).map(|split| split.0))
+            edited(app, "Split", |plan| edit::split_rooms(plan, &points).map(|split| split.0))
         },
         None,
     ),
@@ -362,7 +361,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &[RING],
         |app, values, _| {
             let points = values.points(0).unwrap_or_default().to_vec();
-            edited(app, "Cut out", |plan| topology::cut_out(plan, topology::room_around(plan, &points)?, &points))
+            edited(app, "Cut out", |plan| edit::cut_out(plan, edit::room_around(plan, &points)?, &points))
         },
         None,
     ),

@@ -1,7 +1,7 @@
 //! Opening, saving, closing.
 
 use super::*;
-use crate::plan::storey::Keep;
+use crate::edit::storey::Keep;
 
 pub(super) const COMMANDS: &[Command] = &[
     command("new-plan", "New plan", "Begin a plan on which nothing is drawn yet", always, |app, _| app.new_plan())

@@ -24,14 +24,14 @@ use crate::app::panels::shortcuts::Sheet;
 use crate::app::settings::GRID_RANGE_M;
 use crate::app::theme::ThemeChoice;
 use crate::app::{App, Intent, Origin, SelectMode};
+use crate::base::units::Units;
 use crate::classify::{Algorithm, Method};
 use crate::draw::{Fill, LabelColours};
+use crate::edit::EditError;
 use crate::features::RoomStatus;
 use crate::geometry::{Bounds, Point, Segment, Vector, polygon, trim_m};
 use crate::labels::{Label, normalised_function};
-use crate::plan::edit::EditError;
 use crate::plan::{ElementId, Plan};
-use crate::units::Units;
 
 const fn key(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::NONE, key)

@@ -5,8 +5,8 @@ use std::collections::BTreeSet;
 use super::draw::{KINDS, edited, kind_of};
 use super::*;
 use crate::app::{Document, ProposedChange, Question};
+use crate::edit::{self, Alignment, Array};
 use crate::geometry::Transform;
-use crate::plan::edit::{self, Alignment, Array};
 use crate::plan::{LeafSide, OpeningId, OpeningKind, RoomId, Swing};
 use crate::topology;
 
@@ -345,7 +345,7 @@ pub(super) const COMMANDS: &[Command] = &[
             if rooms.len() < 2 {
                 return Ran::Refused("select two rooms or more first".to_owned());
             }
-            edited(app, "Merge rooms", |plan| topology::merge_rooms(plan, &rooms))
+            edited(app, "Merge rooms", |plan| edit::merge_rooms(plan, &rooms))
         },
         None,
     )
@@ -499,7 +499,7 @@ pub(super) const COMMANDS: &[Command] = &[
                 let gaps = topology::gaps(plan);
                 let nearest = gaps.iter().min_by(|p, q| p.segment.distance(at).total_cmp(&q.segment.distance(at)));
                 let Some(gap) = nearest else { return Err(EditError(NO_GAPS.to_owned())) };
-                Ok(topology::bridge_gaps(plan, std::slice::from_ref(gap), kind)?.0)
+                Ok(edit::bridge_gaps(plan, std::slice::from_ref(gap), kind)?.0)
             })
         },
         None,
@@ -627,7 +627,7 @@ fn select_found(app: &mut App, found: Vec<ElementId>, values: &Values) -> Ran {
     if found.is_empty() {
         return Ran::Refused("there is no such room".to_owned());
     }
-    app.status = format!("Found {}", crate::app::panels::status::count(found.len(), "room"));
+    app.status = format!("Found {}", crate::base::wording::count(found.len(), "room"));
     app.select(found, SelectMode::of_word(values.word(1).copied().unwrap_or("replace")));
     Ran::Done
 }
@@ -740,7 +740,7 @@ impl App {
                 let mut marks: Vec<Segment> =
                     weld.merged.iter().map(|&(from, to)| Segment::new(place(from), place(to))).collect();
                 marks.extend(weld.onto_edges.iter().map(|&(corner, _)| Segment::new(place(corner), place(corner))));
-                let count = crate::app::panels::status::count;
+                let count = crate::base::wording::count;
                 let (corners, edges) = (count(weld.merged.len(), "corner"), count(weld.onto_edges.len(), "edge"));
                 let text = format!(
                     "{corners} would become another within {}, and {edges} would be split at a corner: marked on the plan.",
@@ -766,10 +766,10 @@ impl App {
         if gaps.is_empty() {
             return Ran::Refused(NO_GAPS.to_owned());
         }
-        match topology::bridge_gaps(plan, &gaps, OpeningKind::Door) {
+        match edit::bridge_gaps(plan, &gaps, OpeningKind::Door) {
             Err(error) => Ran::Refused(error.to_string()),
             Ok((next, _)) => {
-                let gaps_said = crate::app::panels::status::count(gaps.len(), "gap");
+                let gaps_said = crate::base::wording::count(gaps.len(), "gap");
                 self.question = Some(Question::Change(ProposedChange {
                     title: "Put doors into these gaps?".to_owned(),
                     text: format!("{gaps_said} between collinear walls, 30 to 150 cm wide: marked on the plan."),
@@ -792,11 +792,11 @@ impl App {
         let room = self.selection.rooms().next();
         let thickness_m = self.draw_options.thickness_m;
         edited(self, "Offset", |plan| match (walls.is_empty(), room) {
-            (false, _) => Ok(topology::offset_walls(plan, &walls, distance_m, towards)?.plan),
+            (false, _) => Ok(edit::offset_walls(plan, &walls, distance_m, towards)?.plan),
             (true, Some(room)) => {
                 let points = plan.room(room).map(|room| plan.ring_points(&room.outer)).unwrap_or_default();
                 let is_inside = polygon::locate_in_ring(&points, towards) != polygon::Location::Outside;
-                Ok(topology::offset_room(plan, room, distance_m, is_inside, thickness_m)?.plan)
+                Ok(edit::offset_room(plan, room, distance_m, is_inside, thickness_m)?.plan)
             }
             (true, None) => Err(EditError("select walls or a room first".to_owned())),
         })

@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::app::backdrop::PictureUse;
-use crate::plan::{DEFAULT_DOOR_WIDTH_M, DrawingMoves, ElementId};
+use crate::edit::DrawingMoves;
+use crate::plan::{DEFAULT_DOOR_WIDTH_M, ElementId};
 
 const DRAWING: Argument = optional(
     "DRAWING",

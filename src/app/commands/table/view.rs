@@ -1,8 +1,8 @@
 //! What is seen, and how.
 
 use super::*;
-use crate::plan::edit::EditError;
-use crate::plan::guides::{add_guide, clear_guides, move_guide, remove_guide};
+use crate::edit::EditError;
+use crate::edit::guides::{add_guide, clear_guides, move_guide, remove_guide};
 use crate::plan::{GuideAxis, Plan};
 
 const AXES: &[(&str, &str)] = &[("horizontal", "Horizontal"), ("vertical", "Vertical")];
