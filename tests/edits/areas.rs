@@ -5,7 +5,7 @@ use enfilade::edit::{GAP_BETWEEN_ROOMS_M, draw_room, draw_room_in_free_space, dr
 use enfilade::geometry::Point;
 use enfilade::plan::{Joint, Opening, OpeningKind, Place, Plan};
 
-use crate::support::{area_m2, areas, points, rectangle};
+use super::support::{area_m2, areas, points, rectangle};
 
 #[test]
 fn a_room_drawn_over_others_takes_what_is_free() {

@@ -7,7 +7,7 @@ use enfilade::edit::{cut_out, draw_room_in_free_space, draw_walls, merge_rooms, 
 use enfilade::geometry::{Point, Transform, Vector, polygon};
 use enfilade::plan::{ElementId, OpeningKind, Plan, RoomId};
 
-use crate::support::{area_m2, total_area};
+use super::support::{area_m2, total_area};
 
 const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data");
 

@@ -7,7 +7,7 @@ use enfilade::edit;
 use enfilade::plan::{History, Meta};
 use enfilade::store::{Journal, JournalStart, leftovers, load_plan, save_plan};
 
-use crate::house;
+use super::house;
 
 /// A disk that is unmounted at the end.
 struct Disk(tempfile::TempDir);

@@ -9,7 +9,7 @@ use enfilade::geometry::Point;
 use enfilade::plan::{Builder, ElementId, History, Meta, Plan, Room, Step};
 use enfilade::store::{Journal, JournalStart, Predecessor, Recovered, leftovers, read_journal};
 
-use crate::house;
+use super::house;
 
 fn begin(folder: &Path, base: &Plan, replaces: Option<Predecessor>) -> Journal {
     Journal::begin(folder, JournalStart::default(), base.clone(), replaces, || {})

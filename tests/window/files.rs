@@ -10,10 +10,14 @@ use enfilade::picture::Picture;
 use enfilade::plan::{Backdrop, Builder, Meta, Plan, Room};
 use enfilade::store::{BUNDLED, load_plan, save_plan};
 
+<<<<<<< HEAD
 use crate::click_room;
 use crate::press;
 use crate::texts;
 use crate::window_with;
+=======
+use super::{click_room, press, texts, window_with};
+>>>>>>> e2bae72 (Fold the seventeen test programs into three)
 
 /// A folder with two plans of our own and one that is broken.
 #[expect(clippy::disallowed_methods, reason = "a test's files are no user's")]
@@ -220,7 +224,7 @@ fn text_that_is_still_being_typed_is_not_lost_by_closing() {
     window.settle().unwrap();
     assert!(!window.is_closed(), "the text is a change");
     press(&mut window, "Cancel");
-    crate::room(&window, "Study two");
+    super::room(&window, "Study two");
 }
 
 #[test]

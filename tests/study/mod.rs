@@ -3,8 +3,6 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod support;
-
 use std::path::{Path, PathBuf};
 
 use enfilade::classify::{
@@ -16,7 +14,7 @@ use enfilade::labels::Schemes;
 use enfilade::plan::{LabelOrigin, Plan};
 use enfilade::store::{bundled_plans, load_plan, save_plan};
 
-use support::enfilade;
+use crate::support::{self, enfilade};
 
 fn fixture(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/study").join(name)
