@@ -111,7 +111,7 @@ const SLIVER_M: f64 = 0.05;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::{Builder, Meta, Place, Room, RoomId};
+    use crate::plan::{Builder, Meta, OpeningKind, Place, Room, RoomId};
 
     fn rectangle(builder: &mut Builder, key: &str, x: (f64, f64), y: (f64, f64)) -> RoomId {
         let ring = [(x.0, y.0), (x.1, y.0), (x.1, y.1), (x.0, y.1)].map(|(x, y)| Point::new(x, y));

@@ -5,14 +5,7 @@ use enfilade::labels::Label;
 use enfilade::plan::{Builder, ElementId, Meta, Room};
 use enfilade::store::{load_plan, save_plan};
 
-<<<<<<< HEAD
-use crate::picked;
-use crate::refusal;
-use crate::run;
-use crate::window_with;
-=======
 use super::{picked, refusal, run, window_with};
->>>>>>> e2bae72 (Fold the seventeen test programs into three)
 
 #[test]
 fn a_session_by_words_alone() {

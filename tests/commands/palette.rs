@@ -3,16 +3,7 @@
 use enfilade::app::{Offscreen, OffscreenOptions};
 use enfilade::labels::Label;
 
-<<<<<<< HEAD
-use crate::done;
-use crate::keys;
-use crate::picked;
-use crate::run;
-use crate::type_in;
-use crate::window_with;
-=======
 use super::{done, keys, picked, run, type_in, window_with};
->>>>>>> e2bae72 (Fold the seventeen test programs into three)
 
 /// The lines of the list, as a screen reader says them, and which one Enter takes.
 fn lines(window: &Offscreen) -> (Vec<String>, Option<String>) {

@@ -3,16 +3,8 @@
 use egui::{Key, Modifiers};
 use enfilade::app::{Offscreen, OffscreenOptions};
 
-<<<<<<< HEAD
-use crate::golden::assert_picture;
-use crate::keys;
-use crate::press;
-use crate::run;
-use crate::type_in;
-=======
 use super::golden::assert_picture;
 use super::{keys, press, run, type_in};
->>>>>>> e2bae72 (Fold the seventeen test programs into three)
 
 fn window(options: OffscreenOptions) -> Offscreen {
     let mut window = Offscreen::new(options);

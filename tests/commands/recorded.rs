@@ -3,14 +3,7 @@
 use egui::{Key, Modifiers, PointerButton, pos2, vec2};
 use enfilade::app::{Offscreen, OffscreenOptions};
 
-<<<<<<< HEAD
-use crate::done;
-use crate::press;
-use crate::run;
-use crate::window_with;
-=======
 use super::{done, press, run, window_with};
->>>>>>> e2bae72 (Fold the seventeen test programs into three)
 
 #[test]
 fn all_that_is_done_by_hand_is_told_and_replays_to_the_same() {

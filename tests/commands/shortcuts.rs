@@ -6,17 +6,7 @@ use enfilade::app::commands::{COMMANDS, Keys, find};
 use enfilade::app::{Offscreen, OffscreenOptions, Severity};
 use enfilade::plan::OpeningKind;
 
-<<<<<<< HEAD
-use crate::done;
-use crate::keys;
-use crate::picked;
-use crate::press;
-use crate::run;
-use crate::type_in;
-use crate::window_with;
-=======
 use super::{done, keys, picked, press, run, type_in, window_with};
->>>>>>> e2bae72 (Fold the seventeen test programs into three)
 
 /// Each shortcut of the table, pressed where its command can be done, does this command and no other.
 #[test]
@@ -30,11 +20,7 @@ fn every_shortcut_does_its_command() {
             let in_the_middle = matches!(command.id, "previous-plan" | "next-plan");
             let mut window = window_with(if in_the_middle { "school" } else { "dwelling" });
             // A plan with something to undo and redo, and a picture under it.
-<<<<<<< HEAD
-            let plan = enfilade::edit::set_backdrop(window.app().plan().unwrap(), Some(crate::backdrop()));
-=======
             let plan = enfilade::edit::set_backdrop(window.app().plan().unwrap(), Some(super::backdrop()));
->>>>>>> e2bae72 (Fold the seventeen test programs into three)
             enfilade::store::save_plan(&path, &plan).unwrap();
             if !in_the_middle {
                 run(&mut window, "open", &[word]);

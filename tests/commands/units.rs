@@ -4,13 +4,7 @@ use enfilade::app::{Offscreen, OffscreenOptions};
 use enfilade::base::units::Units;
 use enfilade::plan::GuideAxis;
 
-<<<<<<< HEAD
-use crate::refusal;
-use crate::run;
-use crate::window_with;
-=======
 use super::{refusal, run, window_with};
->>>>>>> e2bae72 (Fold the seventeen test programs into three)
 
 #[test]
 fn units_and_grid_are_kept() {

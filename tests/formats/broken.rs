@@ -11,16 +11,9 @@ use enfilade::labels::Schemes;
 use proptest::prelude::*;
 use proptest::sample::Index;
 
-<<<<<<< HEAD
-use crate::geojson;
-use crate::golden::{assert_golden, fixture};
-use crate::plan_json::full_plan;
-use crate::real;
-=======
 use super::golden::{assert_golden, fixture};
 use super::plan_json::full_plan;
 use super::{geojson, real};
->>>>>>> e2bae72 (Fold the seventeen test programs into three)
 
 /// The names of the fixtures in a folder, sorted.
 fn fixtures(folder: &str) -> Vec<String> {

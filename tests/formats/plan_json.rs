@@ -1,13 +1,7 @@
 use proptest::prelude::*;
 
-<<<<<<< HEAD
-use crate::generated::plans;
-use crate::golden::assert_golden;
-use enfilade::edit::guides::add_guide;
-=======
 use super::generated::plans;
 use super::golden::assert_golden;
->>>>>>> e2bae72 (Fold the seventeen test programs into three)
 use enfilade::formats::plan_json::{from_bytes, to_bytes};
 use enfilade::geometry::Point;
 use enfilade::labels::{Label, Typology};

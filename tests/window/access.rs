@@ -9,14 +9,7 @@ use enfilade::app::commands::Menu;
 use enfilade::app::{Control, Offscreen, OffscreenOptions};
 use enfilade::plan::ElementId;
 
-<<<<<<< HEAD
-use crate::click_room;
-use crate::press;
-use crate::room;
-use crate::window_with;
-=======
 use super::{click_room, press, room, window_with};
->>>>>>> e2bae72 (Fold the seventeen test programs into three)
 
 fn key(window: &mut Offscreen, key: Key) {
     window.key(Modifiers::NONE, key);

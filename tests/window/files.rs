@@ -10,14 +10,7 @@ use enfilade::picture::Picture;
 use enfilade::plan::{Backdrop, Builder, Meta, Plan, Room};
 use enfilade::store::{BUNDLED, load_plan, save_plan};
 
-<<<<<<< HEAD
-use crate::click_room;
-use crate::press;
-use crate::texts;
-use crate::window_with;
-=======
 use super::{click_room, press, texts, window_with};
->>>>>>> e2bae72 (Fold the seventeen test programs into three)
 
 /// A folder with two plans of our own and one that is broken.
 #[expect(clippy::disallowed_methods, reason = "a test's files are no user's")]

@@ -8,17 +8,7 @@ use enfilade::geometry::Segment;
 use enfilade::labels::Label;
 use enfilade::plan::{ElementId, LabelOrigin, OpeningId, Plan, RoomLabel};
 
-<<<<<<< HEAD
-use crate::beside;
-use crate::click_room;
-use crate::middle_of;
-use crate::own_label;
-use crate::press;
-use crate::room;
-use crate::window_with;
-=======
 use super::{beside, click_room, middle_of, own_label, press, room, window_with};
->>>>>>> e2bae72 (Fold the seventeen test programs into three)
 
 fn near(p: Pos2, q: Pos2) {
     assert!(p.distance(q) <= 1.5, "{p:?} is not {q:?}");
