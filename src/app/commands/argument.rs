@@ -242,7 +242,8 @@ impl ArgumentKind {
             Self::Typology if text.trim().eq_ignore_ascii_case(UNKNOWN) => Ok(Value::Typology(None)),
             Self::Typology => {
                 let wanted = text.trim();
-                let found = app.schemes.typologies().find(|typology| typology.as_str().eq_ignore_ascii_case(wanted));
+                let found =
+                    app.session.schemes.typologies().find(|typology| typology.as_str().eq_ignore_ascii_case(wanted));
                 found.cloned().map(|found| Value::Typology(Some(found))).ok_or_else(|| with_choices(self.expected()))
             }
             Self::Sample => {
@@ -256,8 +257,12 @@ impl ArgumentKind {
                 _ => Err(self.expected()),
             },
             Self::Answer => {
-                let answers =
-                    app.question.as_ref().map(crate::app::session::questions::Question::answers).unwrap_or_default();
+                let answers = app
+                    .session
+                    .question
+                    .as_ref()
+                    .map(crate::app::session::questions::Question::answers)
+                    .unwrap_or_default();
                 let found = answers.iter().find(|(word, _)| *word == text.trim());
                 found.map(|(word, _)| Value::Word(word)).ok_or_else(|| with_choices(self.expected()))
             }
@@ -318,9 +323,10 @@ impl ArgumentKind {
             | Self::Points { .. } => return None,
             Self::Room => room_choices(app),
             Self::Opening => opening_choices(app),
-            Self::Function => app.function_choices(),
+            Self::Function => app.session.function_choices(),
             Self::Typology => {
-                let known = app.schemes.typologies().map(|typology| plain(typology.as_str(), &typology.title()));
+                let known =
+                    app.session.schemes.typologies().map(|typology| plain(typology.as_str(), &typology.title()));
                 known.chain([plain(UNKNOWN, "Unknown")]).collect()
             }
             Self::Sample => {
@@ -339,8 +345,12 @@ impl ArgumentKind {
             }
             Self::Switch => vec![plain("on", "On"), plain("off", "Off")],
             Self::Answer => {
-                let answers =
-                    app.question.as_ref().map(crate::app::session::questions::Question::answers).unwrap_or_default();
+                let answers = app
+                    .session
+                    .question
+                    .as_ref()
+                    .map(crate::app::session::questions::Question::answers)
+                    .unwrap_or_default();
                 answers.iter().map(|(word, title)| plain(word, title)).collect()
             }
             Self::Word(words) => words.iter().map(|(word, title)| plain(word, title)).collect(),
@@ -429,7 +439,7 @@ fn is_own_word(name: &str) -> bool {
 }
 
 fn room_choices(app: &App) -> Vec<Choice> {
-    let Some(document) = &app.document else { return Vec::new() };
+    let Some(document) = &app.session.document else { return Vec::new() };
     let plan = document.plan();
     let mut ids: Vec<RoomId> = document.derived().map(|derived| derived.reading_order().to_vec()).unwrap_or_default();
     let is_listed: std::collections::BTreeSet<RoomId> = ids.iter().copied().collect();
@@ -440,7 +450,7 @@ fn room_choices(app: &App) -> Vec<Choice> {
     }
     let choice = |id: RoomId| {
         let room = plan.room(id)?;
-        let status = RoomStatus::of(plan, &app.schemes, room);
+        let status = RoomStatus::of(plan, &app.session.schemes, room);
         let is_unique = !room.name.is_empty() && names.get(&room.name.to_lowercase()) == Some(&1);
         // As `room_word` has it, quicker for thousands of rooms.
         let word = if is_unique && is_own_word(&room.name) { room.name.clone() } else { id.to_string() };
@@ -460,7 +470,7 @@ fn room_choices(app: &App) -> Vec<Choice> {
 }
 
 fn opening_choices(app: &App) -> Vec<Choice> {
-    let Some(document) = &app.document else { return Vec::new() };
+    let Some(document) = &app.session.document else { return Vec::new() };
     let plan = document.plan();
     let connections = document.derived().map(|derived| derived.analysis.graph.connections()).unwrap_or_default();
     let sides: std::collections::BTreeMap<OpeningId, &[Joint; 2]> =

@@ -125,7 +125,7 @@ pub(super) fn with_tooltip(app: &App, response: Response, context: &Context, com
 fn title(app: &App, ui: &Ui, left: f32, right: f32) {
     // Less than this shows no more than a letter or two.
     const LEAST_WIDTH: f32 = 80.0;
-    let Some(document) = app.document.as_ref().filter(|_| right - left >= LEAST_WIDTH) else { return };
+    let Some(document) = app.session.document.as_ref().filter(|_| right - left >= LEAST_WIDTH) else { return };
     let colours = colours(ui);
     let bar = ui.max_rect();
     let mut text = document.title();
@@ -152,7 +152,7 @@ fn title(app: &App, ui: &Ui, left: f32, right: f32) {
     let name = if document.is_changed() { format!("{}, changed", document.title()) } else { document.title() };
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &name));
     match document.origin.path() {
-        Some(path) => drop(response.on_hover_text(app.shown_path(path))),
+        Some(path) => drop(response.on_hover_text(app.session.shown_path(path))),
         None if is_elided => drop(response.on_hover_text(text)),
         None => {}
     }

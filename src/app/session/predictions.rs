@@ -1,14 +1,14 @@
 //! What classifiers say of the rooms, and accepting it.
 
+use super::Session;
 use crate::app::session::messages::Severity;
-use crate::app::state::App;
 use crate::edit;
 use crate::labels::Label;
 use crate::plan::LabelOrigin;
 use crate::plan::RoomId;
 use crate::plan::RoomLabel;
 use crate::predict::Predictions;
-impl App {
+impl Session {
     /// What is said of the rooms of the plan as it is now; `None` while that is being worked out.
     pub fn predictions(&self) -> Option<&Predictions> {
         self.document.as_ref()?.derived()?.predictions.as_ref()
