@@ -134,7 +134,7 @@ pub(super) fn open(origin: Origin) -> Result<Opened, FileError> {
             let first = plan_list::plans_in(path).into_iter().next();
             let Some(path) = first else {
                 let what = "there is no plan in this folder".to_owned();
-                let hint = "open a plan file, the authors' XML, or GeoJSON".to_owned();
+                let hint = format!("open a plan file; {}", formats::known_formats());
                 let error = ReadError { place: Place::default(), what, hint };
                 return Err(FileError { path: path.clone(), error });
             };

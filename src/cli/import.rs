@@ -6,8 +6,9 @@ use serde::Serialize;
 
 use super::{CliError, Outcome, Subcommand, Terminal};
 use crate::edit;
-use crate::formats::{self, Format as _, Note, NoteKind, Place, building_name, plan_json::PlanJson};
-use crate::labels::{Schemes, Typology};
+use crate::formats::registry::Found;
+use crate::formats::{self, FORMATS, Note, NoteKind, Place, Preview, Reading, building_name, manual, plan_json};
+use crate::labels::Typology;
 use crate::plan::{Meta, Plan};
 use crate::store::save_bytes_fast;
 
@@ -21,8 +22,17 @@ pub struct ImportCommand {
     #[arg(required = true, value_name = "FILE|DIR")]
     inputs: Vec<PathBuf>,
     /// Folder to write the plans to; the folders of a DIR are made again in it
-    #[arg(short, long, value_name = "DIR")]
-    output: PathBuf,
+    #[arg(short, long, value_name = "DIR", required_unless_present = "preview")]
+    output: Option<PathBuf>,
+    /// The format of all files, where they do not tell it themselves
+    #[arg(long, value_name = "FORMAT", value_parser = importer)]
+    from: Option<Found<'static>>,
+    /// Set an option of a format (may be given several times); the list is below
+    #[arg(long, value_name = "NAME=VALUE")]
+    option: Vec<String>,
+    /// Only say what is in each file, and write nothing
+    #[arg(long)]
+    preview: bool,
     /// Replace plans that are there already and differ
     #[arg(long)]
     force: bool,
@@ -34,20 +44,39 @@ pub struct ImportCommand {
     json: bool,
 }
 
+/// A format that can be read, as an option's value.
+fn importer(word: &str) -> Result<Found<'static>, String> {
+    formats::importer_named(word).ok_or_else(|| {
+        let ids = FORMATS.iter().filter(|format| format.importer.is_some()).map(|format| format.id);
+        format!("use one of {}", ids.collect::<Vec<_>>().join(", "))
+    })
+}
+
 impl Subcommand for ImportCommand {
     const NAME: &'static str = "import";
     const ABOUT: &'static str = "Read plans of other programs, mend them, and save them as plan files";
     const EXAMPLE: &'static str = "enfilade import annotated -o plans   # every plan below the folder 'annotated'";
 
+    fn more_help() -> String {
+        manual::import_help()
+    }
+
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
-        let jobs = jobs(&self.inputs, &self.output)?;
-        std::fs::create_dir_all(&self.output)
-            .map_err(|error| CliError::new(format!("{}: {error}; choose another folder", self.output.display())))?;
+        let reading = Reading { from: self.from, options: self.option.clone() };
+        reading.check()?;
+        // Nothing is written into it when previewing.
+        let output = self.output.clone().unwrap_or_default();
+        let jobs = jobs(&self.inputs, &output)?;
+        if self.preview {
+            return preview(&jobs, &reading, terminal);
+        }
+        std::fs::create_dir_all(&output)
+            .map_err(|error| CliError::new(format!("{}: {error}; choose another folder", output.display())))?;
         let total = jobs.len();
         let mut files = Vec::with_capacity(total);
         for (done, job) in jobs.into_iter().enumerate() {
             progress(terminal, done + 1, total, &job.path)?;
-            files.push(read(job));
+            files.push(read(job, &reading));
         }
         clear_progress(terminal)?;
         same_buildings(&mut files);
@@ -56,7 +85,7 @@ impl Subcommand for ImportCommand {
             if let Content::Plans { plans, .. } = &mut file.content {
                 let count = plans.len();
                 for (index, plan) in plans.iter_mut().enumerate() {
-                    plan.target = target(&self.output, &file.job.target, (count > 1).then_some(index), &mut targets);
+                    plan.target = target(&output, &file.job.target, (count > 1).then_some(index), &mut targets);
                     plan.state = save(plan, self.force);
                 }
             }
@@ -72,7 +101,7 @@ impl Subcommand for ImportCommand {
                 summarise_notes(&files, terminal)?
             }
             print_table(&files, terminal)?;
-            print_outcome(&files, &self.output, terminal)?;
+            print_outcome(&files, &output, terminal)?;
         }
         let is_wrong = files.iter().any(File::is_wrong);
         Ok(if is_wrong { Outcome::InputWrong } else { Outcome::Done })
@@ -191,12 +220,12 @@ fn stem_of(path: &Path) -> PathBuf {
     name.to_str().map_or_else(|| PathBuf::from(name), |name| PathBuf::from(formats::file_stem(name)))
 }
 
-fn read(job: Job) -> File {
+fn read(job: Job, reading: &Reading) -> File {
     let content = match formats::read_bytes(&job.path) {
         Err(error) => Content::Failed(error),
         Ok(bytes) => match formats::foreign_kind(&job.path, &bytes) {
             Some(kind) if !job.is_named => Content::Foreign(kind),
-            _ => match formats::read_from(&job.path, &bytes) {
+            _ => match reading.bytes(&job.path, &bytes) {
                 Err(error) => Content::Failed(error),
                 Ok(import) => {
                     let waiting = |plan| ImportedPlan { plan, target: PathBuf::new(), state: State::Waiting };
@@ -206,6 +235,41 @@ fn read(job: Job) -> File {
         },
     };
     File { job, content }
+}
+
+/// Says what is in each file, one a line.
+fn preview(jobs: &[Job], reading: &Reading, terminal: &mut Terminal) -> Result<Outcome, CliError> {
+    let mut outcome = Outcome::Done;
+    for job in jobs {
+        match reading.preview(&job.path) {
+            Ok((format, preview)) => {
+                writeln!(terminal.out, "{}: {}: {}", job.path.display(), format.name, in_words(&preview))?;
+            }
+            Err(error) => {
+                outcome = Outcome::InputWrong;
+                writeln!(terminal.err, "enfilade: {error}")?;
+            }
+        }
+    }
+    Ok(outcome)
+}
+
+/// '1 plan, 31 rooms, 40 openings, 0 walls, 24.3 x 12.1 m (portal 78, space 31)'
+fn in_words(preview: &Preview) -> String {
+    let counted = |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
+    let mut words = vec![
+        counted(preview.plans, "plan"),
+        counted(preview.rooms, "room"),
+        counted(preview.openings, "opening"),
+        counted(preview.walls, "wall"),
+    ];
+    if let Some((width, height)) = preview.size {
+        let units = preview.units.as_deref().unwrap_or("of unknown unit");
+        words.push(format!("{width:.1} x {height:.1} {units}"));
+    }
+    let layers: Vec<String> = preview.layers.iter().map(|(layer, count)| format!("{layer} {count}")).collect();
+    let layers = if layers.is_empty() { String::new() } else { format!(" ({})", layers.join(", ")) };
+    format!("{}{layers}", words.join(", "))
 }
 
 /// Gives plans of one building the same name of it, where spellings differ: the longest, since a
@@ -259,9 +323,7 @@ fn target(output: &Path, target: &Path, index: Option<usize>, taken: &mut BTreeS
 }
 
 fn save(plan: &ImportedPlan, force: bool) -> State {
-    let Some(bytes) = PlanJson.write(&plan.plan, &Schemes::default()) else {
-        return State::NotSaved("cannot be written as a plan file".to_owned());
-    };
+    let bytes = plan_json::to_bytes(&plan.plan);
     match std::fs::read(&plan.target) {
         Ok(there) if there == bytes => return State::Unchanged,
         Ok(_) if !force => return State::Kept,

@@ -103,7 +103,12 @@ pub fn write_result(output: Option<&Path>, bytes: &[u8], terminal: &mut Terminal
 /// The exported file's name: the source's up to its first known ending; later storeys of one file
 /// are numbered from 2.
 pub fn target_name(file: &Path, storey: usize, ending: &str) -> String {
+    format!("{}.{ending}", target_stem(file, storey))
+}
+
+/// The exported file's name without its ending.
+pub fn target_stem(file: &Path, storey: usize) -> String {
     let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let stem = formats::file_stem(&name);
-    if storey == 0 { format!("{stem}.{ending}") } else { format!("{stem}-{}.{ending}", storey + 1) }
+    if storey == 0 { stem.to_owned() } else { format!("{stem}-{}", storey + 1) }
 }

@@ -9,4 +9,5 @@ mod geojson;
 mod golden;
 mod plan_json;
 mod real;
+mod registry;
 mod store;
