@@ -1,10 +1,11 @@
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use super::{CliError, Outcome, Subcommand, Terminal, inputs};
+use super::batch::Input;
+use super::{CliError, Outcome, Subcommand, Terminal, batch, inputs};
 use crate::formats::registry::ending_of;
-use crate::formats::{Export, Exporter, FORMATS, Format, Holds, NamedPlan, Options, manual};
+use crate::formats::{Export, Exporter, FORMATS, Format, Holds, Import, NamedPlan, Options, manual};
 use crate::labels::Schemes;
 use crate::plan::Plan;
 use crate::store::save_bytes;
@@ -44,26 +45,49 @@ impl Subcommand for ExportCommand {
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let schemes = inputs::schemes(&self.scheme)?;
         let target = self.target()?;
-        let files = inputs::plan_files(&self.plans)?;
-        let mut writer = Writer { target, schemes, written: Vec::new(), lost: BTreeMap::new() };
+        let files = batch::inputs(&self.plans)?;
+        let mut writer = Writer { target, schemes: &schemes, written: BTreeSet::new(), lost: BTreeMap::new() };
         let mut all: Vec<(String, Plan)> = Vec::new();
-        let failed = inputs::for_each_plan(&files, terminal, |file, import, terminal| {
-            for (storey, plan) in import.plans.into_iter().enumerate() {
-                let stem = writer.target.stem.clone().unwrap_or_else(|| inputs::target_stem(file, storey));
-                match writer.target.exporter.holds() {
-                    Holds::OnePlan => writer.write(&[NamedPlan { stem: &stem, plan: &plan }], terminal)?,
-                    Holds::ManyPlans => all.push((inputs::target_stem(file, storey), plan)),
+        let (exporter, options) = (writer.target.exporter, writer.target.options.clone());
+        let stem = writer.target.stem.clone();
+        let work = |file: &Input, import: Import| -> Vec<Piece> {
+            let piece = |(storey, plan): (usize, Plan)| {
+                let own = inputs::target_stem(&file.path, storey);
+                let stem = stem.clone().unwrap_or_else(|| own.clone());
+                match exporter.holds() {
+                    Holds::OnePlan => {
+                        let plan = NamedPlan { stem: &stem, plan: &plan };
+                        Piece::Written(exporter.write(&[plan], &schemes, &options))
+                    }
+                    Holds::ManyPlans => Piece::Plan(own, plan),
+                }
+            };
+            import.plans.into_iter().enumerate().map(piece).collect()
+        };
+        let failed = batch::for_each_import(&files, "exporting", terminal, work, |_, pieces, terminal| {
+            for piece in pieces {
+                match piece {
+                    Piece::Written(export) => writer.save(export, terminal)?,
+                    Piece::Plan(stem, plan) => all.push((stem, plan)),
                 }
             }
             Ok(())
         })?;
         if !all.is_empty() {
             let plans: Vec<NamedPlan<'_>> = all.iter().map(|(stem, plan)| NamedPlan { stem, plan }).collect();
-            writer.write(&plans, terminal)?;
+            writer.save(exporter.write(&plans, writer.schemes, &options), terminal)?;
         }
         writer.report_lost(terminal)?;
         Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
     }
+}
+
+/// What a plan gave.
+enum Piece {
+    /// Its files.
+    Written(Export),
+    /// Itself, by its stem, to be written with the others.
+    Plan(String, Plan),
 }
 
 /// Where an export goes, and in which format.
@@ -120,18 +144,18 @@ impl ExportCommand {
 }
 
 /// Writes, and remembers what was written and what was lost.
-struct Writer {
+struct Writer<'a> {
     target: Target,
-    schemes: Schemes,
-    written: Vec<PathBuf>,
+    schemes: &'a Schemes,
+    written: BTreeSet<PathBuf>,
     /// What the format does not keep, and in how many plans.
     lost: BTreeMap<String, Vec<String>>,
 }
 
-impl Writer {
-    fn write(&mut self, plans: &[NamedPlan<'_>], terminal: &mut Terminal) -> Result<(), CliError> {
-        let Target { exporter, options, output, stem, format } = &self.target;
-        let Export { files, lost } = exporter.write(plans, &self.schemes, options);
+impl Writer<'_> {
+    fn save(&mut self, export: Export, terminal: &mut Terminal) -> Result<(), CliError> {
+        let Target { output, stem, format, .. } = &self.target;
+        let Export { files, lost } = export;
         if stem.is_some() && files.len() > 1 {
             return Err(CliError::new(format!(
                 "{}: {} needs several files; name a folder",
@@ -144,7 +168,7 @@ impl Writer {
                 Some(_) => output.clone(),
                 None => output.join(file.name),
             };
-            if self.written.iter().any(|written| written == path) {
+            if self.written.contains(path) {
                 return Err(CliError::new(format!(
                     "{}: would be written twice; export into separate folders",
                     path.display()
@@ -155,7 +179,7 @@ impl Writer {
             }
             save_bytes(path, &file.bytes)?;
             writeln!(terminal.out, "{}", path.display())?;
-            self.written.push(path.to_owned());
+            self.written.insert(path.to_owned());
         }
         for lost in lost {
             self.lost.entry(lost.stem).or_default().push(lost.what);

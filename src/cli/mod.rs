@@ -1,5 +1,6 @@
 //! The command line. One file a subcommand, one line in [`SUBCOMMANDS`] to register it.
 
+mod batch;
 mod check;
 mod classify;
 mod collect;
