@@ -42,11 +42,24 @@ impl<'a> Work<'a> {
         Self { threads: threads.max(1), ..self }
     }
 
+    /// On how many threads.
+    pub fn threads(&self) -> usize {
+        self.threads
+    }
+
     /// Watched: `progress` is told how many parts are done of how many, from any thread and not
     /// always in order; once `cancelled` is set no further part is begun.
     #[must_use]
     pub fn watched(self, progress: &'a (dyn Fn(usize, usize) + Sync), cancelled: &'a AtomicBool) -> Self {
         Self { progress, cancelled, ..self }
+    }
+
+    /// Between two steps: whether to go on.
+    ///
+    /// # Errors
+    /// When cancelled.
+    pub fn go_on(&self) -> Result<(), Cancelled> {
+        if self.cancelled.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) }
     }
 
     /// The results of `count` parts, in their order.
