@@ -49,6 +49,20 @@ impl<'a> Work<'a> {
         Self { progress, cancelled, ..self }
     }
 
+    /// For what is itself a part: cancelled with the whole, on one thread, its progress not told.
+    #[must_use]
+    pub fn alone(self) -> Self {
+        Self { threads: 1, progress: &|_, _| {}, ..self }
+    }
+
+    /// For long work that is not made of parts: to be asked now and then.
+    ///
+    /// # Errors
+    /// When the work is cancelled.
+    pub fn goes_on(&self) -> Result<(), Cancelled> {
+        if self.cancelled.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) }
+    }
+
     /// The results of `count` parts, in their order.
     ///
     /// # Errors

@@ -13,9 +13,8 @@ use crate::draw::{
     svg,
 };
 use crate::features::{NeighbourLabels, analyse};
-use crate::labels::Schemes;
 use crate::picture::PictureLevels;
-use crate::plan::{Backdrop, Plan};
+use crate::plan::Backdrop;
 use crate::store::pictures;
 
 /// `enfilade render`: plans as pictures.
@@ -74,6 +73,7 @@ impl Subcommand for RenderCommand {
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let schemes = inputs::schemes(&self.scheme)?;
+        let (predictor, models) = self.predictor.read(terminal)?;
         let files = inputs::plan_files(&self.plans)?;
         let style = self.style();
         let single = picture_ending(&self.output).filter(|_| !self.output.is_dir());
@@ -109,7 +109,14 @@ impl Subcommand for RenderCommand {
                         }
                     }
                 });
-                let bytes = self.picture(plan, traced, &schemes, &style, ending)?;
+                let analysis = analyse(plan, &schemes, NeighbourLabels::True);
+                let mut drawing = Drawing::new(plan, &analysis);
+                if style.fill == Fill::Prediction {
+                    let network = RoomNetwork::of(plan, &analysis);
+                    let known = network.known_labels();
+                    drawing = drawing.with_predictions(&predictor.predict(network, &known, None, &models)?.labels());
+                }
+                let bytes = self.picture(drawing, traced, &style, ending)?;
                 if let (None, Some(folder)) = (single, target.parent()) {
                     std::fs::create_dir_all(folder)?;
                 }
@@ -149,20 +156,12 @@ impl RenderCommand {
     /// `traced`: the picture under the plan.
     fn picture(
         &self,
-        plan: &Plan,
+        mut drawing: Drawing,
         traced: Option<(Arc<PictureLevels>, &Backdrop)>,
-        schemes: &Schemes,
         style: &Style,
         ending: &str,
     ) -> Result<Vec<u8>, CliError> {
-        let analysis = analyse(plan, schemes, NeighbourLabels::True);
         let furniture = Furniture { title: !self.bare, legend: !self.bare, scale: !self.bare };
-        let mut drawing = Drawing::new(plan, &analysis);
-        if style.fill == Fill::Prediction {
-            let network = RoomNetwork::of(plan, &analysis);
-            let known = network.known_labels();
-            drawing = drawing.with_predictions(&self.predictor.predictor().predict(network, &known, None)?.labels());
-        }
         let mut style = style.clone();
         if let Some((levels, backdrop)) = traced {
             drawing = drawing.with_picture(levels, backdrop);
