@@ -8,6 +8,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
 use super::plan_list;
+use crate::classify::models::Models;
 use crate::dataset::RoomNetwork;
 use crate::draw::Drawing;
 use crate::edit;
@@ -315,8 +316,8 @@ impl Document {
 pub(super) struct Derived {
     pub analysis: Analysis,
     pub drawing: Drawing,
-    /// What a classifier says of the rooms; `None` where none was asked, and if its model did not read,
-    /// which the tests exclude.
+    /// What a classifier says of the rooms; `None` where none was asked, and where there is no model of the
+    /// method that is asked for.
     pub predictions: Option<Predictions>,
     predictor: Option<Predictor>,
     /// Why a room got its label, as asked for last.
@@ -354,9 +355,10 @@ impl PointDistance for OpeningPlace {
 
 impl Derived {
     /// Works out all that follows from a plan; without a predictor all but predictions.
-    pub(super) fn new(plan: &Plan, schemes: &Schemes, predictor: Option<Predictor>) -> Self {
+    pub(super) fn new(plan: &Plan, schemes: &Schemes, predictor: Option<(Predictor, Models)>) -> Self {
+        let (predictor, models) = predictor.unzip();
         let analysis = analyse(plan, schemes, NeighbourLabels::True);
-        let predictions = Self::predicted(plan, &analysis, predictor.as_ref());
+        let predictions = Self::predicted(plan, &analysis, predictor.as_ref(), models.as_ref());
         let drawing = Drawing::in_tiles(plan, &analysis);
         Self::of(plan, analysis, predictions, predictor, drawing)
     }
@@ -365,25 +367,31 @@ impl Derived {
     pub(super) fn unless_outdated(
         plan: &Plan,
         schemes: &Schemes,
-        predictor: Option<Predictor>,
+        predictor: Option<(Predictor, Models)>,
         outdated: &AtomicBool,
     ) -> Option<Self> {
+        let (predictor, models) = predictor.unzip();
         let goes_on = || (!outdated.load(Ordering::Relaxed)).then_some(());
         goes_on()?;
         let analysis = analyse(plan, schemes, NeighbourLabels::True);
         goes_on()?;
-        let predictions = Self::predicted(plan, &analysis, predictor.as_ref());
+        let predictions = Self::predicted(plan, &analysis, predictor.as_ref(), models.as_ref());
         goes_on()?;
         let drawing = Drawing::in_tiles(plan, &analysis);
         goes_on()?;
         Some(Self::of(plan, analysis, predictions, predictor, drawing))
     }
 
-    fn predicted(plan: &Plan, analysis: &Analysis, predictor: Option<&Predictor>) -> Option<Predictions> {
-        let predictor = predictor?;
+    fn predicted(
+        plan: &Plan,
+        analysis: &Analysis,
+        predictor: Option<&Predictor>,
+        models: Option<&Models>,
+    ) -> Option<Predictions> {
+        let (predictor, models) = (predictor?, models?);
         let network = RoomNetwork::of(plan, analysis);
         let known = network.known_labels();
-        predictor.predict(network, &known, None).ok()
+        predictor.predict(network, &known, None, models).ok()
     }
 
     fn of(

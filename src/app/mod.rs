@@ -62,6 +62,7 @@ use replay::{Recorder, Recording};
 use settings::Settings;
 use tools::{DrawOptions, TakenBack, Toolbox};
 
+use crate::classify::models::Models;
 use crate::draw::{self, Fill, LabelColours, Palette};
 use crate::edit::{self, EditError};
 use crate::formats::FileError;
@@ -70,7 +71,7 @@ use crate::labels::{Label, Schemes};
 use crate::plan::{ElementId, LabelOrigin, Meta, Plan, Room, RoomId, RoomLabel};
 use crate::predict::{Predictions, Predictor};
 use crate::store::pictures::{LoadedPicture, PictureError};
-use crate::store::{SaveError, Stamp};
+use crate::store::{self, SaveError, Stamp};
 
 /// The window's state, apart from any display.
 pub struct App {
@@ -91,6 +92,8 @@ pub struct App {
     /// A guide that is being dragged.
     guide_drag: Option<guides::Drag>,
     /// Which models predict.
+    /// The models at hand.
+    models: Models,
     predictor: Predictor,
     theme: ThemeChoice,
     settings: Settings,
@@ -339,6 +342,7 @@ impl App {
             layers: LayerSettings::default(),
             ghost: None,
             guide_drag: None,
+            models: Models::bundled(),
             predictor: Predictor::default(),
             theme: ThemeChoice::default(),
             settings: Settings::default(),
@@ -516,15 +520,16 @@ impl App {
         let plan = document.plan().clone();
         self.selection.keep_what_is_in(&plan);
         if document.needs_deriving() {
-            let (schemes, predictor) = (self.schemes.clone(), self.predictor.clone());
+            let schemes = self.schemes.clone();
+            let predictor = Some((self.predictor.clone(), self.models.clone()));
             if plan.rooms().len() + plan.openings().len() + plan.walls().len() <= LARGE_PLAN_ELEMENTS {
-                let derived = Arc::new(Derived::new(&plan, &schemes, Some(predictor)));
+                let derived = Arc::new(Derived::new(&plan, &schemes, predictor));
                 document.set_derived(plan.clone(), derived);
             } else {
                 let outdated = document.await_derived();
                 let plan = plan.clone();
                 self.background.start(move || {
-                    let derived = Derived::unless_outdated(&plan, &schemes, Some(predictor), &outdated).map(Arc::new);
+                    let derived = Derived::unless_outdated(&plan, &schemes, predictor, &outdated).map(Arc::new);
                     Done::Derived(plan, derived)
                 });
             }
@@ -623,18 +628,29 @@ impl App {
         Ok(())
     }
 
+    /// Takes the user's own label schemes and models from their folders; says what cannot be used.
+    fn use_own_schemes_and_models(&mut self) {
+        if let Some(folder) = store::schemes_folder() {
+            let (schemes, errors) = store::schemes_in(&folder);
+            self.schemes = Arc::new(schemes);
+            for error in errors {
+                self.say(Severity::Warning, "A label scheme cannot be used.", error.to_string());
+            }
+        }
+        if let Some(folder) = store::models_folder() {
+            let (own, errors) = store::models_in(&folder);
+            self.models = Models::bundled().with(own);
+            for error in errors {
+                self.say(Severity::Warning, "A model cannot be used.", error.to_string());
+            }
+        }
+    }
+
     // Predicting.
 
     /// What is said of the rooms of the plan as it is now; `None` while that is being worked out.
     pub fn predictions(&self) -> Option<&Predictions> {
         self.document.as_ref()?.derived()?.predictions.as_ref()
-    }
-
-    fn predict_by_set(&mut self, word: &str) {
-        match word.parse() {
-            Ok(set) => self.predictor.set = set,
-            Err(error) => self.say(Severity::Warning, error.to_string(), ""),
-        }
     }
 
     /// The selected rooms that are predicted, with what is said of them.

@@ -62,6 +62,7 @@ pub fn run_window(options: WindowOptions) -> Result<(), WindowError> {
         if let Some(file) = settings::file() {
             app.use_settings(file);
         }
+        app.use_own_schemes_and_models();
         app.use_clock(now);
         if let Some(folder) = store::journal_folder() {
             app.use_journal(folder);

@@ -48,7 +48,8 @@ mod tests {
     fn rooms_of_twice_the_usual_length_say_so() {
         let school = Typology::new("school");
         let schemes = Schemes::bundled();
-        let length_factor = |typology: Option<&Typology>, rooms: Vec<(Label, f64)>| length_factor(&schemes, typology, rooms);
+        let length_factor =
+            |typology: Option<&Typology>, rooms: Vec<(Label, f64)>| length_factor(&schemes, typology, rooms);
         let rooms = |times: f64| [55.0, 60.0, 58.0, 62.0, 56.0].map(|area| (Label::MediumRoom, area * times));
         assert_eq!(length_factor(school.as_ref(), rooms(1.0).to_vec()), Some((1.0, 5)));
         let (factor, _) = length_factor(school.as_ref(), rooms(4.0).to_vec()).expect("enough rooms");

@@ -135,8 +135,10 @@ impl Schemes {
         for (name, value) in table {
             let typology = Typology::new(&name).ok_or_else(|| SchemeError("a typology needs a name".to_owned()))?;
             let disk: DiskScheme = value.try_into().map_err(|error: toml::de::Error| {
-                SchemeError(format!("[{name}]: {}; the keys are S, M, B, C, H, not_classified, temporary and usual_area_m2",
-                    error.message()))
+                SchemeError(format!(
+                    "[{name}]: {}; the keys are S, M, B, C, H, not_classified, temporary and usual_area_m2",
+                    error.message()
+                ))
             })?;
             let groups = [
                 (Meaning::Labelled(Label::SmallRoom), disk.S),
@@ -160,7 +162,9 @@ impl Schemes {
             let usual_areas = expectations::usual_areas(disk.usual_area_m2).map_err(wrong)?;
             if typology.as_str() == STANDARD {
                 if !added.is_empty() || !usual_areas.is_empty() {
-                    return Err(wrong("it is no typology, and has no functions or sizes; give yours a name".to_owned()));
+                    return Err(wrong(
+                        "it is no typology, and has no functions or sizes; give yours a name".to_owned(),
+                    ));
                 }
                 self.standard = temporary;
                 continue;

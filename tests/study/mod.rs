@@ -217,8 +217,9 @@ fn a_typology_of_ones_own_needs_two_files() {
                 'storage']\nH = ['lobby']\n";
     enfilade::store::save_bytes(&scheme, text.as_bytes()).unwrap();
     let plan = folder.path().join("clinic.plan.json");
-    let clinic = edit::set_typology(&bundled("office"), enfilade::labels::Typology::new("clinic")).unwrap();
-    save_plan(&plan, &clinic).unwrap();
+    let office = bundled("office");
+    let typology = enfilade::labels::Typology::new("clinic");
+    save_plan(&plan, &office.with_meta(enfilade::plan::Meta { typology, ..office.meta().clone() })).unwrap();
     let models = folder.path().join("models");
     std::fs::create_dir(&models).unwrap();
     let model = models.join("ours.model.json");
@@ -236,7 +237,8 @@ fn a_typology_of_ones_own_needs_two_files() {
     ]);
     assert_eq!(code, 0, "{out}{err}");
     let classify = |arguments: &[&str]| {
-        let all = [&["classify", text_of(&plan), "--scheme", text_of(&scheme), "--models", text_of(&models)], arguments];
+        let all =
+            [&["classify", text_of(&plan), "--scheme", text_of(&scheme), "--models", text_of(&models)], arguments];
         let (code, out, err) = enfilade(&all.concat());
         (code, format!("{}{err}", out.lines().next().unwrap_or_default()))
     };
@@ -250,7 +252,10 @@ fn a_typology_of_ones_own_needs_two_files() {
     let (code, said) = classify(&["--algorithm", "joint"]);
     assert!(code == 0 && said.contains("(inferred, ") && said.contains("-joint"), "{said}");
     let (code, said) = classify(&["--algorithm", "joint", "--typology", "clinic"]);
-    assert!(code == 1 && said.contains("there is no model of clinic by joint classifier; use tree, or train"), "{said}");
+    assert!(
+        code == 1 && said.contains("there is no model of clinic by joint classifier; use tree, or train"),
+        "{said}"
+    );
 }
 
 /// What cannot be done is refused in words that say what to do.

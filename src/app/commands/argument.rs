@@ -8,12 +8,14 @@ use super::{COMMANDS, Command, find};
 use crate::app::{App, document::bundled};
 use crate::base::units::Units;
 use crate::base::wording::{or_list, sentence, similar};
+use crate::classify::Method;
 use crate::features::RoomStatus;
 use crate::formats;
 use crate::geometry::{COORDINATE_LIMIT_M, Point, trim_m};
 use crate::labels::Typology;
 use crate::plan::titles::room_title;
 use crate::plan::{ElementId, Joint, Opening, OpeningId, Plan, Room, RoomId};
+use crate::predict::ModelSet;
 
 /// Something a command takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +59,10 @@ pub enum ArgumentKind {
     Function,
     /// A typology that has a label scheme, or 'unknown'.
     Typology,
+    /// Which models predict, see [`ModelSet`].
+    ModelSet,
+    /// A way to classify: its word.
+    Method,
     /// A plan that comes with the program: its file's name without the ending.
     Sample,
     /// 'on' or 'off'.
@@ -83,6 +89,8 @@ pub(in crate::app) enum Value {
     Elements(Vec<ElementId>),
     Points(Vec<Point>),
     Typology(Option<Typology>),
+    ModelSet(ModelSet),
+    Method(Method),
     /// Its index.
     Sample(usize),
     Switch(bool),
@@ -117,6 +125,8 @@ impl Values {
     getter!(elements, Elements, [ElementId]);
     getter!(points, Points, [Point]);
     getter!(typology, Typology, Option<Typology>);
+    getter!(model_set, ModelSet, ModelSet);
+    getter!(method, Method, Method);
     getter!(sample, Sample, usize);
     getter!(switch, Switch, bool);
     getter!(word, Word, &'static str);
@@ -166,6 +176,8 @@ impl ArgumentKind {
             Self::Points { least } => format!("at least {least} points of the plan in metres, such as '0,0 4.2,0'"),
             Self::Function => "what a room is for".to_owned(),
             Self::Typology => "a typology, or 'unknown'".to_owned(),
+            Self::ModelSet => "'plan', 'auto', or models at hand".to_owned(),
+            Self::Method => "an algorithm".to_owned(),
             Self::Sample => "a plan that comes with the program".to_owned(),
             Self::Switch => "'on' or 'off'".to_owned(),
             Self::Answer => "a button of the question".to_owned(),
@@ -181,6 +193,15 @@ impl ArgumentKind {
     /// Whether it can be something else than its choices.
     pub(in crate::app) const fn is_open(self) -> bool {
         matches!(self, Self::Function)
+    }
+
+    /// The word of what it is now, for what is chosen among a few that menus show at once.
+    pub(in crate::app) fn current(self, app: &App) -> Option<&str> {
+        match self {
+            Self::ModelSet => Some(app.predictor.set.name()),
+            Self::Method => Some(app.predictor.method.name()),
+            _ => None,
+        }
     }
 
     /// Reads an argument.
@@ -243,6 +264,11 @@ impl ArgumentKind {
                 let found = app.schemes.typologies().find(|typology| typology.as_str().eq_ignore_ascii_case(wanted));
                 found.cloned().map(|found| Value::Typology(Some(found))).ok_or_else(|| with_choices(self.expected()))
             }
+            Self::ModelSet => {
+                let set = ModelSet::read(text, &app.models).ok();
+                set.map(Value::ModelSet).ok_or_else(|| with_choices(self.expected()))
+            }
+            Self::Method => text.parse().map(Value::Method).map_err(|_| with_choices(self.expected())),
             Self::Sample => {
                 let wanted = text.trim();
                 let index = bundled().iter().position(|(name, _)| formats::file_stem(name) == wanted);
@@ -284,6 +310,8 @@ impl ArgumentKind {
             Value::Elements(elements) => elements_word(elements.iter().copied()),
             Value::Points(points) => points_word(points),
             Value::Typology(typology) => typology.as_ref().map_or(UNKNOWN, Typology::as_str).to_owned(),
+            Value::ModelSet(set) => set.name().to_owned(),
+            Value::Method(method) => method.name().to_owned(),
             Value::Sample(index) => sample_word(*index).to_owned(),
             Value::Switch(is_on) => switch_word(*is_on).to_owned(),
             Value::Word(word) => (*word).to_owned(),
@@ -319,6 +347,16 @@ impl ArgumentKind {
             Self::Typology => {
                 let known = app.schemes.typologies().map(|typology| plain(typology.as_str(), &typology.title()));
                 known.chain([plain(UNKNOWN, "Unknown")]).collect()
+            }
+            Self::ModelSet => {
+                let choice = |set: ModelSet| Choice { detail: set.help(), ..plain(set.name(), &set.title()) };
+                ModelSet::all(&app.models).into_iter().map(choice).collect()
+            }
+            Self::Method => {
+                let help = |method: Method| format!("Predict by {}", method.help());
+                let choice =
+                    |method: Method| Choice { detail: help(method), ..plain(method.name(), method.short_title()) };
+                Method::ALL.into_iter().map(choice).collect()
             }
             Self::Sample => {
                 let choice = |(name, plan): &(&str, Plan)| Choice {

@@ -25,7 +25,6 @@ use crate::app::settings::GRID_RANGE_M;
 use crate::app::theme::ThemeChoice;
 use crate::app::{App, Intent, Origin, SelectMode};
 use crate::base::units::Units;
-use crate::classify::{Algorithm, Method};
 use crate::draw::{Fill, LabelColours};
 use crate::edit::EditError;
 use crate::features::RoomStatus;
