@@ -3,8 +3,12 @@
 use egui::{Role, ScrollArea, Ui};
 
 use crate::app::commands::{self, COMMANDS, Menu};
-use crate::app::widgets::{Lead, ROW, Row, Segment, caption, hairline, section, segmented};
-use crate::app::{App, Document, theme};
+use crate::app::look::{
+    theme,
+    widgets::{Lead, ROW, Row, Segment, caption, hairline, section, segmented},
+};
+use crate::app::session::document::Document;
+use crate::app::state::App;
 use crate::draw::{self, Fill, Palette};
 use crate::features::RoomStatus;
 use crate::labels::Label;
@@ -36,8 +40,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     if let Some(index) = segmented(ui, &segments) {
         app.run_command(fills[index].0, &context);
     }
-    if let Some(document) = &app.document {
-        legend(ui, document, app.layers.fill, app.palette(ui));
+    if let Some(document) = &app.session.document {
+        legend(ui, document, app.session.layers.fill, app.session.palette(ui));
     }
     hairline(ui);
     section(ui, "Layers");
