@@ -15,7 +15,6 @@ pub use statistics::{LabelStatistics, Moments, Statistics};
 use crate::features::{Features, NeighbourLabels};
 use crate::labels::{Label, Schemes, Typology};
 use crate::plan::Plan;
-use crate::plan::titles::room_keys;
 use std::collections::BTreeMap;
 
 /// One labelled room of a dataset.

@@ -2,6 +2,7 @@ use proptest::prelude::*;
 
 use super::generated::plans;
 use super::golden::assert_golden;
+use enfilade::edit::guides::add_guide;
 use enfilade::formats::plan_json::{from_bytes, to_bytes};
 use enfilade::geometry::Point;
 use enfilade::labels::{Label, Typology};

@@ -3,18 +3,20 @@
 
 use std::path::{Path, PathBuf};
 
-use super::keys::{Keys, NoKeys};
 use super::{COMMANDS, Command, find};
-use crate::app::{App, document::bundled};
-use crate::base::units::Units;
-use crate::base::wording::{or_list, sentence, similar};
+use crate::app::look::keys::{Keys, NoKeys};
+use crate::app::session::origin::bundled;
+use crate::app::state::App;
+use crate::base::{
+    units::Units,
+    wording::{or_list, sentence, similar},
+};
 use crate::classify::Method;
 use crate::features::RoomStatus;
 use crate::formats;
 use crate::geometry::{COORDINATE_LIMIT_M, Point, trim_m};
 use crate::labels::Typology;
-use crate::plan::titles::room_title;
-use crate::plan::{ElementId, Joint, Opening, OpeningId, Plan, Room, RoomId};
+use crate::plan::{ElementId, Joint, Opening, OpeningId, Plan, Room, RoomId, titles::room_title};
 use crate::predict::ModelSet;
 
 /// Something a command takes.
@@ -79,7 +81,7 @@ pub enum ArgumentKind {
 
 /// An argument that was read.
 #[derive(Clone)]
-pub(in crate::app) enum Value {
+pub(crate) enum Value {
     Path(PathBuf),
     Text(String),
     Number(f64),
@@ -101,12 +103,12 @@ pub(in crate::app) enum Value {
 
 /// The arguments of a call, read. Those left out are missing at the end.
 #[derive(Clone, Default)]
-pub(in crate::app) struct Values(pub(super) Vec<Value>);
+pub(crate) struct Values(pub(super) Vec<Value>);
 
 /// Gives the value at a place as what the command's entry in the table says it is.
 macro_rules! getter {
     ($name:ident, $variant:ident, $type:ty) => {
-        pub(in crate::app) fn $name(&self, index: usize) -> Option<&$type> {
+        pub(crate) fn $name(&self, index: usize) -> Option<&$type> {
             match self.0.get(index) {
                 Some(Value::$variant(value)) => Some(value),
                 _ => None,
@@ -191,7 +193,7 @@ impl ArgumentKind {
     }
 
     /// Whether it can be something else than its choices.
-    pub(in crate::app) const fn is_open(self) -> bool {
+    pub(crate) const fn is_open(self) -> bool {
         matches!(self, Self::Function)
     }
 
@@ -208,7 +210,7 @@ impl ArgumentKind {
     ///
     /// # Errors
     /// What is expected instead.
-    pub(in crate::app) fn read(self, app: &App, text: &str) -> Result<Value, String> {
+    pub(crate) fn read(self, app: &App, text: &str) -> Result<Value, String> {
         let with_choices = |expected: String| {
             let choices = self.choices(app).unwrap_or_default();
             let similar = similar(text, choices.iter().map(|choice| choice.word.as_str()), MOST_SIMILAR);
@@ -280,7 +282,8 @@ impl ArgumentKind {
                 _ => Err(self.expected()),
             },
             Self::Answer => {
-                let answers = app.question.as_ref().map(crate::app::Question::answers).unwrap_or_default();
+                let answers =
+                    app.question.as_ref().map(crate::app::session::questions::Question::answers).unwrap_or_default();
                 let found = answers.iter().find(|(word, _)| *word == text.trim());
                 found.map(|(word, _)| Value::Word(word)).ok_or_else(|| with_choices(self.expected()))
             }
@@ -297,7 +300,7 @@ impl ArgumentKind {
     }
 
     /// An argument as it is written in a call, so that reading it gives the same again.
-    pub(in crate::app) fn write(self, app: &App, value: &Value) -> String {
+    pub(crate) fn write(self, app: &App, value: &Value) -> String {
         match value {
             Value::Path(path) => path.to_string_lossy().into_owned(),
             Value::Text(text) => text.clone(),
@@ -322,7 +325,7 @@ impl ArgumentKind {
 
     /// Everything the argument can be; `None` where it can be anything. Rooms come as one reads them
     /// on the plan, from the top left.
-    pub(in crate::app) fn choices(self, app: &App) -> Option<Vec<Choice>> {
+    pub(crate) fn choices(self, app: &App) -> Option<Vec<Choice>> {
         let plain = |word: &str, title: &str| Choice {
             word: word.to_owned(),
             title: title.to_owned(),
@@ -374,7 +377,8 @@ impl ArgumentKind {
             }
             Self::Switch => vec![plain("on", "On"), plain("off", "Off")],
             Self::Answer => {
-                let answers = app.question.as_ref().map(crate::app::Question::answers).unwrap_or_default();
+                let answers =
+                    app.question.as_ref().map(crate::app::session::questions::Question::answers).unwrap_or_default();
                 answers.iter().map(|(word, title)| plain(word, title)).collect()
             }
             Self::Word(words) => words.iter().map(|(word, title)| plain(word, title)).collect(),
@@ -385,12 +389,12 @@ impl ArgumentKind {
 /// The word for a plan without a typology.
 const UNKNOWN: &str = "unknown";
 
-pub(in crate::app) const fn switch_word(is_on: bool) -> &'static str {
+pub(crate) const fn switch_word(is_on: bool) -> &'static str {
     if is_on { "on" } else { "off" }
 }
 
 /// The word for a plan that comes with the program.
-pub(in crate::app) fn sample_word(index: usize) -> &'static str {
+pub(crate) fn sample_word(index: usize) -> &'static str {
     bundled().get(index).map_or("", |(name, _)| formats::file_stem(name))
 }
 
@@ -433,26 +437,26 @@ fn element(plan: &Plan, word: &str) -> Option<ElementId> {
 }
 
 /// The word for some elements.
-pub(in crate::app) fn elements_word(elements: impl IntoIterator<Item = ElementId>) -> String {
+pub(crate) fn elements_word(elements: impl IntoIterator<Item = ElementId>) -> String {
     let words: Vec<String> = elements.into_iter().map(|element| element.to_string()).collect();
     words.join(" ")
 }
 
 /// The point that a word means.
-pub(in crate::app) fn point(word: &str) -> Option<Point> {
+pub(crate) fn point(word: &str) -> Option<Point> {
     let (x, y) = word.split_once(',')?;
     let point = Point::new(x.parse().ok()?, y.parse().ok()?);
     (point.is_finite() && point.x.abs() <= COORDINATE_LIMIT_M && point.y.abs() <= COORDINATE_LIMIT_M).then_some(point)
 }
 
 /// The word for some points, on the 0.1 mm grid.
-pub(in crate::app) fn points_word(points: &[Point]) -> String {
+pub(crate) fn points_word(points: &[Point]) -> String {
     let words: Vec<String> = points.iter().map(|point| point.trimmed()).map(|p| format!("{},{}", p.x, p.y)).collect();
     words.join(" ")
 }
 
 /// The word for a room: its name, where that means no other room, or its id.
-pub(in crate::app) fn room_word(plan: &Plan, id: RoomId) -> String {
+pub(crate) fn room_word(plan: &Plan, id: RoomId) -> String {
     let name = plan.room(id).map_or("", |room| room.name.as_str());
     if room(plan, name) == Ok(id) && is_own_word(name) { name.to_owned() } else { id.to_string() }
 }

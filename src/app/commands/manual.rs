@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::{Argument, ArgumentKind, COMMANDS, Command, Keys, Menu};
+use super::{Argument, ArgumentKind, COMMANDS, Command, Menu};
+use crate::app::look::keys::Keys;
 
 /// What stands above the tables.
 const INTRODUCTION: &str = "\

@@ -1,5 +1,6 @@
 //! Running commands by their words, and telling a recorder which ran.
 
+use crate::app::session::tracing::PictureChange;
 use crate::base::wording::{or_list, similar};
 use std::fmt;
 use std::path::PathBuf;
@@ -7,11 +8,11 @@ use std::path::PathBuf;
 use egui::Context;
 
 use super::argument::{Values, switch_word};
-use super::{Action, COMMANDS, Command, Keys, Ran, find};
-use crate::app::backdrop::PictureChange;
+use super::{Action, COMMANDS, Command, Ran, find};
+use crate::app::look::keys::Keys;
 use crate::app::panels::palette::Palette;
-use crate::app::settings::Settings;
-use crate::app::{App, Question, Severity};
+use crate::app::session::{messages::Severity, questions::Question, settings::Settings};
+use crate::app::state::App;
 use crate::base::units::Units;
 
 /// Why a command was not run.
@@ -101,7 +102,7 @@ impl App {
     }
 
     /// Runs a command with arguments of the window's own, and says why where that is refused.
-    pub(in crate::app) fn act(&mut self, id: &str, arguments: &[&str], context: &Context) {
+    pub(crate) fn act(&mut self, id: &str, arguments: &[&str], context: &Context) {
         if let Err(error) = self.run_command_with(id, arguments, context) {
             self.say(Severity::Warning, error.to_string(), "");
         }
@@ -171,7 +172,7 @@ impl App {
     }
 
     /// Notes that something was done which the command with these arguments does.
-    pub(in crate::app) fn note_executed(&mut self, id: &'static str, arguments: Vec<String>) {
+    pub(crate) fn note_executed(&mut self, id: &'static str, arguments: Vec<String>) {
         let Some(executed) = &mut self.executed else { return };
         // Of a pan, only where it ends.
         if id == "view" && executed.last().is_some_and(|last| last.id == id) {
@@ -183,10 +184,11 @@ impl App {
 
 impl Question {
     /// What is asked, in a sentence.
-    pub(in crate::app) fn title(&self, app: &App) -> String {
+    pub(crate) fn title(&self, app: &App) -> String {
         match self {
             Self::Unsaved(_) => {
-                let name = app.document.as_ref().map(crate::app::Document::title).unwrap_or_default();
+                let name =
+                    app.document.as_ref().map(crate::app::session::document::Document::title).unwrap_or_default();
                 format!("Save changes to {name}?")
             }
             Self::Drawing(PictureChange::Measurements(_)) => "Scale the drawing along with the picture?".to_owned(),
@@ -197,12 +199,12 @@ impl Question {
             }
             Self::Delete { selected, .. } => format!("Delete {} elements and what depends on them?", selected.len()),
             Self::Discard { title, .. } => format!("Discard the changes to {title}?"),
-            Self::Replace { path, .. } => format!("Replace {}?", crate::app::document::file_name(path)),
+            Self::Replace { path, .. } => format!("Replace {}?", crate::app::session::origin::file_name(path)),
         }
     }
 
     /// The answers there are, each with what its button says, the main one first.
-    pub(in crate::app) const fn answers(&self) -> &'static [(&'static str, &'static str)] {
+    pub(crate) const fn answers(&self) -> &'static [(&'static str, &'static str)] {
         match self {
             Self::Unsaved(_) => &[("save", "Save"), ("discard", "Don't save"), ("cancel", "Cancel")],
             Self::Drawing(_) => &[("along", "Drawing too"), ("stays", "Picture only"), ("cancel", "Cancel")],

@@ -4,15 +4,17 @@ use egui::{
     Align2, ComboBox, FontId, Id, Key, Modal, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2,
 };
 
-use crate::app::bulk::{Change, Names, Order, Which};
 use crate::app::commands::Choice;
-use crate::app::widgets::{
-    Lead, Row, Segment, caption, colours, dialog_frame, focus_ring, put_line, right, segmented, strong, swatch,
-    text_button,
+use crate::app::look::{
+    theme,
+    widgets::{
+        Lead, Row, Segment, caption, colours, dialog_frame, focus_ring, put_line, right, segmented, strong, swatch,
+        text_button,
+    },
 };
-use crate::app::{App, theme};
-use crate::base::wording::count;
-use crate::base::wording::sentence;
+use crate::app::session::bulk::{Change, Names, Order, Which};
+use crate::app::state::App;
+use crate::base::wording::{count, sentence};
 use crate::draw::Palette;
 use crate::edit::naming::{PARTS, PatternError};
 use crate::features::RoomStatus;
@@ -26,13 +28,13 @@ const WIDTH: f32 = 460.0;
 const NAMES: f32 = 76.0;
 
 /// A dialog for many rooms, while it is open.
-pub(in crate::app) enum Bulk {
+pub(crate) enum Bulk {
     Name(NameForm),
     Change(ChangeForm),
 }
 
 /// What is filled in to name rooms.
-pub(in crate::app) struct NameForm {
+pub(crate) struct NameForm {
     pattern: String,
     start: String,
     which: Which,
@@ -44,7 +46,7 @@ pub(in crate::app) struct NameForm {
 }
 
 /// What is filled in to change rooms.
-pub(in crate::app) struct ChangeForm {
+pub(crate) struct ChangeForm {
     which: Which,
     /// The function chosen last for [`Which::Function`], the label for [`Which::Label`].
     from_function: String,
@@ -64,20 +66,20 @@ enum End {
 
 impl Bulk {
     /// To name the selected rooms; without any those that have no name, or all.
-    pub(in crate::app) fn naming(app: &App) -> Self {
+    pub(crate) fn naming(app: &App) -> Self {
         let has = |which: &Which| !app.rooms_of(which).is_empty();
         let which = [Which::Selected, Which::Unnamed].into_iter().find(has).unwrap_or(Which::All);
         Self::naming_these(app, which)
     }
 
     /// To name rooms of a kind.
-    pub(in crate::app) fn naming_these(app: &App, which: Which) -> Self {
+    pub(crate) fn naming_these(app: &App, which: Which) -> Self {
         let pattern = app.panels.pattern.clone().unwrap_or_else(|| "{function} {n}".to_owned());
         Self::Name(NameForm { pattern, start: "1".to_owned(), which, order: Order::Rows, along: None, is_shown: false })
     }
 
     /// To change the selected rooms; without any those of the function that most have.
-    pub(in crate::app) fn changing(app: &App) -> Self {
+    pub(crate) fn changing(app: &App) -> Self {
         let from_function = app.function_choices().into_iter().next().map(|choice| choice.word).unwrap_or_default();
         let is_selected = !app.rooms_of(&Which::Selected).is_empty();
         let which = if is_selected { Which::Selected } else { Which::Function(from_function.clone()) };
@@ -282,7 +284,7 @@ impl ChangeForm {
         line(ui, "", |ui| {
             is_typed = text(ui, "New function", &mut self.to_function, ui.available_width(), !self.is_shown);
         });
-        let mut search = crate::app::search::Search::new(&self.to_function);
+        let mut search = crate::app::look::search::Search::new(&self.to_function);
         let is_chosen = |choice: &Choice| choice.word.eq_ignore_ascii_case(self.to_function.trim());
         let choices: Vec<Choice> = app.function_choices();
         let is_known = choices.iter().any(is_chosen);
@@ -291,11 +293,11 @@ impl ChangeForm {
         let mut chosen = None;
         line(ui, "", |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
-            let height = 4.5 * crate::app::widgets::ROW;
+            let height = 4.5 * crate::app::look::widgets::ROW;
             let area = ScrollArea::vertical().id_salt("functions").auto_shrink(false).max_height(height);
             area.min_scrolled_height(height).show_rows(
                 ui,
-                crate::app::widgets::ROW,
+                crate::app::look::widgets::ROW,
                 shown.len().max(1),
                 |ui, range| {
                     if shown.is_empty() {

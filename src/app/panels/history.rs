@@ -2,8 +2,12 @@
 
 use egui::{EventFilter, Id, Key, Rect, Response, Role, ScrollArea, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
-use crate::app::widgets::{colours, focus_ring, put_line, section};
-use crate::app::{App, Document, theme};
+use crate::app::look::{
+    theme,
+    widgets::{colours, focus_ring, put_line, section},
+};
+use crate::app::session::document::Document;
+use crate::app::state::App;
 
 /// Height of a step's row, in points.
 const ROW: f32 = 24.0;

@@ -3,23 +3,26 @@
 use egui::{Id, Key, Popup, PopupCloseBehavior, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::picture::{self, PictureAct};
-use super::{Field, FieldKind, prediction};
-use crate::app::document::{Derived, Document};
-use crate::app::icons::Icon;
-use crate::app::widgets::{
-    Lead, Row, Segment, caption, colours, follow_focus, hairline, link, section, segmented, strong, value,
+use super::prediction;
+use crate::app::commands;
+use crate::app::look::{
+    icons::Icon,
+    theme,
+    widgets::{Lead, Row, Segment, caption, colours, follow_focus, hairline, link, section, segmented, strong, value},
 };
-use crate::app::{App, commands, theme};
-use crate::base::units::Units;
-use crate::base::wording::count;
-use crate::base::wording::sentence;
+use crate::app::session::document::{Derived, Document};
+use crate::app::session::fields::{Field, FieldKind};
+use crate::app::state::App;
+use crate::base::{
+    units::Units,
+    wording::{count, sentence},
+};
 use crate::draw::Palette;
 use crate::features::{Features, RoomAnalysis, RoomStatus};
 use crate::labels::{Label, Meaning, normalised_function};
-use crate::plan::titles::room_title;
-use crate::plan::titles::title_of;
 use crate::plan::{
     ElementId, Joint, LabelOrigin, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, ScaleOrigin,
+    titles::{room_title, title_of},
 };
 use crate::topology::RoomShape;
 

@@ -3,8 +3,12 @@
 use egui::{Role, ScrollArea, Ui};
 
 use crate::app::commands::{self, COMMANDS, Menu};
-use crate::app::widgets::{Lead, ROW, Row, Segment, caption, hairline, section, segmented};
-use crate::app::{App, Document, theme};
+use crate::app::look::{
+    theme,
+    widgets::{Lead, ROW, Row, Segment, caption, hairline, section, segmented},
+};
+use crate::app::session::document::Document;
+use crate::app::state::App;
 use crate::draw::{self, Fill, Palette};
 use crate::features::RoomStatus;
 use crate::labels::Label;

@@ -3,9 +3,13 @@
 
 use egui::{Frame, Label, Margin, Rect, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
 
-use crate::app::icons::Icon;
-use crate::app::widgets::{ICON, ROW, colours, icon_button, link, severity_colours, strong, text_button};
-use crate::app::{App, Message, Remedy, Severity, theme};
+use crate::app::look::{
+    icons::Icon,
+    theme,
+    widgets::{ICON, ROW, colours, icon_button, link, severity_colours, strong, text_button},
+};
+use crate::app::session::messages::{Message, Remedy, Severity};
+use crate::app::state::App;
 
 /// More messages are not shown at once; the newest ones are.
 const SHOWN: usize = 3;

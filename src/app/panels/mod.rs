@@ -22,15 +22,17 @@ mod tool_strip;
 mod top_bar;
 pub(super) mod welcome;
 
+use crate::app::session::fields::Field;
+use crate::app::session::fields::FieldKind;
 use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, UiBuilder};
 
 use bulk::Bulk;
 use palette::Palette;
 use shortcuts::Sheet;
 
-use super::{App, canvas, theme};
-use crate::edit::{self, EditError};
-use crate::plan::{Plan, RoomId};
+use super::canvas;
+use crate::app::look::theme;
+use crate::app::state::App;
 
 /// So many points at least the list of plans keeps above the layers: its title and two plans.
 const LEAST_PLANS_HEIGHT: f32 = 110.0;
@@ -43,7 +45,7 @@ const LEAST_HISTORY_HEIGHT: f32 = 90.0;
 const LEAST_INSPECTOR_HEIGHT: f32 = 160.0;
 
 /// What the panels remember.
-pub(super) struct Panels {
+pub(crate) struct Panels {
     /// Whether the panel of plans and layers is shown.
     pub left: bool,
     /// Whether the inspector is shown.
@@ -108,57 +110,6 @@ impl Default for Panels {
     }
 }
 
-/// A text field in the making.
-#[derive(Clone, Debug)]
-pub(super) struct Field {
-    room: RoomId,
-    kind: FieldKind,
-    text: String,
-}
-
-/// A text of a room.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum FieldKind {
-    Name,
-    Function,
-    Note,
-}
-
-impl Field {
-    pub(super) fn new(room: RoomId, kind: FieldKind, text: &str) -> Self {
-        Self { room, kind, text: text.to_owned() }
-    }
-
-    /// The id and the argument of the command that writes it.
-    pub(super) fn as_command(&self) -> (&'static str, String) {
-        let id = match self.kind {
-            FieldKind::Name => "rename",
-            FieldKind::Function => "set-function",
-            FieldKind::Note => "set-note",
-        };
-        (id, self.text.clone())
-    }
-
-    /// What the edit is called in the history.
-    pub(super) fn title(&self) -> &'static str {
-        match self.kind {
-            FieldKind::Name => "Rename room",
-            FieldKind::Function => "Set function",
-            FieldKind::Note => "Write note",
-        }
-    }
-
-    /// # Errors
-    /// When the room is gone.
-    pub(super) fn apply(&self, plan: &Plan) -> Result<Plan, EditError> {
-        match self.kind {
-            FieldKind::Name => edit::set_name(plan, self.room, &self.text),
-            FieldKind::Function => edit::set_function(plan, self.room, &self.text),
-            FieldKind::Note => edit::change_room(plan, self.room, |room| room.note = self.text.trim().to_owned()),
-        }
-    }
-}
-
 impl Panels {
     /// The text that is not part of the plan yet; it is taken out.
     pub(super) fn take_field(&mut self) -> Option<Field> {
@@ -205,7 +156,7 @@ fn show_right(app: &mut App, ui: &mut Ui) {
 }
 
 /// Shows the window.
-pub(super) fn show(app: &mut App, ui: &mut Ui) {
+pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     let colours = theme::colours(ui.visuals());
     let frame = |margin: Margin| Frame::new().fill(colours.panel).inner_margin(margin);
     app.canvas.hovered_in_panel = None;

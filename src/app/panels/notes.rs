@@ -2,12 +2,15 @@
 
 use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
-use crate::app::widgets::{caption, colours, dialog_frame, right, strong, text_button};
-use crate::app::{App, theme};
+use crate::app::look::{
+    theme,
+    widgets::{caption, colours, dialog_frame, right, strong, text_button},
+};
+use crate::app::state::App;
 use crate::formats::{Note, NoteKind};
 
 /// How many notes of each kind, in words: '3 things mended, 1 left out'.
-pub(in crate::app) fn summary(notes: &[Note]) -> String {
+pub(crate) fn summary(notes: &[Note]) -> String {
     let number = |kind: NoteKind| notes.iter().filter(|note| note.kind == kind).count();
     let (healed, skipped) = (number(NoteKind::Healed), number(NoteKind::Skipped));
     let things = |number: usize| if number == 1 { "thing" } else { "things" };

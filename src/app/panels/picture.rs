@@ -1,14 +1,15 @@
 //! The picture under the plan: what it is, how strongly it is seen, how its scale was found.
 
+use crate::app::session::tracing::millimetres;
 use egui::{FontId, Role, Sense, Slider, Ui, WidgetInfo, pos2, vec2};
 
-use crate::app::{
-    App,
-    backdrop::{Known, millimetres},
+use crate::app::look::{
     icons::Icon,
     theme,
     widgets::{ROW, caption, colours, icon_button, link, put_line, section, value},
 };
+use crate::app::paint::backdrop::Known;
+use crate::app::state::App;
 use crate::base::units::Units;
 use crate::edit::Calibration;
 use crate::plan::{Backdrop, Measurement, ScaleOrigin};

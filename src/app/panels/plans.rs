@@ -4,10 +4,13 @@ use std::path::Path;
 
 use egui::{Role, ScrollArea, Ui};
 
-use crate::app::document::{Origin, bundled, file_name};
-use crate::app::icons::Icon;
-use crate::app::widgets::{Lead, ROW, Row, icon_button, right, section};
-use crate::app::{App, commands};
+use crate::app::commands;
+use crate::app::look::{
+    icons::Icon,
+    widgets::{Lead, ROW, Row, icon_button, right, section},
+};
+use crate::app::session::origin::{Origin, bundled, file_name};
+use crate::app::state::App;
 
 /// A row of the list.
 enum Entry {

@@ -2,8 +2,12 @@
 
 use egui::{Id, Key, Modal, Ui};
 
-use crate::app::widgets::{dialog_frame, right, strong, text_button};
-use crate::app::{App, Intent, Question, theme};
+use crate::app::look::{
+    theme,
+    widgets::{dialog_frame, right, strong, text_button},
+};
+use crate::app::session::questions::{Intent, Question};
+use crate::app::state::App;
 use crate::base::wording::count;
 use crate::plan::ElementId;
 

@@ -5,9 +5,12 @@ use std::time::SystemTime;
 use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
 use super::plan_picture::{MarkKind, legend};
-use crate::app::recovery::Offered;
-use crate::app::widgets::{caption, colours, dialog_frame, right, strong, text_button};
-use crate::app::{App, theme};
+use crate::app::look::{
+    theme,
+    widgets::{caption, colours, dialog_frame, right, strong, text_button},
+};
+use crate::app::session::recovery::Offered;
+use crate::app::state::App;
 use crate::base::wording::count;
 
 /// Size of a picture, in points.

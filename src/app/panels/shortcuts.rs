@@ -6,17 +6,22 @@ use egui::{
     TextEdit, Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use crate::app::commands::{self, COMMANDS, Command, CommandError, Keys, Menu};
-use crate::app::icons::Icon;
-use crate::app::search::Search;
-use crate::app::widgets::{
-    ICON, caption, colours, dialog_frame, focus_ring, follow_focus, icon_button, put_line, right, strong, text_button,
+use crate::app::commands::{self, COMMANDS, Command, CommandError, Menu};
+use crate::app::look::{
+    icons::Icon,
+    keys::Keys,
+    search::Search,
+    theme,
+    widgets::{
+        ICON, caption, colours, dialog_frame, focus_ring, follow_focus, icon_button, put_line, right, strong,
+        text_button,
+    },
 };
-use crate::app::{App, theme};
+use crate::app::state::App;
 
 /// The sheet while it is open.
 #[derive(Default)]
-pub(in crate::app) struct Sheet {
+pub(crate) struct Sheet {
     query: String,
     /// The command for which keys are waited for.
     changing: Option<&'static str>,

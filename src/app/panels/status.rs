@@ -3,9 +3,13 @@
 use crate::base::wording::{count, thousands};
 use egui::{Align, Layout, RichText, Sense, Ui, vec2};
 
-use crate::app::icons::Icon;
-use crate::app::widgets::{colours, icon_button, right};
-use crate::app::{App, commands, theme};
+use crate::app::commands;
+use crate::app::look::{
+    icons::Icon,
+    theme,
+    widgets::{colours, icon_button, right},
+};
+use crate::app::state::App;
 
 /// Metres in a point of a screen of 96 points to the inch, which is what egui's points are meant to
 /// be.
@@ -61,7 +65,7 @@ fn zoom_button(app: &mut App, ui: &mut Ui, icon: Icon, id: &str) {
     }
 }
 
-pub(in crate::app) fn left_text(app: &App) -> String {
+pub(crate) fn left_text(app: &App) -> String {
     if let Some(origin) = &app.opening {
         return format!("Opening {}…", origin.title());
     }

@@ -4,8 +4,11 @@
 use egui::{Area, DragValue, Frame, Id, Margin, Order, RichText, Ui, vec2};
 
 use crate::app::commands;
-use crate::app::widgets::{colours, toggle};
-use crate::app::{App, theme};
+use crate::app::look::{
+    theme,
+    widgets::{colours, toggle},
+};
+use crate::app::state::App;
 use crate::base::units::Units;
 
 /// The tools for which something can be told, with the commands of their switches.
@@ -45,7 +48,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
                 ui.spacing_mut().item_spacing = vec2(8.0, 4.0);
                 let command = commands::find(&format!("tool-{id}")).or(commands::find(id));
                 let title = command.map_or("", |command| command.title);
-                ui.label(crate::app::widgets::strong(title, theme::BODY));
+                ui.label(crate::app::look::widgets::strong(title, theme::BODY));
                 ui.add_space(8.0);
                 let has_thickness =
                     id == "walls" || (matches!(id, "room" | "rectangle") && app.draw_options.walls_with_rooms);

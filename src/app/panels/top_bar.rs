@@ -6,8 +6,11 @@ use egui::{
 };
 
 use crate::app::commands::{COMMANDS, Choice, Command, Menu};
-use crate::app::widgets::{Lead, ROW, Row, colours, focus_ring, icon_button, strong};
-use crate::app::{App, theme};
+use crate::app::look::{
+    theme,
+    widgets::{Lead, ROW, Row, colours, focus_ring, icon_button, strong},
+};
+use crate::app::state::App;
 use crate::base::wording::sentence;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {

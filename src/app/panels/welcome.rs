@@ -9,10 +9,17 @@ use egui::{
     Stroke, Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use crate::app::document::{Derived, Origin, bundled, derived_sample};
-use crate::app::scene_painter::ScenePainter;
-use crate::app::widgets::{colours, follow_focus, section, strong, text_button};
-use crate::app::{App, commands, theme};
+use crate::app::commands;
+use crate::app::look::{
+    theme,
+    widgets::{colours, follow_focus, section, strong, text_button},
+};
+use crate::app::paint::scene_painter::ScenePainter;
+use crate::app::session::{
+    document::{Derived, derived_sample},
+    origin::{Origin, bundled},
+};
+use crate::app::state::App;
 use crate::base::wording::count;
 use crate::draw::{Layers, Style, View};
 use crate::plan::Plan;
@@ -105,7 +112,7 @@ fn card(app: &mut App, ui: &mut Ui, index: usize, plan: &Plan) -> Response {
 
 /// The samples' pictures, made when they are first seen.
 #[derive(Default)]
-pub(in crate::app) struct Samples(Vec<Option<Sample>>);
+pub(crate) struct Samples(Vec<Option<Sample>>);
 
 struct Sample {
     derived: Arc<Derived>,

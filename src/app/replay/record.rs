@@ -5,25 +5,31 @@
 //! and so does the plan it ends with, so that it can be replayed anywhere and says whether it went the
 //! same way.
 
+use crate::app::session::origin::file_name;
 use std::path::{Path, PathBuf};
 
 use egui::Context;
 
 use super::folders::inner;
 use super::words::written;
-use crate::app::background::Mode;
 use crate::app::commands::{self, ArgumentKind, COMMANDS, Executed, Menu, elements_word, room_word, sample_word};
-use crate::app::dialogs::{Dialogs, Given, Purpose};
-use crate::app::document::{self, Origin};
-use crate::app::theme::Motion;
-use crate::app::{App, Done, Intent, Severity, plan_list};
+use crate::app::look::theme::Motion;
+use crate::app::session::{
+    file_dialogs::{Dialogs, Given, Purpose},
+    jobs::Mode,
+    messages::Severity,
+    origin::Origin,
+    plan_list,
+    questions::Intent,
+};
+use crate::app::state::{App, Done};
 use crate::formats::{self, plan_json};
 use crate::geometry::Point;
 use crate::plan::{ElementId, Plan};
 use crate::store::{SaveError, save_bytes};
 
 /// A recording at work.
-pub(in crate::app) struct Recorder {
+pub(crate) struct Recorder {
     /// The script's lines so far.
     lines: Vec<Line>,
     files: Files,
@@ -74,7 +80,7 @@ struct View {
 
 /// A recording that has ended: a script, and the files that go with it.
 #[derive(Clone, Debug)]
-pub(in crate::app) struct Recording {
+pub(crate) struct Recording {
     lines: Vec<Line>,
     files: Files,
 }
@@ -177,7 +183,7 @@ impl Files {
                 self.0.push((picture, bytes));
             }
         }
-        Some(self.add(&document::file_name(path), bytes))
+        Some(self.add(&file_name(path), bytes))
     }
 }
 
@@ -210,16 +216,16 @@ impl Recorder {
         }
         let files = &mut self.files;
         let words = arguments.iter().zip(command.arguments).map(|(word, argument)| match argument.kind {
-            ArgumentKind::NewPlanFile => document::file_name(Path::new(word)),
+            ArgumentKind::NewPlanFile => file_name(Path::new(word)),
             ArgumentKind::PictureFile => {
                 let path = Path::new(word);
                 // One that cannot be read could not be used either.
                 let bytes = crate::store::pictures::read_picture_bytes(path).unwrap_or_default();
-                files.add(&document::file_name(path), bytes)
+                files.add(&file_name(path), bytes)
             }
             ArgumentKind::PlanFile => {
                 let path = Path::new(word);
-                files.add_file(path).unwrap_or_else(|| document::file_name(path))
+                files.add_file(path).unwrap_or_else(|| file_name(path))
             }
             _ => word.clone(),
         });
@@ -242,7 +248,7 @@ impl Recorder {
             Origin::Bundled(index) => Line::new(&["open-sample", sample_word(*index)]),
             Origin::Untitled => Line::new(&["new-plan"]),
             Origin::File { path, storey } => match self.files.add_file(path) {
-                None => Line::new(&["open-missing", &document::file_name(path)]),
+                None => Line::new(&["open-missing", &file_name(path)]),
                 Some(word) if *storey == 0 => Line::new(&["open", &word]),
                 Some(word) => Line::new(&["open", &word, &(storey + 1).to_string()]),
             },
@@ -267,8 +273,8 @@ impl Recording {
     ///
     /// # Errors
     /// When something cannot be written.
-    pub(in crate::app) fn save(&self, path: &Path) -> Result<(), SaveError> {
-        let name = document::file_name(path);
+    pub(crate) fn save(&self, path: &Path) -> Result<(), SaveError> {
+        let name = file_name(path);
         let folder_name = format!("{}.files", name.strip_suffix(ENDING).unwrap_or(&name));
         let folder = path.with_file_name(&folder_name);
         for (name, bytes) in &self.files.0 {
@@ -356,7 +362,7 @@ impl App {
     }
 
     /// Writes down what was done in a frame that ends.
-    pub(in crate::app) fn record(&mut self, context: &Context) {
+    pub(crate) fn record(&mut self, context: &Context) {
         if std::mem::take(&mut self.wants_recording) {
             self.start_recording(context);
         }
@@ -397,7 +403,7 @@ impl App {
     }
 
     /// Writes down the commands that were done.
-    pub(in crate::app) fn write_executed(&mut self) {
+    pub(crate) fn write_executed(&mut self) {
         // Without a recorder they are kept for whoever watches them.
         let executed = if self.recorder.is_some() { self.take_executed() } else { return };
         let Some(recorder) = &mut self.recorder else { return };
@@ -422,7 +428,7 @@ impl App {
 
     /// Asks where to save what was recorded. The recording ends once it is saved, and goes on if the
     /// dialog is cancelled; then does what was to follow.
-    pub(in crate::app) fn stop_recording(&mut self, then: Option<Intent>) {
+    pub(crate) fn stop_recording(&mut self, then: Option<Intent>) {
         self.commit_field();
         self.write_executed();
         self.round_view();
@@ -437,7 +443,7 @@ impl App {
     }
 
     /// Saves a recording; the ending is added where it is missing.
-    pub(in crate::app) fn save_recording(&mut self, recording: Recording, mut path: PathBuf, then: Option<Intent>) {
+    pub(crate) fn save_recording(&mut self, recording: Recording, mut path: PathBuf, then: Option<Intent>) {
         if !path.to_string_lossy().ends_with(ENDING) {
             path.as_mut_os_string().push(ENDING);
         }
@@ -448,7 +454,7 @@ impl App {
     }
 
     /// Takes note of a recording that was saved, or was not.
-    pub(in crate::app) fn recording_was_saved(
+    pub(crate) fn recording_was_saved(
         &mut self,
         path: &Path,
         recording: Recording,
@@ -459,13 +465,13 @@ impl App {
             Ok(()) => {
                 self.recorder = None;
                 self.watch_commands(false);
-                self.status = format!("Recorded in {}", document::file_name(path));
+                self.status = format!("Recorded in {}", file_name(path));
                 if let Some(intent) = then {
                     self.request(intent);
                 }
             }
             Err(error) => {
-                let text = format!("{} is not saved: {}", document::file_name(path), error.what);
+                let text = format!("{} is not saved: {}", file_name(path), error.what);
                 let detail = format!("{}.\n{}", error.hint, self.shown_path(path));
                 self.say(Severity::Error, text, detail);
                 // Elsewhere, perhaps.

@@ -2,11 +2,11 @@
 
 use egui::Rect;
 
-use crate::app::{App, panels};
+use crate::app::panels;
+use crate::app::state::App;
 use crate::features::RoomStatus;
 use crate::geometry::{Point, Vector};
-use crate::plan::ElementId;
-use crate::plan::RoomId;
+use crate::plan::{ElementId, RoomId};
 
 impl App {
     /// Where the canvas was in the last frame, in logical pixels; `None` without a plan.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use egui::Rect;
 
 use super::stage::{Fault, Stage, count};
-use crate::app::OffscreenOptions;
+use crate::app::offscreen::OffscreenOptions;
 use crate::picture::Picture;
 use crate::store::save_bytes_fast;
 

@@ -1,7 +1,7 @@
 //! Puts doors, passages and windows into walls, and closes gaps between walls with them.
 
-use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, Tool, Typed, Typing, word};
+use crate::app::paint::preview::{Look, Preview};
 use crate::edit::opening_on;
 use crate::geometry::{Point, Segment};
 use crate::plan::titles::room_title;

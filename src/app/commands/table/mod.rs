@@ -11,19 +11,17 @@ mod room;
 mod script;
 mod view;
 
+use crate::app::session::origin::Origin;
 use std::path::Path;
 use std::sync::LazyLock;
 
 use egui::{Context, Key, KeyboardShortcut, Modifiers};
 
 use super::{Action, Argument, ArgumentKind, Availability, Command, Menu, Ran, Values};
-use crate::app::icons::Icon;
-use crate::app::panels::FieldKind;
-use crate::app::panels::palette::Palette;
-use crate::app::panels::shortcuts::Sheet;
-use crate::app::settings::GRID_RANGE_M;
-use crate::app::theme::ThemeChoice;
-use crate::app::{App, Intent, Origin, SelectMode};
+use crate::app::look::{icons::Icon, theme::ThemeChoice};
+use crate::app::panels::{palette::Palette, shortcuts::Sheet};
+use crate::app::session::{fields::FieldKind, questions::Intent, selection::SelectMode, settings::GRID_RANGE_M};
+use crate::app::state::App;
 use crate::base::units::Units;
 use crate::draw::{Fill, LabelColours};
 use crate::edit::EditError;

@@ -4,7 +4,10 @@ use std::collections::BTreeSet;
 
 use super::draw::{KINDS, edited, kind_of};
 use super::*;
-use crate::app::{Document, ProposedChange, Question};
+use crate::app::session::{
+    document::Document,
+    questions::{ProposedChange, Question},
+};
 use crate::edit::{self, Alignment, Array};
 use crate::geometry::Transform;
 use crate::plan::{LeafSide, OpeningId, OpeningKind, RoomId, Swing};
@@ -706,7 +709,7 @@ impl App {
     }
 
     /// Takes over what the system's clipboard holds, where that is part of a plan.
-    pub(in crate::app) fn take_pasted(&mut self, text: &str) {
+    pub(crate) fn take_pasted(&mut self, text: &str) {
         if let Ok(plan) = crate::formats::plan_json::from_bytes(text.as_bytes())
             && !plan.is_empty()
         {
@@ -837,7 +840,7 @@ impl App {
     }
 
     /// Deletes elements and what depends on them.
-    pub(in crate::app) fn delete(&mut self, elements: &[ElementId]) {
+    pub(crate) fn delete(&mut self, elements: &[ElementId]) {
         let title = match elements {
             [one] => format!("Delete {}", one.kind()),
             several => format!("Delete {} elements", several.len()),

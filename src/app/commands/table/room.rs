@@ -1,9 +1,9 @@
 //! The picked room: finding, naming, labelling.
 
 use super::*;
-use crate::app::bulk::{Change, Order, Which};
-use crate::app::labelling::Target;
 use crate::app::panels::bulk::Bulk;
+use crate::app::session::bulk::{Change, Order, Which};
+use crate::app::session::labelling::Target;
 use crate::plan::RoomId;
 
 const TARGET: Argument = optional(

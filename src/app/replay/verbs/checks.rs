@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::{Group, Verb};
-use crate::app::Control;
 use crate::app::commands::{self, COMMANDS};
+use crate::app::offscreen::controls::Control;
 use crate::app::replay::script::Act;
 use crate::app::replay::snapshot::{self, Look, Region};
 use crate::app::replay::stage::{Fault, Stage, count};

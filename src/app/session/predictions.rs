@@ -1,0 +1,74 @@
+//! What classifiers say of the rooms, and accepting it.
+
+use std::sync::Arc;
+
+use crate::classify::models::Models;
+use crate::store;
+use crate::app::session::messages::Severity;
+use crate::app::state::App;
+use crate::edit;
+use crate::labels::Label;
+use crate::plan::LabelOrigin;
+use crate::plan::RoomId;
+use crate::plan::RoomLabel;
+use crate::predict::Predictions;
+impl App {
+    /// What is said of the rooms of the plan as it is now; `None` while that is being worked out.
+    pub fn predictions(&self) -> Option<&Predictions> {
+        self.document.as_ref()?.derived()?.predictions.as_ref()
+    }
+
+    /// Takes the user's own label schemes and models from their folders; says what cannot be used.
+    pub(crate) fn use_own_schemes_and_models(&mut self) {
+        if let Some(folder) = store::schemes_folder() {
+            let (schemes, errors) = store::schemes_in(&folder);
+            self.schemes = Arc::new(schemes);
+            for error in errors {
+                self.say(Severity::Warning, "A label scheme cannot be used.", error.to_string());
+            }
+        }
+        if let Some(folder) = store::models_folder() {
+            let (own, errors) = store::models_in(&folder);
+            self.models = Models::bundled().with(own);
+            for error in errors {
+                self.say(Severity::Warning, "A model cannot be used.", error.to_string());
+            }
+        }
+    }
+
+    /// The selected rooms that are predicted, with what is said of them.
+    pub(crate) fn predictions_of_selected(&self) -> Vec<(RoomId, Label)> {
+        let Some(predictions) = self.predictions() else { return Vec::new() };
+        self.selection.rooms().filter_map(|id| Some((id, predictions.label(id)?))).collect()
+    }
+
+    /// Labels the selected rooms as predicted, in one step.
+    pub(crate) fn accept_prediction(&mut self) {
+        let said = self.predictions_of_selected();
+        match said.as_slice() {
+            [] => {}
+            [(_, label)] => self.accept(&format!("Accept {label}"), &said),
+            several => self.accept(&format!("Accept {} predictions", several.len()), &said),
+        }
+    }
+
+    pub(crate) fn accept(&mut self, title: &str, said: &[(RoomId, Label)]) {
+        self.edit(title, |plan| {
+            said.iter().try_fold(plan.clone(), |plan, &(id, label)| {
+                let given = RoomLabel { label, origin: LabelOrigin::AcceptedPrediction };
+                edit::set_label(&plan, id, Some(given))
+            })
+        });
+    }
+
+    /// Labels all rooms that have no label as predicted.
+    pub(crate) fn accept_all_predictions(&mut self) {
+        let Some(predictions) = self.predictions() else { return };
+        let unlabelled = predictions.network.rooms.iter().filter(|room| room.label.is_none());
+        let said: Vec<(RoomId, Label)> =
+            unlabelled.filter_map(|room| Some((room.id, predictions.label(room.id)?))).collect();
+        let title = format!("Accept {} predictions", said.len());
+        self.accept(&title, &said);
+        self.status = title;
+    }
+}
