@@ -13,7 +13,13 @@ use super::learner::Learner;
 use crate::base::wording::or_words;
 
 /// All learners, in the order of menus, tables and help texts.
-pub const LEARNERS: &[&dyn Learner] = &[&rules::Ripper, &tree::C45, &knn::NearestNeighbours, &mlp::Backpropagation];
+#[rustfmt::skip] // one line each
+pub const LEARNERS: &[&dyn Learner] = &[
+    &rules::Ripper,
+    &tree::C45,
+    &knn::NearestNeighbours,
+    &mlp::Backpropagation,
+];
 
 /// One of the [`LEARNERS`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

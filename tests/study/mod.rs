@@ -219,7 +219,7 @@ fn a_typology_of_ones_own_needs_two_files() {
     let plan = folder.path().join("clinic.plan.json");
     let office = bundled("office");
     let typology = enfilade::labels::Typology::new("clinic");
-    save_plan(&plan, &office.with_meta(enfilade::plan::Meta { typology, ..office.meta().clone() })).unwrap();
+    save_plan(&plan, &edit::set_meta(&office, enfilade::plan::Meta { typology, ..office.meta().clone() })).unwrap();
     let models = folder.path().join("models");
     std::fs::create_dir(&models).unwrap();
     let model = models.join("ours.model.json");
