@@ -19,6 +19,7 @@ pub mod parallel;
 pub mod plan;
 pub mod predict;
 pub mod random;
+pub mod robot;
 pub mod snapping;
 pub mod store;
 pub mod study;
