@@ -1,0 +1,449 @@
+//! Exploration by frontiers (Yamauchi 1997): drive to where the known floor ends, look, until nothing that
+//! can be reached is unknown. A machine of small steps, whose state can be looked at after each.
+
+use super::free_space::FreeSpace;
+use super::frontiers::{Frontier, frontiers};
+use super::odometry::OdometryNoise;
+use super::pose::wrapped_rad;
+use super::route::Routes;
+use super::scanner::{Scanner, back_to_back};
+use super::{Pose, RayGrid, Scan, World};
+use crate::geometry::{Point, Segment, polygon};
+use crate::random::{Random, seed_of_part};
+
+/// The robot and how it explores.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotOptions {
+    /// Half its width, in metres: it is taken for round.
+    pub radius_m: f64,
+    /// It drives at most so far between two looks, in metres.
+    pub step_m: f64,
+    /// It turns at most so far between two looks.
+    pub turn_rad: f64,
+    pub scanners: Vec<Scanner>,
+    pub odometry: OdometryNoise,
+    pub seed: u64,
+}
+
+impl Default for RobotOptions {
+    /// A Pioneer 3-AT with two SICK LMS 200 back to back (paper, section 3.3).
+    ///
+    /// It is 0.508 m long and 0.497 m wide (Adept MobileRobots, Pioneer 3-AT data sheet, 2011): half of
+    /// that is 0.25 m. At its usual 0.4 m/s and two scans a second it looks every 0.2 m; between two
+    /// looks it turns by 20 degrees at most.
+    fn default() -> Self {
+        Self {
+            radius_m: 0.25,
+            step_m: 0.2,
+            turn_rad: 20.0_f64.to_radians(),
+            scanners: back_to_back(Scanner::lms200).to_vec(),
+            odometry: OdometryNoise::default(),
+            seed: 1,
+        }
+    }
+}
+
+impl RobotOptions {
+    /// The same without any error of scanners and odometry.
+    #[must_use]
+    pub fn exact(self) -> Self {
+        let scanners = self.scanners.into_iter().map(Scanner::exact).collect();
+        Self { scanners, odometry: OdometryNoise::NONE, ..self }
+    }
+}
+
+/// Ways are planned for a robot that much larger, in metres: the map is not exact.
+const MARGIN_M: f64 = 0.03;
+
+/// What was seen is added to the free space after so many metres, or that much of a turn.
+const LOOK_M: f64 = 0.4;
+const LOOK_RAD: f64 = 0.8;
+
+/// A frontier is looked at from within so many metres.
+const VIEW_M: f64 = 1.2;
+
+/// Places to look from are tried so many metres apart.
+const VIEW_SPACING_M: f64 = 0.15;
+
+/// What a metre of distance from a frontier costs, in metres of way; on the second try more, so that the
+/// robot goes as close as it can.
+const PER_METRE: [f64; 2] = [1.0, 8.0];
+
+/// A long frontier is worth a detour: so many metres of way for each metre of it.
+const PER_FRONTIER_METRE: f64 = 0.5;
+
+/// Longer frontiers are worth no more, in metres.
+const LONGEST_WORTH_M: f64 = 3.0;
+
+/// Frontiers whose middles are closer than this, in metres, are one and the same.
+const SAME_M: f64 = 0.5;
+
+/// A frontier that is still there after so many visits cannot be seen through.
+const VISITS: usize = 2;
+
+/// After so many collisions on the way to one goal it is given up.
+const BUMPS: usize = 3;
+
+/// How far the robot backs off after a collision, in metres.
+const BACK_OFF_M: f64 = 0.15;
+
+/// No exploration takes longer, in steps; said where one does. A school of 60 rooms takes some 5,000.
+const STEPS_LIMIT: usize = 100_000;
+
+/// What the robot is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Activity {
+    /// It is about to choose a frontier.
+    Choosing,
+    /// It drives to a frontier.
+    Driving,
+    /// It drove into something and backs off.
+    BackingOff,
+    /// Nothing that can be reached is unknown.
+    Finished,
+    /// It gave up after a bounded number of steps.
+    GaveUp,
+}
+
+/// Where the robot heads for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Goal {
+    /// Where it will look from.
+    pub place: Point,
+    /// The frontier it will look at.
+    pub frontier: Frontier,
+    /// The way there that is still ahead.
+    pub way: Vec<Point>,
+    bumps: usize,
+}
+
+/// An exploration under way. The map's frame is that of the robot's first pose.
+pub struct Exploration<'a> {
+    world: &'a World,
+    options: RobotOptions,
+    random: Random,
+    /// Where the robot started, in the world's frame.
+    pub world_from_map: Pose,
+    /// Where the robot really is, in the world's frame.
+    pub true_pose: Pose,
+    /// Where its odometry alone puts it, in the map's frame.
+    pub odometry: Pose,
+    /// Where it believes to be, in the map's frame.
+    pub pose: Pose,
+    /// The last scans.
+    pub scans: Vec<Scan>,
+    pub free: FreeSpace,
+    pub goal: Option<Goal>,
+    pub activity: Activity,
+    /// All true poses so far, in the world's frame, and the estimated and the odometry's in the map's.
+    pub path: Vec<PathStep>,
+    /// Frontiers that were visited in vain, and how often.
+    visited: Vec<(Point, usize)>,
+    looked_at: Pose,
+    collisions: usize,
+    has_new_look: bool,
+}
+
+/// The poses after a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathStep {
+    /// In the world's frame.
+    pub true_pose: Pose,
+    /// In the map's frame.
+    pub estimate: Pose,
+    /// In the map's frame.
+    pub odometry: Pose,
+}
+
+impl<'a> Exploration<'a> {
+    /// A robot that has just been put down and has looked around once.
+    pub fn new(world: &'a World, start: Pose, options: RobotOptions) -> Self {
+        let random = Random::new(seed_of_part(options.seed, 7));
+        let mut exploration = Self {
+            world,
+            options,
+            random,
+            world_from_map: start,
+            true_pose: start,
+            odometry: Pose::IDENTITY,
+            pose: Pose::IDENTITY,
+            scans: Vec::new(),
+            free: FreeSpace::default(),
+            goal: None,
+            activity: Activity::Choosing,
+            path: Vec::new(),
+            visited: Vec::new(),
+            looked_at: Pose::IDENTITY,
+            collisions: 0,
+            has_new_look: false,
+        };
+        exploration.sense(Pose::IDENTITY);
+        exploration.look();
+        exploration
+    }
+
+    pub fn options(&self) -> &RobotOptions {
+        &self.options
+    }
+
+    /// Whether it has come to its end.
+    pub fn is_over(&self) -> bool {
+        matches!(self.activity, Activity::Finished | Activity::GaveUp)
+    }
+
+    /// How often the robot drove into something.
+    pub fn collisions(&self) -> usize {
+        self.collisions
+    }
+
+    /// Whether the last step added to the free space.
+    pub fn has_new_look(&self) -> bool {
+        self.has_new_look
+    }
+
+    /// The frontiers of what is known so far, those visited in vain included.
+    pub fn frontiers(&self) -> Vec<Frontier> {
+        frontiers(&self.free)
+    }
+
+    /// One small step: a choice, a turn, or some centimetres of driving with a look around.
+    pub fn step(&mut self) -> Activity {
+        self.has_new_look = false;
+        if self.is_over() {
+            return self.activity;
+        }
+        if self.path.len() >= STEPS_LIMIT {
+            self.activity = Activity::GaveUp;
+            return self.activity;
+        }
+        match self.activity {
+            Activity::BackingOff => {
+                self.drive(Pose::new(-BACK_OFF_M, 0.0, 0.0));
+                self.replan();
+            }
+            _ if self.goal.is_none() => self.choose(),
+            _ => self.follow(),
+        }
+        self.activity
+    }
+
+    /// Drives to the end.
+    pub fn run(&mut self) -> Activity {
+        while !self.is_over() {
+            self.step();
+        }
+        self.activity
+    }
+
+    fn planned_radius_m(&self) -> f64 {
+        self.options.radius_m + MARGIN_M
+    }
+
+    fn visits(&self, frontier: &Frontier) -> usize {
+        let same = self.visited.iter().filter(|(at, _)| at.distance(frontier.middle) < SAME_M);
+        same.map(|(_, visits)| *visits).max().unwrap_or(0)
+    }
+
+    /// Chooses the frontier that costs least, or ends.
+    fn choose(&mut self) {
+        let open: Vec<(Frontier, usize)> = self
+            .frontiers()
+            .into_iter()
+            .map(|frontier| {
+                let visits = self.visits(&frontier);
+                (frontier, visits)
+            })
+            .filter(|(_, visits)| *visits < VISITS)
+            .collect();
+        self.goal = self.cheapest(&open);
+        self.activity = if self.goal.is_some() { Activity::Driving } else { Activity::Finished };
+    }
+
+    fn cheapest(&self, open: &[(Frontier, usize)]) -> Option<Goal> {
+        if open.is_empty() {
+            return None;
+        }
+        let mut routes = Routes::new(self.free.shapes(), self.pose.position());
+        let edges = self.free.shapes().iter().flatten().map(crate::geometry::areas::points);
+        let edges: Vec<Segment> = edges.flat_map(|ring| polygon::edges(&ring).collect::<Vec<_>>()).collect();
+        let grid = RayGrid::new(edges);
+        // What looking from a cell costs beyond the way there, at least.
+        let mut views: Vec<(usize, usize, f64)> = Vec::new();
+        for (index, (frontier, visits)) in open.iter().enumerate() {
+            let worth = PER_FRONTIER_METRE * frontier.length_m.min(LONGEST_WORTH_M);
+            let seen = frontier.middle - frontier.outward * 0.05;
+            for cell in routes.cells_near(frontier.middle, VIEW_M, VIEW_SPACING_M, self.planned_radius_m()) {
+                let from = routes.centre(cell);
+                if !grid.blocks(from, seen) {
+                    let extra = PER_METRE[(*visits).min(1)] * from.distance(frontier.middle) - worth;
+                    views.push((cell, index, extra));
+                }
+            }
+        }
+        views.sort_by(|p, q| p.0.cmp(&q.0).then(p.2.total_cmp(&q.2)).then(p.1.cmp(&q.1)));
+        let least_extra = views.iter().map(|view| view.2).fold(f64::INFINITY, f64::min);
+        let mut best: Option<(f64, usize, usize)> = None;
+        routes.spread(self.pose.position(), self.planned_radius_m(), |cell, cost| {
+            if best.is_some_and(|(found, _, _)| cost + least_extra >= found) {
+                return true;
+            }
+            let first = views.partition_point(|view| view.0 < cell);
+            if let Some(&(at, index, extra)) = views.get(first)
+                && at == cell
+                && best.is_none_or(|(found, _, _)| cost + extra < found)
+            {
+                best = Some((cost + extra, cell, index));
+            }
+            false
+        });
+        let (_, cell, index) = best?;
+        let place = routes.centre(cell);
+        Some(Goal { place, frontier: open[index].0.clone(), way: routes.way(place), bumps: 0 })
+    }
+
+    /// Plans the way to the goal again, from where the robot is now.
+    fn replan(&mut self) {
+        self.activity = Activity::Driving;
+        let radius_m = self.planned_radius_m();
+        let Some(goal) = &mut self.goal else { return };
+        let mut routes = Routes::new(self.free.shapes(), self.pose.position());
+        let place = goal.place;
+        let to = routes.cells_near(place, 0.2, 0.01, 0.0);
+        routes.spread(self.pose.position(), radius_m, |cell, _| to.contains(&cell));
+        let reached = to.into_iter().filter(|&cell| routes.cost(routes.centre(cell)).is_some());
+        let nearest = reached.min_by(|&p, &q| {
+            routes.centre(p).distance(place).total_cmp(&routes.centre(q).distance(place))
+        });
+        goal.way = nearest.map(|cell| routes.way(routes.centre(cell))).unwrap_or_default();
+        if goal.way.is_empty() {
+            self.leave_goal(true);
+        }
+    }
+
+    /// Gives up the goal, or has reached it; `in_vain`: what it looked at is remembered.
+    fn leave_goal(&mut self, in_vain: bool) {
+        if let Some(goal) = self.goal.take()
+            && in_vain
+        {
+            let middle = goal.frontier.middle;
+            match self.visited.iter_mut().find(|(at, _)| at.distance(middle) < SAME_M / 2.0) {
+                Some((_, visits)) => *visits += 1,
+                None => {
+                    let visits = self.visits(&goal.frontier) + 1;
+                    self.visited.push((middle, visits));
+                }
+            }
+        }
+        self.activity = Activity::Choosing;
+    }
+
+    /// Drives along the way to the goal.
+    fn follow(&mut self) {
+        let here = self.pose.position();
+        let near_m = self.options.step_m / 2.0;
+        let Some(goal) = &mut self.goal else { return };
+        while goal.way.len() > 1 && goal.way[0].distance(here) < near_m {
+            goal.way.remove(0);
+        }
+        let Some(&next) = goal.way.first() else { return self.leave_goal(true) };
+        let is_last = goal.way.len() == 1;
+        if is_last && next.distance(here) < near_m {
+            self.look();
+            // What is still there after a look cannot be seen through.
+            return self.leave_goal(true);
+        }
+        let to = self.pose.between(Pose::new(next.x, next.y, 0.0));
+        let bearing_rad = to.y_m.atan2(to.x_m);
+        if bearing_rad.abs() > self.options.turn_rad {
+            let turn_rad = bearing_rad.clamp(-self.options.turn_rad, self.options.turn_rad);
+            self.drive(Pose::new(0.0, 0.0, turn_rad));
+        } else {
+            let ahead_m = self.options.step_m.min(to.x_m.hypot(to.y_m));
+            let (sin, cos) = bearing_rad.sin_cos();
+            let is_free = self.drive(Pose::new(ahead_m * cos, ahead_m * sin, bearing_rad));
+            if !is_free {
+                self.bump();
+                return;
+            }
+        }
+        if self.is_look_due() {
+            self.look();
+            self.reconsider();
+        }
+    }
+
+    /// After a collision.
+    fn bump(&mut self) {
+        self.collisions += 1;
+        self.look();
+        let Some(goal) = &mut self.goal else { return };
+        goal.bumps += 1;
+        if goal.bumps >= BUMPS {
+            self.leave_goal(true);
+        }
+        self.activity = Activity::BackingOff;
+    }
+
+    /// Drops a goal whose frontier is gone: it was seen on the way.
+    fn reconsider(&mut self) {
+        let Some(goal) = &self.goal else { return };
+        let middle = goal.frontier.middle;
+        let is_there = self.frontiers().iter().any(|frontier| {
+            frontier.middle.distance(middle) < SAME_M || frontier.line.iter().any(|p| p.distance(middle) < SAME_M / 2.0)
+        });
+        if !is_there {
+            self.leave_goal(false);
+        }
+    }
+
+    fn is_look_due(&self) -> bool {
+        let moved = self.looked_at.between(self.pose);
+        moved.x_m.hypot(moved.y_m) >= LOOK_M || moved.heading_rad.abs() >= LOOK_RAD
+    }
+
+    /// Adds what is seen from here to the free space.
+    fn look(&mut self) {
+        self.free.add(self.pose, &self.scans);
+        self.looked_at = self.pose;
+        self.has_new_look = true;
+    }
+
+    /// Moves by what the odometry shall say, and looks. Whether nothing was in the way.
+    fn drive(&mut self, odometry: Pose) -> bool {
+        let mut odometry = odometry;
+        let mut done = self.options.odometry.sample(odometry, &mut self.random);
+        let is_free = self.is_free(self.true_pose, self.true_pose.compose(done));
+        if !is_free {
+            // The wheels stand still but for the turn.
+            odometry = Pose::new(0.0, 0.0, odometry.heading_rad);
+            done = Pose::new(0.0, 0.0, done.heading_rad);
+        }
+        self.true_pose = self.true_pose.compose(done);
+        self.odometry = self.odometry.compose(odometry);
+        self.sense(odometry);
+        is_free
+    }
+
+    /// Whether the robot can move straight without touching anything. Where it touches something
+    /// already, it may move away.
+    fn is_free(&self, from: Pose, to: Pose) -> bool {
+        let radius_m = self.options.radius_m;
+        let clear = |at: Point| self.world.obstacles().distance_m(at, radius_m);
+        let now_m = clear(from.position());
+        (1..=4).all(|i| {
+            let there_m = clear(from.position().lerp(to.position(), f64::from(i) / 4.0));
+            there_m >= radius_m - 1e-9 || (there_m >= now_m && i == 4) || there_m > now_m
+        }) && !self.world.obstacles().blocks(from.position(), to.position())
+    }
+
+    /// Scans, and estimates where the robot is after it moved by `odometry`.
+    fn sense(&mut self, odometry: Pose) {
+        let (world, pose) = (self.world, self.true_pose);
+        let scans = self.options.scanners.iter().map(|scanner| scanner.scan(world, pose, &mut self.random));
+        self.scans = scans.collect();
+        self.pose = self.pose.compose(odometry);
+        self.pose = self.world_from_map.between(self.true_pose);
+        let _ = wrapped_rad;
+        self.path.push(PathStep { true_pose: self.true_pose, estimate: self.pose, odometry: self.odometry });
+    }
+}
