@@ -77,7 +77,8 @@ impl LineMap {
             return Vec::new();
         }
         let envelope = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
-        let mut ids: Vec<usize> = self.index.locate_in_envelope_intersecting(envelope).map(|entry| entry.data).collect();
+        let mut ids: Vec<usize> =
+            self.index.locate_in_envelope_intersecting(envelope).map(|entry| entry.data).collect();
         ids.sort_unstable();
         ids
     }
@@ -86,9 +87,11 @@ impl LineMap {
     pub fn add(&mut self, segment: LineSegment, options: &FusionOptions) {
         let mut fused = MapLine { line: segment, sightings: 1 };
         // What was fused is longer and may reach another line.
-        while let Some(id) = self.ids_near(fused.line.segment().bounds().inflated(options.gap_m)).into_iter().find(|id| {
-            self.lines[*id].is_some_and(|other| union(other.line, fused.line, options).is_some())
-        }) {
+        while let Some(id) = self
+            .ids_near(fused.line.segment().bounds().inflated(options.gap_m))
+            .into_iter()
+            .find(|id| self.lines[*id].is_some_and(|other| union(other.line, fused.line, options).is_some()))
+        {
             let Some(other) = self.remove(id) else { break };
             let Some(line) = union(other.line, fused.line, options) else { break };
             fused = MapLine { line, sightings: other.sightings + fused.sightings };

@@ -127,8 +127,14 @@ impl Reference {
         let targets: Vec<Target> = lines.into_iter().map(Target::new).collect();
         let side = |length: f64| (length.min(WIDEST_M) / CELL_M).ceil().max(1.0) as usize;
         let (columns, rows) = (side(bounds.width()), side(bounds.height()));
-        let mut reference =
-            Self { targets, origin: bounds.min, columns, rows, starts: vec![0; columns * rows + 1], of_cell: Vec::new() };
+        let mut reference = Self {
+            targets,
+            origin: bounds.min,
+            columns,
+            rows,
+            starts: vec![0; columns * rows + 1],
+            of_cell: Vec::new(),
+        };
         let mut pairs: Vec<(usize, u32)> = Vec::new();
         for (id, target) in reference.targets.iter().enumerate() {
             reference.cells_near(target, reach_m, |cell| pairs.push((cell, id as u32)));

@@ -4,12 +4,14 @@
 //! The frame of a map is that of the robot's first pose; metres and radians throughout.
 
 pub mod calibration;
+pub mod correlation;
 pub mod explore;
 pub mod free_space;
 pub mod frontiers;
 pub mod furniture;
 pub mod line_map;
 pub mod lines;
+pub mod loop_closing;
 pub mod mapper;
 pub mod matching;
 pub mod odometry;

@@ -222,8 +222,10 @@ fn solve(blocks: &Blocks, pull: &[Vector3<f64>], damping: f64, place: &[usize]) 
         }
     }
     for at in (0..count).rev() {
-        let below: Vector3<f64> =
-            columns[at].iter().map(|(row, block)| block.transpose() * solution[*row]).fold(Vector3::zeros(), |a, b| a + b);
+        let below: Vector3<f64> = columns[at]
+            .iter()
+            .map(|(row, block)| block.transpose() * solution[*row])
+            .fold(Vector3::zeros(), |a, b| a + b);
         solution[at] = inverses[at] * (solution[at] - below);
     }
     Some(place.iter().map(|at| solution[*at]).collect())
@@ -293,7 +295,9 @@ mod tests {
             for other in 0..pull.len() {
                 left += match blocks.get(&(pose, other)) {
                     Some(block) => block * solution[other],
-                    None => blocks.get(&(other, pose)).map_or(Vector3::zeros(), |block| block.transpose() * solution[other]),
+                    None => {
+                        blocks.get(&(other, pose)).map_or(Vector3::zeros(), |block| block.transpose() * solution[other])
+                    }
                 };
             }
             assert!((left - pull[pose]).amax() < 1e-5 * (1.0 + pull[pose].amax()), "{pose}");

@@ -56,12 +56,7 @@ pub fn segments_of(scan: &Scan, options: &SplitOptions) -> (Vec<Point>, Vec<Scan
 }
 
 /// Maximal runs of hits without a jump between neighbours.
-fn pieces(
-    beams: &[usize],
-    points: &[Point],
-    step_rad: f64,
-    options: &SplitOptions,
-) -> Vec<std::ops::Range<usize>> {
+fn pieces(beams: &[usize], points: &[Point], step_rad: f64, options: &SplitOptions) -> Vec<std::ops::Range<usize>> {
     let mut pieces = Vec::new();
     let mut first = 0;
     for at in 1..=points.len() {
@@ -132,11 +127,7 @@ fn furthest_off(points: &[Point], part: std::ops::Range<usize>, options: &SplitO
 }
 
 /// Merges neighbouring parts whose points lie near one line.
-fn merged(
-    points: &[Point],
-    parts: Vec<std::ops::Range<usize>>,
-    options: &SplitOptions,
-) -> Vec<std::ops::Range<usize>> {
+fn merged(points: &[Point], parts: Vec<std::ops::Range<usize>>, options: &SplitOptions) -> Vec<std::ops::Range<usize>> {
     let mut merged: Vec<std::ops::Range<usize>> = Vec::new();
     for part in parts {
         let mut part = part;
