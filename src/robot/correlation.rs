@@ -14,6 +14,9 @@ const SECTORS: usize = 16;
 /// A raster is never wider.
 const WIDEST_M: f64 = 120.0;
 
+/// Points that stand for all in a coarse search.
+pub const COARSE_POINTS: usize = 120;
+
 /// Near which cells lines run, and in which directions.
 #[derive(Clone, Debug)]
 pub struct Raster {
@@ -124,6 +127,11 @@ impl Raster {
         }
         apart
     }
+}
+
+/// About `most` of the points, evenly.
+pub fn thinned(points: &[SurfacePoint], most: usize) -> Vec<SurfacePoint> {
+    points.iter().step_by(points.len().div_ceil(most.max(1)).max(1)).copied().collect()
 }
 
 fn sector(angle_rad: f64) -> usize {

@@ -1,6 +1,6 @@
 //! Places seen before: whether what a robot sees now fits what it saw there long ago.
 
-use super::correlation::{Raster, Window};
+use super::correlation::{COARSE_POINTS, Raster, Window, thinned};
 use super::line_map::{FusionOptions, LineMap};
 use super::matching::{MatchOptions, PoseEstimate, Reference, SurfacePoint, match_points};
 use super::{LineSegment, Pose};
@@ -62,8 +62,7 @@ pub struct Closure {
     pub explained: f64,
 }
 
-/// Points that stand for all in the coarse search, and in the fine one.
-const COARSE_POINTS: usize = 120;
+/// Points that stand for all in the fine search.
 const FINE_POINTS: usize = 500;
 /// Poses of the coarse search that are looked at closely.
 const MOST_POSES: usize = 3;
@@ -126,11 +125,6 @@ fn is_firm(estimate: &PoseEstimate) -> bool {
         let place = covariance.fixed_view::<2, 2>(0, 0).symmetric_eigenvalues().max();
         place.is_finite() && place < VAGUEST_M * VAGUEST_M
     })
-}
-
-/// About `most` of the points, evenly.
-fn thinned(points: &[SurfacePoint], most: usize) -> Vec<SurfacePoint> {
-    points.iter().step_by(points.len().div_ceil(most.max(1)).max(1)).copied().collect()
 }
 
 /// Whether a point lies near a place.

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix3, Vector3};
 
 use super::calibration::{OdometryCalibration, OdometryOptions};
+use super::correlation::{COARSE_POINTS, Raster, Window, thinned};
 use super::line_map::{FusionOptions, LineMap};
 use super::loop_closing::{Closure, ClosureOptions, Drift, is_near, recognise};
-use super::matching::{Match, MatchOptions, PoseEstimate, Reference, SurfacePoint, match_points};
+use super::matching::{Match, MatchOptions, PoseEstimate, Reference, SurfacePoint, match_points, surprise};
 use super::pose_graph::{Edge, PoseGraph};
 use super::split_and_merge::{SplitOptions, segments_of};
 use super::{LineSegment, Pose, Scan};
@@ -31,6 +32,9 @@ pub struct MapperOptions {
     pub memory: usize,
     /// A match that explains less of a scan is not believed.
     pub least_explained: f64,
+    /// A match that explains less is compared with those of a coarse search in the window `lost`.
+    pub trusted: f64,
+    pub lost: Window,
 }
 
 impl Default for MapperOptions {
@@ -46,6 +50,8 @@ impl Default for MapperOptions {
             keyframe_rad: 0.3,
             memory: 40,
             least_explained: 0.25,
+            trusted: 0.7,
+            lost: Window { way_m: 0.6, turn_rad: 0.6 },
         }
     }
 }
@@ -199,10 +205,25 @@ impl Mapper {
     fn matched(&self, view: &View, prior: &PoseEstimate) -> Option<Match> {
         let reach_m = self.options.matching.first_reach_m;
         let bounds = view.bounds_from(prior.pose).inflated(2.0 * reach_m);
-        let near = self.recent.near(bounds);
-        let reference = Reference::new(near.iter().map(|line| &line.line), bounds, reach_m);
-        let found = match_points(&reference, &view.points, prior.pose, Some(prior), &self.options.matching)?;
-        (found.explained > self.options.least_explained).then_some(found)
+        let lines: Vec<LineSegment> = self.recent.near(bounds).iter().map(|line| line.line).collect();
+        let reference = Reference::new(&lines, bounds, reach_m);
+        let from = |start| match_points(&reference, &view.points, start, Some(prior), &self.options.matching);
+        let mut best = from(prior.pose);
+        if best.is_none_or(|found| found.explained < self.options.trusted) {
+            // The odometry may be further off than the first reach.
+            let starts = Raster::new(&lines, bounds).search(
+                &thinned(&view.points, COARSE_POINTS),
+                prior.pose,
+                self.options.lost,
+                MOST_STARTS,
+            );
+            let likelihood = |found: &Match| {
+                found.log_likelihood(view.points.len(), &self.options.matching) - surprise(prior, found.estimate.pose)
+            };
+            let others = starts.into_iter().filter_map(|(start, _)| from(start));
+            best = best.into_iter().chain(others).max_by(|a, b| likelihood(a).total_cmp(&likelihood(b)));
+        }
+        best.filter(|found| found.explained > self.options.least_explained)
     }
 
     /// Keeps a scan; `step` is the way from the one kept before.
@@ -336,6 +357,8 @@ impl Mapper {
     }
 }
 
+/// Poses of a coarse search that are looked at closely.
+const MOST_STARTS: usize = 3;
 /// Places looked at for one keyframe.
 const MOST_PLACES: usize = 2;
 /// Two wide closures must come within this path, and agree so well.

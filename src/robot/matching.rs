@@ -68,6 +68,15 @@ pub struct Match {
     pub residual_m: f64,
 }
 
+impl Match {
+    /// How well the lines explain `count` points, as a logarithm: each that is explained is as much
+    /// more likely as the kernel of the last step says.
+    pub fn log_likelihood(&self, count: usize, options: &MatchOptions) -> f64 {
+        let scale = 0.5 * options.last_reach_m / options.sigma_m;
+        self.explained * count as f64 / options.points_per_measurement * 0.5 * scale * scale
+    }
+}
+
 /// One line to match with.
 #[derive(Clone, Copy, Debug)]
 struct Target {
@@ -288,6 +297,14 @@ fn pull(reference: &Reference, points: &[SurfacePoint], pose: Pose, reach_m: f64
         pull.squares_m2 += off * off;
     }
     pull
+}
+
+/// How improbable a pose is under a prior: the negative logarithm of its density against the
+/// highest, of Student's distribution in three dimensions.
+pub fn surprise(prior: &PoseEstimate, pose: Pose) -> f64 {
+    let off = prior.pose.between(pose);
+    let off = Vector3::new(off.x_m, off.y_m, off.heading_rad);
+    0.5 * (PRIOR_TAIL + 3.0) * (off.dot(&(prior.information * off)) / PRIOR_TAIL).ln_1p()
 }
 
 /// Degrees of freedom of the prior's distribution.
