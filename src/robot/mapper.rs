@@ -32,8 +32,13 @@ pub struct MapperOptions {
     pub memory: usize,
     /// A match that explains less of a scan is not believed.
     pub least_explained: f64,
+    /// How far lines are looked for at first, in metres; further, up to the matching's first reach,
+    /// where a match found so explains less of the scan than `sure`.
+    pub near_reach_m: f64,
+    pub sure: f64,
     /// A match that explains less is compared with those of a coarse search in the window `lost`.
     pub trusted: f64,
+    /// Odometry is never further off between two scans: what matches elsewhere only looks alike.
     pub lost: Window,
 }
 
@@ -50,6 +55,8 @@ impl Default for MapperOptions {
             keyframe_rad: 0.3,
             memory: 40,
             least_explained: 0.25,
+            near_reach_m: 0.2,
+            sure: 0.85,
             trusted: 0.7,
             lost: Window { way_m: 0.6, turn_rad: 0.6 },
         }
@@ -207,22 +214,31 @@ impl Mapper {
         let bounds = view.bounds_from(prior.pose).inflated(2.0 * reach_m);
         let lines: Vec<LineSegment> = self.recent.near(bounds).iter().map(|line| line.line).collect();
         let reference = Reference::new(&lines, bounds, reach_m);
-        let from = |start| match_points(&reference, &view.points, start, Some(prior), &self.options.matching);
-        let mut best = from(prior.pose);
-        if best.is_none_or(|found| found.explained < self.options.trusted) {
-            // The odometry may be further off than the first reach.
+        let from = |start, options: &MatchOptions| match_points(&reference, &view.points, start, Some(prior), options);
+        let matching = self.options.matching;
+        // Near the odometry first: a reach too long is drawn to the wrong one of many door frames.
+        let near = MatchOptions { first_reach_m: self.options.near_reach_m, ..matching };
+        let mut found: Vec<Match> = from(prior.pose, &near).into_iter().collect();
+        let explained = |found: &[Match]| found.iter().map(|found| found.explained).fold(0.0, f64::max);
+        if explained(&found) < self.options.sure {
+            found.extend(from(prior.pose, &matching));
+        }
+        if explained(&found) < self.options.trusted {
             let starts = Raster::new(&lines, bounds).search(
                 &thinned(&view.points, COARSE_POINTS),
                 prior.pose,
                 self.options.lost,
                 MOST_STARTS,
             );
-            let likelihood = |found: &Match| {
-                found.log_likelihood(view.points.len(), &self.options.matching) - surprise(prior, found.estimate.pose)
-            };
-            let others = starts.into_iter().filter_map(|(start, _)| from(start));
-            best = best.into_iter().chain(others).max_by(|a, b| likelihood(a).total_cmp(&likelihood(b)));
+            found.extend(starts.into_iter().filter_map(|(start, _)| from(start, &matching)));
         }
+        let likelihood =
+            |found: &Match| found.log_likelihood(view.points.len(), &matching) - surprise(prior, found.estimate.pose);
+        found.retain(|found| {
+            let off = prior.pose.between(found.estimate.pose);
+            off.x_m.hypot(off.y_m) <= self.options.lost.way_m && off.heading_rad.abs() <= self.options.lost.turn_rad
+        });
+        let best = found.into_iter().max_by(|a, b| likelihood(a).total_cmp(&likelihood(b)));
         best.filter(|found| found.explained > self.options.least_explained)
     }
 
