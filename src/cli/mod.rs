@@ -11,12 +11,14 @@ mod export;
 mod features;
 mod import;
 mod inputs;
+mod map;
 mod models;
 mod open;
 mod progress;
 mod render;
 #[cfg(feature = "gui")]
 mod replay;
+mod segment;
 mod train;
 
 use std::io::{IsTerminal as _, Write};
@@ -37,6 +39,8 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<evaluate::EvaluateCommand>(),
     entry::<train::TrainCommand>(),
     entry::<models::ModelsCommand>(),
+    entry::<map::MapCommand>(),
+    entry::<segment::SegmentCommand>(),
     #[cfg(feature = "gui")]
     entry::<replay::ReplayCommand>(),
     #[cfg(feature = "gui")]

@@ -13,6 +13,7 @@
 mod colour;
 mod drawing;
 pub mod font;
+pub mod line_map;
 mod names;
 mod openings;
 pub mod palette;

@@ -32,6 +32,23 @@ pub struct OdometryOptions {
     pub gain: f64,
     /// Deviation of where the scanner sits, which few logs tell: a turn moves it by so much a radian.
     pub mount_m: f64,
+    /// There is no odometry at all: nothing is learned, and the last motion is taken to go on.
+    pub is_absent: bool,
+}
+
+impl OdometryOptions {
+    /// For a robot without odometry: between two scans it may have moved by a step or two.
+    pub const NONE: Self = Self {
+        base_m: 0.2,
+        m_per_m: 0.3,
+        m_per_rad: 0.0,
+        base_rad: 0.2,
+        rad_per_m: 0.0,
+        rad_per_rad: 0.3,
+        gain: 0.0,
+        mount_m: 0.0,
+        is_absent: true,
+    };
 }
 
 impl Default for OdometryOptions {
@@ -47,6 +64,7 @@ impl Default for OdometryOptions {
             rad_per_rad: 0.06,
             gain: 0.07,
             mount_m: 0.3,
+            is_absent: false,
         }
     }
 }

@@ -1,7 +1,5 @@
 //! From scans with odometry to poses and a line map, one scan at a time.
 
-use std::collections::BTreeMap;
-
 use nalgebra::{Matrix3, Vector3};
 
 use super::calibration::{OdometryCalibration, OdometryOptions};
@@ -118,6 +116,7 @@ pub struct Mapper {
     graph: PoseGraph,
     taken: Vec<Taken>,
     last_odometry: Pose,
+    last_motion: Pose,
     calibration: OdometryCalibration,
     /// The lines of the last kept scans, to match with; and of the latest of them.
     recent: LineMap,
@@ -144,17 +143,21 @@ impl Mapper {
             self.keep(odometry, Pose::IDENTITY, view, None);
             return Pose::IDENTITY;
         };
-        let likely = self.calibration.corrected(self.last_odometry.between(odometry));
+        let reported = self.last_odometry.between(odometry);
+        // Without odometry the robot most likely goes on as before.
+        let reported = if self.options.odometry.is_absent { self.last_motion } else { reported };
+        let likely = self.calibration.corrected(reported);
         self.last_odometry = odometry;
         let prior = PoseEstimate { pose: last_pose.compose(likely.pose), information: likely.information };
         let found = self.matched(&view, &prior);
         let pose = found.map_or(prior.pose, |found| found.estimate.pose);
+        self.last_motion = last_pose.between(pose);
         let keyframe = self.keyframes.len() - 1;
         let since = self.graph.poses[keyframe].between(pose);
         if since.x_m.hypot(since.y_m) >= self.options.keyframe_m || since.heading_rad.abs() >= self.options.keyframe_rad
         {
             let reported = self.keyframes[keyframe].odometry.between(odometry);
-            if found.is_some() {
+            if found.is_some() && !self.options.odometry.is_absent {
                 self.calibration.learn(reported, since);
             }
             let lines = found.map_or_else(Matrix3::zeros, |found| found.estimate.information);
@@ -397,37 +400,4 @@ fn softened(information: Matrix3<f64>) -> Matrix3<f64> {
 
 fn softened_estimate(estimate: PoseEstimate) -> PoseEstimate {
     PoseEstimate { information: softened(estimate.information), ..estimate }
-}
-
-/// Poses of all readings of the odometry: between two scans along the odometry, what is left over
-/// spread by the way. `scans` gives for each scan its place among the readings, ascending, and its
-/// pose.
-pub fn poses_along(odometry: &[Pose], scans: &BTreeMap<usize, Pose>) -> Vec<Pose> {
-    let Some((first, first_pose)) = scans.first_key_value() else { return Vec::new() };
-    let mut poses: Vec<Pose> =
-        odometry[..*first].iter().map(|reading| first_pose.compose(odometry[*first].between(*reading))).collect();
-    let mut before = (*first, *first_pose);
-    poses.push(*first_pose);
-    for (at, pose) in scans.iter().skip(1) {
-        let (from, from_pose) = before;
-        let effort = |i: usize| {
-            let step = odometry[i - 1].between(odometry[i]);
-            // A turn of a radian counts like a drive of 0.3 m, about a robot's radius.
-            step.x_m.hypot(step.y_m) + 0.3 * step.heading_rad.abs()
-        };
-        let total: f64 = (from + 1..=*at).map(effort).sum();
-        let left = from_pose.compose(odometry[from].between(odometry[*at])).between(*pose);
-        let mut done = 0.0;
-        for i in from + 1..*at {
-            done += effort(i);
-            let share = if total > 0.0 { done / total } else { 0.0 };
-            let part = Pose::new(left.x_m * share, left.y_m * share, left.heading_rad * share);
-            poses.push(from_pose.compose(odometry[from].between(odometry[i])).compose(part));
-        }
-        poses.push(*pose);
-        before = (*at, *pose);
-    }
-    let (from, from_pose) = before;
-    poses.extend(odometry[from + 1..].iter().map(|reading| from_pose.compose(odometry[from].between(*reading))));
-    poses
 }

@@ -4,23 +4,34 @@
 //! The frame of a map is that of the robot's first pose; metres and radians throughout.
 
 pub mod calibration;
+pub mod carmen;
 pub mod correlation;
+pub mod doorways;
 pub mod explore;
 pub mod free_space;
 pub mod frontiers;
 pub mod furniture;
+pub mod grid_map;
+pub mod grid_plan;
 pub mod line_map;
 pub mod lines;
+pub mod log_map;
 pub mod loop_closing;
+pub mod map_server;
 pub mod mapper;
 pub mod matching;
 pub mod odometry;
 pub mod pose;
 pub mod pose_graph;
+pub mod quadrilaterals;
 pub mod ray_grid;
+pub mod rooms;
 pub mod route;
 pub mod scan;
 pub mod scanner;
+pub mod score;
+pub mod segment;
+pub mod semantics;
 pub mod split_and_merge;
 pub mod world;
 
