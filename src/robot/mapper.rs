@@ -126,8 +126,10 @@ pub struct Mapper {
     closed_at_m: f64,
     /// Closures over a drift so wide that they wait for a second one.
     waiting: Vec<Edge>,
-    /// Closures since the poses were last optimised.
+    /// Closures since the poses were last optimised, and how far they are from being satisfied, in
+    /// squared deviations.
     fresh: usize,
+    strain: f64,
 }
 
 impl Mapper {
@@ -291,7 +293,8 @@ impl Mapper {
                 self.waiting.push(edge);
             }
         }
-        if self.fresh >= 1 {
+        // A path that agrees with what was recognised need not be moved yet.
+        if self.strain > MOST_STRAIN {
             self.optimise();
         }
     }
@@ -360,6 +363,7 @@ impl Mapper {
 
     fn close(&mut self, edges: &[Edge]) {
         self.graph.edges.extend(edges);
+        self.strain += edges.iter().map(|edge| self.graph.squared_error(edge)).sum::<f64>();
         self.fresh += edges.len();
         if let Some(last) = edges.last() {
             self.closed_at_m = self.keyframes[last.to].path_m;
@@ -369,6 +373,7 @@ impl Mapper {
     fn optimise(&mut self) {
         self.graph.optimise();
         self.fresh = 0;
+        self.strain = 0.0;
         let count = self.keyframes.len();
         let latest = count - self.in_latest.min(count);
         self.recent = self.map_of(latest.saturating_sub(self.options.memory)..count);
@@ -378,6 +383,9 @@ impl Mapper {
 
 /// Poses of a coarse search that are looked at closely.
 const MOST_STARTS: usize = 3;
+/// Closures may be off by this much, in squared deviations, before the path is moved: three is what
+/// chance leaves of one.
+const MOST_STRAIN: f64 = 6.0;
 /// Places looked at for one keyframe.
 const MOST_PLACES: usize = 2;
 /// Two wide closures must come within this path, and agree so well.
