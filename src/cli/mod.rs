@@ -7,6 +7,7 @@ mod collect;
 mod commands;
 mod dataset;
 mod evaluate;
+mod explore;
 mod export;
 mod features;
 mod import;
@@ -39,6 +40,7 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<evaluate::EvaluateCommand>(),
     entry::<train::TrainCommand>(),
     entry::<models::ModelsCommand>(),
+    entry::<explore::ExploreCommand>(),
     entry::<map::MapCommand>(),
     entry::<segment::SegmentCommand>(),
     #[cfg(feature = "gui")]

@@ -4,10 +4,10 @@
 use super::free_space::FreeSpace;
 use super::frontiers::{Frontier, frontiers};
 use super::odometry::OdometryNoise;
-use super::pose::wrapped_rad;
+use super::rooms::{FoundRooms, RoomOptions, find_rooms};
 use super::route::Routes;
 use super::scanner::{Scanner, back_to_back};
-use super::{Pose, RayGrid, Scan, World};
+use super::{Mapper, MapperOptions, Pose, RayGrid, Scan, World};
 use crate::geometry::{Point, Segment, polygon};
 use crate::random::{Random, seed_of_part};
 
@@ -16,6 +16,8 @@ use crate::random::{Random, seed_of_part};
 pub struct RobotOptions {
     /// Half its width, in metres: it is taken for round.
     pub radius_m: f64,
+    /// It passes doorways that leave so much room on both sides, in metres.
+    pub margin_m: f64,
     /// It drives at most so far between two looks, in metres.
     pub step_m: f64,
     /// It turns at most so far between two looks.
@@ -29,11 +31,12 @@ impl Default for RobotOptions {
     /// A Pioneer 3-AT with two SICK LMS 200 back to back (paper, section 3.3).
     ///
     /// It is 0.508 m long and 0.497 m wide (Adept MobileRobots, Pioneer 3-AT data sheet, 2011): half of
-    /// that is 0.25 m. At its usual 0.4 m/s and two scans a second it looks every 0.2 m; between two
+    /// that is 0.25 m; with 0.05 m on each side it passes doorways of 0.6 m. At its usual 0.4 m/s and two scans a second it looks every 0.2 m; between two
     /// looks it turns by 20 degrees at most.
     fn default() -> Self {
         Self {
             radius_m: 0.25,
+            margin_m: 0.05,
             step_m: 0.2,
             turn_rad: 20.0_f64.to_radians(),
             scanners: back_to_back(Scanner::lms200).to_vec(),
@@ -51,9 +54,6 @@ impl RobotOptions {
         Self { scanners, odometry: OdometryNoise::NONE, ..self }
     }
 }
-
-/// Ways are planned for a robot that much larger, in metres: the map is not exact.
-const MARGIN_M: f64 = 0.03;
 
 /// What was seen is added to the free space after so many metres, or that much of a turn.
 const LOOK_M: f64 = 0.4;
@@ -83,6 +83,9 @@ const VISITS: usize = 2;
 
 /// After so many collisions on the way to one goal it is given up.
 const BUMPS: usize = 3;
+
+/// A place of the way is reached within so many metres: no corner is cut by more.
+const AT_PLACE_M: f64 = 0.06;
 
 /// How far the robot backs off after a collision, in metres.
 const BACK_OFF_M: f64 = 0.15;
@@ -132,6 +135,10 @@ pub struct Exploration<'a> {
     pub pose: Pose,
     /// The last scans.
     pub scans: Vec<Scan>,
+    mapper: Mapper,
+    /// What went into the free space: the index of the step, and the scans.
+    looks: Vec<(usize, Vec<Scan>)>,
+    closures: usize,
     pub free: FreeSpace,
     pub goal: Option<Goal>,
     pub activity: Activity,
@@ -168,6 +175,9 @@ impl<'a> Exploration<'a> {
             odometry: Pose::IDENTITY,
             pose: Pose::IDENTITY,
             scans: Vec::new(),
+            mapper: Mapper::new(MapperOptions::default()),
+            looks: Vec::new(),
+            closures: 0,
             free: FreeSpace::default(),
             goal: None,
             activity: Activity::Choosing,
@@ -177,7 +187,7 @@ impl<'a> Exploration<'a> {
             collisions: 0,
             has_new_look: false,
         };
-        exploration.sense(Pose::IDENTITY);
+        exploration.sense();
         exploration.look();
         exploration
     }
@@ -204,6 +214,21 @@ impl<'a> Exploration<'a> {
     /// The frontiers of what is known so far, those visited in vain included.
     pub fn frontiers(&self) -> Vec<Frontier> {
         frontiers(&self.free)
+    }
+
+    /// The segments of the line map so far, in the map's frame.
+    pub fn segments(&self) -> Vec<Segment> {
+        self.mapper.map().lines().map(|line| line.line.segment()).collect()
+    }
+
+    /// The rooms of what is known so far, in the map's frame.
+    pub fn rooms(&self, options: &RoomOptions) -> FoundRooms {
+        find_rooms(&self.segments(), self.free.shapes(), options)
+    }
+
+    /// The estimated poses after each step as they are best known now, in the map's frame.
+    pub fn poses(&self) -> Vec<Pose> {
+        self.mapper.poses()
     }
 
     /// One small step: a choice, a turn, or some centimetres of driving with a look around.
@@ -235,8 +260,10 @@ impl<'a> Exploration<'a> {
         self.activity
     }
 
-    fn planned_radius_m(&self) -> f64 {
-        self.options.radius_m + MARGIN_M
+    /// For how large a robot ways are planned, in metres of radius: with all of the margin first; where none
+    /// leads anywhere, with little. The free space ends some centimetres before the walls.
+    fn planned_radii_m(&self) -> [f64; 2] {
+        [self.options.radius_m + self.options.margin_m, self.options.radius_m + 0.2 * self.options.margin_m]
     }
 
     fn visits(&self, frontier: &Frontier) -> usize {
@@ -255,11 +282,15 @@ impl<'a> Exploration<'a> {
             })
             .filter(|(_, visits)| *visits < VISITS)
             .collect();
-        self.goal = self.cheapest(&open);
+        self.goal = self.planned_radii_m().into_iter().find_map(|radius_m| self.cheapest(&open, radius_m));
         self.activity = if self.goal.is_some() { Activity::Driving } else { Activity::Finished };
+        if self.goal.is_none() {
+            self.mapper.finish();
+            self.settle();
+        }
     }
 
-    fn cheapest(&self, open: &[(Frontier, usize)]) -> Option<Goal> {
+    fn cheapest(&self, open: &[(Frontier, usize)], radius_m: f64) -> Option<Goal> {
         if open.is_empty() {
             return None;
         }
@@ -272,7 +303,7 @@ impl<'a> Exploration<'a> {
         for (index, (frontier, visits)) in open.iter().enumerate() {
             let worth = PER_FRONTIER_METRE * frontier.length_m.min(LONGEST_WORTH_M);
             let seen = frontier.middle - frontier.outward * 0.05;
-            for cell in routes.cells_near(frontier.middle, VIEW_M, VIEW_SPACING_M, self.planned_radius_m()) {
+            for cell in routes.cells_near(frontier.middle, VIEW_M, VIEW_SPACING_M, radius_m) {
                 let from = routes.centre(cell);
                 if !grid.blocks(from, seen) {
                     let extra = PER_METRE[(*visits).min(1)] * from.distance(frontier.middle) - worth;
@@ -283,7 +314,7 @@ impl<'a> Exploration<'a> {
         views.sort_by(|p, q| p.0.cmp(&q.0).then(p.2.total_cmp(&q.2)).then(p.1.cmp(&q.1)));
         let least_extra = views.iter().map(|view| view.2).fold(f64::INFINITY, f64::min);
         let mut best: Option<(f64, usize, usize)> = None;
-        routes.spread(self.pose.position(), self.planned_radius_m(), |cell, cost| {
+        routes.spread(self.pose.position(), radius_m, |cell, cost| {
             if best.is_some_and(|(found, _, _)| cost + least_extra >= found) {
                 return true;
             }
@@ -304,16 +335,15 @@ impl<'a> Exploration<'a> {
     /// Plans the way to the goal again, from where the robot is now.
     fn replan(&mut self) {
         self.activity = Activity::Driving;
-        let radius_m = self.planned_radius_m();
+        let [_, radius_m] = self.planned_radii_m();
         let Some(goal) = &mut self.goal else { return };
         let mut routes = Routes::new(self.free.shapes(), self.pose.position());
         let place = goal.place;
         let to = routes.cells_near(place, 0.2, 0.01, 0.0);
         routes.spread(self.pose.position(), radius_m, |cell, _| to.contains(&cell));
         let reached = to.into_iter().filter(|&cell| routes.cost(routes.centre(cell)).is_some());
-        let nearest = reached.min_by(|&p, &q| {
-            routes.centre(p).distance(place).total_cmp(&routes.centre(q).distance(place))
-        });
+        let nearest =
+            reached.min_by(|&p, &q| routes.centre(p).distance(place).total_cmp(&routes.centre(q).distance(place)));
         goal.way = nearest.map(|cell| routes.way(routes.centre(cell))).unwrap_or_default();
         if goal.way.is_empty() {
             self.leave_goal(true);
@@ -340,7 +370,7 @@ impl<'a> Exploration<'a> {
     /// Drives along the way to the goal.
     fn follow(&mut self) {
         let here = self.pose.position();
-        let near_m = self.options.step_m / 2.0;
+        let near_m = AT_PLACE_M;
         let Some(goal) = &mut self.goal else { return };
         while goal.way.len() > 1 && goal.way[0].distance(here) < near_m {
             goal.way.remove(0);
@@ -403,47 +433,67 @@ impl<'a> Exploration<'a> {
 
     /// Adds what is seen from here to the free space.
     fn look(&mut self) {
-        self.free.add(self.pose, &self.scans);
+        self.looks.push((self.path.len() - 1, self.scans.clone()));
+        if self.mapper.closures().0 == self.closures {
+            self.free.add(self.pose, &self.scans);
+        } else {
+            self.settle();
+        }
         self.looked_at = self.pose;
         self.has_new_look = true;
+    }
+
+    /// Lays out the free space anew after the path has moved: a loop was closed.
+    fn settle(&mut self) {
+        self.closures = self.mapper.closures().0;
+        let poses = self.mapper.poses();
+        self.free = FreeSpace::of(self.looks.iter().map(|(step, scans)| (poses[*step], scans.as_slice())));
+        self.pose = poses.last().copied().unwrap_or_default();
+        if self.goal.is_some() {
+            self.replan();
+        }
     }
 
     /// Moves by what the odometry shall say, and looks. Whether nothing was in the way.
     fn drive(&mut self, odometry: Pose) -> bool {
         let mut odometry = odometry;
         let mut done = self.options.odometry.sample(odometry, &mut self.random);
-        let is_free = self.is_free(self.true_pose, self.true_pose.compose(done));
-        if !is_free {
-            // The wheels stand still but for the turn.
-            odometry = Pose::new(0.0, 0.0, odometry.heading_rad);
-            done = Pose::new(0.0, 0.0, done.heading_rad);
+        let free = self.free_share(self.true_pose, self.true_pose.compose(done));
+        if free < 1.0 {
+            // It stops where it touches something; its wheels do not turn on.
+            let stopped = |way: Pose| Pose::new(way.x_m * free, way.y_m * free, way.heading_rad);
+            (odometry, done) = (stopped(odometry), stopped(done));
         }
         self.true_pose = self.true_pose.compose(done);
         self.odometry = self.odometry.compose(odometry);
-        self.sense(odometry);
-        is_free
+        self.sense();
+        free > 0.0
     }
 
-    /// Whether the robot can move straight without touching anything. Where it touches something
-    /// already, it may move away.
-    fn is_free(&self, from: Pose, to: Pose) -> bool {
+    /// How much of a straight way, 0..=1, the robot can drive before it touches something. Where it touches
+    /// something already, it may move away.
+    fn free_share(&self, from: Pose, to: Pose) -> f64 {
         let radius_m = self.options.radius_m;
         let clear = |at: Point| self.world.obstacles().distance_m(at, radius_m);
-        let now_m = clear(from.position());
-        (1..=4).all(|i| {
-            let there_m = clear(from.position().lerp(to.position(), f64::from(i) / 4.0));
-            there_m >= radius_m - 1e-9 || (there_m >= now_m && i == 4) || there_m > now_m
-        }) && !self.world.obstacles().blocks(from.position(), to.position())
+        let at = |place: f64| from.position().lerp(to.position(), place);
+        let now_m = clear(at(0.0));
+        let mut share = 0.0;
+        for place in [0.25, 0.5, 0.75, 1.0] {
+            let there_m = clear(at(place));
+            if (there_m < radius_m && there_m <= now_m) || self.world.obstacles().blocks(at(share), at(place)) {
+                return share;
+            }
+            share = place;
+        }
+        share
     }
 
-    /// Scans, and estimates where the robot is after it moved by `odometry`.
-    fn sense(&mut self, odometry: Pose) {
+    /// Scans, and estimates where the robot is.
+    fn sense(&mut self) {
         let (world, pose) = (self.world, self.true_pose);
         let scans = self.options.scanners.iter().map(|scanner| scanner.scan(world, pose, &mut self.random));
         self.scans = scans.collect();
-        self.pose = self.pose.compose(odometry);
-        self.pose = self.world_from_map.between(self.true_pose);
-        let _ = wrapped_rad;
+        self.pose = self.mapper.add(self.odometry, &self.scans);
         self.path.push(PathStep { true_pose: self.true_pose, estimate: self.pose, odometry: self.odometry });
     }
 }

@@ -182,8 +182,7 @@ fn swapped((x, y): (i32, i32)) -> (i32, i32) {
     (y, x)
 }
 
-/// The outline of what one sweep saw free, in the scanner's frame, from the scanner round. Where
-/// nothing came back nothing is known to be free, but for single beams between two that did.
+/// The outline of what one sweep saw free, in the scanner's frame, from the scanner round.
 fn outline(scan: &Scan) -> Vec<Point> {
     let ray = |beam: usize, range_m: f64| {
         let (sin, cos) = scan.angle_rad(beam).sin_cos();
@@ -195,27 +194,74 @@ fn outline(scan: &Scan) -> Vec<Point> {
     let scanner = Point::default();
     let mut outline: Vec<Point> = vec![scanner];
     let mut run: Vec<Point> = Vec::new();
+    let beams = scan.ranges_m.len();
+    let edge = (seen.first().copied(), seen.last().copied());
+    let open = |outline: &mut Vec<Point>, from: Option<(usize, f64)>, to: Option<(usize, f64)>| {
+        let first = from.map_or(0, |(beam, _)| beam + 1);
+        let last = to.map_or(beams, |(beam, _)| beam);
+        let range_m = open_range_m(scan, from, to, last - first);
+        if range_m > 0.0 {
+            // Enough corners that the chord does not cut what the beams passed.
+            let corners = first.saturating_sub(usize::from(from.is_some()))..=last.min(beams.saturating_sub(1));
+            outline.extend(corners.step_by(CHORD_BEAMS).map(|beam| ray(beam, range_m)));
+            if to.is_some() || last == beams {
+                outline.push(ray(last.min(beams.saturating_sub(1)), range_m));
+            }
+        } else {
+            outline.push(scanner);
+        }
+    };
     let mut last: Option<(usize, f64)> = None;
     for (beam, range_m) in seen {
-        if let Some((before, last_m)) = last {
-            if beam - before > LOST_BEAMS + 1 {
+        match last {
+            None if beam > 0 => open(&mut outline, None, edge.0),
+            Some((before, last_m)) if beam - before > LOST_BEAMS + 1 => {
                 outline.extend(simplified(&run, OUTLINE_M));
-                outline.push(scanner);
                 run.clear();
-            } else if (range_m - last_m).abs() > JUMP_M {
+                open(&mut outline, Some((before, last_m)), Some((beam, range_m)));
+            }
+            Some((before, last_m)) if (range_m - last_m).abs() > JUMP_M => {
                 // Only as far as the nearer of the two is the floor between them known.
                 let corner = if range_m > last_m { ray(beam, last_m) } else { ray(before, range_m) };
                 outline.extend(simplified(&run, OUTLINE_M));
                 outline.push(corner);
                 run.clear();
             }
+            _ => {}
         }
         run.push(ray(beam, range_m));
         last = Some((beam, range_m));
     }
     outline.extend(simplified(&run, OUTLINE_M));
+    match edge.1 {
+        Some((beam, _)) if beam + 1 < beams => open(&mut outline, edge.1, None),
+        _ => {}
+    }
     outline
 }
+
+/// How far the floor is free, in metres, along beams in a row that brought nothing back. A wall that is
+/// met at too small an angle is further away than what is seen beside it; and no wall is met so over many
+/// beams.
+fn open_range_m(scan: &Scan, from: Option<(usize, f64)>, to: Option<(usize, f64)>, lost: usize) -> f64 {
+    let beside_m = from.into_iter().chain(to).map(|(_, range_m)| range_m).fold(f64::INFINITY, f64::min);
+    let is_wide = lost as f64 * scan.step_rad.abs() >= WIDE_OPEN_RAD;
+    let far_m = OPEN_M.min(0.8 * scan.max_range_m);
+    match (beside_m.is_finite(), is_wide) {
+        (true, true) => beside_m.max(far_m),
+        (true, false) => beside_m,
+        (false, _) => 0.0,
+    }
+}
+
+/// Nothing came back over such an angle: there is no wall near.
+const WIDE_OPEN_RAD: f64 = 0.14;
+
+/// How far the floor counts as free there, in metres.
+const OPEN_M: f64 = 6.0;
+
+/// The outline of an open sector has a corner every so many beams.
+const CHORD_BEAMS: usize = 8;
 
 /// So many beams in a row without return are taken for lost, where their neighbours agree.
 const LOST_BEAMS: usize = 2;
@@ -232,9 +278,8 @@ pub(super) fn simplified(chain: &[Point], tolerance_m: f64) -> Vec<Point> {
     let mut open = vec![(0, chain.len() - 1)];
     while let Some((from, to)) = open.pop() {
         let base = Segment::new(chain[from], chain[to]);
-        let furthest = (from + 1..to)
-            .map(|i| (base.distance(chain[i]), i))
-            .max_by(|p, q| p.0.total_cmp(&q.0).then(q.1.cmp(&p.1)));
+        let furthest =
+            (from + 1..to).map(|i| (base.distance(chain[i]), i)).max_by(|p, q| p.0.total_cmp(&q.0).then(q.1.cmp(&p.1)));
         if let Some((distance_m, i)) = furthest
             && distance_m > tolerance_m
         {

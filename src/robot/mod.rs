@@ -8,6 +8,7 @@ pub mod carmen;
 pub mod correlation;
 pub mod doorways;
 pub mod explore;
+pub mod explored_plan;
 pub mod free_space;
 pub mod frontiers;
 pub mod furniture;

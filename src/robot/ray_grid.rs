@@ -193,7 +193,7 @@ impl RayGrid {
 
 /// How far along the ray a segment is hit. Ends count, a hair beyond included: no ray slips through a
 /// corner. A ray along a segment hits its nearer end.
-fn hit_m(origin: Point, direction: Vector, segment: Segment) -> Option<f64> {
+pub(super) fn hit_m(origin: Point, direction: Vector, segment: Segment) -> Option<f64> {
     let along = segment.vector();
     let to = segment.a - origin;
     let denominator = direction.cross(along);

@@ -16,6 +16,9 @@ const CELLS_LIMIT: f64 = 1.5e6;
 /// Ways keep away from walls where that costs little: up to this clearance in metres a step costs more.
 const COMFORT_M: f64 = 0.5;
 
+/// Ways are straightened by so many cells at most: the steps of a slanted way, no more.
+const STRAIGHT_CELLS: f64 = 0.7;
+
 /// The raster of a free space: where the robot's middle can be, and what it costs to get there.
 #[derive(Clone, Debug)]
 pub struct Routes {
@@ -242,7 +245,7 @@ impl Routes {
         }
         cells.reverse();
         let points: Vec<Point> = cells.iter().map(|&cell| self.centre(cell)).collect();
-        super::free_space::simplified(&points, self.cell_m)
+        super::free_space::simplified(&points, STRAIGHT_CELLS * self.cell_m)
     }
 
     /// Metres from a point to what is not free, to within a cell; 0 outside.
