@@ -25,8 +25,8 @@ pub struct MapperOptions {
     /// A scan is kept once the robot has moved so far or turned so much since the last one kept.
     pub keyframe_m: f64,
     pub keyframe_rad: f64,
-    /// Scans are matched to what the last so many to twice as many kept scans saw: old lines lie
-    /// where the path had not drifted yet.
+    /// Scans are matched to what the last so many to twice as many kept scans saw, 50 to 100 m of path:
+    /// lines older than that lie where the path had not drifted yet, and may be taken for others.
     pub memory: usize,
     /// A match that explains less of a scan is not believed.
     pub least_explained: f64,
@@ -51,7 +51,7 @@ impl Default for MapperOptions {
             closure: ClosureOptions::default(),
             keyframe_m: 0.3,
             keyframe_rad: 0.3,
-            memory: 40,
+            memory: 100,
             least_explained: 0.25,
             near_reach_m: 0.2,
             sure: 0.85,

@@ -48,7 +48,7 @@ pub fn segments_of(scan: &Scan, options: &SplitOptions) -> (Vec<Point>, Vec<Scan
     let (beams, points): (Vec<usize>, Vec<Point>) = scan.points().unzip();
     let segments = pieces(&beams, &points, scan.step_rad, options)
         .into_iter()
-        .flat_map(|piece| merged(&points, split(&points, piece, options), options))
+        .flat_map(|piece| settled(&points, merged(&points, split(&points, piece, options), options), options))
         .filter(|hits| hits.len() >= options.least_points)
         .filter_map(|hits| Some(ScanSegment { line: LineSegment::fitted(&points[hits.clone()])?, hits }))
         .collect();
@@ -142,6 +142,38 @@ fn merged(points: &[Point], parts: Vec<std::ops::Range<usize>>, options: &SplitO
         merged.push(part);
     }
     merged
+}
+
+/// Gives each hit between two parts to the line it lies nearer to: a corner's hits fit either within
+/// the tolerance, and would turn the wrong one.
+fn settled(
+    points: &[Point],
+    mut parts: Vec<std::ops::Range<usize>>,
+    options: &SplitOptions,
+) -> Vec<std::ops::Range<usize>> {
+    for at in 1..parts.len() {
+        let (before, after) = (parts[at - 1].clone(), parts[at].clone());
+        if before.len() <= options.least_points || after.len() <= options.least_points {
+            continue;
+        }
+        // The lines without the hits in question.
+        let inner = |part: std::ops::Range<usize>| Moments::of(points[part].iter().copied());
+        let (one, other) = (inner(before.start..before.end - 1), inner(after.start + 1..after.end));
+        let off = |line: Moments, point: Point| (point - line.centroid).cross(line.direction()).abs();
+        let is_of_other = |hit: usize| off(other, points[hit]) < off(one, points[hit]);
+        let mut border = before.end;
+        while border - before.start > options.least_points && is_of_other(border - 1) {
+            border -= 1;
+        }
+        if border == before.end {
+            while after.end - border > options.least_points && !is_of_other(border) {
+                border += 1;
+            }
+        }
+        parts[at - 1] = before.start..border;
+        parts[at] = border..after.end;
+    }
+    parts
 }
 
 /// Whether all points lie near their common line.
