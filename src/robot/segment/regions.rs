@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::Raster;
-use super::distance::Distances;
+use super::distance::{self, Distances};
 use super::union::Union;
 use super::wall_ends::THICKEST_WALL_M;
 use crate::geometry::{Point, Vector};
@@ -49,6 +49,10 @@ pub fn regions(raster: &Raster, distances: &Distances, gaps: &[[Point; 2]]) -> R
     let (pieces, count) = raster.components(|cell| raster.free[cell] && !is_cut[cell]);
     let mut merger = Merger::new(raster, distances, &pieces, count, gaps);
     merger.join_small(raster.cells(SMALLEST_ROOM_M2.sqrt()).powi(2));
+    merger.join_where_no_wall_parts(raster);
+    // Now against rooms as the cuts that are left close them: the aisle between two rows of open stalls is
+    // as wide as it is, not as it is with them.
+    merger.measure_closed(raster, &pieces);
     merger.join_where_no_wall_parts(raster);
     merger.finish(raster, pieces)
 }
@@ -128,6 +132,27 @@ impl Merger {
         }
         let peak = deepest.into_iter().map(|squared: u32| f64::from(squared).sqrt()).collect();
         Self { union: Union::of(count as usize + 1), area_cells, peak, borders, borders_of }
+    }
+
+    /// Measures the largest disc within each set again, with the cuts between different sets as walls.
+    fn measure_closed(&mut self, raster: &Raster, pieces: &[u32]) {
+        let mut is_cut = vec![false; raster.free.len()];
+        for border in 0..self.borders.len() as u32 {
+            if self.sides(border).is_some() {
+                draw(raster, &mut is_cut, self.borders[border as usize].gap);
+            }
+        }
+        let open: Vec<bool> = raster.free.iter().zip(is_cut).map(|(&free, is_cut)| free && !is_cut).collect();
+        let closed = distance::distances(&open, raster.width, raster.height);
+        let mut deepest = vec![0; self.peak.len()];
+        for (&piece, &squared) in pieces.iter().zip(&closed.squared) {
+            deepest[piece as usize] = squared.max(deepest[piece as usize]);
+        }
+        self.peak.fill(0.0);
+        for (piece, squared) in deepest.into_iter().enumerate() {
+            let root = self.union.find(piece as u32) as usize;
+            self.peak[root] = self.peak[root].max(f64::from(squared).sqrt());
+        }
     }
 
     /// The two sets at a border; `None` where they are one by now.
