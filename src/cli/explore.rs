@@ -84,7 +84,8 @@ pub struct ExploreCommand {
 impl Subcommand for ExploreCommand {
     const NAME: &'static str = "explore";
     const ABOUT: &'static str = "Let a simulated robot explore a plan and find its rooms";
-    const EXAMPLE: &'static str = "enfilade explore plans/office.plan.json --furniture 3 -o explored   # map, plan, score";
+    const EXAMPLE: &'static str =
+        "enfilade explore plans/office.plan.json --furniture 3 -o explored   # map, plan, score";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         self.check()?;
@@ -92,7 +93,7 @@ impl Subcommand for ExploreCommand {
         let Some(truth) = import.plans.first() else {
             return Err(CliError::new(format!("{}: holds no plan", self.plan.display())));
         };
-        let world = World::new(truth, &self.world_options());
+        let world = Arc::new(World::new(truth, &self.world_options()));
         let robot = self.robot_options();
         // Half the robot's width, and what it keeps free beside it.
         let reach_m = robot.radius_m + robot.margin_m;
@@ -103,7 +104,7 @@ impl Subcommand for ExploreCommand {
                 2.0 * robot.radius_m
             )));
         };
-        let mut exploration = Exploration::new(&world, Pose::new(start.x, start.y, 0.0), robot);
+        let mut exploration = Exploration::new(world.clone(), Pose::new(start.x, start.y, 0.0), robot);
         with_progress("exploring", Some(1), terminal, |work| drive(&mut exploration, &world, work))?;
 
         let options = RoomOptions { seed: self.seed, ..self.room_options() };
@@ -115,7 +116,8 @@ impl Subcommand for ExploreCommand {
         };
         let explored = labelled(&map, exploration.world_from_map, truth)?;
         let areas: Vec<Shapes> = map.found.rooms.iter().map(|room| moved(&room.shapes(), &exploration)).collect();
-        let edges: Vec<(usize, usize)> = map.found.sides.iter().filter_map(|sides| Some((sides[0]?, sides[1]?))).collect();
+        let edges: Vec<(usize, usize)> =
+            map.found.sides.iter().filter_map(|sides| Some((sides[0]?, sides[1]?))).collect();
         let score = score(&world, start, reach_m, &areas, &edges);
         let labels = labels_right(truth, &score, &explored);
         self.write(&exploration, &map, &explored, &score, labels)?;
@@ -217,7 +219,7 @@ impl ExploreCommand {
 
     fn write(
         &self,
-        exploration: &Exploration<'_>,
+        exploration: &Exploration,
         map: &Map,
         explored: &ExploredPlan,
         score: &Score,
@@ -236,7 +238,8 @@ impl ExploreCommand {
         // The parser let only names of the table through.
         let theme = Theme::ALL.into_iter().find(|theme| theme.name() == self.theme).unwrap_or_default();
         let world_from_map = exploration.world_from_map;
-        let to_world = |segment: &Segment| Segment::new(world_from_map.apply(segment.a), world_from_map.apply(segment.b));
+        let to_world =
+            |segment: &Segment| Segment::new(world_from_map.apply(segment.a), world_from_map.apply(segment.b));
         let segments: Vec<Segment> = map.segments.iter().map(to_world).collect();
         let path: Vec<Point> = map.poses.iter().map(|pose| world_from_map.apply(pose.position())).collect();
         let free = moved(exploration.free.shapes(), exploration);
@@ -259,7 +262,7 @@ impl ExploreCommand {
 const PICTURE_SIDE_PX: f64 = 1600.0;
 
 /// Drives until the end, telling how much of the floor has been seen.
-fn drive(exploration: &mut Exploration<'_>, world: &World, work: &Work<'_>) -> Result<(), Cancelled> {
+fn drive(exploration: &mut Exploration, world: &World, work: &Work<'_>) -> Result<(), Cancelled> {
     let all = areas::area_m2(world.free()).ceil().max(1.0) as usize;
     while !exploration.is_over() {
         exploration.step();
@@ -271,13 +274,13 @@ fn drive(exploration: &mut Exploration<'_>, world: &World, work: &Work<'_>) -> R
     Ok(())
 }
 
-fn driven_m(exploration: &Exploration<'_>) -> f64 {
+fn driven_m(exploration: &Exploration) -> f64 {
     let at = |step: &crate::robot::explore::PathStep| step.true_pose.position();
     exploration.path.windows(2).map(|pair| at(&pair[0]).distance(at(&pair[1]))).sum()
 }
 
 /// An area of the map in the world's frame.
-fn moved(shapes: &Shapes, exploration: &Exploration<'_>) -> Shapes {
+fn moved(shapes: &Shapes, exploration: &Exploration) -> Shapes {
     let ring = |ring: &areas::Ring| -> areas::Ring {
         let points = areas::points(ring).into_iter().map(|point| exploration.world_from_map.apply(point));
         points.map(|point| [point.x, point.y]).collect()
@@ -294,7 +297,11 @@ fn labelled(map: &Map, world_from_map: Pose, truth: &Plan) -> Result<ExploredPla
         building: of.building.clone(),
         storey: of.storey.clone(),
         typology: of.typology.clone(),
-        scale: Scale { origin: ScaleOrigin::Measured, note: "explored by a simulated robot".to_owned(), ..Scale::default() },
+        scale: Scale {
+            origin: ScaleOrigin::Measured,
+            note: "explored by a simulated robot".to_owned(),
+            ..Scale::default()
+        },
         source: "explored by a simulated robot".to_owned(),
         licence: of.licence.clone(),
         ..Meta::default()
@@ -329,10 +336,8 @@ fn labelled(map: &Map, world_from_map: Pose, truth: &Plan) -> Result<ExploredPla
         });
         Some(Arc::new(serde_json::Map::from_iter([("frontier".to_owned(), value)])))
     };
-    let said = Said {
-        labels: bare.rooms.iter().map(label).collect(),
-        behind: bare.frontiers.iter().map(frontier).collect(),
-    };
+    let said =
+        Said { labels: bare.rooms.iter().map(label).collect(), behind: bare.frontiers.iter().map(frontier).collect() };
     make(&said)
 }
 
@@ -354,7 +359,7 @@ fn labels_right(truth: &Plan, score: &Score, explored: &ExploredPlan) -> (usize,
 
 /// Each step's true pose, the estimate as best known at the end, and the odometry's, all in the plan's
 /// frame.
-fn poses_csv(exploration: &Exploration<'_>, map: &Map) -> String {
+fn poses_csv(exploration: &Exploration, map: &Map) -> String {
     let mut csv = String::from(
         "step,true_x,true_y,true_theta,estimated_x,estimated_y,estimated_theta,odometry_x,odometry_y,odometry_theta\n",
     );
@@ -371,7 +376,7 @@ fn poses_csv(exploration: &Exploration<'_>, map: &Map) -> String {
 }
 
 /// The map in the plan's frame: lines, free space, frontiers, doorways.
-fn map_json(exploration: &Exploration<'_>, map: &Map) -> String {
+fn map_json(exploration: &Exploration, map: &Map) -> String {
     let at = |point: Point| {
         let point = exploration.world_from_map.apply(point).trimmed();
         [point.x, point.y]

@@ -20,6 +20,11 @@ pub struct DoorwayOptions {
     pub narrowest_m: f64,
     /// A doorway is narrower than this, in metres (paper: 150 cm).
     pub widest_m: f64,
+    /// Beyond the paper: a gap between two collinear segments, a free passage, may be that wide, in metres.
+    pub widest_passage_m: f64,
+    /// Beyond the paper: shorter segments than those of walls may end at a doorway, in metres: the narrow
+    /// strip of wall beside a door in a corner.
+    pub shortest_jamb_m: f64,
     /// Beyond the paper: a gap counts only where, within the depth of a thick wall, the floor on both sides
     /// is wider than the gap. Else the mouth of a narrow corridor would be a doorway.
     pub must_widen: bool,
@@ -33,6 +38,8 @@ impl DoorwayOptions {
         aside_m: 0.08,
         narrowest_m: 0.30,
         widest_m: 1.50,
+        widest_passage_m: 1.50,
+        shortest_jamb_m: 0.30,
         must_widen: false,
     };
 }
@@ -40,7 +47,7 @@ impl DoorwayOptions {
 impl Default for DoorwayOptions {
     /// The paper's figures, with the test that the floor widens; wide free passages included.
     fn default() -> Self {
-        Self { must_widen: true, widest_m: 4.0, ..Self::PAPER }
+        Self { must_widen: true, widest_m: 2.2, widest_passage_m: 4.0, shortest_jamb_m: 0.15, ..Self::PAPER }
     }
 }
 
@@ -140,7 +147,7 @@ struct End {
 /// The doorways between the long segments of a line map, narrow ones first. `boundary` holds the edges of
 /// the free space, which lies to their left.
 pub fn doorways(segments: &[Segment], boundary: &RayGrid, options: &DoorwayOptions) -> Vec<Doorway> {
-    let long: Vec<Segment> = segments.iter().copied().filter(|s| s.length() >= options.shortest_m).collect();
+    let long: Vec<Segment> = segments.iter().copied().filter(|s| s.length() >= options.shortest_jamb_m).collect();
     let grid = RayGrid::new(long.clone());
     let mut gaps: Vec<Segment> = Vec::new();
     for (i, segment) in long.iter().enumerate() {
@@ -170,7 +177,7 @@ pub fn doorways(segments: &[Segment], boundary: &RayGrid, options: &DoorwayOptio
 
 /// Gaps from an end to the ends of collinear segments that face it.
 fn between_ends(end: End, own: usize, long: &[Segment], grid: &RayGrid, options: &DoorwayOptions) -> Vec<Segment> {
-    let reach = Bounds::of([end.at, end.at + end.onward * options.widest_m]).inflated(0.3);
+    let reach = Bounds::of([end.at, end.at + end.onward * options.widest_passage_m]).inflated(0.3);
     let mut gaps = Vec::new();
     for i in grid.near(reach).into_iter().filter(|&i| i != own) {
         let other = long[i];
@@ -180,7 +187,7 @@ fn between_ends(end: End, own: usize, long: &[Segment], grid: &RayGrid, options:
         let (near, far) = if end.onward.dot(other.vector()) > 0.0 { (other.a, other.b) } else { (other.b, other.a) };
         let way = near - end.at;
         let (ahead_m, aside_m) = (way.dot(end.onward), way.cross(end.onward).abs());
-        let fits = (options.narrowest_m..=options.widest_m).contains(&ahead_m)
+        let fits = (options.narrowest_m..=options.widest_passage_m).contains(&ahead_m)
             && aside_m <= options.aside_m.max(ahead_m * options.collinear_rad.tan() * 0.5)
             && (far - near).dot(end.onward) > 0.0;
         if fits {

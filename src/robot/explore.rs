@@ -1,6 +1,8 @@
 //! Exploration by frontiers (Yamauchi 1997): drive to where the known floor ends, look, until nothing that
 //! can be reached is unknown. A machine of small steps, whose state can be looked at after each.
 
+use std::sync::Arc;
+
 use super::free_space::FreeSpace;
 use super::frontiers::{Frontier, frontiers};
 use super::odometry::OdometryNoise;
@@ -78,8 +80,14 @@ const LONGEST_WORTH_M: f64 = 3.0;
 /// Frontiers whose middles are closer than this, in metres, are one and the same.
 const SAME_M: f64 = 0.5;
 
-/// A frontier that is still there after so many visits cannot be seen through.
-const VISITS: usize = 2;
+/// A frontier is given up after so many visits; one that showed nothing new counts twice.
+const VISITS: usize = 6;
+
+/// A visit showed something where the known floor grew by so many m².
+const NEWS_M2: f64 = 0.3;
+
+/// Each look at the same frontier is from another place, at least so far away in metres.
+const OTHER_PLACE_M: f64 = 0.3;
 
 /// After so many collisions on the way to one goal it is given up.
 const BUMPS: usize = 3;
@@ -118,11 +126,21 @@ pub struct Goal {
     /// The way there that is still ahead.
     pub way: Vec<Point>,
     bumps: usize,
+    /// How much floor was known when it was chosen, in m².
+    known_m2: f64,
+}
+
+/// A frontier that was visited and was still there.
+#[derive(Clone, Debug)]
+struct Visited {
+    middle: Point,
+    visits: usize,
+    places: Vec<Point>,
 }
 
 /// An exploration under way. The map's frame is that of the robot's first pose.
-pub struct Exploration<'a> {
-    world: &'a World,
+pub struct Exploration {
+    world: Arc<World>,
     options: RobotOptions,
     random: Random,
     /// Where the robot started, in the world's frame.
@@ -144,8 +162,7 @@ pub struct Exploration<'a> {
     pub activity: Activity,
     /// All true poses so far, in the world's frame, and the estimated and the odometry's in the map's.
     pub path: Vec<PathStep>,
-    /// Frontiers that were visited in vain, and how often.
-    visited: Vec<(Point, usize)>,
+    visited: Vec<Visited>,
     looked_at: Pose,
     collisions: usize,
     has_new_look: bool,
@@ -162,9 +179,9 @@ pub struct PathStep {
     pub odometry: Pose,
 }
 
-impl<'a> Exploration<'a> {
+impl Exploration {
     /// A robot that has just been put down and has looked around once.
-    pub fn new(world: &'a World, start: Pose, options: RobotOptions) -> Self {
+    pub fn new(world: Arc<World>, start: Pose, options: RobotOptions) -> Self {
         let random = Random::new(seed_of_part(options.seed, 7));
         let mut exploration = Self {
             world,
@@ -190,6 +207,11 @@ impl<'a> Exploration<'a> {
         exploration.sense();
         exploration.look();
         exploration
+    }
+
+    /// The world it drives through.
+    pub fn world(&self) -> &Arc<World> {
+        &self.world
     }
 
     pub fn options(&self) -> &RobotOptions {
@@ -267,8 +289,14 @@ impl<'a> Exploration<'a> {
     }
 
     fn visits(&self, frontier: &Frontier) -> usize {
-        let same = self.visited.iter().filter(|(at, _)| at.distance(frontier.middle) < SAME_M);
-        same.map(|(_, visits)| *visits).max().unwrap_or(0)
+        let same = self.visited.iter().filter(|visited| visited.middle.distance(frontier.middle) < SAME_M);
+        same.map(|visited| visited.visits).max().unwrap_or(0)
+    }
+
+    /// Whether a frontier was looked at from about this place before.
+    fn was_seen_from(&self, frontier: &Frontier, place: Point) -> bool {
+        let same = self.visited.iter().filter(|visited| visited.middle.distance(frontier.middle) < SAME_M);
+        same.flat_map(|visited| &visited.places).any(|before| before.distance(place) < OTHER_PLACE_M)
     }
 
     /// Chooses the frontier that costs least, or ends.
@@ -305,7 +333,7 @@ impl<'a> Exploration<'a> {
             let seen = frontier.middle - frontier.outward * 0.05;
             for cell in routes.cells_near(frontier.middle, VIEW_M, VIEW_SPACING_M, radius_m) {
                 let from = routes.centre(cell);
-                if !grid.blocks(from, seen) {
+                if !grid.blocks(from, seen) && (*visits == 0 || !self.was_seen_from(frontier, from)) {
                     let extra = PER_METRE[(*visits).min(1)] * from.distance(frontier.middle) - worth;
                     views.push((cell, index, extra));
                 }
@@ -329,7 +357,13 @@ impl<'a> Exploration<'a> {
         });
         let (_, cell, index) = best?;
         let place = routes.centre(cell);
-        Some(Goal { place, frontier: open[index].0.clone(), way: routes.way(place), bumps: 0 })
+        Some(Goal {
+            place,
+            frontier: open[index].0.clone(),
+            way: routes.way(place),
+            bumps: 0,
+            known_m2: self.known_m2(),
+        })
     }
 
     /// Plans the way to the goal again, from where the robot is now.
@@ -350,18 +384,24 @@ impl<'a> Exploration<'a> {
         }
     }
 
+    fn known_m2(&self) -> f64 {
+        crate::geometry::areas::area_m2(self.free.shapes())
+    }
+
     /// Gives up the goal, or has reached it; `in_vain`: what it looked at is remembered.
     fn leave_goal(&mut self, in_vain: bool) {
         if let Some(goal) = self.goal.take()
             && in_vain
         {
             let middle = goal.frontier.middle;
-            match self.visited.iter_mut().find(|(at, _)| at.distance(middle) < SAME_M / 2.0) {
-                Some((_, visits)) => *visits += 1,
-                None => {
-                    let visits = self.visits(&goal.frontier) + 1;
-                    self.visited.push((middle, visits));
+            let news = self.known_m2() - goal.known_m2 > NEWS_M2;
+            let visits = self.visits(&goal.frontier) + if news { 1 } else { 2 };
+            match self.visited.iter_mut().find(|visited| visited.middle.distance(middle) < SAME_M / 2.0) {
+                Some(visited) => {
+                    visited.visits = visits;
+                    visited.places.push(goal.place);
                 }
+                None => self.visited.push(Visited { middle, visits, places: vec![goal.place] }),
             }
         }
         self.activity = Activity::Choosing;
@@ -490,9 +530,8 @@ impl<'a> Exploration<'a> {
 
     /// Scans, and estimates where the robot is.
     fn sense(&mut self) {
-        let (world, pose) = (self.world, self.true_pose);
-        let scans = self.options.scanners.iter().map(|scanner| scanner.scan(world, pose, &mut self.random));
-        self.scans = scans.collect();
+        let (world, pose, random) = (&self.world, self.true_pose, &mut self.random);
+        self.scans = self.options.scanners.iter().map(|scanner| scanner.scan(world, pose, random)).collect();
         self.pose = self.mapper.add(self.odometry, &self.scans);
         self.path.push(PathStep { true_pose: self.true_pose, estimate: self.pose, odometry: self.odometry });
     }

@@ -80,11 +80,16 @@ pub fn find_rooms(segments: &[Segment], free: &Shapes, options: &RoomOptions) ->
         let pieces: Vec<Vec<Ring>> = without_strips(&walled, &strips);
         let sides = sides_of(&found, &pieces);
         let joins = |sides: &[Option<usize>; 2]| sides[0].is_some() && sides[1].is_some() && sides[0] != sides[1];
-        if sides.iter().all(joins) {
-            break (pieces, sides);
+        if !sides.iter().all(joins) {
+            let mut each = sides.iter();
+            found.retain(|_| each.next().is_some_and(joins));
+            continue;
         }
-        let mut each = sides.iter();
-        found.retain(|_| each.next().is_some_and(joins));
+        // Two doorways with nothing but a doorstep between them are one: the narrower.
+        match between_two(&found, &sides, &pieces, options) {
+            Some(wider) => found.remove(wider),
+            None => break (pieces, sides),
+        };
     };
     let (points, sights, group_of) = scatter(&pieces, options);
     let mut room_of_piece: Vec<Option<usize>> = vec![None; pieces.len()];
@@ -164,6 +169,27 @@ fn sides_of(doorways: &[Doorway], pieces: &[Vec<Ring>]) -> Vec<[Option<usize>; 2
         })
     };
     doorways.iter().map(|doorway| [side(doorway, doorway.across()), side(doorway, -doorway.across())]).collect()
+}
+
+/// The widest doorway of a piece that has several and is too small for a room.
+fn between_two(
+    doorways: &[Doorway],
+    sides: &[[Option<usize>; 2]],
+    pieces: &[Vec<Ring>],
+    options: &RoomOptions,
+) -> Option<usize> {
+    let small = (0..pieces.len()).filter(|&piece| is_too_small(&pieces[piece], options));
+    small.into_iter().find_map(|piece| {
+        let leading: Vec<usize> = (0..doorways.len()).filter(|&i| sides[i].contains(&Some(piece))).collect();
+        let widest = leading.iter().copied().max_by(|&p, &q| doorways[p].width_m.total_cmp(&doorways[q].width_m));
+        widest.filter(|_| leading.len() > 1)
+    })
+}
+
+/// Whether a piece is no room, by its area without what is narrow.
+fn is_too_small(piece: &[Ring], options: &RoomOptions) -> bool {
+    area_m2(piece) < options.smallest_m2
+        || areas::area_m2(&areas::grown(&vec![piece.to_vec()], -2.0 * NARROW_M)) < options.smallest_m2 / 10.0
 }
 
 fn piece_bounds(piece: &[Ring]) -> Bounds {

@@ -13,6 +13,9 @@ pub struct SplitOptions {
     pub tolerance_per_m: f64,
     /// Fewer points make no segment.
     pub least_points: usize,
+    /// And fewer than this make none where they lie `sparse_m` metres and more apart.
+    pub least_sparse_points: usize,
+    pub sparse_m: f64,
     /// The flattest angle between beam and wall at which neighbouring readings still hang together
     /// (the λ of Borges and Aldon 2004).
     pub flattest_rad: f64,
@@ -28,6 +31,8 @@ impl Default for SplitOptions {
             tolerance_m: 0.03,
             tolerance_per_m: 0.002,
             least_points: 3,
+            least_sparse_points: 6,
+            sparse_m: 0.15,
             flattest_rad: 8_f64.to_radians(),
             gap_m: 0.06,
         }
@@ -51,8 +56,16 @@ pub fn segments_of(scan: &Scan, options: &SplitOptions) -> (Vec<Point>, Vec<Scan
         .flat_map(|piece| settled(&points, merged(&points, split(&points, piece, options), options), options))
         .filter(|hits| hits.len() >= options.least_points)
         .filter_map(|hits| Some(ScanSegment { line: LineSegment::fitted(&points[hits.clone()])?, hits }))
+        .filter(|segment| is_dense(segment, options))
         .collect();
     (points, segments)
+}
+
+/// Whether a segment is more than a few hits far apart, which line up by chance: past a door's jamb
+/// and a wall behind it.
+fn is_dense(segment: &ScanSegment, options: &SplitOptions) -> bool {
+    let count = segment.hits.len();
+    count >= options.least_sparse_points || segment.line.length() <= options.sparse_m * (count - 1) as f64
 }
 
 /// Maximal runs of hits without a jump between neighbours.
