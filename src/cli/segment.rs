@@ -80,9 +80,14 @@ impl Subcommand for SegmentCommand {
         let semantic = found.semantics(&format!("{name}.yaml"), &self.frame, &plan, &said);
         std::fs::create_dir_all(&self.output)?;
         let analysis = analyse(&plan, &schemes, NeighbourLabels::True);
-        let style = Style { fill: Fill::Label, ..Style::default() };
+        let style = Style { fill: Fill::Prediction, ..Style::default() };
         let furniture = Furniture { title: true, legend: true, scale: true };
-        let scene = sheet::page(&Drawing::new(&plan, &analysis), &style, PageSize::Longest(PICTURE_SIDE_PX), furniture);
+        let scene = sheet::page(
+            &Drawing::new(&plan, &analysis).with_predictions(&said.labels()),
+            &style,
+            PageSize::Longest(PICTURE_SIDE_PX),
+            furniture,
+        );
         save_plan(&self.output.join(format!("{name}.plan.json")), &plan)?;
         let write = |name: &str, bytes: &[u8]| save_bytes(&self.output.join(name), bytes);
         write(&format!("{name}.png"), &png::png(&scene)?)?;

@@ -60,8 +60,8 @@ impl std::fmt::Display for GridMapError {
 
 impl std::error::Error for GridMapError {}
 
-/// A millimetre: finer than any scanner.
-const LEAST_RESOLUTION_M: f64 = 0.001;
+/// Half a centimetre: finer than laser scanners measure.
+const LEAST_RESOLUTION_M: f64 = 0.005;
 /// Coarser than a doorway is wide: no room could be told from the next.
 const MOST_RESOLUTION_M: f64 = 1.0;
 /// Farther away no plan can be drawn, which ends at 100 km.

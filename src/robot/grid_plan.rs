@@ -98,6 +98,9 @@ fn simple(map: &GridMap, outline: &[(i32, i32)]) -> Vec<Point> {
     }
 }
 
+/// Narrower gaps are holes in walls that were scanned badly: no robot drives through them, and no one walks.
+const NARROWEST_DOORWAY_M: f64 = 0.5;
+
 /// The doorways: of the cuts through one doorway the shortest.
 pub fn doorways(map: &GridMap, segmentation: &Segmentation) -> Vec<GridDoorway> {
     /// Doorways of the same two rooms whose middles are this near each other are one.
@@ -109,7 +112,7 @@ pub fn doorways(map: &GridMap, segmentation: &Segmentation) -> Vec<GridDoorway> 
             ends: cut.ends.map(|end| map.map_from_picture(end.x, end.y).trimmed()),
             regions: cut.regions,
         })
-        .filter(|doorway| doorway.width_m() > 0.0)
+        .filter(|doorway| doorway.width_m() >= NARROWEST_DOORWAY_M)
         .collect();
     let mut order: Vec<usize> = (0..all.len()).collect();
     order.sort_by(|&one, &other| all[one].width_m().total_cmp(&all[other].width_m()).then(one.cmp(&other)));

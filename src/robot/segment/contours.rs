@@ -72,8 +72,17 @@ pub fn simplified(outline: &[(i32, i32)], tolerance: f64) -> Vec<Point> {
     let one = farthest_from(0).0;
     let other = farthest_from(one).0;
     let mut keep = vec![false; count];
-    (keep[one], keep[other]) = (true, true);
-    let mut open = vec![(one, other), (other, one)];
+    let mut kept = vec![one, other];
+    if count > LONGEST_WHOLE {
+        kept.extend((0..count).step_by(PIECE));
+    }
+    kept.sort_unstable();
+    kept.dedup();
+    for &index in &kept {
+        keep[index] = true;
+    }
+    let mut open: Vec<(usize, usize)> =
+        (0..kept.len()).map(|index| (kept[index], kept[(index + 1) % kept.len()])).collect();
     while let Some((from, to)) = open.pop() {
         let between = (to + count - from) % count;
         let (start, end) = (at(from), at(to));
@@ -92,6 +101,11 @@ pub fn simplified(outline: &[(i32, i32)], tolerance: f64) -> Vec<Point> {
     }
     (0..count).filter(|&index| keep[index]).map(at).collect()
 }
+
+/// The rule takes quadratic time at worst (a spiral): longer outlines are cut into pieces of so many points,
+/// which keep a corner more each.
+const LONGEST_WHOLE: usize = 1 << 16;
+const PIECE: usize = 1 << 10;
 
 fn distance_to_segment(point: Point, start: Point, end: Point) -> f64 {
     let way = end - start;
