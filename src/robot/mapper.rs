@@ -187,7 +187,7 @@ impl Mapper {
 
     /// The lines of all kept scans, each where its pose is best known to be.
     pub fn map(&self) -> LineMap {
-        self.map_of(0..self.keyframes.len())
+        self.map_of(0..self.keyframes.len(), |segment| self.options.split.is_firm(segment))
     }
 
     /// How many places were recognised, and how many of these the rest of the path contradicts.
@@ -204,10 +204,10 @@ impl Mapper {
         }
     }
 
-    fn map_of(&self, keyframes: std::ops::Range<usize>) -> LineMap {
+    fn map_of(&self, keyframes: std::ops::Range<usize>, is_kept: impl Fn(&LineSegment) -> bool) -> LineMap {
         let mut map = LineMap::default();
         for (keyframe, pose) in self.keyframes[keyframes.clone()].iter().zip(&self.graph.poses[keyframes]) {
-            for segment in &keyframe.view.segments {
+            for segment in keyframe.view.segments.iter().filter(|segment| is_kept(segment)) {
                 map.add(segment.moved(*pose), &self.options.fusion);
             }
         }
@@ -376,8 +376,8 @@ impl Mapper {
         self.strain = 0.0;
         let count = self.keyframes.len();
         let latest = count - self.in_latest.min(count);
-        self.recent = self.map_of(latest.saturating_sub(self.options.memory)..count);
-        self.latest = self.map_of(latest..count);
+        self.recent = self.map_of(latest.saturating_sub(self.options.memory)..count, |_| true);
+        self.latest = self.map_of(latest..count, |_| true);
     }
 }
 

@@ -13,7 +13,8 @@ pub struct SplitOptions {
     pub tolerance_per_m: f64,
     /// Fewer points make no segment.
     pub least_points: usize,
-    /// And fewer than this make none where they lie `sparse_m` metres and more apart.
+    /// Fewer than this, `sparse_m` metres and more apart, line up by chance: past a door's jamb and a
+    /// wall behind it. Good enough to match scans with, but nothing for a map.
     pub least_sparse_points: usize,
     pub sparse_m: f64,
     /// The flattest angle between beam and wall at which neighbouring readings still hang together
@@ -39,6 +40,14 @@ impl Default for SplitOptions {
     }
 }
 
+impl SplitOptions {
+    /// Whether a segment of a scan stands for something that is there.
+    pub fn is_firm(&self, segment: &LineSegment) -> bool {
+        let count = segment.moments.weight;
+        count >= self.least_sparse_points as f64 || segment.length() <= self.sparse_m * (count - 1.0)
+    }
+}
+
 /// A segment of a scan with the readings that make it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScanSegment {
@@ -56,16 +65,8 @@ pub fn segments_of(scan: &Scan, options: &SplitOptions) -> (Vec<Point>, Vec<Scan
         .flat_map(|piece| settled(&points, merged(&points, split(&points, piece, options), options), options))
         .filter(|hits| hits.len() >= options.least_points)
         .filter_map(|hits| Some(ScanSegment { line: LineSegment::fitted(&points[hits.clone()])?, hits }))
-        .filter(|segment| is_dense(segment, options))
         .collect();
     (points, segments)
-}
-
-/// Whether a segment is more than a few hits far apart, which line up by chance: past a door's jamb
-/// and a wall behind it.
-fn is_dense(segment: &ScanSegment, options: &SplitOptions) -> bool {
-    let count = segment.hits.len();
-    count >= options.least_sparse_points || segment.line.length() <= options.sparse_m * (count - 1) as f64
 }
 
 /// Maximal runs of hits without a jump between neighbours.
