@@ -25,6 +25,7 @@ use crate::robot::doorways::DoorwayOptions;
 use crate::robot::explore::{Activity, Exploration, RobotOptions};
 use crate::robot::explored_plan::{ExploredPlan, Said, plan as plan_of};
 use crate::robot::frontiers::Frontier;
+use crate::robot::odometry::OdometryNoise;
 use crate::robot::rooms::{FoundRooms, RoomOptions};
 use crate::robot::score::{Fate, Score, score};
 use crate::robot::{Pose, Scanner, World, WorldOptions};
@@ -55,8 +56,8 @@ pub struct ExploreCommand {
     #[arg(long, value_name = "DEGREES", default_value_t = 0.5)]
     resolution: f64,
     /// Noise of the odometry: alpha 1 to 4 of the standard motion model
-    #[arg(long, value_name = "A1,A2,A3,A4", value_delimiter = ',', num_args = 4)]
-    odometry: Option<Vec<f64>>,
+    #[arg(long, value_name = "A1,A2,A3,A4", value_parser = alphas)]
+    odometry: Option<OdometryNoise>,
     /// Pieces of furniture a room
     #[arg(long, value_name = "N", default_value_t = 0)]
     furniture: usize,
@@ -173,10 +174,6 @@ impl ExploreCommand {
                 return Err(CliError::new(format!("{name} {value}: use {least} to {most}")));
             }
         }
-        let alphas = self.odometry.iter().flatten();
-        if alphas.into_iter().any(|alpha| !(0.0..=10.0).contains(alpha)) {
-            return Err(CliError::new("--odometry: each alpha lies between 0 and 10"));
-        }
         Ok(())
     }
 
@@ -195,12 +192,7 @@ impl ExploreCommand {
         if self.noise == 0.0 {
             robot = robot.exact();
         }
-        robot.odometry = match self.odometry.as_deref() {
-            Some(&[alpha_1, alpha_2, alpha_3, alpha_4]) => {
-                crate::robot::odometry::OdometryNoise { alpha_1, alpha_2, alpha_3, alpha_4 }
-            }
-            _ => robot.odometry.times(self.noise),
-        };
+        robot.odometry = self.odometry.unwrap_or_else(|| robot.odometry.times(self.noise));
         let tuned = |scanner: &Scanner| Scanner {
             noise_m: self.range_noise.unwrap_or(scanner.noise_m * self.noise),
             drop_out: self.drop_out.unwrap_or((scanner.drop_out * self.noise).min(1.0)),
@@ -255,6 +247,19 @@ impl ExploreCommand {
         let scene = sheet::page(&drawing, &style, PageSize::Longest(PICTURE_SIDE_PX), Furniture::default());
         write(&format!("{name}.rooms.png"), &png::png(&scene)?)?;
         Ok(())
+    }
+}
+
+/// Reads the four alphas of the motion model.
+fn alphas(text: &str) -> Result<OdometryNoise, String> {
+    let numbers: Vec<f64> = text.split(',').filter_map(|part| part.trim().parse().ok()).collect();
+    match numbers[..] {
+        [alpha_1, alpha_2, alpha_3, alpha_4] if numbers.iter().all(|alpha| (0.0..=10.0).contains(alpha)) => {
+            Ok(OdometryNoise { alpha_1, alpha_2, alpha_3, alpha_4 })
+        }
+        _ => {
+            Err("give four numbers from 0 to 10 with commas between them, such as 0.01,0.0025,0.0025,0.0001".to_owned())
+        }
     }
 }
 

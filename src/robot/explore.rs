@@ -95,6 +95,11 @@ const BUMPS: usize = 3;
 /// A place of the way is reached within so many metres: no corner is cut by more.
 const AT_PLACE_M: f64 = 0.06;
 
+/// The free space is laid out anew where a place has moved by so many metres, a turn counted as what it moves
+/// at the distance of a room's wall.
+const MOVED_M: f64 = 0.05;
+const LEVER_M: f64 = 3.0;
+
 /// How far the robot backs off after a collision, in metres.
 const BACK_OFF_M: f64 = 0.15;
 
@@ -130,6 +135,16 @@ pub struct Goal {
     known_m2: f64,
 }
 
+/// What was seen from one place.
+#[derive(Clone, Debug)]
+struct Look {
+    /// Index of the step.
+    step: usize,
+    /// Where the free space has it.
+    pose: Pose,
+    scans: Vec<Scan>,
+}
+
 /// A frontier that was visited and was still there.
 #[derive(Clone, Debug)]
 struct Visited {
@@ -154,8 +169,8 @@ pub struct Exploration {
     /// The last scans.
     pub scans: Vec<Scan>,
     mapper: Mapper,
-    /// What went into the free space: the index of the step, and the scans.
-    looks: Vec<(usize, Vec<Scan>)>,
+    /// What went into the free space.
+    looks: Vec<Look>,
     closures: usize,
     pub free: FreeSpace,
     pub goal: Option<Goal>,
@@ -473,22 +488,31 @@ impl Exploration {
 
     /// Adds what is seen from here to the free space.
     fn look(&mut self) {
-        self.looks.push((self.path.len() - 1, self.scans.clone()));
-        if self.mapper.closures().0 == self.closures {
-            self.free.add(self.pose, &self.scans);
-        } else {
+        self.free.add(self.pose, &self.scans);
+        self.looks.push(Look { step: self.path.len() - 1, pose: self.pose, scans: self.scans.clone() });
+        if self.mapper.closures().0 != self.closures {
             self.settle();
         }
         self.looked_at = self.pose;
         self.has_new_look = true;
     }
 
-    /// Lays out the free space anew after the path has moved: a loop was closed.
+    /// Lays out the free space anew where a closed loop has moved the path.
     fn settle(&mut self) {
         self.closures = self.mapper.closures().0;
         let poses = self.mapper.poses();
-        self.free = FreeSpace::of(self.looks.iter().map(|(step, scans)| (poses[*step], scans.as_slice())));
+        let off_m = |look: &Look| {
+            let moved = look.pose.between(poses[look.step]);
+            moved.x_m.hypot(moved.y_m) + LEVER_M * moved.heading_rad.abs()
+        };
         self.pose = poses.last().copied().unwrap_or_default();
+        if self.looks.iter().map(off_m).fold(0.0, f64::max) < MOVED_M {
+            return;
+        }
+        for look in &mut self.looks {
+            look.pose = poses[look.step];
+        }
+        self.free = FreeSpace::of(self.looks.iter().map(|look| (look.pose, look.scans.as_slice())));
         if self.goal.is_some() {
             self.replan();
         }

@@ -201,12 +201,14 @@ fn outline(scan: &Scan) -> Vec<Point> {
         let last = to.map_or(beams, |(beam, _)| beam);
         let range_m = open_range_m(scan, from, to, last - first);
         if range_m > 0.0 {
+            // Past what is seen beside it only along the beams that brought nothing back.
+            let beside_m = from.into_iter().chain(to).map(|(_, range_m)| range_m).fold(f64::INFINITY, f64::min);
+            let widened = usize::from(range_m <= beside_m);
+            let begin = first.saturating_sub(if from.is_some() { widened } else { 0 });
+            let end = if to.is_some() { last - 1 + widened } else { last - 1 };
             // Enough corners that the chord does not cut what the beams passed.
-            let corners = first.saturating_sub(usize::from(from.is_some()))..=last.min(beams.saturating_sub(1));
-            outline.extend(corners.step_by(CHORD_BEAMS).map(|beam| ray(beam, range_m)));
-            if to.is_some() || last == beams {
-                outline.push(ray(last.min(beams.saturating_sub(1)), range_m));
-            }
+            outline.extend((begin..end).step_by(CHORD_BEAMS).map(|beam| ray(beam, range_m)));
+            outline.push(ray(end, range_m));
         } else {
             outline.push(scanner);
         }
