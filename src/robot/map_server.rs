@@ -111,7 +111,7 @@ pub fn description(text: &str) -> Result<MapDescription, MapServerError> {
     }
     let keys: Keys = serde_saphyr::from_str(text).map_err(|error| {
         let error = error.to_string();
-        let first = error.lines().next().unwrap_or_default();
+        let first = error.lines().next().unwrap_or_default().trim_start_matches("error: ");
         MapServerError(format!("no map of map_server: {first}; the file must give image, resolution and origin"))
     })?;
     let standard = PictureReading::MAP_SERVER;

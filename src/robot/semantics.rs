@@ -103,7 +103,8 @@ impl SemanticMap {
             Ok(read) => read,
             Err(error) => {
                 let error = error.to_string();
-                return fail(format!("no semantic map: {}", error.lines().next().unwrap_or_default()));
+                let first = error.lines().next().unwrap_or_default().trim_start_matches("error: ");
+                return fail(format!("no semantic map: {first}"));
             }
         };
         if read.version > VERSION {
