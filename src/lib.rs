@@ -21,6 +21,7 @@ pub mod picture;
 pub mod pipeline;
 pub mod plan;
 pub mod predict;
+pub mod robot;
 pub mod snapping;
 pub mod store;
 pub mod study;

@@ -43,6 +43,18 @@ impl Random {
         ((u128::from(self.bits()) * count as u128) >> 64) as usize
     }
 
+    /// A deviate of the standard normal distribution: mean 0, standard deviation 1 (polar method,
+    /// Marsaglia and Bray 1964).
+    pub fn normal(&mut self) -> f64 {
+        loop {
+            let (u, v) = (2.0 * self.unit() - 1.0, 2.0 * self.unit() - 1.0);
+            let squared = u * u + v * v;
+            if squared > 0.0 && squared < 1.0 {
+                return u * (-2.0 * squared.ln() / squared).sqrt();
+            }
+        }
+    }
+
     /// Puts a slice in random order (Fisher and Yates).
     pub fn shuffle<T>(&mut self, items: &mut [T]) {
         for last in (1..items.len()).rev() {
@@ -68,6 +80,19 @@ mod tests {
     fn gives_the_numbers_of_the_reference_implementation() {
         let mut random = Random { state: [1, 2, 3, 4] };
         assert_eq!([random.bits(), random.bits(), random.bits()], [41_943_041, 58_720_359, 3_588_806_011_781_223]);
+    }
+
+    #[test]
+    fn normal_deviates_have_the_moments_of_the_distribution() {
+        let mut random = Random::new(11);
+        let n = 100_000;
+        let values: Vec<f64> = (0..n).map(|_| random.normal()).collect();
+        let moment = |power: i32| values.iter().map(|value| value.powi(power)).sum::<f64>() / f64::from(n);
+        // Four standard deviations of the sample moments of a normal distribution.
+        let error = |variance: f64| 4.0 * (variance / f64::from(n)).sqrt();
+        assert!(moment(1).abs() < error(1.0));
+        assert!((moment(2) - 1.0).abs() < error(2.0));
+        assert!((moment(4) - 3.0).abs() < error(96.0));
     }
 
     #[test]

@@ -68,6 +68,15 @@ impl<'a> Work<'a> {
         if self.cancelled.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) }
     }
 
+    /// For work whose steps follow one another: tells how many of how many are done before the next.
+    ///
+    /// # Errors
+    /// When cancelled: the next step must not begin.
+    pub fn step(&self, done: usize, count: usize) -> Result<(), Cancelled> {
+        (self.progress)(done, count);
+        if self.cancelled.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) }
+    }
+
     /// The results of `count` parts, in their order.
     ///
     /// # Errors

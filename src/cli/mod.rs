@@ -8,16 +8,19 @@ mod collect;
 mod commands;
 mod dataset;
 mod evaluate;
+mod explore;
 mod export;
 mod features;
 mod import;
 mod inputs;
+mod map;
 mod models;
 mod open;
 mod progress;
 mod render;
 #[cfg(feature = "gui")]
 mod replay;
+mod segment;
 mod train;
 
 use std::io::{IsTerminal as _, Write};
@@ -38,6 +41,9 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<evaluate::EvaluateCommand>(),
     entry::<train::TrainCommand>(),
     entry::<models::ModelsCommand>(),
+    entry::<explore::ExploreCommand>(),
+    entry::<map::MapCommand>(),
+    entry::<segment::SegmentCommand>(),
     #[cfg(feature = "gui")]
     entry::<replay::ReplayCommand>(),
     #[cfg(feature = "gui")]

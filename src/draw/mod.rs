@@ -14,6 +14,7 @@ mod colour;
 mod drawing;
 mod elements;
 pub mod font;
+pub mod line_map;
 mod names;
 mod openings;
 pub mod palette;

@@ -2,7 +2,9 @@
 //! not saved yet.
 
 mod bundled;
+mod grid_maps;
 mod journal;
+mod logs;
 mod models;
 pub mod pictures;
 mod plan_file;
@@ -12,10 +14,12 @@ mod schemes;
 mod stamp;
 
 pub use bundled::{BUNDLED, bundled_plans};
+pub use grid_maps::{MapFileError, is_map_yaml, load_map, load_picture_as_map};
 pub use journal::{
     Journal, JournalFailure, JournalStart, Leftover, Predecessor, Recovered, STATE_VARIABLE, journal_folder, leftovers,
     read_journal,
 };
+pub use logs::{LoadedLog, load_log, read_log};
 pub use models::{LARGEST_BYTES, MODEL_ENDING, MODELS_VARIABLE, ModelError, load_model, models_folder, models_in};
 pub use plan_file::{checked_bytes, load_plan, save_plan};
 pub use plan_folder::{FoundPlan, plans_below};

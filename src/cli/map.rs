@@ -1,0 +1,135 @@
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use clap::builder::PossibleValuesParser;
+
+use super::progress::with_progress;
+use super::{CliError, Outcome, Subcommand, Terminal};
+use crate::draw::line_map::LineMapDrawing;
+use crate::draw::{Theme, png, svg};
+use crate::geometry::{Point, Segment, trim_m};
+use crate::robot::carmen::Log;
+use crate::robot::log_map::{MappedLog, map_log};
+use crate::robot::{LineMap, MapperOptions};
+use crate::store::{load_log, save_bytes};
+
+/// `enfilade map`: a robot's laser log to a line map.
+#[derive(clap::Args)]
+pub struct MapCommand {
+    /// A CARMEN log, .log or .log.gz
+    #[arg(value_name = "LOG")]
+    log: PathBuf,
+    /// The folder to write to
+    #[arg(short, long, value_name = "DIR")]
+    output: PathBuf,
+    /// Do not recognise places seen before: the path drifts
+    #[arg(long)]
+    no_loop_closing: bool,
+    /// Dark ink on light paper, or the other way round
+    #[arg(long, value_name = "THEME", default_value = "light",
+          value_parser = PossibleValuesParser::new(Theme::ALL.map(Theme::name)))]
+    theme: String,
+}
+
+impl Subcommand for MapCommand {
+    const NAME: &'static str = "map";
+    const ABOUT: &'static str = "Build a line map from a robot's laser log";
+    const EXAMPLE: &'static str = "enfilade map intel.log.gz -o intel   # map, picture, poses.csv";
+
+    fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
+        let loaded = load_log(&self.log)?;
+        for note in &loaded.log.notes {
+            writeln!(terminal.err, "{}: {note}", self.log.display())?;
+        }
+        if let Some(broken_off) = &loaded.broken_off {
+            writeln!(terminal.err, "{}: {broken_off}; read as far as it goes", self.log.display())?;
+        }
+        let log = loaded.log;
+        if !log.has_odometry {
+            writeln!(
+                terminal.err,
+                "{}: the odometry never moves; scans are matched from one another alone",
+                self.log.display()
+            )?;
+        }
+        let options = MapperOptions { closes_loops: !self.no_loop_closing, ..MapperOptions::default() };
+        let mapped = with_progress("mapping", Some(1), terminal, |work| map_log(&log, &options, work))?;
+
+        let name = log_name(&self.log);
+        std::fs::create_dir_all(&self.output)
+            .map_err(|error| CliError::new(format!("{}: {error}; choose another folder", self.output.display())))?;
+        let write = |name: &str, bytes: &[u8]| save_bytes(&self.output.join(name), bytes);
+        write("poses.csv", poses_csv(&log, &mapped).as_bytes())?;
+        write(&format!("{name}.lines.json"), lines_json(&mapped.map, &options).as_bytes())?;
+        let segments: Vec<Segment> = mapped.map.lines().map(|line| line.line.segment()).collect();
+        let path: Vec<Point> = mapped.poses.iter().map(|pose| pose.position()).collect();
+        // The parser let only names of the table through.
+        let theme = Theme::ALL.into_iter().find(|theme| theme.name() == self.theme).unwrap_or_default();
+        let drawing = LineMapDrawing { segments: &segments, free: &Vec::new(), path: &path };
+        let scene = drawing.scene(theme, PICTURE_SIDE_PX);
+        write(&format!("{name}.map.png"), &png::png(&scene)?)?;
+        write(&format!("{name}.map.svg"), svg::svg(&scene).as_bytes())?;
+
+        let scans = log.readings.iter().filter(|reading| !reading.scans.is_empty()).count();
+        let (closures, doubted) = mapped.closures;
+        let metres: f64 = segments.iter().map(|segment| segment.length()).sum();
+        let doubted = if doubted > 0 { format!(", {doubted} of them not believed") } else { String::new() };
+        writeln!(
+            terminal.out,
+            "{}: {scans} scans, {} lines of {metres:.0} m, {closures} places recognised{doubted}",
+            self.output.display(),
+            segments.len()
+        )?;
+        Ok(Outcome::Done)
+    }
+}
+
+/// Pixels of the longer side of the picture.
+const PICTURE_SIDE_PX: f64 = 2000.0;
+
+/// A log's name without its endings.
+fn log_name(path: &Path) -> String {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let stem = name.strip_suffix(".gz").unwrap_or(&name);
+    let stem = stem.strip_suffix(".log").unwrap_or(stem);
+    if stem.is_empty() { "map".to_owned() } else { stem.to_owned() }
+}
+
+/// `t,x,y,theta` of every reading, in seconds, metres and radians.
+fn poses_csv(log: &Log, mapped: &MappedLog) -> String {
+    let mut csv = String::from("t,x,y,theta\n");
+    for (reading, pose) in log.readings.iter().zip(&mapped.poses) {
+        // Angles to a hundredth of a milliradian: half a millimetre 50 m away. `+ 0.0` drops the sign of zero.
+        let heading = (pose.heading_rad * 1e5).round() / 1e5 + 0.0;
+        let _ = writeln!(csv, "{},{},{},{heading}", reading.time_s, trim_m(pose.x_m), trim_m(pose.y_m));
+    }
+    csv
+}
+
+/// The lines, one a row, each with its deviations.
+fn lines_json(map: &LineMap, options: &MapperOptions) -> String {
+    let mut json = String::from(
+        "{\"enfilade_line_map\":1,\"frame\":\"the first scan's robot: x ahead, y to the left; metres and radians; \
+         seen from the left of the way from start to end\",\"lines\":[",
+    );
+    for (index, line) in map.lines().enumerate() {
+        let (start, end) = (line.line.start.trimmed(), line.line.end.trimmed());
+        let covariance = line.line.covariance(options.fusion.sigma_m);
+        let deviation = |variance: f64| (variance.sqrt() * 1e6).round() / 1e6;
+        let _ = write!(
+            json,
+            "{}\n{{\"start\":[{},{}],\"end\":[{},{}],\"sightings\":{},\"offset_deviation_m\":{},\"angle_deviation_rad\":{}}}",
+            if index == 0 { "" } else { "," },
+            start.x,
+            start.y,
+            end.x,
+            end.y,
+            line.sightings,
+            deviation(covariance[(0, 0)]),
+            deviation(covariance[(1, 1)])
+        );
+    }
+    json.push_str("\n]}\n");
+    json
+}

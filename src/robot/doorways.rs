@@ -1,0 +1,315 @@
+//! Walls and doorways of a line map (paper, section 3.3): walls by collinearity, doorways as gaps between
+//! the collinear segments of a wall, or between a wall's end and another wall.
+
+use super::RayGrid;
+use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
+use crate::geometry::segments::are_parallel;
+use crate::geometry::{Bounds, Point, Segment, Vector};
+
+/// How walls and doorways are told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DoorwayOptions {
+    /// Shorter segments are furniture, in metres (paper: 30 cm).
+    pub shortest_m: f64,
+    /// Segments of a wall differ by at most this angle (paper: 10 degrees).
+    pub collinear_rad: f64,
+    /// Segments of a wall lie aside from each other's line by at most this, in metres: less than a thin
+    /// wall's thickness.
+    pub aside_m: f64,
+    /// A doorway is wider than this, in metres (paper: 30 cm).
+    pub narrowest_m: f64,
+    /// A doorway is narrower than this, in metres (paper: 150 cm).
+    pub widest_m: f64,
+    /// Beyond the paper: a gap between two collinear segments, a free passage, may be that wide, in metres.
+    pub widest_passage_m: f64,
+    /// Beyond the paper: shorter segments than those of walls may end at a doorway, in metres: the narrow
+    /// strip of wall beside a door in a corner.
+    pub shortest_jamb_m: f64,
+    /// Beyond the paper: a gap counts only where, within the depth of a thick wall, the floor on both sides
+    /// is wider than the gap. Else the mouth of a narrow corridor would be a doorway.
+    pub must_widen: bool,
+}
+
+impl DoorwayOptions {
+    /// The paper's rule alone.
+    pub const PAPER: Self = Self {
+        shortest_m: 0.30,
+        collinear_rad: ANGLE_TOLERANCE_RAD,
+        aside_m: 0.08,
+        narrowest_m: 0.30,
+        widest_m: 1.50,
+        widest_passage_m: 1.50,
+        shortest_jamb_m: 0.30,
+        must_widen: false,
+    };
+}
+
+impl Default for DoorwayOptions {
+    /// The paper's figures, with the test that the floor widens; wide free passages included.
+    fn default() -> Self {
+        Self { must_widen: true, widest_m: 2.2, widest_passage_m: 4.0, shortest_jamb_m: 0.15, ..Self::PAPER }
+    }
+}
+
+/// A passage in a wall.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Doorway {
+    /// From jamb to jamb in the middle of the wall.
+    pub segment: Segment,
+    pub width_m: f64,
+    /// How thick the wall is there, in metres: from one face's gap to the other's; 0 where one was seen.
+    pub depth_m: f64,
+}
+
+impl Doorway {
+    /// The unit vector across the doorway, to the left of its segment.
+    pub fn across(&self) -> Vector {
+        self.segment.vector().left().unit().unwrap_or(Vector::new(0.0, 1.0))
+    }
+}
+
+/// The walls of a line map: for each segment the number of its wall, `None` for one that is too short.
+pub fn walls(segments: &[Segment], options: &DoorwayOptions) -> Vec<Option<usize>> {
+    let long: Vec<usize> = (0..segments.len()).filter(|&i| segments[i].length() >= options.shortest_m).collect();
+    let grid = RayGrid::new(long.iter().map(|&i| segments[i]).collect());
+    let mut groups = Groups::new(segments.len());
+    for (at, &i) in long.iter().enumerate() {
+        for other in grid.near(segments[i].bounds().inflated(options.widest_m)) {
+            let j = long[other];
+            if other > at && are_collinear(segments[i], segments[j], options) {
+                groups.join(i, j);
+            }
+        }
+    }
+    let mut numbers: Vec<Option<usize>> = vec![None; segments.len()];
+    let mut of_root: Vec<Option<usize>> = vec![None; segments.len()];
+    let mut count = 0;
+    for &i in &long {
+        let root = groups.root(i);
+        let number = *of_root[root].get_or_insert_with(|| {
+            count += 1;
+            count - 1
+        });
+        numbers[i] = Some(number);
+    }
+    numbers
+}
+
+/// Whether two segments belong to one wall: their directions agree, they lie on one line, and what is
+/// between them is no wider than a doorway.
+fn are_collinear(p: Segment, q: Segment, options: &DoorwayOptions) -> bool {
+    let (longer, shorter) = if p.length() >= q.length() { (p, q) } else { (q, p) };
+    let Some(along) = longer.vector().unit() else { return false };
+    let aside = |point: Point| along.cross(point - longer.a).abs();
+    let place = |point: Point| along.dot(point - longer.a);
+    let (near, far) = (place(shorter.a).min(place(shorter.b)), place(shorter.a).max(place(shorter.b)));
+    let gap_m = (near - longer.length()).max(-far).max(0.0);
+    are_parallel(p, q, options.collinear_rad)
+        && aside(shorter.a).min(aside(shorter.b)) <= options.aside_m
+        && gap_m <= options.widest_m
+}
+
+/// Sets that grow together (Galler and Fischer 1964).
+#[derive(Clone, Debug)]
+pub(super) struct Groups {
+    parents: Vec<usize>,
+}
+
+impl Groups {
+    pub fn new(count: usize) -> Self {
+        Self { parents: (0..count).collect() }
+    }
+
+    /// The smallest member of the set of `i`.
+    pub fn root(&mut self, mut i: usize) -> usize {
+        while self.parents[i] != i {
+            self.parents[i] = self.parents[self.parents[i]];
+            i = self.parents[i];
+        }
+        i
+    }
+
+    /// Makes one set of two; whether they were two.
+    pub fn join(&mut self, i: usize, j: usize) -> bool {
+        let (p, q) = (self.root(i), self.root(j));
+        self.parents[p.max(q)] = p.min(q);
+        p != q
+    }
+}
+
+/// The end of a segment and the way it would go on.
+#[derive(Clone, Copy)]
+struct End {
+    at: Point,
+    onward: Vector,
+}
+
+/// The doorways between the long segments of a line map, narrow ones first. `boundary` holds the edges of
+/// the free space, which lies to their left.
+pub fn doorways(segments: &[Segment], boundary: &RayGrid, options: &DoorwayOptions) -> Vec<Doorway> {
+    let long: Vec<Segment> = segments.iter().copied().filter(|s| s.length() >= options.shortest_jamb_m).collect();
+    let grid = RayGrid::new(long.clone());
+    let mut gaps: Vec<Segment> = Vec::new();
+    for (i, segment) in long.iter().enumerate() {
+        let Some(along) = segment.vector().unit() else { continue };
+        for end in [End { at: segment.b, onward: along }, End { at: segment.a, onward: -along }] {
+            gaps.extend(between_ends(end, i, &long, &grid, options));
+            gaps.extend(to_wall(end, &long, &grid, options));
+        }
+    }
+    gaps.retain(|&gap| is_free(gap, boundary));
+    gaps.sort_by(|p, q| p.length().total_cmp(&q.length()));
+    let mut found: Vec<Vec<Segment>> = Vec::new();
+    for gap in gaps {
+        // Narrow ones first: a door beside this gap does not widen it.
+        if options.must_widen && !widens(gap, boundary, &found) {
+            continue;
+        }
+        match found.iter().position(|group| group.iter().all(|&other| is_same_doorway(gap, other))) {
+            Some(group) => found[group].push(gap),
+            // What crosses a narrower doorway is none.
+            None if found.iter().flatten().any(|&other| crosses(gap, other)) => {}
+            None => found.push(vec![gap]),
+        }
+    }
+    found.iter().map(|gaps| merged(gaps)).collect()
+}
+
+/// Gaps from an end to the ends of collinear segments that face it.
+fn between_ends(end: End, own: usize, long: &[Segment], grid: &RayGrid, options: &DoorwayOptions) -> Vec<Segment> {
+    let reach = Bounds::of([end.at, end.at + end.onward * options.widest_passage_m]).inflated(0.3);
+    let mut gaps = Vec::new();
+    for i in grid.near(reach).into_iter().filter(|&i| i != own) {
+        let other = long[i];
+        if !are_parallel(other, Segment::new(end.at, end.at + end.onward), options.collinear_rad) {
+            continue;
+        }
+        let (near, far) = if end.onward.dot(other.vector()) > 0.0 { (other.a, other.b) } else { (other.b, other.a) };
+        let way = near - end.at;
+        let (ahead_m, aside_m) = (way.dot(end.onward), way.cross(end.onward).abs());
+        let fits = (options.narrowest_m..=options.widest_passage_m).contains(&ahead_m)
+            && aside_m <= options.aside_m.max(ahead_m * options.collinear_rad.tan() * 0.5)
+            && (far - near).dot(end.onward) > 0.0;
+        if fits {
+            gaps.push(Segment::new(end.at, near));
+        }
+    }
+    gaps
+}
+
+/// The gap from an end straight on to the wall it meets.
+fn to_wall(end: End, long: &[Segment], grid: &RayGrid, options: &DoorwayOptions) -> Option<Segment> {
+    // Behind the end itself, and what is joined to it.
+    let from = end.at + end.onward * 0.02;
+    let hit = grid.cast(from, end.onward, options.widest_m)?;
+    let to = from + end.onward * hit.distance_m;
+    let meets = !are_parallel(long[hit.segment], Segment::new(end.at, to), options.collinear_rad);
+    let gap = Segment::new(end.at, to);
+    (meets && (options.narrowest_m..=options.widest_m).contains(&gap.length())).then_some(gap)
+}
+
+/// How many places of a gap are looked at.
+const PLACES: usize = 9;
+
+/// Whether a gap can be seen through: all of it but its ends lies in the free space.
+fn is_free(gap: Segment, boundary: &RayGrid) -> bool {
+    let Some(along) = gap.vector().unit() else { return false };
+    let margin_m = 0.06_f64.min(gap.length() / 4.0);
+    let (from, to) = (gap.a + along * margin_m, gap.b - along * margin_m);
+    (0..PLACES).all(|i| is_inside(boundary, from.lerp(to, i as f64 / (PLACES - 1) as f64)))
+}
+
+/// Whether a point lies in the free space: it is left of the boundary that a ray from it meets first.
+pub(super) fn is_inside(boundary: &RayGrid, point: Point) -> bool {
+    // In no direction that walls have, so that no ray runs along one.
+    let direction = Vector::new(0.8141, 0.5807).unit().unwrap_or(Vector::new(1.0, 0.0));
+    boundary.cast(point, direction, 1e4).is_some_and(|hit| {
+        let edge = boundary.segments()[hit.segment];
+        edge.vector().cross(point - edge.a) > 0.0
+    })
+}
+
+/// How deep a doorway is at most, in metres: the thickest plausible wall, and a hair.
+const DEEPEST_M: f64 = 0.65;
+
+/// The floor beside a doorway is at least so much wider than it, in metres, and by that share of its width.
+const WIDER_M: f64 = 0.1;
+const WIDER_SHARE: f64 = 0.08;
+
+/// Rays along a gap look no further, in metres.
+const WIDTH_LIMIT_M: f64 = 6.0;
+
+/// Whether on both sides of a gap, within the depth of a wall, the free floor is wider than in it. The
+/// doorways found already are closed.
+fn widens(gap: Segment, boundary: &RayGrid, found: &[Vec<Segment>]) -> bool {
+    let Some(along) = gap.vector().unit() else { return false };
+    let middle = gap.midpoint();
+    let around = gap.bounds().inflated(WIDTH_LIMIT_M);
+    let closed: Vec<Segment> = found
+        .iter()
+        .filter(|doorway| !doorway.iter().any(|&other| is_same_doorway(gap, other)))
+        .flatten()
+        .copied()
+        .filter(|other| other.bounds().intersects(around))
+        .collect();
+    let reach_m = |at: Point, way: Vector| {
+        let walls_m = boundary.cast(at, way, WIDTH_LIMIT_M).map_or(WIDTH_LIMIT_M, |hit| hit.distance_m);
+        closed.iter().filter_map(|&door| super::ray_grid::hit_m(at, way, door)).fold(walls_m, f64::min)
+    };
+    let width_m = |at: Point| reach_m(at, along) + reach_m(at, -along);
+    let width_here_m = width_m(middle).min(gap.length() + 0.05);
+    let wider_m = width_here_m + WIDER_M.max(WIDER_SHARE * width_here_m);
+    [along.left(), -along.left()].into_iter().all(|across| {
+        let ahead_m = boundary.cast(middle, across, DEEPEST_M).map_or(DEEPEST_M, |hit| hit.distance_m - 0.05);
+        let steps = (ahead_m / 0.05).floor().max(0.0) as usize;
+        (1..=steps).any(|step| width_m(middle + across * (step as f64 * 0.05)) >= wider_m)
+    })
+}
+
+/// Whether two gaps are those of the two faces of one wall, or of the same face.
+fn is_same_doorway(p: Segment, q: Segment) -> bool {
+    let Some(along) = q.vector().unit() else { return false };
+    let way = p.midpoint() - q.midpoint();
+    let (stretch_from, stretch_to) = crate::geometry::segments::common_stretch(q, p);
+    are_parallel(p, q, 0.35)
+        && way.cross(along).abs() <= DEEPEST_M
+        && stretch_to - stretch_from >= 0.5 * p.length().min(q.length())
+}
+
+fn crosses(p: Segment, q: Segment) -> bool {
+    crate::geometry::segments::crossing(p, q).is_some()
+}
+
+/// The doorway of the gaps in the faces of a wall.
+fn merged(gaps: &[Segment]) -> Doorway {
+    let narrowest = gaps[0];
+    let along = narrowest.vector().unit().unwrap_or(Vector::new(1.0, 0.0));
+    let depths = gaps.iter().map(|gap| (gap.midpoint() - narrowest.a).dot(along.left()));
+    let (low_m, high_m) = depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), d| (low.min(d), high.max(d)));
+    let shift = along.left() * ((low_m + high_m) / 2.0);
+    let segment = Segment::new(narrowest.a + shift, narrowest.b + shift);
+    Doorway { segment, width_m: narrowest.length(), depth_m: high_m - low_m }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn segment(a: (f64, f64), b: (f64, f64)) -> Segment {
+        Segment::new(Point::new(a.0, a.1), Point::new(b.0, b.1))
+    }
+
+    #[test]
+    fn segments_of_a_wall_are_collinear_and_near() {
+        let map = [
+            segment((0.0, 0.0), (3.0, 0.02)),
+            segment((3.9, 0.0), (6.0, 0.0)),
+            segment((6.5, 0.0), (6.7, 0.0)),
+            segment((0.0, 0.5), (3.0, 0.5)),
+            segment((3.0, 0.0), (3.0, 4.0)),
+            segment((9.0, 0.0), (12.0, 0.0)),
+        ];
+        let options = DoorwayOptions::PAPER;
+        assert_eq!(walls(&map, &options), [Some(0), Some(0), None, Some(1), Some(2), Some(3)]);
+    }
+}

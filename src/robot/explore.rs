@@ -1,0 +1,562 @@
+//! Exploration by frontiers (Yamauchi 1997): drive to where the known floor ends, look, until nothing that
+//! can be reached is unknown. A machine of small steps, whose state can be looked at after each.
+
+use std::sync::Arc;
+
+use super::free_space::FreeSpace;
+use super::frontiers::{Frontier, frontiers};
+use super::odometry::OdometryNoise;
+use super::rooms::{FoundRooms, RoomOptions, find_rooms};
+use super::route::Routes;
+use super::scanner::{Scanner, back_to_back};
+use super::{Mapper, MapperOptions, Pose, RayGrid, Scan, World};
+use crate::base::random::{Random, seed_of_part};
+use crate::geometry::{Point, Segment, polygon};
+
+/// The robot and how it explores.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotOptions {
+    /// Half its width, in metres: it is taken for round.
+    pub radius_m: f64,
+    /// It passes doorways that leave so much room on both sides, in metres.
+    pub margin_m: f64,
+    /// It drives at most so far between two looks, in metres.
+    pub step_m: f64,
+    /// It turns at most so far between two looks.
+    pub turn_rad: f64,
+    pub scanners: Vec<Scanner>,
+    pub odometry: OdometryNoise,
+    pub seed: u64,
+}
+
+impl Default for RobotOptions {
+    /// A Pioneer 3-AT with two SICK LMS 200 back to back (paper, section 3.3).
+    ///
+    /// It is 0.508 m long and 0.497 m wide (Adept MobileRobots, Pioneer 3-AT data sheet, 2011): half of
+    /// that is 0.25 m; with 0.05 m on each side it passes doorways of 0.6 m. At its usual 0.4 m/s and two scans a second it looks every 0.2 m; between two
+    /// looks it turns by 20 degrees at most.
+    fn default() -> Self {
+        Self {
+            radius_m: 0.25,
+            margin_m: 0.05,
+            step_m: 0.2,
+            turn_rad: 20.0_f64.to_radians(),
+            scanners: back_to_back(Scanner::lms200).to_vec(),
+            odometry: OdometryNoise::default(),
+            seed: 1,
+        }
+    }
+}
+
+impl RobotOptions {
+    /// The same without any error of scanners and odometry.
+    #[must_use]
+    pub fn exact(self) -> Self {
+        let scanners = self.scanners.into_iter().map(Scanner::exact).collect();
+        Self { scanners, odometry: OdometryNoise::NONE, ..self }
+    }
+}
+
+/// What was seen is added to the free space after so many metres, or that much of a turn.
+const LOOK_M: f64 = 0.4;
+const LOOK_RAD: f64 = 0.8;
+
+/// A frontier is looked at from within so many metres.
+const VIEW_M: f64 = 1.2;
+
+/// Places to look from are tried so many metres apart.
+const VIEW_SPACING_M: f64 = 0.15;
+
+/// What a metre of distance from a frontier costs, in metres of way; on the second try more, so that the
+/// robot goes as close as it can.
+const PER_METRE: [f64; 2] = [1.0, 8.0];
+
+/// A long frontier is worth a detour: so many metres of way for each metre of it.
+const PER_FRONTIER_METRE: f64 = 0.5;
+
+/// Longer frontiers are worth no more, in metres.
+const LONGEST_WORTH_M: f64 = 3.0;
+
+/// Frontiers whose middles are closer than this, in metres, are one and the same.
+const SAME_M: f64 = 0.5;
+
+/// A frontier is given up after so many visits; one that showed nothing new counts twice.
+const VISITS: usize = 6;
+
+/// A visit showed something where the known floor grew by so many m².
+const NEWS_M2: f64 = 0.3;
+
+/// Each look at the same frontier is from another place, at least so far away in metres.
+const OTHER_PLACE_M: f64 = 0.3;
+
+/// After so many collisions on the way to one goal it is given up.
+const BUMPS: usize = 3;
+
+/// A place of the way is reached within so many metres: no corner is cut by more.
+const AT_PLACE_M: f64 = 0.06;
+
+/// The free space is laid out anew where a place has moved by so many metres, a turn counted as what it moves
+/// at the distance of a room's wall.
+const MOVED_M: f64 = 0.05;
+const LEVER_M: f64 = 3.0;
+
+/// How far the robot backs off after a collision, in metres.
+const BACK_OFF_M: f64 = 0.15;
+
+/// No exploration takes longer, in steps; said where one does. A school of 60 rooms takes some 5,000.
+const STEPS_LIMIT: usize = 100_000;
+
+/// What the robot is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Activity {
+    /// It is about to choose a frontier.
+    Choosing,
+    /// It drives to a frontier.
+    Driving,
+    /// It drove into something and backs off.
+    BackingOff,
+    /// Nothing that can be reached is unknown.
+    Finished,
+    /// It gave up after a bounded number of steps.
+    GaveUp,
+}
+
+/// Where the robot heads for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Goal {
+    /// Where it will look from.
+    pub place: Point,
+    /// The frontier it will look at.
+    pub frontier: Frontier,
+    /// The way there that is still ahead.
+    pub way: Vec<Point>,
+    bumps: usize,
+    /// How much floor was known when it was chosen, in m².
+    known_m2: f64,
+}
+
+/// What was seen from one place.
+#[derive(Clone, Debug)]
+struct Look {
+    /// Index of the step.
+    step: usize,
+    /// Where the free space has it.
+    pose: Pose,
+    scans: Vec<Scan>,
+}
+
+/// A frontier that was visited and was still there.
+#[derive(Clone, Debug)]
+struct Visited {
+    middle: Point,
+    visits: usize,
+    places: Vec<Point>,
+}
+
+/// An exploration under way. The map's frame is that of the robot's first pose.
+pub struct Exploration {
+    world: Arc<World>,
+    options: RobotOptions,
+    random: Random,
+    /// Where the robot started, in the world's frame.
+    pub world_from_map: Pose,
+    /// Where the robot really is, in the world's frame.
+    pub true_pose: Pose,
+    /// Where its odometry alone puts it, in the map's frame.
+    pub odometry: Pose,
+    /// Where it believes to be, in the map's frame.
+    pub pose: Pose,
+    /// The last scans.
+    pub scans: Vec<Scan>,
+    mapper: Mapper,
+    /// What went into the free space.
+    looks: Vec<Look>,
+    closures: usize,
+    pub free: FreeSpace,
+    pub goal: Option<Goal>,
+    pub activity: Activity,
+    /// All true poses so far, in the world's frame, and the estimated and the odometry's in the map's.
+    pub path: Vec<PathStep>,
+    visited: Vec<Visited>,
+    looked_at: Pose,
+    collisions: usize,
+    has_new_look: bool,
+}
+
+/// The poses after a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathStep {
+    /// In the world's frame.
+    pub true_pose: Pose,
+    /// In the map's frame.
+    pub estimate: Pose,
+    /// In the map's frame.
+    pub odometry: Pose,
+}
+
+impl Exploration {
+    /// A robot that has just been put down and has looked around once.
+    pub fn new(world: Arc<World>, start: Pose, options: RobotOptions) -> Self {
+        let random = Random::new(seed_of_part(options.seed, 7));
+        let mut exploration = Self {
+            world,
+            options,
+            random,
+            world_from_map: start,
+            true_pose: start,
+            odometry: Pose::IDENTITY,
+            pose: Pose::IDENTITY,
+            scans: Vec::new(),
+            mapper: Mapper::new(MapperOptions::default()),
+            looks: Vec::new(),
+            closures: 0,
+            free: FreeSpace::default(),
+            goal: None,
+            activity: Activity::Choosing,
+            path: Vec::new(),
+            visited: Vec::new(),
+            looked_at: Pose::IDENTITY,
+            collisions: 0,
+            has_new_look: false,
+        };
+        exploration.sense();
+        exploration.look();
+        exploration
+    }
+
+    /// The world it drives through.
+    pub fn world(&self) -> &Arc<World> {
+        &self.world
+    }
+
+    pub fn options(&self) -> &RobotOptions {
+        &self.options
+    }
+
+    /// Whether it has come to its end.
+    pub fn is_over(&self) -> bool {
+        matches!(self.activity, Activity::Finished | Activity::GaveUp)
+    }
+
+    /// How often the robot drove into something.
+    pub fn collisions(&self) -> usize {
+        self.collisions
+    }
+
+    /// Whether the last step added to the free space.
+    pub fn has_new_look(&self) -> bool {
+        self.has_new_look
+    }
+
+    /// The frontiers of what is known so far, those visited in vain included.
+    pub fn frontiers(&self) -> Vec<Frontier> {
+        frontiers(&self.free)
+    }
+
+    /// The segments of the line map so far, in the map's frame.
+    pub fn segments(&self) -> Vec<Segment> {
+        self.mapper.map().lines().map(|line| line.line.segment()).collect()
+    }
+
+    /// The rooms of what is known so far, in the map's frame.
+    pub fn rooms(&self, options: &RoomOptions) -> FoundRooms {
+        find_rooms(&self.segments(), self.free.shapes(), options)
+    }
+
+    /// The estimated poses after each step as they are best known now, in the map's frame.
+    pub fn poses(&self) -> Vec<Pose> {
+        self.mapper.poses()
+    }
+
+    /// One small step: a choice, a turn, or some centimetres of driving with a look around.
+    pub fn step(&mut self) -> Activity {
+        self.has_new_look = false;
+        if self.is_over() {
+            return self.activity;
+        }
+        if self.path.len() >= STEPS_LIMIT {
+            self.activity = Activity::GaveUp;
+            return self.activity;
+        }
+        match self.activity {
+            Activity::BackingOff => {
+                self.drive(Pose::new(-BACK_OFF_M, 0.0, 0.0));
+                self.replan();
+            }
+            _ if self.goal.is_none() => self.choose(),
+            _ => self.follow(),
+        }
+        self.activity
+    }
+
+    /// Drives to the end.
+    pub fn run(&mut self) -> Activity {
+        while !self.is_over() {
+            self.step();
+        }
+        self.activity
+    }
+
+    /// For how large a robot ways are planned, in metres of radius: with all of the margin first; where none
+    /// leads anywhere, with little. The free space ends some centimetres before the walls.
+    fn planned_radii_m(&self) -> [f64; 2] {
+        [self.options.radius_m + self.options.margin_m, self.options.radius_m + 0.2 * self.options.margin_m]
+    }
+
+    fn visits(&self, frontier: &Frontier) -> usize {
+        let same = self.visited.iter().filter(|visited| visited.middle.distance(frontier.middle) < SAME_M);
+        same.map(|visited| visited.visits).max().unwrap_or(0)
+    }
+
+    /// Whether a frontier was looked at from about this place before.
+    fn was_seen_from(&self, frontier: &Frontier, place: Point) -> bool {
+        let same = self.visited.iter().filter(|visited| visited.middle.distance(frontier.middle) < SAME_M);
+        same.flat_map(|visited| &visited.places).any(|before| before.distance(place) < OTHER_PLACE_M)
+    }
+
+    /// Chooses the frontier that costs least, or ends.
+    fn choose(&mut self) {
+        let open: Vec<(Frontier, usize)> = self
+            .frontiers()
+            .into_iter()
+            .map(|frontier| {
+                let visits = self.visits(&frontier);
+                (frontier, visits)
+            })
+            .filter(|(_, visits)| *visits < VISITS)
+            .collect();
+        self.goal = self.planned_radii_m().into_iter().find_map(|radius_m| self.cheapest(&open, radius_m));
+        self.activity = if self.goal.is_some() { Activity::Driving } else { Activity::Finished };
+        if self.goal.is_none() {
+            self.mapper.finish();
+            self.settle();
+        }
+    }
+
+    fn cheapest(&self, open: &[(Frontier, usize)], radius_m: f64) -> Option<Goal> {
+        if open.is_empty() {
+            return None;
+        }
+        let mut routes = Routes::new(self.free.shapes(), self.pose.position());
+        let edges = self.free.shapes().iter().flatten().map(crate::geometry::areas::points);
+        let edges: Vec<Segment> = edges.flat_map(|ring| polygon::edges(&ring).collect::<Vec<_>>()).collect();
+        let grid = RayGrid::new(edges);
+        // What looking from a cell costs beyond the way there, at least.
+        let mut views: Vec<(usize, usize, f64)> = Vec::new();
+        for (index, (frontier, visits)) in open.iter().enumerate() {
+            let worth = PER_FRONTIER_METRE * frontier.length_m.min(LONGEST_WORTH_M);
+            let seen = frontier.middle - frontier.outward * 0.05;
+            for cell in routes.cells_near(frontier.middle, VIEW_M, VIEW_SPACING_M, radius_m) {
+                let from = routes.centre(cell);
+                if !grid.blocks(from, seen) && (*visits == 0 || !self.was_seen_from(frontier, from)) {
+                    let extra = PER_METRE[(*visits).min(1)] * from.distance(frontier.middle) - worth;
+                    views.push((cell, index, extra));
+                }
+            }
+        }
+        views.sort_by(|p, q| p.0.cmp(&q.0).then(p.2.total_cmp(&q.2)).then(p.1.cmp(&q.1)));
+        let least_extra = views.iter().map(|view| view.2).fold(f64::INFINITY, f64::min);
+        let mut best: Option<(f64, usize, usize)> = None;
+        routes.spread(self.pose.position(), radius_m, |cell, cost| {
+            if best.is_some_and(|(found, _, _)| cost + least_extra >= found) {
+                return true;
+            }
+            let first = views.partition_point(|view| view.0 < cell);
+            if let Some(&(at, index, extra)) = views.get(first)
+                && at == cell
+                && best.is_none_or(|(found, _, _)| cost + extra < found)
+            {
+                best = Some((cost + extra, cell, index));
+            }
+            false
+        });
+        let (_, cell, index) = best?;
+        let place = routes.centre(cell);
+        Some(Goal {
+            place,
+            frontier: open[index].0.clone(),
+            way: routes.way(place),
+            bumps: 0,
+            known_m2: self.known_m2(),
+        })
+    }
+
+    /// Plans the way to the goal again, from where the robot is now.
+    fn replan(&mut self) {
+        self.activity = Activity::Driving;
+        let [_, radius_m] = self.planned_radii_m();
+        let Some(goal) = &mut self.goal else { return };
+        let mut routes = Routes::new(self.free.shapes(), self.pose.position());
+        let place = goal.place;
+        let to = routes.cells_near(place, 0.2, 0.01, 0.0);
+        routes.spread(self.pose.position(), radius_m, |cell, _| to.contains(&cell));
+        let reached = to.into_iter().filter(|&cell| routes.cost(routes.centre(cell)).is_some());
+        let nearest =
+            reached.min_by(|&p, &q| routes.centre(p).distance(place).total_cmp(&routes.centre(q).distance(place)));
+        goal.way = nearest.map(|cell| routes.way(routes.centre(cell))).unwrap_or_default();
+        if goal.way.is_empty() {
+            self.leave_goal(true);
+        }
+    }
+
+    fn known_m2(&self) -> f64 {
+        crate::geometry::areas::area_m2(self.free.shapes())
+    }
+
+    /// Gives up the goal, or has reached it; `in_vain`: what it looked at is remembered.
+    fn leave_goal(&mut self, in_vain: bool) {
+        if let Some(goal) = self.goal.take()
+            && in_vain
+        {
+            let middle = goal.frontier.middle;
+            let news = self.known_m2() - goal.known_m2 > NEWS_M2;
+            let visits = self.visits(&goal.frontier) + if news { 1 } else { 2 };
+            match self.visited.iter_mut().find(|visited| visited.middle.distance(middle) < SAME_M / 2.0) {
+                Some(visited) => {
+                    visited.visits = visits;
+                    visited.places.push(goal.place);
+                }
+                None => self.visited.push(Visited { middle, visits, places: vec![goal.place] }),
+            }
+        }
+        self.activity = Activity::Choosing;
+    }
+
+    /// Drives along the way to the goal.
+    fn follow(&mut self) {
+        let here = self.pose.position();
+        let near_m = AT_PLACE_M;
+        let Some(goal) = &mut self.goal else { return };
+        while goal.way.len() > 1 && goal.way[0].distance(here) < near_m {
+            goal.way.remove(0);
+        }
+        let Some(&next) = goal.way.first() else { return self.leave_goal(true) };
+        let is_last = goal.way.len() == 1;
+        if is_last && next.distance(here) < near_m {
+            self.look();
+            // What is still there after a look cannot be seen through.
+            return self.leave_goal(true);
+        }
+        let to = self.pose.between(Pose::new(next.x, next.y, 0.0));
+        let bearing_rad = to.y_m.atan2(to.x_m);
+        if bearing_rad.abs() > self.options.turn_rad {
+            let turn_rad = bearing_rad.clamp(-self.options.turn_rad, self.options.turn_rad);
+            self.drive(Pose::new(0.0, 0.0, turn_rad));
+        } else {
+            let ahead_m = self.options.step_m.min(to.x_m.hypot(to.y_m));
+            let (sin, cos) = bearing_rad.sin_cos();
+            let is_free = self.drive(Pose::new(ahead_m * cos, ahead_m * sin, bearing_rad));
+            if !is_free {
+                self.bump();
+                return;
+            }
+        }
+        if self.is_look_due() {
+            self.look();
+            self.reconsider();
+        }
+    }
+
+    /// After a collision.
+    fn bump(&mut self) {
+        self.collisions += 1;
+        self.look();
+        let Some(goal) = &mut self.goal else { return };
+        goal.bumps += 1;
+        if goal.bumps >= BUMPS {
+            self.leave_goal(true);
+        }
+        self.activity = Activity::BackingOff;
+    }
+
+    /// Drops a goal whose frontier is gone: it was seen on the way.
+    fn reconsider(&mut self) {
+        let Some(goal) = &self.goal else { return };
+        let middle = goal.frontier.middle;
+        let is_there = self.frontiers().iter().any(|frontier| {
+            frontier.middle.distance(middle) < SAME_M || frontier.line.iter().any(|p| p.distance(middle) < SAME_M / 2.0)
+        });
+        if !is_there {
+            self.leave_goal(false);
+        }
+    }
+
+    fn is_look_due(&self) -> bool {
+        let moved = self.looked_at.between(self.pose);
+        moved.x_m.hypot(moved.y_m) >= LOOK_M || moved.heading_rad.abs() >= LOOK_RAD
+    }
+
+    /// Adds what is seen from here to the free space.
+    fn look(&mut self) {
+        self.free.add(self.pose, &self.scans);
+        self.looks.push(Look { step: self.path.len() - 1, pose: self.pose, scans: self.scans.clone() });
+        if self.mapper.closures().0 != self.closures {
+            self.settle();
+        }
+        self.looked_at = self.pose;
+        self.has_new_look = true;
+    }
+
+    /// Lays out the free space anew where a closed loop has moved the path.
+    fn settle(&mut self) {
+        self.closures = self.mapper.closures().0;
+        let poses = self.mapper.poses();
+        let off_m = |look: &Look| {
+            let moved = look.pose.between(poses[look.step]);
+            moved.x_m.hypot(moved.y_m) + LEVER_M * moved.heading_rad.abs()
+        };
+        self.pose = poses.last().copied().unwrap_or_default();
+        if self.looks.iter().map(off_m).fold(0.0, f64::max) < MOVED_M {
+            return;
+        }
+        for look in &mut self.looks {
+            look.pose = poses[look.step];
+        }
+        self.free = FreeSpace::of(self.looks.iter().map(|look| (look.pose, look.scans.as_slice())));
+        if self.goal.is_some() {
+            self.replan();
+        }
+    }
+
+    /// Moves by what the odometry shall say, and looks. Whether nothing was in the way.
+    fn drive(&mut self, odometry: Pose) -> bool {
+        let mut odometry = odometry;
+        let mut done = self.options.odometry.sample(odometry, &mut self.random);
+        let free = self.free_share(self.true_pose, self.true_pose.compose(done));
+        if free < 1.0 {
+            // It stops where it touches something; its wheels do not turn on.
+            let stopped = |way: Pose| Pose::new(way.x_m * free, way.y_m * free, way.heading_rad);
+            (odometry, done) = (stopped(odometry), stopped(done));
+        }
+        self.true_pose = self.true_pose.compose(done);
+        self.odometry = self.odometry.compose(odometry);
+        self.sense();
+        free > 0.0
+    }
+
+    /// How much of a straight way, 0..=1, the robot can drive before it touches something. Where it touches
+    /// something already, it may move away.
+    fn free_share(&self, from: Pose, to: Pose) -> f64 {
+        let radius_m = self.options.radius_m;
+        let clear = |at: Point| self.world.obstacles().distance_m(at, radius_m);
+        let at = |place: f64| from.position().lerp(to.position(), place);
+        let now_m = clear(at(0.0));
+        let mut share = 0.0;
+        for place in [0.25, 0.5, 0.75, 1.0] {
+            let there_m = clear(at(place));
+            if (there_m < radius_m && there_m <= now_m) || self.world.obstacles().blocks(at(share), at(place)) {
+                return share;
+            }
+            share = place;
+        }
+        share
+    }
+
+    /// Scans, and estimates where the robot is.
+    fn sense(&mut self) {
+        let (world, pose, random) = (&self.world, self.true_pose, &mut self.random);
+        self.scans = self.options.scanners.iter().map(|scanner| scanner.scan(world, pose, random)).collect();
+        self.pose = self.mapper.add(self.odometry, &self.scans);
+        self.path.push(PathStep { true_pose: self.true_pose, estimate: self.pose, odometry: self.odometry });
+    }
+}

@@ -1,0 +1,395 @@
+//! Maps as the `map_server` of ROS keeps them: a YAML file that describes, and a picture that shows,
+//! from bytes and into bytes. Format: wiki.ros.org/map_server and `nav2_map_server` (map_io.cpp).
+
+use std::io::Cursor;
+
+use image::{ImageDecoder as _, ImageReader, Limits};
+use serde::Deserialize;
+
+use super::Pose;
+use super::grid_map::{Cell, GridMap, GridMapError};
+
+/// What a map's YAML file says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapDescription {
+    /// The picture's file, beside the YAML file.
+    pub image: String,
+    /// Side of a pixel in metres.
+    pub resolution_m: f64,
+    /// The pose of the picture's lower left corner in the map's frame.
+    pub origin: Pose,
+    pub reading: PictureReading,
+}
+
+/// How pixels become cells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PictureReading {
+    /// What is more probably taken than this is taken, 0..=1.
+    pub occupied_thresh: f64,
+    /// What is less probably taken than this is free, 0..=1.
+    pub free_thresh: f64,
+    /// Light pixels are taken, dark ones free.
+    pub negate: bool,
+    pub mode: MapMode,
+}
+
+impl PictureReading {
+    /// What `map_server` writes and reads where nothing else is said.
+    pub const MAP_SERVER: Self =
+        Self { occupied_thresh: 0.65, free_thresh: 0.196, negate: false, mode: MapMode::Trinary };
+
+    /// For plain pictures: white is free, and nothing else. Furniture and unknown space are often drawn in
+    /// light greys that `map_server` would take for free.
+    pub const PLAIN_PICTURE: Self = Self { free_thresh: 0.02, ..Self::MAP_SERVER };
+}
+
+/// How probabilities between the thresholds are taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum MapMode {
+    /// They are unknown.
+    #[default]
+    Trinary,
+    /// As trinary, and pixels that are not opaque are unknown.
+    Scale,
+    /// Pixels are percentages, 0 to 100; others are unknown.
+    Raw,
+}
+
+/// Why a map cannot be read: what is wrong, and what to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MapServerError(pub String);
+
+impl std::fmt::Display for MapServerError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for MapServerError {}
+
+impl From<GridMapError> for MapServerError {
+    fn from(error: GridMapError) -> Self {
+        Self(error.to_string())
+    }
+}
+
+fn wrong<T>(what: impl Into<String>) -> Result<T, MapServerError> {
+    Err(MapServerError(what.into()))
+}
+
+/// A map's YAML file has a dozen lines; a larger one than this many bytes is another file.
+pub const LARGEST_DESCRIPTION_BYTES: usize = 1 << 20;
+
+/// The file as it is written. Keys that are not known are left alone, as `map_server` does.
+#[derive(Deserialize)]
+struct Keys {
+    image: String,
+    resolution: f64,
+    origin: Vec<f64>,
+    occupied_thresh: Option<f64>,
+    free_thresh: Option<f64>,
+    negate: Option<Flag>,
+    mode: Option<MapMode>,
+}
+
+/// 0 and 1 are usual; newer files say true and false.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Flag {
+    Bool(bool),
+    Number(i64),
+}
+
+/// Reads a map's YAML file.
+///
+/// # Errors
+/// When it is no YAML, a key is missing or out of range, or the picture it names is not in its folder.
+pub fn description(text: &str) -> Result<MapDescription, MapServerError> {
+    if text.len() > LARGEST_DESCRIPTION_BYTES {
+        return wrong("this is too large for the YAML file of a map; is it another file?");
+    }
+    let keys: Keys = serde_saphyr::from_str(text).map_err(|error| {
+        let error = error.to_string();
+        let first = error.lines().next().unwrap_or_default().trim_start_matches("error: ");
+        MapServerError(format!("no map of map_server: {first}; the file must give image, resolution and origin"))
+    })?;
+    let standard = PictureReading::MAP_SERVER;
+    let reading = PictureReading {
+        occupied_thresh: keys.occupied_thresh.unwrap_or(standard.occupied_thresh),
+        free_thresh: keys.free_thresh.unwrap_or(standard.free_thresh),
+        negate: match keys.negate {
+            None => false,
+            Some(Flag::Bool(negate)) => negate,
+            Some(Flag::Number(number @ (0 | 1))) => number == 1,
+            Some(Flag::Number(number)) => return wrong(format!("negate is {number}; it can be 0 or 1")),
+        },
+        mode: keys.mode.unwrap_or_default(),
+    };
+    reading.check()?;
+    let (x, y, yaw) = match keys.origin.as_slice() {
+        &[x, y] => (x, y, 0.0),
+        &[x, y, yaw] => (x, y, yaw),
+        other => return wrong(format!("the origin has {} numbers; it must be [x, y, yaw]", other.len())),
+    };
+    check_is_beside(&keys.image)?;
+    let origin = Pose::new(x, y, yaw);
+    // Resolution and origin are checked before the picture is looked for.
+    GridMap::new(1, 1, keys.resolution, origin, vec![Cell::Unknown])?;
+    Ok(MapDescription { image: keys.image, resolution_m: keys.resolution, origin, reading })
+}
+
+impl PictureReading {
+    /// # Errors
+    /// When the thresholds are not in order within 0..=1.
+    pub fn check(&self) -> Result<(), MapServerError> {
+        let (free, occupied) = (self.free_thresh, self.occupied_thresh);
+        if 0.0 <= free && free < occupied && occupied <= 1.0 {
+            return Ok(());
+        }
+        wrong(format!(
+            "free_thresh {free} and occupied_thresh {occupied} are not possible; they must be between 0 and 1, free_thresh the smaller"
+        ))
+    }
+}
+
+/// A picture must be in the folder of the file that names it, or below: a map from elsewhere cannot make
+/// us read other files.
+fn check_is_beside(image: &str) -> Result<(), MapServerError> {
+    use std::path::{Component, Path};
+    let is_plain = |component| matches!(component, Component::Normal(_) | Component::CurDir);
+    let leaves = image.contains('\\') || image.contains('\0') || !Path::new(image).components().all(is_plain);
+    if image.trim().is_empty() {
+        return wrong("image names no file; give the picture's name");
+    }
+    if leaves {
+        return wrong(format!(
+            "the picture '{image}' is not in the map's folder; put it beside the YAML file and name it without folders"
+        ));
+    }
+    Ok(())
+}
+
+/// Decoders may take so many bytes: the most cells in four channels of 16 bits.
+const DECODER_BYTES: u64 = super::grid_map::MOST_CELLS as u64 * 8;
+
+/// Reads a map's picture: PGM (P2 or P5), PNG, or another known format.
+///
+/// # Errors
+/// When it is no such picture, is cut short, or has too many pixels.
+pub fn picture_cells(bytes: &[u8], reading: PictureReading) -> Result<(usize, usize, Vec<Cell>), MapServerError> {
+    reading.check()?;
+    let no_picture = |error: image::ImageError| {
+        MapServerError(format!("no picture that can be read: {error}; a map's picture is a PGM or PNG file"))
+    };
+    let mut reader = match ImageReader::new(Cursor::new(bytes)).with_guessed_format() {
+        Ok(reader) => reader,
+        Err(error) => return wrong(error.to_string()),
+    };
+    if reader.format().is_none() {
+        return wrong("no picture of a known format; a map's picture is a PGM or PNG file");
+    }
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(DECODER_BYTES);
+    reader.limits(limits);
+    let decoder = reader.into_decoder().map_err(no_picture)?;
+    let (width, height) = decoder.dimensions();
+    let (width, height) = (width as usize, height as usize);
+    GridMap::check_size(width, height)?;
+    let picture = image::DynamicImage::from_decoder(decoder).map_err(no_picture)?;
+    let has_alpha = picture.color().has_alpha();
+    let cells = if picture.color().has_color() || has_alpha {
+        let pixels = picture.into_rgba8();
+        pixels
+            .pixels()
+            .map(|pixel| {
+                let [red, green, blue, alpha] = pixel.0;
+                // The mean of the channels, as map_server takes it.
+                let shade = (f64::from(red) + f64::from(green) + f64::from(blue)) / (3.0 * 255.0);
+                cell(shade, alpha == u8::MAX, reading)
+            })
+            .collect()
+    } else {
+        // One lookup a shade: most maps are grey with 8 bits.
+        let of_shade: Vec<Cell> = (0..=u8::MAX).map(|shade| cell(f64::from(shade) / 255.0, true, reading)).collect();
+        picture.into_luma8().into_raw().into_iter().map(|shade| of_shade[usize::from(shade)]).collect()
+    };
+    Ok((width, height, cells))
+}
+
+/// `shade`: 0 black to 1 white.
+fn cell(shade: f64, is_opaque: bool, reading: PictureReading) -> Cell {
+    let taken = match reading.mode {
+        MapMode::Trinary => None,
+        MapMode::Scale if !is_opaque => return Cell::Unknown,
+        MapMode::Scale => None,
+        MapMode::Raw => match (shade * 255.0).round() {
+            percent if percent <= 100.0 => Some(percent / 100.0),
+            _ => return Cell::Unknown,
+        },
+    };
+    let taken = taken.unwrap_or(if reading.negate { shade } else { 1.0 - shade });
+    if taken > reading.occupied_thresh {
+        Cell::Occupied
+    } else if taken < reading.free_thresh {
+        Cell::Free
+    } else {
+        Cell::Unknown
+    }
+}
+
+/// A map's picture as `map_server` writes it: PGM (P5), free 254, taken 0, unknown 205.
+pub fn pgm(map: &GridMap) -> Vec<u8> {
+    let mut bytes = format!("P5\n{} {}\n255\n", map.width(), map.height()).into_bytes();
+    bytes.extend(map.cells().iter().map(|cell| match cell {
+        Cell::Free => 254u8,
+        Cell::Occupied => 0,
+        Cell::Unknown => 205,
+    }));
+    bytes
+}
+
+/// The YAML file to go with [`pgm`]. `semantics` is the file that says what the rooms are; `map_server`
+/// leaves that key alone.
+pub fn yaml(map: &GridMap, image: &str, semantics: &str) -> Result<String, MapServerError> {
+    #[derive(serde::Serialize)]
+    struct Written<'a> {
+        image: &'a str,
+        mode: &'a str,
+        resolution: f64,
+        origin: [f64; 3],
+        negate: u8,
+        occupied_thresh: f64,
+        free_thresh: f64,
+        semantics: &'a str,
+    }
+    let reading = PictureReading::MAP_SERVER;
+    let origin = map.map_from_grid;
+    let written = Written {
+        image,
+        mode: "trinary",
+        resolution: map.resolution_m,
+        origin: [origin.x_m, origin.y_m, origin.heading_rad],
+        negate: 0,
+        occupied_thresh: reading.occupied_thresh,
+        free_thresh: reading.free_thresh,
+        semantics,
+    };
+    serde_saphyr::to_string(&written).map_err(|error| MapServerError(error.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    const YAML: &str = "image: floor.pgm\nresolution: 0.05\norigin: [-10.0, -2.5, 0.1]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\nmode: scale\n";
+
+    #[test]
+    fn all_keys_are_read() {
+        let read = description(YAML).unwrap();
+        assert_eq!(read.image, "floor.pgm");
+        assert_eq!(read.origin, Pose::new(-10.0, -2.5, 0.1));
+        let reading = PictureReading { occupied_thresh: 0.65, free_thresh: 0.25, negate: false, mode: MapMode::Scale };
+        assert_eq!(read.reading, reading);
+    }
+
+    #[test]
+    fn what_a_map_cannot_be_is_refused_with_the_reason() {
+        let said = |change: (&str, &str)| description(&YAML.replace(change.0, change.1)).unwrap_err().0;
+        for (change, word) in [
+            (("image: floor.pgm\n", ""), "image"),
+            (("floor.pgm", "../secret.pgm"), "folder"),
+            (("floor.pgm", "/etc/passwd"), "folder"),
+            (("floor.pgm", "a/../../b.pgm"), "folder"),
+            (("floor.pgm", "''"), "no file"),
+            (("resolution: 0.05", "resolution: 0"), "resolution"),
+            (("resolution: 0.05", "resolution: .nan"), "resolution"),
+            (("resolution: 0.05", "resolution: wide"), "no map"),
+            (("[-10.0, -2.5, 0.1]", "[-10.0]"), "origin"),
+            (("[-10.0, -2.5, 0.1]", "[.inf, 0, 0]"), "origin"),
+            (("[-10.0, -2.5, 0.1]", "[0, 0, 0, 0]"), "origin"),
+            (("free_thresh: 0.25", "free_thresh: 0.9"), "free_thresh"),
+            (("negate: 0", "negate: 7"), "negate"),
+            (("mode: scale", "mode: fancy"), "no map"),
+        ] {
+            assert!(said(change).contains(word), "{change:?}: {}", said(change));
+        }
+        assert!(description("").is_err() && description("[1, 2]").is_err() && description("\0").is_err());
+        assert!(description(&"#".repeat(LARGEST_DESCRIPTION_BYTES + 1)).unwrap_err().0.contains("too large"));
+    }
+
+    #[test]
+    fn both_kinds_of_pgm_give_the_same_cells() {
+        let plain = b"P2\n# a comment\n3 1\n255\n254 0 205\n";
+        let raw = b"P5\n3 1\n255\n\xfe\x00\xcd";
+        let cells = vec![Cell::Free, Cell::Occupied, Cell::Unknown];
+        for bytes in [&plain[..], &raw[..]] {
+            assert_eq!(picture_cells(bytes, PictureReading::MAP_SERVER).unwrap(), (3, 1, cells.clone()));
+        }
+    }
+
+    #[test]
+    fn modes_and_negation_are_those_of_map_server() {
+        let of = |shade: u8, reading| cell(f64::from(shade) / 255.0, true, reading);
+        let standard = PictureReading::MAP_SERVER;
+        let negated = PictureReading { negate: true, ..standard };
+        assert_eq!((of(254, standard), of(254, negated)), (Cell::Free, Cell::Occupied));
+        let raw = PictureReading { mode: MapMode::Raw, ..standard };
+        assert_eq!(
+            [0, 50, 100, 205].map(|shade| of(shade, raw)),
+            [Cell::Free, Cell::Unknown, Cell::Occupied, Cell::Unknown]
+        );
+        let scale = PictureReading { mode: MapMode::Scale, ..standard };
+        assert_eq!(cell(1.0, false, scale), Cell::Unknown);
+        assert_eq!(cell(1.0, true, scale), Cell::Free);
+    }
+
+    #[test]
+    fn a_huge_picture_is_refused_before_it_is_read() {
+        let error = picture_cells(b"P5\n20000 20000\n255\n\x00", PictureReading::MAP_SERVER).unwrap_err();
+        assert!(error.0.contains("20000 x 20000"), "{error}");
+    }
+
+    #[test]
+    fn what_is_written_is_read_again() {
+        let cells = vec![Cell::Free, Cell::Occupied, Cell::Unknown, Cell::Free, Cell::Free, Cell::Unknown];
+        let map = GridMap::new(3, 2, 0.05, Pose::new(-1.5, 2.0, 0.25), cells).unwrap();
+        let read = description(&yaml(&map, "a b.pgm", "a b_semantics.yaml").unwrap()).unwrap();
+        assert_eq!((read.image.as_str(), read.resolution_m, read.origin), ("a b.pgm", 0.05, map.map_from_grid));
+        let (width, height, cells) = picture_cells(&pgm(&map), read.reading).unwrap();
+        assert_eq!((width, height, cells.as_slice()), (3, 2, map.cells()));
+    }
+
+    proptest! {
+        // Mutations of sound files: an answer or an error, never a panic.
+        #[test]
+        fn changed_bytes_never_panic(
+            changes in proptest::collection::vec((0usize..400, any::<u8>()), 1..12), cut in 0usize..400,
+        ) {
+            let map = GridMap::new(16, 8, 0.05, Pose::IDENTITY, vec![Cell::Free; 128]).unwrap();
+            let mut png = Vec::new();
+            image::GrayImage::from_pixel(9, 7, image::Luma([254]))
+                .write_to(&mut Cursor::new(&mut png), image::ImageFormat::Png)
+                .unwrap();
+            let plain = b"P2\n4 2\n255\n254 0 205 254\n254 0 205 254\n".to_vec();
+            for mut bytes in [YAML.as_bytes().to_vec(), pgm(&map), plain, png] {
+                for &(at, byte) in &changes {
+                    let at = at % bytes.len();
+                    bytes[at] = byte;
+                }
+                bytes.truncate(if cut < bytes.len() / 2 { bytes.len() } else { cut });
+                if let Ok(read) = description(&String::from_utf8_lossy(&bytes)) {
+                    prop_assert!(read.resolution_m.is_finite() && !read.image.contains(".."));
+                }
+                for mode in [MapMode::Trinary, MapMode::Scale, MapMode::Raw] {
+                    let reading = PictureReading { mode, ..PictureReading::MAP_SERVER };
+                    if let Ok((width, height, cells)) = picture_cells(&bytes, reading) {
+                        prop_assert_eq!(width * height, cells.len());
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,285 @@
+//! Rooms of a line map (paper, section 3.3): random points in the free space; points that see each other
+//! past walls and doorways are of one room.
+
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::float::single::SingleFloatOverlay as _;
+
+use super::RayGrid;
+use super::doorways::{Doorway, DoorwayOptions, Groups, doorways, is_inside, walls};
+use super::furniture::rectangle;
+use super::quadrilaterals::mean_quadrilateral_m2;
+use crate::base::random::Random;
+use crate::geometry::areas::{self, Ring, Shapes};
+use crate::geometry::runs::{self, Axes};
+use crate::geometry::{Bounds, Point, Segment, Vector, polygon};
+
+/// How rooms are found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RoomOptions {
+    pub doorways: DoorwayOptions,
+    /// Random points a square metre.
+    pub points_per_m2: f64,
+    /// What is smaller is no room, in m²: a niche, a leak beside a wall.
+    pub smallest_m2: f64,
+    pub seed: u64,
+}
+
+impl Default for RoomOptions {
+    fn default() -> Self {
+        Self { doorways: DoorwayOptions::default(), points_per_m2: 4.0, smallest_m2: 0.6, seed: 1 }
+    }
+}
+
+/// A room found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FoundRoom {
+    pub outer: Vec<Point>,
+    pub holes: Vec<Vec<Point>>,
+    /// `a`: the mean of the inner and the outer quadrilateral in m².
+    pub area_m2: f64,
+    /// `M` and `m`.
+    pub axes: Option<Axes>,
+    /// Indices of the random points within it.
+    pub points: Vec<usize>,
+}
+
+impl FoundRoom {
+    /// As an area.
+    pub fn shapes(&self) -> Shapes {
+        let holes = self.holes.iter().map(|hole| areas::directed(hole, false));
+        vec![std::iter::once(areas::directed(&self.outer, true)).chain(holes).collect()]
+    }
+}
+
+/// The rooms of a map and what they were found by.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FoundRooms {
+    /// For each segment of the map, the number of its wall; `None` where it is too short.
+    pub walls: Vec<Option<usize>>,
+    pub doorways: Vec<Doorway>,
+    /// The rooms on the left and the right of each doorway, by index.
+    pub sides: Vec<[Option<usize>; 2]>,
+    /// The random points.
+    pub points: Vec<Point>,
+    /// Pairs of points that see each other, by index: those that joined two sets.
+    pub sights: Vec<[usize; 2]>,
+    pub rooms: Vec<FoundRoom>,
+}
+
+/// The rooms of the line map `segments` in the free space `free`, the same for the same seed.
+pub fn find_rooms(segments: &[Segment], free: &Shapes, options: &RoomOptions) -> FoundRooms {
+    let boundary = RayGrid::new(edges(free));
+    let long: Vec<Segment> =
+        segments.iter().copied().filter(|segment| segment.length() >= options.doorways.shortest_m).collect();
+    let mut found = doorways(segments, &boundary, &options.doorways);
+    let walled = without_strips(free, &wall_strips(&long, &options.doorways));
+    // A doorway between a room and itself is none: without it the room may reach further, so look again.
+    let (pieces, sides) = loop {
+        let strips: Vec<Ring> = found.iter().map(doorway_strip).collect();
+        let pieces: Vec<Vec<Ring>> = without_strips(&walled, &strips);
+        let sides = sides_of(&found, &pieces);
+        let joins = |sides: &[Option<usize>; 2]| sides[0].is_some() && sides[1].is_some() && sides[0] != sides[1];
+        if !sides.iter().all(joins) {
+            let mut each = sides.iter();
+            found.retain(|_| each.next().is_some_and(joins));
+            continue;
+        }
+        // Two doorways with nothing but a doorstep between them are one: the narrower.
+        match between_two(&found, &sides, &pieces, options) {
+            Some(wider) => found.remove(wider),
+            None => break (pieces, sides),
+        };
+    };
+    let (points, sights, group_of) = scatter(&pieces, options);
+    let mut room_of_piece: Vec<Option<usize>> = vec![None; pieces.len()];
+    let mut rooms: Vec<FoundRoom> = Vec::new();
+    for (index, piece) in pieces.iter().enumerate() {
+        let within: Vec<usize> = (0..points.len()).filter(|&i| group_of[i] == index).collect();
+        let leads_somewhere = sides.iter().flatten().any(|&side| side == Some(index));
+        if within.is_empty() || !(leads_somewhere || found.is_empty()) {
+            continue;
+        }
+        if let Some(room) = room(piece, within, options) {
+            room_of_piece[index] = Some(rooms.len());
+            rooms.push(room);
+        }
+    }
+    let sides = sides.into_iter().map(|pair| pair.map(|side| room_of_piece[side?])).collect();
+    FoundRooms { walls: walls(segments, &options.doorways), doorways: found, sides, points, sights, rooms }
+}
+
+/// The edges of areas, which lie to their left.
+fn edges(shapes: &Shapes) -> Vec<Segment> {
+    shapes.iter().flatten().flat_map(|ring| polygon::edges(&areas::points(ring)).collect::<Vec<_>>()).collect()
+}
+
+fn without_strips(shapes: &Shapes, strips: &[Ring]) -> Shapes {
+    if strips.is_empty() {
+        return shapes.clone();
+    }
+    shapes.overlay(&strips.to_vec(), OverlayRule::Difference, FillRule::NonZero)
+}
+
+/// Walls cut the free space in strips of this width in metres.
+const STRIP_M: f64 = 0.02;
+
+/// The segments of walls as strips, and what closes gaps too narrow for a doorway: between the ends of
+/// segments, and up to the wall that an end points at.
+fn wall_strips(long: &[Segment], options: &DoorwayOptions) -> Vec<Ring> {
+    let grid = RayGrid::new(long.to_vec());
+    let mut strips: Vec<Ring> = Vec::new();
+    let strip = |segment: Segment| {
+        let along = segment.vector().unit()?;
+        Some(areas::ring(&rectangle(segment.midpoint(), along, segment.length() + STRIP_M, STRIP_M)))
+    };
+    for segment in long {
+        strips.extend(strip(*segment));
+        let Some(along) = segment.vector().unit() else { continue };
+        for (end, onward) in [(segment.b, along), (segment.a, -along)] {
+            let from = end + onward * 0.01;
+            if let Some(hit) = grid.cast(from, onward, options.narrowest_m) {
+                strips.extend(strip(Segment::new(end, from + onward * hit.distance_m)));
+            }
+        }
+    }
+    strips
+}
+
+/// What a doorway cuts out of the free space: the place of its door, from face to face.
+fn doorway_strip(doorway: &Doorway) -> Ring {
+    let along = doorway.segment.vector().unit().unwrap_or(Vector::new(1.0, 0.0));
+    let (length_m, depth_m) = (doorway.width_m + 2.0 * JAMB_M, doorway.depth_m + STRIP_M);
+    areas::ring(&rectangle(doorway.segment.midpoint(), along, length_m, depth_m))
+}
+
+/// A doorway's cut reaches so far into its jambs, in metres.
+const JAMB_M: f64 = 0.08;
+
+/// Which piece lies on the left and on the right of each doorway.
+fn sides_of(doorways: &[Doorway], pieces: &[Vec<Ring>]) -> Vec<[Option<usize>; 2]> {
+    let bounds: Vec<Bounds> = pieces.iter().map(|piece| piece_bounds(piece)).collect();
+    let piece_at = |point: Point| (0..pieces.len()).find(|&i| bounds[i].contains(point) && contains(&pieces[i], point));
+    let side = |doorway: &Doorway, across: Vector| {
+        let from_m = doorway.depth_m / 2.0 + STRIP_M;
+        // Past what is left of the door's place, and anything thin that stands in it.
+        (1..=6).find_map(|step| {
+            let at = doorway.segment.midpoint() + across * (from_m + f64::from(step) * 0.06);
+            piece_at(at).filter(|&i| area_m2(&pieces[i]) > 0.1)
+        })
+    };
+    doorways.iter().map(|doorway| [side(doorway, doorway.across()), side(doorway, -doorway.across())]).collect()
+}
+
+/// The widest doorway of a piece that has several and is too small for a room.
+fn between_two(
+    doorways: &[Doorway],
+    sides: &[[Option<usize>; 2]],
+    pieces: &[Vec<Ring>],
+    options: &RoomOptions,
+) -> Option<usize> {
+    let small = (0..pieces.len()).filter(|&piece| is_too_small(&pieces[piece], options));
+    small.into_iter().find_map(|piece| {
+        let leading: Vec<usize> = (0..doorways.len()).filter(|&i| sides[i].contains(&Some(piece))).collect();
+        let widest = leading.iter().copied().max_by(|&p, &q| doorways[p].width_m.total_cmp(&doorways[q].width_m));
+        widest.filter(|_| leading.len() > 1)
+    })
+}
+
+/// Whether a piece is no room, by its area without what is narrow.
+fn is_too_small(piece: &[Ring], options: &RoomOptions) -> bool {
+    area_m2(piece) < options.smallest_m2
+        || areas::area_m2(&areas::grown(&vec![piece.to_vec()], -2.0 * NARROW_M)) < options.smallest_m2 / 10.0
+}
+
+fn piece_bounds(piece: &[Ring]) -> Bounds {
+    Bounds::of(piece.iter().flatten().map(|&[x, y]| Point::new(x, y)))
+}
+
+fn area_m2(piece: &[Ring]) -> f64 {
+    piece.iter().map(|ring| polygon::signed_area(&areas::points(ring))).sum::<f64>().abs()
+}
+
+fn contains(piece: &[Ring], point: Point) -> bool {
+    let inside = |ring: &Ring| polygon::locate_in_ring(&areas::points(ring), point) == polygon::Location::Inside;
+    piece.split_first().is_some_and(|(outer, holes)| inside(outer) && !holes.iter().any(inside))
+}
+
+/// Points further apart than this in metres are not checked for sight of each other: others stand between.
+const SIGHT_M: f64 = 2.5;
+
+/// Random points in the pieces, the sights that joined them, and for each point its piece: sets of points
+/// that see each other, straight or by way of others, are one room.
+fn scatter(pieces: &[Vec<Ring>], options: &RoomOptions) -> (Vec<Point>, Vec<[usize; 2]>, Vec<usize>) {
+    let shapes: Shapes = pieces.to_vec();
+    let grid = RayGrid::new(edges(&shapes));
+    let bounds = Bounds::of(pieces.iter().flatten().flatten().map(|&[x, y]| Point::new(x, y)));
+    let mut random = Random::new(options.seed);
+    let count = (bounds.width() * bounds.height() * options.points_per_m2).clamp(0.0, 1e6) as usize;
+    let mut points: Vec<Point> = (0..count)
+        .map(|_| {
+            let (u, v) = (random.unit(), random.unit());
+            Point::new(bounds.min.x + u * bounds.width(), bounds.min.y + v * bounds.height())
+        })
+        .filter(|&point| is_inside(&grid, point))
+        .collect();
+    // Left to right, so that near ones are found without looking at all.
+    points.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
+    let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+    for i in 0..points.len() {
+        for j in (i + 1..points.len()).take_while(|&j| points[j].x - points[i].x <= SIGHT_M) {
+            let distance_m = points[i].distance(points[j]);
+            if distance_m <= SIGHT_M {
+                pairs.push((distance_m, i, j));
+            }
+        }
+    }
+    pairs.sort_by(|p, q| p.0.total_cmp(&q.0).then((p.1, p.2).cmp(&(q.1, q.2))));
+    let mut groups = Groups::new(points.len());
+    let mut sights = Vec::new();
+    for (_, i, j) in pairs {
+        if groups.root(i) != groups.root(j) && !grid.blocks(points[i], points[j]) {
+            groups.join(i, j);
+            sights.push([i, j]);
+        }
+    }
+    let boxes: Vec<Bounds> = pieces.iter().map(|piece| piece_bounds(piece)).collect();
+    let piece_at = |point: Point| (0..pieces.len()).find(|&p| boxes[p].contains(point) && contains(&pieces[p], point));
+    let mut piece_of_root: Vec<Option<usize>> = vec![None; points.len()];
+    let group_of = (0..points.len())
+        .map(|i| {
+            let root = groups.root(i);
+            *piece_of_root[root].get_or_insert_with(|| piece_at(points[root]).unwrap_or(usize::MAX))
+        })
+        .collect();
+    (points, sights, group_of)
+}
+
+/// Holes smaller than this are furniture and columns, in m²; a courtyard is larger.
+const LARGEST_FURNITURE_M2: f64 = 4.0;
+
+/// What is narrower than twice this, in metres, is no part of a room: the place of a door, the gap beside a
+/// cupboard.
+const NARROW_M: f64 = 0.1;
+
+/// A room's boundary is simplified up to this, in metres.
+const BOUNDARY_M: f64 = 0.04;
+
+/// The room of a piece of free space; `None` for one that is too small.
+fn room(piece: &[Ring], points: Vec<usize>, options: &RoomOptions) -> Option<FoundRoom> {
+    let (outer, holes) = piece.split_first()?;
+    let large = holes.iter().filter(|hole| polygon::signed_area(&areas::points(hole)).abs() > LARGEST_FURNITURE_M2);
+    let kept: Shapes = vec![std::iter::once(outer).chain(large).cloned().collect()];
+    let opened = areas::opened(&kept, NARROW_M);
+    let largest = areas::pieces(&opened)
+        .into_iter()
+        .max_by(|p, q| polygon::area(&p.0, &p.1).total_cmp(&polygon::area(&q.0, &q.1)))?;
+    let simplified = |ring: &Vec<Point>| super::free_space::simplified_ring(ring, BOUNDARY_M);
+    let outer = simplified(&largest.0);
+    let holes: Vec<Vec<Point>> = largest.1.iter().map(simplified).filter(|hole| hole.len() >= 3).collect();
+    if outer.len() < 3 || polygon::area(&outer, &holes) < options.smallest_m2 {
+        return None;
+    }
+    let axes = runs::axes(&outer, &holes);
+    Some(FoundRoom { area_m2: mean_quadrilateral_m2(&outer), outer, holes, axes, points })
+}

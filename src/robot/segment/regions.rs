@@ -1,0 +1,362 @@
+//! The free space cut along its gaps and narrow places, and put together again where no wall parts it.
+
+use std::collections::BTreeSet;
+
+use super::Raster;
+use super::distance::{self, Distances};
+use super::union::Union;
+use super::wall_ends::THICKEST_WALL_M;
+use crate::geometry::{Point, Vector};
+
+/// Smaller pieces, in square metres, are never rooms of their own beside a larger one: what lies between
+/// two cuts through the same doorway, the depth of a niche.
+pub const SMALLEST_ROOM_M2: f64 = 1.0;
+/// A cut parts two rooms by itself where it is this much narrower than both: the diameters of the largest
+/// discs within them.
+const NARROW_SHARE: f64 = 0.6;
+/// Else it must continue, within [`WALL_LOOKED_AT_M`] of its ends, a wall between the same two rooms that
+/// is this long at least, and so long a share of the cut.
+const LEAST_WALL_M: f64 = 0.4;
+const LEAST_WALL_SHARE: f64 = 0.15;
+const WALL_LOOKED_AT_M: f64 = 2.0;
+/// Gaps in that wall, in cells: where it is scanned badly, or another wall meets it.
+const WALL_GAP_CELLS: u32 = 6;
+
+/// A straight cut through free space, in cells, y down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cut {
+    pub ends: [Point; 2],
+    /// The regions it parts, as they are in the end.
+    pub regions: [u32; 2],
+}
+
+/// What the cuts leave.
+pub struct Regions {
+    /// For every cell the region, from 1; 0 where it belongs to none.
+    pub of_cell: Vec<u32>,
+    /// How many regions there are: their numbers are 1 to this.
+    pub count: u32,
+    /// The cuts between two different regions.
+    pub cuts: Vec<Cut>,
+}
+
+/// Cuts the free space and joins what belongs together.
+pub fn regions(raster: &Raster, distances: &Distances, gaps: &[[Point; 2]]) -> Regions {
+    let mut is_cut = vec![false; raster.free.len()];
+    for &gap in gaps {
+        draw(raster, &mut is_cut, gap);
+    }
+    let (pieces, count) = raster.components(|cell| raster.free[cell] && !is_cut[cell]);
+    let mut merger = Merger::new(raster, distances, &pieces, count, gaps);
+    merger.join_small(raster.cells(SMALLEST_ROOM_M2.sqrt()).powi(2));
+    merger.join_where_no_wall_parts(raster);
+    // Now against rooms as the cuts that are left close them: the aisle between two rows of open stalls is
+    // as wide as it is, not as it is with them.
+    merger.measure_closed(raster, &pieces);
+    merger.join_where_no_wall_parts(raster);
+    merger.finish(raster, pieces)
+}
+
+/// Marks the cells along a cut, joined side by side, and two more into the walls at its ends: the ends
+/// are found to a cell or so, and a single open cell would join the rooms again.
+fn draw(raster: &Raster, is_cut: &mut [bool], [from, to]: [Point; 2]) {
+    let Some(along) = (to - from).unit() else { return };
+    let clamp = |value: f64, count: usize| value.floor().clamp(0.0, (count - 1) as f64) as i32;
+    let cell = |point: Point| (clamp(point.x, raster.width), clamp(point.y, raster.height));
+    let (mut x, mut y) = cell(from + along * -2.0);
+    let (to_x, to_y) = cell(to + along * 2.0);
+    let (dx, dy) = ((to_x - x).abs(), (to_y - y).abs());
+    let (step_x, step_y) = ((to_x - x).signum(), (to_y - y).signum());
+    let mut error = dx - dy;
+    loop {
+        is_cut[y as usize * raster.width + x as usize] = true;
+        if (x, y) == (to_x, to_y) {
+            return;
+        }
+        // One step sideways or up, never both at once.
+        if y == to_y || (x != to_x && 2 * error > -dy) {
+            error -= dy;
+            x += step_x;
+        } else {
+            error += dx;
+            y += step_y;
+        }
+    }
+}
+
+/// Two pieces on either side of a cut.
+struct Border {
+    pieces: [u32; 2],
+    gap: [Point; 2],
+    /// For how many cells of the cut they face each other.
+    cells: u32,
+    /// The pieces on both sides of the line beyond each end, cell by cell.
+    beyond: [Vec<[u32; 2]>; 2],
+}
+
+/// How strongly a wall parts two pieces beside their border, in cells.
+struct Wall {
+    /// Wall between just these two.
+    between: u32,
+    /// Wall between one of them and anything else: what may become wall between them.
+    beside: u32,
+}
+
+struct Merger {
+    union: Union,
+    area_cells: Vec<u32>,
+    /// Radius of the largest free disc, in cells.
+    peak: Vec<f64>,
+    borders: Vec<Border>,
+    /// The borders of each set, under the number that stands for it.
+    borders_of: Vec<Vec<u32>>,
+}
+
+impl Merger {
+    fn new(raster: &Raster, distances: &Distances, pieces: &[u32], count: u32, gaps: &[[Point; 2]]) -> Self {
+        let mut area_cells = vec![0; count as usize + 1];
+        let mut deepest = vec![0; count as usize + 1];
+        for (&piece, &squared) in pieces.iter().zip(&distances.squared) {
+            area_cells[piece as usize] += 1;
+            deepest[piece as usize] = squared.max(deepest[piece as usize]);
+        }
+        let mut borders = Vec::new();
+        for &gap in gaps {
+            borders_along(raster, pieces, gap, &mut borders);
+        }
+        let mut borders_of = vec![Vec::new(); count as usize + 1];
+        for (index, border) in borders.iter().enumerate() {
+            for piece in border.pieces {
+                borders_of[piece as usize].push(index as u32);
+            }
+        }
+        let peak = deepest.into_iter().map(|squared: u32| f64::from(squared).sqrt()).collect();
+        Self { union: Union::of(count as usize + 1), area_cells, peak, borders, borders_of }
+    }
+
+    /// Measures the largest disc within each set again, with the cuts between different sets as walls.
+    fn measure_closed(&mut self, raster: &Raster, pieces: &[u32]) {
+        let mut is_cut = vec![false; raster.free.len()];
+        for border in 0..self.borders.len() as u32 {
+            if self.sides(border).is_some() {
+                draw(raster, &mut is_cut, self.borders[border as usize].gap);
+            }
+        }
+        let open: Vec<bool> = raster.free.iter().zip(is_cut).map(|(&free, is_cut)| free && !is_cut).collect();
+        let closed = distance::distances(&open, raster.width, raster.height);
+        let mut deepest = vec![0; self.peak.len()];
+        for (&piece, &squared) in pieces.iter().zip(&closed.squared) {
+            deepest[piece as usize] = squared.max(deepest[piece as usize]);
+        }
+        self.peak.fill(0.0);
+        for (piece, squared) in deepest.into_iter().enumerate() {
+            let root = self.union.find(piece as u32) as usize;
+            self.peak[root] = self.peak[root].max(f64::from(squared).sqrt());
+        }
+    }
+
+    /// The two sets at a border; `None` where they are one by now.
+    fn sides(&mut self, border: u32) -> Option<[u32; 2]> {
+        let sides = self.borders[border as usize].pieces.map(|piece| self.union.find(piece));
+        (sides[0] != sides[1]).then_some(sides)
+    }
+
+    /// Joins two sets; gives what stands for both.
+    fn join(&mut self, [one, other]: [u32; 2]) -> u32 {
+        let is_larger = self.area_cells[one as usize] >= self.area_cells[other as usize];
+        let (keep, go) = if is_larger { (one, other) } else { (other, one) };
+        self.union.join(keep, go);
+        self.area_cells[keep as usize] += self.area_cells[go as usize];
+        self.peak[keep as usize] = self.peak[keep as usize].max(self.peak[go as usize]);
+        let mut moved = std::mem::take(&mut self.borders_of[go as usize]);
+        if moved.len() > self.borders_of[keep as usize].len() {
+            std::mem::swap(&mut moved, &mut self.borders_of[keep as usize]);
+        }
+        self.borders_of[keep as usize].extend(moved);
+        keep
+    }
+
+    /// Joins pieces smaller than `least` cells to the neighbour they have the longest border with, the
+    /// smallest first.
+    fn join_small(&mut self, least: f64) {
+        let is_small = |area: u32| f64::from(area) < least;
+        let mut queue: BTreeSet<(u32, u32)> = (1..self.area_cells.len() as u32)
+            .filter(|&piece| is_small(self.area_cells[piece as usize]))
+            .map(|piece| (self.area_cells[piece as usize], piece))
+            .collect();
+        while let Some((area, piece)) = queue.pop_first() {
+            if self.union.find(piece) != piece || self.area_cells[piece as usize] != area {
+                continue;
+            }
+            let mut neighbours = std::collections::BTreeMap::<u32, u32>::new();
+            for border in self.borders_of[piece as usize].clone() {
+                if let Some([one, other]) = self.sides(border) {
+                    let neighbour = if one == piece { other } else { one };
+                    *neighbours.entry(neighbour).or_default() += self.borders[border as usize].cells;
+                }
+            }
+            let longest =
+                neighbours.into_iter().max_by_key(|&(neighbour, cells)| (cells, std::cmp::Reverse(neighbour)));
+            if let Some((neighbour, _)) = longest {
+                let joined = self.join([piece, neighbour]);
+                if is_small(self.area_cells[joined as usize]) {
+                    queue.insert((self.area_cells[joined as usize], joined));
+                }
+            }
+        }
+    }
+
+    /// Joins the sets on both sides of each border that is neither narrow nor the continuation of a wall
+    /// between them, those with the least wall beside it first: pieces of a corridor find each other
+    /// before one of them could be taken for part of a room.
+    fn join_where_no_wall_parts(&mut self, raster: &Raster) {
+        let mut queue: BTreeSet<(i64, i64, u32)> = BTreeSet::new();
+        let mut queued: Vec<Option<(i64, i64, u32)>> = vec![None; self.borders.len()];
+        for border in 0..self.borders.len() as u32 {
+            self.queue(raster, border, &mut queue, &mut queued);
+        }
+        while let Some(next) = queue.pop_first() {
+            queued[next.2 as usize] = None;
+            let Some(sides) = self.sides(next.2) else { continue };
+            let joined = self.join(sides);
+            let borders = std::mem::take(&mut self.borders_of[joined as usize]);
+            let mut open = Vec::with_capacity(borders.len());
+            for border in borders {
+                if let Some(old) = queued[border as usize].take() {
+                    queue.remove(&old);
+                }
+                // Borders within a set never part anything again.
+                if self.sides(border).is_some() {
+                    open.push(border);
+                    self.queue(raster, border, &mut queue, &mut queued);
+                }
+            }
+            self.borders_of[joined as usize] = open;
+        }
+    }
+
+    /// Puts a border at its place in the queue, if it is to go.
+    fn queue(
+        &mut self,
+        raster: &Raster,
+        border: u32,
+        queue: &mut BTreeSet<(i64, i64, u32)>,
+        queued: &mut [Option<(i64, i64, u32)>],
+    ) {
+        let Some(sides) = self.sides(border) else { return };
+        let [from, to] = self.borders[border as usize].gap;
+        let length = from.distance(to).max(1.0);
+        let narrower = sides.map(|side| self.peak[side as usize]).into_iter().fold(f64::INFINITY, f64::min);
+        let share = length / (2.0 * narrower.max(0.5));
+        let wall = self.wall(border, sides);
+        let is_wall = f64::from(wall.between) >= (LEAST_WALL_SHARE * length).max(raster.cells(LEAST_WALL_M));
+        if share < NARROW_SHARE || is_wall {
+            return;
+        }
+        // Whole numbers, so that the order is total.
+        let by_wall = (f64::from(wall.beside) / length * 1e6) as i64;
+        let place = (by_wall, (share * -1e6) as i64, border);
+        queue.insert(place);
+        queued[border as usize] = Some(place);
+    }
+
+    /// The wall that a border continues.
+    fn wall(&mut self, border: u32, [one, other]: [u32; 2]) -> Wall {
+        let mut wall = Wall { between: 0, beside: 0 };
+        let union = &mut self.union;
+        for beyond in &self.borders[border as usize].beyond {
+            let mut missing = 0;
+            for pieces in beyond {
+                let [left, right] = pieces.map(|piece| if piece == 0 { 0 } else { union.find(piece) });
+                if [left, right] == [one, other] || [left, right] == [other, one] {
+                    wall.between += 1;
+                    wall.beside += 1;
+                    missing = 0;
+                    continue;
+                }
+                let is_ours = |side: u32| side == one || side == other;
+                if left != 0 && right != 0 && left != right && (is_ours(left) || is_ours(right)) {
+                    wall.beside += 1;
+                    missing = 0;
+                    continue;
+                }
+                missing += 1;
+                if missing > WALL_GAP_CELLS {
+                    break;
+                }
+            }
+        }
+        wall
+    }
+
+    /// The regions in the order of their first cells, with the cells of cuts given to what is nearest.
+    fn finish(mut self, raster: &Raster, mut of_cell: Vec<u32>) -> Regions {
+        let mut numbers = vec![0; self.area_cells.len()];
+        let mut count = 0;
+        for piece in of_cell.iter_mut().filter(|piece| **piece != 0) {
+            let root = self.union.find(*piece) as usize;
+            if numbers[root] == 0 {
+                count += 1;
+                numbers[root] = count;
+            }
+            *piece = numbers[root];
+        }
+        raster.spread(&mut of_cell);
+        let mut cuts = Vec::new();
+        for border in 0..self.borders.len() as u32 {
+            if let Some(sides) = self.sides(border) {
+                let regions = sides.map(|side| numbers[side as usize]);
+                let regions = [regions[0].min(regions[1]), regions[0].max(regions[1])];
+                cuts.push(Cut { ends: self.borders[border as usize].gap, regions });
+            }
+        }
+        Regions { of_cell, count, cuts }
+    }
+}
+
+/// The pairs of pieces that face each other across a cut, for two cells at least.
+fn borders_along(raster: &Raster, pieces: &[u32], gap: [Point; 2], borders: &mut Vec<Border>) {
+    /// How far from the cut's line its sides are looked for, in cells.
+    const ASIDE: f64 = 3.0;
+    let [from, to] = gap;
+    let Some(along) = (to - from).unit() else { return };
+    let length = from.distance(to);
+    let mut facing = std::collections::BTreeMap::<[u32; 2], u32>::new();
+    for step in 0..=length as u32 + 1 {
+        let at = from + along * f64::from(step).min(length);
+        let pair = both_sides(raster, pieces, at, along, ASIDE);
+        if pair[0] != 0 && pair[1] != 0 && pair[0] != pair[1] {
+            *facing.entry([pair[0].min(pair[1]), pair[0].max(pair[1])]).or_default() += 1;
+        }
+    }
+    let facing: Vec<([u32; 2], u32)> = facing.into_iter().filter(|&(_, cells)| cells >= 2).collect();
+    if facing.is_empty() {
+        return;
+    }
+    let thickest = 0.75 * raster.cells(THICKEST_WALL_M);
+    let beyond = [(from, -along), (to, along)].map(|(end, ahead)| {
+        let steps = 1..raster.cells(WALL_LOOKED_AT_M) as u32;
+        steps.map(|step| both_sides(raster, pieces, end + ahead * f64::from(step), ahead, thickest)).collect::<Vec<_>>()
+    });
+    borders.extend(facing.into_iter().map(|(sides, cells)| Border {
+        pieces: sides,
+        gap,
+        cells,
+        beyond: beyond.clone(),
+    }));
+}
+
+/// The first pieces on both sides of a line at a point of it, at most `reach` cells away; 0 for none.
+fn both_sides(raster: &Raster, pieces: &[u32], at: Point, along: Vector, reach: f64) -> [u32; 2] {
+    [along.left(), -along.left()].map(|aside| {
+        let mut far = 0.0;
+        while far <= reach {
+            match raster.cell_at(at + aside * far) {
+                None => return 0,
+                Some(cell) if pieces[cell] != 0 => return pieces[cell],
+                Some(_) => far += 0.5,
+            }
+        }
+        0
+    })
+}
