@@ -18,6 +18,7 @@ pub mod formats;
 pub mod geometry;
 pub mod labels;
 pub mod picture;
+pub mod pipeline;
 pub mod plan;
 pub mod predict;
 pub mod snapping;

@@ -3,30 +3,26 @@
 use crate::app::canvas::Canvas;
 use crate::app::commands;
 use crate::app::commands::CommandError;
+use crate::app::commands::sample_word;
 use crate::app::look::theme;
 use crate::app::look::theme::ThemeChoice;
 use crate::app::panels;
 use crate::app::panels::Panels;
 use crate::app::panels::welcome::Samples;
+use crate::app::session::Pointed;
+use crate::app::session::Session;
 use crate::app::session::document::Derived;
 use crate::app::session::file_dialogs::Dialogs;
-use crate::app::session::jobs::Background;
 use crate::app::session::jobs::Mode;
-use crate::app::session::layers::LayerSettings;
 use crate::app::session::messages::Severity;
-use crate::app::session::plan_list::PlanList;
-use crate::app::session::recovery::Safety;
-use crate::app::session::selection::Selection;
-use crate::app::session::settings::Settings;
+use crate::app::session::origin::Origin;
+use crate::app::session::wishes::Wish;
 use crate::app::state::App;
 use crate::app::state::Done;
-use crate::app::tools::DrawOptions;
 use crate::app::tools::Toolbox;
-use crate::labels::Schemes;
-use crate::classify::models::Models;
-use crate::predict::Predictor;
-use egui::Context;
+use crate::store::pictures;
 use egui::Ui;
+use egui::{Context, ViewportCommand};
 use std::sync::Arc;
 /// A plan with more elements is analysed off the frame's path; below, that takes a few milliseconds.
 const LARGE_PLAN_ELEMENTS: usize = 2000;
@@ -35,43 +31,17 @@ impl App {
     pub(crate) fn new(context: &Context, mode: Mode, dialogs: Dialogs, motion: theme::Motion) -> Self {
         theme::install(context, motion);
         Self {
-            schemes: Arc::new(Schemes::bundled()),
-            document: None,
-            opening: None,
-            list: PlanList::default(),
+            session: Session::new(mode, dialogs),
             canvas: Canvas::default(),
-            selection: Selection::default(),
             tools: Toolbox::default(),
-            draw_options: DrawOptions::default(),
-            copied: None,
-            layers: LayerSettings::default(),
-            ghost: None,
-            guide_drag: None,
-            models: Models::bundled(),
-            predictor: Predictor::default(),
             theme: ThemeChoice::default(),
-            settings: Settings::default(),
             panels: Panels::default(),
             samples: Samples::default(),
-            messages: Vec::new(),
-            status: String::new(),
-            question: None,
-            waiting: None,
-            saving: 0,
-            recovering: None,
-            safety: Safety::default(),
-            background: Background::new(mode),
-            dialogs,
             was_typing: false,
-            quitting: false,
             is_close_sent: false,
             shown_title: String::new(),
-            named_from: None,
-            documents: 0,
-            executed: None,
             recorder: None,
             wants_recording: false,
-            reading_picture: None,
         }
     }
 
@@ -81,61 +51,65 @@ impl App {
         // What was done since the last frame; what it opens is still known.
         self.write_executed();
         self.take_outcomes(&context);
-        self.take_waiting();
-        if let Some(path) = self.recovering.take() {
-            self.show_recovered(&path, &context);
+        self.grant_wishes(&context);
+        self.session.take_waiting();
+        if let Some(path) = self.session.recovering.take() {
+            self.session.show_recovered(&path, &context);
         }
-        self.watch_file(&context);
+        self.grant_wishes(&context);
+        self.session.watch_file(&context);
         self.take_dropped_files(&context);
         self.take_close_request(&context);
         self.take_tool_keys(&context);
         self.take_shortcuts(&context);
         self.refresh();
-        self.compare_with_theirs();
+        self.session.compare_with_theirs();
+        self.grant_wishes(&context);
         panels::show(self, ui);
+        self.grant_wishes(&context);
         self.was_typing = context.text_edit_focused();
-        self.keep_journal(&context);
+        self.session.keep_journal(&context);
         self.update_title(&context);
         self.record(&context);
-        if self.background.is_busy() {
-            self.background.request_frame(&context);
+        if self.session.background.is_busy() {
+            self.session.background.request_frame(&context);
         }
     }
 
     pub(crate) fn take_outcomes(&mut self, context: &Context) {
-        for outcome in self.background.take() {
+        for outcome in self.session.background.take() {
             match outcome {
                 None => {
-                    self.saving = 0;
-                    self.say(
+                    self.session.saving = 0;
+                    self.session.say(
                         Severity::Error,
                         "Something broke inside Enfilade",
                         "Your plan is untouched. Please report what you did.",
                     );
                 }
-                Some(Done::Opened(origin, result)) => self.was_opened(&origin, *result),
+                Some(Done::Opened(origin, result)) => self.session.was_opened(&origin, *result),
                 Some(Done::Derived(plan, derived)) => {
-                    if let Some((document, derived)) = self.document.as_mut().zip(derived) {
+                    if let Some((document, derived)) = self.session.document.as_mut().zip(derived) {
                         document.set_derived(plan, derived);
                     }
                 }
-                Some(Done::Leftovers(offered)) => self.were_left_over(offered),
-                Some(Done::Looked(looked)) => self.was_looked_at(looked),
-                Some(Done::Listed(folder, files)) => self.list.set_folder(folder, files),
+                Some(Done::Leftovers(offered)) => self.session.were_left_over(offered),
+                Some(Done::Looked(looked)) => self.session.was_looked_at(looked),
+                Some(Done::Listed(folder, files)) => self.session.list.set_folder(folder, files),
                 Some(Done::Chosen(answer)) => {
-                    self.dialogs.answered();
-                    self.was_chosen(answer, context);
+                    self.session.dialogs.answered();
+                    self.session.was_chosen(answer, context);
                 }
                 Some(Done::Saved { document, path, plan, result, then }) => {
-                    self.was_saved(document, path, plan, result, then, context);
+                    self.session.was_saved(document, path, plan, result, then, context);
                 }
                 Some(Done::RecordingSaved { path, recording, result, then }) => {
                     self.recording_was_saved(&path, *recording, result, then);
                 }
-                Some(Done::Ghost(origin, result)) => self.ghost_was_read(&origin, *result),
-                Some(Done::Backdrop(wanted, read)) => self.backdrop_was_read(wanted, &read),
+                Some(Done::Ghost(origin, result)) => self.session.ghost_was_read(&origin, *result),
+                Some(Done::Backdrop(wanted, read)) => self.session.backdrop_was_read(wanted, &read),
                 Some(Done::PictureRead { document, use_, path, page, result }) => {
-                    self.picture_was_read(document, use_, &path, page, result);
+                    self.session.picture_was_read(document, use_, &path, page, result);
                 }
             }
         }
@@ -146,15 +120,15 @@ impl App {
         let is_typing = std::mem::take(&mut self.was_typing) || context.text_edit_focused();
         // An open menu has the keys to itself; the list under a text field leaves them to the text.
         let is_menu_open = egui::Popup::is_any_open(context) && !is_typing;
-        if self.question.is_some() || self.panels.is_dialog_open() || is_menu_open {
+        if self.session.question.is_some() || self.panels.is_dialog_open() || is_menu_open {
             return;
         }
-        let pressed = context.input_mut(|input| commands::take_pressed(input, &self.settings, is_typing));
+        let pressed = context.input_mut(|input| commands::take_pressed(input, &self.session.settings, is_typing));
         for command in pressed {
             match self.run_command_with(command.id, &[], context) {
                 // Escape with nothing picked needs no word.
                 Err(CommandError::NotNow { reason, .. }) if command.id != "clear-selection" => {
-                    self.status = format!("{}: {reason}", command.plain_title());
+                    self.session.status = format!("{}: {reason}", command.plain_title());
                 }
                 Ok(()) | Err(_) => {}
             }
@@ -163,25 +137,106 @@ impl App {
 
     /// Starts what the plan on screen still needs: its analysis, its backdrop.
     pub(crate) fn refresh(&mut self) {
-        let Some(document) = &mut self.document else { return };
-        document.predict_by(&self.predictor);
+        let Some(document) = &mut self.session.document else { return };
+        document.predict_by(&self.session.predictor);
         let plan = document.plan().clone();
-        self.selection.keep_what_is_in(&plan);
+        self.session.selection.keep_what_is_in(&plan);
         if document.needs_deriving() {
-            let schemes = self.schemes.clone();
-            let predictor = Some((self.predictor.clone(), self.models.clone()));
+            let schemes = self.session.schemes.clone();
+            let predictor = Some((self.session.predictor.clone(), self.session.models.clone()));
             if plan.rooms().len() + plan.openings().len() + plan.walls().len() <= LARGE_PLAN_ELEMENTS {
                 let derived = Arc::new(Derived::new(&plan, &schemes, predictor));
                 document.set_derived(plan.clone(), derived);
             } else {
                 let outdated = document.await_derived();
                 let plan = plan.clone();
-                self.background.start(move || {
+                self.session.background.start(move || {
                     let derived = Derived::unless_outdated(&plan, &schemes, predictor, &outdated).map(Arc::new);
                     Done::Derived(plan, derived)
                 });
             }
         }
-        self.refresh_backdrop();
+        self.session.refresh_backdrop();
+    }
+
+    /// Does what the session asks for.
+    pub(crate) fn grant_wishes(&mut self, context: &Context) {
+        for wish in std::mem::take(&mut self.session.wishes) {
+            match wish {
+                Wish::ForgetPlan => {
+                    self.tools.drop_work();
+                    self.canvas.forget();
+                    self.session.pointed = Pointed::default();
+                    self.panels.forget();
+                }
+                Wish::ForgetDrawing => {
+                    self.tools.drop_work();
+                    self.canvas.forget();
+                    self.session.pointed = Pointed::default();
+                }
+                Wish::Reveal(element) => self.canvas.reveal(element),
+                Wish::ZoomTo(bounds) => self.canvas.zoom_to(bounds),
+                Wish::Fit => self.canvas.fit(),
+                Wish::ScaleView { about, factor } => self.canvas.scale_view(about, factor),
+                Wish::OfferRecovery => self.panels.recovery = true,
+                Wish::CloseRecovery => self.panels.recovery = false,
+                Wish::CloseDifferences => self.panels.differences = false,
+                Wish::Run(id, arguments) => {
+                    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+                    self.act(id, &words, context);
+                }
+                Wish::EndRecording(then) => self.stop_recording(Some(then)),
+                Wish::SaveRecording { recording, path, then } => self.save_recording(*recording, path, then),
+            }
+        }
+    }
+
+    pub(crate) fn take_dropped_files(&mut self, context: &Context) {
+        let dropped = context.input_mut(|input| std::mem::take(&mut input.raw.dropped_files));
+        let Some(first) = dropped.first() else { return };
+        if dropped.len() > 1 {
+            let text = format!("{} files were dropped; the first is opened", dropped.len());
+            self.session.say(Severity::Info, text, "Plans that lie in the same folder are in the list on the left.");
+        }
+        let word = first.path().to_string_lossy().into_owned();
+        let is_picture = pictures::is_picture_name(first.path());
+        self.act(if is_picture { "picture" } else { "open" }, &[&word], context);
+    }
+
+    /// Opens what a row of the list or a card stands for.
+    pub(crate) fn open_listed(&mut self, origin: &Origin, context: &Context) {
+        match origin {
+            Origin::Bundled(index) => self.act("open-sample", &[sample_word(*index)], context),
+            Origin::Untitled => self.act("new-plan", &[], context),
+            Origin::File { path, storey: 0 } => self.act("open", &[&path.to_string_lossy()], context),
+            Origin::File { path, storey } => {
+                self.act("open", &[&path.to_string_lossy(), &(storey + 1).to_string()], context);
+            }
+        }
+    }
+
+    pub(crate) fn take_close_request(&mut self, context: &Context) {
+        if context.input(|input| input.viewport().close_requested()) && !self.session.quitting {
+            context.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.run_command("quit", context);
+        }
+        if self.session.quitting && !self.is_close_sent {
+            self.is_close_sent = true;
+            context.send_viewport_cmd(ViewportCommand::Close);
+        }
+    }
+
+    pub(crate) fn update_title(&mut self, context: &Context) {
+        let title = match &self.session.document {
+            None => "Enfilade".to_owned(),
+            Some(document) => {
+                let mark = if document.is_changed() { "• " } else { "" };
+                format!("{mark}{} – Enfilade", document.title())
+            }
+        };
+        if title != self.shown_title {
+            context.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+            self.shown_title = title;
+        }
     }
 }

@@ -65,8 +65,8 @@ pub fn run_window(options: WindowOptions) -> Result<(), WindowError> {
         if let Some(file) = settings::file() {
             app.use_settings(file);
         }
-        app.use_own_schemes_and_models();
-        app.use_clock(now);
+        app.session.use_own_schemes_and_models();
+        app.session.use_clock(now);
         if let Some(folder) = store::journal_folder() {
             app.use_journal(folder);
         }
@@ -75,7 +75,7 @@ pub fn run_window(options: WindowOptions) -> Result<(), WindowError> {
             None => (!bundled().is_empty()).then_some(Origin::Bundled(0)),
         };
         if let Some(origin) = first {
-            app.open(origin);
+            app.session.open(origin);
         }
         Ok(Box::new(Window { app }) as Box<dyn eframe::App>)
     };

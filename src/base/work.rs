@@ -42,6 +42,11 @@ impl<'a> Work<'a> {
         Self { threads: threads.max(1), ..self }
     }
 
+    /// On how many threads.
+    pub fn threads(&self) -> usize {
+        self.threads
+    }
+
     /// Watched: `progress` is told how many parts are done of how many, from any thread and not
     /// always in order; once `cancelled` is set no further part is begun.
     #[must_use]
@@ -55,7 +60,7 @@ impl<'a> Work<'a> {
         Self { threads: 1, progress: &|_, _| {}, ..self }
     }
 
-    /// For long work that is not made of parts: to be asked now and then.
+    /// Between two steps, and now and then in long work that is not made of parts: whether to go on.
     ///
     /// # Errors
     /// When the work is cancelled.

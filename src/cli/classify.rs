@@ -5,14 +5,17 @@ use std::sync::Arc;
 
 use serde_json::json;
 
+use super::batch::{self, Input};
 use super::collect::neighbour_labels;
 use super::train::{each_room, method};
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::classify::{Distribution, Method, models::Models};
-use crate::dataset::{NetworkRoom, RoomNetwork};
+use crate::dataset::NetworkRoom;
 use crate::edit;
 use crate::features::NeighbourLabels;
+use crate::formats::Import;
 use crate::labels::Label;
+use crate::pipeline::{Asked, Pipeline};
 use crate::plan::{LabelOrigin, OpeningId, Plan, RoomLabel};
 use crate::predict::{Agreement, DEFAULT_METHOD, ModelSet, Predictions, Predictor};
 use crate::store::{load_model, models_folder, models_in, save_plan};
@@ -118,30 +121,34 @@ impl Subcommand for ClassifyCommand {
         let schemes = inputs::schemes(&self.scheme)?;
         let (predictor, models) = self.predictor.read(terminal)?;
         let own = self.model.as_deref().map(load_model).transpose()?.map(Arc::new);
-        let files = inputs::plan_files(&self.plans)?;
+        let files = batch::inputs(&self.plans)?;
         let mut objects: Vec<serde_json::Value> = Vec::new();
         let mut total = Agreement::default();
         let mut plans = 0;
-        let failed = inputs::for_each_plan(&files, terminal, |file, import, terminal| {
-            for (storey, plan) in import.plans.iter().enumerate() {
-                let network = RoomNetwork::new(plan, &schemes);
-                let known = if self.hide_labels { vec![None; network.rooms.len()] } else { network.known_labels() };
-                let said = match &own {
-                    Some(model) => Predictions::by(network, model.clone(), &known, self.neighbours),
-                    None => predictor.predict(network, &known, self.neighbours, &models)?,
-                };
+        let asked =
+            Asked { predictor, models, model: own, neighbours: self.neighbours, hides_labels: self.hide_labels };
+        let work = |_: &Input, import: Import| -> Result<Vec<(Plan, Predictions)>, CliError> {
+            import
+                .plans
+                .into_iter()
+                .map(|plan| Ok((plan.clone(), Pipeline::new(&plan, &schemes).predictions(&asked)?)))
+                .collect()
+        };
+        let failed = batch::for_each_import(&files, "classifying", terminal, work, |file, classified, terminal| {
+            let classified = classified?;
+            for (storey, (plan, said)) in classified.iter().enumerate() {
                 total.add(said.agreement());
                 if self.json {
-                    objects.push(json(plan, &said, self.unknown));
+                    objects.push(json(plan, said, self.unknown));
                 } else {
                     if plans > 0 {
                         writeln!(terminal.out)?;
                     }
-                    print(plan, &said, self.unknown, terminal)?;
+                    print(plan, said, self.unknown, terminal)?;
                 }
                 plans += 1;
                 if self.write {
-                    let (target, rooms) = self.write(file, storey, import.plans.len(), files.len(), plan, &said)?;
+                    let (target, rooms) = self.write(&file.path, storey, classified.len(), files.len(), plan, said)?;
                     writeln!(terminal.err, "{}: {rooms} predictions written", target.display())?;
                 }
             }

@@ -6,6 +6,7 @@ mod journal;
 mod models;
 pub mod pictures;
 mod plan_file;
+mod plan_folder;
 mod save;
 mod schemes;
 mod stamp;
@@ -17,6 +18,7 @@ pub use journal::{
 };
 pub use models::{LARGEST_BYTES, MODEL_ENDING, MODELS_VARIABLE, ModelError, load_model, models_folder, models_in};
 pub use plan_file::{checked_bytes, load_plan, save_plan};
+pub use plan_folder::{FoundPlan, plans_below};
 pub use save::{SaveError, save_bytes, save_bytes_fast};
 pub use schemes::{SCHEME_ENDING, SCHEMES_VARIABLE, SchemeFileError, schemes_folder, schemes_in, with_scheme_file};
 pub use stamp::Stamp;

@@ -9,8 +9,8 @@ use egui::{Color32, FontId, Galley, Painter, Pos2, Rect, Shape, Stroke, Vec2, po
 
 use crate::app::look::theme::{self, Colours};
 use crate::app::paint::places::on_screen;
+use crate::app::session::Session;
 use crate::app::session::document::Derived;
-use crate::app::state::App;
 use crate::base::units::Units;
 use crate::draw::View;
 use crate::geometry::{
@@ -70,14 +70,14 @@ pub(crate) fn paint(
     painter: &Painter,
     rect: Rect,
     view: &View,
-    app: &App,
+    session: &Session,
     derived: &Derived,
     names: impl FnOnce() -> Vec<Rect>,
 ) {
-    if !app.layers.dimensions {
+    if !session.layers.dimensions {
         return;
     }
-    let shapes: Vec<&RoomShape> = app
+    let shapes: Vec<&RoomShape> = session
         .selection()
         .rooms()
         .filter_map(|id| derived.analysis.shapes.get(id))
@@ -86,8 +86,8 @@ pub(crate) fn paint(
     let all = shapes.iter().map(|shape| shape.bounds).reduce(crate::geometry::Bounds::union);
     let Some(all) = all else { return };
     let colours = theme::colours(&painter.ctx().global_style().visuals);
-    let paper = theme::colour(paper(app.layers.colours, painter.ctx()));
-    let sheet = Sheet { painter, rect, view, units: app.units(), colours, names: names() };
+    let paper = theme::colour(paper(session.layers.colours, painter.ctx()));
+    let sheet = Sheet { painter, rect, view, units: session.units(), colours, names: names() };
     let mut labels: Vec<Label> = Vec::new();
     if shapes.len() <= MOST_ROOMS {
         for shape in &shapes {

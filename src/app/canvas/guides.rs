@@ -4,11 +4,11 @@ use egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, vec2};
 
 use crate::app::look::theme;
 use crate::app::paint::places::{on_screen, plan_point};
-use crate::app::state::App;
+use crate::app::session::Session;
 use crate::base::units::Units;
 use crate::draw::View;
 use crate::geometry::{Point, trim_m};
-use crate::plan::{Guide, GuideAxis};
+use crate::plan::GuideAxis;
 
 /// A guide that the pointer holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,18 +22,14 @@ pub(crate) struct Drag {
     pub ruler: GuideAxis,
 }
 
-impl App {
-    /// The guide lines of the open plan that are shown: what snapping may go by.
-    pub fn guides(&self) -> &[Guide] {
-        let plan = self.plan().filter(|_| self.layers.guides);
-        plan.map_or(&[], crate::plan::Plan::guides)
-    }
-}
-
 /// Where the guides of an axis are, the one that is dragged left out.
-pub(crate) fn places(app: &App, axis: GuideAxis) -> impl Iterator<Item = f64> + '_ {
-    let dragged = app.guide_drag.filter(|drag| drag.axis == axis).and_then(|drag| drag.from_m);
-    app.guides().iter().filter(move |guide| guide.axis == axis && Some(guide.at_m) != dragged).map(|guide| guide.at_m)
+pub(crate) fn places(session: &Session, drag: Option<Drag>, axis: GuideAxis) -> impl Iterator<Item = f64> + '_ {
+    let dragged = drag.filter(|drag| drag.axis == axis).and_then(|drag| drag.from_m);
+    session
+        .guides()
+        .iter()
+        .filter(move |guide| guide.axis == axis && Some(guide.at_m) != dragged)
+        .map(|guide| guide.at_m)
 }
 
 /// A point of the screen on a guide.
@@ -68,7 +64,7 @@ pub(crate) fn dropped_at(drag: &Drag, at: Pos2, rect: Rect, view: &View, units: 
 }
 
 /// Paints the guides, and the one that is dragged with its place.
-pub(crate) fn paint(painter: &Painter, rect: Rect, view: &View, app: &App) {
+pub(crate) fn paint(painter: &Painter, rect: Rect, view: &View, session: &Session, drag: Option<Drag>) {
     let colours = theme::colours(&painter.ctx().global_style().visuals);
     let line = |axis: GuideAxis, at_m: f64, stroke: Stroke| {
         let place = on_canvas(rect, view, axis, at_m);
@@ -79,15 +75,15 @@ pub(crate) fn paint(painter: &Painter, rect: Rect, view: &View, app: &App) {
     };
     let stroke = Stroke::new(1.0, colours.accent.gamma_multiply(0.75));
     for axis in GuideAxis::ALL {
-        for at_m in places(app, axis) {
+        for at_m in places(session, drag, axis) {
             line(axis, at_m, stroke);
         }
     }
-    let Some((drag, to_m)) = app.guide_drag.and_then(|drag| Some((drag, drag.to_m?))) else { return };
+    let Some((drag, to_m)) = drag.and_then(|drag| Some((drag, drag.to_m?))) else { return };
     line(drag.axis, to_m, Stroke::new(1.5, colours.accent));
     if let Some(pointer) = painter.ctx().pointer_hover_pos() {
         let name = if drag.axis == GuideAxis::Vertical { "x" } else { "y" };
-        let text = format!("{name} {}", app.units().length(to_m));
+        let text = format!("{name} {}", session.units().length(to_m));
         let font = FontId::new(theme::SMALL, theme::semibold());
         let galley = painter.layout_no_wrap(text, font, colours.on_accent);
         let place = Align2::LEFT_TOP.anchor_size(pointer + vec2(14.0, 14.0), galley.size() + vec2(12.0, 6.0));

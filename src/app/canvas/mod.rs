@@ -6,17 +6,17 @@ pub(crate) mod rulers;
 
 use crate::app::paint::places::canvas_id;
 use crate::app::paint::places::plan_point;
-use crate::base::wording::sentence;
+use crate::app::session::Pointed;
+use crate::app::tools::DrawOptions;
 use crate::plan::titles::title_of;
 use std::sync::Arc;
 
 use egui::epaint::StrokeKind;
 use egui::{
-    Color32, Context, CursorIcon, EventFilter, Key, MouseWheelUnit, Painter, PointerButton, Pos2, Rect, Response, Role,
-    Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, vec2,
+    Color32, CursorIcon, EventFilter, Key, MouseWheelUnit, Painter, PointerButton, Pos2, Rect, Response, Role, Sense,
+    Shape, Stroke, Ui, Vec2, WidgetInfo, vec2,
 };
 
-use super::commands;
 use super::tools::{self, Call, Input, Scope, Toolbox};
 use crate::app::look::theme;
 use crate::app::paint::backdrop::BackdropView;
@@ -27,9 +27,9 @@ use crate::app::paint::{
     places::on_screen,
     scene_painter::{ScenePainter, earcut, outline_mesh, polygon_mesh},
 };
+use crate::app::session::Session;
 use crate::app::session::document::{Derived, Document};
 use crate::app::session::questions::Question;
-use crate::app::state::App;
 use crate::base::units::{METRES_PER_FOOT, Units};
 use crate::draw::{self, Layers, Palette, Style, View};
 use crate::features::RoomStatus;
@@ -46,17 +46,16 @@ pub(crate) struct Canvas {
     wish: Option<Wish>,
     /// The view of the last frame and where it was on the screen.
     seen: Option<(View, Rect)>,
-    pub hovered: Option<ElementId>,
     /// What a panel's row under the pointer stands for.
     pub hovered_in_panel: Option<ElementId>,
-    /// Where the pointer is in the plan.
-    pub pointer: Option<Point>,
+    /// What the pointer points at.
+    pub pointed: Pointed,
     painter: ScenePainter,
     ghost: GhostPainter,
     /// What is not worked out yet.
     pending: Option<Pending>,
-    /// The picture under the plan.
-    pub backdrop: BackdropView,
+    /// The guide that is being dragged.
+    pub guide_drag: Option<guides::Drag>,
     /// The triangles of the room whose fill marks it.
     marked: Option<(Arc<Derived>, ElementId, Vec<u32>)>,
     /// Whether the last turn of a wheel came from fingers on a touch pad.
@@ -109,11 +108,30 @@ const MOST_MARKED: usize = 2000;
 /// How strongly a wheel zooms: egui's own measure for Ctrl and wheel.
 const ZOOM_PER_POINT: f64 = 1.0 / 200.0;
 
+/// What a person did on the canvas.
+pub(crate) enum Act {
+    /// What the tool in the hand does.
+    Calls(Vec<Call>),
+    Pick(ElementId),
+    /// Pick the next or previous room; leave the canvas behind the last.
+    PickNeighbour(isize),
+    /// Pick the room nearest in a direction of the plan: the argument of the command.
+    PickTowards(&'static str),
+    Rename,
+}
+
+/// The keys of the tools one begins with, as people read them.
+pub(crate) struct Beginning {
+    pub walls: String,
+    pub fill: String,
+    pub rectangle: String,
+    pub door: String,
+}
+
 impl Canvas {
     /// Forgets the plan that was shown.
     pub(crate) fn forget(&mut self) {
-        *self =
-            Self { backdrop: std::mem::take(&mut self.backdrop), is_touch_pad: self.is_touch_pad, ..Self::default() };
+        *self = Self { is_touch_pad: self.is_touch_pad, ..Self::default() };
     }
 
     pub(crate) fn fit(&mut self) {
@@ -143,9 +161,24 @@ impl Canvas {
         self.camera.filter(|camera| !camera.is_fitted).map(|camera| (camera.centre, camera.px_per_m))
     }
 
+    /// Where the view was moved to by hand since the last call: the point in the middle and points of the
+    /// screen to the metre.
+    pub(crate) fn take_moved(&mut self) -> Option<(Point, f64)> {
+        let was_moved = std::mem::take(&mut self.was_moved);
+        self.camera.filter(|_| was_moved).map(|camera| (camera.centre, camera.px_per_m))
+    }
+
     /// Moves the view at once, to a place nearby.
     pub(crate) fn set_view(&mut self, centre: Point, px_per_m: f64) {
         self.camera = Some(Camera { centre, px_per_m, is_fitted: false });
+    }
+
+    /// Keeps a point and all around it, which was scaled by a factor, where it is on the screen; a view of
+    /// the whole plan goes by itself.
+    pub(crate) fn scale_view(&mut self, about: Point, factor: f64) {
+        if let Some((centre, px_per_m)) = self.free_view() {
+            self.set_view(about + (centre - about) * factor, px_per_m / factor);
+        }
     }
 
     /// The view of the last frame and where it was on the screen.
@@ -175,10 +208,10 @@ impl Canvas {
     // The view.
 
     /// Where the view stands in a canvas of this size, wishes fulfilled.
-    fn update_camera(&mut self, rect: Rect, document: &Document, shown: Option<&Derived>) {
+    fn update_camera(&mut self, rect: Rect, document: &Document, shown: Option<&Derived>, backdrop: &BackdropView) {
         let (width_px, height_px) = (f64::from(rect.width()), f64::from(rect.height()));
         let bounds = shown.map_or_else(|| document.plan().bounds(), |derived| derived.drawing.bounds());
-        let bounds = bounds.union(self.backdrop.bounds(document.plan().backdrop()));
+        let bounds = bounds.union(backdrop.bounds(document.plan().backdrop()));
         let bounds = self.ghost.bounds().filter(|_| bounds.is_empty()).unwrap_or(bounds);
         let fitting = |bounds: Bounds| {
             // A small canvas is for the plan, not for the space about it.
@@ -294,7 +327,7 @@ impl Canvas {
                 self.zoom_at(view, rect, at, (f64::from(scroll.y) * ZOOM_PER_POINT).exp());
             }
         }
-        self.pointer = pointer.map(|at| plan_point(view, rect, at));
+        self.pointed.at = pointer.map(|at| plan_point(view, rect, at));
     }
 }
 
@@ -320,70 +353,22 @@ fn on_whole_pixels(view: View, rect: Rect) -> View {
     View { centre: view.centre + Vector::new(x, -y) * (1.0 / view.px_per_m), ..view }
 }
 
-/// What a person did on the canvas.
-enum Act {
-    /// What the tool in the hand does.
-    Calls(Vec<Call>),
-    Pick(ElementId),
-    /// Pick the next or previous room; leave the canvas behind the last.
-    PickNeighbour(isize),
-    /// Pick the room nearest in a direction of the plan: the argument of the command.
-    PickTowards(&'static str),
-    Rename,
-}
-
-/// Shows the canvas in all that is left of `ui`.
-pub(crate) fn show(app: &mut App, ui: &mut Ui) {
-    let Some(document) = &app.document else { return };
-    let (mut canvas, mut toolbox) = (std::mem::take(&mut app.canvas), std::mem::take(&mut app.tools));
-    let act = canvas.show(ui, document, app, &mut toolbox);
-    if std::mem::take(&mut canvas.was_moved)
-        && let Some(camera) = canvas.camera
-    {
-        let numbers = [camera.centre.x, camera.centre.y, camera.px_per_m];
-        app.note_executed("view", numbers.map(|number| number.to_string()).to_vec());
-    }
-    (app.canvas, app.tools) = (canvas, toolbox);
-    rulers::show(app, ui);
-    match act {
-        None => {}
-        Some(Act::Calls(calls)) => {
-            for (id, arguments) in calls {
-                let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
-                if let Err(error) = app.run_command_with(id, &words, ui.ctx()) {
-                    app.tools.tool_mut().was_refused();
-                    app.status = match error {
-                        commands::CommandError::NotNow { reason, .. } => sentence(&reason),
-                        other => other.to_string(),
-                    };
-                }
-            }
-        }
-        Some(Act::Pick(element)) => app.act("select", &[&element.to_string()], ui.ctx()),
-        Some(Act::PickNeighbour(step)) if app.pick_neighbour(step) => {
-            app.note_executed(if step > 0 { "next-room" } else { "previous-room" }, Vec::new());
-        }
-        Some(Act::PickNeighbour(step)) => {
-            let direction = if step > 0 { egui::FocusDirection::Next } else { egui::FocusDirection::Previous };
-            ui.memory_mut(|memory| {
-                memory.surrender_focus(canvas_id());
-                memory.move_focus(direction);
-            });
-        }
-        Some(Act::PickTowards(direction)) => app.act("pick-towards", &[direction], ui.ctx()),
-        Some(Act::Rename) => {
-            app.run_command("rename", ui.ctx());
-        }
-    }
-}
-
 impl Canvas {
-    fn show(&mut self, ui: &mut Ui, document: &Document, app: &App, toolbox: &mut Toolbox) -> Option<Act> {
-        let rect = rulers::canvas_rect(app, ui.available_rect_before_wrap());
+    /// Shows the plan in all that is left of `ui`; gives what a person did there.
+    pub(crate) fn show(
+        &mut self,
+        ui: &mut Ui,
+        document: &Document,
+        session: &Session,
+        backdrop: &mut BackdropView,
+        toolbox: &mut Toolbox,
+        beginning: &Beginning,
+    ) -> Option<Act> {
+        let rect = rulers::canvas_rect(session, ui.available_rect_before_wrap());
         let fresh = document.derived();
         // What was worked out for an earlier plan is better than nothing.
         let shown = fresh.or(document.last_derived().map(|(_, derived)| derived));
-        self.update_camera(rect, document, shown.map(Arc::as_ref));
+        self.update_camera(rect, document, shown.map(Arc::as_ref), backdrop);
         let response = ui.interact(rect, canvas_id(), Sense::click_and_drag());
         self.take_pointer(ui, &response, &self.view(rect, ui.pixels_per_point()));
         let view = self.view(rect, ui.pixels_per_point());
@@ -393,68 +378,71 @@ impl Canvas {
         // pressing on a room may be what ended the edit of another's name.
         let (plan, px_per_m) = (document.plan(), view.px_per_m);
         let at = |point: Point| {
-            shown.map(|derived| tools::hit(derived, plan, &app.layers, point, px_per_m)).unwrap_or_default()
+            shown.map(|derived| tools::hit(derived, plan, &session.layers, point, px_per_m)).unwrap_or_default()
         };
-        self.hovered = self.pointer.filter(|_| !response.dragged()).and_then(|point| at(point).first().copied());
+        self.pointed.element =
+            self.pointed.at.filter(|_| !response.dragged()).and_then(|point| at(point).first().copied());
         if response.clicked_by(PointerButton::Primary) {
             response.request_focus();
             self.shows_focus = false;
         }
         let mut act = None;
-        let scope = self.use_tool(ui, &response, document, shown, app, toolbox, &view, &mut act);
+        let options = toolbox.options;
+        let scope = self.use_tool(ui, &response, document, shown, session, &options, toolbox, &view, &mut act);
         // With another tool in the hand the keyboard goes from room to room all the same.
         act = act.or(self.take_keys(ui, &response));
 
-        let style = style(app, document.plan(), ui.visuals().dark_mode);
+        let style = style(session, document.plan(), ui.visuals().dark_mode);
         let palette = style.palette();
         let painter = ui.painter_at(rect);
         painter.rect_filled(rect, 0.0, theme::colour(palette.paper));
-        let backdrop = document.plan().backdrop().filter(|_| app.layers.backdrop);
-        self.backdrop.paint(&painter, rect, &view, backdrop, app.background.is_inline());
+        let placed = document.plan().backdrop().filter(|_| session.layers.backdrop);
+        backdrop.paint(&painter, rect, &view, placed, session.background.is_inline());
         if let Some(derived) = shown {
             self.painter.paint(&painter, rect, derived, &style, &view);
         }
-        self.ghost.paint(&painter, rect, app.shown_ghost(), &style, &view);
+        self.ghost.paint(&painter, rect, session.shown_ghost(), &style, &view);
         match fresh {
             // Never a stale label as a fresh one.
-            None => self.paint_pending(&painter, rect, &view, document, app, &style),
+            None => self.paint_pending(&painter, rect, &view, document, session, &style),
             Some(derived) => {
-                let under_pointer = self.hovered.filter(|_| toolbox.is_selecting());
+                let under_pointer = self.pointed.element.filter(|_| toolbox.is_selecting());
                 let hovered = under_pointer.or(self.hovered_in_panel);
-                let hovered = hovered.filter(|hovered| !app.selection.contains(*hovered));
+                let hovered = hovered.filter(|hovered| !session.selection.contains(*hovered));
                 if let Some(hovered) = hovered {
                     self.mark(&painter, rect, &view, document.plan(), derived, hovered, &Mark::hover(palette));
                 }
-                for picked in app.selection.iter().take(MOST_MARKED) {
+                for picked in session.selection.iter().take(MOST_MARKED) {
                     self.mark(&painter, rect, &view, document.plan(), derived, picked, &Mark::picked(palette));
                 }
             }
         }
-        guides::paint(&painter, rect, &view, app);
+        guides::paint(&painter, rect, &view, session, self.guide_drag);
         if let Some(derived) = fresh {
-            dimensions::paint(&painter, rect, &view, app, derived, || self.painter.text_boxes(rect, &view));
+            dimensions::paint(&painter, rect, &view, session, derived, || self.painter.text_boxes(rect, &view));
         }
         let tool = toolbox.tool();
         let mut preview = Preview::default();
-        preview_question(app, document.plan(), &mut preview);
+        preview_question(session, document.plan(), &mut preview);
         tool.preview(&scope, &mut preview);
         preview.paint(&painter, rect, &view, palette);
-        if tool.snaps() && self.pointer.is_some() {
+        if tool.snaps() && self.pointed.at.is_some() {
             tools::paint_snap(&painter, rect, &view, palette, &scope.snap);
         }
         paint_typed(&painter, rect, &view, palette, &scope, &toolbox.typed);
-        let is_blank = document.plan().is_empty() && document.plan().backdrop().is_none() && app.ghost_plan().is_none();
+        let is_blank =
+            document.plan().is_empty() && document.plan().backdrop().is_none() && session.ghost_plan().is_none();
         if is_blank && toolbox.is_selecting() {
-            paint_beginning(&painter, rect, palette, app, ui.ctx());
+            paint_beginning(&painter, rect, palette, beginning);
         }
-        paint_scale_bar(&painter, rect, &view, palette, app.units());
+        paint_scale_bar(&painter, rect, &view, palette, session.units());
         if response.has_focus() && self.shows_focus {
             let colours = theme::colours(ui.visuals());
             painter.rect_stroke(rect.shrink(1.0), 0.0, Stroke::new(2.0, colours.accent), StrokeKind::Inside);
         }
-        let description = describe(document, app.picked());
+        let description = describe(document, session.picked());
         response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, &description));
-        self.tell_screen_reader(ui, rect, &view, document, fresh, app).or(act)
+        self.tell_screen_reader(ui, rect, &view, document, fresh, session).or(act)
     }
 
     /// Shows what changed since everything was worked out last.
@@ -464,7 +452,7 @@ impl Canvas {
         rect: Rect,
         view: &View,
         document: &Document,
-        app: &App,
+        session: &Session,
         style: &Style,
     ) {
         let Some((earlier, _)) = document.last_derived() else { return };
@@ -473,7 +461,7 @@ impl Canvas {
             self.pending = Some(Pending::new(earlier, plan));
         }
         if let Some(pending) = &self.pending {
-            pending.paint(painter, rect, view, style, &app.schemes);
+            pending.paint(painter, rect, view, style, &session.schemes);
         }
     }
 
@@ -484,23 +472,24 @@ impl Canvas {
         response: &Response,
         document: &'a Document,
         shown: Option<&'a Arc<Derived>>,
-        app: &'a App,
+        session: &'a Session,
+        options: &'a DrawOptions,
         toolbox: &mut Toolbox,
         view: &View,
         act: &mut Option<Act>,
     ) -> Scope<'a> {
-        let pointer = self.pointer.unwrap_or(self.last_pointer);
+        let pointer = self.pointed.at.unwrap_or(self.last_pointer);
         self.last_pointer = pointer;
         let modifiers = ui.input(|input| input.modifiers);
         let index = shown.map(|derived| &derived.index);
         // A picture's walls do not stand on the grid.
-        let grid_m = (!is_over_picture(app, document.plan()) && app.layers.grid).then(|| {
-            app.settings.grid_m().unwrap_or(match app.units() {
+        let grid_m = (!is_over_picture(session, document.plan()) && session.layers.grid).then(|| {
+            session.settings.grid_m().unwrap_or(match session.units() {
                 Units::Metric => 1.0,
                 Units::Imperial => METRES_PER_FOOT,
             })
         });
-        let (lines, points) = more_to_snap_to(app, view, pointer);
+        let (lines, points) = more_to_snap_to(session, view, pointer);
         let ground = tools::Ground {
             index,
             seen: view.bounds(),
@@ -508,20 +497,20 @@ impl Canvas {
             modifiers,
             lines: &lines,
             points: &points,
-            options: &app.draw_options,
+            options: options,
             grid_m,
-            is_seen: self.pointer.is_some(),
+            is_seen: self.pointed.at.is_some(),
         };
         let snap = toolbox.snap(&ground, pointer);
         let mut scope = Scope {
             plan: document.plan(),
             derived: shown,
             gaps: document.derived().map_or(&[], |derived| derived.gaps.as_slice()),
-            selection: &app.selection,
-            options: &app.draw_options,
-            layers: &app.layers,
-            copied: app.copied.as_ref(),
-            units: app.units(),
+            selection: &session.selection,
+            options: options,
+            layers: &session.layers,
+            copied: session.copied.as_ref(),
+            units: session.units(),
             pointer,
             snap,
             px_per_m: view.px_per_m,
@@ -681,7 +670,7 @@ impl Canvas {
         view: &View,
         document: &Document,
         fresh: Option<&Arc<Derived>>,
-        app: &App,
+        session: &Session,
     ) -> Option<Act> {
         if !ui.ctx().has_accesskit_node(canvas_id()) {
             return None;
@@ -698,9 +687,10 @@ impl Canvas {
             let id = canvas_id().with(shape.id);
             let response = ui.interact(bounds.intersect(rect), id, Sense::hover());
             let label = title_of(document.plan(), this);
-            response
-                .widget_info(|| WidgetInfo::selected(Role::ListBoxOption, true, app.picked() == Some(this), &label));
-            let said = said_of_room(document.plan(), derived, shape, app.units());
+            response.widget_info(|| {
+                WidgetInfo::selected(Role::ListBoxOption, true, session.picked() == Some(this), &label)
+            });
+            let said = said_of_room(document.plan(), derived, shape, session.units());
             ui.ctx().accesskit_node_builder(id, |node| {
                 node.add_action(egui::accesskit::Action::Click);
                 node.set_description(said);
@@ -714,8 +704,8 @@ impl Canvas {
 }
 
 /// What an open question is about.
-fn preview_question(app: &App, plan: &Plan, preview: &mut Preview) {
-    match &app.question {
+fn preview_question(session: &Session, plan: &Plan, preview: &mut Preview) {
+    match &session.question {
         Some(Question::Delete { gone, .. }) => {
             for &element in gone.iter().take(MOST_MARKED) {
                 match element {
@@ -750,9 +740,9 @@ fn preview_question(app: &App, plan: &Plan, preview: &mut Preview) {
 }
 
 /// Guide lines, and what lies near the pointer of the storey below.
-fn more_to_snap_to(app: &App, view: &View, pointer: Point) -> (Vec<Segment>, Vec<Point>) {
+fn more_to_snap_to(session: &Session, view: &View, pointer: Point) -> (Vec<Segment>, Vec<Point>) {
     let seen = view.bounds();
-    let mut lines: Vec<Segment> = app
+    let mut lines: Vec<Segment> = session
         .guides()
         .iter()
         .map(|guide| match guide.axis {
@@ -764,7 +754,7 @@ fn more_to_snap_to(app: &App, view: &View, pointer: Point) -> (Vec<Segment>, Vec
         .collect();
     // As far as something attracts, and more.
     let near = Bounds::of([pointer]).inflated(GHOST_REACH_PX / view.px_per_m);
-    let below: Vec<Segment> = app.ghost_segments().iter().copied().filter(|line| near.meets(*line)).collect();
+    let below: Vec<Segment> = session.ghost_segments().iter().copied().filter(|line| near.meets(*line)).collect();
     let points = below.iter().flat_map(|line| [line.a, line.b]).collect();
     lines.extend(below);
     (lines, points)
@@ -772,32 +762,6 @@ fn more_to_snap_to(app: &App, view: &View, pointer: Point) -> (Vec<Segment>, Vec
 
 /// The storey below attracts from this far away, in points.
 const GHOST_REACH_PX: f64 = 16.0;
-
-/// What to do with an empty plan: the tools one begins with, by their keys.
-fn paint_beginning(painter: &Painter, rect: Rect, palette: &Palette, app: &App, context: &Context) {
-    let keys = |id: &str| commands::find(id).map(|command| app.keys_text(command, context)).unwrap_or_default();
-    let lines = [
-        ("Nothing is drawn yet".to_owned(), theme::TITLE, palette.ink),
-        (
-            format!("{}   Draw walls, then {} makes rooms of what they enclose", keys("tool-walls"), keys("fill-all")),
-            theme::BODY,
-            palette.ink_muted,
-        ),
-        (format!("{}   Draw rooms as rectangles", keys("tool-rectangle")), theme::BODY, palette.ink_muted),
-        (format!("{}   Put doors in", keys("tool-door")), theme::BODY, palette.ink_muted),
-        ("Or drop a picture of a plan here, to trace it".to_owned(), theme::BODY, palette.ink_muted),
-    ];
-    const LINE: f32 = 26.0;
-    // Of a small canvas the hints would hide all.
-    if rect.width() < 420.0 || rect.height() < 240.0 {
-        return;
-    }
-    let mut at = rect.center() - vec2(0.0, LINE * lines.len() as f32 / 2.0);
-    for (text, size, colour) in lines {
-        painter.text(at, egui::Align2::CENTER_TOP, text, egui::FontId::proportional(size), theme::colour(colour));
-        at.y += LINE;
-    }
-}
 
 /// Whether the key is held that makes every drag move the view.
 fn is_space_held(ui: &Ui) -> bool {
@@ -833,14 +797,14 @@ impl Mark {
 }
 
 /// Whether a picture is shown under the plan.
-fn is_over_picture(app: &App, plan: &Plan) -> bool {
-    app.layers.backdrop && plan.backdrop().is_some()
+fn is_over_picture(session: &Session, plan: &Plan) -> bool {
+    session.layers.backdrop && plan.backdrop().is_some()
 }
 
 /// How the plan is drawn now.
-fn style(app: &App, plan: &Plan, is_dark: bool) -> Style {
-    let layers = app.layers;
-    let is_over_picture = is_over_picture(app, plan);
+fn style(session: &Session, plan: &Plan, is_dark: bool) -> Style {
+    let layers = session.layers;
+    let is_over_picture = is_over_picture(session, plan);
     Style {
         theme: if is_dark { draw::Theme::Dark } else { draw::Theme::Light },
         fill: layers.fill,
@@ -849,8 +813,8 @@ fn style(app: &App, plan: &Plan, is_dark: bool) -> Style {
         fill_opacity: if is_over_picture { 0.55 } else { 1.0 },
         halo: is_over_picture,
         text_px: 12.5,
-        units: app.units(),
-        grid_m: app.settings.grid_m(),
+        units: session.units(),
+        grid_m: session.settings.grid_m(),
         layers: Layers {
             // Over a picture its lines would be taken for walls.
             grid: layers.grid && !is_over_picture,
@@ -939,5 +903,30 @@ mod tests {
             let px_per_m = canvas.px_per_m().expect("has a camera");
             assert!((LEAST_PX_PER_M..=MOST_PX_PER_M).contains(&px_per_m));
         }
+    }
+}
+
+/// What to do with an empty plan: the tools one begins with, by their keys.
+fn paint_beginning(painter: &Painter, rect: Rect, palette: &Palette, beginning: &Beginning) {
+    let lines = [
+        ("Nothing is drawn yet".to_owned(), theme::TITLE, palette.ink),
+        (
+            format!("{}   Draw walls, then {} makes rooms of what they enclose", beginning.walls, beginning.fill),
+            theme::BODY,
+            palette.ink_muted,
+        ),
+        (format!("{}   Draw rooms as rectangles", beginning.rectangle), theme::BODY, palette.ink_muted),
+        (format!("{}   Put doors in", beginning.door), theme::BODY, palette.ink_muted),
+        ("Or drop a picture of a plan here, to trace it".to_owned(), theme::BODY, palette.ink_muted),
+    ];
+    const LINE: f32 = 26.0;
+    // Of a small canvas the hints would hide all.
+    if rect.width() < 420.0 || rect.height() < 240.0 {
+        return;
+    }
+    let mut at = rect.center() - vec2(0.0, LINE * lines.len() as f32 / 2.0);
+    for (text, size, colour) in lines {
+        painter.text(at, egui::Align2::CENTER_TOP, text, egui::FontId::proportional(size), theme::colour(colour));
+        at.y += LINE;
     }
 }

@@ -9,11 +9,12 @@ use egui::{
     WidgetInfo, pos2, vec2,
 };
 
+use crate::app::canvas::Canvas;
 use crate::app::canvas::guides::{self, Drag};
-use crate::app::commands;
 use crate::app::look::theme::{self, Colours};
 use crate::app::paint::places::{on_screen, plan_point};
-use crate::app::state::App;
+use crate::app::session::Session;
+use crate::app::tools::Call;
 use crate::base::units::Units;
 use crate::draw::View;
 use crate::geometry::Point;
@@ -35,13 +36,14 @@ const TEXT: f32 = 10.0;
 const REACH: f32 = 5.0;
 
 /// What the rulers leave of a rectangle to the canvas.
-pub(crate) fn canvas_rect(app: &App, all: Rect) -> Rect {
-    if app.layers.rulers { Rect::from_min_max(all.min + vec2(WIDTH, WIDTH), all.max) } else { all }
+pub(crate) fn canvas_rect(session: &Session, all: Rect) -> Rect {
+    if session.layers.rulers { Rect::from_min_max(all.min + vec2(WIDTH, WIDTH), all.max) } else { all }
 }
 
 /// Shows the rulers about the canvas that was shown last, if they are on.
-pub(crate) fn show(app: &mut App, ui: &mut Ui) {
-    let Some((view, rect)) = app.canvas.seen().filter(|_| app.layers.rulers) else { return };
+pub(crate) fn show(canvas: &mut Canvas, session: &Session, help: &str, ui: &mut Ui) -> Vec<Call> {
+    let mut calls = Vec::new();
+    let Some((view, rect)) = canvas.seen().filter(|_| session.layers.rulers) else { return calls };
     let colours = theme::colours(ui.visuals());
     let all = ui.available_rect_before_wrap();
     let above = Rect::from_min_max(pos2(rect.left(), all.top()), pos2(rect.right(), rect.top()));
@@ -50,9 +52,9 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     for (axis, strip) in [(GuideAxis::Vertical, above), (GuideAxis::Horizontal, beside)] {
         let painter = ui.painter_at(strip);
         painter.rect_filled(strip, 0.0, colours.panel);
-        Ruler { axis, strip, view: &view, rect, units: app.units(), colours }.paint(&painter);
-        mark_guides(app, &painter, strip, axis, &view, rect, colours);
-        if let Some(pointer) = app.canvas.pointer {
+        Ruler { axis, strip, view: &view, rect, units: session.units(), colours }.paint(&painter);
+        mark_guides(session, canvas.guide_drag, &painter, strip, axis, &view, rect, colours);
+        if let Some(pointer) = session.pointed.at {
             let place = on_screen(rect, &view, pointer);
             let stroke = Stroke::new(1.0, colours.accent);
             match axis {
@@ -60,15 +62,16 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
                 GuideAxis::Horizontal => painter.hline(strip.x_range(), place.y, stroke),
             };
         }
-        take_pointer(app, ui, strip, axis, &view, rect);
+        calls.extend(take_pointer(canvas, session, help, ui, strip, axis, &view, rect));
     }
     let corner = Rect::from_min_max(all.min, rect.min);
     ui.painter().rect_filled(corner, 0.0, colours.panel);
     let font = FontId::proportional(TEXT);
-    ui.painter().text(corner.center(), egui::Align2::CENTER_CENTER, app.units().symbol(), font, colours.text_weak);
+    ui.painter().text(corner.center(), egui::Align2::CENTER_CENTER, session.units().symbol(), font, colours.text_weak);
     let line = Stroke::new(1.0, colours.border);
     ui.painter().hline(all.x_range(), rect.top(), line);
     ui.painter().vline(rect.left(), all.y_range(), line);
+    calls
 }
 
 struct Ruler<'a> {
@@ -142,11 +145,20 @@ fn upright(galley: Arc<Galley>, at: Pos2) -> Shape {
 }
 
 /// Marks where the guides are, on the ruler that they cross.
-fn mark_guides(app: &App, painter: &Painter, strip: Rect, axis: GuideAxis, view: &View, rect: Rect, colours: &Colours) {
-    if !app.layers.guides {
+fn mark_guides(
+    session: &Session,
+    drag: Option<Drag>,
+    painter: &Painter,
+    strip: Rect,
+    axis: GuideAxis,
+    view: &View,
+    rect: Rect,
+    colours: &Colours,
+) {
+    if !session.layers.guides {
         return;
     }
-    for at_m in guides::places(app, axis) {
+    for at_m in guides::places(session, drag, axis) {
         let place = guides::on_canvas(rect, view, axis, at_m);
         let (tip, left, right) = match axis {
             GuideAxis::Vertical => {
@@ -163,7 +175,18 @@ fn mark_guides(app: &App, painter: &Painter, strip: Rect, axis: GuideAxis, view:
 }
 
 /// Guides are dragged out of a ruler, along it where they stand, and off it to be rid of them.
-fn take_pointer(app: &mut App, ui: &Ui, strip: Rect, axis: GuideAxis, view: &View, rect: Rect) {
+fn take_pointer(
+    canvas: &mut Canvas,
+    session: &Session,
+    help: &str,
+    ui: &Ui,
+    strip: Rect,
+    axis: GuideAxis,
+    view: &View,
+    rect: Rect,
+) -> Vec<Call> {
+    let mut calls = Vec::new();
+    let drag = canvas.guide_drag;
     let name = match axis {
         GuideAxis::Vertical => "Ruler above",
         GuideAxis::Horizontal => "Ruler on the left",
@@ -176,11 +199,11 @@ fn take_pointer(app: &mut App, ui: &Ui, strip: Rect, axis: GuideAxis, view: &Vie
     };
     let near = |at: Pos2| {
         let distance = |at_m: f64| (along(guides::on_canvas(rect, view, axis, at_m)) - along(at)).abs();
-        let places = guides::places(app, axis).filter(|_| app.layers.guides);
+        let places = guides::places(session, drag, axis).filter(|_| session.layers.guides);
         places.filter(|&at_m| distance(at_m) <= REACH).min_by(|&p, &q| distance(p).total_cmp(&distance(q)))
     };
     let under = response.hover_pos().and_then(near);
-    if app.guide_drag.is_none() && response.hovered() {
+    if canvas.guide_drag.is_none() && response.hovered() {
         let grab = match axis {
             GuideAxis::Vertical if under.is_some() => CursorIcon::ResizeHorizontal,
             GuideAxis::Horizontal if under.is_some() => CursorIcon::ResizeVertical,
@@ -192,45 +215,44 @@ fn take_pointer(app: &mut App, ui: &Ui, strip: Rect, axis: GuideAxis, view: &Vie
     if response.double_clicked()
         && let Some(at_m) = under
     {
-        app.act("remove-guide", &[axis.name(), &guides::word(at_m)], ui.ctx());
-        return;
+        calls.push(("remove-guide", vec![axis.name().to_owned(), guides::word(at_m)]));
+        return calls;
     }
     if response.drag_started_by(PointerButton::Primary) {
         let origin = ui.input(|input| input.pointer.press_origin());
-        app.guide_drag = Some(match origin.and_then(near) {
+        canvas.guide_drag = Some(match origin.and_then(near) {
             Some(at_m) => Drag { axis, from_m: Some(at_m), to_m: None, ruler: axis },
             // The ruler above lies along horizontal lines.
             None => Drag { axis: other(axis), from_m: None, to_m: None, ruler: axis },
         });
     }
-    let Some(mut drag) = app.guide_drag.filter(|drag| drag.ruler == axis) else { return };
+    let Some(mut drag) = canvas.guide_drag.filter(|drag| drag.ruler == axis) else { return calls };
     if let Some(at) = response.interact_pointer_pos() {
-        drag.to_m = guides::dropped_at(&drag, at, rect, view, app.units());
-        app.guide_drag = Some(drag);
+        drag.to_m = guides::dropped_at(&drag, at, rect, view, session.units());
+        canvas.guide_drag = Some(drag);
     }
     if ui.input(|input| input.key_pressed(egui::Key::Escape)) {
-        app.guide_drag = None;
+        canvas.guide_drag = None;
     } else if response.drag_stopped() || !response.dragged() {
-        app.guide_drag = None;
+        canvas.guide_drag = None;
         let way = drag.axis.name();
         match (drag.from_m, drag.to_m) {
-            (None, Some(to_m)) => app.act("add-guide", &[way, &guides::word(to_m)], ui.ctx()),
+            (None, Some(to_m)) => calls.push(("add-guide", vec![way.to_owned(), guides::word(to_m)])),
             (Some(from_m), Some(to_m)) if from_m != to_m => {
-                app.act("move-guide", &[way, &guides::word(from_m), &guides::word(to_m)], ui.ctx());
+                calls.push(("move-guide", vec![way.to_owned(), guides::word(from_m), guides::word(to_m)]));
             }
-            (Some(from_m), None) => app.act("remove-guide", &[way, &guides::word(from_m)], ui.ctx()),
+            (Some(from_m), None) => calls.push(("remove-guide", vec![way.to_owned(), guides::word(from_m)])),
             _ => {}
         }
     }
-    if response.hovered()
-        && let Some(command) = commands::find("add-guide")
-    {
+    if response.hovered() {
         response.on_hover_text(if under.is_some() {
             "Drag the guide along, drag it off or double-click to remove it"
         } else {
-            command.help
+            help
         });
     }
+    calls
 }
 
 const fn other(axis: GuideAxis) -> GuideAxis {

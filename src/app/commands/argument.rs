@@ -1,6 +1,8 @@
 //! What commands take: files, rooms, functions, numbers. Each kind reads its words, and offers
 //! choices where there are any.
 
+use crate::classify::Method;
+use crate::predict::ModelSet;
 use std::path::{Path, PathBuf};
 
 use super::{COMMANDS, Command, find};
@@ -11,13 +13,11 @@ use crate::base::{
     units::Units,
     wording::{or_list, sentence, similar},
 };
-use crate::classify::Method;
 use crate::features::RoomStatus;
 use crate::formats;
 use crate::geometry::{COORDINATE_LIMIT_M, Point, trim_m};
 use crate::labels::Typology;
 use crate::plan::{ElementId, Joint, Opening, OpeningId, Plan, Room, RoomId, titles::room_title};
-use crate::predict::ModelSet;
 
 /// Something a command takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -200,8 +200,8 @@ impl ArgumentKind {
     /// The word of what it is now, for what is chosen among a few that menus show at once.
     pub(in crate::app) fn current(self, app: &App) -> Option<&str> {
         match self {
-            Self::ModelSet => Some(app.predictor.set.name()),
-            Self::Method => Some(app.predictor.method.name()),
+            Self::ModelSet => Some(app.session.predictor.set.name()),
+            Self::Method => Some(app.session.predictor.method.name()),
             _ => None,
         }
     }
@@ -263,11 +263,12 @@ impl ArgumentKind {
             Self::Typology if text.trim().eq_ignore_ascii_case(UNKNOWN) => Ok(Value::Typology(None)),
             Self::Typology => {
                 let wanted = text.trim();
-                let found = app.schemes.typologies().find(|typology| typology.as_str().eq_ignore_ascii_case(wanted));
+                let found =
+                    app.session.schemes.typologies().find(|typology| typology.as_str().eq_ignore_ascii_case(wanted));
                 found.cloned().map(|found| Value::Typology(Some(found))).ok_or_else(|| with_choices(self.expected()))
             }
             Self::ModelSet => {
-                let set = ModelSet::read(text, &app.models).ok();
+                let set = ModelSet::read(text, &app.session.models).ok();
                 set.map(Value::ModelSet).ok_or_else(|| with_choices(self.expected()))
             }
             Self::Method => text.parse().map(Value::Method).map_err(|_| with_choices(self.expected())),
@@ -282,8 +283,12 @@ impl ArgumentKind {
                 _ => Err(self.expected()),
             },
             Self::Answer => {
-                let answers =
-                    app.question.as_ref().map(crate::app::session::questions::Question::answers).unwrap_or_default();
+                let answers = app
+                    .session
+                    .question
+                    .as_ref()
+                    .map(crate::app::session::questions::Question::answers)
+                    .unwrap_or_default();
                 let found = answers.iter().find(|(word, _)| *word == text.trim());
                 found.map(|(word, _)| Value::Word(word)).ok_or_else(|| with_choices(self.expected()))
             }
@@ -346,14 +351,15 @@ impl ArgumentKind {
             | Self::Points { .. } => return None,
             Self::Room => room_choices(app),
             Self::Opening => opening_choices(app),
-            Self::Function => app.function_choices(),
+            Self::Function => app.session.function_choices(),
             Self::Typology => {
-                let known = app.schemes.typologies().map(|typology| plain(typology.as_str(), &typology.title()));
+                let known =
+                    app.session.schemes.typologies().map(|typology| plain(typology.as_str(), &typology.title()));
                 known.chain([plain(UNKNOWN, "Unknown")]).collect()
             }
             Self::ModelSet => {
                 let choice = |set: ModelSet| Choice { detail: set.help(), ..plain(set.name(), &set.title()) };
-                ModelSet::all(&app.models).into_iter().map(choice).collect()
+                ModelSet::all(&app.session.models).into_iter().map(choice).collect()
             }
             Self::Method => {
                 let help = |method: Method| format!("Predict by {}", method.help());
@@ -377,8 +383,12 @@ impl ArgumentKind {
             }
             Self::Switch => vec![plain("on", "On"), plain("off", "Off")],
             Self::Answer => {
-                let answers =
-                    app.question.as_ref().map(crate::app::session::questions::Question::answers).unwrap_or_default();
+                let answers = app
+                    .session
+                    .question
+                    .as_ref()
+                    .map(crate::app::session::questions::Question::answers)
+                    .unwrap_or_default();
                 answers.iter().map(|(word, title)| plain(word, title)).collect()
             }
             Self::Word(words) => words.iter().map(|(word, title)| plain(word, title)).collect(),
@@ -467,7 +477,7 @@ fn is_own_word(name: &str) -> bool {
 }
 
 fn room_choices(app: &App) -> Vec<Choice> {
-    let Some(document) = &app.document else { return Vec::new() };
+    let Some(document) = &app.session.document else { return Vec::new() };
     let plan = document.plan();
     let mut ids: Vec<RoomId> = document.derived().map(|derived| derived.reading_order().to_vec()).unwrap_or_default();
     let is_listed: std::collections::BTreeSet<RoomId> = ids.iter().copied().collect();
@@ -478,7 +488,7 @@ fn room_choices(app: &App) -> Vec<Choice> {
     }
     let choice = |id: RoomId| {
         let room = plan.room(id)?;
-        let status = RoomStatus::of(plan, &app.schemes, room);
+        let status = RoomStatus::of(plan, &app.session.schemes, room);
         let is_unique = !room.name.is_empty() && names.get(&room.name.to_lowercase()) == Some(&1);
         // As `room_word` has it, quicker for thousands of rooms.
         let word = if is_unique && is_own_word(&room.name) { room.name.clone() } else { id.to_string() };
@@ -498,7 +508,7 @@ fn room_choices(app: &App) -> Vec<Choice> {
 }
 
 fn opening_choices(app: &App) -> Vec<Choice> {
-    let Some(document) = &app.document else { return Vec::new() };
+    let Some(document) = &app.session.document else { return Vec::new() };
     let plan = document.plan();
     let connections = document.derived().map(|derived| derived.analysis.graph.connections()).unwrap_or_default();
     let sides: std::collections::BTreeMap<OpeningId, &[Joint; 2]> =

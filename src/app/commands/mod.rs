@@ -11,9 +11,10 @@ mod table;
 use egui::{Context, KeyboardShortcut};
 
 pub use crate::app::look::keys::{Keys, NoKeys};
+pub use crate::app::session::executed::Executed;
 pub use argument::{Argument, ArgumentKind, Choice};
 pub use manual::{keys_of, manual};
-pub use run::{CommandError, Executed};
+pub use run::CommandError;
 pub use table::COMMANDS;
 
 pub(super) use crate::app::look::keys::take_pressed;

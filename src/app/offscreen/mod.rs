@@ -116,13 +116,13 @@ impl Offscreen {
     /// Works beside the frames on threads, as the window on a screen does: what is seen when then depends
     /// on how fast the machine is.
     pub fn working_beside(mut self) -> Self {
-        self.app.background = Background::new(Mode::Threads(self.context.clone()));
+        self.app.session.background = Background::new(Mode::Threads(self.context.clone()));
         self
     }
 
     /// Whether something is being worked out beside the frames.
     pub fn is_working(&self) -> bool {
-        self.app.background.is_busy()
+        self.app.session.background.is_busy()
     }
 
     /// The window's state.
@@ -132,7 +132,7 @@ impl Offscreen {
 
     /// Opens the file at a path, as from the command line.
     pub fn open(&mut self, path: &Path) {
-        self.app.open(Origin::File { path: path.to_owned(), storey: 0 });
+        self.app.session.open(Origin::File { path: path.to_owned(), storey: 0 });
     }
 
     /// Opens a plan that comes with the program, by its file's name without the ending.
@@ -140,7 +140,7 @@ impl Offscreen {
     pub fn open_bundled(&mut self, stem: &str) -> bool {
         let index = bundled().iter().position(|(name, _)| crate::formats::file_stem(name) == stem);
         if let Some(index) = index {
-            self.app.open(Origin::Bundled(index));
+            self.app.session.open(Origin::Bundled(index));
         }
         index.is_some()
     }
@@ -205,7 +205,7 @@ impl Offscreen {
     }
 
     fn given(&mut self) -> Option<&mut Given> {
-        match &mut self.app.dialogs {
+        match &mut self.app.session.dialogs {
             Dialogs::Given(given) => Some(given),
             Dialogs::System { .. } => None,
         }
@@ -214,7 +214,7 @@ impl Offscreen {
     /// Names paths below a folder by what comes behind it, so that what is seen does not depend on
     /// where the folder is.
     pub fn name_paths_from(&mut self, folder: &Path) {
-        self.app.named_from = Some(folder.to_owned());
+        self.app.session.named_from = Some(folder.to_owned());
     }
 
     /// Whether the window has closed.

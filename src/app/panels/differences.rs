@@ -121,7 +121,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         app.panels.shown_differences = None;
         return;
     }
-    let Some((theirs, document)) = app.their_plan().zip(app.document.as_ref()) else { return };
+    let Some((theirs, document)) = app.session.their_plan().zip(app.session.document.as_ref()) else { return };
     let Some(derived) = document.derived().cloned() else { return };
     let mine = document.plan().clone();
     let shown = app.panels.shown_differences.as_ref();

@@ -22,7 +22,7 @@ enum Act {
 }
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    let Some(document) = &app.document else { return };
+    let Some(document) = &app.session.document else { return };
     let margin = egui::Margin { left: 8, right: 8, top: 10, bottom: 8 };
     let act = egui::Frame::new().inner_margin(margin).show(ui, |ui| {
         ui.horizontal(|ui| {

@@ -40,8 +40,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     if let Some(index) = segmented(ui, &segments) {
         app.run_command(fills[index].0, &context);
     }
-    if let Some(document) = &app.document {
-        legend(ui, document, app.layers.fill, app.palette(ui));
+    if let Some(document) = &app.session.document {
+        legend(ui, document, app.session.layers.fill, app.session.palette(ui));
     }
     hairline(ui);
     section(ui, "Layers");

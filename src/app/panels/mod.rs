@@ -2,6 +2,7 @@
 
 mod about;
 pub(super) mod bulk;
+mod canvas;
 pub(super) mod differences;
 mod history;
 mod inspector;
@@ -22,7 +23,6 @@ mod tool_strip;
 mod top_bar;
 pub(super) mod welcome;
 
-use crate::app::session::fields::Field;
 use crate::app::session::fields::FieldKind;
 use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, UiBuilder};
 
@@ -30,7 +30,6 @@ use bulk::Bulk;
 use palette::Palette;
 use shortcuts::Sheet;
 
-use super::canvas;
 use crate::app::look::theme;
 use crate::app::state::App;
 
@@ -65,8 +64,6 @@ pub(crate) struct Panels {
     pub palette: Option<Palette>,
     /// Commands that were done from the palette, the last one first.
     pub recent: Vec<&'static str>,
-    /// Functions that were set, the last one first, as schemes compare them.
-    pub recent_functions: Vec<String>,
     /// The shortcuts, while they are shown.
     pub sheet: Option<Sheet>,
     /// Naming or changing many rooms, while that is asked for.
@@ -80,8 +77,6 @@ pub(crate) struct Panels {
     pub right_rect: Option<egui::Rect>,
     /// Height in points that the fill and the layers took when they were last shown.
     layers_height: f32,
-    /// Text that a person has changed and not finished.
-    field: Option<Field>,
 }
 
 impl Default for Panels {
@@ -97,7 +92,6 @@ impl Default for Panels {
             shown_differences: None,
             palette: None,
             recent: Vec::new(),
-            recent_functions: Vec::new(),
             sheet: None,
             bulk: None,
             pattern: None,
@@ -105,20 +99,13 @@ impl Default for Panels {
             left_rect: None,
             right_rect: None,
             layers_height: 360.0,
-            field: None,
         }
     }
 }
 
 impl Panels {
-    /// The text that is not part of the plan yet; it is taken out.
-    pub(super) fn take_field(&mut self) -> Option<Field> {
-        self.field.take()
-    }
-
     /// Forgets what belongs to the plan that was shown.
     pub(super) fn forget(&mut self) {
-        self.field = None;
         self.notes = false;
         self.bulk = None;
         self.differences = false;
@@ -197,7 +184,7 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
             });
         app.panels.left_rect = Some(shown.response.rect);
     }
-    if (app.panels.right || app.panels.history) && app.document.is_some() {
+    if (app.panels.right || app.panels.history) && app.session.document.is_some() {
         let shown = Panel::right("inspector")
             .default_size(300.0)
             .size_range(240.0..=520.0)
@@ -205,7 +192,7 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
             .show(ui, |ui| show_right(app, ui));
         app.panels.right_rect = Some(shown.response.rect);
     }
-    if app.document.is_some() {
+    if app.session.document.is_some() {
         Panel::left("tools")
             .exact_size(tool_strip::WIDTH)
             .resizable(false)
@@ -215,7 +202,7 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         messages::show(app, ui);
-        if app.document.is_some() {
+        if app.session.document.is_some() {
             canvas::show(app, ui);
         } else {
             welcome::show(app, ui);

@@ -22,7 +22,7 @@ pub(crate) fn summary(notes: &[Note]) -> String {
 }
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    let Some(document) = app.document.as_ref().filter(|_| app.panels.notes) else { return };
+    let Some(document) = app.session.document.as_ref().filter(|_| app.panels.notes) else { return };
     let response = Modal::new(Id::unique("import notes")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
         ui.set_width(620.0_f32.min(ui.ctx().content_rect().width() - 80.0).max(0.0));
         ui.label(strong("Import notes", theme::TITLE));

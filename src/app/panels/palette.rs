@@ -146,7 +146,7 @@ enum Act {
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     // A question comes first, and what was begun here is forgotten.
-    if app.question.is_some() {
+    if app.session.question.is_some() {
         app.panels.palette = None;
     }
     let Some(mut palette) = app.panels.palette.take() else { return };
@@ -539,7 +539,7 @@ fn command_lines(app: &App, ui: &Ui, search: &mut Search) -> Vec<Line> {
 }
 
 fn argument_lines(app: &App, ui: &Ui, choices: &[Choice], search: &mut Search) -> Vec<Line> {
-    let palette = app.palette(ui);
+    let palette = app.session.palette(ui);
     let mut found: Vec<(std::cmp::Reverse<u32>, Line)> = Vec::new();
     for choice in choices {
         let Choice { word, title, detail, trail, status } = choice;

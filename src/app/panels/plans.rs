@@ -33,7 +33,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             }
         });
     });
-    let current = app.document.as_ref().map(|document| document.origin.clone());
+    let current = app.session.document.as_ref().map(|document| document.origin.clone());
     let mut wanted = None;
     ui.spacing_mut().item_spacing.y = 0.0;
     ScrollArea::vertical().auto_shrink([false, false]).show_rows(ui, ROW, entries.len(), |ui, range| {
@@ -69,12 +69,12 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
 
 fn entries(app: &App) -> Vec<Entry> {
     let mut entries = Vec::new();
-    let document = app.document.as_ref();
-    if let Some(folder) = &app.list.folder
-        && !app.list.files.is_empty()
+    let document = app.session.document.as_ref();
+    if let Some(folder) = &app.session.list.folder
+        && !app.session.list.files.is_empty()
     {
         entries.push(Entry::Title(folder_name(folder)));
-        for path in &app.list.files {
+        for path in &app.session.list.files {
             let origin = Origin::File { path: path.clone(), storey: 0 };
             let open = document.filter(|document| document.origin.path() == Some(path) && document.storeys.len() > 1);
             entries.push(Entry::Plan { text: file_name(path), origin });

@@ -3,10 +3,8 @@
 use egui::{Align2, ComboBox, FontId, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
 use crate::app::commands;
-use crate::app::look::{
-    theme,
-    widgets::{caption, colours, focus_ring, follow_focus, section, text_button},
-};
+use crate::app::look::theme;
+use crate::app::look::widgets::{caption, colours, focus_ring, follow_focus, section, text_button};
 use crate::app::state::App;
 use crate::base::wording::sentence;
 use crate::draw::Palette;

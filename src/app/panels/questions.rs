@@ -12,7 +12,7 @@ use crate::base::wording::count;
 use crate::plan::ElementId;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    let Some(question) = &app.question else { return };
+    let Some(question) = &app.session.question else { return };
     let title = question.title(app);
     let text = match question {
         Question::Unsaved(intent) => {

@@ -23,7 +23,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             ui.label(RichText::new("● Recording").size(theme::SMALL).color(colours(ui).error));
             ui.add_space(6.0);
         }
-        if app.journal_failure().is_some() {
+        if app.session.journal_failure().is_some() {
             ui.label(RichText::new("● Not kept safe").size(theme::SMALL).color(colours(ui).error));
             ui.add_space(6.0);
         }
@@ -35,7 +35,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         });
         right(ui, |ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
-            let Some(px_per_m) = app.canvas.px_per_m().filter(|_| app.document.is_some()) else { return };
+            let Some(px_per_m) = app.canvas.px_per_m().filter(|_| app.session.document.is_some()) else { return };
             zoom_button(app, ui, Icon::Plus, "zoom-in");
             let scale = 1.0 / (px_per_m * METRES_PER_POINT);
             let (rect, response) = ui.allocate_exact_size(vec2(60.0, 22.0), Sense::hover());
@@ -46,7 +46,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             response.on_hover_text("Scale on a screen of 96 points to the inch");
             zoom_button(app, ui, Icon::Minus, "zoom-out");
             ui.add_space(14.0);
-            if let Some(point) = app.canvas.pointer {
+            if let Some(point) = app.session.pointed.at {
                 let units = app.units();
                 ui.label(small(format!("x {}    y {}", units.length(point.x), units.length(point.y))));
             }
@@ -66,21 +66,21 @@ fn zoom_button(app: &mut App, ui: &mut Ui, icon: Icon, id: &str) {
 }
 
 pub(crate) fn left_text(app: &App) -> String {
-    if let Some(origin) = &app.opening {
+    if let Some(origin) = &app.session.opening {
         return format!("Opening {}…", origin.title());
     }
-    let Some(document) = &app.document else { return String::new() };
-    if let Some(name) = &app.reading_picture {
+    let Some(document) = &app.session.document else { return String::new() };
+    if let Some(name) = &app.session.reading_picture {
         return format!("Reading {name}…");
     }
-    if app.canvas.backdrop.is_loading() {
+    if app.session.backdrop.is_loading() {
         return "Reading the picture…".to_owned();
     }
     if document.derived().is_none() {
         return "Working out rooms and features…".to_owned();
     }
     let said: Vec<&str> =
-        [app.status.as_str(), app.tools.hint.as_str()].into_iter().filter(|text| !text.is_empty()).collect();
+        [app.session.status.as_str(), app.tools.hint.as_str()].into_iter().filter(|text| !text.is_empty()).collect();
     if !said.is_empty() {
         return said.join("  ·  ");
     }

@@ -32,7 +32,7 @@ const GAP: f32 = 16.0;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let rect = ui.available_rect_before_wrap();
-    let palette = app.palette(ui);
+    let palette = app.session.palette(ui);
     ui.painter().rect_filled(rect, 0.0, theme::colour(palette.paper));
     let samples = bundled().len();
     let columns = ((rect.width() - 48.0 + GAP) / (CARD.x + GAP)).floor().clamp(1.0, 3.0);
@@ -89,7 +89,7 @@ fn card(app: &mut App, ui: &mut Ui, index: usize, plan: &Plan) -> Response {
     let rim = if response.has_focus() { Stroke::new(2.0, colours.accent) } else { Stroke::new(1.0, colours.outline) };
     ui.painter().rect_stroke(rect, radius, rim, StrokeKind::Inside);
     let picture = Rect::from_min_max(rect.min + vec2(14.0, 12.0), rect.max - vec2(14.0, 50.0));
-    let (theme, label_colours) = (app.palette(ui).theme, app.layers.colours);
+    let (theme, label_colours) = (app.session.palette(ui).theme, app.session.layers.colours);
     let sample = app.samples.get(index, plan);
     let (width_px, height_px) = (f64::from(picture.width()), f64::from(picture.height()));
     let view = View {

@@ -312,12 +312,12 @@ impl App {
             view: None,
             is_moving: false,
         };
-        if let Some(document) = &self.document {
+        if let Some(document) = &self.session.document {
             recorder.start = Some((document.number, document.history.position()));
             let line = recorder.open(&document.origin);
             recorder.lines.push(line);
         }
-        if let Some(Origin::File { path, storey }) = self.ghost.as_ref().and_then(|ghost| ghost.origin.as_ref())
+        if let Some(Origin::File { path, storey }) = self.session.ghost.as_ref().and_then(|ghost| ghost.origin.as_ref())
             && let Some(word) = recorder.files.add_file(path)
         {
             recorder.lines.push(Line::new(&["ghost", &word, &(storey + 1).to_string()]));
@@ -327,9 +327,10 @@ impl App {
             recorder.view = Some(View { x_m: centre.x, y_m: centre.y, px_per_m });
         }
         self.recorder = Some(recorder);
+        self.session.is_recording = true;
         self.round_view();
         self.watch_commands(true);
-        self.status = "Recording".to_owned();
+        self.session.status = "Recording".to_owned();
     }
 
     /// The steps to what is shown and picked, from how the program starts.
@@ -349,13 +350,13 @@ impl App {
                 }
             })
             .collect();
-        if self.selection.len() > 1 {
-            lines.push(Line::new(&["select", &elements_word(self.selection.iter())]));
+        if self.session.selection.len() > 1 {
+            lines.push(Line::new(&["select", &elements_word(self.session.selection.iter())]));
         }
         match (self.picked(), self.plan()) {
             (Some(ElementId::Room(id)), Some(plan)) => lines.push(Line::new(&["pick", &room_word(plan, id)])),
             (Some(ElementId::Opening(id)), Some(_)) => lines.push(Line::new(&["pick-opening", &id.to_string()])),
-            (Some(_), Some(_)) => lines.push(Line::new(&["select", &elements_word(self.selection.iter())])),
+            (Some(_), Some(_)) => lines.push(Line::new(&["select", &elements_word(self.session.selection.iter())])),
             _ => {}
         }
         lines
@@ -383,12 +384,12 @@ impl App {
             self.round_view();
         }
         let start = self.recorder.as_ref().and_then(|recorder| recorder.start);
-        let before_start = self.document.as_ref().zip(start).and_then(|(document, (number, position))| {
+        let before_start = self.session.document.as_ref().zip(start).and_then(|(document, (number, position))| {
             let is_before = document.number == number && document.history.position() < position;
             is_before.then(|| document.history.steps().get(position).map(|step| step.plan.clone()))
         });
         if let Some(plan_before) = before_start {
-            self.say(
+            self.session.say(
                 Severity::Warning,
                 "The recording ends before this step",
                 "What is undone now was done before the recording began.",
@@ -397,6 +398,7 @@ impl App {
                 recorder.lines.pop();
             }
             let recording = self.recorder.take().map(|recorder| recorder.recording(plan_before.as_ref()));
+            self.session.is_recording = false;
             self.watch_commands(false);
             self.ask_where_to_save_recording(recording, None);
         }
@@ -412,7 +414,7 @@ impl App {
                 // What follows was done from this very view.
                 recorder.write_view(None);
             }
-            recorder.note(executed, self.opening.as_ref());
+            recorder.note(executed, self.session.opening.as_ref());
         }
     }
 
@@ -429,7 +431,7 @@ impl App {
     /// Asks where to save what was recorded. The recording ends once it is saved, and goes on if the
     /// dialog is cancelled; then does what was to follow.
     pub(crate) fn stop_recording(&mut self, then: Option<Intent>) {
-        self.commit_field();
+        self.session.commit_field();
         self.write_executed();
         self.round_view();
         let recording = self.recorder.as_ref().map(|recorder| recorder.recording(self.plan()));
@@ -439,7 +441,7 @@ impl App {
     fn ask_where_to_save_recording(&mut self, recording: Option<Recording>, then: Option<Intent>) {
         let Some(recording) = recording else { return };
         let purpose = Purpose::Recording { recording: Box::new(recording), then };
-        self.dialogs.ask(purpose, None, "recording.replay".to_owned(), &mut self.background);
+        self.session.dialogs.ask(purpose, None, "recording.replay".to_owned(), &mut self.session.background);
     }
 
     /// Saves a recording; the ending is added where it is missing.
@@ -447,7 +449,7 @@ impl App {
         if !path.to_string_lossy().ends_with(ENDING) {
             path.as_mut_os_string().push(ENDING);
         }
-        self.background.start(move || {
+        self.session.background.start(move || {
             let result = recording.save(&path);
             Done::RecordingSaved { path, recording: Box::new(recording), result, then }
         });
@@ -464,16 +466,17 @@ impl App {
         match result {
             Ok(()) => {
                 self.recorder = None;
+                self.session.is_recording = false;
                 self.watch_commands(false);
-                self.status = format!("Recorded in {}", file_name(path));
+                self.session.status = format!("Recorded in {}", file_name(path));
                 if let Some(intent) = then {
-                    self.request(intent);
+                    self.session.request(intent);
                 }
             }
             Err(error) => {
                 let text = format!("{} is not saved: {}", file_name(path), error.what);
-                let detail = format!("{}.\n{}", error.hint, self.shown_path(path));
-                self.say(Severity::Error, text, detail);
+                let detail = format!("{}.\n{}", error.hint, self.session.shown_path(path));
+                self.session.say(Severity::Error, text, detail);
                 // Elsewhere, perhaps.
                 self.ask_where_to_save_recording(Some(recording), then);
             }

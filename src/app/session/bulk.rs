@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use super::Session;
 use crate::app::commands;
 use crate::app::session::{document::Document, labelling::for_each};
-use crate::app::state::App;
 use crate::base::wording::count;
 use crate::edit::{
     self,
@@ -174,7 +174,7 @@ pub(crate) struct Names {
     pub kept: usize,
 }
 
-impl App {
+impl Session {
     /// The rooms of a kind, as one reads.
     pub(crate) fn rooms_of(&self, which: &Which) -> Vec<RoomId> {
         let Some(plan) = self.plan() else { return Vec::new() };

@@ -7,22 +7,15 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use rstar::{AABB, PointDistance, RTree, RTreeObject};
-
 use crate::app::session::plan_list;
-use crate::classify::models::Models;
-use crate::dataset::RoomNetwork;
-use crate::draw::Drawing;
 use crate::edit;
-use crate::features::{Analysis, NeighbourLabels, analyse};
 use crate::formats::{self, FileError, Note, Place, ReadError};
-use crate::geometry::{Bounds, Point, Segment};
-use crate::labels::{Schemes, normalised_function};
-use crate::plan::{ElementId, History, Meta, OpeningId, Plan, RoomId, Scale, ScaleOrigin};
-use crate::predict::{Predictions, Predictor};
-use crate::snapping::PlanIndex;
+use crate::geometry::Bounds;
+use crate::labels::Schemes;
+pub(crate) use crate::pipeline::Derived;
+use crate::plan::{ElementId, History, Meta, Plan, Scale, ScaleOrigin};
+use crate::predict::Predictor;
 use crate::store::{self, Stamp};
-use crate::topology::{self, Gap};
 
 /// What follows from a bundled plan without predictions, which its picture does not show: worked out once.
 pub(crate) fn derived_sample(index: usize, plan: &Plan) -> Arc<Derived> {
@@ -79,7 +72,7 @@ pub(crate) fn open(origin: Origin) -> Result<Opened, FileError> {
             let first = plan_list::plans_in(path).into_iter().next();
             let Some(path) = first else {
                 let what = "there is no plan in this folder".to_owned();
-                let hint = "open a plan file, the authors' XML, or GeoJSON".to_owned();
+                let hint = format!("open a plan file; {}", formats::known_formats());
                 let error = ReadError { place: Place::default(), what, hint };
                 return Err(FileError { path: path.clone(), error });
             };
@@ -254,184 +247,6 @@ impl Document {
         };
         (!bounds.is_empty()).then_some(bounds)
     }
-}
-
-/// What follows from a plan.
-pub(crate) struct Derived {
-    pub analysis: Analysis,
-    pub drawing: Drawing,
-    /// What a classifier says of the rooms; `None` where none was asked, and where there is no model of the
-    /// method that is asked for.
-    pub predictions: Option<Predictions>,
-    predictor: Option<Predictor>,
-    /// Why a room got its label, as asked for last.
-    reason: Mutex<Option<(RoomId, Option<String>)>>,
-    /// Corners, walls and boundaries by place: to snap to, and to select.
-    pub index: PlanIndex,
-    /// Doorways left open in walls.
-    pub gaps: Vec<Gap>,
-    openings: RTree<OpeningPlace>,
-    reading_order: Vec<RoomId>,
-    /// How many rooms have each function, as [`normalised_function`] writes it.
-    pub functions: BTreeMap<String, usize>,
-}
-
-#[derive(Debug)]
-struct OpeningPlace {
-    id: OpeningId,
-    segment: Segment,
-}
-
-impl RTreeObject for OpeningPlace {
-    type Envelope = AABB<[f64; 2]>;
-
-    fn envelope(&self) -> Self::Envelope {
-        let Segment { a, b } = self.segment;
-        AABB::from_corners([a.x.min(b.x), a.y.min(b.y)], [a.x.max(b.x), a.y.max(b.y)])
-    }
-}
-
-impl PointDistance for OpeningPlace {
-    fn distance_2(&self, point: &[f64; 2]) -> f64 {
-        self.segment.distance(Point::new(point[0], point[1])).powi(2)
-    }
-}
-
-impl Derived {
-    /// Works out all that follows from a plan; without a predictor all but predictions.
-    pub(crate) fn new(plan: &Plan, schemes: &Schemes, predictor: Option<(Predictor, Models)>) -> Self {
-        let (predictor, models) = predictor.unzip();
-        let analysis = analyse(plan, schemes, NeighbourLabels::True);
-        let predictions = Self::predicted(plan, &analysis, predictor.as_ref(), models.as_ref());
-        let drawing = Drawing::in_tiles(plan, &analysis);
-        Self::of(plan, analysis, predictions, predictor, drawing)
-    }
-
-    /// The same, given up between its steps when it turns out that a later plan is worked out.
-    pub(crate) fn unless_outdated(
-        plan: &Plan,
-        schemes: &Schemes,
-        predictor: Option<(Predictor, Models)>,
-        outdated: &AtomicBool,
-    ) -> Option<Self> {
-        let (predictor, models) = predictor.unzip();
-        let goes_on = || (!outdated.load(Ordering::Relaxed)).then_some(());
-        goes_on()?;
-        let analysis = analyse(plan, schemes, NeighbourLabels::True);
-        goes_on()?;
-        let predictions = Self::predicted(plan, &analysis, predictor.as_ref(), models.as_ref());
-        goes_on()?;
-        let drawing = Drawing::in_tiles(plan, &analysis);
-        goes_on()?;
-        Some(Self::of(plan, analysis, predictions, predictor, drawing))
-    }
-
-    fn predicted(
-        plan: &Plan,
-        analysis: &Analysis,
-        predictor: Option<&Predictor>,
-        models: Option<&Models>,
-    ) -> Option<Predictions> {
-        let (predictor, models) = (predictor?, models?);
-        let network = RoomNetwork::of(plan, analysis);
-        let known = network.known_labels();
-        predictor.predict(network, &known, None, models).ok()
-    }
-
-    fn of(
-        plan: &Plan,
-        analysis: Analysis,
-        predictions: Option<Predictions>,
-        predictor: Option<Predictor>,
-        drawing: Drawing,
-    ) -> Self {
-        let openings = plan
-            .openings()
-            .filter_map(|(id, opening)| Some(OpeningPlace { id, segment: plan.opening_segment(opening)? }))
-            .collect();
-        let labels = predictions.as_ref().map(Predictions::labels).unwrap_or_default();
-        let drawing = drawing.with_predictions(&labels);
-        let reading_order = reading_order(&analysis);
-        let openings = RTree::bulk_load(openings);
-        let index = PlanIndex::new(plan);
-        let mut functions: BTreeMap<String, usize> = BTreeMap::new();
-        for (_, room) in plan.rooms() {
-            *functions.entry(normalised_function(&room.function)).or_default() += 1;
-        }
-        let gaps = topology::gaps(plan);
-        let reason = Mutex::default();
-        Self { analysis, drawing, predictions, predictor, reason, index, gaps, openings, reading_order, functions }
-    }
-
-    /// The rooms with a boundary as one reads: from the top left, line by line.
-    pub(crate) fn reading_order(&self) -> &[RoomId] {
-        &self.reading_order
-    }
-
-    /// The rooms with a boundary from the top left, column by column.
-    pub(crate) fn column_order(&self) -> Vec<RoomId> {
-        in_lines(&self.analysis, |bounds| (bounds.min.x, bounds.width()), |bounds| -bounds.max.y)
-    }
-
-    /// Why a room got the label that is predicted, in words; `None` where none is. Worked out when asked
-    /// for another room.
-    pub(crate) fn reason(&self, room: RoomId) -> Option<String> {
-        let predictions = self.predictions.as_ref()?;
-        // A poisoned one holds what was there before, which is right.
-        let mut last = self.reason.lock().unwrap_or_else(PoisonError::into_inner);
-        if last.as_ref().is_none_or(|(of, _)| *of != room) {
-            *last = Some((room, predictions.reason(room)));
-        }
-        last.as_ref().and_then(|(_, reason)| reason.clone())
-    }
-
-    /// What can be picked at a point: openings within `reach_m` metres, then walls, the nearest first, then
-    /// rooms, the smallest first. A wall is reached half as far beside it as an opening.
-    pub(crate) fn at(&self, point: Point, reach_m: f64) -> Vec<ElementId> {
-        let place = [point.x, point.y];
-        let mut near: Vec<(f64, OpeningId)> = self
-            .openings
-            .locate_within_distance(place, reach_m * reach_m)
-            .map(|opening| (opening.distance_2(&place), opening.id))
-            .collect();
-        near.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
-        let openings = near.into_iter().map(|(_, id)| ElementId::Opening(id));
-        let shapes = &self.analysis.shapes;
-        let rooms = shapes.at(point).into_iter().map(|index| ElementId::Room(shapes.all()[index].id));
-        let walls =
-            self.index.edges_near(point, reach_m / 2.0).into_iter().filter_map(|edge| edge.wall).map(ElementId::Wall);
-        openings.chain(walls).chain(rooms).collect()
-    }
-}
-
-/// Rooms from the top left, line by line.
-fn reading_order(analysis: &Analysis) -> Vec<RoomId> {
-    in_lines(analysis, |bounds| (-bounds.max.y, bounds.height()), |bounds| bounds.min.x)
-}
-
-/// Rooms in lines, and in order within each. `across` tells where a room begins across the lines and how
-/// far it extends: a line is as wide as half a typical room.
-fn in_lines(
-    analysis: &Analysis,
-    across: impl Fn(&Bounds) -> (f64, f64),
-    along: impl Fn(&Bounds) -> f64,
-) -> Vec<RoomId> {
-    let mut rooms: Vec<(RoomId, Bounds)> = analysis
-        .shapes
-        .all()
-        .iter()
-        .filter(|shape| !shape.bounds.is_empty())
-        .map(|shape| (shape.id, shape.bounds))
-        .collect();
-    let mut extents: Vec<f64> = rooms.iter().map(|(_, bounds)| across(bounds).1).collect();
-    extents.sort_by(f64::total_cmp);
-    let line_m = extents.get(extents.len() / 2).map_or(1.0, |extent| (extent / 2.0).max(0.1));
-    let line = |bounds: &Bounds| (across(bounds).0 / line_m).ceil() as i64;
-    rooms.sort_by(|(p, a), (q, b)| {
-        let within = along(a).total_cmp(&along(b)).then(across(a).0.total_cmp(&across(b).0));
-        line(a).cmp(&line(b)).then(within).then(p.cmp(q))
-    });
-    rooms.into_iter().map(|(id, _)| id).collect()
 }
 
 /// Saves a plan to a path and gives the file's stamp.

@@ -84,7 +84,7 @@ impl Dialogs {
                     Purpose::Open => {
                         let dialog = dialog
                             .set_title("Open a plan")
-                            .add_filter("Plans", &["plan.json", "json", "xml", "geojson"])
+                            .add_filter("Plans", &crate::formats::dialog_endings())
                             .add_filter("All files", &["*"]);
                         Box::pin(dialog.pick_file()) as Waiting
                     }

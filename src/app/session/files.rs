@@ -1,13 +1,14 @@
 //! Opening, saving, closing: never losing unsaved work, never overwriting silently.
 
+use super::wishes::Wish;
+use crate::app::session::Session;
 use crate::app::session::origin::file_name;
 use crate::app::session::tracing::PictureUse;
 use crate::app::session::tracing::plan_in_folder;
 use std::path::{Path, PathBuf};
 
-use egui::{Context, ViewportCommand};
+use egui::Context;
 
-use crate::app::commands::sample_word;
 use crate::app::session::{
     document::{self, Begun, Document, Expected, Opened, SaveFailure},
     file_dialogs::{Answer, Purpose},
@@ -18,16 +19,16 @@ use crate::app::session::{
     questions::{Intent, Question},
     selection::Selection,
 };
-use crate::app::state::{App, Done};
+use crate::app::state::Done;
 use crate::edit::{
     DrawingMoves,
     storey::{Keep, copied},
 };
 use crate::formats::FileError;
 use crate::plan::Plan;
-use crate::store::{Stamp, pictures};
+use crate::store::Stamp;
 
-impl App {
+impl Session {
     /// Asks which plan to open.
     pub(crate) fn choose_plan(&mut self) {
         let folder = self.document.as_ref().and_then(|document| document.origin.folder()).map(Path::to_owned);
@@ -83,41 +84,6 @@ impl App {
         }
     }
 
-    pub(crate) fn take_dropped_files(&mut self, context: &Context) {
-        let dropped = context.input_mut(|input| std::mem::take(&mut input.raw.dropped_files));
-        let Some(first) = dropped.first() else { return };
-        if dropped.len() > 1 {
-            let text = format!("{} files were dropped; the first is opened", dropped.len());
-            self.say(Severity::Info, text, "Plans that lie in the same folder are in the list on the left.");
-        }
-        let word = first.path().to_string_lossy().into_owned();
-        let is_picture = pictures::is_picture_name(first.path());
-        self.act(if is_picture { "picture" } else { "open" }, &[&word], context);
-    }
-
-    /// Opens what a row of the list or a card stands for.
-    pub(crate) fn open_listed(&mut self, origin: &Origin, context: &Context) {
-        match origin {
-            Origin::Bundled(index) => self.act("open-sample", &[sample_word(*index)], context),
-            Origin::Untitled => self.act("new-plan", &[], context),
-            Origin::File { path, storey: 0 } => self.act("open", &[&path.to_string_lossy()], context),
-            Origin::File { path, storey } => {
-                self.act("open", &[&path.to_string_lossy(), &(storey + 1).to_string()], context);
-            }
-        }
-    }
-
-    pub(crate) fn take_close_request(&mut self, context: &Context) {
-        if context.input(|input| input.viewport().close_requested()) && !self.quitting {
-            context.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.run_command("quit", context);
-        }
-        if self.quitting && !self.is_close_sent {
-            self.is_close_sent = true;
-            context.send_viewport_cmd(ViewportCommand::Close);
-        }
-    }
-
     /// Does what a person wants, after asking where that would lose unsaved work.
     pub(crate) fn request(&mut self, intent: Intent) {
         self.commit_field();
@@ -150,11 +116,10 @@ impl App {
                 self.end_journal();
                 self.document = None;
                 self.selection = Selection::default();
-                self.tools.drop_work();
-                self.canvas.forget();
+                self.wishes.push(Wish::ForgetDrawing);
             }
             // The recording first, or it would be lost.
-            Intent::Quit if self.is_recording() => self.stop_recording(Some(Intent::Quit)),
+            Intent::Quit if self.is_recording => self.wishes.push(Wish::EndRecording(Intent::Quit)),
             Intent::Quit => {
                 self.end_journal();
                 self.quitting = true;
@@ -166,9 +131,8 @@ impl App {
         self.end_journal();
         let folder = opened.origin.folder().map(Path::to_owned);
         self.selection = Selection::default();
-        self.tools.drop_work();
-        self.canvas.forget();
-        self.panels.forget();
+        self.field = None;
+        self.wishes.push(Wish::ForgetPlan);
         self.status.clear();
         if !opened.notes.is_empty() {
             let summary = crate::app::panels::notes::summary(&opened.notes);
@@ -179,7 +143,6 @@ impl App {
         }
         let below = opened.begun.as_ref().map(|begun| begun.below.clone());
         self.ghost = below.map(|below| Ghost::new(below, None, &self.schemes));
-        self.guide_drag = None;
         self.documents += 1;
         self.document = Some(Document::new(self.documents, opened));
         if let Some(folder) = folder {
@@ -288,7 +251,7 @@ impl App {
         }
     }
 
-    pub(crate) fn was_chosen(&mut self, answer: Answer, context: &Context) {
+    pub(crate) fn was_chosen(&mut self, answer: Answer, _context: &Context) {
         let Answer { purpose, path, was_shown } = answer;
         let Some(path) = path else {
             if !was_shown {
@@ -307,11 +270,11 @@ impl App {
         };
         let word = path.to_string_lossy().into_owned();
         match purpose {
-            Purpose::Open => self.act("open", &[&word], context),
-            Purpose::Picture(PictureUse::Add) => self.act("picture", &[&word], context),
-            Purpose::Picture(PictureUse::Relink) => self.act("relink-picture", &[&word], context),
-            Purpose::Recording { recording, then } => self.save_recording(*recording, path, then),
-            Purpose::Save { then: None, answering: None } => self.act("save-as", &[&word], context),
+            Purpose::Open => self.wishes.push(Wish::Run("open", vec![word])),
+            Purpose::Picture(PictureUse::Add) => self.wishes.push(Wish::Run("picture", vec![word])),
+            Purpose::Picture(PictureUse::Relink) => self.wishes.push(Wish::Run("relink-picture", vec![word])),
+            Purpose::Recording { recording, then } => self.wishes.push(Wish::SaveRecording { recording, path, then }),
+            Purpose::Save { then: None, answering: None } => self.wishes.push(Wish::Run("save-as", vec![word])),
             Purpose::Save { then, answering } => {
                 if let Some(answer) = answering {
                     self.note_executed("answer", vec![answer.to_owned(), word]);
@@ -370,20 +333,6 @@ impl App {
                 self.waiting = None;
                 self.is_not_saved(error);
             }
-        }
-    }
-
-    pub(crate) fn update_title(&mut self, context: &Context) {
-        let title = match &self.document {
-            None => "Enfilade".to_owned(),
-            Some(document) => {
-                let mark = if document.is_changed() { "• " } else { "" };
-                format!("{mark}{} – Enfilade", document.title())
-            }
-        };
-        if title != self.shown_title {
-            context.send_viewport_cmd(ViewportCommand::Title(title.clone()));
-            self.shown_title = title;
         }
     }
 }

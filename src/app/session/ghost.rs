@@ -1,5 +1,6 @@
 //! The storey below: another plan drawn faintly under the open one.
 
+use crate::app::session::Session;
 use crate::app::session::origin::file_name;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,7 +11,7 @@ use crate::app::session::{
     messages::Severity,
     origin::Origin,
 };
-use crate::app::state::{App, Done};
+use crate::app::state::Done;
 use crate::formats::{self, FileError, building_name};
 use crate::geometry::{Segment, polygon};
 use crate::labels::Schemes;
@@ -41,7 +42,7 @@ impl Ghost {
     }
 }
 
-impl App {
+impl Session {
     /// The plan of the storey that is shown below, if there is one: what snapping may go by.
     pub fn ghost_plan(&self) -> Option<&Plan> {
         self.shown_ghost().map(|ghost| &ghost.plan)

@@ -1,15 +1,15 @@
 //! Editing. Every change goes through here and is a step of the history.
 
+use super::Session;
 use crate::app::session::fields::Field;
 use crate::app::session::fields::FieldKind;
 use crate::app::session::messages::Severity;
-use crate::app::state::App;
-use crate::app::tools::TakenBack;
 use crate::edit;
 use crate::edit::EditError;
+use crate::plan::ElementId;
 use crate::plan::Meta;
 use crate::plan::Plan;
-impl App {
+impl Session {
     pub(crate) fn edit(&mut self, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) {
         if let Err(error) = self.try_edit(title, change) {
             self.say(Severity::Warning, format!("Nothing was changed: {error}"), "");
@@ -30,7 +30,7 @@ impl App {
 
     /// Makes what stands in a text field part of the plan.
     pub(crate) fn commit_field(&mut self) {
-        if let Some(field) = self.panels.take_field() {
+        if let Some(field) = self.field.take() {
             self.edit(field.title(), |plan| field.apply(plan));
             // The field's room is the picked one: picking another ends the typing first.
             let (id, text) = field.as_command();
@@ -48,12 +48,6 @@ impl App {
         self.edit(field.title(), |plan| field.apply(plan));
     }
 
-    /// Gives the keyboard to the inspector's field for a text of the picked room.
-    pub(crate) fn ask_for_field(&mut self, kind: FieldKind) {
-        self.panels.right = true;
-        self.panels.focus = Some(kind);
-    }
-
     /// Changes what is known of the plan as a whole.
     pub(crate) fn change_meta(&mut self, title: &str, change: impl FnOnce(&mut Meta)) {
         self.edit(title, |plan| {
@@ -61,18 +55,6 @@ impl App {
             change(&mut meta);
             Ok(edit::set_meta(plan, meta))
         });
-    }
-
-    /// Takes the last change back, or the last corner of what is being drawn. Gives whether the plan's
-    /// last step was undone.
-    pub(crate) fn undo(&mut self) -> bool {
-        if self.tools.take_back() == TakenBack::Corner {
-            return false;
-        }
-        if let Some(title) = self.document.as_mut().and_then(|document| document.history.undo()) {
-            self.status = format!("Undone: {title}");
-        }
-        true
     }
 
     pub(crate) fn redo(&mut self) {
@@ -91,5 +73,21 @@ impl App {
         document.history.jump_to(step);
         self.status = format!("Step {} of {number}: {title}", step + 1);
         Ok(())
+    }
+
+    /// Takes the last change back.
+    pub(crate) fn undo(&mut self) {
+        if let Some(title) = self.document.as_mut().and_then(|document| document.history.undo()) {
+            self.status = format!("Undone: {title}");
+        }
+    }
+
+    /// Deletes elements and what depends on them.
+    pub(crate) fn delete(&mut self, elements: &[ElementId]) {
+        let title = match elements {
+            [one] => format!("Delete {}", one.kind()),
+            several => format!("Delete {} elements", several.len()),
+        };
+        self.edit(&title, |plan| edit::remove(plan, elements));
     }
 }

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use super::Session;
 use crate::app::commands::{self, Choice};
-use crate::app::state::App;
 use crate::base::wording::count;
 use crate::base::wording::sentence;
 use crate::edit::{self, EditError};
@@ -38,7 +38,7 @@ impl Target {
     }
 }
 
-impl App {
+impl Session {
     /// The rooms that a command is about: one that is named, else the selected ones, else the one under
     /// the pointer, if nothing is selected. `None` without any.
     pub(crate) fn target(&self, named: Option<RoomId>) -> Option<Target> {
@@ -53,11 +53,11 @@ impl App {
 
     /// The room under the pointer, also where a wall or a door lies above it.
     fn room_under_pointer(&self) -> Option<RoomId> {
-        if let Some(ElementId::Room(room)) = self.canvas.hovered {
+        if let Some(ElementId::Room(room)) = self.pointed.element {
             return Some(room);
         }
         let shapes = &self.document.as_ref()?.derived()?.analysis.shapes;
-        let index = shapes.at(self.canvas.pointer?).into_iter().next()?;
+        let index = shapes.at(self.pointed.at?).into_iter().next()?;
         shapes.all().get(index).map(|shape| shape.id)
     }
 
@@ -101,7 +101,7 @@ impl App {
     pub(crate) fn remember_function(&mut self, function: &str) {
         let function = normalised_function(function);
         if !function.is_empty() {
-            let recent = &mut self.panels.recent_functions;
+            let recent = &mut self.recent_functions;
             recent.retain(|other| *other != function);
             recent.insert(0, function);
             recent.truncate(MOST_RECENT);
@@ -123,15 +123,14 @@ impl App {
             .flat_map(|typology| self.schemes.functions(typology))
             .map(|(f, _)| f.to_owned())
             .collect();
-        let more = used.keys().chain(&self.panels.recent_functions);
+        let more = used.keys().chain(&self.recent_functions);
         for function in more.collect::<Vec<_>>() {
             if !functions.contains(function) {
                 functions.push(function.clone());
             }
         }
-        let recent = |function: &String| {
-            self.panels.recent_functions.iter().position(|other| other == function).unwrap_or(usize::MAX)
-        };
+        let recent =
+            |function: &String| self.recent_functions.iter().position(|other| other == function).unwrap_or(usize::MAX);
         let number = |function: &String| used.get(function).copied().unwrap_or(0);
         // Stable: else as they are.
         functions.sort_by_key(|function| (std::cmp::Reverse(number(function)), recent(function)));

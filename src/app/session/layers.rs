@@ -1,7 +1,9 @@
 //! What is shown of a plan, and what the pointer leaves alone.
 
+use super::Session;
 use crate::draw::{Fill, LabelColours};
 use crate::plan::ElementId;
+use crate::plan::Guide;
 
 /// What is shown of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,5 +58,13 @@ impl Default for LayerSettings {
             rulers: false,
             locked: Locked::default(),
         }
+    }
+}
+
+impl Session {
+    /// The guide lines of the open plan that are shown: what snapping may go by.
+    pub(crate) fn guides(&self) -> &[Guide] {
+        let plan = self.plan().filter(|_| self.layers.guides);
+        plan.map_or(&[], crate::plan::Plan::guides)
     }
 }

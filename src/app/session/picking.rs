@@ -1,14 +1,15 @@
 //! What is picked, and going from room to room.
 
+use super::Session;
+use super::wishes::Wish;
 use crate::app::session::document::Document;
 use crate::app::session::selection::SelectMode;
 use crate::app::session::selection::Selection;
-use crate::app::state::App;
 use crate::geometry::Vector;
 use crate::plan::ElementId;
 use crate::plan::Room;
 use crate::plan::RoomId;
-impl App {
+impl Session {
     pub(crate) fn pick(&mut self, picked: Option<ElementId>) {
         self.commit_field();
         self.selection = Selection::of(picked);
@@ -41,7 +42,7 @@ impl App {
         };
         let Some(&id) = next.and_then(|next| order.get(next)) else { return false };
         self.pick(Some(ElementId::Room(id)));
-        self.canvas.reveal(ElementId::Room(id));
+        self.wishes.push(Wish::Reveal(ElementId::Room(id)));
         true
     }
 
@@ -67,14 +68,14 @@ impl App {
             .min_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
         if let Some((_, id)) = nearest {
             self.pick(Some(ElementId::Room(id)));
-            self.canvas.reveal(ElementId::Room(id));
+            self.wishes.push(Wish::Reveal(ElementId::Room(id)));
         }
     }
 
     pub(crate) fn zoom_to_picked(&mut self) {
         let Some((document, picked)) = self.document.as_ref().zip(self.picked()) else { return };
         if let Some(bounds) = document.bounds_of(picked) {
-            self.canvas.zoom_to(bounds);
+            self.wishes.push(Wish::ZoomTo(bounds));
         }
     }
 }

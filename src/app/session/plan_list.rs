@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::app::session::origin::{Origin, bundled};
 use crate::base::natural_order::NaturalKey;
-use crate::formats;
+use crate::store;
 
 /// What the panel on the left lists.
 #[derive(Debug, Default)]
@@ -48,17 +48,11 @@ const LIST_LIMIT: usize = 20_000;
 
 /// The plan files in a folder, in natural order of their names; none when it cannot be read.
 pub(crate) fn plans_in(folder: &Path) -> Vec<PathBuf> {
-    let Ok(entries) = std::fs::read_dir(if folder.as_os_str().is_empty() { Path::new(".") } else { folder }) else {
-        return Vec::new();
-    };
-    let is_plan = |path: &PathBuf| {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        formats::is_plan_file_name(&name) && !name.starts_with('.')
-    };
-    let mut files: Vec<PathBuf> = entries
-        .filter_map(|entry| Some(folder.join(entry.ok()?.file_name())))
-        .filter(is_plan)
-        .filter(|path| path.is_file())
+    let listed = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let found = store::plans_below(listed, 1, |_| false).filter(|found| found.problem.is_none());
+    let mut files: Vec<PathBuf> = found
+        .filter(|found| found.path.exists())
+        .filter_map(|found| Some(folder.join(found.path.file_name()?)))
         .take(LIST_LIMIT)
         .collect();
     files.sort_by_cached_key(|path| NaturalKey::of(&path.to_string_lossy()));

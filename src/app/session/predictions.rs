@@ -1,39 +1,20 @@
 //! What classifiers say of the rooms, and accepting it.
 
-use std::sync::Arc;
-
-use crate::classify::models::Models;
-use crate::store;
+use super::Session;
 use crate::app::session::messages::Severity;
-use crate::app::state::App;
+use crate::classify::models::Models;
 use crate::edit;
 use crate::labels::Label;
 use crate::plan::LabelOrigin;
 use crate::plan::RoomId;
 use crate::plan::RoomLabel;
 use crate::predict::Predictions;
-impl App {
+use crate::store;
+use std::sync::Arc;
+impl Session {
     /// What is said of the rooms of the plan as it is now; `None` while that is being worked out.
     pub fn predictions(&self) -> Option<&Predictions> {
         self.document.as_ref()?.derived()?.predictions.as_ref()
-    }
-
-    /// Takes the user's own label schemes and models from their folders; says what cannot be used.
-    pub(crate) fn use_own_schemes_and_models(&mut self) {
-        if let Some(folder) = store::schemes_folder() {
-            let (schemes, errors) = store::schemes_in(&folder);
-            self.schemes = Arc::new(schemes);
-            for error in errors {
-                self.say(Severity::Warning, "A label scheme cannot be used.", error.to_string());
-            }
-        }
-        if let Some(folder) = store::models_folder() {
-            let (own, errors) = store::models_in(&folder);
-            self.models = Models::bundled().with(own);
-            for error in errors {
-                self.say(Severity::Warning, "A model cannot be used.", error.to_string());
-            }
-        }
     }
 
     /// The selected rooms that are predicted, with what is said of them.
@@ -70,5 +51,23 @@ impl App {
         let title = format!("Accept {} predictions", said.len());
         self.accept(&title, &said);
         self.status = title;
+    }
+
+    /// Takes the user's own label schemes and models from their folders; says what cannot be used.
+    pub(crate) fn use_own_schemes_and_models(&mut self) {
+        if let Some(folder) = store::schemes_folder() {
+            let (schemes, errors) = store::schemes_in(&folder);
+            self.schemes = Arc::new(schemes);
+            for error in errors {
+                self.say(Severity::Warning, "A label scheme cannot be used.", error.to_string());
+            }
+        }
+        if let Some(folder) = store::models_folder() {
+            let (own, errors) = store::models_in(&folder);
+            self.models = Models::bundled().with(own);
+            for error in errors {
+                self.say(Severity::Warning, "A model cannot be used.", error.to_string());
+            }
+        }
     }
 }

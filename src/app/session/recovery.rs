@@ -1,6 +1,8 @@
 //! Keeping work safe: the journal of the open plan, what programs that were killed left behind, and the
 //! file on the disk, which somebody else may change.
 
+use super::wishes::Wish;
+use crate::app::session::Session;
 use crate::app::session::origin::file_name;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -17,7 +19,7 @@ use crate::app::session::{
     origin::{Origin, bundled},
     questions::{Intent, Question},
 };
-use crate::app::state::{App, Done};
+use crate::app::state::Done;
 use crate::formats;
 use crate::labels::Schemes;
 use crate::plan::{Difference, Plan};
@@ -206,7 +208,7 @@ fn start_of(document: &Document) -> JournalStart {
     }
 }
 
-impl App {
+impl Session {
     // The journal.
 
     /// Keeps journals in a folder from now on, and offers what is left there.
@@ -274,7 +276,7 @@ impl App {
     // Recovery.
 
     pub(crate) fn were_left_over(&mut self, offered: Vec<Offered>) {
-        self.panels.recovery = !offered.is_empty();
+        self.wishes.push(if offered.is_empty() { Wish::CloseRecovery } else { Wish::OfferRecovery });
         self.safety.leftovers = offered;
     }
 
@@ -285,7 +287,7 @@ impl App {
             return Err(what.clone());
         }
         let path = offered.leftover.path.clone();
-        self.panels.recovery = false;
+        self.wishes.push(Wish::CloseRecovery);
         self.request(Intent::Recover(path));
         Ok(())
     }
@@ -305,7 +307,9 @@ impl App {
     fn take_offered(&mut self, path: &Path) -> Option<Offered> {
         let index = self.safety.leftovers.iter().position(|offered| offered.leftover.path == *path)?;
         let offered = self.safety.leftovers.remove(index);
-        self.panels.recovery &= !self.safety.leftovers.is_empty();
+        if self.safety.leftovers.is_empty() {
+            self.wishes.push(Wish::CloseRecovery);
+        }
         Some(offered)
     }
 
@@ -404,7 +408,9 @@ impl App {
                 self.safety.theirs = Some(theirs);
             }
         }
-        self.panels.differences &= self.their_plan().is_some();
+        if self.their_plan().is_none() {
+            self.wishes.push(Wish::CloseDifferences);
+        }
     }
 
     /// Says anew how much differs from the file that somebody else changed, where the plan is another.
@@ -433,7 +439,7 @@ impl App {
     /// Makes the plan what the file holds now, as a step that can be undone.
     pub(crate) fn load_theirs(&mut self, context: &Context) {
         let Some(Theirs { stamp, content: Content::Plan(plan, _), .. }) = self.safety.theirs.take() else { return };
-        self.panels.differences = false;
+        self.wishes.push(Wish::CloseDifferences);
         self.edit("Load the file as it is now", |_| Ok((*plan).clone()));
         if let Some(document) = &mut self.document {
             document.stands_in_file(Some(*plan), stamp);
@@ -445,7 +451,7 @@ impl App {
     /// Goes on with the plan as it is here: saving it replaces what somebody else put in the file.
     pub(crate) fn keep_mine(&mut self, context: &Context) {
         let Some(Theirs { stamp, content, .. }) = self.safety.theirs.take() else { return };
-        self.panels.differences = false;
+        self.wishes.push(Wish::CloseDifferences);
         let plan = match content {
             Content::Plan(plan, _) => Some(*plan),
             Content::Broken(_) | Content::Gone => None,
@@ -469,7 +475,7 @@ impl App {
         self.safety.save_failure = None;
         self.safety.theirs = None;
         self.safety.watch.seen = None;
-        self.panels.differences = false;
+        self.wishes.push(Wish::CloseDifferences);
         self.journal_from_file(context);
     }
 

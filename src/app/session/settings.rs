@@ -3,6 +3,7 @@
 //! The file is JSON. What this version does not know in it is kept. A file that cannot be read is
 //! moved aside and never overwritten.
 
+use super::Session;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -305,4 +306,11 @@ fn set_aside(file: &Path) -> std::io::Result<PathBuf> {
         .ok_or(std::io::ErrorKind::AlreadyExists)?;
     std::fs::rename(file, &free)?;
     Ok(free)
+}
+
+impl Session {
+    /// In which units lengths and areas are shown and typed.
+    pub(crate) fn units(&self) -> Units {
+        self.settings.units()
+    }
 }

@@ -1,5 +1,7 @@
 //! What a person does with the picture under the plan. Every change is a step of the history.
 
+use super::wishes::Wish;
+use crate::app::session::Session;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -11,7 +13,7 @@ use crate::app::session::{
     origin::file_name,
     questions::Question,
 };
-use crate::app::state::{App, Done};
+use crate::app::state::Done;
 use crate::edit::{self, DrawingMoves, EditError};
 use crate::geometry::{Point, Vector};
 use crate::plan::{Backdrop, Measurement, OpeningId, Plan};
@@ -52,14 +54,14 @@ impl PictureChange {
     }
 }
 
-impl App {
+impl Session {
     // Reading.
 
     /// Starts to read the picture that the plan asks for, unless it is known.
     pub(crate) fn refresh_backdrop(&mut self) {
         let Some(document) = &self.document else { return };
         let (backdrop, folder) = (document.plan().backdrop(), document.origin.folder());
-        let Some(wanted) = self.canvas.backdrop.wanted(backdrop, folder) else { return };
+        let Some(wanted) = self.backdrop.wanted(backdrop, folder) else { return };
         let Some(backdrop) = backdrop.cloned() else { return };
         let folder = folder.map(Path::to_owned);
         self.background.start(move || {
@@ -69,7 +71,7 @@ impl App {
     }
 
     pub(crate) fn backdrop_was_read(&mut self, wanted: Wanted, read: &Read) {
-        if !self.canvas.backdrop.set_read(wanted.clone(), read) {
+        if !self.backdrop.set_read(wanted.clone(), read) {
             return;
         }
         let shown = self.shown_path(&wanted.path);
@@ -162,20 +164,20 @@ impl App {
             }
         };
         let wanted = Wanted::of(&backdrop, folder.as_deref());
-        self.canvas.backdrop.set_shown(wanted, Arc::from(picture));
+        self.backdrop.set_shown(wanted, Arc::from(picture));
         self.layers.backdrop = true;
         let is_new = use_ == PictureUse::Add;
         let is_empty = document_is_empty(self.document.as_ref());
         self.edit(title, |plan| Ok(edit::set_backdrop(plan, Some(backdrop))));
         if is_new && is_empty {
-            self.canvas.fit();
+            self.wishes.push(Wish::Fit);
         }
         self.status = format!("{} has {width} x {height} pixels", file_name(path));
     }
 
     /// Makes the picture that is shown the one that the plan asks for, as it is and where it is.
     pub(crate) fn shown_picture_word(&self) -> Option<String> {
-        self.canvas.backdrop.shown_path().map(|path| path.to_string_lossy().into_owned())
+        self.backdrop.shown_path().map(|path| path.to_string_lossy().into_owned())
     }
 
     // Changing.
@@ -261,7 +263,7 @@ impl App {
     /// Turns the picture about the middle of what is seen of it.
     pub(crate) fn turn_picture(&mut self, angle_deg: f64, drawing: Option<DrawingMoves>) {
         let Some(backdrop) = self.plan().and_then(Plan::backdrop) else { return };
-        let bounds = self.canvas.backdrop.bounds(Some(backdrop));
+        let bounds = self.backdrop.bounds(Some(backdrop));
         let about = if bounds.is_empty() { backdrop.origin } else { bounds.center() };
         self.change_picture(PictureChange::Turn { about, angle_rad: angle_deg.to_radians() }, drawing);
     }
@@ -293,11 +295,8 @@ impl App {
         let (Some((_, before)), Some((origin, after))) = (before, placed(self)) else { return };
         let factor = after / before;
         // The picture stays where it is on the screen, and all that goes along with it.
-        if drawing == DrawingMoves::Along
-            && factor != 1.0
-            && let Some((centre, px_per_m)) = self.canvas.free_view()
-        {
-            self.canvas.set_view(origin + (centre - origin) * factor, px_per_m / factor);
+        if drawing == DrawingMoves::Along && factor != 1.0 {
+            self.wishes.push(Wish::ScaleView { about: origin, factor });
         }
         if let PictureChange::Measurements(_) = change {
             self.status = format!("A pixel of the picture is {}", millimetres(after));

@@ -303,6 +303,8 @@ pub(crate) struct Toolbox {
     attracts: bool,
     /// What the tool said last.
     pub hint: String,
+    /// What is drawn next, and how.
+    pub options: DrawOptions,
 }
 
 impl Default for Toolbox {
@@ -317,6 +319,7 @@ impl Default for Toolbox {
             cycled_at: None,
             attracts: false,
             hint: String::new(),
+            options: DrawOptions::default(),
         }
     }
 }
@@ -510,8 +513,9 @@ impl App {
     /// Takes the keys that are for the tool in the hand.
     pub(super) fn take_tool_keys(&mut self, context: &Context) {
         let is_typing = self.was_typing || context.text_edit_focused();
-        let is_covered = self.question.is_some() || self.panels.is_dialog_open() || egui::Popup::is_any_open(context);
-        if is_typing || is_covered || self.document.is_none() {
+        let is_covered =
+            self.session.question.is_some() || self.panels.is_dialog_open() || egui::Popup::is_any_open(context);
+        if is_typing || is_covered || self.session.document.is_none() {
             return;
         }
         let units = self.units();

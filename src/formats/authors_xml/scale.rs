@@ -33,6 +33,13 @@ pub struct Found {
     pub healings: Vec<(Option<Offset>, String)>,
 }
 
+/// The scale that a person tells, whatever the file states.
+pub fn told(metres_per_pixel: f64) -> Found {
+    let note = format!("told when importing: {metres_per_pixel} m per pixel");
+    let scale = Scale { origin: ScaleOrigin::Measured, metres_per_unit: Some(metres_per_pixel), note };
+    Found { scale, metres_per_pixel, healings: Vec::new() }
+}
+
 /// The scale of a document.
 ///
 /// `represented_distance` pixels stand for `real_distance`, the width of a door. Mended are: a unit

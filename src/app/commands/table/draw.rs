@@ -44,7 +44,7 @@ pub(super) fn kind_of(word: &str) -> OpeningKind {
 
 /// An edit whose refusal is the command's.
 pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) -> Ran {
-    match app.try_edit(title, change) {
+    match app.session.try_edit(title, change) {
         Ok(()) => Ran::Done,
         Err(error) => Ran::Refused(error.to_string()),
     }
@@ -181,7 +181,7 @@ pub(super) const COMMANDS: &[Command] = &[
             if filled == 0 && ran == Ran::Done {
                 return Ran::Refused("walls enclose nothing that has no room yet".to_owned());
             }
-            app.status = format!("Made {}", crate::base::wording::count(filled, "room"));
+            app.session.status = format!("Made {}", crate::base::wording::count(filled, "room"));
             ran
         },
         None,
@@ -193,8 +193,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Right angles",
         "Keep lines to right angles; Shift frees them",
         always,
-        |app| app.draw_options.right_angles,
-        |app, is_on| app.draw_options.right_angles = is_on,
+        |app| app.tools.options.right_angles,
+        |app, is_on| app.tools.options.right_angles = is_on,
     )
     .keys(&[key(Key::F8)])
     .menu(Menu::Draw, 4),
@@ -203,8 +203,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Snap to the drawing",
         "Snap to corners, crossings, midpoints, walls and alignments; Alt suspends it, Tab goes on to the next",
         always,
-        |app| app.draw_options.snaps,
-        |app, is_on| app.draw_options.snaps = is_on,
+        |app| app.tools.options.snaps,
+        |app, is_on| app.tools.options.snaps = is_on,
     )
     .keys(&[key(Key::F3)])
     .menu(Menu::Draw, 4),
@@ -213,8 +213,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Snap to the grid",
         "Snap to the grid, and to round lengths, where it is shown and no picture is",
         always,
-        |app| app.draw_options.snaps_to_grid,
-        |app, is_on| app.draw_options.snaps_to_grid = is_on,
+        |app| app.tools.options.snaps_to_grid,
+        |app, is_on| app.tools.options.snaps_to_grid = is_on,
     )
     .keys(&[key(Key::F9)])
     .menu(Menu::Draw, 4),
@@ -223,8 +223,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Walls around rooms",
         "Draw walls along the boundaries of new rooms",
         always,
-        |app| app.draw_options.walls_with_rooms,
-        |app, is_on| app.draw_options.walls_with_rooms = is_on,
+        |app| app.tools.options.walls_with_rooms,
+        |app, is_on| app.tools.options.walls_with_rooms = is_on,
     )
     .menu(Menu::Draw, 4),
     switch(
@@ -232,8 +232,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Over rooms",
         "Let new rooms take what rooms cover too, as a niche or a corridor that lies within another room",
         always,
-        |app| app.draw_options.over_rooms,
-        |app, is_on| app.draw_options.over_rooms = is_on,
+        |app| app.tools.options.over_rooms,
+        |app, is_on| app.tools.options.over_rooms = is_on,
     )
     .keys(&[key(Key::F7)])
     .menu(Menu::Draw, 4),
@@ -248,7 +248,7 @@ pub(super) const COMMANDS: &[Command] = &[
             "of new walls, in metres",
         )],
         |app, values, _| {
-            app.draw_options.thickness_m = values.number(0).copied().unwrap_or_default();
+            app.tools.options.thickness_m = values.number(0).copied().unwrap_or_default();
             Ran::Done
         },
         None,
@@ -265,7 +265,7 @@ pub(super) const COMMANDS: &[Command] = &[
             "of new openings, in metres",
         )],
         |app, values, _| {
-            app.draw_options.opening_width_m = values.number(0).copied().unwrap_or_default();
+            app.tools.options.opening_width_m = values.number(0).copied().unwrap_or_default();
             Ran::Done
         },
         None,
@@ -278,7 +278,7 @@ pub(super) const COMMANDS: &[Command] = &[
         always,
         &[needed("TOLERANCE", ArgumentKind::Number { unit: " of metres", least: 0.0005, most: 10.0 }, "in metres")],
         |app, values, _| {
-            app.draw_options.arc_tolerance_m = values.number(0).copied().unwrap_or_default();
+            app.tools.options.arc_tolerance_m = values.number(0).copied().unwrap_or_default();
             Ran::Done
         },
         None,
@@ -292,7 +292,7 @@ pub(super) const COMMANDS: &[Command] = &[
         has_plan,
         &[PATH, THICKNESS],
         |app, values, _| {
-            let thickness_m = values.number(1).copied().unwrap_or(app.draw_options.thickness_m);
+            let thickness_m = values.number(1).copied().unwrap_or(app.tools.options.thickness_m);
             let points = values.points(0).unwrap_or_default().to_vec();
             edited(app, "Draw wall", |plan| Ok(edit::draw_walls(plan, &points, thickness_m)?.plan))
         },
@@ -314,7 +314,7 @@ pub(super) const COMMANDS: &[Command] = &[
         ],
         |app, values, _| {
             let given_m = values.number(2).copied();
-            let own_m = app.draw_options.walls_with_rooms.then_some(app.draw_options.thickness_m);
+            let own_m = app.tools.options.walls_with_rooms.then_some(app.tools.options.thickness_m);
             let thickness_m = given_m.or(own_m).filter(|thickness_m| *thickness_m > 0.0);
             let points = values.points(0).unwrap_or_default().to_vec();
             let takes_free = values.word(1) == Some(&"free");
@@ -384,7 +384,7 @@ pub(super) const COMMANDS: &[Command] = &[
             let kind = kind_of(values.word(0).copied().unwrap_or_default());
             let point = |index: usize| values.points(index).and_then(|points| points.first()).copied();
             let (at, towards) = (point(1).unwrap_or_default(), point(3));
-            let width_m = values.number(2).copied().unwrap_or(app.draw_options.opening_width_m);
+            let width_m = values.number(2).copied().unwrap_or(app.tools.options.opening_width_m);
             edited(app, &format!("Add {}", kind.name()), |plan| {
                 Ok(edit::place_opening(plan, kind, at, width_m, OPENING_REACH_M, towards)?.0)
             })

@@ -15,7 +15,7 @@ pub(super) const COMMANDS: &[Command] = &[
             "'plan', 'auto' (inferred), a typology, 'standard', or a model's name",
         )],
         |app, values, _| {
-            app.predictor.set = values.model_set(0).cloned().unwrap_or_default();
+            app.session.predictor.set = values.model_set(0).cloned().unwrap_or_default();
             Ran::Done
         },
         None,
@@ -28,7 +28,7 @@ pub(super) const COMMANDS: &[Command] = &[
         always,
         &[needed("ALGORITHM", ArgumentKind::Method, "an algorithm, or 'joint' for all rooms of the plan together")],
         |app, values, _| {
-            app.predictor.method = values.method(0).copied().unwrap_or(DEFAULT_METHOD);
+            app.session.predictor.method = values.method(0).copied().unwrap_or(DEFAULT_METHOD);
             Ran::Done
         },
         None,
@@ -39,7 +39,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Accept the prediction",
         "Make the predicted labels the selected rooms' own",
         has_prediction,
-        |app, _| app.accept_prediction(),
+        |app, _| app.session.accept_prediction(),
     )
     .keys(&[key(Key::A)])
     .menu(Menu::Predict, 2),
@@ -48,7 +48,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Accept all predictions",
         "Make the predicted labels those of all rooms without a label",
         has_unlabelled,
-        |app, _| app.accept_all_predictions(),
+        |app, _| app.session.accept_all_predictions(),
     )
     .keys(&[shift(Key::A)])
     .menu(Menu::Predict, 2),
