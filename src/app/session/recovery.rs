@@ -148,12 +148,7 @@ enum Found {
 }
 
 /// Looks at a file that held `stamp`, and was like `seen` when its bytes were last read.
-fn look(
-    path: &Path,
-    stamp: Option<Stamp>,
-    seen: Option<&Facts>,
-    schemes: &Schemes,
-) -> (Option<Facts>, Found) {
+fn look(path: &Path, stamp: Option<Stamp>, seen: Option<&Facts>, schemes: &Schemes) -> (Option<Facts>, Found) {
     let facts = match Facts::of(path) {
         Ok(facts) => facts,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
