@@ -9,7 +9,7 @@ use enfilade::store::{pictures, save_plan};
 use image::{DynamicImage, ImageFormat};
 
 use super::scan::{encoded, put, quarters};
-use super::support;
+use crate::support;
 
 /// Runs `enfilade render` and gives its exit code and what it said of trouble.
 fn render(arguments: &[&str]) -> (u8, String) {

@@ -1,7 +1,7 @@
 //! The subcommand: its words, its JSON, its exit codes.
 
 use super::golden::assert_golden;
-use super::support;
+use crate::support;
 
 /// Runs `enfilade check` and gives its exit code, stdout and stderr.
 fn enfilade_check(arguments: &[&str]) -> (u8, String, String) {

@@ -1,5 +1,5 @@
 //! Rows of the real plans, which are no part of this repository: `enfilade dataset` of each folder. For
-//! tests/classify.rs and benches/classify.rs.
+//! tests/classify/mod.rs and benches/classify.rs.
 
 use std::path::{Path, PathBuf};
 

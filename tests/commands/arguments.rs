@@ -5,7 +5,7 @@ use enfilade::labels::Label;
 use enfilade::plan::{Builder, ElementId, Meta, Room};
 use enfilade::store::{load_plan, save_plan};
 
-use crate::{picked, refusal, run, window_with};
+use super::{picked, refusal, run, window_with};
 
 #[test]
 fn a_session_by_words_alone() {

@@ -3,7 +3,7 @@
 use enfilade::app::{Offscreen, OffscreenOptions};
 use enfilade::labels::Label;
 
-use crate::{done, keys, picked, run, type_in, window_with};
+use super::{done, keys, picked, run, type_in, window_with};
 
 /// The lines of the list, as a screen reader says them, and which one Enter takes.
 fn lines(window: &Offscreen) -> (Vec<String>, Option<String>) {

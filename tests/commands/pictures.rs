@@ -3,8 +3,8 @@
 use egui::{Key, Modifiers};
 use enfilade::app::{Offscreen, OffscreenOptions};
 
-use crate::golden::assert_picture;
-use crate::{keys, press, run, type_in};
+use super::golden::assert_picture;
+use super::{keys, press, run, type_in};
 
 fn window(options: OffscreenOptions) -> Offscreen {
     let mut window = Offscreen::new(options);

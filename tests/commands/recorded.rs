@@ -3,7 +3,7 @@
 use egui::{Key, Modifiers, PointerButton, pos2, vec2};
 use enfilade::app::{Offscreen, OffscreenOptions};
 
-use crate::{done, press, run, window_with};
+use super::{done, press, run, window_with};
 
 #[test]
 fn all_that_is_done_by_hand_is_told_and_replays_to_the_same() {

@@ -6,7 +6,7 @@ use enfilade::app::commands::{COMMANDS, Keys, find};
 use enfilade::app::{Offscreen, OffscreenOptions, Severity};
 use enfilade::plan::OpeningKind;
 
-use crate::{done, keys, picked, press, run, type_in, window_with};
+use super::{done, keys, picked, press, run, type_in, window_with};
 
 /// Each shortcut of the table, pressed where its command can be done, does this command and no other.
 #[test]
@@ -20,7 +20,7 @@ fn every_shortcut_does_its_command() {
             let in_the_middle = matches!(command.id, "previous-plan" | "next-plan");
             let mut window = window_with(if in_the_middle { "school" } else { "dwelling" });
             // A plan with something to undo and redo, and a picture under it.
-            let plan = enfilade::plan::edit::set_backdrop(window.app().plan().unwrap(), Some(crate::backdrop()));
+            let plan = enfilade::plan::edit::set_backdrop(window.app().plan().unwrap(), Some(super::backdrop()));
             enfilade::store::save_plan(&path, &plan).unwrap();
             if !in_the_middle {
                 run(&mut window, "open", &[word]);

@@ -4,7 +4,7 @@ use enfilade::app::{Offscreen, OffscreenOptions};
 use enfilade::plan::GuideAxis;
 use enfilade::units::Units;
 
-use crate::{refusal, run, window_with};
+use super::{refusal, run, window_with};
 
 #[test]
 fn units_and_grid_are_kept() {

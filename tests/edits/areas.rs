@@ -7,7 +7,7 @@ use enfilade::topology::{
     GAP_BETWEEN_ROOMS_M, draw_room, draw_room_in_free_space, draw_walls, merge_rooms, split_room,
 };
 
-use crate::support::{area_m2, areas, points, rectangle};
+use super::support::{area_m2, areas, points, rectangle};
 
 #[test]
 fn a_room_drawn_over_others_takes_what_is_free() {

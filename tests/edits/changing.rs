@@ -7,7 +7,7 @@ use enfilade::plan::edit::{self, Alignment, Array};
 use enfilade::plan::{ElementId, LeafSide, Opening, OpeningKind, Place, Plan, RoomId, Swing, WallId};
 use enfilade::topology::{bridge_gaps, draw_room, draw_walls, fill_all, gaps, offset_room, offset_walls};
 
-use crate::support::{area_m2, areas, points, rectangle, total_area};
+use super::support::{area_m2, areas, points, rectangle, total_area};
 
 /// Two rooms with walls and a door between them.
 fn two_rooms() -> (Plan, [RoomId; 2], enfilade::plan::OpeningId) {

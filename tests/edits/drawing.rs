@@ -7,7 +7,7 @@ use enfilade::topology::{Graph, RoomShapes, cut_out, draw_room, draw_walls, fill
 
 use proptest::prelude::*;
 
-use crate::support::{area_m2, areas, config, points, rectangle};
+use super::support::{area_m2, areas, config, points, rectangle};
 
 #[test]
 fn a_closed_chain_of_walls_is_filled_to_its_area() {

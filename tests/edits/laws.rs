@@ -11,7 +11,7 @@ use enfilade::topology::{
 };
 use proptest::prelude::*;
 
-use crate::support::{Way, areas, config, invariants_hold_and_undo_is_exact_for, points, total_area};
+use super::support::{Way, areas, config, invariants_hold_and_undo_is_exact_for, points, total_area};
 
 /// Coordinates as they come in drawing: whole metres that meet again and again, some of them missed
 /// by a little, and some anywhere.

@@ -7,7 +7,7 @@ use enfilade::plan::edit;
 use enfilade::plan::{ElementId, OpeningKind, Plan, RoomId};
 use enfilade::topology::{cut_out, draw_room_in_free_space, draw_walls, merge_rooms, split_room};
 
-use crate::support::{area_m2, total_area};
+use super::support::{area_m2, total_area};
 
 const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/data");
 

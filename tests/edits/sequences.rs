@@ -8,7 +8,7 @@ use enfilade::plan::{
 };
 use proptest::prelude::*;
 
-use crate::support::{Way, invariants_hold_and_undo_is_exact_for};
+use super::support::{Way, invariants_hold_and_undo_is_exact_for};
 
 /// An edit with indices instead of ids: they pick among what the plan then has.
 #[derive(Clone, Debug)]
@@ -100,7 +100,7 @@ fn applied(plan: &Plan, step: &Step) -> Option<Plan> {
 }
 
 proptest! {
-    #![proptest_config(crate::support::config(128))]
+    #![proptest_config(super::support::config(128))]
 
     #[test]
     fn invariants_hold_and_undo_is_exact(steps in proptest::collection::vec(step(), 1..60)) {

@@ -11,9 +11,9 @@ use enfilade::labels::Schemes;
 use proptest::prelude::*;
 use proptest::sample::Index;
 
-use crate::golden::{assert_golden, fixture};
-use crate::plan_json::full_plan;
-use crate::{geojson, real};
+use super::golden::{assert_golden, fixture};
+use super::plan_json::full_plan;
+use super::{geojson, real};
 
 /// The names of the fixtures in a folder, sorted.
 fn fixtures(folder: &str) -> Vec<String> {

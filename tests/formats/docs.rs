@@ -2,7 +2,7 @@
 
 use enfilade::formats::plan_json::{from_bytes, to_bytes};
 
-use crate::geojson::{kept, read, written};
+use super::geojson::{kept, read, written};
 
 /// The first block of JSON in a document.
 fn example(document: &str) -> &str {

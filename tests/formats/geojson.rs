@@ -5,9 +5,9 @@ use enfilade::labels::Schemes;
 use enfilade::plan::{CornerId, Place, Plan};
 use proptest::prelude::*;
 
-use crate::generated::plans;
-use crate::golden::assert_golden;
-use crate::plan_json::full_plan;
+use super::generated::plans;
+use super::golden::assert_golden;
+use super::plan_json::full_plan;
 
 pub fn written(plan: &Plan) -> String {
     String::from_utf8(GeoJson.write(plan, &Schemes::bundled()).unwrap()).unwrap()

@@ -1,6 +1,6 @@
 use std::path::{Path, PathBuf};
 
-use super::support;
+use crate::support;
 
 /// A file beside this one.
 pub fn fixture(name: &str) -> PathBuf {

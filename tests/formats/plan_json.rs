@@ -1,7 +1,7 @@
 use proptest::prelude::*;
 
-use crate::generated::plans;
-use crate::golden::assert_golden;
+use super::generated::plans;
+use super::golden::assert_golden;
 use enfilade::formats::plan_json::{from_bytes, to_bytes};
 use enfilade::geometry::Point;
 use enfilade::labels::{Label, Typology};

@@ -7,7 +7,7 @@ use enfilade::formats::{Format, plan_json};
 use enfilade::labels::Schemes;
 use enfilade::plan::{OpeningKind, ScaleOrigin};
 
-use crate::geojson::{features, kept, read, written};
+use super::geojson::{features, kept, read, written};
 
 /// Folder of the real dwellings; `None`, with a word, where they are absent.
 pub fn houses() -> Option<PathBuf> {

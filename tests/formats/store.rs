@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use enfilade::plan::{Builder, Meta, Plan, Room};
 use enfilade::store::{load_plan, save_bytes, save_bytes_fast, save_plan};
 
-use crate::plan_json::full_plan;
+use super::plan_json::full_plan;
 
 /// The names in a folder, sorted: what is there besides is litter.
 fn names(folder: &Path) -> Vec<String> {

@@ -5,7 +5,7 @@ use enfilade::dataset::RoomNetwork;
 use enfilade::labels::{Label, Typology};
 use serde_json::Value;
 
-use crate::generated::{dwelling, floor, network, room};
+use super::generated::{dwelling, floor, network, room};
 
 fn networks() -> Vec<RoomNetwork> {
     (0..12).map(|building| floor(building, 1)).chain((0..30).map(dwelling)).collect()

@@ -2,7 +2,7 @@ use enfilade::classify::unknown::Unknown;
 use enfilade::dataset::RoomNetwork;
 use enfilade::labels::Label;
 
-use crate::generated::{floor, network, room};
+use super::generated::{floor, network, room};
 
 #[test]
 fn behind_a_rooms_only_door_lies_the_corridor() {

@@ -8,7 +8,7 @@ use enfilade::plan::LeafSide::{Left, Right};
 use enfilade::plan::OpeningKind::{Door, DoubleDoor, Passage, Window};
 
 use super::sketch::Sketch;
-use super::support::{assert_picture, assert_text};
+use crate::support::{assert_picture, assert_text};
 
 fn reference(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/pictures").join(name)

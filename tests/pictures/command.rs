@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::support::{self, Picture};
+use crate::support::{self, Picture};
 
 /// Runs `enfilade render` and gives its exit code, stdout and stderr.
 fn render(arguments: &[&Path]) -> (u8, String, String) {

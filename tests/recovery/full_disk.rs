@@ -6,7 +6,7 @@ use std::process::Command;
 use enfilade::plan::{History, Meta, edit};
 use enfilade::store::{Journal, JournalStart, leftovers, load_plan, save_plan};
 
-use crate::house;
+use super::house;
 
 /// A disk that is unmounted at the end.
 struct Disk(tempfile::TempDir);

@@ -8,7 +8,7 @@ use enfilade::plan::{Builder, ElementId, History, Meta, Plan, Room, Step, edit};
 use enfilade::random::Random;
 use enfilade::store::{Journal, JournalStart, Predecessor, Recovered, leftovers, read_journal};
 
-use crate::house;
+use super::house;
 
 fn begin(folder: &Path, base: &Plan, replaces: Option<Predecessor>) -> Journal {
     Journal::begin(folder, JournalStart::default(), base.clone(), replaces, || {})

@@ -2,7 +2,7 @@
 //! file on the disk is whole.
 //!
 //! A step is acknowledged when `enfilade replay --steps` has told of it. `ENFILADE_KILL_TRIALS=500 cargo
-//! test --test recovery killed -- --nocapture` runs so many trials, and prints what became of them.
+//! test --test app recovery::killed -- --nocapture` runs so many trials, and prints what became of them.
 
 use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};

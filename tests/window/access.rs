@@ -9,7 +9,7 @@ use enfilade::app::commands::Menu;
 use enfilade::app::{Control, Offscreen, OffscreenOptions};
 use enfilade::plan::ElementId;
 
-use crate::{click_room, press, room, window_with};
+use super::{click_room, press, room, window_with};
 
 fn key(window: &mut Offscreen, key: Key) {
     window.key(Modifiers::NONE, key);

@@ -8,7 +8,7 @@ use enfilade::geometry::Point;
 use enfilade::plan::{Backdrop, Builder, Meta, Plan, Room, edit};
 use enfilade::store::{BUNDLED, load_plan, save_plan};
 
-use crate::{click_room, press, texts, window_with};
+use super::{click_room, press, texts, window_with};
 
 /// A folder with two plans of our own and one that is broken.
 #[expect(clippy::disallowed_methods, reason = "a test's files are no user's")]
@@ -215,7 +215,7 @@ fn text_that_is_still_being_typed_is_not_lost_by_closing() {
     window.settle().unwrap();
     assert!(!window.is_closed(), "the text is a change");
     press(&mut window, "Cancel");
-    crate::room(&window, "Study two");
+    super::room(&window, "Study two");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Pictures of the window do not depend on how it came to what it shows. What they look like is
 //! compared by the scripts of `tests/replay/cases`.
 
-use crate::window_with;
+use super::window_with;
 
 /// Nothing of a picture depends on what was done before, or on when it is taken.
 #[test]

@@ -8,7 +8,7 @@ use enfilade::geometry::Segment;
 use enfilade::labels::Label;
 use enfilade::plan::{ElementId, LabelOrigin, OpeningId, Plan, RoomLabel};
 
-use crate::{beside, click_room, middle_of, own_label, press, room, window_with};
+use super::{beside, click_room, middle_of, own_label, press, room, window_with};
 
 fn near(p: Pos2, q: Pos2) {
     assert!(p.distance(q) <= 1.5, "{p:?} is not {q:?}");

@@ -1,20 +1,13 @@
 //! Never losing work: journals and what comes back from them, a program that is killed at any moment, disks
 //! that are full.
 
-#![cfg(feature = "gui")]
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]
 #![allow(clippy::print_stdout, reason = "says why it was skipped, and what it measured")]
 
-#[path = "recovery/full_disk.rs"]
 mod full_disk;
-#[path = "recovery/journals.rs"]
 mod journals;
-#[path = "recovery/killed.rs"]
 mod killed;
-#[path = "support/mod.rs"]
-mod support;
-#[path = "recovery/window.rs"]
 mod window;
 
 use enfilade::plan::Plan;

@@ -4,11 +4,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "a skipped test says so")]
 
-#[path = "classify/generated.rs"]
 mod generated;
-#[path = "classify/real_rows.rs"]
 mod real_rows;
-mod support;
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -28,6 +25,8 @@ use enfilade::parallel::Work;
 use generated::generated_rows;
 use proptest::prelude::*;
 use real_rows::{SETS, real_rows};
+
+use crate::support;
 
 fn fixture(name: &str) -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/classify")).join(name)

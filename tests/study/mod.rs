@@ -3,8 +3,6 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
-mod support;
-
 use std::path::{Path, PathBuf};
 
 use enfilade::classify::Method;
@@ -12,7 +10,7 @@ use enfilade::labels::Schemes;
 use enfilade::plan::{LabelOrigin, Plan, edit};
 use enfilade::store::{bundled_model, bundled_plans, bundled_sets, bundled_typologies, load_plan, save_plan};
 
-use support::enfilade;
+use crate::support::{self, enfilade};
 
 fn fixture(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/study").join(name)

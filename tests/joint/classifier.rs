@@ -10,7 +10,7 @@ use enfilade::random::Random;
 use proptest::prelude::*;
 use serde_json::Value;
 
-use crate::generated::{floor, join, network, room};
+use super::generated::{floor, join, network, room};
 
 fn trained() -> (Vec<RoomNetwork>, Joint) {
     let networks: Vec<RoomNetwork> = (0..10).map(|building| floor(building, 1)).collect();

@@ -6,15 +6,11 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]
 
-#[path = "replay/command.rs"]
 mod command;
-#[path = "replay/errors.rs"]
 mod errors;
-#[path = "replay/manual.rs"]
 mod manual;
-#[path = "replay/recordings.rs"]
 mod recordings;
-#[path = "support/mod.rs"]
+#[path = "../support/mod.rs"]
 mod support;
 
 use std::path::{Path, PathBuf};

@@ -1,15 +1,11 @@
 //! Six real offices are traced at the window: scripts of clicks and keys, made by a person's plan from
 //! the truth, are replayed, and what comes out is compared with the truth.
-#![cfg(feature = "gui")]
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "the table is what the test is for")]
 
-#[path = "tracing/person.rs"]
 mod person;
-#[path = "tracing/planner.rs"]
 mod planner;
-#[path = "tracing/truth.rs"]
 mod truth;
 
 use std::path::{Path, PathBuf};

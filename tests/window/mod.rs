@@ -1,17 +1,12 @@
 //! The window without a display: what it does when it is clicked, typed at, and told to close.
 
-#![cfg(feature = "gui")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-#[path = "window/access.rs"]
 mod access;
-#[path = "window/files.rs"]
 mod files;
-#[path = "window/monkey.rs"]
 mod monkey;
-#[path = "window/pictures.rs"]
 mod pictures;
-#[path = "window/use.rs"]
+#[path = "use.rs"]
 mod use_;
 
 use egui::{Pos2, pos2};

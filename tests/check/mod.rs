@@ -4,17 +4,11 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "a skipped test says so")]
 
-#[path = "check/cases.rs"]
 mod cases;
-#[path = "check/command.rs"]
 mod command;
-#[path = "check/draft.rs"]
 mod draft;
-#[path = "check/golden.rs"]
 mod golden;
-#[path = "check/real_plans.rs"]
 mod real_plans;
-mod support;
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

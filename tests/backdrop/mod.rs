@@ -4,19 +4,11 @@
 #![allow(clippy::print_stdout, reason = "says why it was skipped")]
 #![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]
 
-#[path = "backdrop/files.rs"]
 mod files;
-#[path = "backdrop/pdf.rs"]
 mod pdf;
-#[path = "backdrop/read.rs"]
 mod read;
-#[path = "backdrop/real.rs"]
 mod real;
-#[path = "backdrop/render.rs"]
 mod render;
-#[path = "backdrop/scan.rs"]
 mod scan;
-mod support;
 #[cfg(feature = "gui")]
-#[path = "backdrop/window.rs"]
 mod window;

@@ -1,24 +1,15 @@
 //! The table of commands: each runs by its word with arguments, says why it cannot, and is told to a
 //! recorder so that running it again does the same.
 
-#![cfg(feature = "gui")]
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
-#[path = "commands/arguments.rs"]
 mod arguments;
-#[path = "commands/golden.rs"]
 mod golden;
-#[path = "commands/manual.rs"]
 mod manual;
-#[path = "commands/palette.rs"]
 mod palette;
-#[path = "commands/pictures.rs"]
 mod pictures;
-#[path = "commands/recorded.rs"]
 mod recorded;
-#[path = "commands/shortcuts.rs"]
 mod shortcuts;
-#[path = "commands/units.rs"]
 mod units;
 
 use egui::{Key, Modifiers};

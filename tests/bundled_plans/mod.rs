@@ -3,11 +3,9 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
-#[path = "bundled_plans/doors.rs"]
 mod doors;
-#[path = "../examples/draw_bundled_plans/drawings/mod.rs"]
+#[path = "../../examples/draw_bundled_plans/drawings/mod.rs"]
 mod drawings;
-#[path = "bundled_plans/layout.rs"]
 mod layout;
 
 use std::collections::{BTreeMap, BTreeSet};
