@@ -28,11 +28,11 @@ use std::process::Command;
 use std::sync::OnceLock;
 use std::time::Instant;
 
+use enfilade::base::work::Work;
 use enfilade::classify::{Algorithm, Classifier, Distribution, Scores, Validation, evaluate_all};
 use enfilade::dataset::folds::{Folds, Grouping};
 use enfilade::dataset::table::Table;
 use enfilade::dataset::{Row, csv};
-use enfilade::parallel::Work;
 use generated::generated_rows;
 use real_rows::{SETS, real_rows};
 

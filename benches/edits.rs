@@ -10,13 +10,13 @@ use std::collections::BTreeSet;
 use std::hint::black_box;
 use std::time::Instant;
 
-use enfilade::geometry::{Point, Transform, Vector};
-use enfilade::plan::edit;
-use enfilade::plan::{Builder, CornerId, ElementId, Meta, OpeningKind, Plan, Room, RoomId, WallId};
-use enfilade::topology::{
-    RoomShapes, bridge_gaps, cut_out, draw_room, draw_room_in_free_space, draw_walls, gaps, merge_rooms, offset_walls,
+use enfilade::edit::{
+    self, bridge_gaps, cut_out, draw_room, draw_room_in_free_space, draw_walls, merge_rooms, offset_walls,
     opening_preview, split_room,
 };
+use enfilade::geometry::{Point, Transform, Vector};
+use enfilade::plan::{Builder, CornerId, ElementId, Meta, OpeningKind, Plan, Room, RoomId, WallId};
+use enfilade::topology::{RoomShapes, gaps};
 
 /// Rooms of 4 by 3 m in so many columns and rows, with walls.
 fn grid(columns: i32, rows: i32) -> Plan {

@@ -15,7 +15,7 @@ mod sums;
 use std::process::Command;
 use std::time::Instant;
 
-use enfilade::topology::{Arrangement, faces};
+use enfilade::geometry::arrangement::{Arrangement, faces};
 use families::FAMILIES;
 
 /// How often each measurement is taken; the median counts.

@@ -10,6 +10,7 @@ use enfilade::draw::{Drawing, Layer, Scene, Style, View, png, svg};
 use enfilade::features::{NeighbourLabels, analyse};
 use enfilade::geometry::Point;
 use enfilade::labels::{Schemes, Typology};
+use enfilade::picture::png::encode_pixmap;
 use enfilade::plan::{Builder, Meta, Opening, OpeningKind, Place, Plan, Room};
 
 const FUNCTIONS: [&str; 5] = ["office", "shared office", "corridor", "washroom", "conference room"];
@@ -88,7 +89,7 @@ fn main() {
             println!("  {:10} {:6.2} ms", layer.name(), mean_ms(|| drop(black_box(png::paint(&part)))));
         }
     }
-    println!("PNG encoding {:6.2} ms", mean_ms(|| drop(black_box(png::encode(&pixmap)))));
+    println!("PNG encoding {:6.2} ms", mean_ms(|| drop(black_box(encode_pixmap(&pixmap)))));
     println!("SVG          {:6.2} ms", mean_ms(|| drop(black_box(svg::svg(&scene)))));
     println!(
         "plan to PNG  {:6.2} ms",

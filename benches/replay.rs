@@ -6,8 +6,11 @@
 use std::hint::black_box;
 use std::path::Path;
 
-use enfilade::app::replay::{ReplayOptions, ScriptFile, replay};
-use enfilade::app::{Offscreen, OffscreenOptions, Picture};
+use enfilade::app::{
+    Offscreen, OffscreenOptions,
+    replay::{ReplayOptions, ScriptFile, replay},
+};
+use enfilade::picture::Picture;
 
 /// Milliseconds that one of 25 runs takes on average, of wall-clock time.
 fn mean_ms(mut run: impl FnMut()) -> f64 {

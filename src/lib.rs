@@ -6,21 +6,22 @@
 
 #[cfg(feature = "gui")]
 pub mod app;
+pub mod base;
 pub mod check;
 pub mod classify;
 pub mod cli;
 pub mod dataset;
 pub mod draw;
+pub mod edit;
 pub mod features;
 pub mod formats;
 pub mod geometry;
 pub mod labels;
-pub mod parallel;
+pub mod picture;
+pub mod pipeline;
 pub mod plan;
 pub mod predict;
-pub mod random;
 pub mod snapping;
 pub mod store;
 pub mod study;
 pub mod topology;
-pub mod units;

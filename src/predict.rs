@@ -9,13 +9,13 @@ use std::sync::Arc;
 use crate::classify::in_plan::{self, InPlan};
 use crate::classify::joint::FirstRound;
 use crate::classify::model_file::ModelFileError;
+use crate::classify::models::{StoredModel, bundled_model, bundled_sets, bundled_typologies, bundled_unknown};
 use crate::classify::{Distribution, Method, PlanClassifier};
 use crate::dataset::RoomNetwork;
+use crate::dataset::sets::STANDARD;
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
 use crate::plan::{OpeningId, RoomId};
-use crate::store::{StoredModel, bundled_model, bundled_sets, bundled_typologies, bundled_unknown};
-use crate::study::STANDARD;
 
 /// Of which typology the models are to be.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -11,5 +11,6 @@ mod formats;
 mod import;
 mod joint;
 mod pictures;
+mod pipeline;
 mod study;
 mod support;

@@ -1,7 +1,6 @@
 use rstar::primitives::{GeomWithData, Rectangle};
 
 use super::FINDINGS_LIMIT;
-use super::names::{OpeningName, RoomName};
 use super::overlaps::{self, Region};
 use super::rings::{RingFaults, ring_faults};
 use super::sizes;
@@ -9,6 +8,7 @@ use crate::features::{Analysis, RoomStatus};
 use crate::geometry::segments::SegmentIndex;
 use crate::geometry::{Bounds, Point, Segment, polygon};
 use crate::labels::Schemes;
+use crate::plan::titles::{OpeningName, RoomName};
 use crate::plan::{Opening, OpeningId, Plan, RoomId, WallId};
 use crate::topology::RoomShape;
 

@@ -42,8 +42,7 @@ impl Check for CornersNearlyCoincide {
                 owners.entry(corner).or_default().insert(ElementId::Wall(id));
             }
         }
-        let corners: Vec<(CornerId, Point)> =
-            owners.keys().filter_map(|&id| Some((id, plan.position(id)?))).collect();
+        let corners: Vec<(CornerId, Point)> = owners.keys().filter_map(|&id| Some((id, plan.position(id)?))).collect();
         let points = corners.iter().map(|&(id, at)| GeomWithData::new([at.x, at.y], id)).collect();
         let tree: RTree<GeomWithData<[f64; 2], CornerId>> = RTree::bulk_load(points);
         let mut found = Vec::new();

@@ -1,9 +1,10 @@
 use std::cmp::Ordering;
 use std::fmt;
 
-use super::{Context, RoomName};
+use super::Context;
 use crate::geometry::Point;
 use crate::plan::ElementId;
+use crate::plan::titles::RoomName;
 
 /// How bad a finding is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,11 +1,12 @@
 use std::collections::BTreeMap;
 
-use super::names::{first_of, printable};
 use super::typology_has_no_scheme::typology_without_scheme;
-use super::{Check, Context, Kind, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::features::RoomStatus;
 use crate::labels::{Typology, normalised_function};
 use crate::plan::ElementId;
+use crate::plan::titles::RoomName;
+use crate::plan::titles::{first_of, printable};
 
 /// A function that the scheme of the plan's typology does not know: its rooms have no label.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,28 +1,58 @@
 //! Everything that can be wrong with a plan: one file a check, named as its finding.
 //!
 //! [`check`] is a pure function that returns all findings, typed, each with its place and what to do.
-//! A new check is a file and one line in the list below. What each says, and how often it fires on
+//! A new check is a file, its `mod` line (which every tool can follow) and one line in the list below. What each says, and how often it fires on
 //! real plans, is in `docs/checks.md`.
 
 mod context;
+mod corners_nearly_coincide;
 mod finding;
-mod names;
+mod function_is_unknown;
+mod invariant_is_broken;
+mod opening_contradicts_its_place;
+mod opening_is_far_from_its_rooms;
+mod opening_is_wider_than_its_wall;
+mod opening_joins_a_room_to_itself;
+mod opening_joins_nothing;
+mod openings_overlap;
 mod overlaps;
+mod plan_has_no_openings;
+mod plan_has_no_rooms;
+mod plan_has_no_typology;
 mod rings;
+mod room_area_is_unusual;
+mod room_boundary_crosses_itself;
+mod room_boundary_encloses_nothing;
+mod room_boundary_touches_itself;
+mod room_has_no_boundary;
+mod room_has_no_function;
+mod room_has_no_opening;
+mod room_hole_is_not_inside;
+mod room_holes_overlap;
+mod room_is_drawn_twice;
+mod room_lies_inside_another;
+mod room_name_repeats;
+mod rooms_are_cut_off;
+mod rooms_leave_a_gap;
+mod rooms_overlap;
+mod scale_is_implausible;
 mod sizes;
+mod typology_has_no_scheme;
+mod wall_ends_freely;
+mod wall_has_no_length;
+mod walls_overlap;
 
 pub use context::Context;
 pub use finding::{Check, Kind, Place, Severity};
-pub use names::{OpeningName, RoomName};
 
 use crate::features::Analysis;
 use crate::labels::Schemes;
 use crate::plan::Plan;
 
-/// Declares the checks: their modules, and one variant a check in [`Finding`].
+/// Declares the checks: one variant a check in [`Finding`].
 macro_rules! checks {
     ($($module:ident :: $finding:ident),* $(,)?) => {
-        $(mod $module; pub use $module::$finding;)*
+        $(pub use $module::$finding;)*
 
         /// Something that is wrong with a plan, or worth a look.
         #[derive(Clone, Debug, PartialEq)]

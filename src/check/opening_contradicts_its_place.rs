@@ -1,5 +1,6 @@
-use super::{Check, Context, Kind, OpeningName, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::Point;
+use crate::plan::titles::{OpeningName, RoomName};
 use crate::plan::{ElementId, Joint, THICKEST_WALL_M};
 use crate::topology::sides_by_geometry;
 

@@ -1,5 +1,6 @@
-use super::{Check, Context, Kind, OpeningName, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::Point;
+use crate::plan::titles::{OpeningName, RoomName};
 use crate::plan::{ElementId, THICKEST_WALL_M};
 
 /// An opening that is stated to lead to a room whose boundary is further away than a wall is thick.
@@ -58,7 +59,9 @@ impl Check for OpeningIsFarFromItsRooms {
 
     fn what(&self) -> String {
         match self.distance_m {
-            Some(distance_m) => format!("{} lies {distance_m:.2} m from {}, to which it leads", self.opening, self.room),
+            Some(distance_m) => {
+                format!("{} lies {distance_m:.2} m from {}, to which it leads", self.opening, self.room)
+            }
             None => format!("{} lies more than {LOOK_M} m from {}, to which it leads", self.opening, self.room),
         }
     }

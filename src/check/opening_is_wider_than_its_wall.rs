@@ -1,7 +1,8 @@
-use crate::geometry::segments::{SegmentIndex, are_parallel};
-use super::{Check, Context, Kind, OpeningName, Place, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
+use crate::geometry::segments::{SegmentIndex, are_parallel};
 use crate::geometry::{Point, Segment};
+use crate::plan::titles::OpeningName;
 use crate::plan::{DEFAULT_DOOR_WIDTH_M, ElementId, THICKEST_WALL_M};
 
 /// An opening that reaches beyond the end of the wall it is in.

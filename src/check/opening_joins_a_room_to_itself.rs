@@ -1,5 +1,6 @@
-use super::{Check, Context, Kind, OpeningName, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::Point;
+use crate::plan::titles::{OpeningName, RoomName};
 use crate::plan::{ElementId, Joint};
 
 /// A door or passage with the same room on both sides: it counts as an opening of the room and leads

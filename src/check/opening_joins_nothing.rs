@@ -1,5 +1,6 @@
-use super::{Check, Context, Kind, OpeningName, Place, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::Point;
+use crate::plan::titles::OpeningName;
 use crate::plan::{ElementId, Joint, THICKEST_WALL_M};
 
 /// A door or passage with no room on either side: it counts in no room's features.

@@ -1,7 +1,8 @@
-use crate::geometry::segments::{SegmentIndex, are_parallel, common_stretch};
-use super::{Check, Context, FINDINGS_LIMIT, Kind, OpeningName, Place, Severity};
+use super::{Check, Context, FINDINGS_LIMIT, Kind, Place, Severity};
 use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
+use crate::geometry::segments::{SegmentIndex, are_parallel, common_stretch};
 use crate::geometry::{GRID_M, Point, Segment};
+use crate::plan::titles::OpeningName;
 use crate::plan::{DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, ElementId};
 
 /// Two openings in the same place: a doorway drawn twice counts twice in the features of its rooms.

@@ -5,8 +5,8 @@ use i_overlay::core::overlay::Overlay;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
 
+use crate::geometry::COORDINATE_LIMIT_M;
 use crate::geometry::{Bounds, Point, polygon};
-use crate::plan::COORDINATE_LIMIT_M;
 
 /// An area, as the thickness and place of its thickest piece and the area of all pieces.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,9 +1,10 @@
-use super::names::{printable, with_article};
 use super::sizes::{tolerated_factors, usual_area};
-use super::{Check, Context, Kind, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::Point;
 use crate::labels::{Label, Typology};
 use crate::plan::ElementId;
+use crate::plan::titles::RoomName;
+use crate::plan::titles::{printable, with_article};
 
 /// A room whose area is far outside what its typology has for its label: the function may be wrong,
 /// or the boundary.

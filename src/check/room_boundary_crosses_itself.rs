@@ -1,7 +1,8 @@
 use super::overlaps::shared;
-use super::{Check, Context, Kind, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::Point;
 use crate::plan::ElementId;
+use crate::plan::titles::RoomName;
 
 /// A room whose boundary passes over itself: what is inside, and so its area, is not what was meant.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,7 +63,8 @@ impl Check for RoomBoundaryCrossesItself {
     }
 
     fn what(&self) -> String {
-        let places = if self.crossings.len() == 1 { String::new() } else { format!(" in {} places", self.crossings.len()) };
+        let places =
+            if self.crossings.len() == 1 { String::new() } else { format!(" in {} places", self.crossings.len()) };
         format!("the boundary of {} crosses itself{places}; its area is {:.2} m² off", self.room, self.area_error_m2)
     }
 

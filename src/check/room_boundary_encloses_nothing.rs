@@ -1,6 +1,7 @@
-use super::{Check, Context, Kind, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::{Point, polygon};
 use crate::plan::ElementId;
+use crate::plan::titles::RoomName;
 
 /// A room whose boundary is not a closed shape: fewer than three different corners, or all in one
 /// line.

@@ -1,6 +1,7 @@
-use super::{Check, Context, Kind, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::Point;
 use crate::plan::ElementId;
+use crate::plan::titles::RoomName;
 
 /// A room whose boundary touches itself or goes back along itself (a spike): its area is right, its
 /// walls, and so its axes ratio, need not be.

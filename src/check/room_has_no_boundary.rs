@@ -1,5 +1,6 @@
-use super::{Check, Context, Kind, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::plan::ElementId;
+use crate::plan::titles::RoomName;
 
 /// A room that is named but not drawn: it has no area, no axes, no features.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,9 @@
-use super::{Check, Context, Kind, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::features::RoomStatus;
 use crate::geometry::Point;
 use crate::labels::normalised_function;
 use crate::plan::ElementId;
+use crate::plan::titles::RoomName;
 
 /// A room with neither a function nor a label: it teaches nothing and cannot be scored.
 #[derive(Clone, Debug, PartialEq)]

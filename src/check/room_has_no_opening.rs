@@ -1,7 +1,8 @@
 use super::plan_has_no_openings::has_no_openings;
-use super::{Check, Context, Kind, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::Point;
 use crate::plan::ElementId;
+use crate::plan::titles::RoomName;
 
 /// A room that nothing leads to: no door, no passage. Balconies, shafts and the like need none.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,8 @@
 use super::overlaps::outside;
-use super::{Check, Context, Kind, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::Point;
 use crate::plan::ElementId;
+use crate::plan::titles::RoomName;
 
 /// A hole of a room that lies outside the room's outer boundary or crosses it: the area taken off is
 /// not the room's.
@@ -26,8 +27,8 @@ impl Check for RoomHoleIsNotInside {
         let shapes = context.shapes().iter().enumerate();
         for (index, shape) in shapes.filter(|(index, _)| !context.ring_faults[*index].is_hopeless()) {
             for hole in &shape.holes {
-                let beyond = outside([hole], [&shape.outer])
-                    .filter(|region| region.depth_m > context.drawing_tolerance_m);
+                let beyond =
+                    outside([hole], [&shape.outer]).filter(|region| region.depth_m > context.drawing_tolerance_m);
                 if let Some(region) = beyond {
                     found.push(Self { room: context.name(index), area_outside_m2: region.area_m2, at: region.at });
                 }

@@ -2,9 +2,10 @@ use rstar::AABB;
 
 use super::context::ring_boxes;
 use super::overlaps::shared;
-use super::{Check, Context, FINDINGS_LIMIT, Kind, Place, RoomName, Severity};
+use super::{Check, Context, FINDINGS_LIMIT, Kind, Place, Severity};
 use crate::geometry::{Bounds, Point, polygon};
 use crate::plan::ElementId;
+use crate::plan::titles::RoomName;
 
 /// Two holes of a room that overlap: their common area is taken off twice.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,8 @@
 use super::context::Overlap;
-use super::{Check, Context, Kind, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::Point;
 use crate::plan::ElementId;
+use crate::plan::titles::RoomName;
 
 /// Two rooms in the same place: nearly all of their area is common to both.
 #[derive(Clone, Debug, PartialEq)]

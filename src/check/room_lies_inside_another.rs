@@ -1,8 +1,9 @@
 use super::context::Overlap;
 use super::room_is_drawn_twice::is_same;
-use super::{Check, Context, Kind, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::Point;
 use crate::plan::ElementId;
+use crate::plan::titles::RoomName;
 
 /// A room that lies in another one: the other's area counts what is not its own.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,9 @@
 use std::collections::BTreeMap;
 
-use super::names::{first_of, printable};
-use super::{Check, Context, Kind, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::plan::ElementId;
+use crate::plan::titles::RoomName;
+use crate::plan::titles::{first_of, printable};
 
 /// Several rooms of the same function with the same name: a room's number stands for one room.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,9 @@
 use std::collections::BTreeMap;
 
-use super::names::first_of;
-use super::{Check, Context, Kind, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::labels::normalised_function;
+use crate::plan::titles::RoomName;
+use crate::plan::titles::first_of;
 use crate::plan::{ElementId, Joint};
 
 /// Rooms that are joined among themselves, but not to the outside, an entrance, stairs, or the rest

@@ -1,9 +1,10 @@
 use std::collections::BTreeMap;
 
-use crate::geometry::segments::{are_parallel, common_stretch};
-use super::{Check, Context, Kind, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
+use crate::geometry::segments::{are_parallel, common_stretch};
 use crate::geometry::{Point, Segment};
+use crate::plan::titles::RoomName;
 use crate::plan::{ElementId, THICKEST_WALL_M};
 
 /// Two rooms whose sides face each other across a gap too wide to be how they were drawn and too

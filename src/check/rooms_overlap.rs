@@ -1,7 +1,8 @@
 use super::room_is_drawn_twice::is_same;
 use super::room_lies_inside_another::is_inside;
-use super::{Check, Context, Kind, Place, RoomName, Severity};
+use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::Point;
+use crate::plan::titles::RoomName;
 use crate::plan::{DEFAULT_WALL_THICKNESS_M, ElementId};
 
 /// Two rooms that reach into each other deeper than a wall between them explains: their areas count

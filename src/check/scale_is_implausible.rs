@@ -1,5 +1,5 @@
-use super::sizes::median;
 use super::{Check, Context, Kind, Place, Severity};
+use crate::base::numbers::lower_median;
 use crate::plan::{DEFAULT_DOOR_WIDTH_M, OpeningKind, ScaleOrigin};
 
 /// Doors or rooms are so much larger or smaller than usual that the plan's scale is probably wrong.
@@ -69,11 +69,7 @@ impl Check for ScaleIsImplausible {
             reasons.push(format!("its rooms have {areas:.1} times the area usual for their labels"));
         }
         let (factor, way) = if self.factor > 1.0 { (self.factor, "long") } else { (1.0 / self.factor, "short") };
-        format!(
-            "lengths seem {factor:.1} times too {way}: {} (scale {})",
-            reasons.join(", "),
-            self.origin.name()
-        )
+        format!("lengths seem {factor:.1} times too {way}: {} (scale {})", reasons.join(", "), self.origin.name())
     }
 
     fn figures(&self) -> Vec<(&'static str, f64)> {
@@ -94,5 +90,5 @@ fn door_width_m(context: &Context) -> Option<f64> {
     if given.len() < DOORS_FOR_SCALE || 2 * given.len() < widths.len() {
         return None;
     }
-    median(&mut given)
+    lower_median(&mut given)
 }

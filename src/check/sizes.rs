@@ -1,5 +1,6 @@
 //! What sizes of rooms are usual, and what a plan's rooms say of its scale.
 
+use crate::base::numbers::lower_median;
 use crate::labels::{Label, Typology};
 
 /// The areas in m² between which the middle of the rooms of a label lies, from source to source.
@@ -100,14 +101,7 @@ pub fn length_factor(
     if factors.len() < ROOMS_FOR_SCALE {
         return None;
     }
-    Some((median(&mut factors)?.sqrt(), factors.len()))
-}
-
-/// The middle value; of an even number, the lower of the two in the middle. `None` of nothing.
-pub fn median(values: &mut [f64]) -> Option<f64> {
-    let middle = values.len().checked_sub(1)? / 2;
-    values.sort_unstable_by(f64::total_cmp);
-    values.get(middle).copied()
+    Some((lower_median(&mut factors)?.sqrt(), factors.len()))
 }
 
 #[cfg(test)]

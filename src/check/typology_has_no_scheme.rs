@@ -1,6 +1,6 @@
-use super::names::{printable, with_article};
 use super::{Check, Context, Kind, Place, Severity};
 use crate::labels::Typology;
+use crate::plan::titles::{printable, with_article};
 
 /// A plan of a typology for which there is no label scheme.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,5 +1,5 @@
-use crate::geometry::segments::{are_parallel, common_stretch};
 use super::{Check, Context, FINDINGS_LIMIT, Kind, Place, Severity};
+use crate::geometry::segments::{are_parallel, common_stretch};
 use crate::geometry::{Point, Segment};
 use crate::plan::{ElementId, WallId};
 

@@ -1,8 +1,8 @@
 use super::{Algorithm, Classifier, Distribution, Scores};
+use crate::base::random::seed_of_part;
+use crate::base::work::{Cancelled, Work};
 use crate::dataset::folds::Folds;
 use crate::dataset::table::Table;
-use crate::parallel::{Cancelled, Work};
-use crate::random::seed_of_part;
 
 /// A cross-validation to do.
 #[derive(Clone, Copy, Debug)]

@@ -2,12 +2,12 @@
 //! predicted too, and predictions are repeated until none changes.
 
 use super::{Algorithm, Classifier, Distribution};
+use crate::base::random::seed_of_part;
 use crate::dataset::folds::{Folds, Grouping};
 use crate::dataset::table::Table;
 use crate::dataset::{RoomNetwork, RoomPlace, Row};
 use crate::features::{Features, NeighbourLabels};
 use crate::labels::Label;
-use crate::random::seed_of_part;
 
 /// Predictions are repeated at most so often. Real plans settle after two to five rounds; the few
 /// that do not go to and fro between two states, which no number of rounds would end.

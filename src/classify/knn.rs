@@ -5,8 +5,8 @@ use super::calibration::{brier, fitted_temperature};
 use super::neighbours::{Found, KdTree, Metric, Point};
 use super::scale::{Scale, Transform};
 use super::{Distribution, Trained};
+use crate::base::random::Random;
 use crate::dataset::table::{Table, Values};
-use crate::random::Random;
 
 /// Numbers of neighbours tried.
 const NUMBERS: [usize; 8] = [1, 3, 5, 7, 9, 12, 16, 20];

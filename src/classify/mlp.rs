@@ -5,10 +5,11 @@
 use super::calibration::fitted_temperature;
 use super::scale::{Scale, Transform};
 use super::{Distribution, Trained};
+use crate::base::numbers::lower_median;
+use crate::base::random::Random;
 use crate::dataset::folds::Folds;
 use crate::dataset::table::{FEATURES, Table, Values};
 use crate::labels::Label;
-use crate::random::Random;
 
 /// Hidden units: more have not been seen to help, and it is a whole number of vector registers.
 pub const HIDDEN: usize = 16;
@@ -268,7 +269,6 @@ impl Perceptron {
 fn medians(rows: &[Values]) -> Values {
     std::array::from_fn(|feature| {
         let mut values: Vec<f64> = rows.iter().map(|row| row[feature]).collect();
-        let middle = values.len().saturating_sub(1) / 2;
-        if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
+        lower_median(&mut values).unwrap_or_default()
     })
 }

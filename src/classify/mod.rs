@@ -11,7 +11,7 @@ pub mod knn;
 mod method;
 pub mod mlp;
 pub mod model_file;
-pub mod naive;
+pub mod models;
 mod neighbours;
 mod numbers;
 pub mod rules;

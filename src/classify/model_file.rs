@@ -19,9 +19,10 @@ use super::rules::{Bound, Condition, Rule, RuleList};
 use super::scale::{Scale, Transform};
 use super::tree::{Node, Split, Tree};
 use super::{Classifier, Method, Metric, Model, PlanClassifier, Scores};
+use crate::base::hash;
 use crate::dataset::Row;
 use crate::dataset::folds::{Grouping, building_of};
-use crate::dataset::table::{FEATURES, RoomSource, Table, Values, fingerprint};
+use crate::dataset::table::{FEATURES, RoomSource, Table, Values};
 use crate::features::{Features, NeighbourLabels};
 use crate::labels::{Label, Typology};
 
@@ -192,7 +193,7 @@ fn push_member(file: &mut String, key: &str, member: &Value) {
 
 /// FNV-1a of the content without spaces, in hexadecimal digits.
 fn checksum(value: &Value) -> String {
-    format!("{:016x}", fingerprint(value.to_string().into_bytes()))
+    format!("{:016x}", hash::fnv1a(hash::START, value.to_string().into_bytes()))
 }
 
 /// Reads a model.

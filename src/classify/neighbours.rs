@@ -215,7 +215,7 @@ impl Search<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
+    use crate::base::random::Random;
 
     fn cloud(points: usize, seed: u64) -> Vec<Point> {
         let mut random = Random::new(seed);

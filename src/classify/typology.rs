@@ -12,10 +12,10 @@ use std::fmt;
 
 use serde_json::{Value, json};
 
+use crate::base::random::Random;
 use crate::dataset::RoomNetwork;
 use crate::labels::{Label, Typology};
 use crate::plan::OpeningKind;
-use crate::random::Random;
 
 /// What is measured of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

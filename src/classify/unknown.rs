@@ -8,11 +8,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Distribution, Scores};
+use crate::base::random::seed_of_part;
 use crate::dataset::RoomNetwork;
 use crate::dataset::folds::{Folds, FoldsError};
 use crate::labels::Label;
 use crate::plan::OpeningKind;
-use crate::random::seed_of_part;
 
 /// Other openings of a room are told apart up to so many; more count as this.
 const OTHERS: usize = 4;

@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value, json};
 
+use super::batch::{self, Input};
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::check::{Finding, Severity, check};
-use crate::features::{NeighbourLabels, analyse};
-use crate::formats::{self, Import, Note, NoteKind};
+use crate::formats::{FileError, Import, Note, NoteKind};
 use crate::geometry::Point;
 use crate::labels::Schemes;
+use crate::pipeline::Pipeline;
 use crate::plan::Plan;
 
 /// `enfilade check`: everything that is wrong with plans.
@@ -53,35 +54,41 @@ impl Subcommand for CheckCommand {
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let schemes = inputs::schemes(&self.scheme)?;
-        let files = inputs::plan_files(&self.plans)?;
+        let files = batch::inputs(&self.plans)?;
         let mut totals = Totals::default();
         let mut json_files = Vec::new();
-        for path in &files {
+        let work = |input: &Input| {
+            let import = input.read()?;
+            let found: Vec<Vec<Finding>> = import.plans.iter().map(|plan| self.findings(plan, &schemes)).collect();
+            Ok((import, found))
+        };
+        let take = |input: &Input, result: Result<(Import, Vec<Vec<Finding>>), FileError>, terminal: &mut Terminal| {
             totals.files += 1;
-            let import = match formats::read_file(path) {
-                Ok(import) => import,
+            let (import, found) = match result {
+                Ok(result) => result,
                 Err(error) => {
                     totals.unreadable += 1;
                     if self.json {
-                        let file = path.display().to_string();
+                        let file = input.path.display().to_string();
                         json_files
                             .push(json!({ "file": file, "error": error.error.to_string(), "notes": [], "plans": [] }));
                     } else {
                         writeln!(terminal.err, "enfilade: {error}")?;
                     }
-                    continue;
+                    return Ok(());
                 }
             };
-            let checked: Vec<(&Plan, Vec<Finding>)> =
-                import.plans.iter().map(|plan| (plan, self.findings(plan, &schemes))).collect();
+            let checked: Vec<(&Plan, Vec<Finding>)> = import.plans.iter().zip(found).collect();
             totals.add(&checked, &import.notes, self.least);
             if self.json {
-                json_files.push(json_file(path, &import, &checked));
+                json_files.push(json_file(&input.path, &import, &checked));
             } else {
-                let text = self.text(path, &import, &checked);
+                let text = self.text(&input.path, &import, &checked);
                 terminal.out.write_all(text.as_bytes())?;
             }
-        }
+            Ok(())
+        };
+        batch::for_each(&files, "checking", terminal, work, take)?;
         if self.json {
             let report = json!({ "version": 1, "files": json_files, "totals": totals.json() });
             serde_json::to_writer_pretty(&mut terminal.out, &report)?;
@@ -97,8 +104,7 @@ impl Subcommand for CheckCommand {
 
 impl CheckCommand {
     fn findings(&self, plan: &Plan, schemes: &Schemes) -> Vec<Finding> {
-        let analysis = analyse(plan, schemes, NeighbourLabels::default());
-        let mut found = check(plan, &analysis, schemes);
+        let mut found = check(plan, Pipeline::new(plan, schemes).analysis(), schemes);
         found.retain(|finding| finding.severity() >= self.least);
         found
     }

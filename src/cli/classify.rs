@@ -1,19 +1,24 @@
+use crate::base::wording::shortened;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde_json::json;
 
+use super::batch::{self, Input};
 use super::collect::neighbour_labels;
 use super::train::method;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
-use crate::classify::{Distribution, Method};
-use crate::dataset::{NetworkRoom, RoomNetwork};
+use crate::classify::{Distribution, Method, models::StoredModel};
+use crate::dataset::NetworkRoom;
+use crate::edit;
 use crate::features::NeighbourLabels;
+use crate::formats::Import;
 use crate::labels::{Label, Schemes};
-use crate::plan::{LabelOrigin, OpeningId, Plan, RoomLabel, edit};
-use crate::predict::{Agreement, Choice, DEFAULT_METHOD, ModelSet, Predictions, Predictor, UnknownSet};
-use crate::store::{StoredModel, load_model, save_plan, set_name};
+use crate::pipeline::{Asked, Pipeline};
+use crate::plan::{LabelOrigin, OpeningId, Plan, RoomLabel};
+use crate::predict::{Agreement, DEFAULT_METHOD, ModelSet, Predictions, Predictor, UnknownSet};
+use crate::store::{load_model, save_plan};
 
 /// `enfilade classify`: labels for the rooms of plans.
 #[derive(clap::Args)]
@@ -81,25 +86,32 @@ impl Subcommand for ClassifyCommand {
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let schemes = inputs::schemes(&self.scheme)?;
         let own = self.model.as_deref().map(load_model).transpose()?.map(Arc::new);
-        let files = inputs::plan_files(&self.plans)?;
+        let files = batch::inputs(&self.plans)?;
         let mut objects: Vec<serde_json::Value> = Vec::new();
         let mut total = Agreement::default();
         let mut plans = 0;
-        let failed = inputs::for_each_plan(&files, terminal, |file, import, terminal| {
-            for (storey, plan) in import.plans.iter().enumerate() {
-                let said = self.classify(plan, &schemes, own.as_ref())?;
+        let work = |_: &Input, import: Import| -> Result<Vec<(Plan, Predictions)>, CliError> {
+            import
+                .plans
+                .into_iter()
+                .map(|plan| Ok((plan.clone(), self.classify(&plan, &schemes, own.as_ref())?)))
+                .collect()
+        };
+        let failed = batch::for_each_import(&files, "classifying", terminal, work, |file, classified, terminal| {
+            let classified = classified?;
+            for (storey, (plan, said)) in classified.iter().enumerate() {
                 total.add(said.agreement());
                 if self.json {
-                    objects.push(json(plan, &said, self.unknown));
+                    objects.push(json(plan, said, self.unknown));
                 } else {
                     if plans > 0 {
                         writeln!(terminal.out)?;
                     }
-                    print(plan, &said, self.unknown, terminal)?;
+                    print(plan, said, self.unknown, terminal)?;
                 }
                 plans += 1;
                 if self.write {
-                    let (target, rooms) = self.write(file, storey, import.plans.len(), files.len(), plan, &said)?;
+                    let (target, rooms) = self.write(&file.path, storey, classified.len(), files.len(), plan, said)?;
                     writeln!(terminal.err, "{}: {rooms} predictions written", target.display())?;
                 }
             }
@@ -122,14 +134,13 @@ impl ClassifyCommand {
         schemes: &Schemes,
         own: Option<&Arc<StoredModel>>,
     ) -> Result<Predictions, CliError> {
-        let network = RoomNetwork::new(plan, schemes);
-        let known = if self.hide_labels { vec![None; network.rooms.len()] } else { network.known_labels() };
-        let Some(model) = own else {
-            return Ok(self.predictor.predictor().predict(network, &known, self.neighbours)?);
+        let asked = Asked {
+            predictor: self.predictor.predictor(),
+            model: own.cloned(),
+            neighbours: self.neighbours,
+            hides_labels: self.hide_labels,
         };
-        let set = set_name(model.about.typology.as_ref());
-        let choice = Choice::stated(set, "the model's");
-        Ok(Predictions::new(network, choice, model.clone(), &known, self.neighbours))
+        Ok(Pipeline::new(plan, schemes).predictions(&asked)?)
     }
 
     /// Writes the predictions of the rooms without a label into a plan file; gives the file and their number.
@@ -276,12 +287,4 @@ fn json(plan: &Plan, said: &Predictions, with_unknown: bool) -> serde_json::Valu
         "rooms": rooms,
         "unknown": unknown,
     })
-}
-
-/// A text of at most so many characters, cut with an ellipsis.
-fn shortened(text: &str, most: usize) -> String {
-    if text.chars().count() <= most {
-        return text.to_owned();
-    }
-    text.chars().take(most.saturating_sub(1)).chain(['…']).collect()
 }

@@ -3,12 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
+use super::batch::{self, Input};
 use super::dataset::report_left_out;
 use super::{CliError, Terminal, inputs};
 use crate::dataset::{Collection, RoomNetwork, Row, csv};
 use crate::features::NeighbourLabels;
-use crate::formats::building_name;
+use crate::formats::{Import, building_name};
 use crate::labels::Typology;
+use crate::plan::Plan;
 
 /// Options of every subcommand that learns from labelled rooms.
 #[derive(clap::Args)]
@@ -89,13 +91,15 @@ struct Networks {
 /// The networks of plans, in the order of their paths.
 fn read_networks(paths: &[PathBuf], scheme_files: &[PathBuf], terminal: &mut Terminal) -> Result<Networks, CliError> {
     let schemes = inputs::schemes(scheme_files)?;
-    let files = inputs::plan_files(paths)?;
+    let files = batch::inputs(paths)?;
     let mut networks: Vec<RoomNetwork> = Vec::new();
     let mut blind: Vec<RoomNetwork> = Vec::new();
-    let failed = inputs::for_each_plan(&files, terminal, |_, import, _| {
-        for plan in &import.plans {
-            networks.push(RoomNetwork::new(plan, &schemes));
-            blind.push(RoomNetwork::without_typology(plan, &schemes));
+    let both = |plan: &Plan| (RoomNetwork::new(plan, &schemes), RoomNetwork::without_typology(plan, &schemes));
+    let work = |_: &Input, import: Import| import.plans.iter().map(both).collect::<Vec<_>>();
+    let failed = batch::for_each_import(&files, "collecting rooms", terminal, work, |_, plans, _| {
+        for (network, without) in plans {
+            networks.push(network);
+            blind.push(without);
         }
         Ok(())
     })?;

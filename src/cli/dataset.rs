@@ -2,9 +2,11 @@ use std::collections::BTreeMap;
 use std::io::Write as _;
 use std::path::PathBuf;
 
+use super::batch::{self, Input};
 use super::features::FeatureOptions;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::dataset::{LeftOut, Row, Statistics, csv, rows};
+use crate::formats::Import;
 use crate::labels::Typology;
 
 /// `enfilade dataset`: the labelled rooms of many plans.
@@ -31,13 +33,18 @@ impl Subcommand for DatasetCommand {
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let schemes = inputs::schemes(&self.shared.scheme)?;
-        let files = inputs::plan_files(&self.plans)?;
+        let files = batch::inputs(&self.plans)?;
         let mut collected: Vec<Row> = Vec::new();
         let mut left_out = LeftOut::default();
-        let failed = inputs::for_each_plan(&files, terminal, |_, import, _| {
-            for plan in &import.plans {
-                collected.extend(rows(plan, &schemes, self.shared.neighbours, &mut left_out));
-            }
+        let work = |_: &Input, import: Import| {
+            let mut left_out = LeftOut::default();
+            let of_plan = |plan| rows(plan, &schemes, self.shared.neighbours, &mut left_out);
+            let rows: Vec<Row> = import.plans.iter().flat_map(of_plan).collect();
+            (rows, left_out)
+        };
+        let failed = batch::for_each_import(&files, "collecting rooms", terminal, work, |_, (rows, without), _| {
+            collected.extend(rows);
+            left_out.add(&without);
             Ok(())
         })?;
         report_left_out(&left_out, terminal)?;

@@ -1,10 +1,14 @@
 use std::path::PathBuf;
 
+use super::batch::{self, Input};
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::dataset::csv::feature_cells;
-use crate::dataset::room_keys;
-use crate::features::{Features, NeighbourLabels, analyse};
-use crate::labels::Label;
+use crate::features::{Features, NeighbourLabels};
+use crate::formats::Import;
+use crate::labels::{Label, Schemes};
+use crate::pipeline::Pipeline;
+use crate::plan::titles::room_keys;
+use crate::plan::{Plan, RoomId};
 
 /// `enfilade features`: the features of every room.
 #[derive(clap::Args)]
@@ -45,35 +49,19 @@ impl Subcommand for FeaturesCommand {
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let schemes = inputs::schemes(&self.shared.scheme)?;
-        let files = inputs::plan_files(&self.plans)?;
+        let files = batch::inputs(&self.plans)?;
         let mut writer = csv::Writer::from_writer(Vec::new());
         let mut objects: Vec<serde_json::Value> = Vec::new();
-        let head = ["plan", "room", "function", "label"];
-        writer.write_record(head.into_iter().chain(Features::NAMES))?;
-        let failed = inputs::for_each_plan(&files, terminal, |_, import, _| {
-            for plan in &import.plans {
-                let analysis = analyse(plan, &schemes, self.shared.neighbours);
-                for (id, key) in room_keys(plan) {
-                    let (Some(room), Some(result)) = (plan.room(id), analysis.room(id)) else { continue };
-                    let label = result.status.label().map(Label::letter).unwrap_or_default();
-                    let texts = [plan.meta().name.as_str(), &key, &room.function, label];
-                    if self.json {
-                        let mut object = serde_json::Map::new();
-                        for (name, text) in head.into_iter().zip(texts) {
-                            object.insert(
-                                name.to_owned(),
-                                if text.is_empty() { serde_json::Value::Null } else { text.into() },
-                            );
-                        }
-                        for (index, name) in Features::NAMES.into_iter().enumerate() {
-                            let value = result.features.map(|features| features.values()[index]);
-                            object.insert(name.to_owned(), value.map(rounded).into());
-                        }
-                        objects.push(object.into());
-                    } else {
-                        let cells = result.features.as_ref().map(feature_cells).unwrap_or_default();
-                        writer.write_record(texts.into_iter().map(str::to_owned).chain(cells))?;
-                    }
+        writer.write_record(HEAD.into_iter().chain(Features::NAMES))?;
+        let rooms = |_: &Input, import: Import| -> Vec<RoomFeatures> {
+            import.plans.iter().flat_map(|plan| self.rooms(plan, &schemes)).collect()
+        };
+        let failed = batch::for_each_import(&files, "computing features", terminal, rooms, |_, rooms, _| {
+            for room in rooms {
+                if self.json {
+                    objects.push(room.json());
+                } else {
+                    writer.write_record(room.cells())?;
                 }
             }
             Ok(())
@@ -87,6 +75,50 @@ impl Subcommand for FeaturesCommand {
         };
         inputs::write_result(self.output.as_deref(), &bytes, terminal)?;
         Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
+    }
+}
+
+/// What tells a room, before its features.
+const HEAD: [&str; 4] = ["plan", "room", "function", "label"];
+
+/// A room with its features, where it has an area.
+struct RoomFeatures {
+    /// Of [`HEAD`].
+    texts: [String; 4],
+    features: Option<Features>,
+}
+
+impl FeaturesCommand {
+    fn rooms(&self, plan: &Plan, schemes: &Schemes) -> Vec<RoomFeatures> {
+        let pipeline = Pipeline::counting(plan, schemes, self.shared.neighbours);
+        let analysis = pipeline.analysis();
+        let room = |(id, key): (RoomId, String)| {
+            let (room, result) = (plan.room(id)?, analysis.room(id)?);
+            let label = result.status.label().map(Label::letter).unwrap_or_default().to_owned();
+            let texts = [plan.meta().name.clone(), key, room.function.clone(), label];
+            Some(RoomFeatures { texts, features: result.features })
+        };
+        room_keys(plan).into_iter().filter_map(room).collect()
+    }
+}
+
+impl RoomFeatures {
+    fn json(self) -> serde_json::Value {
+        let mut object = serde_json::Map::new();
+        for (name, text) in HEAD.into_iter().zip(self.texts) {
+            let text = if text.is_empty() { serde_json::Value::Null } else { text.into() };
+            object.insert(name.to_owned(), text);
+        }
+        for (index, name) in Features::NAMES.into_iter().enumerate() {
+            let value = self.features.map(|features| features.values()[index]);
+            object.insert(name.to_owned(), value.map(rounded).into());
+        }
+        object.into()
+    }
+
+    fn cells(self) -> impl Iterator<Item = String> {
+        let cells = self.features.as_ref().map(feature_cells).unwrap_or_default();
+        self.texts.into_iter().chain(cells)
     }
 }
 

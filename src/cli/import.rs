@@ -4,11 +4,13 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use super::batch::{self, Input};
 use super::{CliError, Outcome, Subcommand, Terminal};
-use crate::formats::plan_json::PlanJson;
-use crate::formats::{self, Format as _, Note, NoteKind, Place, building_name};
-use crate::labels::{Schemes, Typology};
-use crate::plan::{Meta, Plan, edit};
+use crate::edit;
+use crate::formats::registry::Found;
+use crate::formats::{self, FORMATS, Note, NoteKind, Place, Preview, Reading, building_name, manual, plan_json};
+use crate::labels::Typology;
+use crate::plan::{Meta, Plan};
 use crate::store::save_bytes_fast;
 
 /// How the files that are written end.
@@ -21,8 +23,17 @@ pub struct ImportCommand {
     #[arg(required = true, value_name = "FILE|DIR")]
     inputs: Vec<PathBuf>,
     /// Folder to write the plans to; the folders of a DIR are made again in it
-    #[arg(short, long, value_name = "DIR")]
-    output: PathBuf,
+    #[arg(short, long, value_name = "DIR", required_unless_present = "preview")]
+    output: Option<PathBuf>,
+    /// The format of all files, where they do not tell it themselves
+    #[arg(long, value_name = "FORMAT", value_parser = importer)]
+    from: Option<Found<'static>>,
+    /// Set an option of a format (may be given several times); the list is below
+    #[arg(long, value_name = "NAME=VALUE")]
+    option: Vec<String>,
+    /// Only say what is in each file, and write nothing
+    #[arg(long)]
+    preview: bool,
     /// Replace plans that are there already and differ
     #[arg(long)]
     force: bool,
@@ -34,29 +45,49 @@ pub struct ImportCommand {
     json: bool,
 }
 
+/// A format that can be read, as an option's value.
+fn importer(word: &str) -> Result<Found<'static>, String> {
+    formats::importer_named(word).ok_or_else(|| {
+        let ids = FORMATS.iter().filter(|format| format.importer.is_some()).map(|format| format.id);
+        format!("use one of {}", ids.collect::<Vec<_>>().join(", "))
+    })
+}
+
 impl Subcommand for ImportCommand {
     const NAME: &'static str = "import";
     const ABOUT: &'static str = "Read plans of other programs, mend them, and save them as plan files";
     const EXAMPLE: &'static str = "enfilade import annotated -o plans   # every plan below the folder 'annotated'";
 
+    fn more_help() -> String {
+        manual::import_help()
+    }
+
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
-        let jobs = jobs(&self.inputs, &self.output)?;
-        std::fs::create_dir_all(&self.output)
-            .map_err(|error| CliError::new(format!("{}: {error}; choose another folder", self.output.display())))?;
-        let total = jobs.len();
-        let mut files = Vec::with_capacity(total);
-        for (done, job) in jobs.into_iter().enumerate() {
-            progress(terminal, done + 1, total, &job.path)?;
-            files.push(read(job));
+        let reading = Reading { from: self.from, options: self.option.clone() };
+        reading.check()?;
+        // Nothing is written into it when previewing.
+        let output = self.output.clone().unwrap_or_default();
+        let jobs = jobs(&self.inputs, &output)?;
+        if self.preview {
+            return preview(&jobs, &reading, terminal);
         }
-        clear_progress(terminal)?;
+        std::fs::create_dir_all(&output)
+            .map_err(|error| CliError::new(format!("{}: {error}; choose another folder", output.display())))?;
+        let read = |input: &Input| content(input, &reading);
+        let inputs: Vec<Input> = jobs.iter().map(|job| job.input.clone()).collect();
+        let mut contents = Vec::with_capacity(jobs.len());
+        batch::for_each(&inputs, "reading", terminal, read, |_, content, _| {
+            contents.push(content);
+            Ok(())
+        })?;
+        let mut files: Vec<File> = jobs.into_iter().zip(contents).map(|(job, content)| File { job, content }).collect();
         same_buildings(&mut files);
         let mut targets = BTreeSet::new();
         for file in &mut files {
             if let Content::Plans { plans, .. } = &mut file.content {
                 let count = plans.len();
                 for (index, plan) in plans.iter_mut().enumerate() {
-                    plan.target = target(&self.output, &file.job.target, (count > 1).then_some(index), &mut targets);
+                    plan.target = target(&output, &file.job.target, (count > 1).then_some(index), &mut targets);
                     plan.state = save(plan, self.force);
                 }
             }
@@ -72,7 +103,7 @@ impl Subcommand for ImportCommand {
                 summarise_notes(&files, terminal)?
             }
             print_table(&files, terminal)?;
-            print_outcome(&files, &self.output, terminal)?;
+            print_outcome(&files, &output, terminal)?;
         }
         let is_wrong = files.iter().any(File::is_wrong);
         Ok(if is_wrong { Outcome::InputWrong } else { Outcome::Done })
@@ -81,13 +112,11 @@ impl Subcommand for ImportCommand {
 
 /// A file to import.
 struct Job {
-    path: PathBuf,
+    input: Input,
     /// The folder it is counted under.
     folder: PathBuf,
     /// Where its plan goes in the output folder, without the ending.
     target: PathBuf,
-    /// Whether the user named it; else it was found in a folder, where it may be no plan.
-    is_named: bool,
 }
 
 /// A file and what became of it.
@@ -138,50 +167,34 @@ impl State {
 
 /// The files that the inputs name, in their order; those of a folder sorted by path.
 fn jobs(inputs: &[PathBuf], output: &Path) -> Result<Vec<Job>, CliError> {
-    let mut jobs = Vec::new();
     let output = output.canonicalize().ok();
     let is_output = |path: &Path| output.is_some() && path.canonicalize().ok() == output;
-    for input in inputs {
-        if !input.is_dir() {
-            let folder = input.parent().unwrap_or(Path::new("")).to_owned();
-            let target = stem_of(input);
-            jobs.push(Job { path: input.clone(), folder, target, is_named: true });
-            continue;
-        }
-        // With several folders each keeps its name, so that equal paths in them do not collide.
-        let prefix = match input.canonicalize() {
-            Ok(input) if inputs.len() > 1 => input.file_name().map(PathBuf::from).unwrap_or_default(),
-            _ => PathBuf::new(),
-        };
-        // Plans that an earlier import wrote beside their sources are no sources.
-        let writes_beside = is_output(input);
-        let before = jobs.len();
-        let walk = walkdir::WalkDir::new(input).follow_links(true).sort_by_file_name().into_iter();
-        let walk = walk.filter_entry(|entry| {
-            let is_hidden = entry.file_name().to_string_lossy().starts_with('.');
-            entry.depth() == 0 || !(is_hidden || (entry.file_type().is_dir() && is_output(entry.path())))
-        });
-        for entry in walk {
-            let entry = entry?;
-            let name = entry.file_name().to_string_lossy();
-            let is_plan = formats::is_plan_file_name(&name);
-            if !entry.file_type().is_file() || !is_plan || (writes_beside && name.ends_with(ENDING)) {
-                continue;
-            }
-            let within = entry.path().strip_prefix(input).unwrap_or(entry.path());
-            let below = within.parent().unwrap_or(Path::new(""));
-            jobs.push(Job {
-                path: entry.path().to_owned(),
-                folder: input.join(below).components().collect(),
-                target: prefix.join(below).join(stem_of(within)),
-                is_named: false,
-            });
-        }
-        if jobs.len() == before {
-            return Err(CliError::new(format!("{}: no plan files in this folder", input.display())));
-        }
-    }
-    Ok(jobs)
+    // Plans that an earlier import wrote beside their sources are no sources.
+    let beside: BTreeSet<&PathBuf> = inputs.iter().filter(|input| is_output(input)).collect();
+    let is_source = |input: &Input| {
+        let is_own = input.path.to_string_lossy().ends_with(ENDING);
+        !is_own || input.root.as_ref().is_none_or(|root| !beside.contains(root))
+    };
+    let found = batch::inputs_but(inputs, is_output, is_source)?;
+    Ok(found.into_iter().map(|input| job(input, inputs.len() > 1)).collect())
+}
+
+/// Where a file's plan goes. With several folders each keeps its name, so that equal paths in them do not collide.
+fn job(input: Input, has_several: bool) -> Job {
+    let Some(root) = &input.root else {
+        let folder = input.path.parent().unwrap_or(Path::new("")).to_owned();
+        let target = stem_of(&input.path);
+        return Job { input, folder, target };
+    };
+    let prefix = match root.canonicalize() {
+        Ok(root) if has_several => root.file_name().map(PathBuf::from).unwrap_or_default(),
+        _ => PathBuf::new(),
+    };
+    let within = input.path.strip_prefix(root).unwrap_or(&input.path);
+    let below = within.parent().unwrap_or(Path::new(""));
+    let folder = root.join(below).components().collect();
+    let target = prefix.join(below).join(stem_of(within));
+    Job { input, folder, target }
 }
 
 /// A file's name without the ending of its format.
@@ -191,21 +204,50 @@ fn stem_of(path: &Path) -> PathBuf {
     name.to_str().map_or_else(|| PathBuf::from(name), |name| PathBuf::from(formats::file_stem(name)))
 }
 
-fn read(job: Job) -> File {
-    let content = match formats::read_bytes(&job.path) {
+fn content(input: &Input, reading: &Reading) -> Content {
+    match input.read_or_pass(reading) {
         Err(error) => Content::Failed(error),
-        Ok(bytes) => match formats::foreign_kind(&job.path, &bytes) {
-            Some(kind) if !job.is_named => Content::Foreign(kind),
-            _ => match formats::read_from(&job.path, &bytes) {
-                Err(error) => Content::Failed(error),
-                Ok(import) => {
-                    let waiting = |plan| ImportedPlan { plan, target: PathBuf::new(), state: State::Waiting };
-                    Content::Plans { plans: import.plans.into_iter().map(waiting).collect(), notes: import.notes }
-                }
-            },
-        },
-    };
-    File { job, content }
+        Ok(Err(kind)) => Content::Foreign(kind),
+        Ok(Ok(import)) => {
+            let waiting = |plan| ImportedPlan { plan, target: PathBuf::new(), state: State::Waiting };
+            Content::Plans { plans: import.plans.into_iter().map(waiting).collect(), notes: import.notes }
+        }
+    }
+}
+
+/// Says what is in each file, one a line.
+fn preview(jobs: &[Job], reading: &Reading, terminal: &mut Terminal) -> Result<Outcome, CliError> {
+    let mut outcome = Outcome::Done;
+    for job in jobs {
+        match job.input.check().and_then(|()| reading.preview(&job.input.path)) {
+            Ok((format, preview)) => {
+                writeln!(terminal.out, "{}: {}: {}", job.input.path.display(), format.name, in_words(&preview))?;
+            }
+            Err(error) => {
+                outcome = Outcome::InputWrong;
+                writeln!(terminal.err, "enfilade: {error}")?;
+            }
+        }
+    }
+    Ok(outcome)
+}
+
+/// '1 plan, 31 rooms, 40 openings, 0 walls, 24.3 x 12.1 m (portal 78, space 31)'
+fn in_words(preview: &Preview) -> String {
+    let counted = |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
+    let mut words = vec![
+        counted(preview.plans, "plan"),
+        counted(preview.rooms, "room"),
+        counted(preview.openings, "opening"),
+        counted(preview.walls, "wall"),
+    ];
+    if let Some((width, height)) = preview.size {
+        let units = preview.units.as_deref().unwrap_or("of unknown unit");
+        words.push(format!("{width:.1} x {height:.1} {units}"));
+    }
+    let layers: Vec<String> = preview.layers.iter().map(|(layer, count)| format!("{layer} {count}")).collect();
+    let layers = if layers.is_empty() { String::new() } else { format!(" ({})", layers.join(", ")) };
+    format!("{}{layers}", words.join(", "))
 }
 
 /// Gives plans of one building the same name of it, where spellings differ: the longest, since a
@@ -259,9 +301,7 @@ fn target(output: &Path, target: &Path, index: Option<usize>, taken: &mut BTreeS
 }
 
 fn save(plan: &ImportedPlan, force: bool) -> State {
-    let Some(bytes) = PlanJson.write(&plan.plan, &Schemes::default()) else {
-        return State::NotSaved("cannot be written as a plan file".to_owned());
-    };
+    let bytes = plan_json::to_bytes(&plan.plan);
     match std::fs::read(&plan.target) {
         Ok(there) if there == bytes => return State::Unchanged,
         Ok(_) if !force => return State::Kept,
@@ -310,7 +350,7 @@ impl File {
                     terminal.err,
                     "enfilade: {}: kept: it differs from what {} gives; --force replaces it",
                     plan.target.display(),
-                    self.job.path.display()
+                    self.job.input.path.display()
                 )?,
                 State::NotSaved(why) => writeln!(terminal.err, "enfilade: {why}")?,
                 State::Waiting | State::Written | State::Unchanged => {}
@@ -318,21 +358,6 @@ impl File {
         }
         Ok(())
     }
-}
-
-/// Shows how far the import is, on a terminal only.
-fn progress(terminal: &mut Terminal, nth: usize, total: usize, path: &Path) -> Result<(), CliError> {
-    if terminal.is_interactive {
-        write!(terminal.err, "\r\x1b[K{nth}/{total} {}", path.display())?;
-    }
-    Ok(())
-}
-
-fn clear_progress(terminal: &mut Terminal) -> Result<(), CliError> {
-    if terminal.is_interactive {
-        write!(terminal.err, "\r\x1b[K")?;
-    }
-    Ok(())
 }
 
 const fn kind_name(kind: NoteKind) -> &'static str {
@@ -354,7 +379,7 @@ fn list_notes(files: &[File], terminal: &mut Terminal) -> Result<(), CliError> {
             writeln!(terminal.out, "{}", note.what)?;
         }
         if let Content::Foreign(kind) = &file.content {
-            writeln!(terminal.out, "{}: passed over: {kind}", file.job.path.display())?;
+            writeln!(terminal.out, "{}: passed over: {kind}", file.job.input.path.display())?;
         }
     }
     if files.iter().any(|file| !file.notes().is_empty() || matches!(file.content, Content::Foreign(_))) {
@@ -364,7 +389,7 @@ fn list_notes(files: &[File], terminal: &mut Terminal) -> Result<(), CliError> {
 }
 
 fn place(file: &File, note: &Note) -> String {
-    let path = file.job.path.display();
+    let path = file.job.input.path.display();
     note.place.line.map_or_else(|| path.to_string(), |line| format!("{path}:{line}"))
 }
 
@@ -620,7 +645,7 @@ impl FileReport {
             }
         };
         Self {
-            path: file.job.path.display().to_string(),
+            path: file.job.input.path.display().to_string(),
             state,
             plans: plans.collect(),
             notes: notes.collect(),

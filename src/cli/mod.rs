@@ -1,5 +1,6 @@
 //! The command line. One file a subcommand, one line in [`SUBCOMMANDS`] to register it.
 
+mod batch;
 mod check;
 mod classify;
 mod collect;
@@ -51,6 +52,11 @@ pub trait Subcommand: Args {
     const ABOUT: &'static str;
     /// An example call with a word on what it does, shown at the end of its help.
     const EXAMPLE: &'static str;
+
+    /// What stands above the example: lists that the program keeps elsewhere. Empty for most.
+    fn more_help() -> String {
+        String::new()
+    }
 
     /// Does the work.
     ///
@@ -121,11 +127,13 @@ const fn entry<S: Subcommand>() -> Entry {
     Entry {
         name: S::NAME,
         command: || {
+            let more = S::more_help();
+            let gap = if more.is_empty() { "" } else { "\n\n" };
             // After `augment_args`, which sets the type's docstring.
             S::augment_args(Command::new(S::NAME))
                 .about(S::ABOUT)
                 .long_about(None)
-                .after_help(format!("Example:\n  {}", S::EXAMPLE))
+                .after_help(format!("{more}{gap}Example:\n  {}", S::EXAMPLE))
         },
         run: |matches, terminal| {
             // The matches come from the command built from the same type: they always fit, and if

@@ -2,8 +2,12 @@ use std::io::Write as _;
 use std::sync::Arc;
 
 use super::{CliError, Outcome, Subcommand, Terminal};
-use crate::classify::Method;
-use crate::store::{StoredModel, bundled_model, bundled_sets, models_folder, models_in, set_name};
+use crate::classify::{
+    Method,
+    models::{StoredModel, bundled_model, bundled_sets},
+};
+use crate::dataset::sets::set_name;
+use crate::store::{models_folder, models_in};
 
 /// `enfilade models`: the classifiers at hand.
 #[derive(clap::Args)]

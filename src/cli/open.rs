@@ -6,10 +6,11 @@ use std::path::Path;
 use super::{CliError, Outcome, Terminal};
 use crate::dataset::{self, LeftOut, Row, Statistics};
 use crate::draw::sheet::{self, Furniture, PageSize};
-use crate::draw::{Drawing, Style, png, svg};
-use crate::features::{NeighbourLabels, analyse};
+use crate::draw::{Style, png, svg};
+use crate::features::NeighbourLabels;
 use crate::formats;
 use crate::labels::Schemes;
+use crate::pipeline::Pipeline;
 use crate::plan::Plan;
 use crate::store::{bundled_plans, save_bytes_fast};
 
@@ -62,10 +63,10 @@ fn headless(plan: Option<&Path>, terminal: &mut Terminal) -> Result<Outcome, Cli
     let mut rows: Vec<Row> = Vec::new();
     let mut left_out = LeftOut::default();
     for (name, plan) in &plans {
-        let analysis = analyse(plan, &schemes, NeighbourLabels::True);
         let style = Style::default();
         let furniture = Furniture { title: true, legend: true, scale: true };
-        let scene = sheet::page(&Drawing::new(plan, &analysis), &style, PageSize::Longest(PICTURE_PX), furniture);
+        let scene =
+            sheet::page(&Pipeline::new(plan, &schemes).drawing(None), &style, PageSize::Longest(PICTURE_PX), furniture);
         save_bytes_fast(&folder.join(format!("{name}.png")), &png::png(&scene)?)?;
         save_bytes_fast(&folder.join(format!("{name}.svg")), svg::svg(&scene).as_bytes())?;
         let (rooms, openings) = (plan.rooms().len(), plan.openings().len());

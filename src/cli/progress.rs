@@ -6,10 +6,59 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use super::Terminal;
-use crate::parallel::Work;
+use crate::base::work::Work;
 
 /// How often the line changes at most.
 const STEP: Duration = Duration::from_millis(200);
+
+/// The line: on stderr, if that is a terminal.
+pub struct Progress {
+    title: String,
+    count: usize,
+    is_shown: bool,
+    start: Instant,
+    last: Mutex<Duration>,
+    /// For [`Work::watched`]: Ctrl+C ends the program at once, and nothing else cancels.
+    pub never: AtomicBool,
+}
+
+impl Progress {
+    /// Nothing of `count` parts is done.
+    pub fn new(title: &str, count: usize, terminal: &Terminal) -> Self {
+        #[expect(clippy::disallowed_methods, reason = "the time left is for a person to read; no result depends on it")]
+        let start = Instant::now();
+        let (title, last, never) = (title.to_owned(), Mutex::new(Duration::ZERO), AtomicBool::new(false));
+        Self { title, count, is_shown: terminal.is_interactive, start, last, never }
+    }
+
+    /// So many parts are done.
+    pub fn tell(&self, done: usize) {
+        self.tell_of(done, self.count);
+    }
+
+    fn tell_of(&self, done: usize, count: usize) {
+        if !self.is_shown {
+            return;
+        }
+        let now = self.start.elapsed();
+        let Ok(mut last) = self.last.try_lock() else { return };
+        if now.saturating_sub(*last) < STEP && done < count {
+            return;
+        }
+        *last = now;
+        let left = now.mul_f64(count.saturating_sub(done) as f64 / done.max(1) as f64);
+        let percent = 100 * done / count.max(1);
+        // Whoever closed stderr does not read it.
+        let _ = write!(std::io::stderr(), "\r{}: {percent} %, {} left \x1b[K", self.title, in_words(left));
+    }
+
+    /// Takes the line away, for other text.
+    pub fn clear(&self) {
+        if self.is_shown {
+            let _ = write!(std::io::stderr(), "\r\x1b[K");
+        }
+    }
+}
 
 /// Does work while a line on stderr, if that is a terminal, tells how much is done and how long the
 /// rest will take. Ctrl+C ends the program at once: nothing is written before all work is done.
@@ -23,27 +72,10 @@ pub fn with_progress<T>(
         Some(threads) => Work::quiet().on_threads(threads),
         None => Work::quiet(),
     };
-    if !terminal.is_interactive {
-        return work(&quiet);
-    }
-    #[expect(clippy::disallowed_methods, reason = "the time left is for a person to read; no result depends on it")]
-    let start = Instant::now();
-    let last: Mutex<Duration> = Mutex::new(Duration::ZERO);
-    let progress = |done: usize, count: usize| {
-        let now = start.elapsed();
-        let Ok(mut last) = last.try_lock() else { return };
-        if now.saturating_sub(*last) < STEP && done < count {
-            return;
-        }
-        *last = now;
-        let left = now.mul_f64((count - done) as f64 / done.max(1) as f64);
-        let percent = 100 * done / count.max(1);
-        // Whoever closed stderr does not read it.
-        let _ = write!(std::io::stderr(), "\r{title}: {percent} %, {} left \x1b[K", in_words(left));
-    };
-    let never = AtomicBool::new(false);
-    let result = work(&quiet.watched(&progress, &never));
-    let _ = write!(std::io::stderr(), "\r\x1b[K");
+    let line = Progress::new(title, 0, terminal);
+    let told = |done: usize, count: usize| line.tell_of(done, count);
+    let result = work(&quiet.watched(&told, &line.never));
+    line.clear();
     result
 }
 

@@ -1,18 +1,24 @@
+use std::collections::BTreeSet;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::builder::PossibleValuesParser;
 
+use super::batch::{self, Input};
 use super::classify::PredictorOptions;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
-use crate::dataset::RoomNetwork;
-use crate::draw::sheet::{self, Furniture, PageSize};
-use crate::draw::{Drawing, Fill, LabelColours, Layers, Scene, Style, Theme, png, svg};
-use crate::features::{NeighbourLabels, analyse};
+use crate::draw::{
+    Fill, LabelColours, Layers, Scene, Style, Theme, png,
+    sheet::{self, Furniture, PageSize},
+    svg,
+};
+use crate::formats::Import;
 use crate::labels::Schemes;
+use crate::picture::PictureLevels;
+use crate::pipeline::{Asked, Pipeline};
 use crate::plan::{Backdrop, Plan};
-use crate::store::pictures::{self, PictureLevels};
+use crate::store::pictures;
 
 /// `enfilade render`: plans as pictures.
 #[derive(clap::Args)]
@@ -70,7 +76,7 @@ impl Subcommand for RenderCommand {
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let schemes = inputs::schemes(&self.scheme)?;
-        let files = inputs::plan_files(&self.plans)?;
+        let files = batch::inputs(&self.plans)?;
         let style = self.style();
         let single = picture_ending(&self.output).filter(|_| !self.output.is_dir());
         if single.is_none() && self.output.extension().is_some() && !self.output.is_dir() {
@@ -80,12 +86,16 @@ impl Subcommand for RenderCommand {
             )));
         }
         let ending = single.unwrap_or(&self.format);
-        let mut written: Vec<PathBuf> = Vec::new();
-        let failed = inputs::for_each_plan(&files, terminal, |file, import, terminal| {
-            for (storey, plan) in import.plans.iter().enumerate() {
+        let mut written: BTreeSet<PathBuf> = BTreeSet::new();
+        let work = |input: &Input, import: Import| -> Vec<Picture> {
+            import.plans.iter().map(|plan| self.picture_of(plan, &input.path, &schemes, &style, ending)).collect()
+        };
+        let mut not_drawn = 0;
+        let failed = batch::for_each_import(&files, "drawing", terminal, work, |input, pictures, terminal| {
+            for (storey, picture) in pictures.into_iter().enumerate() {
                 let target = match single {
                     Some(_) => self.output.clone(),
-                    None => self.output.join(inputs::target_name(file, storey, ending)),
+                    None => self.output.join(inputs::target_name(&input.path, storey, ending)),
                 };
                 if written.contains(&target) {
                     return Err(CliError::new(format!(
@@ -93,19 +103,17 @@ impl Subcommand for RenderCommand {
                         target.display()
                     )));
                 }
-                let backdrop = plan.backdrop().filter(|_| !self.no_picture);
-                let traced = backdrop.and_then(|backdrop| {
-                    let path = pictures::resolved_path(&backdrop.path, file.parent());
-                    match pictures::load_picture(&path, backdrop.page) {
-                        Ok(loaded) => Some((Arc::new(loaded.levels), backdrop)),
-                        // The plan can be drawn all the same.
-                        Err(error) => {
-                            let _ = writeln!(terminal.err, "{}: left out: {error}", path.display());
-                            None
-                        }
+                if let Some(warning) = picture.warning {
+                    writeln!(terminal.err, "{warning}")?;
+                }
+                let bytes = match picture.bytes {
+                    Ok(bytes) => bytes,
+                    Err(error) => {
+                        not_drawn += 1;
+                        writeln!(terminal.err, "enfilade: {}: {}", input.path.display(), error.message)?;
+                        continue;
                     }
-                });
-                let bytes = self.picture(plan, traced, &schemes, &style, ending)?;
+                };
                 if let (None, Some(folder)) = (single, target.parent()) {
                     std::fs::create_dir_all(folder)?;
                 }
@@ -113,10 +121,11 @@ impl Subcommand for RenderCommand {
                 writeln!(terminal.out, "{}", target.display())?;
                 // Said at once: of many plans each takes a blink.
                 terminal.out.flush()?;
-                written.push(target);
+                written.insert(target);
             }
             Ok(())
         })?;
+        let failed = failed + not_drawn;
         Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
     }
 }
@@ -142,6 +151,24 @@ impl RenderCommand {
         }
     }
 
+    /// `file` is where the plan comes from: the picture that it was traced over is found from there.
+    fn picture_of(&self, plan: &Plan, file: &Path, schemes: &Schemes, style: &Style, ending: &str) -> Picture {
+        let mut warning = None;
+        let backdrop = plan.backdrop().filter(|_| !self.no_picture);
+        let traced = backdrop.and_then(|backdrop| {
+            let path = pictures::resolved_path(&backdrop.path, file.parent());
+            match pictures::load_picture(&path, backdrop.page) {
+                Ok(loaded) => Some((Arc::new(loaded.levels), backdrop)),
+                // The plan can be drawn all the same.
+                Err(error) => {
+                    warning = Some(format!("{}: left out: {error}", path.display()));
+                    None
+                }
+            }
+        });
+        Picture { bytes: self.picture(plan, traced, schemes, style, ending), warning }
+    }
+
     /// `traced`: the picture under the plan.
     fn picture(
         &self,
@@ -151,14 +178,11 @@ impl RenderCommand {
         style: &Style,
         ending: &str,
     ) -> Result<Vec<u8>, CliError> {
-        let analysis = analyse(plan, schemes, NeighbourLabels::True);
+        let pipeline = Pipeline::new(plan, schemes);
         let furniture = Furniture { title: !self.bare, legend: !self.bare, scale: !self.bare };
-        let mut drawing = Drawing::new(plan, &analysis);
-        if style.fill == Fill::Prediction {
-            let network = RoomNetwork::of(plan, &analysis);
-            let known = network.known_labels();
-            drawing = drawing.with_predictions(&self.predictor.predictor().predict(network, &known, None)?.labels());
-        }
+        let asked = (style.fill == Fill::Prediction).then(|| Asked::by(&self.predictor.predictor()));
+        let predictions = asked.map(|asked| pipeline.predictions(&asked)).transpose()?;
+        let mut drawing = pipeline.drawing(predictions.as_ref());
         let mut style = style.clone();
         if let Some((levels, backdrop)) = traced {
             drawing = drawing.with_picture(levels, backdrop);
@@ -171,6 +195,13 @@ impl RenderCommand {
         let scene: Scene = sheet::page(&drawing, style, self.size, furniture);
         Ok(if ending == "svg" { svg::svg(&scene).into_bytes() } else { png::png(&scene)? })
     }
+}
+
+/// A plan's picture as a file's bytes, or why there is none.
+struct Picture {
+    bytes: Result<Vec<u8>, CliError>,
+    /// What was left out.
+    warning: Option<String>,
 }
 
 /// How strongly rooms are filled over a picture.

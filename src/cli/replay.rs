@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::{CliError, Outcome, Subcommand, Terminal};
 use crate::app::replay::{self, Failure, ReplayOptions, Report, ScriptFile};
-use crate::parallel::Work;
+use crate::base::work::Work;
 
 /// `enfilade replay`: scripts that drive the window without a display.
 #[derive(clap::Args)]

@@ -5,18 +5,23 @@ use std::path::{Path, PathBuf};
 use super::collect::{CollectOptions, Collected, collect, neighbour_labels};
 use super::progress::with_progress;
 use super::{CliError, Outcome, Subcommand, Terminal};
-use crate::classify::joint::{self, Joint};
-use crate::classify::model_file::{self, About, DataSummary, ScoreSummary};
-use crate::classify::typology::TypologyModel;
-use crate::classify::unknown::Unknown;
-use crate::classify::{Algorithm, Classifier, Method, PlanClassifier, Scores, in_plan};
-use crate::dataset::folds::Grouping;
-use crate::dataset::table::Table;
-use crate::dataset::{Collection, RoomNetwork, Row};
+use crate::classify::{
+    Algorithm, Classifier, Method, PlanClassifier, Scores, in_plan,
+    joint::{self, Joint},
+    model_file::{self, About, DataSummary, ScoreSummary},
+    typology::TypologyModel,
+    unknown::Unknown,
+};
+use crate::dataset::{
+    Collection, RoomNetwork, Row,
+    folds::Grouping,
+    sets::{STANDARD, set_name},
+    table::Table,
+};
 use crate::features::NeighbourLabels;
 use crate::labels::Typology;
-use crate::store::{MODEL_ENDING, set_name};
-use crate::study::{Cell, Condition, Options, STANDARD, StudyError, validate};
+use crate::store::MODEL_ENDING;
+use crate::study::{Cell, Condition, Options, StudyError, validate};
 
 /// `enfilade train`: classifiers from labelled rooms.
 #[derive(clap::Args)]

@@ -2,9 +2,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::folds::building_of;
 use super::{LeftOut, RoomNetwork, Row};
+use crate::base::random::Random;
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
-use crate::random::Random;
 
 /// Labelled rooms of many plans, to learn from and to test on.
 #[derive(Clone, Debug)]

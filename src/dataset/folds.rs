@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 use super::Row;
+use crate::base::random::Random;
 use crate::labels::Label;
-use crate::random::Random;
 
 /// How rows are dealt to folds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -4,10 +4,9 @@ mod collection;
 pub mod csv;
 pub mod folds;
 mod network;
+pub mod sets;
 mod statistics;
 pub mod table;
-
-use std::collections::BTreeMap;
 
 pub use collection::{Collection, RoomPlace};
 pub use network::{Form, NetworkDoor, NetworkRoom, RoomNetwork};
@@ -15,7 +14,8 @@ pub use statistics::{LabelStatistics, Moments, Statistics};
 
 use crate::features::{Features, NeighbourLabels};
 use crate::labels::{Label, Schemes, Typology};
-use crate::plan::{Plan, RoomId};
+use crate::plan::Plan;
+use std::collections::BTreeMap;
 
 /// One labelled room of a dataset.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,55 +72,4 @@ pub fn rows(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels, left_ou
     left_out.add(&network.left_out);
     let seen = network.seen_labels(&network.known_labels(), neighbours);
     network.rows_seeing(&seen).map(|row| Row { building: plan.meta().building.clone(), ..row }).collect()
-}
-
-/// What to call each room of a plan in a table: its name where no other room has the same, else what
-/// it is called in its source, else its id. Sorted so that 'Room 2' comes before 'Room 10'.
-pub fn room_keys(plan: &Plan) -> Vec<(RoomId, String)> {
-    let mut names: BTreeMap<&str, usize> = BTreeMap::new();
-    for (_, room) in plan.rooms() {
-        *names.entry(room.name.as_str()).or_default() += 1;
-    }
-    let mut keys: Vec<(RoomId, String)> = plan
-        .rooms()
-        .map(|(id, room)| {
-            let key = if !room.name.is_empty() && names.get(room.name.as_str()) == Some(&1) {
-                room.name.clone()
-            } else if room.source_id.is_empty() {
-                id.to_string()
-            } else {
-                room.source_id.clone()
-            };
-            (id, key)
-        })
-        .collect();
-    keys.sort_by_cached_key(|(id, key)| (natural_key(key), *id));
-    keys
-}
-
-/// A key by which texts sort as people sort them: runs of digits compare as numbers.
-fn natural_key(text: &str) -> Vec<(String, u64)> {
-    let mut parts: Vec<(String, u64)> = Vec::new();
-    let mut rest = text;
-    while !rest.is_empty() {
-        let digits_from = rest.find(|c: char| c.is_ascii_digit()).unwrap_or(rest.len());
-        let (word, tail) = rest.split_at(digits_from);
-        let digits_to = tail.find(|c: char| !c.is_ascii_digit()).unwrap_or(tail.len());
-        let (digits, after) = tail.split_at(digits_to);
-        parts.push((word.to_owned(), digits.parse().unwrap_or(u64::MAX)));
-        rest = after;
-    }
-    parts
-}
-
-#[cfg(test)]
-mod tests {
-    use super::natural_key;
-
-    #[test]
-    fn numbers_sort_as_numbers() {
-        let mut keys = ["R10", "R2", "R1a", "R1", "Hall", "99999999999999999999999", "2.10", "2.9"];
-        keys.sort_by_cached_key(|key| natural_key(key));
-        assert_eq!(keys, ["2.9", "2.10", "99999999999999999999999", "Hall", "R1", "R1a", "R2", "R10"]);
-    }
 }

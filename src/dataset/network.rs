@@ -1,10 +1,12 @@
+use crate::plan::titles::room_keys;
 use std::collections::BTreeMap;
 
-use super::{LeftOut, Row, room_keys};
+use super::{LeftOut, Row};
+use crate::edit;
 use crate::features::{Analysis, Features, NeighbourLabels, RoomStatus, analyse};
 use crate::geometry::{hull, polygon, runs};
 use crate::labels::{Label, Schemes, Typology};
-use crate::plan::{Meta, OpeningId, OpeningKind, Plan, RoomId, edit};
+use crate::plan::{Meta, OpeningId, OpeningKind, Plan, RoomId};
 use crate::topology::RoomShape;
 
 /// The rooms of one plan as classifiers see them: what each is in itself, what is known of its

@@ -5,6 +5,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use super::Row;
+use crate::base::hash;
 use crate::features::Features;
 use crate::labels::Label;
 
@@ -171,13 +172,8 @@ impl Table {
     pub fn fingerprint(&self) -> u64 {
         let numbers = self.values.iter().flatten().flat_map(|value| value.to_bits().to_le_bytes());
         let labels = self.labels.iter().map(|&label| label.index() as u8);
-        fingerprint(numbers.chain(labels))
+        hash::fnv1a(hash::START, numbers.chain(labels))
     }
-}
-
-/// FNV-1a of bytes, 64 bits (Fowler, Noll and Vo).
-pub fn fingerprint(bytes: impl IntoIterator<Item = u8>) -> u64 {
-    bytes.into_iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 #[cfg(test)]
@@ -211,7 +207,7 @@ mod tests {
     #[test]
     fn the_fingerprint_follows_values_and_labels() {
         // The published test vector of FNV-1a.
-        assert_eq!(fingerprint(*b"foobar"), 0x8594_4171_f739_67e8);
+        assert_eq!(hash::fnv1a(hash::START, *b"foobar"), 0x8594_4171_f739_67e8);
         let table = |rows: &[Row]| Table::from_rows(rows).expect("good rows").fingerprint();
         let mut other = row(1.0);
         other.label = Label::Corridor;

@@ -1,18 +1,20 @@
-use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::elements::{GraphEdge, NODE_RADIUS_PX, RoomDrawing, WallDrawing, painting_order};
+use super::names::Around;
 use super::openings::OpeningDrawing;
 use super::scene::{Frame, Group, Item, Layer, Length, PlacedPicture, Scene, View};
-use super::tiles::{Contents, Tile, TileGrid, Tiles};
+use super::tile_grid::TileGrid;
+use super::tiles::{Contents, Tile, Tiles};
 use super::walls::{self, Faces, Walls};
 use super::{Fill, Grid, Rgba, Style, names};
+use crate::base::units::Units;
 use crate::features::{Analysis, RoomStatus};
-use crate::geometry::{Bounds, Point, Segment, areas, polygon};
-use crate::labels::{Label, normalised_function};
+use crate::geometry::{Bounds, Point, Segment, areas, polygon, raster};
+use crate::labels::{Label, function_title, normalised_function};
+use crate::picture::PictureLevels;
 use crate::plan::{Backdrop, Joint, Meta, OpeningId, Plan, RoomId, Swing, Wall};
-use crate::store::pictures::PictureLevels;
-use crate::units::Units;
 
 /// A plan as shapes, before zoom and colours: made once a plan, asked for a [`Scene`] once a view.
 pub struct Drawing {
@@ -30,93 +32,12 @@ pub struct Drawing {
     tiles: Option<Tiles>,
 }
 
-/// A room as drawn.
-pub(super) struct RoomDrawing {
-    pub id: RoomId,
-    pub name: String,
-    pub function: String,
-    pub status: RoomStatus,
-    /// What a classifier says it is, where one was asked.
-    pub predicted: Option<Label>,
-    /// The room without a rim along its boundary, as pieces with their holes: made for a room whose
-    /// known label is not the predicted one.
-    pub within_rim: Vec<(Vec<Point>, Vec<Vec<Point>>)>,
-    pub area_m2: f64,
-    pub outer: Vec<Point>,
-    pub holes: Vec<Vec<Point>>,
-    pub bounds: Bounds,
-    /// The middle of the room where it is widest: where its name and its node go.
-    pub centre: Point,
-    /// Indices of the rooms painted over it: smaller ones that reach into its box.
-    pub above: Vec<usize>,
-    /// Indices of the openings that reach into its box.
-    pub openings: Vec<usize>,
-}
-
-impl RoomDrawing {
-    /// All rings, the outer one first.
-    pub fn rings(&self) -> impl Iterator<Item = &Vec<Point>> {
-        std::iter::once(&self.outer).chain(&self.holes)
-    }
-
-    /// What it would be if the prediction were its label.
-    pub fn predicted_status(&self) -> RoomStatus {
-        match (self.status, self.predicted) {
-            (RoomStatus::NotClassified, _) => RoomStatus::NotClassified,
-            (_, Some(label)) => RoomStatus::Labelled(label),
-            (_, None) => RoomStatus::Unlabelled,
-        }
-    }
-
-    /// The known label, where the prediction is another.
-    pub fn missed_label(&self) -> Option<Label> {
-        self.status.label().filter(|known| self.predicted.is_some_and(|said| said != *known))
-    }
-
-    /// Whether it is a lift, whose doors slide.
-    pub fn is_lift(&self) -> bool {
-        normalised_function(&self.function).split(' ').any(|word| matches!(word, "lift" | "elevator"))
-    }
-
-    /// Whether it lies under the open sky, so that it is no part of the building's mass: by its
-    /// function, and only where the scheme leaves that blank.
-    pub fn is_open_air(&self) -> bool {
-        self.status == RoomStatus::NotClassified
-            && OPEN_AIR.iter().any(|word| normalised_function(&self.function).contains(word))
-    }
-}
-
 /// Width in metres of the rim within a room whose known label is not the predicted one: clear of the
 /// walls, which hide part of it.
 const RIM_M: f64 = 0.35;
 
 /// In a narrow room the rim is at most this share of its width.
 const RIM_SHARE: f64 = 0.14;
-
-/// Words in functions of what lies under the open sky.
-const OPEN_AIR: [&str; 12] = [
-    "balcony", "terrace", "loggia", "veranda", "patio", "garden", "yard", "deck", "outdoor", "outside", "court",
-    "porch",
-];
-
-/// The order of painting: large rooms first, so that one that lies in or over another is seen.
-pub(super) fn painting_order(rooms: &[RoomDrawing], one: usize, other: usize) -> Ordering {
-    rooms[other].area_m2.total_cmp(&rooms[one].area_m2).then(one.cmp(&other))
-}
-
-/// A connected piece of wall.
-pub(super) struct WallDrawing {
-    pub outer: Vec<Point>,
-    pub holes: Vec<Vec<Point>>,
-}
-
-/// A way from room to room, or out, through an opening.
-pub(super) struct GraphEdge {
-    pub from: Point,
-    pub through: Point,
-    /// The other room's centre; without one it leads outside, this way.
-    pub to: Result<Point, crate::geometry::Vector>,
-}
 
 impl Drawing {
     /// The shapes of a plan. `analysis` must be that of the same plan.
@@ -147,7 +68,7 @@ impl Drawing {
                 outer: shape.outer.clone(),
                 holes: shape.holes.clone(),
                 bounds: shape.bounds,
-                centre: names::centre(&shape.outer, &shape.holes),
+                centre: raster::centre(&shape.outer, &shape.holes),
                 above: Vec::new(),
                 openings: Vec::new(),
             })
@@ -288,7 +209,7 @@ impl Drawing {
                 let rooms = self.rooms.iter().filter(|room| !room.outer.is_empty());
                 self.graph_marks(self.graph.iter(), rooms, style)
             }
-            Layer::Names if layers.names || layers.areas => names::groups(self, style, view),
+            Layer::Names if layers.names || layers.areas => self.names(style, view),
             _ => Vec::new(),
         }
     }
@@ -429,7 +350,8 @@ impl Drawing {
     /// The name of a room where it fits best; `None` where it fits nowhere. `fill` is the room's of
     /// [`Drawing::fills`]. Of the view only the zoom matters.
     pub fn name(&self, room: usize, fill: Rgba, style: &Style, view: &View) -> Option<Group> {
-        names::group(self, room, fill, style, view)
+        let around = Around { rooms: &self.rooms, openings: &self.openings, faces: &self.faces };
+        names::group(&around, room, fill, style, view)
     }
 
     /// The colours of the rooms' fills.
@@ -594,6 +516,14 @@ impl Drawing {
         vec![Group::new(Layer::Graph, Frame::Plan, items)]
     }
 
+    /// The names of all rooms that are seen.
+    fn names(&self, style: &Style, view: &View) -> Vec<Group> {
+        let floors = self.fills(style);
+        let around = Around { rooms: &self.rooms, openings: &self.openings, faces: &self.faces };
+        let rooms = self.rooms_to_name(view).into_iter();
+        rooms.filter_map(|room| names::group(&around, room, floors[room], style, view)).collect()
+    }
+
     /// Number of rooms with each label, those without one, and those not classified.
     pub fn counts(&self) -> ([usize; 5], usize, usize) {
         Self::count(self.rooms.iter().map(|room| room.status))
@@ -621,9 +551,6 @@ impl Drawing {
         counts
     }
 }
-
-/// Radius of a graph's node in pixels.
-pub(super) const NODE_RADIUS_PX: f64 = 5.0;
 
 /// How far an edge that leads outside goes on beyond its opening, in metres: past the wall.
 const STUB_M: f64 = 0.9;
@@ -662,7 +589,7 @@ fn room_title(room: &RoomDrawing) -> String {
         RoomStatus::NotClassified => "not classified",
         RoomStatus::Unlabelled => "no label",
     };
-    let function = names::sentence_case(&room.function);
+    let function = function_title(&room.function);
     let head = match (room.name.is_empty(), function.is_empty()) {
         (true, true) => "Room".to_owned(),
         (true, false) => function,

@@ -12,6 +12,7 @@
 
 mod colour;
 mod drawing;
+mod elements;
 pub mod font;
 mod names;
 mod openings;
@@ -21,6 +22,7 @@ pub mod scene;
 pub mod sheet;
 mod style;
 pub mod svg;
+mod tile_grid;
 mod tiles;
 mod walls;
 
@@ -29,11 +31,3 @@ pub use drawing::Drawing;
 pub use palette::{LabelColours, Palette, Theme};
 pub use scene::{Anchor, Dash, Frame, Group, Item, Layer, Length, Scene, Text, View, Weight};
 pub use style::{Fill, Grid, Layers, SMALLEST_TEXT_PX, Style};
-
-use crate::features::Analysis;
-use crate::plan::Plan;
-
-/// The scene of a plan in a view: a [`Drawing`] and its [`Drawing::scene`] in one go.
-pub fn plan_scene(plan: &Plan, analysis: &Analysis, style: &Style, view: &View) -> Scene {
-    Drawing::new(plan, analysis).scene(style, view)
-}

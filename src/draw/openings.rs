@@ -3,14 +3,14 @@
 
 use std::collections::BTreeMap;
 
-use super::drawing::RoomDrawing;
+use super::elements::RoomDrawing;
 use super::scene::{Dash, Frame, Group, Item, Layer, Length, View};
 use super::walls::Faces;
 use super::{Rgba, Style};
 use crate::features::{Analysis, RoomStatus};
 use crate::geometry::polygon::Location;
 use crate::geometry::{Bounds, Point, Segment, Vector, areas};
-use crate::labels::Label;
+use crate::labels::{Label, function_title};
 use crate::plan::{LeafSide, Opening, OpeningId, OpeningKind, Plan, Swing, THICKEST_WALL_M};
 
 /// An opening as drawn.
@@ -343,7 +343,7 @@ impl OpeningDrawing {
         let width_m = 2.0 * self.half_width;
         Group {
             element: self.id.to_string(),
-            title: format!("{}, {width_m:.2} m", super::names::sentence_case(self.kind.name())),
+            title: format!("{}, {width_m:.2} m", function_title(self.kind.name())),
             ..Group::new(Layer::Openings, Frame::Plan, items)
         }
     }

@@ -3,7 +3,6 @@
 //! (SSE2, unless compiled for a newer processor).
 
 use std::collections::HashMap;
-use std::fmt;
 
 use tiny_skia::{
     Color, ColorU8, FillRule, FilterQuality, LineCap, LineJoin, Mask, Paint, Path, PathBuilder, Pattern, Pixmap, Rect,
@@ -15,61 +14,17 @@ use super::font::{Font, Step};
 use super::scene::{Anchor, Dash, Frame, Group, Item, Layer, Length, PlacedPicture, Scene, Text, View, Weight};
 use crate::geometry::polygon::edges;
 use crate::geometry::{Bounds, Point, Vector};
+use crate::picture::png::{PictureError, encode_pixmap};
 
 /// No picture has more pixels a side: 256 MiB of memory while painting.
 pub const LARGEST_SIDE_PX: u32 = 8192;
-
-/// A picture that cannot be painted, in words that say what to do.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PictureError(String);
-
-impl fmt::Display for PictureError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for PictureError {}
 
 /// The scene as a PNG file's bytes.
 ///
 /// # Errors
 /// As [`paint`].
 pub fn png(scene: &Scene) -> Result<Vec<u8>, PictureError> {
-    encode(&paint(scene)?)
-}
-
-/// A pixmap as a PNG file's bytes: 8 bits a channel, without alpha where all is opaque. Compressed for
-/// speed: large areas of one colour shrink well anyway.
-///
-/// # Errors
-/// When the encoder fails, which it does for no picture made here.
-pub fn encode(pixmap: &Pixmap) -> Result<Vec<u8>, PictureError> {
-    let failed = |error: png::EncodingError| PictureError(format!("cannot encode the picture: {error}"));
-    let opaque = pixmap.data().chunks_exact(4).all(|pixel| pixel[3] == 255);
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, pixmap.width(), pixmap.height());
-    encoder.set_color(if opaque { png::ColorType::Rgb } else { png::ColorType::Rgba });
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    encoder.set_compression(png::Compression::Fast);
-    encoder.set_filter(png::Filter::Up);
-    let mut writer = encoder.write_header().map_err(failed)?;
-    let data: Vec<u8> = if opaque {
-        pixmap.data().chunks_exact(4).flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]).collect()
-    } else {
-        pixmap
-            .pixels()
-            .iter()
-            .flat_map(|pixel| {
-                let pixel = pixel.demultiply();
-                [pixel.red(), pixel.green(), pixel.blue(), pixel.alpha()]
-            })
-            .collect()
-    };
-    writer.write_image_data(&data).map_err(failed)?;
-    writer.finish().map_err(failed)?;
-    Ok(bytes)
+    encode_pixmap(&paint(scene)?)
 }
 
 /// The scene painted.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Rgba;
 use crate::geometry::{Bounds, Point, Vector};
-use crate::store::pictures::PictureLevels;
+use crate::picture::PictureLevels;
 
 /// Shapes in the order of painting, and the view they were laid out for.
 #[derive(Clone, Debug, PartialEq)]

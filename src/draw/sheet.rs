@@ -2,10 +2,10 @@
 
 use super::drawing::Drawing;
 use super::font::{CAP_HEIGHT, Font, LINE_HEIGHT};
-use super::names::sentence_case;
 use super::scene::{Anchor, Frame, Group, Item, Layer, Length, Scene, Text, View, Weight};
 use super::{Fill, Layers, Palette, Rgba, Style};
 use crate::geometry::{Bounds, Point, Vector};
+use crate::labels::function_title;
 use crate::labels::{Label, normalised_function};
 
 /// The size of a page in pixels.
@@ -221,7 +221,7 @@ fn legend_entries(drawing: &Drawing, style: &Style) -> Vec<Entry> {
                 ]);
             named
                 .filter(|&(_, _, count)| count > 0)
-                .map(|(colour, name, count)| Entry { colour, text: format!("{} {count}", sentence_case(name)) })
+                .map(|(colour, name, count)| Entry { colour, text: format!("{} {count}", function_title(name)) })
                 .collect()
         }
         Fill::Function => {
@@ -238,7 +238,7 @@ fn legend_entries(drawing: &Drawing, style: &Style) -> Vec<Entry> {
                 .into_iter()
                 .map(|(function, count)| Entry {
                     colour: colours.get(&function).copied().unwrap_or(palette.unlabelled),
-                    text: format!("{} {count}", sentence_case(&function)),
+                    text: format!("{} {count}", function_title(&function)),
                 })
                 .collect()
         }

@@ -1,5 +1,5 @@
 use super::{LabelColours, Palette, Theme};
-use crate::units::{METRES_PER_FOOT, METRES_PER_INCH, Units};
+use crate::base::units::{METRES_PER_FOOT, METRES_PER_INCH, Units};
 
 /// How a plan is drawn.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,7 @@
 //! A scene as SVG: real text, one group a room and an opening with its id and a title, numbers no
 //! longer than they need be. The same bytes for the same scene.
 
+use crate::picture::png::encode_level;
 use std::fmt::Write as _;
 
 use base64::Engine as _;
@@ -8,7 +9,6 @@ use base64::Engine as _;
 use super::Rgba;
 use super::scene::{Anchor, Dash, Frame, Group, Item, Layer, Length, PlacedPicture, Scene, Text, View, Weight};
 use crate::geometry::Point;
-use crate::store::pictures::{Level, Samples};
 
 /// The fonts to look for: the bundled one, then what is metrically near.
 const FONTS: &str = "Inter,'Helvetica Neue',Helvetica,Arial,sans-serif";
@@ -126,7 +126,7 @@ fn write_picture(
     let start = place(0.0, 0.0);
     let index = picture.levels.index_for(start.distance(place(1.0, 0.0)) * view.pixel_ratio).saturating_sub(1);
     let Some(level) = picture.levels.all().get(index) else { return Ok(()) };
-    let Some(data) = png_of(level) else { return Ok(()) };
+    let Ok(data) = encode_level(level) else { return Ok(()) };
     // From pixels of this size to the page.
     let stride = (index as f64).exp2();
     let (x_way, y_way) = (place(stride, 0.0) - start, place(0.0, stride) - start);
@@ -145,22 +145,6 @@ fn write_picture(
         if picture.opacity < 1.0 { format!(" opacity=\"{}\"", number(picture.opacity)) } else { String::new() },
         base64::engine::general_purpose::STANDARD.encode(data)
     )
-}
-
-/// The PNG file of a picture at one size; `None` if it could not be encoded, which none fails to.
-fn png_of(level: &Level) -> Option<Vec<u8>> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, level.width_px, level.height_px);
-    encoder.set_color(match level.samples {
-        Samples::Grey => png::ColorType::Grayscale,
-        Samples::Rgb => png::ColorType::Rgb,
-        Samples::Rgba => png::ColorType::Rgba,
-    });
-    encoder.set_depth(png::BitDepth::Eight);
-    let mut writer = encoder.write_header().ok()?;
-    writer.write_image_data(&level.data).ok()?;
-    writer.finish().ok()?;
-    Some(bytes)
 }
 
 fn write_text(out: &mut String, at: Point, text: &Text) -> std::fmt::Result {

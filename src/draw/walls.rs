@@ -13,8 +13,8 @@ use i_overlay::mesh::float::style::{LineJoin, StrokeStyle};
 use rstar::primitives::{GeomWithData, Line};
 use rstar::{AABB, RTree};
 
-use super::drawing::RoomDrawing;
-use super::tiles::TileGrid;
+use super::elements::RoomDrawing;
+use super::tile_grid::TileGrid;
 use crate::geometry::areas::{self, Ring, SHARPEST_RAD, Shapes, area_m2, cleaned, directed, grown, points, ring};
 use crate::geometry::{Bounds, Point, Segment, Vector, polygon};
 use crate::plan::{CornerId, Plan, THICKEST_WALL_M};

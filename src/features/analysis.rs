@@ -1,5 +1,5 @@
 use super::{Features, NeighbourLabels};
-use crate::classify::naive;
+use crate::features::temporary as naive;
 use crate::geometry::runs::{self, Axes};
 use crate::labels::{Label, Meaning, Schemes};
 use crate::plan::{Joint, LabelOrigin, Plan, Room, RoomId};

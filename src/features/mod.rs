@@ -1,6 +1,7 @@
 //! The features `F_r = <a, rt, d, l_S, l_M, l_B, l_C, l_H>` of every room (paper, section 3.2).
 
 mod analysis;
+pub mod temporary;
 
 pub use analysis::{Analysis, RoomAnalysis, RoomStatus, analyse};
 

@@ -3,44 +3,25 @@
 use std::fmt;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::Value;
 
+use super::text::{self, line_of};
 use super::{Place, ReadError};
 
 /// The text of a file that holds a JSON object. A byte order mark is dropped.
 ///
 /// # Errors
-/// When the file is empty, not UTF-8 (UTF-16 is named as such), or starts like no object.
+/// As [`text::decode`], and when it starts like no object.
 pub(super) fn decode(bytes: &[u8]) -> Result<&str, ReadError> {
-    let fail = |line, what: &str, hint: &str| ReadError {
-        place: Place { line, element: String::new() },
-        what: what.to_owned(),
-        hint: hint.to_owned(),
-    };
-    let body = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    if body.iter().all(u8::is_ascii_whitespace) {
-        return Err(fail(None, "is empty", "restore it from a copy"));
-    }
-    // JSON starts with an ASCII character, so a zero byte among the first two means two bytes a
-    // character; the byte order marks are those of UTF-16.
-    if body.starts_with(b"\xff\xfe") || body.starts_with(b"\xfe\xff") || body.iter().take(2).any(|&byte| byte == 0) {
-        return Err(fail(None, "is UTF-16 or UTF-32, not UTF-8", "save it again as UTF-8"));
-    }
-    let text = std::str::from_utf8(body).map_err(|error| {
-        let line = line_of(body, error.valid_up_to());
-        fail(Some(line), "is not UTF-8", "save it again as UTF-8")
-    })?;
+    let text = text::decode(bytes)?;
     match text.trim_start().chars().next() {
         Some('{') => Ok(text),
-        other => {
-            let start = other.map(String::from).unwrap_or_default();
-            Err(fail(None, &format!("is no JSON object: it starts with '{start}'"), "check that it is the right file"))
-        }
+        other => Err(ReadError {
+            place: Place::default(),
+            what: format!("is no JSON object: it starts with '{}'", other.map(String::from).unwrap_or_default()),
+            hint: "check that it is the right file".to_owned(),
+        }),
     }
-}
-
-/// The line, from 1, of a byte of a text.
-pub(super) fn line_of(text: &[u8], offset: usize) -> usize {
-    1 + text[..offset.min(text.len())].iter().filter(|&&byte| byte == b'\n').count()
 }
 
 /// The line, from 1, of the `nth` (from 0) member `"id": "…"` with this value.
@@ -137,4 +118,73 @@ impl<'de> Deserialize<'de> for Number {
         }
         deserializer.deserialize_f64(NumberVisitor)
     }
+}
+
+/// Writes a JSON object with a member, or an element of a list, a line: small differences between two files
+/// stay small, and a line tells where an element stands. Neither the values nor the keys of our disk types can
+/// fail to be written.
+pub(super) struct ObjectLines {
+    text: String,
+    is_empty: bool,
+}
+
+impl ObjectLines {
+    /// `bytes`: about how long it will be.
+    pub(super) fn new(bytes: usize) -> Self {
+        let mut text = String::with_capacity(bytes);
+        text.push('{');
+        Self { text, is_empty: true }
+    }
+
+    fn name(&mut self, name: &str) {
+        self.text.push_str(if self.is_empty { "\n" } else { ",\n" });
+        self.is_empty = false;
+        self.text.push_str(&compact(name));
+        self.text.push_str(": ");
+    }
+
+    /// A member on a line of its own.
+    pub(super) fn member<T: Serialize + ?Sized>(&mut self, name: &str, value: &T) {
+        self.name(name);
+        self.text.push_str(&compact(value));
+    }
+
+    /// Each member of an object on a line of its own.
+    pub(super) fn members<'a>(&mut self, object: impl IntoIterator<Item = (&'a String, &'a Value)>) {
+        for (name, value) in object {
+            self.member(name, value);
+        }
+    }
+
+    /// A list, each element on a line of its own.
+    pub(super) fn list<T: Serialize>(&mut self, name: &str, elements: impl IntoIterator<Item = T>) {
+        self.name(name);
+        self.text.push('[');
+        for (i, element) in elements.into_iter().enumerate() {
+            self.text.push_str(if i == 0 { "\n" } else { ",\n" });
+            self.text.push_str(&compact(&element));
+        }
+        self.text.push_str("\n]");
+    }
+
+    /// An object, each member on a line of its own.
+    pub(super) fn object(&mut self, name: &str, value: &impl Serialize) {
+        self.name(name);
+        let mut inner = Self::new(0);
+        let value = serde_json::to_value(value).unwrap_or_default();
+        inner.members(value.as_object().into_iter().flatten());
+        self.text.push_str(&inner.text);
+        self.text.push_str("\n}");
+    }
+
+    /// The whole file.
+    pub(super) fn finish(mut self) -> Vec<u8> {
+        self.text.push_str("\n}\n");
+        self.text.into_bytes()
+    }
+}
+
+/// Compact JSON of a value.
+pub(super) fn compact<T: Serialize + ?Sized>(value: &T) -> String {
+    serde_json::to_string(value).unwrap_or_default()
 }

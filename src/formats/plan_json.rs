@@ -14,14 +14,17 @@ use serde::de::{Error as _, IgnoredAny};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Map, Value};
 
-use super::json_text::{Number, decode, id_on_line, json_fault, line_of_id};
-use super::{Format, Import, Place, ReadError};
-use crate::geometry::{Point, trim_m};
+use super::json_text::{Number, ObjectLines, decode, id_on_line, json_fault, line_of_id};
+use super::{
+    Export, Exporter, Format, Head, Import, Importer, NamedBytes, NamedPlan, Options, Place, ReadError, Recognition,
+    Source,
+};
+use crate::geometry::{COORDINATE_LIMIT_M, Point, trim_m};
 use crate::labels::{Label, Schemes, Typology};
 use crate::plan::{
-    Backdrop, COORDINATE_LIMIT_M, Corner, CornerId, ElementId, Extra, Guide, GuideAxis, Joint, LabelOrigin, LeafSide,
-    Measurement, Meta, Opening, OpeningId, OpeningKind, Place as OpeningPlace, Plan, Room, RoomId, RoomLabel, Scale,
-    ScaleOrigin, Swing, Wall, WallId, guides,
+    Backdrop, Corner, CornerId, ElementId, Extra, Guide, GuideAxis, Joint, LabelOrigin, LeafSide, Measurement, Meta,
+    Opening, OpeningId, OpeningKind, Place as OpeningPlace, Plan, Room, RoomId, RoomLabel, Scale, ScaleOrigin, Swing,
+    Wall, WallId, guides,
 };
 
 pub(crate) use change::{apply_change, change_to_bytes};
@@ -30,39 +33,49 @@ pub(crate) use change::{apply_change, change_to_bytes};
 pub const VERSION: u64 = 1;
 
 /// The value of the member `format`, which tells the file from other JSON.
-const FORMAT: &str = "enfilade plan";
+const MAGIC: &str = "enfilade plan";
 
 /// Enfilade's own plan file.
-pub struct PlanJson;
+pub const FORMAT: Format = Format {
+    id: "enfilade",
+    name: "Enfilade plan",
+    endings: &["plan.json"],
+    about: "Everything there is to a plan, as text that version control compares well (docs/plan-file.md)",
+    importer: Some(&PlanJson),
+    exporter: Some(&PlanJson),
+};
 
-impl Format for PlanJson {
-    fn name(&self) -> &'static str {
-        "Enfilade plan"
-    }
+struct PlanJson;
 
-    fn extensions(&self) -> &'static [&'static str] {
-        &["plan.json"]
-    }
-
-    fn recognises(&self, head: &[u8]) -> bool {
-        let head = String::from_utf8_lossy(head);
-        head.split("\"format\"").skip(1).any(|rest| {
+impl Importer for PlanJson {
+    fn recognises(&self, head: &Head<'_>) -> Recognition {
+        let Head::File { start, .. } = head else { return Recognition::No };
+        let start = String::from_utf8_lossy(start);
+        let is_stated = start.split("\"format\"").skip(1).any(|rest| {
             let value = rest.trim_start().strip_prefix(':').unwrap_or_default().trim_start();
-            value.strip_prefix('"').is_some_and(|value| value.starts_with(FORMAT))
-        })
+            value.strip_prefix('"').is_some_and(|value| value.starts_with(MAGIC))
+        });
+        match is_stated {
+            true => Recognition::Yes,
+            false if head.ends_with(FORMAT.endings) => Recognition::Perhaps,
+            false => Recognition::No,
+        }
     }
 
-    fn read(&self, bytes: &[u8], stem: &str) -> Result<Import, ReadError> {
-        let mut plan = from_bytes(bytes)?;
-        if plan.meta().name.is_empty() && !stem.is_empty() {
-            let meta = Meta { name: stem.to_owned(), ..plan.meta().clone() };
-            plan = crate::plan::edit::set_meta(&plan, meta);
+    fn read(&self, source: &Source<'_>, _options: &Options) -> Result<Import, ReadError> {
+        let mut plan = from_bytes(source.bytes()?)?;
+        if plan.meta().name.is_empty() && !source.stem().is_empty() {
+            let meta = Meta { name: source.stem().to_owned(), ..plan.meta().clone() };
+            plan = crate::edit::set_meta(&plan, meta);
         }
         Ok(Import { plans: vec![plan], notes: Vec::new() })
     }
+}
 
-    fn write(&self, plan: &Plan, _schemes: &Schemes) -> Option<Vec<u8>> {
-        Some(to_bytes(plan))
+impl Exporter for PlanJson {
+    fn write(&self, plans: &[NamedPlan<'_>], _schemes: &Schemes, _options: &Options) -> Export {
+        let file = |it: &NamedPlan<'_>| NamedBytes { name: format!("{}.plan.json", it.stem), bytes: to_bytes(it.plan) };
+        Export { files: plans.iter().map(file).collect(), lost: Vec::new() }
     }
 }
 
@@ -74,10 +87,10 @@ impl Format for PlanJson {
 pub fn from_bytes(bytes: &[u8]) -> Result<Plan, ReadError> {
     let text = decode(bytes)?;
     let head: DiskHead = serde_json::from_str(text).map_err(|error| refuse_json(text, &error))?;
-    if head.format.as_ref().and_then(Value::as_str) != Some(FORMAT) {
+    if head.format.as_ref().and_then(Value::as_str) != Some(MAGIC) {
         return Err(ReadError {
             place: Place::default(),
-            what: format!("is JSON, but not a plan file: it lacks \"format\": \"{FORMAT}\""),
+            what: format!("is JSON, but not a plan file: it lacks \"format\": \"{MAGIC}\""),
             hint: "open a file that ends in .plan.json".to_owned(),
         });
     }
@@ -101,55 +114,22 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Plan, ReadError> {
 
 /// The complete bytes of a plan's file.
 pub fn to_bytes(plan: &Plan) -> Vec<u8> {
-    let mut file = String::with_capacity(200 + 60 * plan.corners().len() + 400 * plan.rooms().len());
-    file.push_str("{\n\"format\": ");
-    file.push_str(&json(FORMAT));
-    file.push_str(",\n\"version\": ");
-    file.push_str(&VERSION.to_string());
-    file.push_str(",\n\"meta\": {");
-    let meta = serde_json::to_value(DiskMeta::of(plan.meta())).unwrap_or_default();
-    for (i, (key, value)) in meta.as_object().into_iter().flatten().enumerate() {
-        file.push_str(if i == 0 { "\n" } else { ",\n" });
-        file.push_str(&json(key));
-        file.push_str(": ");
-        file.push_str(&json(value));
-    }
-    file.push_str("\n}");
+    let mut file = ObjectLines::new(200 + 60 * plan.corners().len() + 400 * plan.rooms().len());
+    file.member("format", MAGIC);
+    file.member("version", &VERSION);
+    file.object("meta", &DiskMeta::of(plan.meta()));
     if let Some(backdrop) = plan.backdrop() {
-        file.push_str(",\n\"backdrop\": ");
-        file.push_str(&json(&DiskBackdrop::of(backdrop)));
+        file.member("backdrop", &DiskBackdrop::of(backdrop));
     }
     if !plan.guides().is_empty() {
-        push_list(&mut file, "guides", plan.guides().iter().map(DiskGuide::of));
+        file.list("guides", plan.guides().iter().map(DiskGuide::of));
     }
-    push_list(&mut file, "corners", plan.corners().map(|(id, corner)| DiskCorner::of(id, corner)));
-    push_list(&mut file, "walls", plan.walls().map(|(id, wall)| DiskWall::of(id, wall)));
-    push_list(&mut file, "rooms", plan.rooms().map(|(id, room)| DiskRoom::of(id, room)));
-    push_list(&mut file, "openings", plan.openings().map(|(id, opening)| DiskOpening::of(id, opening)));
-    for (key, value) in plan.extra.iter().flat_map(|extra| extra.iter()) {
-        file.push_str(",\n");
-        file.push_str(&json(key));
-        file.push_str(": ");
-        file.push_str(&json(value));
-    }
-    file.push_str("\n}\n");
-    file.into_bytes()
-}
-
-fn push_list<T: Serialize>(file: &mut String, name: &str, elements: impl Iterator<Item = T>) {
-    file.push_str(",\n\"");
-    file.push_str(name);
-    file.push_str("\": [");
-    for (i, element) in elements.enumerate() {
-        file.push_str(if i == 0 { "\n" } else { ",\n" });
-        file.push_str(&json(&element));
-    }
-    file.push_str("\n]");
-}
-
-/// Compact JSON of a value. None of the disk types can fail: their keys are strings.
-fn json<T: Serialize + ?Sized>(value: &T) -> String {
-    serde_json::to_string(value).unwrap_or_default()
+    file.list("corners", plan.corners().map(|(id, corner)| DiskCorner::of(id, corner)));
+    file.list("walls", plan.walls().map(|(id, wall)| DiskWall::of(id, wall)));
+    file.list("rooms", plan.rooms().map(|(id, room)| DiskRoom::of(id, room)));
+    file.list("openings", plan.openings().map(|(id, opening)| DiskOpening::of(id, opening)));
+    file.members(plan.extra.iter().flat_map(|extra| extra.iter()));
+    file.finish()
 }
 
 // The disk form.

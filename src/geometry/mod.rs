@@ -4,11 +4,13 @@
 //! counter-clockwise ring has a positive area.
 
 pub mod areas;
+pub mod arrangement;
 mod bounds;
 pub mod hull;
 pub mod path;
 mod point;
 pub mod polygon;
+pub mod raster;
 pub mod runs;
 mod segment;
 pub mod segments;
@@ -36,3 +38,7 @@ pub fn trim_m(value_m: f64) -> f64 {
     // `+ 0.0` turns -0.0 into 0.0, which would otherwise print differently.
     (value_m * 1e4).round() / 1e4 + 0.0
 }
+
+/// No coordinate lies further than this from the origin, in metres: 100 km is beyond any building,
+/// and far inside what `f64` holds to the 0.1 mm grid.
+pub const COORDINATE_LIMIT_M: f64 = 100_000.0;

@@ -103,6 +103,18 @@ pub fn locate<R: AsRef<[Point]>>(outer: &[Point], holes: &[R], point: Point) -> 
     Location::Inside
 }
 
+/// Whether a ring turns one way only, once around.
+pub fn is_convex(ring: &[Point]) -> bool {
+    let n = ring.len();
+    let turns = || (0..n).map(|i| orientation(ring[i], ring[(i + 1) % n], ring[(i + 2) % n]));
+    let one_way = turns().all(|turn| turn >= 0.0) || turns().all(|turn| turn <= 0.0);
+    // Once around it goes right once and left once; a star, drawn in one go, more often.
+    let rightward: Vec<bool> =
+        edges(ring).map(|edge| edge.b.x - edge.a.x).filter(|&x| x != 0.0).map(|x| x > 0.0).collect();
+    let reversals = (0..rightward.len()).filter(|&i| rightward[i] != rightward[(i + 1) % rightward.len()]).count();
+    one_way && reversals == 2
+}
+
 /// The smallest box that holds the ring.
 pub fn bounds(ring: &[Point]) -> Bounds {
     Bounds::of(ring.iter().copied())

@@ -5,5 +5,5 @@ mod scheme;
 mod typology;
 
 pub use label::Label;
-pub use scheme::{Meaning, SchemeError, Schemes, normalised_function};
+pub use scheme::{Meaning, SchemeError, Schemes, function_title, normalised_function};
 pub use typology::Typology;

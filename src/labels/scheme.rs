@@ -4,6 +4,7 @@ use std::fmt;
 use serde::Deserialize;
 
 use super::{Label, Typology};
+use crate::base::wording::sentence;
 
 /// What a scheme says of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -140,6 +141,11 @@ impl Schemes {
     pub fn meaning(&self, typology: Option<&Typology>, function: &str) -> Option<Meaning> {
         self.by_typology.get(typology?)?.get(&normalised_function(function)).copied()
     }
+}
+
+/// A function as written in a file, for people: 'LIVING_ROOM' and 'living room' become 'Living room'.
+pub fn function_title(function: &str) -> String {
+    sentence(&normalised_function(function))
 }
 
 /// A function's name as schemes compare it: lower case, runs of spaces, underscores and hyphens

@@ -5,7 +5,7 @@ use super::{Backdrop, Corner, CornerId, Meta, Opening, OpeningId, Plan, Room, Ro
 use crate::geometry::{Point, trim_m};
 
 /// Builds a plan from many elements at once: for imports and generators. Equal points become one
-/// corner. Edits of an existing plan are in [`super::edit`].
+/// corner. Edits of an existing plan are in [`crate::edit`].
 #[derive(Debug, Default)]
 pub struct Builder {
     plan: Plan,
@@ -112,16 +112,16 @@ pub(super) fn grid_key(position: Point) -> (i64, i64) {
     ((position.x * 1e4).round() as i64, (position.y * 1e4).round() as i64)
 }
 
-pub(super) fn new_corner_id(plan: &Plan, position: Point) -> CornerId {
+pub(crate) fn new_corner_id(plan: &Plan, position: Point) -> CornerId {
     let (x, y) = grid_key(position);
     CornerId::derive(&[x as u64, y as u64], |id| plan.corners.contains_key(&id))
 }
 
-pub(super) fn new_wall_id(plan: &Plan, from: CornerId, to: CornerId) -> WallId {
+pub(crate) fn new_wall_id(plan: &Plan, from: CornerId, to: CornerId) -> WallId {
     WallId::derive(&[from.bits(), to.bits()], |id| plan.walls.contains_key(&id))
 }
 
-pub(super) fn new_room_id(plan: &Plan, key: &str, room: &Room) -> RoomId {
+pub(crate) fn new_room_id(plan: &Plan, key: &str, room: &Room) -> RoomId {
     let taken = |id| plan.rooms.contains_key(&id);
     if let Ok(id) = key.parse()
         && !taken(id)
@@ -136,7 +136,7 @@ pub(super) fn new_room_id(plan: &Plan, key: &str, room: &Room) -> RoomId {
     RoomId::derive(&parts, taken)
 }
 
-pub(super) fn new_opening_id(plan: &Plan, key: &str, opening: &Opening) -> OpeningId {
+pub(crate) fn new_opening_id(plan: &Plan, key: &str, opening: &Opening) -> OpeningId {
     let taken = |id| plan.openings.contains_key(&id);
     if let Ok(id) = key.parse()
         && !taken(id)

@@ -119,8 +119,9 @@ impl Difference {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::edit;
     use crate::geometry::Point;
-    use crate::plan::{Builder, Meta, Room, edit};
+    use crate::plan::{Builder, Meta, Room};
 
     #[test]
     fn what_differs_is_told_by_element() {

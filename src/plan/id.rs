@@ -1,3 +1,4 @@
+use crate::base::hash;
 use std::fmt;
 use std::str::FromStr;
 
@@ -33,11 +34,8 @@ impl std::error::Error for IdError {}
 /// Mixes values into 60 bits, the same on every machine and in every version: FNV-1a over the bytes
 /// (Fowler, Noll, Vo), then the finalizer of splitmix64 (Steele, Lea, Flood 2014) to spread them.
 fn mix(letter: char, parts: &[u64], salt: u64) -> u64 {
-    let mut hash: u64 = 0xcbf2_9ce4_8422_2325;
     let values = [u64::from(letter), salt].into_iter().chain(parts.iter().copied());
-    for byte in values.flat_map(u64::to_le_bytes) {
-        hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-    }
+    let mut hash = hash::fnv1a(hash::START, values.flat_map(u64::to_le_bytes));
     hash = (hash ^ (hash >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     hash = (hash ^ (hash >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     (hash ^ (hash >> 31)) & MASK
@@ -168,7 +166,7 @@ impl fmt::Display for ElementId {
 
 /// The bits of a name, to derive ids from: FNV-1a over its bytes.
 pub fn name_bits(name: &str) -> u64 {
-    name.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
+    hash::fnv1a(hash::START, name.bytes())
 }
 
 #[cfg(test)]

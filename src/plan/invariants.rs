@@ -1,6 +1,7 @@
 use std::fmt;
 
-use super::{COORDINATE_LIMIT_M, CornerId, ElementId, Joint, Place, Plan};
+use super::{CornerId, ElementId, Joint, Place, Plan};
+use crate::geometry::COORDINATE_LIMIT_M;
 use crate::geometry::Point;
 
 /// An invariant of the model that a plan breaks: never a matter of taste (those are checks), always

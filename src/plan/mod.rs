@@ -2,31 +2,25 @@
 //!
 //! Corners are shared, like OpenStreetMap's nodes: walls and room boundaries refer to them by id, so
 //! that moving one moves everything that uses it. An edit is a function from plan to plan (see
-//! [`edit`]); [`Plan::violations`] states the invariants; [`History`] keeps the plans for undo.
+//! [`crate::edit`]); [`Plan::violations`] states the invariants; [`History`] keeps the plans for undo.
 
-mod builder;
-mod calibration;
+pub(crate) mod builder;
 mod difference;
-pub mod edit;
 mod element;
 pub mod guides;
 mod history;
 mod id;
 mod invariants;
 mod meta;
-pub mod naming;
 mod positions;
-pub mod storey;
+pub mod titles;
 
 use std::sync::Arc;
 
 use imbl::OrdMap;
 
+pub use crate::geometry::COORDINATE_LIMIT_M;
 pub use builder::Builder;
-pub use calibration::{
-    Calibration, DrawingMoves, UNMEASURED_METRES_PER_PIXEL, move_picture, set_measurements, straightening_rad,
-    turn_picture,
-};
 pub use difference::{ChangeKind, Difference};
 pub use element::{
     Backdrop, Corner, Joint, LabelOrigin, LeafSide, Measurement, Opening, OpeningKind, Place, Room, RoomLabel, Swing,
@@ -43,10 +37,6 @@ use crate::geometry::{Bounds, Point, Segment};
 
 /// Fields of a file that this version does not know, kept so that saving does not lose them.
 pub type Extra = Option<Arc<serde_json::Map<String, serde_json::Value>>>;
-
-/// No coordinate lies further than this from the origin, in metres: 100 km is beyond any building,
-/// and far inside what `f64` holds to the 0.1 mm grid.
-pub const COORDINATE_LIMIT_M: f64 = 100_000.0;
 
 /// A door's width in metres where a file gives none: the paper's authors scale their plans by a
 /// door of 90 cm.

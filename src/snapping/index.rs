@@ -117,29 +117,6 @@ impl PlanIndex {
         found
     }
 
-    /// The edges that reach into a box, in a fixed order.
-    pub fn edges_in(&self, bounds: Bounds) -> Vec<IndexedEdge> {
-        if bounds.is_empty() {
-            return Vec::new();
-        }
-        let envelope = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
-        let mut found: Vec<IndexedEdge> = self.edges.locate_in_envelope_intersecting(envelope).copied().collect();
-        found.sort_by_key(|edge| edge.corners);
-        found
-    }
-
-    /// The corners inside a box, in a fixed order.
-    pub fn corners_in(&self, bounds: Bounds) -> Vec<(CornerId, Point)> {
-        if bounds.is_empty() {
-            return Vec::new();
-        }
-        let envelope = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
-        let mut found: Vec<(CornerId, Point)> =
-            self.corners.locate_in_envelope(envelope).map(|corner| (corner.id, corner.point)).collect();
-        found.sort_by_key(|(id, _)| *id);
-        found
-    }
-
     /// The corners in a box whose x is near a value.
     pub fn corners_at_x(&self, x: f64, radius_m: f64, within: Bounds) -> Vec<Point> {
         let start = self.by_x.partition_point(|point| point.x < x - radius_m);

@@ -20,7 +20,8 @@ use std::time::{Duration, SystemTime};
 
 use serde::{Deserialize, Serialize};
 
-use super::stamp::{FNV_START, Stamp, fnv};
+use super::stamp::Stamp;
+use crate::base::hash;
 use crate::formats::plan_json;
 use crate::plan::{History, Plan, Step};
 
@@ -420,7 +421,7 @@ impl Writer {
         let mut bytes = HEADER.as_bytes().to_vec();
         let mut payload = head(&Head::Start { start: self.start.clone() });
         payload.extend_from_slice(&plan_json::to_bytes(&self.base));
-        let checksum = frame(&mut bytes, FNV_START, &payload);
+        let checksum = frame(&mut bytes, hash::START, &payload);
         temporary.as_file().write_all(&bytes)?;
         temporary.as_file().sync_all()?;
         let file = temporary.persist(&path).map_err(|error| error.error)?;
@@ -473,9 +474,14 @@ fn head(head: &Head) -> Vec<u8> {
     line
 }
 
+/// Goes on with the checksum of a journal: over the one before, then over what is added.
+fn chained(before: u64, payload: &[u8]) -> u64 {
+    hash::fnv1a(hash::fnv1a(before, before.to_le_bytes()), payload.iter().copied())
+}
+
 /// Puts a record behind others: its length, its checksum, itself. Gives the checksum.
 fn frame(bytes: &mut Vec<u8>, checksum: u64, payload: &[u8]) -> u64 {
-    let checksum = fnv(fnv(checksum, &checksum.to_le_bytes()), payload);
+    let checksum = chained(checksum, payload);
     bytes.extend_from_slice(format!("{} {checksum:016x}\n", payload.len()).as_bytes());
     bytes.extend_from_slice(payload);
     bytes.push(b'\n');
@@ -592,7 +598,7 @@ pub fn read_journal(bytes: &[u8]) -> Result<Recovered, String> {
             false => "it is no journal, or its beginning is damaged".to_owned(),
         });
     };
-    let mut checksum = FNV_START;
+    let mut checksum = hash::START;
     let first = next_record(&mut rest, &mut checksum);
     let Some((Head::Start { start }, body)) = first else {
         return Err("its beginning is damaged".to_owned());
@@ -648,7 +654,7 @@ fn next_record<'a>(rest: &mut &'a [u8], checksum: &mut u64) -> Option<(Head, &'a
     }
     let behind = &rest[line_end + 1..];
     let payload = behind.get(..length)?;
-    if fnv(fnv(*checksum, &checksum.to_le_bytes()), payload) != sum || behind.get(length) != Some(&b'\n') {
+    if chained(*checksum, payload) != sum || behind.get(length) != Some(&b'\n') {
         return None;
     }
     let head_end = payload.iter().position(|&byte| byte == b'\n')?;

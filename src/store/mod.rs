@@ -6,6 +6,7 @@ mod journal;
 mod models;
 pub mod pictures;
 mod plan_file;
+mod plan_folder;
 mod save;
 mod stamp;
 
@@ -14,10 +15,8 @@ pub use journal::{
     Journal, JournalFailure, JournalStart, Leftover, Predecessor, Recovered, STATE_VARIABLE, journal_folder, leftovers,
     read_journal,
 };
-pub use models::{
-    LARGEST_BYTES, MODEL_ENDING, MODELS_VARIABLE, ModelError, StoredModel, bundled_model, bundled_sets,
-    bundled_typologies, bundled_unknown, load_model, models_folder, models_in, set_name,
-};
+pub use models::{LARGEST_BYTES, MODEL_ENDING, MODELS_VARIABLE, ModelError, load_model, models_folder, models_in};
 pub use plan_file::{checked_bytes, load_plan, save_plan};
+pub use plan_folder::{FoundPlan, plans_below};
 pub use save::{SaveError, save_bytes, save_bytes_fast};
 pub use stamp::Stamp;

@@ -3,6 +3,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use crate::base::hash;
 use crate::formats;
 
 /// What a file held at some time, to notice that somebody else changed it: a hash of its bytes, the same in
@@ -13,7 +14,7 @@ pub struct Stamp(u64);
 impl Stamp {
     /// The stamp of a file that holds these bytes.
     pub fn of_bytes(bytes: &[u8]) -> Self {
-        Self(fnv(FNV_START, bytes))
+        Self(hash::fnv1a(hash::START, bytes.iter().copied()))
     }
 
     /// The stamp of the file at a path; `None` when it cannot be read.
@@ -39,13 +40,4 @@ impl<'de> Deserialize<'de> for Stamp {
         let text = String::deserialize(deserializer)?;
         u64::from_str_radix(&text, 16).map(Self).map_err(serde::de::Error::custom)
     }
-}
-
-/// Where a hash starts: the offset basis of FNV-1a (Fowler, Noll, Vo) of 64 bits.
-pub(super) const FNV_START: u64 = 0xcbf2_9ce4_8422_2325;
-
-/// Goes on with a hash of FNV-1a. Two texts that differ in one byte never have the same: each step is
-/// invertible.
-pub(super) fn fnv(start: u64, bytes: &[u8]) -> u64 {
-    bytes.iter().fold(start, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
 }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::random::Random;
+use crate::base::random::Random;
 
 /// Two ways of classifying, compared on the same rooms. Rooms of one building resemble each other, so
 /// chance is judged by building: both the interval and the p-value take buildings, not rooms, as what

@@ -5,18 +5,19 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::{
     Average, Cell, Comparison, Condition, ConfusionTable, Curve, CurvePoint, Importance, JointCell, LabelLine, Options,
-    Rival, RoomsTable, STANDARD, Set, Study, StudyError, TypologyCount, TypologyLine, UnknownCell,
+    Rival, RoomsTable, Set, Study, StudyError, TypologyCount, TypologyLine, UnknownCell,
 };
+use crate::base::random::{Random, seed_of_part};
+use crate::base::work::Work;
 use crate::classify::joint::Joint;
 use crate::classify::unknown::{PlanScore, Unknown};
 use crate::classify::{Algorithm, Classifier, Confusion, Distribution, Scores, in_plan, typology};
 use crate::dataset::folds::{Folds, FoldsError, Grouping, building_of};
+use crate::dataset::sets::STANDARD;
 use crate::dataset::table::{FEATURES, Table, Values};
 use crate::dataset::{Collection, Moments, RoomNetwork, RoomPlace, Row, Statistics};
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
-use crate::parallel::Work;
-use crate::random::{Random, seed_of_part};
 
 /// Shares of the training rooms at the points of a learning curve.
 const CURVE_SHARES: [f64; 6] = [0.05, 0.1, 0.2, 0.4, 0.7, 1.0];

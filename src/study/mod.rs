@@ -14,12 +14,12 @@ use serde::{Serialize, Serializer};
 pub use comparison::Comparison;
 pub use measure::{study, validate};
 
+use crate::base::work::Cancelled;
 use crate::classify::{Algorithm, Confusion, Scores, TableRates};
 use crate::dataset::LabelStatistics;
 use crate::dataset::folds::Grouping;
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
-use crate::parallel::Cancelled;
 
 /// How a study is done.
 #[derive(Clone, Copy, Debug)]
@@ -53,9 +53,6 @@ impl fmt::Display for Condition {
         write!(f, "folds by {}, {} neighbour labels", self.by.name(), self.neighbours.name())
     }
 }
-
-/// The set whose classifiers learn from all typologies.
-pub const STANDARD: &str = "standard";
 
 /// What a study found. All shares 0..=1.
 #[derive(Clone, Debug, Serialize)]

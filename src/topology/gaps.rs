@@ -6,14 +6,10 @@ use std::ops::RangeInclusive;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
-use super::draw::{add_walls, divide_rooms, edges_of};
 use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
 use crate::geometry::segments::{SegmentIndex, crossing};
 use crate::geometry::{Bounds, Point, Segment, TOUCH_M, Vector};
-use crate::plan::edit::lay::{Laid, lay};
-use crate::plan::edit::split::nearest_part;
-use crate::plan::edit::{self, EditError, fail};
-use crate::plan::{CornerId, DEFAULT_WALL_THICKNESS_M, Opening, OpeningId, OpeningKind, Plan, WallId};
+use crate::plan::{CornerId, DEFAULT_WALL_THICKNESS_M, Plan, WallId};
 
 /// How wide a gap in a wall is that is a doorway, in metres: 'more than 30 cm and less than 150 cm'
 /// (paper, section 3.3).
@@ -70,47 +66,6 @@ pub fn gaps(plan: &Plan) -> Vec<Gap> {
     }
     found.sort_by_key(|gap| gap.ends);
     found
-}
-
-/// Closes gaps with walls, each as thick as the thicker of the two beside it, and puts an opening of the
-/// gap's width into each; gives the openings in the order of the gaps. Rooms are divided as by
-/// [`super::draw_walls`].
-///
-/// # Errors
-/// When no gap is given, one is no longer there, or a wall cannot be drawn.
-pub fn bridge_gaps(plan: &Plan, gaps: &[Gap], kind: OpeningKind) -> Result<(Plan, Vec<OpeningId>), EditError> {
-    if gaps.is_empty() {
-        return fail("no gap between walls in line is 0.30 to 1.50 m wide");
-    }
-    let (mut paths, mut thicknesses_m) = (Vec::new(), Vec::new());
-    for gap in gaps {
-        let ([Some(a), Some(b)], [Some(first), Some(second)]) =
-            (gap.ends.map(|end| plan.position(end)), gap.walls.map(|wall| plan.wall(wall)))
-        else {
-            return fail("the gap is gone");
-        };
-        paths.push(vec![a, b]);
-        thicknesses_m.push(first.thickness_m.max(second.thickness_m));
-    }
-    let Laid { plan: laid, chains } = lay(plan, &paths)?;
-    let along: Vec<(&[CornerId], f64)> = chains.iter().map(Vec::as_slice).zip(thicknesses_m).collect();
-    let (next, walls) = add_walls(&laid, &along)?;
-    if walls.len() < gaps.len() {
-        return fail("a wall stands in the gap already");
-    }
-    let edges: BTreeSet<[CornerId; 2]> = chains.iter().flat_map(|chain| edges_of(chain)).collect();
-    let (mut next, _) = divide_rooms(&next, &edges, None)?;
-    let mut openings = Vec::new();
-    for (gap, chain) in gaps.iter().zip(&chains) {
-        // Something may cross the gap: the opening goes on the piece under its middle.
-        let Some(place) = nearest_part(&next, chain, gap.segment.midpoint(), gap.width_m) else {
-            return fail("a wall stands in the gap already");
-        };
-        let (with_opening, id) = edit::add_opening(&next, Opening::new(kind, place))?;
-        next = with_opening;
-        openings.push(id);
-    }
-    Ok((next, openings))
 }
 
 /// The end of a wall where no other wall ends.

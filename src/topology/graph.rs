@@ -1,7 +1,6 @@
 use super::RoomShapes;
-use crate::geometry::{Bounds, Point, Segment, Vector};
-use crate::plan::edit::{self, EditError};
-use crate::plan::{Joint, Opening, OpeningId, OpeningKind, Plan, THICKEST_WALL_M};
+use crate::geometry::{Bounds, Point, Vector};
+use crate::plan::{Joint, Opening, OpeningId, Plan, THICKEST_WALL_M};
 
 /// An opening and the two sides it joins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,34 +68,6 @@ impl Graph {
     }
 }
 
-/// An opening that would be placed and what it would join.
-#[derive(Clone, Debug)]
-pub struct OpeningPreview {
-    pub opening: Opening,
-    pub segment: Segment,
-    /// The two sides, the left of the segment first.
-    pub sides: [Joint; 2],
-}
-
-/// What [`edit::place_opening`] would add, with what it would join; `shapes` are those of the plan.
-///
-/// # Errors
-/// As [`edit::opening_at`].
-pub fn opening_preview(
-    plan: &Plan,
-    shapes: &RoomShapes,
-    kind: OpeningKind,
-    at: Point,
-    width_m: f64,
-    reach_m: f64,
-    swing_towards: Option<Point>,
-) -> Result<OpeningPreview, EditError> {
-    let opening = edit::opening_at(plan, kind, at, width_m, reach_m, swing_towards)?;
-    let segment = plan.opening_segment(&opening).ok_or_else(|| EditError("the wall has no length".to_owned()))?;
-    let sides = sides_by_geometry(plan, shapes, &opening);
-    Ok(OpeningPreview { opening, segment, sides })
-}
-
 /// The rooms an opening joins, found by looking from its middle along its normal, both ways, up to
 /// the thickest plausible wall.
 pub fn sides_by_geometry(plan: &Plan, shapes: &RoomShapes, opening: &Opening) -> [Joint; 2] {
@@ -140,7 +111,7 @@ const SLIVER_M: f64 = 0.05;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::{Builder, Meta, Place, Room, RoomId};
+    use crate::plan::{Builder, Meta, OpeningKind, Place, Room, RoomId};
 
     fn rectangle(builder: &mut Builder, key: &str, x: (f64, f64), y: (f64, f64)) -> RoomId {
         let ring = [(x.0, y.0), (x.1, y.0), (x.1, y.1), (x.0, y.1)].map(|(x, y)| Point::new(x, y));

@@ -1,6 +1,7 @@
 //! Every kind of file that scans come in, and files that are damaged or hostile.
 
-use enfilade::store::pictures::{Level, PictureError, Samples, decode_picture, load_picture};
+use enfilade::picture::{Level, Samples};
+use enfilade::store::pictures::{PictureError, decode_picture, load_picture};
 use image::{DynamicImage, ImageFormat};
 
 use super::scan::{encoded, fixture, quarters, walls};

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use enfilade::edit::{self, DrawingMoves, set_measurements};
 use enfilade::formats::read_file;
 use enfilade::geometry::{Point, Segment, polygon};
-use enfilade::plan::{Backdrop, DrawingMoves, Plan, edit, set_measurements};
+use enfilade::plan::{Backdrop, Plan};
 use enfilade::store::pictures::{LoadedPicture, load_picture, relative_path};
 
 /// The picture's file, and how many of its pixels a unit of the file of the same name is; `None`: as

@@ -1,10 +1,10 @@
 //! Rooms that nobody drew: labels that overlap about as much as in real buildings, for tests that must
 //! run where the real plans are not.
 
+use enfilade::base::random::Random;
 use enfilade::dataset::Row;
 use enfilade::features::Features;
 use enfilade::labels::{Label, Typology};
-use enfilade::random::Random;
 
 /// For each label its share in percent, the median area in m², the factor by which areas spread around
 /// it, the median axes ratio, and the mean number of openings. After Table 2 of the paper (schools).

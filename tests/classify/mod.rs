@@ -12,17 +12,18 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use enfilade::base::hash;
+use enfilade::base::work::Work;
 use enfilade::classify::explain::Reason;
 use enfilade::classify::model_file::{About, DataSummary, ScoreSummary, from_bytes, to_bytes};
 use enfilade::classify::{
     Algorithm, Classifier, Distribution, Method, PlanClassifier, Scores, Validation, evaluate, evaluate_all, test,
 };
 use enfilade::dataset::folds::{Folds, Grouping};
-use enfilade::dataset::table::{FEATURES, RoomSource, Table, Values, fingerprint};
+use enfilade::dataset::table::{FEATURES, RoomSource, Table, Values};
 use enfilade::dataset::{Row, csv};
 use enfilade::features::NeighbourLabels;
 use enfilade::labels::{Label, Typology};
-use enfilade::parallel::Work;
 use generated::generated_rows;
 use proptest::prelude::*;
 use real_rows::{SETS, real_rows};
@@ -186,7 +187,7 @@ fn with_fitting_checksum(text: &str) -> Vec<u8> {
     let mut value: serde_json::Value = serde_json::from_str(text).unwrap();
     let members = value.as_object_mut().unwrap();
     members.shift_remove("checksum");
-    let checksum = format!("{:016x}", fingerprint(value.to_string().into_bytes()));
+    let checksum = format!("{:016x}", hash::fnv1a(hash::START, value.to_string().into_bytes()));
     value.as_object_mut().unwrap().insert("checksum".to_owned(), checksum.into());
     value.to_string().into_bytes()
 }

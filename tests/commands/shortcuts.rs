@@ -20,7 +20,7 @@ fn every_shortcut_does_its_command() {
             let in_the_middle = matches!(command.id, "previous-plan" | "next-plan");
             let mut window = window_with(if in_the_middle { "school" } else { "dwelling" });
             // A plan with something to undo and redo, and a picture under it.
-            let plan = enfilade::plan::edit::set_backdrop(window.app().plan().unwrap(), Some(super::backdrop()));
+            let plan = enfilade::edit::set_backdrop(window.app().plan().unwrap(), Some(super::backdrop()));
             enfilade::store::save_plan(&path, &plan).unwrap();
             if !in_the_middle {
                 run(&mut window, "open", &[word]);

@@ -1,8 +1,8 @@
 //! Units and the grid's spacing are kept with the settings; lengths in calls may have any unit.
 
 use enfilade::app::{Offscreen, OffscreenOptions};
+use enfilade::base::units::Units;
 use enfilade::plan::GuideAxis;
-use enfilade::units::Units;
 
 use super::{refusal, run, window_with};
 

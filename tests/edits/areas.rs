@@ -1,11 +1,9 @@
 //! Drawing where no room is yet, and making one room of several.
 
+use enfilade::edit;
+use enfilade::edit::{GAP_BETWEEN_ROOMS_M, draw_room, draw_room_in_free_space, draw_walls, merge_rooms, split_room};
 use enfilade::geometry::Point;
-use enfilade::plan::edit;
 use enfilade::plan::{Joint, Opening, OpeningKind, Place, Plan};
-use enfilade::topology::{
-    GAP_BETWEEN_ROOMS_M, draw_room, draw_room_in_free_space, draw_walls, merge_rooms, split_room,
-};
 
 use super::support::{area_m2, areas, points, rectangle};
 

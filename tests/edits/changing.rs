@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use enfilade::edit::{self, Alignment, Array, bridge_gaps, draw_room, draw_walls, fill_all, offset_room, offset_walls};
 use enfilade::geometry::{Point, Transform, Vector};
-use enfilade::plan::edit::{self, Alignment, Array};
 use enfilade::plan::{ElementId, LeafSide, Opening, OpeningKind, Place, Plan, RoomId, Swing, WallId};
-use enfilade::topology::{bridge_gaps, draw_room, draw_walls, fill_all, gaps, offset_room, offset_walls};
+use enfilade::topology::gaps;
 
 use super::support::{area_m2, areas, points, rectangle, total_area};
 

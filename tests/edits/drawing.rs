@@ -1,9 +1,9 @@
 //! Drawing walls, rooms and openings.
 
+use enfilade::edit::{self, cut_out, draw_room, draw_walls, fill_all, opening_preview, split_room};
 use enfilade::geometry::Point;
-use enfilade::plan::edit;
 use enfilade::plan::{Joint, OpeningKind, Place, Plan, RoomId};
-use enfilade::topology::{Graph, RoomShapes, cut_out, draw_room, draw_walls, fill_all, opening_preview, split_room};
+use enfilade::topology::{Graph, RoomShapes};
 
 use proptest::prelude::*;
 

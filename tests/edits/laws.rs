@@ -2,13 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use enfilade::geometry::{Point, Segment, Transform, Vector};
-use enfilade::plan::edit::{self, Alignment, Array};
-use enfilade::plan::{CornerId, ElementId, LeafSide, OpeningId, OpeningKind, Plan, RoomId, Swing, WallId};
-use enfilade::topology::{
-    bridge_gaps, cut_out, draw_room, draw_room_in_free_space, draw_walls, fill_all, fill_at, gaps, merge_rooms,
-    offset_room, offset_walls, split_room,
+use enfilade::edit::{
+    self, Alignment, Array, bridge_gaps, cut_out, draw_room, draw_room_in_free_space, draw_walls, fill_all, fill_at,
+    merge_rooms, offset_room, offset_walls, split_room,
 };
+use enfilade::geometry::{Point, Segment, Transform, Vector};
+use enfilade::plan::{CornerId, ElementId, LeafSide, OpeningId, OpeningKind, Plan, RoomId, Swing, WallId};
+use enfilade::topology::gaps;
 use proptest::prelude::*;
 
 use super::support::{Way, areas, config, invariants_hold_and_undo_is_exact_for, points, total_area};

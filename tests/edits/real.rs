@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use enfilade::edit;
+use enfilade::edit::{cut_out, draw_room_in_free_space, draw_walls, merge_rooms, split_room};
 use enfilade::geometry::{Point, Transform, Vector, polygon};
-use enfilade::plan::edit;
 use enfilade::plan::{ElementId, OpeningKind, Plan, RoomId};
-use enfilade::topology::{cut_out, draw_room_in_free_space, draw_walls, merge_rooms, split_room};
 
 use super::support::{area_m2, total_area};
 

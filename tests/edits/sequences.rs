@@ -1,10 +1,11 @@
 //! Random sequences of the basic edits on corners, walls, rooms and openings.
 
+use enfilade::edit;
 use enfilade::geometry::Point;
 use enfilade::labels::Label;
 use enfilade::plan::{
     CornerId, ElementId, Joint, LabelOrigin, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, RoomLabel,
-    WallId, edit,
+    WallId,
 };
 use proptest::prelude::*;
 

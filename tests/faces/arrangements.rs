@@ -1,8 +1,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
+use enfilade::geometry::arrangement::{Arrangement, ArrangementError, Face, faces};
 use enfilade::geometry::polygon::{Location, locate};
 use enfilade::geometry::{Point, Segment};
-use enfilade::topology::{Arrangement, ArrangementError, Face, faces};
 use proptest::prelude::*;
 
 use super::families::{self, Ends, FAMILIES, Random};

@@ -1,9 +1,9 @@
 use std::path::PathBuf;
 
+use enfilade::edit::{self, fill_all, fill_at};
 use enfilade::geometry::{Point, polygon};
-use enfilade::plan::edit;
 use enfilade::plan::{Builder, CornerId, Meta, Opening, OpeningKind, Place, Plan, Room};
-use enfilade::topology::{PlanFaces, fill_all, fill_at};
+use enfilade::topology::PlanFaces;
 use proptest::prelude::*;
 
 /// A plan of walls between points.

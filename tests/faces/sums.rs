@@ -1,7 +1,7 @@
 //! What an arrangement's faces are compared by: the columns of `benches/faces_geos.py`.
 
+use enfilade::geometry::arrangement::{Arrangement, Face};
 use enfilade::geometry::{Point, Segment};
-use enfilade::topology::{Arrangement, Face};
 
 use super::families::Ends;
 

@@ -1,6 +1,5 @@
 use enfilade::features::{NeighbourLabels, analyse};
-use enfilade::formats::geojson::GeoJson;
-use enfilade::formats::{Format, Import};
+use enfilade::formats::{Import, geojson};
 use enfilade::labels::Schemes;
 use enfilade::plan::{CornerId, Place, Plan};
 use proptest::prelude::*;
@@ -10,11 +9,11 @@ use super::golden::assert_golden;
 use super::plan_json::full_plan;
 
 pub fn written(plan: &Plan) -> String {
-    String::from_utf8(GeoJson.write(plan, &Schemes::bundled()).unwrap()).unwrap()
+    String::from_utf8(geojson::to_bytes(plan, &Schemes::bundled())).unwrap()
 }
 
 pub fn read(text: &str) -> Import {
-    GeoJson.read(text.as_bytes(), "").map_err(|error| error.to_string()).unwrap()
+    geojson::from_bytes(text.as_bytes(), "").map_err(|error| error.to_string()).unwrap()
 }
 
 /// What GeoJSON keeps of a plan, as text: everything but corners' identities, the backdrop and the

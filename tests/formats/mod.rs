@@ -2,6 +2,7 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "a skipped test says so")]
 
+mod batch;
 mod broken;
 mod docs;
 mod generated;
@@ -9,4 +10,5 @@ mod geojson;
 mod golden;
 mod plan_json;
 mod real;
+mod registry;
 mod store;

@@ -2,10 +2,10 @@ use proptest::prelude::*;
 
 use super::generated::plans;
 use super::golden::assert_golden;
+use enfilade::edit::guides::add_guide;
 use enfilade::formats::plan_json::{from_bytes, to_bytes};
 use enfilade::geometry::Point;
 use enfilade::labels::{Label, Typology};
-use enfilade::plan::guides::add_guide;
 use enfilade::plan::{
     Backdrop, Builder, GuideAxis, Joint, LabelOrigin, LeafSide, Measurement, Meta, Opening, OpeningKind, Place, Plan,
     Room, RoomLabel, Scale, ScaleOrigin, Swing,

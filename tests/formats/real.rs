@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use enfilade::formats::geojson::GeoJson;
-use enfilade::formats::{Format, plan_json};
+use enfilade::formats::{geojson, plan_json};
 use enfilade::labels::Schemes;
 use enfilade::plan::{OpeningKind, ScaleOrigin};
 
@@ -36,7 +35,8 @@ fn all_dwellings_arrive_whole_and_round_trip() {
     let (mut rooms, mut openings, mut windows, mut pinned, mut notes) = (0, 0, 0, 0, 0);
     let mut scales = [0; 2];
     for path in files("r2v").into_iter().chain(files("archilyse")) {
-        let import = GeoJson.read(&std::fs::read(&path).unwrap(), "").map_err(|error| error.to_string()).unwrap();
+        let import =
+            geojson::from_bytes(&std::fs::read(&path).unwrap(), "").map_err(|error| error.to_string()).unwrap();
         let plan = &import.plans[0];
         notes += import.notes.len();
         rooms += plan.rooms().len();
@@ -52,7 +52,7 @@ fn all_dwellings_arrive_whole_and_round_trip() {
         assert_eq!(&loaded, plan, "{}", path.display());
         assert_eq!(plan_json::to_bytes(&loaded), bytes, "{}", path.display());
 
-        let geojson = GeoJson.write(plan, &schemes).unwrap();
+        let geojson = geojson::to_bytes(plan, &schemes);
         let again = read(std::str::from_utf8(&geojson).unwrap());
         assert_eq!(&again.plans[0], plan, "{}", path.display());
         assert_eq!(again.notes, []);

@@ -1,12 +1,12 @@
 use std::sync::atomic::AtomicBool;
 
+use enfilade::base::random::Random;
+use enfilade::base::work::Work;
 use enfilade::classify::joint::{Joint, JointTrainError, cross_validate};
 use enfilade::dataset::{Form, RoomNetwork};
 use enfilade::geometry::Point;
 use enfilade::labels::{Label, Schemes, Typology};
-use enfilade::parallel::Work;
 use enfilade::plan::{Builder, Meta, Room};
-use enfilade::random::Random;
 use proptest::prelude::*;
 use serde_json::Value;
 

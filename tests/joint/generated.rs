@@ -1,10 +1,10 @@
 //! Generated networks: floors with a corridor, whose rooms are told apart by their size in relation to
 //! each other only, since every building has its own scale.
 
+use enfilade::base::random::Random;
 use enfilade::dataset::{Form, NetworkDoor, NetworkRoom, RoomNetwork};
 use enfilade::labels::{Label, Typology};
 use enfilade::plan::{OpeningId, OpeningKind, RoomId};
-use enfilade::random::Random;
 
 /// A rectangular room.
 pub fn room(key: &str, label: Option<Label>, length_m: f64, width_m: f64) -> NetworkRoom {

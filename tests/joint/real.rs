@@ -3,13 +3,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
+use enfilade::base::work::Work;
 use enfilade::classify::joint::{Group, Joint, cross_validate, cross_validate_without};
 use enfilade::classify::typology::{Inferred, Measure, TypologyModel, cross_validate as infer};
 use enfilade::classify::unknown::{Unknown, UnknownScores};
 use enfilade::dataset::RoomNetwork;
 use enfilade::formats::{self, building_name};
 use enfilade::labels::Schemes;
-use enfilade::parallel::Work;
 use enfilade::plan::Plan;
 
 const SCHOOLS: &[&str] = &["authors/school"];

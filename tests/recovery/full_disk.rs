@@ -3,7 +3,8 @@
 use std::path::Path;
 use std::process::Command;
 
-use enfilade::plan::{History, Meta, edit};
+use enfilade::edit;
+use enfilade::plan::{History, Meta};
 use enfilade::store::{Journal, JournalStart, leftovers, load_plan, save_plan};
 
 use super::house;

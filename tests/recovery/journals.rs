@@ -2,10 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use enfilade::base::random::Random;
+use enfilade::edit;
 use enfilade::formats::plan_json;
 use enfilade::geometry::Point;
-use enfilade::plan::{Builder, ElementId, History, Meta, Plan, Room, Step, edit};
-use enfilade::random::Random;
+use enfilade::plan::{Builder, ElementId, History, Meta, Plan, Room, Step};
 use enfilade::store::{Journal, JournalStart, Predecessor, Recovered, leftovers, read_journal};
 
 use super::house;

@@ -10,9 +10,9 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use enfilade::app::{Offscreen, OffscreenOptions};
+use enfilade::base::random::Random;
 use enfilade::formats::plan_json;
 use enfilade::plan::Plan;
-use enfilade::random::Random;
 use enfilade::store::{leftovers, load_plan};
 
 /// So many steps change the plan, or take changes back.

@@ -5,7 +5,8 @@ use std::path::Path;
 use libtest_mimic::Trial;
 use serde_json::Value;
 
-use crate::{support, tests};
+use crate::support;
+use crate::tests;
 
 /// Calls `enfilade replay` and gives its exit code, stdout and stderr.
 pub fn replay(arguments: &[&str]) -> (u8, String, String) {

@@ -4,10 +4,13 @@
 use std::path::Path;
 
 use egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, pos2, vec2};
-use enfilade::app::commands::COMMANDS;
-use enfilade::app::replay::{ReplayOptions, ScriptFile, replay};
-use enfilade::app::{Offscreen, OffscreenOptions, Picture};
-use enfilade::random::Random;
+use enfilade::app::{
+    Offscreen, OffscreenOptions,
+    commands::COMMANDS,
+    replay::{ReplayOptions, ScriptFile, replay},
+};
+use enfilade::base::random::Random;
+use enfilade::picture::Picture;
 use libtest_mimic::{Failed, Trial};
 
 use crate::passed;

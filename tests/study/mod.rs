@@ -5,10 +5,14 @@
 
 use std::path::{Path, PathBuf};
 
-use enfilade::classify::Method;
+use enfilade::classify::{
+    Method,
+    models::{bundled_model, bundled_sets, bundled_typologies},
+};
+use enfilade::edit;
 use enfilade::labels::Schemes;
-use enfilade::plan::{LabelOrigin, Plan, edit};
-use enfilade::store::{bundled_model, bundled_plans, bundled_sets, bundled_typologies, load_plan, save_plan};
+use enfilade::plan::{LabelOrigin, Plan};
+use enfilade::store::{bundled_plans, load_plan, save_plan};
 
 use crate::support::{self, enfilade};
 

@@ -1,11 +1,11 @@
 //! A person at the window: every gesture is a line of the script and is counted, and what it does is
 //! foreseen with the same functions that the tools call.
 
+use enfilade::edit::{self, GAP_BETWEEN_ROOMS_M, opening_at};
 use enfilade::geometry::{Bounds, Point, Vector};
-use enfilade::plan::edit::opening_at;
-use enfilade::plan::{DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, OpeningKind, Plan, RoomId, edit};
+use enfilade::plan::{DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, OpeningKind, Plan, RoomId};
 use enfilade::snapping::{PlanIndex, Query, candidates};
-use enfilade::topology::{self, GAP_BETWEEN_ROOMS_M, RoomShapes};
+use enfilade::topology::{self, RoomShapes};
 
 /// What the canvas and its tools are like, in points: see `src/app/tools`.
 const SNAP_RADIUS_PX: f64 = 10.0;
@@ -182,9 +182,9 @@ impl Person {
     fn drawn(&self, corners: &[Point]) -> Option<(Plan, RoomId)> {
         let thickness_m = Some(DEFAULT_WALL_THICKNESS_M);
         if self.is_over {
-            return topology::draw_room(&self.plan, corners, thickness_m).ok();
+            return edit::draw_room(&self.plan, corners, thickness_m).ok();
         }
-        topology::draw_room_in_free_space(&self.plan, corners, thickness_m, GAP_BETWEEN_ROOMS_M).ok()
+        edit::draw_room_in_free_space(&self.plan, corners, thickness_m, GAP_BETWEEN_ROOMS_M).ok()
     }
 
     /// Draws a rectangle from corner to corner; `alt` says at which click nothing attracts.
@@ -237,8 +237,8 @@ impl Person {
     /// Splits the room at a place straight across; the parts.
     pub fn split(&self, at: Point, alt: bool) -> Option<(Self, [RoomId; 2])> {
         let aimed = self.aim(at, alt, &[])?;
-        let across = topology::straight_across(&self.shapes, aimed.pointer, aimed.got, self.metres(SNAP_RADIUS_PX))?;
-        let (plan, made) = topology::split_rooms(&self.plan, &[across.line.a, across.line.b]).ok()?;
+        let across = edit::straight_across(&self.shapes, aimed.pointer, aimed.got, self.metres(SNAP_RADIUS_PX))?;
+        let (plan, made) = edit::split_rooms(&self.plan, &[across.line.a, across.line.b]).ok()?;
         let [made] = made[..] else { return None };
         let mut next = self.clone();
         next.take_up(Tool::Split);
@@ -250,7 +250,7 @@ impl Person {
     /// Makes a room of what is enclosed.
     pub fn fill(&self, at: Point) -> Option<(Self, RoomId)> {
         let pointer = self.pointer(at)?;
-        let filled = topology::fill_at(&self.plan, pointer).ok()?;
+        let filled = edit::fill_at(&self.plan, pointer).ok()?;
         let [id] = filled.rooms[..] else { return None };
         let mut next = self.clone();
         next.take_up(Tool::Fill);

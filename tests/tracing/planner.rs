@@ -570,7 +570,7 @@ impl<'a> Planner<'a> {
         let drawn = person.room(&apart(&room.outer), true);
         self.say(|| {
             let off = drawn.as_ref().and_then(|(next, id)| next.shapes.get(*id)).map(|shape| shape.area_m2());
-            let why = enfilade::topology::draw_room(&person.plan, &room.outer, None).err();
+            let why = enfilade::edit::draw_room(&person.plan, &room.outer, None).err();
             format!("    room {index} whole: {off:?} of {:.2} m2 {why:?}", room.area_m2)
         });
         self.right(index, drawn)

@@ -267,7 +267,7 @@ fn one_sees_where_the_keyboard_is() {
             if let Some(control) = focused.filter(|control| control.name != "Resize panel")
                 && was.is_none_or(|was| was.rect != control.rect)
             {
-                let part = |picture: &enfilade::app::Picture, rect: Rect| {
+                let part = |picture: &enfilade::picture::Picture, rect: Rect| {
                     let corner = |at: egui::Pos2| [at.x.max(0.0) as u32, at.y.max(0.0) as u32];
                     picture.part(corner(rect.min), corner(rect.max))
                 };

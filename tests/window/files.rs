@@ -3,9 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use egui::{Key, Modifiers};
-use enfilade::app::{Offscreen, OffscreenOptions, Picture, Severity};
+use enfilade::app::{Offscreen, OffscreenOptions, Severity};
+use enfilade::edit;
 use enfilade::geometry::Point;
-use enfilade::plan::{Backdrop, Builder, Meta, Plan, Room, edit};
+use enfilade::picture::Picture;
+use enfilade::plan::{Backdrop, Builder, Meta, Plan, Room};
 use enfilade::store::{BUNDLED, load_plan, save_plan};
 
 use super::{click_room, press, texts, window_with};

@@ -3,17 +3,19 @@
 
 use std::path::{Path, PathBuf};
 
-use super::keys::{Keys, NoKeys};
 use super::{COMMANDS, Command, find};
-use crate::app::App;
-use crate::app::canvas::{room_title, sentence};
-use crate::app::document::bundled;
+use crate::app::look::keys::{Keys, NoKeys};
+use crate::app::session::origin::bundled;
+use crate::app::state::App;
+use crate::base::{
+    units::Units,
+    wording::{or_list, sentence, similar},
+};
 use crate::features::RoomStatus;
 use crate::formats;
-use crate::geometry::{Point, trim_m};
+use crate::geometry::{COORDINATE_LIMIT_M, Point, trim_m};
 use crate::labels::Typology;
-use crate::plan::{COORDINATE_LIMIT_M, ElementId, Joint, Opening, OpeningId, Plan, Room, RoomId};
-use crate::units::Units;
+use crate::plan::{ElementId, Joint, Opening, OpeningId, Plan, Room, RoomId, titles::room_title};
 
 /// Something a command takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +42,7 @@ pub enum ArgumentKind {
     Text,
     /// A number with a decimal point.
     Number { unit: &'static str, least: f64, most: f64 },
-    /// A length, typed in the units that are set or with its own; see [`crate::units`].
+    /// A length, typed in the units that are set or with its own; see [`crate::base::units`].
     Length { least_m: f64, most_m: f64 },
     /// 1, 2, 3, …
     Count,
@@ -73,7 +75,7 @@ pub enum ArgumentKind {
 
 /// An argument that was read.
 #[derive(Clone)]
-pub(in crate::app) enum Value {
+pub(crate) enum Value {
     Path(PathBuf),
     Text(String),
     Number(f64),
@@ -93,12 +95,12 @@ pub(in crate::app) enum Value {
 
 /// The arguments of a call, read. Those left out are missing at the end.
 #[derive(Clone, Default)]
-pub(in crate::app) struct Values(pub(super) Vec<Value>);
+pub(crate) struct Values(pub(super) Vec<Value>);
 
 /// Gives the value at a place as what the command's entry in the table says it is.
 macro_rules! getter {
     ($name:ident, $variant:ident, $type:ty) => {
-        pub(in crate::app) fn $name(&self, index: usize) -> Option<&$type> {
+        pub(crate) fn $name(&self, index: usize) -> Option<&$type> {
             match self.0.get(index) {
                 Some(Value::$variant(value)) => Some(value),
                 _ => None,
@@ -179,7 +181,7 @@ impl ArgumentKind {
     }
 
     /// Whether it can be something else than its choices.
-    pub(in crate::app) const fn is_open(self) -> bool {
+    pub(crate) const fn is_open(self) -> bool {
         matches!(self, Self::Function)
     }
 
@@ -187,7 +189,7 @@ impl ArgumentKind {
     ///
     /// # Errors
     /// What is expected instead.
-    pub(in crate::app) fn read(self, app: &App, text: &str) -> Result<Value, String> {
+    pub(crate) fn read(self, app: &App, text: &str) -> Result<Value, String> {
         let with_choices = |expected: String| {
             let choices = self.choices(app).unwrap_or_default();
             let similar = similar(text, choices.iter().map(|choice| choice.word.as_str()), MOST_SIMILAR);
@@ -240,7 +242,8 @@ impl ArgumentKind {
             Self::Typology if text.trim().eq_ignore_ascii_case(UNKNOWN) => Ok(Value::Typology(None)),
             Self::Typology => {
                 let wanted = text.trim();
-                let found = app.schemes.typologies().find(|typology| typology.as_str().eq_ignore_ascii_case(wanted));
+                let found =
+                    app.session.schemes.typologies().find(|typology| typology.as_str().eq_ignore_ascii_case(wanted));
                 found.cloned().map(|found| Value::Typology(Some(found))).ok_or_else(|| with_choices(self.expected()))
             }
             Self::Sample => {
@@ -254,7 +257,12 @@ impl ArgumentKind {
                 _ => Err(self.expected()),
             },
             Self::Answer => {
-                let answers = app.question.as_ref().map(crate::app::Question::answers).unwrap_or_default();
+                let answers = app
+                    .session
+                    .question
+                    .as_ref()
+                    .map(crate::app::session::questions::Question::answers)
+                    .unwrap_or_default();
                 let found = answers.iter().find(|(word, _)| *word == text.trim());
                 found.map(|(word, _)| Value::Word(word)).ok_or_else(|| with_choices(self.expected()))
             }
@@ -271,7 +279,7 @@ impl ArgumentKind {
     }
 
     /// An argument as it is written in a call, so that reading it gives the same again.
-    pub(in crate::app) fn write(self, app: &App, value: &Value) -> String {
+    pub(crate) fn write(self, app: &App, value: &Value) -> String {
         match value {
             Value::Path(path) => path.to_string_lossy().into_owned(),
             Value::Text(text) => text.clone(),
@@ -294,7 +302,7 @@ impl ArgumentKind {
 
     /// Everything the argument can be; `None` where it can be anything. Rooms come as one reads them
     /// on the plan, from the top left.
-    pub(in crate::app) fn choices(self, app: &App) -> Option<Vec<Choice>> {
+    pub(crate) fn choices(self, app: &App) -> Option<Vec<Choice>> {
         let plain = |word: &str, title: &str| Choice {
             word: word.to_owned(),
             title: title.to_owned(),
@@ -315,14 +323,15 @@ impl ArgumentKind {
             | Self::Points { .. } => return None,
             Self::Room => room_choices(app),
             Self::Opening => opening_choices(app),
-            Self::Function => app.function_choices(),
+            Self::Function => app.session.function_choices(),
             Self::Typology => {
-                let known = app.schemes.typologies().map(|typology| plain(typology.as_str(), &typology.title()));
+                let known =
+                    app.session.schemes.typologies().map(|typology| plain(typology.as_str(), &typology.title()));
                 known.chain([plain(UNKNOWN, "Unknown")]).collect()
             }
             Self::Sample => {
                 let choice = |(name, plan): &(&str, Plan)| Choice {
-                    detail: crate::app::panels::status::count(plan.rooms().len(), "room"),
+                    detail: crate::base::wording::count(plan.rooms().len(), "room"),
                     ..plain(formats::file_stem(name), &plan.meta().name)
                 };
                 bundled().iter().map(choice).collect()
@@ -336,7 +345,12 @@ impl ArgumentKind {
             }
             Self::Switch => vec![plain("on", "On"), plain("off", "Off")],
             Self::Answer => {
-                let answers = app.question.as_ref().map(crate::app::Question::answers).unwrap_or_default();
+                let answers = app
+                    .session
+                    .question
+                    .as_ref()
+                    .map(crate::app::session::questions::Question::answers)
+                    .unwrap_or_default();
                 answers.iter().map(|(word, title)| plain(word, title)).collect()
             }
             Self::Word(words) => words.iter().map(|(word, title)| plain(word, title)).collect(),
@@ -347,12 +361,12 @@ impl ArgumentKind {
 /// The word for a plan without a typology.
 const UNKNOWN: &str = "unknown";
 
-pub(in crate::app) const fn switch_word(is_on: bool) -> &'static str {
+pub(crate) const fn switch_word(is_on: bool) -> &'static str {
     if is_on { "on" } else { "off" }
 }
 
 /// The word for a plan that comes with the program.
-pub(in crate::app) fn sample_word(index: usize) -> &'static str {
+pub(crate) fn sample_word(index: usize) -> &'static str {
     bundled().get(index).map_or("", |(name, _)| formats::file_stem(name))
 }
 
@@ -395,26 +409,26 @@ fn element(plan: &Plan, word: &str) -> Option<ElementId> {
 }
 
 /// The word for some elements.
-pub(in crate::app) fn elements_word(elements: impl IntoIterator<Item = ElementId>) -> String {
+pub(crate) fn elements_word(elements: impl IntoIterator<Item = ElementId>) -> String {
     let words: Vec<String> = elements.into_iter().map(|element| element.to_string()).collect();
     words.join(" ")
 }
 
 /// The point that a word means.
-pub(in crate::app) fn point(word: &str) -> Option<Point> {
+pub(crate) fn point(word: &str) -> Option<Point> {
     let (x, y) = word.split_once(',')?;
     let point = Point::new(x.parse().ok()?, y.parse().ok()?);
     (point.is_finite() && point.x.abs() <= COORDINATE_LIMIT_M && point.y.abs() <= COORDINATE_LIMIT_M).then_some(point)
 }
 
 /// The word for some points, on the 0.1 mm grid.
-pub(in crate::app) fn points_word(points: &[Point]) -> String {
+pub(crate) fn points_word(points: &[Point]) -> String {
     let words: Vec<String> = points.iter().map(|point| point.trimmed()).map(|p| format!("{},{}", p.x, p.y)).collect();
     words.join(" ")
 }
 
 /// The word for a room: its name, where that means no other room, or its id.
-pub(in crate::app) fn room_word(plan: &Plan, id: RoomId) -> String {
+pub(crate) fn room_word(plan: &Plan, id: RoomId) -> String {
     let name = plan.room(id).map_or("", |room| room.name.as_str());
     if room(plan, name) == Ok(id) && is_own_word(name) { name.to_owned() } else { id.to_string() }
 }
@@ -425,7 +439,7 @@ fn is_own_word(name: &str) -> bool {
 }
 
 fn room_choices(app: &App) -> Vec<Choice> {
-    let Some(document) = &app.document else { return Vec::new() };
+    let Some(document) = &app.session.document else { return Vec::new() };
     let plan = document.plan();
     let mut ids: Vec<RoomId> = document.derived().map(|derived| derived.reading_order().to_vec()).unwrap_or_default();
     let is_listed: std::collections::BTreeSet<RoomId> = ids.iter().copied().collect();
@@ -436,7 +450,7 @@ fn room_choices(app: &App) -> Vec<Choice> {
     }
     let choice = |id: RoomId| {
         let room = plan.room(id)?;
-        let status = RoomStatus::of(plan, &app.schemes, room);
+        let status = RoomStatus::of(plan, &app.session.schemes, room);
         let is_unique = !room.name.is_empty() && names.get(&room.name.to_lowercase()) == Some(&1);
         // As `room_word` has it, quicker for thousands of rooms.
         let word = if is_unique && is_own_word(&room.name) { room.name.clone() } else { id.to_string() };
@@ -456,7 +470,7 @@ fn room_choices(app: &App) -> Vec<Choice> {
 }
 
 fn opening_choices(app: &App) -> Vec<Choice> {
-    let Some(document) = &app.document else { return Vec::new() };
+    let Some(document) = &app.session.document else { return Vec::new() };
     let plan = document.plan();
     let connections = document.derived().map(|derived| derived.analysis.graph.connections()).unwrap_or_default();
     let sides: std::collections::BTreeMap<OpeningId, &[Joint; 2]> =
@@ -476,29 +490,4 @@ fn opening_choices(app: &App) -> Vec<Choice> {
         }
     };
     plan.openings().map(choice).collect()
-}
-
-/// The words most like one that is wrong, the likest first.
-pub(super) fn similar<'a>(wrong: &str, words: impl Iterator<Item = &'a str>, most: usize) -> Vec<&'a str> {
-    // Below, two words have hardly more in common than any two.
-    const LEAST: f64 = 0.75;
-    let wrong = wrong.trim().to_lowercase();
-    let mut found: Vec<(f64, &str)> = words
-        .map(|word| (strsim::jaro_winkler(&wrong, &word.to_lowercase()), word))
-        .filter(|(likeness, _)| *likeness >= LEAST)
-        .collect();
-    found.sort_by(|p, q| q.0.total_cmp(&p.0).then(p.1.cmp(q.1)));
-    // Next to a good guess, poor ones only distract.
-    let best = found.first().map_or(1.0, |(likeness, _)| *likeness);
-    found.retain(|(likeness, _)| *likeness >= best - 0.05);
-    found.into_iter().take(most).map(|(_, word)| word).collect()
-}
-
-/// 'a', 'b' or 'c'.
-pub(super) fn or_list(words: &[&str]) -> String {
-    let quoted: Vec<String> = words.iter().map(|word| format!("'{word}'")).collect();
-    match quoted.as_slice() {
-        [all @ .., last] if !all.is_empty() => format!("{} or {last}", all.join(", ")),
-        _ => quoted.concat(),
-    }
 }

@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use super::{Argument, ArgumentKind, COMMANDS, Command, Keys, Menu};
+use super::{Argument, ArgumentKind, COMMANDS, Command, Menu};
+use crate::app::look::keys::Keys;
 
 /// What stands above the tables.
 const INTRODUCTION: &str = "\
@@ -12,7 +13,7 @@ Everything Enfilade's window does is a command. Each stands in a menu, in the pa
 letters of its name), in the sheet of shortcuts (?), and is a verb of scripts (`enfilade replay`). What a command needs and
 is not given it asks for: by a dialog, a text field, or in the palette.
 
-This page is written from the table of commands (`src/app/commands/table.rs`) by `enfilade commands --markdown`.
+This page is written from the table of commands (`src/app/commands/table/`) by `enfilade commands --markdown`.
 
 ## Shortcuts of your own
 

@@ -4,24 +4,24 @@
 //! A new command is one entry. Its id is the word by which scripts call it, and never changes.
 
 mod argument;
-mod keys;
 mod manual;
 mod run;
 mod table;
 
 use egui::{Context, KeyboardShortcut};
 
+pub use crate::app::look::keys::{Keys, NoKeys};
+pub use crate::app::session::executed::Executed;
 pub use argument::{Argument, ArgumentKind, Choice};
-pub use keys::{Keys, NoKeys};
 pub use manual::{keys_of, manual};
-pub use run::{CommandError, Executed};
+pub use run::CommandError;
 pub use table::COMMANDS;
 
+pub(super) use crate::app::look::keys::take_pressed;
 pub(super) use argument::{Values, elements_word, point, points_word, room_word, sample_word};
-pub(super) use keys::take_pressed;
 
-use super::App;
-use super::icons::Icon;
+use crate::app::look::icons::Icon;
+use crate::app::state::App;
 
 /// Something a person can do.
 #[derive(Clone, Copy)]

@@ -1,17 +1,20 @@
 //! Running commands by their words, and telling a recorder which ran.
 
+use crate::app::session::executed::Executed;
+use crate::app::session::tracing::PictureChange;
+use crate::base::wording::{or_list, similar};
 use std::fmt;
 use std::path::PathBuf;
 
 use egui::Context;
 
-use super::argument::{Values, or_list, similar, switch_word};
-use super::{Action, COMMANDS, Command, Keys, Ran, find};
-use crate::app::backdrop::PictureChange;
+use super::argument::{Values, switch_word};
+use super::{Action, COMMANDS, Command, Ran, find};
+use crate::app::look::keys::Keys;
 use crate::app::panels::palette::Palette;
-use crate::app::settings::Settings;
-use crate::app::{App, Question, Severity};
-use crate::units::Units;
+use crate::app::session::{messages::Severity, questions::Question, settings::Settings};
+use crate::app::state::App;
+use crate::base::units::Units;
 
 /// Why a command was not run.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -61,13 +64,6 @@ impl fmt::Display for CommandError {
 
 impl std::error::Error for CommandError {}
 
-/// A command that was done, complete: running it again with these arguments does the same.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Executed {
-    pub id: &'static str,
-    pub arguments: Vec<String>,
-}
-
 impl App {
     /// Runs a command by its id without arguments, as a menu does: what it needs it asks for. Gives
     /// whether there is such a command and it could be done.
@@ -85,9 +81,9 @@ impl App {
             id: id.to_owned(),
             similar: similar(id, COMMANDS.iter().map(|command| command.id), 3),
         })?;
-        self.commit_field();
+        self.session.commit_field();
         let not_now = |reason: String| CommandError::NotNow { id: command.id, reason };
-        if let Some(question) = &self.question
+        if let Some(question) = &self.session.question
             && command.id != "answer"
         {
             return Err(not_now(format!("answer '{}' first", question.title(self))));
@@ -96,13 +92,15 @@ impl App {
         let availability = command.complete_availability.filter(|_| is_complete).unwrap_or(command.availability);
         availability(self).map_err(|reason| not_now(reason.to_owned()))?;
         let values = self.read_arguments(command, arguments)?;
-        self.run_with_values(command, values, context).map_err(not_now)
+        let ran = self.run_with_values(command, values, context).map_err(not_now);
+        self.grant_wishes(context);
+        ran
     }
 
     /// Runs a command with arguments of the window's own, and says why where that is refused.
-    pub(in crate::app) fn act(&mut self, id: &str, arguments: &[&str], context: &Context) {
+    pub(crate) fn act(&mut self, id: &str, arguments: &[&str], context: &Context) {
         if let Err(error) = self.run_command_with(id, arguments, context) {
-            self.say(Severity::Warning, error.to_string(), "");
+            self.session.say(Severity::Warning, error.to_string(), "");
         }
     }
 
@@ -125,11 +123,11 @@ impl App {
         let is_complete = command.arguments.get(values.0.len()).is_none_or(|argument| argument.is_optional);
         // Before the command runs: it may rename the room, or close the plan, that an argument names.
         let written = self.write_arguments(command, &values);
-        self.status.clear();
+        self.session.status.clear();
         match &command.action {
             Action::Plain(run) | Action::Choose { run, .. } => {
                 run(self, context);
-                self.note_executed(command.id, written);
+                self.session.note_executed(command.id, written);
             }
             Action::Switch { is_on, set } => {
                 let wanted = match values.switch(0) {
@@ -137,11 +135,11 @@ impl App {
                     None => !is_on(self),
                 };
                 set(self, wanted);
-                self.note_executed(command.id, vec![switch_word(wanted).to_owned()]);
+                self.session.note_executed(command.id, vec![switch_word(wanted).to_owned()]);
             }
             Action::With { run, .. } if is_complete => match run(self, &values, context) {
-                Ran::Done => self.note_executed(command.id, written),
-                Ran::DoneWith(arguments) => self.note_executed(command.id, arguments),
+                Ran::Done => self.session.note_executed(command.id, written),
+                Ran::DoneWith(arguments) => self.session.note_executed(command.id, arguments),
                 Ran::Asks => {}
                 Ran::Refused(reason) => return Err(reason),
             },
@@ -159,33 +157,28 @@ impl App {
 
     /// Starts or stops keeping the commands that are done, for [`App::take_executed`].
     pub fn watch_commands(&mut self, is_watched: bool) {
-        self.executed = is_watched.then(|| self.executed.take().unwrap_or_default());
+        self.session.executed = is_watched.then(|| self.session.executed.take().unwrap_or_default());
     }
 
     /// The commands done since the last call, in order, each with all its arguments: also those that
     /// were asked for, what was clicked, typed into a field, and seen by panning and zooming.
     /// Empty unless they are watched.
     pub fn take_executed(&mut self) -> Vec<Executed> {
-        self.executed.as_mut().map(std::mem::take).unwrap_or_default()
-    }
-
-    /// Notes that something was done which the command with these arguments does.
-    pub(in crate::app) fn note_executed(&mut self, id: &'static str, arguments: Vec<String>) {
-        let Some(executed) = &mut self.executed else { return };
-        // Of a pan, only where it ends.
-        if id == "view" && executed.last().is_some_and(|last| last.id == id) {
-            executed.pop();
-        }
-        executed.push(Executed { id, arguments });
+        self.session.executed.as_mut().map(std::mem::take).unwrap_or_default()
     }
 }
 
 impl Question {
     /// What is asked, in a sentence.
-    pub(in crate::app) fn title(&self, app: &App) -> String {
+    pub(crate) fn title(&self, app: &App) -> String {
         match self {
             Self::Unsaved(_) => {
-                let name = app.document.as_ref().map(crate::app::Document::title).unwrap_or_default();
+                let name = app
+                    .session
+                    .document
+                    .as_ref()
+                    .map(crate::app::session::document::Document::title)
+                    .unwrap_or_default();
                 format!("Save changes to {name}?")
             }
             Self::Drawing(PictureChange::Measurements(_)) => "Scale the drawing along with the picture?".to_owned(),
@@ -196,12 +189,12 @@ impl Question {
             }
             Self::Delete { selected, .. } => format!("Delete {} elements and what depends on them?", selected.len()),
             Self::Discard { title, .. } => format!("Discard the changes to {title}?"),
-            Self::Replace { path, .. } => format!("Replace {}?", crate::app::document::file_name(path)),
+            Self::Replace { path, .. } => format!("Replace {}?", crate::app::session::origin::file_name(path)),
         }
     }
 
     /// The answers there are, each with what its button says, the main one first.
-    pub(in crate::app) const fn answers(&self) -> &'static [(&'static str, &'static str)] {
+    pub(crate) const fn answers(&self) -> &'static [(&'static str, &'static str)] {
         match self {
             Self::Unsaved(_) => &[("save", "Save"), ("discard", "Don't save"), ("cancel", "Cancel")],
             Self::Drawing(_) => &[("along", "Drawing too"), ("stays", "Picture only"), ("cancel", "Cancel")],
@@ -219,55 +212,50 @@ impl App {
     /// Keeps settings in a file from now on, and takes over what it holds.
     pub fn use_settings(&mut self, file: PathBuf) {
         let (settings, problems) = Settings::read(file);
-        self.settings = settings;
+        self.session.settings = settings;
         for problem in problems {
-            self.add_message(problem);
+            self.session.add_message(problem);
         }
     }
 
     /// The first shortcut of a command as people read it ('Ctrl+Shift+S', '+'); empty without one.
     pub fn keys_text(&self, command: &Command, context: &Context) -> String {
-        self.settings.keys_of(command).first().map(|keys| keys.text(context)).unwrap_or_default()
+        self.session.settings.keys_of(command).first().map(|keys| keys.text(context)).unwrap_or_default()
     }
 
     pub(super) fn set_shortcut(&mut self, command: &'static Command, keys: Option<Keys>) -> Ran {
-        match self.settings.set_keys(command, keys) {
+        match self.session.settings.set_keys(command, keys) {
             Ok(()) => self.keep_settings(),
             Err(refused) => Ran::Refused(refused.reason(&keys.map(|keys| keys.to_string()).unwrap_or_default())),
         }
     }
 
     pub(super) fn reset_shortcut(&mut self, command: &'static Command) -> Ran {
-        match self.settings.reset_keys(command) {
+        match self.session.settings.reset_keys(command) {
             Ok(()) => self.keep_settings(),
             Err((keys, refused)) => Ran::Refused(refused.reason(&keys.to_string())),
         }
     }
 
     pub(super) fn reset_all_shortcuts(&mut self) {
-        self.settings.reset_all_keys();
+        self.session.settings.reset_all_keys();
         self.keep_settings();
     }
 
-    /// In which units lengths and areas are shown and typed.
-    pub fn units(&self) -> Units {
-        self.settings.units()
-    }
-
     pub(super) fn set_units(&mut self, units: Units) {
-        self.settings.set_units(units);
+        self.session.settings.set_units(units);
         self.keep_settings();
     }
 
     /// Sets the distance of the grid's lines in metres; `None` for as the zoom has it.
     pub(super) fn set_grid_m(&mut self, grid_m: Option<f64>) {
-        self.settings.set_grid_m(grid_m);
+        self.session.settings.set_grid_m(grid_m);
         self.keep_settings();
     }
 
     fn keep_settings(&mut self) -> Ran {
-        if let Err(problem) = self.settings.write() {
-            self.add_message(problem);
+        if let Err(problem) = self.session.settings.write() {
+            self.session.add_message(problem);
         }
         Ran::Done
     }

@@ -2,8 +2,11 @@
 
 use egui::{Id, Modal, Ui};
 
-use crate::app::widgets::{caption, dialog_frame, right, strong, text_button};
-use crate::app::{App, theme};
+use crate::app::look::{
+    theme,
+    widgets::{caption, dialog_frame, right, strong, text_button},
+};
+use crate::app::state::App;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     if !app.panels.about {

@@ -4,19 +4,22 @@ use egui::{
     Align2, ComboBox, FontId, Id, Key, Modal, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2,
 };
 
-use super::status::count;
-use crate::app::bulk::{Change, Names, Order, Which};
-use crate::app::canvas::{room_title, sentence};
 use crate::app::commands::Choice;
-use crate::app::widgets::{
-    Lead, Row, Segment, caption, colours, dialog_frame, focus_ring, put_line, right, segmented, strong, swatch,
-    text_button,
+use crate::app::look::{
+    theme,
+    widgets::{
+        Lead, Row, Segment, caption, colours, dialog_frame, focus_ring, put_line, right, segmented, strong, swatch,
+        text_button,
+    },
 };
-use crate::app::{App, theme};
+use crate::app::session::bulk::{Change, Names, Order, Which};
+use crate::app::state::App;
+use crate::base::wording::{count, sentence};
 use crate::draw::Palette;
+use crate::edit::naming::{PARTS, PatternError};
 use crate::features::RoomStatus;
 use crate::labels::Label;
-use crate::plan::naming::{PARTS, PatternError};
+use crate::plan::titles::room_title;
 
 /// Width of the dialogs, in points.
 const WIDTH: f32 = 460.0;
@@ -25,13 +28,13 @@ const WIDTH: f32 = 460.0;
 const NAMES: f32 = 76.0;
 
 /// A dialog for many rooms, while it is open.
-pub(in crate::app) enum Bulk {
+pub(crate) enum Bulk {
     Name(NameForm),
     Change(ChangeForm),
 }
 
 /// What is filled in to name rooms.
-pub(in crate::app) struct NameForm {
+pub(crate) struct NameForm {
     pattern: String,
     start: String,
     which: Which,
@@ -43,7 +46,7 @@ pub(in crate::app) struct NameForm {
 }
 
 /// What is filled in to change rooms.
-pub(in crate::app) struct ChangeForm {
+pub(crate) struct ChangeForm {
     which: Which,
     /// The function chosen last for [`Which::Function`], the label for [`Which::Label`].
     from_function: String,
@@ -63,22 +66,23 @@ enum End {
 
 impl Bulk {
     /// To name the selected rooms; without any those that have no name, or all.
-    pub(in crate::app) fn naming(app: &App) -> Self {
-        let has = |which: &Which| !app.rooms_of(which).is_empty();
+    pub(crate) fn naming(app: &App) -> Self {
+        let has = |which: &Which| !app.session.rooms_of(which).is_empty();
         let which = [Which::Selected, Which::Unnamed].into_iter().find(has).unwrap_or(Which::All);
         Self::naming_these(app, which)
     }
 
     /// To name rooms of a kind.
-    pub(in crate::app) fn naming_these(app: &App, which: Which) -> Self {
+    pub(crate) fn naming_these(app: &App, which: Which) -> Self {
         let pattern = app.panels.pattern.clone().unwrap_or_else(|| "{function} {n}".to_owned());
         Self::Name(NameForm { pattern, start: "1".to_owned(), which, order: Order::Rows, along: None, is_shown: false })
     }
 
     /// To change the selected rooms; without any those of the function that most have.
-    pub(in crate::app) fn changing(app: &App) -> Self {
-        let from_function = app.function_choices().into_iter().next().map(|choice| choice.word).unwrap_or_default();
-        let is_selected = !app.rooms_of(&Which::Selected).is_empty();
+    pub(crate) fn changing(app: &App) -> Self {
+        let from_function =
+            app.session.function_choices().into_iter().next().map(|choice| choice.word).unwrap_or_default();
+        let is_selected = !app.session.rooms_of(&Which::Selected).is_empty();
         let which = if is_selected { Which::Selected } else { Which::Function(from_function.clone()) };
         Self::Change(ChangeForm {
             which,
@@ -93,7 +97,7 @@ impl Bulk {
 }
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    if app.question.is_some() || app.document.is_none() {
+    if app.session.question.is_some() || app.session.document.is_none() {
         app.panels.bulk = None;
     }
     let Some(mut bulk) = app.panels.bulk.take() else { return };
@@ -122,14 +126,17 @@ impl NameForm {
     fn show(&mut self, app: &App, ui: &mut Ui) -> Option<End> {
         ui.label(strong("Name rooms", theme::TITLE));
         ui.add_space(6.0);
-        let numbers = [Which::Selected, Which::Unnamed, Which::All].map(|which| (app.rooms_of(&which).len(), which));
+        let numbers =
+            [Which::Selected, Which::Unnamed, Which::All].map(|which| (app.session.rooms_of(&which).len(), which));
         let texts = numbers.each_ref().map(|(number, which)| match which {
             Which::Selected => format!("Selected ({number})"),
             Which::Unnamed => format!("Unnamed ({number})"),
             _ => format!("All ({number})"),
         });
         let along = match &self.which {
-            Which::Along(_) => Some((format!("Line ({})", app.rooms_of(&self.which).len()), self.which.clone())),
+            Which::Along(_) => {
+                Some((format!("Line ({})", app.session.rooms_of(&self.which).len()), self.which.clone()))
+            }
             _ => self.along.take(),
         };
         let options: Vec<(&str, Which)> =
@@ -165,7 +172,7 @@ impl NameForm {
             is_typed |= text(ui, "Start at", &mut self.start, 64.0, false);
         });
         let start: Option<u32> = self.start.trim().parse().ok();
-        let names = app.names_by(&self.pattern, &self.which, self.order, start.unwrap_or(1));
+        let names = app.session.names_by(&self.pattern, &self.which, self.order, start.unwrap_or(1));
         ui.add_space(8.0);
         self.preview(app, ui, &names);
         let number = names.as_ref().map_or(0, |names| names.changed.len());
@@ -190,7 +197,7 @@ impl NameForm {
     fn preview(&self, app: &App, ui: &mut Ui, names: &Result<Names, PatternError>) {
         const ROW: f32 = 24.0;
         let Some(plan) = app.plan() else { return };
-        let palette = app.palette(ui);
+        let palette = app.session.palette(ui);
         let changed = names.as_ref().map(|names| names.changed.as_slice()).unwrap_or_default();
         egui::Frame::new().fill(colours(ui).field).corner_radius(theme::RADIUS).inner_margin(6).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
@@ -203,7 +210,7 @@ impl NameForm {
                 for (id, name) in changed.get(range).unwrap_or_default() {
                     let Some(room) = plan.room(*id) else { continue };
                     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
-                    let status = RoomStatus::of(plan, &app.schemes, room);
+                    let status = RoomStatus::of(plan, &app.session.schemes, room);
                     swatch(ui, rect.left_center() + vec2(12.0, 0.0), theme::colour(palette.status(status)));
                     let body = FontId::proportional(theme::BODY);
                     let strong = FontId::new(theme::BODY, theme::semibold());
@@ -225,8 +232,8 @@ impl ChangeForm {
     fn show(&mut self, app: &App, ui: &mut Ui) -> Option<End> {
         ui.label(strong("Change rooms", theme::TITLE));
         ui.add_space(6.0);
-        let palette = app.palette(ui);
-        let selected = app.rooms_of(&Which::Selected).len();
+        let palette = app.session.palette(ui);
+        let selected = app.session.rooms_of(&Which::Selected).len();
         let selected = format!("Selected ({selected})");
         let kinds = [
             (selected.as_str(), Which::Selected),
@@ -262,7 +269,7 @@ impl ChangeForm {
         }
         self.is_shown = true;
         ui.add_space(8.0);
-        let (said, number) = app.said_of_change(&self.which, &self.change);
+        let (said, number) = app.session.said_of_change(&self.which, &self.change);
         let is_complete = self.change != Change::Function(String::new());
         let said =
             if is_complete { Ok(said) } else { Ok(format!("{}…", said.trim_end_matches("‘’").trim_end())) };
@@ -281,20 +288,20 @@ impl ChangeForm {
         line(ui, "", |ui| {
             is_typed = text(ui, "New function", &mut self.to_function, ui.available_width(), !self.is_shown);
         });
-        let mut search = crate::app::search::Search::new(&self.to_function);
+        let mut search = crate::app::look::search::Search::new(&self.to_function);
         let is_chosen = |choice: &Choice| choice.word.eq_ignore_ascii_case(self.to_function.trim());
-        let choices: Vec<Choice> = app.function_choices();
+        let choices: Vec<Choice> = app.session.function_choices();
         let is_known = choices.iter().any(is_chosen);
         let shown: Vec<&Choice> =
             choices.iter().filter(|choice| is_known || search.hit(&choice.title).is_some()).collect();
         let mut chosen = None;
         line(ui, "", |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
-            let height = 4.5 * crate::app::widgets::ROW;
+            let height = 4.5 * crate::app::look::widgets::ROW;
             let area = ScrollArea::vertical().id_salt("functions").auto_shrink(false).max_height(height);
             area.min_scrolled_height(height).show_rows(
                 ui,
-                crate::app::widgets::ROW,
+                crate::app::look::widgets::ROW,
                 shown.len().max(1),
                 |ui, range| {
                     if shown.is_empty() {
@@ -382,7 +389,7 @@ fn text(ui: &mut Ui, name: &str, value: &mut String, width: f32, takes_focus: bo
 
 /// The functions that rooms of the plan have, with how many.
 fn functions_of_plan(app: &App, ui: &mut Ui, function: &mut String) {
-    let number = app.rooms_of(&Which::Function(String::new())).len();
+    let number = app.session.rooms_of(&Which::Function(String::new())).len();
     let none = Choice {
         word: String::new(),
         title: "No function".to_owned(),
@@ -391,7 +398,7 @@ fn functions_of_plan(app: &App, ui: &mut Ui, function: &mut String) {
         status: None,
     };
     let mut choices: Vec<Choice> =
-        app.function_choices().into_iter().filter(|choice| !choice.trail.is_empty()).collect();
+        app.session.function_choices().into_iter().filter(|choice| !choice.trail.is_empty()).collect();
     if number > 0 {
         choices.push(none);
     }

@@ -7,18 +7,20 @@ use std::sync::Arc;
 use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
 use super::plan_picture::{MarkKind, PlanPicture, legend};
-use super::status::count;
-use crate::app::canvas::title_of;
-use crate::app::document::Derived;
-use crate::app::widgets::{caption, colours, dialog_frame, right, section, strong, text_button};
-use crate::app::{App, theme};
-use crate::plan::{ChangeKind, Difference, ElementId, Plan};
+use crate::app::look::{
+    theme,
+    widgets::{caption, colours, dialog_frame, right, section, strong, text_button},
+};
+use crate::app::session::document::Derived;
+use crate::app::state::App;
+use crate::base::wording::count;
+use crate::plan::{ChangeKind, Difference, ElementId, Plan, titles::title_of};
 
 /// More lines than these are not read; how many there are is said.
 const MOST_LINES: usize = 200;
 
 /// What is shown, kept while neither side changes.
-pub(in crate::app) struct Shown {
+pub(crate) struct Shown {
     mine: (Plan, Arc<Derived>),
     theirs: Plan,
     pictures: [PlanPicture; 2],
@@ -90,7 +92,7 @@ fn counted(lines: Vec<(MarkKind, String)>) -> Vec<(MarkKind, String)> {
 }
 
 /// How much differs, in words: '2 rooms, 1 wall and the picture'.
-pub(in crate::app) fn summary(seen: &BTreeMap<ElementId, ChangeKind>, difference: &Difference) -> String {
+pub(crate) fn summary(seen: &BTreeMap<ElementId, ChangeKind>, difference: &Difference) -> String {
     let number = |kind: &str| seen.keys().filter(|element| element.kind() == kind).count();
     let counts = ["room", "wall", "opening"].map(|kind| (number(kind), kind));
     let mut parts: Vec<String> =
@@ -119,7 +121,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         app.panels.shown_differences = None;
         return;
     }
-    let Some((theirs, document)) = app.their_plan().zip(app.document.as_ref()) else { return };
+    let Some((theirs, document)) = app.session.their_plan().zip(app.session.document.as_ref()) else { return };
     let Some(derived) = document.derived().cloned() else { return };
     let mine = document.plan().clone();
     let shown = app.panels.shown_differences.as_ref();

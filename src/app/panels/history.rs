@@ -2,8 +2,12 @@
 
 use egui::{EventFilter, Id, Key, Rect, Response, Role, ScrollArea, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
-use crate::app::widgets::{colours, focus_ring, put_line, section};
-use crate::app::{App, Document, theme};
+use crate::app::look::{
+    theme,
+    widgets::{colours, focus_ring, put_line, section},
+};
+use crate::app::session::document::Document;
+use crate::app::state::App;
 
 /// Height of a step's row, in points.
 const ROW: f32 = 24.0;
@@ -18,7 +22,7 @@ enum Act {
 }
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    let Some(document) = &app.document else { return };
+    let Some(document) = &app.session.document else { return };
     let margin = egui::Margin { left: 8, right: 8, top: 10, bottom: 8 };
     let act = egui::Frame::new().inner_margin(margin).show(ui, |ui| {
         ui.horizontal(|ui| {

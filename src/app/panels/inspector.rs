@@ -3,23 +3,28 @@
 use egui::{Id, Key, Popup, PopupCloseBehavior, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::picture::{self, PictureAct};
-use super::status::count;
-use super::{Field, FieldKind, prediction};
-use crate::app::canvas::{room_title, sentence, title_of};
-use crate::app::document::{Derived, Document};
-use crate::app::icons::Icon;
-use crate::app::widgets::{
-    Lead, Row, Segment, caption, colours, follow_focus, hairline, link, section, segmented, strong, value,
+use super::prediction;
+use crate::app::commands;
+use crate::app::look::{
+    icons::Icon,
+    theme,
+    widgets::{Lead, Row, Segment, caption, colours, follow_focus, hairline, link, section, segmented, strong, value},
 };
-use crate::app::{App, commands, theme};
+use crate::app::session::document::{Derived, Document};
+use crate::app::session::fields::{Field, FieldKind};
+use crate::app::state::App;
+use crate::base::{
+    units::Units,
+    wording::{count, sentence},
+};
 use crate::draw::Palette;
 use crate::features::{Features, RoomAnalysis, RoomStatus};
 use crate::labels::{Label, Meaning, normalised_function};
 use crate::plan::{
     ElementId, Joint, LabelOrigin, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, ScaleOrigin,
+    titles::{room_title, title_of},
 };
 use crate::topology::RoomShape;
-use crate::units::Units;
 
 /// What a person did in the inspector.
 enum Act {
@@ -40,8 +45,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         let margin = egui::Margin { left: 16, right: 16, top: 14, bottom: 16 };
         egui::Frame::new().inner_margin(margin).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 4.0;
-            let Some(document) = &app.document else { return };
-            let inspected = Inspected { app, document, plan: document.plan(), palette: app.palette(ui) };
+            let Some(document) = &app.session.document else { return };
+            let inspected = Inspected { app, document, plan: document.plan(), palette: app.session.palette(ui) };
             act = match app.picked() {
                 Some(ElementId::Room(id)) => {
                     document.plan().room(id).and_then(|room| inspected.room(ui, id, room, &mut hovered))
@@ -72,12 +77,12 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             let id = label.map_or("label-by-function", |label| LABEL_COMMANDS[label.index()]);
             app.act(id, &[], ui.ctx());
         }
-        Some(Act::Type(field)) => app.panels.field = Some(field),
-        Some(Act::Commit) => app.commit_field(),
-        Some(Act::Revert) => drop(app.panels.take_field()),
-        Some(Act::Picture(PictureAct::Opacity(opacity))) => app.canvas.backdrop.opacity = Some(opacity),
+        Some(Act::Type(field)) => app.session.field = Some(field),
+        Some(Act::Commit) => app.session.commit_field(),
+        Some(Act::Revert) => drop(app.session.field.take()),
+        Some(Act::Picture(PictureAct::Opacity(opacity))) => app.session.backdrop.opacity = Some(opacity),
         Some(Act::Picture(PictureAct::Command(id, arguments))) => {
-            app.canvas.backdrop.opacity = None;
+            app.session.backdrop.opacity = None;
             let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
             app.act(id, &arguments, ui.ctx());
         }
@@ -102,7 +107,7 @@ impl Inspected<'_> {
     fn room(&self, ui: &mut Ui, id: RoomId, room: &Room, hovered: &mut Option<ElementId>) -> Option<Act> {
         let derived = self.document.derived();
         let analysed = derived.and_then(|derived| derived.analysis.room(id));
-        let status = RoomStatus::of(self.plan, &self.app.schemes, room);
+        let status = RoomStatus::of(self.plan, &self.app.session.schemes, room);
         let colour = self.palette.status(status);
         let letter = status.label().map_or("–", Label::letter);
         let subtitle = match status {
@@ -157,7 +162,7 @@ impl Inspected<'_> {
             FieldKind::Function => "Function",
             FieldKind::Note => "Note",
         };
-        let typed = self.app.panels.field.as_ref().filter(|field| field.room == room && field.kind == kind);
+        let typed = self.app.session.field.as_ref().filter(|field| field.room == room && field.kind == kind);
         let mut text = typed.map_or(current, |field| &field.text).to_owned();
         let mut act = None;
         ui.horizontal(|ui| {
@@ -209,7 +214,7 @@ impl Inspected<'_> {
         // Before anything is typed, all; then those that fit.
         let fits = |function: &str| !is_typed || (function.contains(&wanted) && function != wanted);
         let functions: Vec<(&str, Meaning)> =
-            self.app.schemes.functions(typology).filter(|(function, _)| fits(function)).collect();
+            self.app.session.schemes.functions(typology).filter(|(function, _)| fits(function)).collect();
         let id = response.id.with("suggestions");
         let was_open = Popup::is_id_open(ui.ctx(), id);
         let pressed_inside = was_open
@@ -355,7 +360,7 @@ impl Inspected<'_> {
         ui.add_space(6.0);
         let mut act = None;
         if selection.rooms().next().is_some() {
-            act = self.label_segments(ui, self.app.selected_label()).map(|label| Act::Label(Some(label)));
+            act = self.label_segments(ui, self.app.session.selected_label()).map(|label| Act::Label(Some(label)));
             ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = 12.0;
                 for (text, id) in [("Set function", "set-function"), ("Name", "name-rooms"), ("Change", "change-rooms")]

@@ -3,8 +3,12 @@
 use egui::{Role, ScrollArea, Ui};
 
 use crate::app::commands::{self, COMMANDS, Menu};
-use crate::app::widgets::{Lead, ROW, Row, Segment, caption, hairline, section, segmented};
-use crate::app::{App, Document, theme};
+use crate::app::look::{
+    theme,
+    widgets::{Lead, ROW, Row, Segment, caption, hairline, section, segmented},
+};
+use crate::app::session::document::Document;
+use crate::app::state::App;
 use crate::draw::{self, Fill, Palette};
 use crate::features::RoomStatus;
 use crate::labels::Label;
@@ -36,8 +40,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     if let Some(index) = segmented(ui, &segments) {
         app.run_command(fills[index].0, &context);
     }
-    if let Some(document) = &app.document {
-        legend(ui, document, app.layers.fill, app.palette(ui));
+    if let Some(document) = &app.session.document {
+        legend(ui, document, app.session.layers.fill, app.session.palette(ui));
     }
     hairline(ui);
     section(ui, "Layers");
@@ -71,7 +75,7 @@ fn legend(ui: &mut Ui, document: &Document, fill: Fill, palette: &Palette) {
             let (labelled, unlabelled, not_classified) =
                 if is_predicted { derived.drawing.predicted_counts() } else { derived.drawing.counts() };
             for label in Label::ALL {
-                let name = crate::app::canvas::sentence(label.name());
+                let name = crate::base::wording::sentence(label.name());
                 rows.push((palette.label(label), name, labelled[label.index()]));
             }
             let unlabelled_name = if is_predicted { "No prediction" } else { "No label" };
@@ -88,7 +92,7 @@ fn legend(ui: &mut Ui, document: &Document, fill: Fill, palette: &Palette) {
         Fill::Function => {
             let number = |function: &str| derived.functions.get(function).copied().unwrap_or_default();
             for (function, colour) in palette.functions(derived.functions.keys().map(String::as_str)) {
-                rows.push((colour, crate::app::canvas::sentence(&function), number(&function)));
+                rows.push((colour, crate::base::wording::sentence(&function), number(&function)));
             }
             if number("") > 0 {
                 rows.push((palette.unlabelled, "No function".to_owned(), number("")));

@@ -3,24 +3,28 @@
 
 use egui::{Frame, Label, Margin, Rect, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
 
-use crate::app::icons::Icon;
-use crate::app::widgets::{ICON, ROW, colours, icon_button, link, severity_colours, strong, text_button};
-use crate::app::{App, Message, Remedy, Severity, theme};
+use crate::app::look::{
+    icons::Icon,
+    theme,
+    widgets::{ICON, ROW, colours, icon_button, link, severity_colours, strong, text_button},
+};
+use crate::app::session::messages::{Message, Remedy, Severity};
+use crate::app::state::App;
 
 /// More messages are not shown at once; the newest ones are.
 const SHOWN: usize = 3;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    let first = app.messages.len().saturating_sub(SHOWN);
+    let first = app.session.messages.len().saturating_sub(SHOWN);
     // What stays is always shown.
-    let messages: Vec<Message> = app.messages.iter().skip(first).cloned().chain(app.bars()).collect();
+    let messages: Vec<Message> = app.session.messages.iter().skip(first).cloned().chain(app.session.bars()).collect();
     for (index, message) in messages.into_iter().enumerate() {
         let act = ui.push_id(("message", index), |ui| bar(ui, &message)).inner;
         match act {
             None => {}
             Some(Act::Dismiss) => app.act("dismiss-message", &[&(first + index + 1).to_string()], ui.ctx()),
             Some(Act::Remedy(Remedy::KeepPicture)) => {
-                if let Some(path) = app.shown_picture_word() {
+                if let Some(path) = app.session.shown_picture_word() {
                     app.act("relink-picture", &[&path], ui.ctx());
                 }
             }

@@ -2,6 +2,7 @@
 
 mod about;
 pub(super) mod bulk;
+mod canvas;
 pub(super) mod differences;
 mod history;
 mod inspector;
@@ -22,15 +23,15 @@ mod tool_strip;
 mod top_bar;
 pub(super) mod welcome;
 
+use crate::app::session::fields::FieldKind;
 use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, UiBuilder};
 
 use bulk::Bulk;
 use palette::Palette;
 use shortcuts::Sheet;
 
-use super::{App, canvas, theme};
-use crate::plan::edit::{self, EditError};
-use crate::plan::{Plan, RoomId};
+use crate::app::look::theme;
+use crate::app::state::App;
 
 /// So many points at least the list of plans keeps above the layers: its title and two plans.
 const LEAST_PLANS_HEIGHT: f32 = 110.0;
@@ -43,7 +44,7 @@ const LEAST_HISTORY_HEIGHT: f32 = 90.0;
 const LEAST_INSPECTOR_HEIGHT: f32 = 160.0;
 
 /// What the panels remember.
-pub(super) struct Panels {
+pub(crate) struct Panels {
     /// Whether the panel of plans and layers is shown.
     pub left: bool,
     /// Whether the inspector is shown.
@@ -63,8 +64,6 @@ pub(super) struct Panels {
     pub palette: Option<Palette>,
     /// Commands that were done from the palette, the last one first.
     pub recent: Vec<&'static str>,
-    /// Functions that were set, the last one first, as schemes compare them.
-    pub recent_functions: Vec<String>,
     /// The shortcuts, while they are shown.
     pub sheet: Option<Sheet>,
     /// Naming or changing many rooms, while that is asked for.
@@ -79,8 +78,6 @@ pub(super) struct Panels {
     pub right_rect: Option<egui::Rect>,
     /// Height in points that the fill and the layers took when they were last shown.
     layers_height: f32,
-    /// Text that a person has changed and not finished.
-    field: Option<Field>,
 }
 
 impl Default for Panels {
@@ -96,7 +93,6 @@ impl Default for Panels {
             shown_differences: None,
             palette: None,
             recent: Vec::new(),
-            recent_functions: Vec::new(),
             sheet: None,
             bulk: None,
             pattern: None,
@@ -105,71 +101,13 @@ impl Default for Panels {
             middle_rect: None,
             right_rect: None,
             layers_height: 360.0,
-            field: None,
-        }
-    }
-}
-
-/// A text field in the making.
-#[derive(Clone, Debug)]
-pub(super) struct Field {
-    room: RoomId,
-    kind: FieldKind,
-    text: String,
-}
-
-/// A text of a room.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum FieldKind {
-    Name,
-    Function,
-    Note,
-}
-
-impl Field {
-    pub(super) fn new(room: RoomId, kind: FieldKind, text: &str) -> Self {
-        Self { room, kind, text: text.to_owned() }
-    }
-
-    /// The id and the argument of the command that writes it.
-    pub(super) fn as_command(&self) -> (&'static str, String) {
-        let id = match self.kind {
-            FieldKind::Name => "rename",
-            FieldKind::Function => "set-function",
-            FieldKind::Note => "set-note",
-        };
-        (id, self.text.clone())
-    }
-
-    /// What the edit is called in the history.
-    pub(super) fn title(&self) -> &'static str {
-        match self.kind {
-            FieldKind::Name => "Rename room",
-            FieldKind::Function => "Set function",
-            FieldKind::Note => "Write note",
-        }
-    }
-
-    /// # Errors
-    /// When the room is gone.
-    pub(super) fn apply(&self, plan: &Plan) -> Result<Plan, EditError> {
-        match self.kind {
-            FieldKind::Name => edit::set_name(plan, self.room, &self.text),
-            FieldKind::Function => edit::set_function(plan, self.room, &self.text),
-            FieldKind::Note => edit::change_room(plan, self.room, |room| room.note = self.text.trim().to_owned()),
         }
     }
 }
 
 impl Panels {
-    /// The text that is not part of the plan yet; it is taken out.
-    pub(super) fn take_field(&mut self) -> Option<Field> {
-        self.field.take()
-    }
-
     /// Forgets what belongs to the plan that was shown.
     pub(super) fn forget(&mut self) {
-        self.field = None;
         self.notes = false;
         self.bulk = None;
         self.differences = false;
@@ -207,7 +145,7 @@ fn show_right(app: &mut App, ui: &mut Ui) {
 }
 
 /// Shows the window.
-pub(super) fn show(app: &mut App, ui: &mut Ui) {
+pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     let colours = theme::colours(ui.visuals());
     let frame = |margin: Margin| Frame::new().fill(colours.panel).inner_margin(margin);
     app.canvas.hovered_in_panel = None;
@@ -248,7 +186,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             });
         app.panels.left_rect = Some(shown.response.rect);
     }
-    if (app.panels.right || app.panels.history) && app.document.is_some() {
+    if (app.panels.right || app.panels.history) && app.session.document.is_some() {
         let shown = Panel::right("inspector")
             .default_size(300.0)
             .size_range(240.0..=520.0)
@@ -256,7 +194,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             .show(ui, |ui| show_right(app, ui));
         app.panels.right_rect = Some(shown.response.rect);
     }
-    if app.document.is_some() {
+    if app.session.document.is_some() {
         Panel::left("tools")
             .exact_size(tool_strip::WIDTH)
             .resizable(false)
@@ -266,7 +204,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let shown = CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         messages::show(app, ui);
-        if app.document.is_some() {
+        if app.session.document.is_some() {
             canvas::show(app, ui);
         } else {
             welcome::show(app, ui);

@@ -2,12 +2,15 @@
 
 use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
-use crate::app::widgets::{caption, colours, dialog_frame, right, strong, text_button};
-use crate::app::{App, theme};
+use crate::app::look::{
+    theme,
+    widgets::{caption, colours, dialog_frame, right, strong, text_button},
+};
+use crate::app::state::App;
 use crate::formats::{Note, NoteKind};
 
 /// How many notes of each kind, in words: '3 things mended, 1 left out'.
-pub(in crate::app) fn summary(notes: &[Note]) -> String {
+pub(crate) fn summary(notes: &[Note]) -> String {
     let number = |kind: NoteKind| notes.iter().filter(|note| note.kind == kind).count();
     let (healed, skipped) = (number(NoteKind::Healed), number(NoteKind::Skipped));
     let things = |number: usize| if number == 1 { "thing" } else { "things" };
@@ -19,7 +22,7 @@ pub(in crate::app) fn summary(notes: &[Note]) -> String {
 }
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    let Some(document) = app.document.as_ref().filter(|_| app.panels.notes) else { return };
+    let Some(document) = app.session.document.as_ref().filter(|_| app.panels.notes) else { return };
     let response = Modal::new(Id::unique("import notes")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
         ui.set_width(620.0_f32.min(ui.ctx().content_rect().width() - 80.0).max(0.0));
         ui.label(strong("Import notes", theme::TITLE));

@@ -7,12 +7,15 @@ use egui::{
     Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use crate::app::canvas::sentence;
 use crate::app::commands::{Argument, COMMANDS, Choice, Command};
-use crate::app::icons::Icon;
-use crate::app::search::{Hit, Search};
-use crate::app::widgets::{ICON, ROW, colours, hairline_in, put_line, swatch};
-use crate::app::{App, theme};
+use crate::app::look::{
+    icons::Icon,
+    search::{Hit, Search},
+    theme,
+    widgets::{ICON, ROW, colours, hairline_in, put_line, swatch},
+};
+use crate::app::state::App;
+use crate::base::wording::sentence;
 
 /// Width of the palette, in points.
 const WIDTH: f32 = 580.0;
@@ -31,7 +34,7 @@ const RECENT: usize = 6;
 
 /// The palette while it is open.
 #[derive(Default)]
-pub(in crate::app) struct Palette {
+pub(crate) struct Palette {
     query: String,
     /// The row that Enter takes.
     at: usize,
@@ -78,12 +81,12 @@ impl Asking {
 
 impl Palette {
     /// Asks for what a command needs after some given arguments.
-    pub(in crate::app) fn asking(command: &'static Command, given: Vec<String>) -> Self {
+    pub(crate) fn asking(command: &'static Command, given: Vec<String>) -> Self {
         Self { asking: Some(Asking::new(command, given)), ..Self::default() }
     }
 
     /// Says what the command is about, with the arguments behind the one that is asked for.
-    pub(in crate::app) fn about(mut self, about: &str, rest: Vec<String>) -> Self {
+    pub(crate) fn about(mut self, about: &str, rest: Vec<String>) -> Self {
         if let Some(asking) = &mut self.asking {
             (asking.about, asking.rest) = (about.to_owned(), rest);
         }
@@ -91,7 +94,7 @@ impl Palette {
     }
 
     /// Offers these choices.
-    pub(in crate::app) fn with_choices(mut self, choices: Vec<Choice>) -> Self {
+    pub(crate) fn with_choices(mut self, choices: Vec<Choice>) -> Self {
         if let Some(asking) = &mut self.asking {
             asking.choices = Some(Some(choices));
         }
@@ -99,7 +102,7 @@ impl Palette {
     }
 
     /// Puts a text into the field, to be changed.
-    pub(in crate::app) fn with_text(self, text: &str) -> Self {
+    pub(crate) fn with_text(self, text: &str) -> Self {
         Self { query: text.to_owned(), ..self }
     }
 }
@@ -143,7 +146,7 @@ enum Act {
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     // A question comes first, and what was begun here is forgotten.
-    if app.question.is_some() {
+    if app.session.question.is_some() {
         app.panels.palette = None;
     }
     let Some(mut palette) = app.panels.palette.take() else { return };
@@ -536,7 +539,7 @@ fn command_lines(app: &App, ui: &Ui, search: &mut Search) -> Vec<Line> {
 }
 
 fn argument_lines(app: &App, ui: &Ui, choices: &[Choice], search: &mut Search) -> Vec<Line> {
-    let palette = app.palette(ui);
+    let palette = app.session.palette(ui);
     let mut found: Vec<(std::cmp::Reverse<u32>, Line)> = Vec::new();
     for choice in choices {
         let Choice { word, title, detail, trail, status } = choice;

@@ -1,14 +1,18 @@
 //! The picture under the plan: what it is, how strongly it is seen, how its scale was found.
 
+use crate::app::session::tracing::millimetres;
 use egui::{FontId, Role, Sense, Slider, Ui, WidgetInfo, pos2, vec2};
 
-use crate::app::App;
-use crate::app::backdrop::{Known, millimetres};
-use crate::app::icons::Icon;
-use crate::app::theme;
-use crate::app::widgets::{ROW, caption, colours, icon_button, link, put_line, section, value};
-use crate::plan::{Backdrop, Calibration, Measurement, ScaleOrigin};
-use crate::units::Units;
+use crate::app::look::{
+    icons::Icon,
+    theme,
+    widgets::{ROW, caption, colours, icon_button, link, put_line, section, value},
+};
+use crate::app::paint::backdrop::Known;
+use crate::app::state::App;
+use crate::base::units::Units;
+use crate::edit::Calibration;
+use crate::plan::{Backdrop, Measurement, ScaleOrigin};
 
 /// What a person did in the section.
 pub(super) enum PictureAct {
@@ -26,7 +30,7 @@ pub(super) fn show(ui: &mut Ui, app: &App, backdrop: &Backdrop) -> Option<Pictur
     section(ui, "Picture");
     let name = backdrop.path.rsplit('/').next().unwrap_or(&backdrop.path);
     value(ui, "File", name).on_hover_text(&backdrop.path);
-    match app.canvas.backdrop.state() {
+    match app.session.backdrop.state() {
         None => {}
         Some(Known::Loading) => drop(value(ui, "Size", "Reading…")),
         Some(Known::Shown(picture)) => {
@@ -73,7 +77,7 @@ pub(super) fn show(ui: &mut Ui, app: &App, backdrop: &Backdrop) -> Option<Pictur
 /// How strongly it is seen: one step of the history when the slider is let go.
 fn opacity(ui: &mut Ui, app: &App, backdrop: &Backdrop) -> Option<PictureAct> {
     let before = (backdrop.opacity * 100.0).round();
-    let mut percent = app.canvas.backdrop.opacity.map_or(before, |opacity| (opacity * 100.0).round());
+    let mut percent = app.session.backdrop.opacity.map_or(before, |opacity| (opacity * 100.0).round());
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
     let name_width = (rect.width() * 0.42).min(110.0);
     let weak = colours(ui).text_weak;

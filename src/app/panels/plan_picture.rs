@@ -6,10 +6,13 @@ use std::sync::Arc;
 use egui::epaint::StrokeKind;
 use egui::{Color32, Painter, Rect, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, vec2};
 
-use crate::app::document::Derived;
-use crate::app::scene_painter::{ScenePainter, earcut, on_screen, outline_mesh, polygon_mesh};
-use crate::app::theme;
-use crate::app::widgets::colours;
+use crate::app::look::theme;
+use crate::app::look::widgets::colours;
+use crate::app::paint::{
+    places::on_screen,
+    scene_painter::{ScenePainter, earcut, outline_mesh, polygon_mesh},
+};
+use crate::app::session::document::Derived;
 use crate::draw::{self, Fill, LabelColours, Layers, Palette, Style, View};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::plan::{ChangeKind, Difference, ElementId, Plan};
@@ -21,7 +24,7 @@ const MOST_MARKS: usize = 4000;
 const MARGIN: f64 = 14.0;
 
 /// A picture of a plan and of what changed.
-pub(in crate::app) struct PlanPicture {
+pub(crate) struct PlanPicture {
     derived: Arc<Derived>,
     marks: Vec<Mark>,
     bounds: Bounds,
@@ -30,7 +33,7 @@ pub(in crate::app) struct PlanPicture {
 
 /// What is said of something that changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::app) enum MarkKind {
+pub(crate) enum MarkKind {
     Added,
     Changed,
     /// Not in the plan any more.
@@ -40,10 +43,10 @@ pub(in crate::app) enum MarkKind {
 }
 
 impl MarkKind {
-    pub(in crate::app) const ALL: [Self; 4] = [Self::Added, Self::Changed, Self::Removed, Self::Both];
+    pub(crate) const ALL: [Self; 4] = [Self::Added, Self::Changed, Self::Removed, Self::Both];
 
     /// The word for people.
-    pub(in crate::app) const fn title(self) -> &'static str {
+    pub(crate) const fn title(self) -> &'static str {
         match self {
             Self::Added => "Added",
             Self::Changed => "Changed",
@@ -100,7 +103,7 @@ impl MarkShape {
 impl PlanPicture {
     /// The picture of a plan that was `before`, with what follows from it. `both`: what changed on another
     /// side too.
-    pub(in crate::app) fn new(before: &Plan, plan: &Plan, derived: Arc<Derived>, both: &BTreeSet<ElementId>) -> Self {
+    pub(crate) fn new(before: &Plan, plan: &Plan, derived: Arc<Derived>, both: &BTreeSet<ElementId>) -> Self {
         let seen = Difference::between(before, plan).seen(before, plan);
         let marks = seen.iter().take(MOST_MARKS).filter_map(|(&element, &kind)| {
             let (of, kind) = match kind {
@@ -123,7 +126,7 @@ impl PlanPicture {
     }
 
     /// Paints it in a frame of this size.
-    pub(in crate::app) fn show(&mut self, ui: &mut Ui, size: Vec2, name: &str) {
+    pub(crate) fn show(&mut self, ui: &mut Ui, size: Vec2, name: &str) {
         let (frame, response) = ui.allocate_exact_size(size, Sense::hover());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
         let theme = if ui.visuals().dark_mode { draw::Theme::Dark } else { draw::Theme::Light };
@@ -145,7 +148,7 @@ impl PlanPicture {
     }
 
     /// The kinds of marks in it, in the order of [`MarkKind::ALL`].
-    pub(in crate::app) fn kinds(&self) -> impl Iterator<Item = MarkKind> + '_ {
+    pub(crate) fn kinds(&self) -> impl Iterator<Item = MarkKind> + '_ {
         MarkKind::ALL.into_iter().filter(|kind| self.marks.iter().any(|mark| mark.kind == *kind))
     }
 }
@@ -184,7 +187,7 @@ fn paint_mark(painter: &Painter, rect: Rect, view: &View, mark: &Mark, colour: C
 }
 
 /// What the marks mean.
-pub(in crate::app) fn legend(ui: &mut Ui, kinds: impl Iterator<Item = MarkKind>) {
+pub(crate) fn legend(ui: &mut Ui, kinds: impl Iterator<Item = MarkKind>) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         for kind in kinds {
@@ -193,7 +196,7 @@ pub(in crate::app) fn legend(ui: &mut Ui, kinds: impl Iterator<Item = MarkKind>)
             let strength = if kind == MarkKind::Removed { 0.12 } else { 0.32 };
             ui.painter().rect_filled(square, 2.0, colour.gamma_multiply(strength));
             ui.painter().rect_stroke(square, 2.0, Stroke::new(1.5, colour), StrokeKind::Inside);
-            crate::app::widgets::caption(ui, kind.title());
+            crate::app::look::widgets::caption(ui, kind.title());
             ui.add_space(10.0);
         }
     });

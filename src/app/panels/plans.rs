@@ -4,10 +4,13 @@ use std::path::Path;
 
 use egui::{Role, ScrollArea, Ui};
 
-use crate::app::document::{Origin, bundled, file_name};
-use crate::app::icons::Icon;
-use crate::app::widgets::{Lead, ROW, Row, icon_button, right, section};
-use crate::app::{App, commands};
+use crate::app::commands;
+use crate::app::look::{
+    icons::Icon,
+    widgets::{Lead, ROW, Row, icon_button, right, section},
+};
+use crate::app::session::origin::{Origin, bundled, file_name};
+use crate::app::state::App;
 
 /// A row of the list.
 enum Entry {
@@ -30,7 +33,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             }
         });
     });
-    let current = app.document.as_ref().map(|document| document.origin.clone());
+    let current = app.session.document.as_ref().map(|document| document.origin.clone());
     let mut wanted = None;
     ui.spacing_mut().item_spacing.y = 0.0;
     ScrollArea::vertical().auto_shrink([false, false]).show_rows(ui, ROW, entries.len(), |ui, range| {
@@ -66,12 +69,12 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
 
 fn entries(app: &App) -> Vec<Entry> {
     let mut entries = Vec::new();
-    let document = app.document.as_ref();
-    if let Some(folder) = &app.list.folder
-        && !app.list.files.is_empty()
+    let document = app.session.document.as_ref();
+    if let Some(folder) = &app.session.list.folder
+        && !app.session.list.files.is_empty()
     {
         entries.push(Entry::Title(folder_name(folder)));
-        for path in &app.list.files {
+        for path in &app.session.list.files {
             let origin = Origin::File { path: path.clone(), storey: 0 };
             let open = document.filter(|document| document.origin.path() == Some(path) && document.storeys.len() > 1);
             entries.push(Entry::Plan { text: file_name(path), origin });

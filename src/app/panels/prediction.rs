@@ -2,10 +2,13 @@
 
 use egui::{Align2, ComboBox, FontId, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
-use crate::app::canvas::sentence;
 use crate::app::commands::{self, COMMANDS, Menu};
-use crate::app::widgets::{caption, colours, focus_ring, follow_focus, section, text_button};
-use crate::app::{App, theme};
+use crate::app::look::{
+    theme,
+    widgets::{caption, colours, focus_ring, follow_focus, section, text_button},
+};
+use crate::app::state::App;
+use crate::base::wording::sentence;
 use crate::draw::Palette;
 use crate::features::RoomStatus;
 use crate::labels::Label;

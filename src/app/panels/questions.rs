@@ -2,13 +2,17 @@
 
 use egui::{Id, Key, Modal, Ui};
 
-use super::status::count;
-use crate::app::widgets::{dialog_frame, right, strong, text_button};
-use crate::app::{App, Intent, Question, theme};
+use crate::app::look::{
+    theme,
+    widgets::{dialog_frame, right, strong, text_button},
+};
+use crate::app::session::questions::{Intent, Question};
+use crate::app::state::App;
+use crate::base::wording::count;
 use crate::plan::ElementId;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    let Some(question) = &app.question else { return };
+    let Some(question) = &app.session.question else { return };
     let title = question.title(app);
     let text = match question {
         Question::Unsaved(intent) => {

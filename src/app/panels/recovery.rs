@@ -5,10 +5,13 @@ use std::time::SystemTime;
 use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
 use super::plan_picture::{MarkKind, legend};
-use super::status::count;
-use crate::app::recovery::Offered;
-use crate::app::widgets::{caption, colours, dialog_frame, right, strong, text_button};
-use crate::app::{App, theme};
+use crate::app::look::{
+    theme,
+    widgets::{caption, colours, dialog_frame, right, strong, text_button},
+};
+use crate::app::session::recovery::Offered;
+use crate::app::state::App;
+use crate::base::wording::count;
 
 /// Size of a picture, in points.
 const PICTURE: egui::Vec2 = vec2(300.0, 190.0);
@@ -21,11 +24,11 @@ enum Act {
 }
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    if !app.panels.recovery || app.safety.leftovers.is_empty() {
+    if !app.panels.recovery || app.session.safety.leftovers.is_empty() {
         return;
     }
-    let mut leftovers = std::mem::take(&mut app.safety.leftovers);
-    let now = app.safety.clock.map(|clock| clock());
+    let mut leftovers = std::mem::take(&mut app.session.safety.leftovers);
+    let now = app.session.safety.clock.map(|clock| clock());
     let response = Modal::new(Id::unique("recovery")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
         ui.set_width(680.0_f32.min(ui.ctx().content_rect().width() - 80.0).max(0.0));
         ui.label(strong("Recover unsaved work", theme::TITLE));
@@ -62,7 +65,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         });
         act
     });
-    app.safety.leftovers = leftovers;
+    app.session.safety.leftovers = leftovers;
     match response.inner.or(response.should_close().then_some(Act::Later)) {
         None => {}
         Some(Act::Recover(number)) => app.act("recover", &[&number.to_string()], ui.ctx()),
@@ -89,11 +92,11 @@ fn one(app: &App, ui: &mut Ui, number: usize, offered: &mut Offered, now: Option
                 Err(what) => {
                     let text = RichText::new(format!("It cannot be read: {what}.")).color(colours(ui).error);
                     ui.add(Label::new(text).wrap());
-                    caption(ui, app.shown_path(&offered.leftover.path));
+                    caption(ui, app.session.shown_path(&offered.leftover.path));
                 }
                 Ok(recovered) => {
                     let file = recovered.start.file.as_deref();
-                    let place = file.map_or("In no file yet".to_owned(), |path| app.shown_path(path));
+                    let place = file.map_or("In no file yet".to_owned(), |path| app.session.shown_path(path));
                     ui.add(Label::new(RichText::new(place).size(theme::SMALL).color(colours(ui).text_weak)).wrap());
                     ui.add_space(4.0);
                     let changes = count(recovered.history.position().max(1), "change");

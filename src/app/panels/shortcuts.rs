@@ -6,17 +6,22 @@ use egui::{
     TextEdit, Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use crate::app::commands::{self, COMMANDS, Command, CommandError, Keys, Menu};
-use crate::app::icons::Icon;
-use crate::app::search::Search;
-use crate::app::widgets::{
-    ICON, caption, colours, dialog_frame, focus_ring, follow_focus, icon_button, put_line, right, strong, text_button,
+use crate::app::commands::{self, COMMANDS, Command, CommandError, Menu};
+use crate::app::look::{
+    icons::Icon,
+    keys::Keys,
+    search::Search,
+    theme,
+    widgets::{
+        ICON, caption, colours, dialog_frame, focus_ring, follow_focus, icon_button, put_line, right, strong,
+        text_button,
+    },
 };
-use crate::app::{App, theme};
+use crate::app::state::App;
 
 /// The sheet while it is open.
 #[derive(Default)]
-pub(in crate::app) struct Sheet {
+pub(crate) struct Sheet {
     query: String,
     /// The command for which keys are waited for.
     changing: Option<&'static str>,
@@ -70,7 +75,7 @@ const COLUMNS: [&[&[Menu]]; 3] = [
 ];
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    if app.question.is_some() {
+    if app.session.question.is_some() {
         app.panels.sheet = None;
     }
     let Some(mut sheet) = app.panels.sheet.take() else { return };
@@ -160,7 +165,7 @@ impl Sheet {
             });
             ui.add_space(10.0);
             ui.horizontal(|ui| {
-                let is_any = app.settings.is_any_changed();
+                let is_any = app.session.settings.is_any_changed();
                 let reset = ui.add_enabled_ui(is_any, |ui| text_button(ui, "Reset all", false)).inner;
                 if reset.clicked() {
                     act = Some(Act::ResetAll);
@@ -287,8 +292,8 @@ impl Sheet {
     fn line(&self, app: &App, ui: &mut Ui, command: &'static Command) -> Option<Act> {
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), LINE), Sense::hover());
         let is_changing = self.changing == Some(command.id);
-        let is_changed = app.settings.is_changed(command);
-        let texts: Vec<String> = app.settings.keys_of(command).iter().map(|keys| keys.text(ui.ctx())).collect();
+        let is_changed = app.session.settings.is_changed(command);
+        let texts: Vec<String> = app.session.settings.keys_of(command).iter().map(|keys| keys.text(ui.ctx())).collect();
         let mut act = None;
         let shown = if is_changing { "Press keys…".to_owned() } else { texts.first().cloned().unwrap_or_default() };
         let chip = self.chip(ui, rect, command, &shown, &texts.join(" or "), is_changing);

@@ -1,10 +1,15 @@
 //! The line at the bottom: what is there, what was done, where the pointer is, how large.
 
+use crate::base::wording::{count, thousands};
 use egui::{Align, Layout, RichText, Sense, Ui, vec2};
 
-use crate::app::icons::Icon;
-use crate::app::widgets::{colours, icon_button, right};
-use crate::app::{App, commands, theme};
+use crate::app::commands;
+use crate::app::look::{
+    icons::Icon,
+    theme,
+    widgets::{colours, icon_button, right},
+};
+use crate::app::state::App;
 
 /// Metres in a point of a screen of 96 points to the inch, which is what egui's points are meant to
 /// be.
@@ -18,7 +23,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             ui.label(RichText::new("● Recording").size(theme::SMALL).color(colours(ui).error));
             ui.add_space(6.0);
         }
-        if app.journal_failure().is_some() {
+        if app.session.journal_failure().is_some() {
             ui.label(RichText::new("● Not kept safe").size(theme::SMALL).color(colours(ui).error));
             ui.add_space(6.0);
         }
@@ -30,7 +35,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         });
         right(ui, |ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
-            let Some(px_per_m) = app.canvas.px_per_m().filter(|_| app.document.is_some()) else { return };
+            let Some(px_per_m) = app.canvas.px_per_m().filter(|_| app.session.document.is_some()) else { return };
             zoom_button(app, ui, Icon::Plus, "zoom-in");
             let scale = 1.0 / (px_per_m * METRES_PER_POINT);
             let (rect, response) = ui.allocate_exact_size(vec2(60.0, 22.0), Sense::hover());
@@ -41,7 +46,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             response.on_hover_text("Scale on a screen of 96 points to the inch");
             zoom_button(app, ui, Icon::Minus, "zoom-out");
             ui.add_space(14.0);
-            if let Some(point) = app.canvas.pointer {
+            if let Some(point) = app.session.pointed.at {
                 let units = app.units();
                 ui.label(small(format!("x {}    y {}", units.length(point.x), units.length(point.y))));
             }
@@ -60,22 +65,22 @@ fn zoom_button(app: &mut App, ui: &mut Ui, icon: Icon, id: &str) {
     }
 }
 
-pub(in crate::app) fn left_text(app: &App) -> String {
-    if let Some(origin) = &app.opening {
+pub(crate) fn left_text(app: &App) -> String {
+    if let Some(origin) = &app.session.opening {
         return format!("Opening {}…", origin.title());
     }
-    let Some(document) = &app.document else { return String::new() };
-    if let Some(name) = &app.reading_picture {
+    let Some(document) = &app.session.document else { return String::new() };
+    if let Some(name) = &app.session.reading_picture {
         return format!("Reading {name}…");
     }
-    if app.canvas.backdrop.is_loading() {
+    if app.session.backdrop.is_loading() {
         return "Reading the picture…".to_owned();
     }
     if document.derived().is_none() {
         return "Working out rooms and features…".to_owned();
     }
     let said: Vec<&str> =
-        [app.status.as_str(), app.tools.hint.as_str()].into_iter().filter(|text| !text.is_empty()).collect();
+        [app.session.status.as_str(), app.tools.hint.as_str()].into_iter().filter(|text| !text.is_empty()).collect();
     if !said.is_empty() {
         return said.join("  ·  ");
     }
@@ -86,36 +91,4 @@ pub(in crate::app) fn left_text(app: &App) -> String {
         text.push_str(&format!("  ·  {}", count(plan.openings().len() - passable, "window")));
     }
     text
-}
-
-/// A number of things, in words.
-pub(in crate::app) fn count(number: usize, thing: &str) -> String {
-    let plural = if number == 1 { "" } else { "s" };
-    format!("{} {thing}{plural}", thousands(number as u64))
-}
-
-/// A number with its thousands apart.
-fn thousands(number: u64) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            // A thin space that does not break, as ISO 80000 has it.
-            text.push('\u{202f}');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_read_well() {
-        assert_eq!(count(1, "room"), "1 room");
-        assert_eq!(count(0, "room"), "0 rooms");
-        assert_eq!(count(1234567, "wall"), "1\u{202f}234\u{202f}567 walls");
-    }
 }

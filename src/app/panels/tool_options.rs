@@ -4,9 +4,12 @@
 use egui::{Area, DragValue, Frame, Id, Margin, Order, RichText, Ui, vec2};
 
 use crate::app::commands;
-use crate::app::widgets::{colours, toggle};
-use crate::app::{App, theme};
-use crate::units::Units;
+use crate::app::look::{
+    theme,
+    widgets::{colours, toggle},
+};
+use crate::app::state::App;
+use crate::base::units::Units;
 
 /// The tools for which something can be told, with the commands of their switches.
 fn switches(id: &str) -> &'static [(&'static str, &'static str)] {
@@ -26,7 +29,7 @@ fn switches(id: &str) -> &'static [(&'static str, &'static str)] {
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let id = app.tools.id();
-    if app.document.is_none() || app.tools.is_selecting() {
+    if app.session.document.is_none() || app.tools.is_selecting() {
         return;
     }
     let Some(canvas) = app.canvas.seen_rect() else { return };
@@ -45,16 +48,16 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
                 ui.spacing_mut().item_spacing = vec2(8.0, 4.0);
                 let command = commands::find(&format!("tool-{id}")).or(commands::find(id));
                 let title = command.map_or("", |command| command.title);
-                ui.label(crate::app::widgets::strong(title, theme::BODY));
+                ui.label(crate::app::look::widgets::strong(title, theme::BODY));
                 ui.add_space(8.0);
                 let has_thickness =
-                    id == "walls" || (matches!(id, "room" | "rectangle") && app.draw_options.walls_with_rooms);
+                    id == "walls" || (matches!(id, "room" | "rectangle") && app.tools.options.walls_with_rooms);
                 if has_thickness {
-                    let now = app.draw_options.thickness_m;
+                    let now = app.tools.options.thickness_m;
                     length(app, ui, "Thickness", "wall-thickness", now, 0.0..=10.0);
                 }
                 if matches!(id, "door" | "double-door" | "passage" | "window") {
-                    let now = app.draw_options.opening_width_m;
+                    let now = app.tools.options.opening_width_m;
                     length(app, ui, "Width", "opening-width", now, 0.1..=100.0);
                 }
                 for (id, name) in switches(id) {

@@ -4,8 +4,11 @@ use egui::{Align2, FontId, Sense, Stroke, Ui, vec2};
 
 use super::top_bar::with_tooltip;
 use crate::app::commands::COMMANDS;
-use crate::app::widgets::{ROW, colours, icon_button};
-use crate::app::{App, theme};
+use crate::app::look::{
+    theme,
+    widgets::{ROW, colours, icon_button},
+};
+use crate::app::state::App;
 
 /// Space around a tool, in points.
 const SPACE: f32 = 2.0;

@@ -5,10 +5,13 @@ use egui::{
     vec2,
 };
 
-use crate::app::canvas::sentence;
 use crate::app::commands::{COMMANDS, Command, Menu};
-use crate::app::widgets::{Lead, ROW, Row, colours, focus_ring, icon_button, strong};
-use crate::app::{App, theme};
+use crate::app::look::{
+    theme,
+    widgets::{Lead, ROW, Row, colours, focus_ring, icon_button, strong},
+};
+use crate::app::state::App;
+use crate::base::wording::sentence;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let bar = ui.max_rect();
@@ -122,7 +125,7 @@ pub(super) fn with_tooltip(app: &App, response: Response, context: &Context, com
 fn title(app: &App, ui: &Ui, left: f32, right: f32) {
     // Less than this shows no more than a letter or two.
     const LEAST_WIDTH: f32 = 80.0;
-    let Some(document) = app.document.as_ref().filter(|_| right - left >= LEAST_WIDTH) else { return };
+    let Some(document) = app.session.document.as_ref().filter(|_| right - left >= LEAST_WIDTH) else { return };
     let colours = colours(ui);
     let bar = ui.max_rect();
     let mut text = document.title();
@@ -149,7 +152,7 @@ fn title(app: &App, ui: &Ui, left: f32, right: f32) {
     let name = if document.is_changed() { format!("{}, changed", document.title()) } else { document.title() };
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &name));
     match document.origin.path() {
-        Some(path) => drop(response.on_hover_text(app.shown_path(path))),
+        Some(path) => drop(response.on_hover_text(app.session.shown_path(path))),
         None if is_elided => drop(response.on_hover_text(text)),
         None => {}
     }

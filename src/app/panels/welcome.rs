@@ -9,11 +9,18 @@ use egui::{
     Stroke, Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
 };
 
-use super::status::count;
-use crate::app::document::{Derived, Origin, bundled, derived_sample};
-use crate::app::scene_painter::ScenePainter;
-use crate::app::widgets::{colours, follow_focus, section, strong, text_button};
-use crate::app::{App, commands, theme};
+use crate::app::commands;
+use crate::app::look::{
+    theme,
+    widgets::{colours, follow_focus, section, strong, text_button},
+};
+use crate::app::paint::scene_painter::ScenePainter;
+use crate::app::session::{
+    document::{Derived, derived_sample},
+    origin::{Origin, bundled},
+};
+use crate::app::state::App;
+use crate::base::wording::count;
 use crate::draw::{Layers, Style, View};
 use crate::plan::Plan;
 
@@ -25,7 +32,7 @@ const GAP: f32 = 16.0;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let rect = ui.available_rect_before_wrap();
-    let palette = app.palette(ui);
+    let palette = app.session.palette(ui);
     ui.painter().rect_filled(rect, 0.0, theme::colour(palette.paper));
     let samples = bundled().len();
     let columns = ((rect.width() - 48.0 + GAP) / (CARD.x + GAP)).floor().clamp(1.0, 3.0);
@@ -82,7 +89,7 @@ fn card(app: &mut App, ui: &mut Ui, index: usize, plan: &Plan) -> Response {
     let rim = if response.has_focus() { Stroke::new(2.0, colours.accent) } else { Stroke::new(1.0, colours.outline) };
     ui.painter().rect_stroke(rect, radius, rim, StrokeKind::Inside);
     let picture = Rect::from_min_max(rect.min + vec2(14.0, 12.0), rect.max - vec2(14.0, 50.0));
-    let (theme, label_colours) = (app.palette(ui).theme, app.layers.colours);
+    let (theme, label_colours) = (app.session.palette(ui).theme, app.session.layers.colours);
     let sample = app.samples.get(index, plan);
     let (width_px, height_px) = (f64::from(picture.width()), f64::from(picture.height()));
     let view = View {
@@ -105,7 +112,7 @@ fn card(app: &mut App, ui: &mut Ui, index: usize, plan: &Plan) -> Response {
 
 /// The samples' pictures, made when they are first seen.
 #[derive(Default)]
-pub(in crate::app) struct Samples(Vec<Option<Sample>>);
+pub(crate) struct Samples(Vec<Option<Sample>>);
 
 struct Sample {
     derived: Arc<Derived>,

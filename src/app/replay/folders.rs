@@ -33,7 +33,7 @@ impl Folders {
         }
         let source = self.script.join(path);
         if source.is_dir() {
-            let plans = crate::app::plan_list::plans_in(&source);
+            let plans = crate::app::session::plan_list::plans_in(&source);
             std::fs::create_dir_all(&target).map_err(|error| cannot_copy(path, &error.to_string()))?;
             for plan in plans {
                 copy_plan(&plan, &target.join(file_name(&plan))).map_err(|what| cannot_copy(path, &what))?;

@@ -1,7 +1,7 @@
 //! Replay scripts: what a person does in the window, written down line by line, done again without a
 //! display, and looked at.
 //!
-//! A script drives the same [`App`](super::App) that a person sees, through [`Offscreen`](super::Offscreen):
+//! A script drives the same [`App`](crate::app::state::App) that a person sees, through [`Offscreen`](crate::app::offscreen::Offscreen):
 //! the same input events, a clock of its own, dialogs answered beforehand. [`find_scripts`] finds
 //! scripts, [`replay`] runs one, [`guide`] describes the language from the table of verbs.
 

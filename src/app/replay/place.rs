@@ -2,9 +2,9 @@
 
 use egui::{Pos2, pos2};
 
-use super::script::shortened;
 use super::stage::{Fault, Stage};
-use super::words::{Words, in_quotes, written};
+use super::words::{Words, in_quotes};
+use crate::app::replay::words::told;
 use crate::geometry::Point;
 
 /// A place of a script.
@@ -61,7 +61,7 @@ impl Place {
                 Ok(Self::Control { name, number, offset })
             }
             other => {
-                let other = written(&shortened(other));
+                let other = told(other);
                 Err(format!("a place is at X,Y, pixel X,Y, room NAME or control NAME, not {other}"))
             }
         }

@@ -5,25 +5,31 @@
 //! and so does the plan it ends with, so that it can be replayed anywhere and says whether it went the
 //! same way.
 
+use crate::app::session::origin::file_name;
 use std::path::{Path, PathBuf};
 
 use egui::Context;
 
 use super::folders::inner;
 use super::words::written;
-use crate::app::background::Mode;
 use crate::app::commands::{self, ArgumentKind, COMMANDS, Executed, Menu, elements_word, room_word, sample_word};
-use crate::app::dialogs::{Dialogs, Given, Purpose};
-use crate::app::document::{self, Origin};
-use crate::app::theme::Motion;
-use crate::app::{App, Done, Intent, Severity, plan_list};
+use crate::app::look::theme::Motion;
+use crate::app::session::{
+    file_dialogs::{Dialogs, Given, Purpose},
+    jobs::Mode,
+    messages::Severity,
+    origin::Origin,
+    plan_list,
+    questions::Intent,
+};
+use crate::app::state::{App, Done};
 use crate::formats::{self, plan_json};
 use crate::geometry::Point;
 use crate::plan::{ElementId, Plan};
 use crate::store::{SaveError, save_bytes};
 
 /// A recording at work.
-pub(in crate::app) struct Recorder {
+pub(crate) struct Recorder {
     /// The script's lines so far.
     lines: Vec<Line>,
     files: Files,
@@ -74,7 +80,7 @@ struct View {
 
 /// A recording that has ended: a script, and the files that go with it.
 #[derive(Clone, Debug)]
-pub(in crate::app) struct Recording {
+pub(crate) struct Recording {
     lines: Vec<Line>,
     files: Files,
 }
@@ -177,7 +183,7 @@ impl Files {
                 self.0.push((picture, bytes));
             }
         }
-        Some(self.add(&document::file_name(path), bytes))
+        Some(self.add(&file_name(path), bytes))
     }
 }
 
@@ -210,16 +216,16 @@ impl Recorder {
         }
         let files = &mut self.files;
         let words = arguments.iter().zip(command.arguments).map(|(word, argument)| match argument.kind {
-            ArgumentKind::NewPlanFile => document::file_name(Path::new(word)),
+            ArgumentKind::NewPlanFile => file_name(Path::new(word)),
             ArgumentKind::PictureFile => {
                 let path = Path::new(word);
                 // One that cannot be read could not be used either.
                 let bytes = crate::store::pictures::read_picture_bytes(path).unwrap_or_default();
-                files.add(&document::file_name(path), bytes)
+                files.add(&file_name(path), bytes)
             }
             ArgumentKind::PlanFile => {
                 let path = Path::new(word);
-                files.add_file(path).unwrap_or_else(|| document::file_name(path))
+                files.add_file(path).unwrap_or_else(|| file_name(path))
             }
             _ => word.clone(),
         });
@@ -242,7 +248,7 @@ impl Recorder {
             Origin::Bundled(index) => Line::new(&["open-sample", sample_word(*index)]),
             Origin::Untitled => Line::new(&["new-plan"]),
             Origin::File { path, storey } => match self.files.add_file(path) {
-                None => Line::new(&["open-missing", &document::file_name(path)]),
+                None => Line::new(&["open-missing", &file_name(path)]),
                 Some(word) if *storey == 0 => Line::new(&["open", &word]),
                 Some(word) => Line::new(&["open", &word, &(storey + 1).to_string()]),
             },
@@ -267,8 +273,8 @@ impl Recording {
     ///
     /// # Errors
     /// When something cannot be written.
-    pub(in crate::app) fn save(&self, path: &Path) -> Result<(), SaveError> {
-        let name = document::file_name(path);
+    pub(crate) fn save(&self, path: &Path) -> Result<(), SaveError> {
+        let name = file_name(path);
         let folder_name = format!("{}.files", name.strip_suffix(ENDING).unwrap_or(&name));
         let folder = path.with_file_name(&folder_name);
         for (name, bytes) in &self.files.0 {
@@ -306,12 +312,12 @@ impl App {
             view: None,
             is_moving: false,
         };
-        if let Some(document) = &self.document {
+        if let Some(document) = &self.session.document {
             recorder.start = Some((document.number, document.history.position()));
             let line = recorder.open(&document.origin);
             recorder.lines.push(line);
         }
-        if let Some(Origin::File { path, storey }) = self.ghost.as_ref().and_then(|ghost| ghost.origin.as_ref())
+        if let Some(Origin::File { path, storey }) = self.session.ghost.as_ref().and_then(|ghost| ghost.origin.as_ref())
             && let Some(word) = recorder.files.add_file(path)
         {
             recorder.lines.push(Line::new(&["ghost", &word, &(storey + 1).to_string()]));
@@ -321,9 +327,10 @@ impl App {
             recorder.view = Some(View { x_m: centre.x, y_m: centre.y, px_per_m });
         }
         self.recorder = Some(recorder);
+        self.session.is_recording = true;
         self.round_view();
         self.watch_commands(true);
-        self.status = "Recording".to_owned();
+        self.session.status = "Recording".to_owned();
     }
 
     /// The steps to what is shown and picked, from how the program starts.
@@ -343,20 +350,20 @@ impl App {
                 }
             })
             .collect();
-        if self.selection.len() > 1 {
-            lines.push(Line::new(&["select", &elements_word(self.selection.iter())]));
+        if self.session.selection.len() > 1 {
+            lines.push(Line::new(&["select", &elements_word(self.session.selection.iter())]));
         }
         match (self.picked(), self.plan()) {
             (Some(ElementId::Room(id)), Some(plan)) => lines.push(Line::new(&["pick", &room_word(plan, id)])),
             (Some(ElementId::Opening(id)), Some(_)) => lines.push(Line::new(&["pick-opening", &id.to_string()])),
-            (Some(_), Some(_)) => lines.push(Line::new(&["select", &elements_word(self.selection.iter())])),
+            (Some(_), Some(_)) => lines.push(Line::new(&["select", &elements_word(self.session.selection.iter())])),
             _ => {}
         }
         lines
     }
 
     /// Writes down what was done in a frame that ends.
-    pub(in crate::app) fn record(&mut self, context: &Context) {
+    pub(crate) fn record(&mut self, context: &Context) {
         if std::mem::take(&mut self.wants_recording) {
             self.start_recording(context);
         }
@@ -377,12 +384,12 @@ impl App {
             self.round_view();
         }
         let start = self.recorder.as_ref().and_then(|recorder| recorder.start);
-        let before_start = self.document.as_ref().zip(start).and_then(|(document, (number, position))| {
+        let before_start = self.session.document.as_ref().zip(start).and_then(|(document, (number, position))| {
             let is_before = document.number == number && document.history.position() < position;
             is_before.then(|| document.history.steps().get(position).map(|step| step.plan.clone()))
         });
         if let Some(plan_before) = before_start {
-            self.say(
+            self.session.say(
                 Severity::Warning,
                 "The recording ends before this step",
                 "What is undone now was done before the recording began.",
@@ -391,13 +398,14 @@ impl App {
                 recorder.lines.pop();
             }
             let recording = self.recorder.take().map(|recorder| recorder.recording(plan_before.as_ref()));
+            self.session.is_recording = false;
             self.watch_commands(false);
             self.ask_where_to_save_recording(recording, None);
         }
     }
 
     /// Writes down the commands that were done.
-    pub(in crate::app) fn write_executed(&mut self) {
+    pub(crate) fn write_executed(&mut self) {
         // Without a recorder they are kept for whoever watches them.
         let executed = if self.recorder.is_some() { self.take_executed() } else { return };
         let Some(recorder) = &mut self.recorder else { return };
@@ -406,7 +414,7 @@ impl App {
                 // What follows was done from this very view.
                 recorder.write_view(None);
             }
-            recorder.note(executed, self.opening.as_ref());
+            recorder.note(executed, self.session.opening.as_ref());
         }
     }
 
@@ -422,8 +430,8 @@ impl App {
 
     /// Asks where to save what was recorded. The recording ends once it is saved, and goes on if the
     /// dialog is cancelled; then does what was to follow.
-    pub(in crate::app) fn stop_recording(&mut self, then: Option<Intent>) {
-        self.commit_field();
+    pub(crate) fn stop_recording(&mut self, then: Option<Intent>) {
+        self.session.commit_field();
         self.write_executed();
         self.round_view();
         let recording = self.recorder.as_ref().map(|recorder| recorder.recording(self.plan()));
@@ -433,22 +441,22 @@ impl App {
     fn ask_where_to_save_recording(&mut self, recording: Option<Recording>, then: Option<Intent>) {
         let Some(recording) = recording else { return };
         let purpose = Purpose::Recording { recording: Box::new(recording), then };
-        self.dialogs.ask(purpose, None, "recording.replay".to_owned(), &mut self.background);
+        self.session.dialogs.ask(purpose, None, "recording.replay".to_owned(), &mut self.session.background);
     }
 
     /// Saves a recording; the ending is added where it is missing.
-    pub(in crate::app) fn save_recording(&mut self, recording: Recording, mut path: PathBuf, then: Option<Intent>) {
+    pub(crate) fn save_recording(&mut self, recording: Recording, mut path: PathBuf, then: Option<Intent>) {
         if !path.to_string_lossy().ends_with(ENDING) {
             path.as_mut_os_string().push(ENDING);
         }
-        self.background.start(move || {
+        self.session.background.start(move || {
             let result = recording.save(&path);
             Done::RecordingSaved { path, recording: Box::new(recording), result, then }
         });
     }
 
     /// Takes note of a recording that was saved, or was not.
-    pub(in crate::app) fn recording_was_saved(
+    pub(crate) fn recording_was_saved(
         &mut self,
         path: &Path,
         recording: Recording,
@@ -458,16 +466,17 @@ impl App {
         match result {
             Ok(()) => {
                 self.recorder = None;
+                self.session.is_recording = false;
                 self.watch_commands(false);
-                self.status = format!("Recorded in {}", document::file_name(path));
+                self.session.status = format!("Recorded in {}", file_name(path));
                 if let Some(intent) = then {
-                    self.request(intent);
+                    self.session.request(intent);
                 }
             }
             Err(error) => {
-                let text = format!("{} is not saved: {}", document::file_name(path), error.what);
-                let detail = format!("{}.\n{}", error.hint, self.shown_path(path));
-                self.say(Severity::Error, text, detail);
+                let text = format!("{} is not saved: {}", file_name(path), error.what);
+                let detail = format!("{}.\n{}", error.hint, self.session.shown_path(path));
+                self.session.say(Severity::Error, text, detail);
                 // Elsewhere, perhaps.
                 self.ask_where_to_save_recording(Some(recording), then);
             }

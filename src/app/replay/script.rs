@@ -118,20 +118,11 @@ fn step(line: &str) -> Result<Option<Act>, (String, String)> {
                     hint if hint.is_empty() => "enfilade replay --list names all verbs and commands".to_owned(),
                     hint => hint,
                 };
-                return Err((
-                    format!("{} is neither a verb nor a command", words::written(&shortened(&first.text))),
-                    hint,
-                ));
+                return Err((format!("{} is neither a verb nor a command", words::told(&first.text)), hint));
             }
         },
     };
     Ok(Some(act))
-}
-
-/// A text that may be anything, short enough for a message.
-pub(super) fn shortened(text: &str) -> String {
-    const MOST: usize = 60;
-    if text.chars().count() <= MOST { text.to_owned() } else { text.chars().take(MOST).chain(['…']).collect() }
 }
 
 #[cfg(test)]

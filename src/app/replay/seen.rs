@@ -2,16 +2,16 @@
 
 use egui::Rect;
 
-use crate::app::{App, panels};
+use crate::app::panels;
+use crate::app::state::App;
 use crate::features::RoomStatus;
 use crate::geometry::{Point, Vector};
-use crate::plan::ElementId;
-use crate::plan::RoomId;
+use crate::plan::{ElementId, RoomId};
 
 impl App {
     /// Where the canvas was in the last frame, in logical pixels; `None` without a plan.
     pub fn canvas_rect(&self) -> Option<Rect> {
-        self.document.as_ref()?;
+        self.session.document.as_ref()?;
         self.canvas.seen_rect()
     }
 
@@ -20,7 +20,7 @@ impl App {
     pub(super) fn place_in_room(&self, room: RoomId) -> Option<Point> {
         /// Heights of the room's box to try, the best first.
         const HEIGHTS: [f64; 9] = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9];
-        let derived = self.document.as_ref()?.derived()?;
+        let derived = self.session.document.as_ref()?.derived()?;
         let shape = derived.analysis.shapes.get(room)?;
         let bounds = shape.bounds;
         let stretches = HEIGHTS.into_iter().flat_map(|height| {
@@ -37,7 +37,7 @@ impl App {
     /// What is known of a room's label.
     pub(super) fn status_of(&self, room: RoomId) -> Option<RoomStatus> {
         let plan = self.plan()?;
-        Some(RoomStatus::of(plan, &self.schemes, plan.room(room)?))
+        Some(RoomStatus::of(plan, &self.session.schemes, plan.room(room)?))
     }
 
     /// What the status line says.

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use egui::Rect;
 
 use super::stage::{Fault, Stage, count};
-use crate::app::{OffscreenOptions, Picture};
+use crate::app::offscreen::OffscreenOptions;
+use crate::picture::Picture;
 use crate::store::save_bytes_fast;
 
 /// What a picture shows and how, where that is not how the window is.
@@ -153,7 +154,7 @@ fn save(path: &Path, picture: &Picture) -> Result<(), Fault> {
     if let Some(folder) = path.parent() {
         std::fs::create_dir_all(folder).map_err(|error| fail(error.to_string()))?;
     }
-    let bytes = picture.to_png().map_err(fail)?;
+    let bytes = picture.to_png().map_err(|error| fail(error.to_string()))?;
     // A reference that is the same already keeps its bytes and its date.
     let is_same = std::fs::read(path).ok().and_then(|old| Picture::from_png(Cursor::new(old), MOST_PIXELS).ok());
     if is_same.as_ref() == Some(picture) {

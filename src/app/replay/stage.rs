@@ -6,7 +6,7 @@ use egui::Pos2;
 
 use super::folders::Folders;
 use super::words::{did_you_mean, in_quotes};
-use crate::app::{Control, Offscreen, OffscreenOptions};
+use crate::app::offscreen::{Offscreen, OffscreenOptions, controls::Control};
 use crate::geometry::Point;
 use crate::plan::{Plan, RoomId};
 

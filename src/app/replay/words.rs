@@ -1,5 +1,7 @@
 //! The words of a line: separated by blanks, in quotes where they hold blanks themselves.
 
+use crate::base::wording::shortened;
+
 /// A word of a line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Word {
@@ -88,6 +90,12 @@ pub(super) fn in_quotes(text: &str) -> String {
     }
     quoted.push('"');
     quoted
+}
+
+/// A word as [`written`], short enough for a message.
+pub(super) fn told(text: &str) -> String {
+    const MOST: usize = 60;
+    written(&shortened(text, MOST))
 }
 
 /// The word of some that is most like another, if one is like it at all.

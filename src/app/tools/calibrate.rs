@@ -1,12 +1,13 @@
 //! Sets the scale of the picture under the plan by lengths that are known: written on the drawing, or
 //! the width of a door.
 
-use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, TakenBack, Tool, Typed, Typing, picture_words};
-use crate::app::backdrop::millimetres;
+use crate::app::paint::preview::{Look, Preview};
+use crate::app::session::tracing::millimetres;
+use crate::base::units::Units;
+use crate::edit::Calibration;
 use crate::geometry::{Point, Segment};
-use crate::plan::{Backdrop, Calibration};
-use crate::units::Units;
+use crate::plan::Backdrop;
 
 pub(super) const BY_LENGTH: Entry = Entry { id: "calibrate", make: || Box::new(Calibrate::new(Known::Typed)) };
 pub(super) const BY_DOOR: Entry = Entry { id: "calibrate-door", make: || Box::new(Calibrate::new(Known::Door)) };

@@ -1,9 +1,9 @@
 //! Cuts a courtyard or a shaft out of a room.
 
 use super::path::Path;
-use super::preview::{Look, Preview};
 use super::{Anchor, Call, Entry, Input, Scope, Tool};
 use crate::app::commands::points_word;
+use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, polygon};
 
 pub(super) const ENTRY: Entry = Entry { id: "cut-out", make: || Box::new(CutOut::default()) };

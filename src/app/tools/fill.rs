@@ -2,8 +2,8 @@
 
 use std::cell::RefCell;
 
-use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, Tool, word};
+use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, polygon};
 use crate::plan::Plan;
 use crate::topology::{PlanFace, PlanFaces};

@@ -1,8 +1,8 @@
 //! Measures distances, angles and areas. Changes nothing.
 
 use super::path::Path;
-use super::preview::{Look, Preview, degrees};
 use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
+use crate::app::paint::preview::{Look, Preview, degrees};
 use crate::geometry::{Point, Segment, polygon};
 
 pub(super) const ENTRY: Entry = Entry { id: "measure", make: || Box::new(Measure::default()) };

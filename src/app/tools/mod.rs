@@ -11,7 +11,6 @@ mod number;
 mod opening;
 mod paste;
 mod path;
-mod preview;
 mod rectangle;
 mod room;
 mod select;
@@ -24,30 +23,30 @@ use std::sync::Arc;
 
 use egui::{Context, CursorIcon, Event, Key, Modifiers};
 
+pub(super) use crate::app::paint::preview::{Preview, paint_snap, tag};
 use path::Path;
-pub(super) use preview::{Look, Preview, paint_snap, tag};
 pub(super) use select::{REACH_PX, hit};
 pub(super) use typing::Typed;
 
-use super::canvas::canvas_id;
 use super::commands::points_word;
-use super::document::Derived;
-use super::{App, LayerSettings, Selection};
+use crate::app::paint::places::canvas_id;
+use crate::app::session::{document::Derived, layers::LayerSettings, selection::Selection};
+use crate::app::state::App;
+use crate::base::units::Units;
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::plan::{DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, Plan};
 use crate::snapping::{self, PlanIndex, Query, Snap};
 use crate::topology::Gap;
-use crate::units::Units;
 
 /// A tool as the table has it.
-pub(super) struct Entry {
+pub(crate) struct Entry {
     /// Its word; the command that takes it up is `tool-…`.
     pub id: &'static str,
     make: fn() -> Box<dyn Tool>,
 }
 
 /// Every tool. The first one is in the hand when nothing else is.
-pub(super) const TOOLS: &[Entry] = &[
+pub(crate) const TOOLS: &[Entry] = &[
     select::ENTRY,
     walls::ENTRY,
     rectangle::ENTRY,
@@ -68,11 +67,11 @@ pub(super) const TOOLS: &[Entry] = &[
 ];
 
 /// A command to run: its id and its arguments.
-pub(super) type Call = (&'static str, Vec<String>);
+pub(crate) type Call = (&'static str, Vec<String>);
 
 /// What is drawn next, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct DrawOptions {
+pub(crate) struct DrawOptions {
     /// Thickness of new walls in metres.
     pub thickness_m: f64,
     /// Whether walls are drawn along the boundaries of new rooms.
@@ -120,7 +119,7 @@ impl Default for DrawOptions {
 }
 
 /// What a tool sees.
-pub(super) struct Scope<'a> {
+pub(crate) struct Scope<'a> {
     pub plan: &'a Plan,
     /// What follows from the plan, or from an earlier one while that is worked out anew.
     pub derived: Option<&'a Arc<Derived>>,
@@ -154,7 +153,7 @@ impl Scope<'_> {
 
 /// What a person does.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Input {
+pub(crate) enum Input {
     /// The primary button was pressed and let go at one place.
     Click,
     /// It was pressed twice in quick succession; follows a click.
@@ -179,7 +178,7 @@ pub(super) enum Input {
 
 /// Where lines are measured from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Anchor {
+pub(crate) struct Anchor {
     pub from: Point,
     /// The direction of the line drawn before.
     pub along: Option<Vector>,
@@ -189,7 +188,7 @@ pub(super) struct Anchor {
 
 /// What can be typed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Typing {
+pub(crate) enum Typing {
     /// A length, or a length and an angle: '3.2', '3.2<45'.
     Length,
     /// Two sides: '4x3'.
@@ -200,7 +199,7 @@ pub(super) enum Typing {
 
 /// What undo does to a tool at work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum TakenBack {
+pub(crate) enum TakenBack {
     /// Nothing: the plan's last step is undone.
     Nothing,
     /// A corner that is not part of the plan yet.
@@ -273,7 +272,7 @@ pub(super) trait Tool {
 
 /// What places can snap to.
 #[derive(Clone, Copy)]
-pub(super) struct Ground<'a> {
+pub(crate) struct Ground<'a> {
     pub index: Option<&'a PlanIndex>,
     pub seen: Bounds,
     pub px_per_m: f64,
@@ -290,7 +289,7 @@ pub(super) struct Ground<'a> {
 }
 
 /// The tool in the hand.
-pub(super) struct Toolbox {
+pub(crate) struct Toolbox {
     entry: &'static Entry,
     tool: Box<dyn Tool>,
     /// What has been typed for the tool.
@@ -304,6 +303,8 @@ pub(super) struct Toolbox {
     attracts: bool,
     /// What the tool said last.
     pub hint: String,
+    /// What is drawn next, and how.
+    pub options: DrawOptions,
 }
 
 impl Default for Toolbox {
@@ -318,6 +319,7 @@ impl Default for Toolbox {
             cycled_at: None,
             attracts: false,
             hint: String::new(),
+            options: DrawOptions::default(),
         }
     }
 }
@@ -511,8 +513,9 @@ impl App {
     /// Takes the keys that are for the tool in the hand.
     pub(super) fn take_tool_keys(&mut self, context: &Context) {
         let is_typing = self.was_typing || context.text_edit_focused();
-        let is_covered = self.question.is_some() || self.panels.is_dialog_open() || egui::Popup::is_any_open(context);
-        if is_typing || is_covered || self.document.is_none() {
+        let is_covered =
+            self.session.question.is_some() || self.panels.is_dialog_open() || egui::Popup::is_any_open(context);
+        if is_typing || is_covered || self.session.document.is_none() {
             return;
         }
         let units = self.units();
@@ -544,7 +547,7 @@ impl App {
 }
 
 /// A point as a command's word.
-pub(super) fn word(point: Point) -> String {
+pub(crate) fn word(point: Point) -> String {
     points_word(&[point])
 }
 

@@ -1,8 +1,8 @@
 //! Names rooms in the order in which a line is drawn through them.
 
-use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, Tool};
 use crate::app::commands::points_word;
+use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, polygon};
 
 pub(super) const ENTRY: Entry = Entry { id: "number", make: || Box::new(Number::default()) };

@@ -1,10 +1,10 @@
 //! Puts doors, passages and windows into walls, and closes gaps between walls with them.
 
-use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, Tool, Typed, Typing, word};
-use crate::app::canvas::room_title;
+use crate::app::paint::preview::{Look, Preview};
+use crate::edit::opening_on;
 use crate::geometry::{Point, Segment};
-use crate::plan::edit::opening_on;
+use crate::plan::titles::room_title;
 use crate::plan::{Joint, LeafSide, Opening as PlanOpening, OpeningKind, Swing};
 use crate::snapping::IndexedEdge;
 use crate::topology::{Gap, sides_by_geometry};
@@ -102,7 +102,7 @@ impl Tool for Opening {
     }
 
     fn hint(&self, scope: &Scope<'_>) -> String {
-        let name = crate::app::canvas::sentence(self.kind.name());
+        let name = crate::base::wording::sentence(self.kind.name());
         if let Some(gap) = Self::gap(scope) {
             let width = scope.units.length(gap.width_m);
             return format!("{name}: click to close this gap of {width} with a doorway");

@@ -1,7 +1,7 @@
 //! Places what was copied.
 
-use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, Tool, word};
+use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, Segment, Vector};
 use crate::plan::Plan;
 

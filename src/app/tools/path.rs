@@ -1,13 +1,13 @@
 //! Corners in the making: what tools share that draw one corner after the other.
 
-use super::preview::{Look, Preview, degrees};
 use super::{Anchor, Scope, Typed};
+use crate::app::paint::preview::{Look, Preview, degrees};
 use crate::geometry::path::arc;
 use crate::geometry::{Point, Segment, Vector};
 
 /// Corners clicked so far.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(in crate::app) struct Path {
+pub(crate) struct Path {
     pub points: Vec<Point>,
     /// What was there before each click.
     before: Vec<Before>,

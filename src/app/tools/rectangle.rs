@@ -1,7 +1,7 @@
 //! Draws a room as a rectangle: it takes what is free there, or what rooms cover too.
 
-use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, TakenBack, Tool, Typed, Typing};
+use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, Segment, Vector, polygon};
 
 pub(super) const ENTRY: Entry = Entry { id: "rectangle", make: || Box::new(Rectangle::Ready) };

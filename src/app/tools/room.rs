@@ -3,8 +3,8 @@
 use egui::Key;
 
 use super::path::{ARC_HINT, Path};
-use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, Tool};
+use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, Vector, polygon};
 
 pub(super) const ENTRY: Entry = Entry { id: "room", make: || Box::new(Room::default()) };

@@ -4,12 +4,12 @@ use std::collections::BTreeSet;
 
 use egui::CursorIcon;
 
-use super::preview::{Look, Preview};
 use super::{Anchor, Call, Entry, Input, Scope, Tool, word};
-use crate::app::LayerSettings;
 use crate::app::commands::{elements_word, points_word, room_word};
-use crate::app::document::Derived;
-use crate::app::{SelectMode, Selection};
+use crate::app::paint::preview::{Look, Preview};
+use crate::app::session::document::Derived;
+use crate::app::session::layers::LayerSettings;
+use crate::app::session::selection::{SelectMode, Selection};
 use crate::geometry::{Point, Segment, Vector};
 use crate::plan::{CornerId, ElementId, OpeningId, Place, Plan};
 
@@ -43,7 +43,7 @@ struct Cycle {
 }
 
 /// Something is hit from this far away, in points.
-pub(in crate::app) const REACH_PX: f64 = 7.0;
+pub(crate) const REACH_PX: f64 = 7.0;
 
 /// Clicks closer than this are at the same place, in points.
 const SAME_PLACE_PX: f64 = 4.0;
@@ -53,7 +53,7 @@ const MOST_HANDLES: usize = 400;
 
 /// What lies at a place, what is meant first in front: openings, walls, rooms from the smallest. What is
 /// locked is not there.
-pub(in crate::app) fn hit(
+pub(crate) fn hit(
     derived: &Derived,
     plan: &Plan,
     layers: &LayerSettings,

@@ -1,11 +1,11 @@
 //! Splits rooms, without a wall: straight across by one click, or along a line.
 
 use super::path::Path;
-use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, Tool};
 use crate::app::commands::points_word;
+use crate::app::paint::preview::{Look, Preview};
+use crate::edit::{Across, straight_across};
 use crate::geometry::Point;
-use crate::topology::{Across, straight_across};
 
 pub(super) const ENTRY: Entry = Entry { id: "split", make: || Box::new(Split::default()) };
 

@@ -1,9 +1,9 @@
 //! Turns the picture under the plan so that a line of it becomes level or upright.
 
-use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, TakenBack, Tool, picture_words};
+use crate::app::paint::preview::{Look, Preview};
+use crate::edit::straightening_rad;
 use crate::geometry::{Point, Segment};
-use crate::plan::straightening_rad;
 
 pub(super) const ENTRY: Entry = Entry { id: "straighten", make: || Box::new(Straighten { from: None }) };
 

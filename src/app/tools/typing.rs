@@ -3,11 +3,11 @@
 use egui::Key;
 
 use super::Typing;
-use crate::units::{Units, parse_angle_rad};
+use crate::base::units::{Units, parse_angle_rad};
 
 /// What was typed, read.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::app) enum Typed {
+pub(crate) enum Typed {
     /// In metres; with an angle in radians, counter-clockwise from the last line.
     Length { length_m: f64, angle_rad: Option<f64> },
     /// Both in metres.

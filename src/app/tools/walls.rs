@@ -3,9 +3,9 @@
 use egui::Key;
 
 use super::path::{ARC_HINT, Path};
-use super::preview::{Look, Preview};
 use super::{Call, Entry, Input, Scope, TakenBack, Tool};
 use crate::app::commands::points_word;
+use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, Segment};
 
 pub(super) const ENTRY: Entry = Entry { id: "walls", make: || Box::new(Walls::Ready) };

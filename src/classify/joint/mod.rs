@@ -26,11 +26,11 @@ use self::trees::{Forest, Job, Samples};
 use self::view::View;
 use super::calibration::fitted_temperature;
 use super::{Distribution, Scores};
+use crate::base::random::{Random, seed_of_part};
+use crate::base::work::{Cancelled, Work};
 use crate::dataset::folds::{Folds, FoldsError};
 use crate::dataset::{RoomNetwork, RoomPlace};
 use crate::labels::Label;
-use crate::parallel::{Cancelled, Work};
-use crate::random::{Random, seed_of_part};
 
 /// Folds by which training rooms get first opinions of forests that did not learn from their building.
 const INNER_FOLDS: usize = 4;

@@ -3,10 +3,10 @@
 //! averaged. With a few hundred rooms and many features this overfits less than choosing the best
 //! question of all.
 
+use crate::base::random::{Random, seed_of_part};
+use crate::base::work::{Cancelled, Work};
 use crate::classify::Distribution;
 use crate::labels::Label;
-use crate::parallel::{Cancelled, Work};
-use crate::random::{Random, seed_of_part};
 
 /// Trees of a forest: the usual number, at which the mean of their answers has settled.
 pub(super) const TREES: usize = 100;

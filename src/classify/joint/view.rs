@@ -3,6 +3,7 @@
 
 use std::collections::VecDeque;
 
+use crate::base::numbers::{mean, quantile};
 use crate::dataset::RoomNetwork;
 use crate::plan::OpeningKind;
 
@@ -173,25 +174,12 @@ fn log(number: f64) -> f64 {
     number.max(LEAST).ln()
 }
 
-fn mean(numbers: impl Iterator<Item = f64>) -> Option<f64> {
-    let (count, sum) = numbers.fold((0, 0.0), |(count, sum), number| (count + 1, sum + number));
-    (count > 0).then(|| sum / f64::from(count))
-}
-
 fn most(numbers: impl Iterator<Item = f64>) -> f64 {
     numbers.reduce(f64::max).unwrap_or_default()
 }
 
 fn count(items: impl Iterator<Item = bool>) -> f64 {
     items.filter(|&is| is).count() as f64
-}
-
-/// The number below which this share of sorted numbers lies, between neighbours in proportion.
-fn quantile(sorted: &[f64], share: f64) -> f64 {
-    let Some(last) = sorted.len().checked_sub(1) else { return 0.0 };
-    let at = share * last as f64;
-    let below = at.floor() as usize;
-    sorted[below] + (at - below as f64) * (sorted[(below + 1).min(last)] - sorted[below])
 }
 
 fn sorted(numbers: &[f64]) -> Vec<f64> {

@@ -3,9 +3,9 @@
 use super::bits::Bits;
 use super::grow::{RankCondition, Ranked, Worth, grow, prune};
 use super::length::{SURPLUS_BITS, Tally, mistake_bits, rule_bits, saved_by_deleting};
+use crate::base::random::Random;
 use crate::dataset::table::FEATURES;
 use crate::labels::Label;
-use crate::random::Random;
 
 /// One part in so many of the rooms is kept for pruning, the others are for growing (Cohen 1995).
 const PARTS: usize = 3;

@@ -13,9 +13,9 @@ mod length;
 
 use super::Distribution;
 use super::numbers::readable_between;
+use crate::base::random::Random;
 use crate::dataset::table::{FEATURES, Table, Values};
 use crate::labels::Label;
-use crate::random::Random;
 use bits::Bits;
 use grow::{RankCondition, Ranked};
 use induce::{Task, possible_conditions};

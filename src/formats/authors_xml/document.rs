@@ -8,6 +8,7 @@ use quick_xml::Reader;
 use quick_xml::XmlVersion;
 use quick_xml::events::{BytesRef, BytesStart, Event};
 
+use super::super::text::line_of;
 use super::super::{Place, ReadError};
 use crate::geometry::{Bounds, Point};
 
@@ -102,6 +103,15 @@ pub struct Portal {
     pub targets: Vec<String>,
 }
 
+impl Portal {
+    /// The same for the statements of an opening in its two rooms, where the file is as the program writes it.
+    pub fn key(&self) -> (&str, Vec<&str>) {
+        let mut targets: Vec<&str> = self.targets.iter().map(String::as_str).collect();
+        targets.sort_unstable();
+        (&self.segment, targets)
+    }
+}
+
 /// Rooms that belong together.
 #[derive(Debug, Default)]
 pub struct Group {
@@ -132,39 +142,8 @@ pub fn root_name(head: &[u8]) -> Option<String> {
     }
 }
 
-/// The text of an XML file, without a byte order mark.
-///
-/// # Errors
-/// When the file is empty or in another encoding than UTF-8.
-pub fn decode(bytes: &[u8]) -> Result<&str, ReadError> {
-    let fail = |line, what: String, hint: &str| ReadError {
-        place: Place { line, element: String::new() },
-        what,
-        hint: hint.to_owned(),
-    };
-    let body = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    if body.iter().all(u8::is_ascii_whitespace) {
-        return Err(fail(None, "is empty".to_owned(), "restore it from a copy"));
-    }
-    // XML starts with '<' in ASCII, so a zero byte among the first two means two bytes a character.
-    if body.starts_with(b"\xff\xfe") || body.starts_with(b"\xfe\xff") || body.iter().take(2).any(|&byte| byte == 0) {
-        return Err(fail(Some(1), "is UTF-16 or UTF-32, not UTF-8".to_owned(), ENCODING_HINT));
-    }
-    std::str::from_utf8(body).map_err(|error| {
-        let line = Some(line_of(body, error.valid_up_to()));
-        fail(line, "is not UTF-8".to_owned(), ENCODING_HINT)
-    })
-}
-
-const ENCODING_HINT: &str = "save it again as UTF-8";
-
 /// What to do about most broken files.
 pub const DAMAGED_HINT: &str = "correct it by hand, or restore it from a copy";
-
-/// The line, from 1, of a byte of a text.
-pub fn line_of(text: &[u8], offset: Offset) -> usize {
-    1 + text[..offset.min(text.len())].iter().filter(|&&byte| byte == b'\n').count()
-}
 
 /// Reads a file's text.
 ///
@@ -272,7 +251,11 @@ impl<'a> Parser<'a> {
                         && !encoding.eq_ignore_ascii_case("utf-8")
                         && !encoding.eq_ignore_ascii_case("utf8")
                     {
-                        return self.fail(at, format!("says that it is in {encoding}, not UTF-8"), ENCODING_HINT);
+                        return self.fail(
+                            at,
+                            format!("says that it is in {encoding}, not UTF-8"),
+                            "save it again as UTF-8",
+                        );
                     }
                 }
                 // Empty elements come as a start and an end.

@@ -11,13 +11,17 @@ use serde_json::{Map, Value};
 
 use self::document::{DAMAGED_HINT, Document, Floor, Offset, Portal, Space};
 use self::openings::Ring;
-use super::building_name;
-use super::{Format, Import, Note, NoteKind, Place, ReadError};
-use crate::geometry::{Bounds, Point, Segment, Vector};
-use crate::labels::{Schemes, Typology};
+use super::options::Number;
+use super::{
+    Format, FormatOption, Head, Import, Importer, Note, NoteKind, Options, Place, Preview, ReadError, Recognition,
+    Source,
+};
+use super::{building_name, text};
+use crate::geometry::{Bounds, COORDINATE_LIMIT_M, Point, Segment, Vector};
+use crate::labels::Typology;
 use crate::plan::{
-    Builder, COORDINATE_LIMIT_M, CornerId, DEFAULT_DOOR_WIDTH_M, Extra, Joint, Meta, Opening, OpeningKind,
-    Place as OpeningPlace, Plan, Room, RoomId, THICKEST_WALL_M,
+    Builder, CornerId, DEFAULT_DOOR_WIDTH_M, Extra, Joint, Meta, Opening, OpeningKind, Place as OpeningPlace, Plan,
+    Room, RoomId, THICKEST_WALL_M,
 };
 
 /// Notes of one file. More than that help nobody, and a hostile file must not fill the memory.
@@ -33,36 +37,81 @@ const PORTAL_CORNER_PX: f64 = 1.5;
 /// What `<Info>` says when nobody wrote anything ('insert information about the building').
 const INFO_PLACEHOLDER: &str = "Inserire informazioni sull'edificio";
 
-/// The reader of the authors' XML.
-pub struct AuthorsXml;
+/// The XML of the paper's authors.
+pub const FORMAT: Format = Format {
+    id: "authors-xml",
+    name: "XML of the paper's authors",
+    endings: &["xml"],
+    about: "Schools and offices annotated with the authors' program 'floorplans' (docs/authors-xml.md)",
+    importer: Some(&AuthorsXml),
+    exporter: None,
+};
 
-impl Format for AuthorsXml {
-    fn name(&self) -> &'static str {
-        "XML of the paper's authors"
+static METRES_PER_PIXEL: Number = Number {
+    name: "metres-per-pixel",
+    default: None,
+    least: 1e-4,
+    most: 10.0,
+    help: "The scale, where the file states none or a wrong one",
+};
+
+struct AuthorsXml;
+
+impl Importer for AuthorsXml {
+    fn options(&self) -> &'static [FormatOption] {
+        const { &[FormatOption::Number(&METRES_PER_PIXEL)] }
     }
 
-    fn extensions(&self) -> &'static [&'static str] {
-        &["xml"]
+    fn recognises(&self, head: &Head<'_>) -> Recognition {
+        let Head::File { start, .. } = head else { return Recognition::No };
+        let is_named = head.ends_with(FORMAT.endings);
+        match document::root_name(start) {
+            Some(root) if root == "building" => Recognition::Yes,
+            Some(root) if is_named => Recognition::Foreign(format!("XML with the root <{root}>")),
+            None if is_named => Recognition::Perhaps,
+            Some(_) | None => Recognition::No,
+        }
     }
 
-    fn recognises(&self, head: &[u8]) -> bool {
-        document::root_name(head).is_some_and(|name| name == "building")
+    fn preview(&self, source: &Source<'_>, options: &Options) -> Result<Preview, ReadError> {
+        let document = document::parse(text::decode(source.bytes()?)?)?;
+        let mut preview = Preview { units: Some("m".to_owned()), ..Preview::default() };
+        let mut bounds = Bounds::EMPTY;
+        for floor in document.floors.iter().filter(|floor| !floor.spaces.is_empty()) {
+            preview.plans += 1;
+            preview.rooms += floor.spaces.len();
+            bounds = bounds.union(Bounds::of(floor.spaces.iter().flat_map(|space| space.boundary.iter().copied())));
+            for space in &floor.spaces {
+                *preview.layers.entry("space".to_owned()).or_default() += 1;
+                // Each is stated in both its rooms.
+                *preview.layers.entry("portal".to_owned()).or_default() += space.portals.len();
+            }
+            let places: BTreeSet<_> = floor.spaces.iter().flat_map(|space| &space.portals).map(Portal::key).collect();
+            preview.openings += places.len();
+        }
+        let metres_per_pixel = options.number(&METRES_PER_PIXEL).unwrap_or(scale::find(&document).metres_per_pixel);
+        preview.size =
+            (!bounds.is_empty()).then(|| (bounds.width() * metres_per_pixel, bounds.height() * metres_per_pixel));
+        Ok(preview)
     }
 
-    fn foreign(&self, head: &[u8]) -> Option<String> {
-        let name = document::root_name(head).filter(|name| name != "building")?;
-        Some(format!("XML with the root <{name}>"))
+    fn read(&self, source: &Source<'_>, options: &Options) -> Result<Import, ReadError> {
+        read(source.bytes()?, source.stem(), options.number(&METRES_PER_PIXEL))
     }
+}
 
-    fn read(&self, bytes: &[u8], stem: &str) -> Result<Import, ReadError> {
-        let text = document::decode(bytes)?;
-        let document = document::parse(text)?;
-        import(text, &document, stem)
-    }
+/// Reads a file's bytes; `stem` is the file's name without its ending.
+///
+/// # Errors
+/// When nothing usable can be read.
+pub fn from_bytes(bytes: &[u8], stem: &str) -> Result<Import, ReadError> {
+    read(bytes, stem, None)
+}
 
-    fn write(&self, _plan: &Plan, _schemes: &Schemes) -> Option<Vec<u8>> {
-        None
-    }
+fn read(bytes: &[u8], stem: &str, metres_per_pixel: Option<f64>) -> Result<Import, ReadError> {
+    let text = text::decode(bytes)?;
+    let document = document::parse(text)?;
+    import(text, &document, stem, metres_per_pixel)
 }
 
 /// Notes with their lines.
@@ -102,7 +151,7 @@ impl Notes<'_> {
     }
 }
 
-fn import(text: &str, document: &Document, stem: &str) -> Result<Import, ReadError> {
+fn import(text: &str, document: &Document, stem: &str, metres_per_pixel: Option<f64>) -> Result<Import, ReadError> {
     let mut notes = Notes { text, line_ends: Vec::new(), notes: Vec::new(), left_off: 0 };
     if document.floors.iter().all(|floor| floor.spaces.is_empty()) {
         return Err(ReadError {
@@ -111,7 +160,7 @@ fn import(text: &str, document: &Document, stem: &str) -> Result<Import, ReadErr
             hint: "check that this is the whole file: rooms are <space> elements in <floor><spaces>".to_owned(),
         });
     }
-    let found = scale::find(document);
+    let found = metres_per_pixel.map_or_else(|| scale::find(document), scale::told);
     for (at, what) in &found.healings {
         notes.push(NoteKind::Healed, *at, "scale", what.as_str());
     }

@@ -1,6 +1,7 @@
 //! How many metres a pixel is.
 
 use super::document::{Document, Length, Offset};
+use crate::base::numbers::upper_median;
 use crate::geometry::polygon;
 use crate::plan::{Scale, ScaleOrigin};
 
@@ -30,6 +31,13 @@ pub struct Found {
     pub metres_per_pixel: f64,
     /// What was mended, and where it stands.
     pub healings: Vec<(Option<Offset>, String)>,
+}
+
+/// The scale that a person tells, whatever the file states.
+pub fn told(metres_per_pixel: f64) -> Found {
+    let note = format!("told when importing: {metres_per_pixel} m per pixel");
+    let scale = Scale { origin: ScaleOrigin::Measured, metres_per_unit: Some(metres_per_pixel), note };
+    Found { scale, metres_per_pixel, healings: Vec::new() }
 }
 
 /// The scale of a document.
@@ -127,6 +135,5 @@ fn median_room_px2(document: &Document) -> Option<f64> {
     let spaces = document.floors.iter().flat_map(|floor| &floor.spaces);
     let mut areas: Vec<f64> =
         spaces.map(|space| polygon::signed_area(&space.boundary).abs()).filter(|&area| area > 0.0).collect();
-    areas.sort_by(f64::total_cmp);
-    areas.get(areas.len() / 2).copied()
+    upper_median(&mut areas)
 }

@@ -8,14 +8,17 @@ use serde_json::{Map, Value};
 use super::KEPT;
 use super::coordinates::{Coordinates, Position};
 use super::disk::{DiskCollection, DiskFeature, DiskHost, DiskMeta, DiskProperties, Words};
-use crate::formats::json_text::{decode, id_on_line, json_fault};
-use crate::formats::plan_json::DiskHinge;
-use crate::formats::{Import, Note, NoteKind, Place, ReadError};
-use crate::geometry::{Bounds, Point, Segment, polygon, trim_m};
-use crate::labels::{Label, Typology, normalised_function};
+use super::words::{FROM_SCHEME, opening_kind, opening_word};
+use crate::formats::{
+    Import, Note, NoteKind, Place, Preview, ReadError,
+    json_text::{decode, id_on_line, json_fault},
+    plan_json::DiskHinge,
+};
+use crate::geometry::{Bounds, COORDINATE_LIMIT_M, Point, Segment, polygon, trim_m};
+use crate::labels::{Label, Typology};
 use crate::plan::{
-    Builder, COORDINATE_LIMIT_M, CornerId, DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, Extra, Joint, LabelOrigin,
-    Meta, Opening, OpeningKind, Place as OpeningPlace, Room, RoomId, RoomLabel, Scale, ScaleOrigin, Swing, Wall,
+    Builder, CornerId, DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, Extra, Joint, LabelOrigin, Meta, Opening,
+    OpeningKind, Place as OpeningPlace, Room, RoomId, RoomLabel, Scale, ScaleOrigin, Swing, Wall,
 };
 
 /// How far from an edge the ends of an opening may lie to be hosted by it: what rounding to four
@@ -30,9 +33,55 @@ const SMALLEST_PLAN_M: f64 = 0.5;
 const DAMAGED: &str = "correct it by hand (docs/geojson.md describes the properties), or export it again";
 const NOT_METRES: &str = "project it to metres first, and say \"units\": \"m\" at the top of the file";
 
-/// Reads a FeatureCollection in metres.
-pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Import, ReadError> {
+/// Reads a FeatureCollection in metres. `in_metres`: also where it names no units, whatever its sizes.
+pub(super) fn read(bytes: &[u8], stem: &str, in_metres: bool) -> Result<Import, ReadError> {
     let text = decode(bytes)?;
+    let (collection, items) = items(text)?;
+    let mut notes = Vec::new();
+    let assumed = check_units(&collection, &items, in_metres)?;
+    notes.extend(assumed);
+    for item in &items {
+        item.check_coordinates()?;
+    }
+    let mut reader = Reader { builder: Builder::new(meta_of(&collection.meta, stem)), notes, rooms: HashMap::new() };
+    reader.add_all(items)?;
+    let Reader { builder, notes, .. } = reader;
+    let mut plan = builder.finish().map_err(|violations| ReadError {
+        place: Place {
+            line: None,
+            element: violations.first().map(|violation| violation.element.to_string()).unwrap_or_default(),
+        },
+        what: violations.into_iter().next().map(|violation| violation.what).unwrap_or_default(),
+        hint: DAMAGED.to_owned(),
+    })?;
+    plan.extra = kept(collection.meta.other);
+    Ok(Import { plans: vec![plan], notes })
+}
+
+/// What is in a file, by its features.
+pub(super) fn preview(bytes: &[u8]) -> Result<Preview, ReadError> {
+    let (collection, items) = items(decode(bytes)?)?;
+    let units = collection.units.as_ref().map(|units| units.as_str().to_owned()).filter(|units| !units.is_empty());
+    let mut preview = Preview { plans: 1, units, ..Preview::default() };
+    let mut bounds = Bounds::EMPTY;
+    for item in &items {
+        let kind = match item.role() {
+            Role::Room => "room",
+            Role::Opening => "opening",
+            Role::Wall => "wall",
+            Role::Other => "other",
+        };
+        *preview.layers.entry(kind.to_owned()).or_default() += 1;
+        bounds = bounds.union(item.bounds());
+    }
+    let count = |kind: &str| preview.layers.get(kind).copied().unwrap_or_default();
+    (preview.rooms, preview.openings, preview.walls) = (count("room"), count("opening"), count("wall"));
+    preview.size = (!bounds.is_empty()).then(|| (bounds.width(), bounds.height()));
+    Ok(preview)
+}
+
+/// The file as its parts.
+fn items(text: &str) -> Result<(DiskCollection<'_>, Vec<Item>), ReadError> {
     let collection: DiskCollection = serde_json::from_str(text).map_err(|error| refuse_json(text, &error))?;
     let refuse = |what: String, hint: &str| Err(ReadError { place: Place::default(), what, hint: hint.to_owned() });
     match collection.kind.as_ref().map_or("", Words::as_str) {
@@ -53,25 +102,7 @@ pub(super) fn read(bytes: &[u8], stem: &str) -> Result<Import, ReadError> {
             serde_json::from_str(raw.get()).map_err(|error| refuse_feature(raw.get(), line, index, &error))?;
         items.push(Item { line, index, feature });
     }
-    let mut notes = Vec::new();
-    let assumed = check_units(&collection, &items)?;
-    notes.extend(assumed);
-    for item in &items {
-        item.check_coordinates()?;
-    }
-    let mut reader = Reader { builder: Builder::new(meta_of(&collection.meta, stem)), notes, rooms: HashMap::new() };
-    reader.add_all(items)?;
-    let Reader { builder, notes, .. } = reader;
-    let mut plan = builder.finish().map_err(|violations| ReadError {
-        place: Place {
-            line: None,
-            element: violations.first().map(|violation| violation.element.to_string()).unwrap_or_default(),
-        },
-        what: violations.into_iter().next().map(|violation| violation.what).unwrap_or_default(),
-        hint: DAMAGED.to_owned(),
-    })?;
-    plan.extra = kept(collection.meta.other);
-    Ok(Import { plans: vec![plan], notes })
+    Ok((collection, items))
 }
 
 /// A feature and where it stands.
@@ -148,7 +179,7 @@ impl Item {
 }
 
 /// Refuses what is not in metres. A note where metres are only assumed.
-fn check_units(collection: &DiskCollection, items: &[Item]) -> Result<Option<Note>, ReadError> {
+fn check_units(collection: &DiskCollection<'_>, items: &[Item], in_metres: bool) -> Result<Option<Note>, ReadError> {
     let refuse = |what: String| Err(ReadError { place: Place::default(), what, hint: NOT_METRES.to_owned() });
     match collection.units.as_ref().map_or("", Words::as_str).trim().to_lowercase().as_str() {
         "m" | "metre" | "metres" | "meter" | "meters" => return Ok(None),
@@ -168,7 +199,7 @@ fn check_units(collection: &DiskCollection, items: &[Item]) -> Result<Option<Not
         .fold(0.0, |largest: f64, bounds| largest.max(bounds.width()).max(bounds.height()));
     let ours = items.iter().any(|item| matches!(item.stated_kind(), "room" | "opening" | "wall"));
     let drawn = largest_m > 0.0;
-    if drawn && (!ours || largest_m < SMALLEST_PLAN_M) {
+    if drawn && !in_metres && (!ours || largest_m < SMALLEST_PLAN_M) {
         return refuse("names no units, so that it is in longitude and latitude".to_owned());
     }
     Ok(drawn.then(|| Note {
@@ -299,7 +330,7 @@ impl Reader {
     /// A room with everything but its boundary.
     fn room_of(&mut self, properties: DiskProperties, place: &Place) -> Room {
         // A label that follows from the function is there for other readers.
-        let own_label = !properties.label.is_empty() && properties.label_origin.0 != super::write::FROM_SCHEME;
+        let own_label = !properties.label.is_empty() && properties.label_origin.0 != FROM_SCHEME;
         let label = own_label.then(|| properties.label.0.parse::<Label>());
         if let Some(Err(unknown)) = &label {
             self.note(NoteKind::Skipped, place.clone(), format!("{unknown}; left unlabelled"));
@@ -401,7 +432,7 @@ impl Reader {
             }
         };
         // The source's own word ('sliding_door') is kept where ours says less.
-        if !properties.opening.is_empty() && properties.opening.0 != super::write::opening_word(kind) {
+        if !properties.opening.is_empty() && properties.opening.0 != opening_word(kind) {
             properties.other.insert("opening".to_owned(), Value::String(properties.opening.0));
         }
         let pinned = match properties.rooms {
@@ -472,18 +503,6 @@ impl Reader {
             at_m,
             width_m,
         })
-    }
-}
-
-/// What the words of the property `opening` mean. An opening to the outside that is a door or a
-/// window, not told apart (`exterior_opening`), is a window: it must not count in `d`.
-pub(super) fn opening_kind(word: &str) -> Option<OpeningKind> {
-    match normalised_function(word).as_str() {
-        "door" | "entrance door" | "sliding door" => Some(OpeningKind::Door),
-        "double door" => Some(OpeningKind::DoubleDoor),
-        "passage" | "open" => Some(OpeningKind::Passage),
-        "window" | "exterior opening" => Some(OpeningKind::Window),
-        _ => None,
     }
 }
 

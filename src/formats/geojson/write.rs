@@ -1,31 +1,16 @@
-use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::KEPT;
 use super::coordinates::{Coordinates, Position};
 use super::disk::{DiskFeature, DiskGeometry, DiskHost, DiskMeta, DiskProperties, Words};
+use super::words::{FROM_SCHEME, opening_kind, opening_word};
 use crate::features::RoomStatus;
-use crate::formats::json_text::Number;
+use crate::formats::json_text::{Number, ObjectLines};
 use crate::formats::plan_json::DiskHinge;
 use crate::geometry::Point;
 use crate::labels::Schemes;
-use crate::plan::{
-    CornerId, Extra, Joint, Meta, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, Wall, WallId,
-};
+use crate::plan::{CornerId, Extra, Joint, Meta, Opening, OpeningId, Place, Plan, Room, RoomId, Wall, WallId};
 use crate::topology::{Graph, RoomShapes};
-
-/// The origin of a label that follows from the room's function by the label scheme.
-pub(super) const FROM_SCHEME: &str = "scheme";
-
-/// The word for an opening's kind.
-pub(super) const fn opening_word(kind: OpeningKind) -> &'static str {
-    match kind {
-        OpeningKind::Door => "door",
-        OpeningKind::DoubleDoor => "double_door",
-        OpeningKind::Passage => "passage",
-        OpeningKind::Window => "window",
-    }
-}
 
 /// Members that Enfilade writes itself: kept properties of these names are not written twice.
 const OWN: &[&str] = &[
@@ -59,33 +44,48 @@ const OWN: &[&str] = &[
 ];
 
 /// The whole file: one feature a line; rooms, walls, openings, each by id.
-pub(super) fn write(plan: &Plan, schemes: &Schemes) -> Vec<u8> {
-    let mut file = String::from("{\n\"type\": \"FeatureCollection\",\n\"units\": \"m\",\n");
+pub(super) fn write(plan: &Plan, schemes: &Schemes, rooms_only: bool) -> Vec<u8> {
+    let mut file = ObjectLines::new(300 * (plan.rooms().len() + plan.openings().len() + plan.walls().len()));
+    file.member("type", "FeatureCollection");
+    file.member("units", "m");
     let meta = serde_json::to_value(meta_of(plan)).unwrap_or_default();
-    for (key, value) in meta.as_object().into_iter().flatten() {
-        file.push_str(&format!("{}: {},\n", json(key), json(value)));
+    file.members(meta.as_object().into_iter().flatten());
+    let rooms = plan.rooms().map(|(id, room)| room_feature(plan, schemes, id, room));
+    if rooms_only {
+        file.list("features", rooms);
+        return file.finish();
     }
-    file.push_str("\"features\": [");
     let shapes = RoomShapes::new(plan);
     let graph = Graph::new(plan, &shapes);
-    let rooms = plan.rooms().map(|(id, room)| room_feature(plan, schemes, id, room));
     let walls = plan.walls().map(|(id, wall)| wall_feature(plan, id, wall));
     let openings = plan.openings().map(|(id, opening)| {
         // The graph leaves windows out; its connections are by opening, as the plan's are.
         let found = graph.connections().binary_search_by_key(&id, |connection| connection.opening).ok();
         opening_feature(plan, id, opening, found.map(|index| graph.connections()[index].sides))
     });
-    for (i, feature) in rooms.chain(walls).chain(openings).enumerate() {
-        file.push_str(if i == 0 { "\n" } else { ",\n" });
-        file.push_str(&json(&feature));
-    }
-    file.push_str("\n]\n}\n");
-    file.into_bytes()
+    file.list("features", rooms.chain(walls).chain(openings));
+    file.finish()
 }
 
-/// Compact JSON of a value. None of the disk types can fail: their keys are strings.
-fn json<T: Serialize + ?Sized>(value: &T) -> String {
-    serde_json::to_string(value).unwrap_or_default()
+/// What the file does not keep, in words, each with how many there are.
+pub(super) fn lost(plan: &Plan, rooms_only: bool) -> Vec<String> {
+    let count_others = |extra: &Extra| extra.iter().flat_map(|extra| extra.keys()).filter(|key| *key != KEPT).count();
+    let fields = count_others(&plan.extra)
+        + plan.meta().extra.as_ref().map_or(0, |extra| extra.len())
+        + plan.rooms().map(|(_, room)| count_others(&room.extra)).sum::<usize>()
+        + plan.walls().map(|(_, wall)| count_others(&wall.extra)).sum::<usize>()
+        + plan.openings().map(|(_, opening)| count_others(&opening.extra)).sum::<usize>()
+        + plan.corners().map(|(_, corner)| count_others(&corner.extra)).sum::<usize>();
+    let (walls, openings) = if rooms_only { (plan.walls().len(), plan.openings().len()) } else { (0, 0) };
+    let counted = [
+        (usize::from(plan.backdrop().is_some()), "traced picture", "traced pictures"),
+        (plan.guides().len(), "guide", "guides"),
+        (walls, "wall", "walls"),
+        (openings, "opening", "openings"),
+        (fields, "field of another program", "fields of other programs"),
+    ];
+    let present = counted.into_iter().filter(|&(count, ..)| count > 0);
+    present.map(|(count, one, many)| format!("{count} {}", if count == 1 { one } else { many })).collect()
 }
 
 fn meta_of(plan: &Plan) -> DiskMeta {
@@ -192,7 +192,7 @@ fn opening_feature(plan: &Plan, id: OpeningId, opening: &Opening, found: Option<
         .extra
         .as_ref()
         .and_then(|extra| extra.get(KEPT)?.get("opening")?.as_str())
-        .filter(|word| super::read::opening_kind(word) == Some(opening.kind))
+        .filter(|word| opening_kind(word) == Some(opening.kind))
         .unwrap_or(opening_word(opening.kind));
     let properties = DiskProperties {
         kind: "opening".into(),

@@ -1,6 +1,7 @@
 //! What differs between two plans, in the disk form of the elements that differ: what the journal keeps of
 //! an edit.
 
+use super::super::json_text;
 use super::*;
 use crate::plan::{ChangeKind, Difference};
 
@@ -56,7 +57,7 @@ pub(crate) fn change_to_bytes(before: &Plan, after: &Plan) -> Vec<u8> {
             }
         }
     }
-    json(&disk).into_bytes()
+    json_text::compact(&disk).into_bytes()
 }
 
 /// The plan that a change leads to. The invariants are not checked.

@@ -1,7 +1,6 @@
 //! Pictures to trace over: reading and hashing them, and finding one that has moved.
 
 mod find;
-mod levels;
 mod path;
 mod pdf;
 
@@ -14,8 +13,8 @@ use image::metadata::Orientation;
 use image::{DynamicImage, ImageDecoder as _, ImageError, ImageReader, Limits};
 use sha2::{Digest as _, Sha256};
 
+use crate::picture::{Level, PictureLevels, Samples};
 pub use find::{Found, find_picture};
-pub use levels::{Level, PictureLevels, Samples};
 pub use path::{relative_path, relocated, resolved_path};
 pub use pdf::DOTS_PER_INCH;
 

@@ -5,7 +5,8 @@ use hayro::hayro_syntax::Pdf;
 use hayro::vello_cpu::color::palette::css::WHITE;
 use hayro::{PixmapSettings, RenderCache, RenderSettings, render};
 
-use super::{Level, MOST_PIXELS, PictureError, Samples};
+use super::{MOST_PIXELS, PictureError};
+use crate::picture::{Level, Samples};
 
 /// A page is drawn with so many dots to the inch of its paper, or a half, a quarter and so on of
 /// them where that would be too many pixels: a function of the page's size alone, so that what was

@@ -5,9 +5,9 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use super::charts::{Axis, Bar, Group, Line, bars, lines};
 use super::percent;
 use crate::classify::{Algorithm, Scores};
+use crate::dataset::sets::STANDARD;
 use crate::features::Features;
-use crate::study::paper::PaperFigures;
-use crate::study::{Comparison, ConfusionTable, Rival, STANDARD, Study, letters, set_title};
+use crate::study::{Comparison, ConfusionTable, Rival, Study, letters, paper::PaperFigures, set_title};
 
 /// The whole page: style, pictures and text in one file.
 pub(super) fn page(study: &Study) -> String {

@@ -2,9 +2,8 @@
 
 use super::*;
 use crate::app::tools::TOOLS;
+use crate::edit;
 use crate::plan::OpeningKind;
-use crate::plan::edit;
-use crate::topology;
 
 /// Takes up a tool.
 const fn tool(
@@ -45,7 +44,7 @@ pub(super) fn kind_of(word: &str) -> OpeningKind {
 
 /// An edit whose refusal is the command's.
 pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) -> Ran {
-    match app.try_edit(title, change) {
+    match app.session.try_edit(title, change) {
         Ok(()) => Ran::Done,
         Err(error) => Ran::Refused(error.to_string()),
     }
@@ -175,14 +174,14 @@ pub(super) const COMMANDS: &[Command] = &[
         |app, _, _| {
             let mut filled = 0;
             let ran = edited(app, "Fill all", |plan| {
-                let all = topology::fill_all(plan)?;
+                let all = edit::fill_all(plan)?;
                 filled = all.rooms.len();
                 Ok(all.plan)
             });
             if filled == 0 && ran == Ran::Done {
                 return Ran::Refused("walls enclose nothing that has no room yet".to_owned());
             }
-            app.status = format!("Made {}", crate::app::panels::status::count(filled, "room"));
+            app.session.status = format!("Made {}", crate::base::wording::count(filled, "room"));
             ran
         },
         None,
@@ -194,8 +193,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Right angles",
         "Keep lines to right angles; Shift frees them",
         always,
-        |app| app.draw_options.right_angles,
-        |app, is_on| app.draw_options.right_angles = is_on,
+        |app| app.tools.options.right_angles,
+        |app, is_on| app.tools.options.right_angles = is_on,
     )
     .keys(&[key(Key::F8)])
     .menu(Menu::Draw, 4),
@@ -204,8 +203,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Snap to the drawing",
         "Snap to corners, crossings, midpoints, walls and alignments; Alt suspends it, Tab goes on to the next",
         always,
-        |app| app.draw_options.snaps,
-        |app, is_on| app.draw_options.snaps = is_on,
+        |app| app.tools.options.snaps,
+        |app, is_on| app.tools.options.snaps = is_on,
     )
     .keys(&[key(Key::F3)])
     .menu(Menu::Draw, 4),
@@ -214,8 +213,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Snap to the grid",
         "Snap to the grid, and to round lengths, where it is shown and no picture is",
         always,
-        |app| app.draw_options.snaps_to_grid,
-        |app, is_on| app.draw_options.snaps_to_grid = is_on,
+        |app| app.tools.options.snaps_to_grid,
+        |app, is_on| app.tools.options.snaps_to_grid = is_on,
     )
     .keys(&[key(Key::F9)])
     .menu(Menu::Draw, 4),
@@ -224,8 +223,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Walls around rooms",
         "Draw walls along the boundaries of new rooms",
         always,
-        |app| app.draw_options.walls_with_rooms,
-        |app, is_on| app.draw_options.walls_with_rooms = is_on,
+        |app| app.tools.options.walls_with_rooms,
+        |app, is_on| app.tools.options.walls_with_rooms = is_on,
     )
     .menu(Menu::Draw, 4),
     switch(
@@ -233,8 +232,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Over rooms",
         "Let new rooms take what rooms cover too, as a niche or a corridor that lies within another room",
         always,
-        |app| app.draw_options.over_rooms,
-        |app, is_on| app.draw_options.over_rooms = is_on,
+        |app| app.tools.options.over_rooms,
+        |app, is_on| app.tools.options.over_rooms = is_on,
     )
     .keys(&[key(Key::F7)])
     .menu(Menu::Draw, 4),
@@ -249,7 +248,7 @@ pub(super) const COMMANDS: &[Command] = &[
             "of new walls, in metres",
         )],
         |app, values, _| {
-            app.draw_options.thickness_m = values.number(0).copied().unwrap_or_default();
+            app.tools.options.thickness_m = values.number(0).copied().unwrap_or_default();
             Ran::Done
         },
         None,
@@ -266,7 +265,7 @@ pub(super) const COMMANDS: &[Command] = &[
             "of new openings, in metres",
         )],
         |app, values, _| {
-            app.draw_options.opening_width_m = values.number(0).copied().unwrap_or_default();
+            app.tools.options.opening_width_m = values.number(0).copied().unwrap_or_default();
             Ran::Done
         },
         None,
@@ -279,7 +278,7 @@ pub(super) const COMMANDS: &[Command] = &[
         always,
         &[needed("TOLERANCE", ArgumentKind::Number { unit: " of metres", least: 0.0005, most: 10.0 }, "in metres")],
         |app, values, _| {
-            app.draw_options.arc_tolerance_m = values.number(0).copied().unwrap_or_default();
+            app.tools.options.arc_tolerance_m = values.number(0).copied().unwrap_or_default();
             Ran::Done
         },
         None,
@@ -293,9 +292,9 @@ pub(super) const COMMANDS: &[Command] = &[
         has_plan,
         &[PATH, THICKNESS],
         |app, values, _| {
-            let thickness_m = values.number(1).copied().unwrap_or(app.draw_options.thickness_m);
+            let thickness_m = values.number(1).copied().unwrap_or(app.tools.options.thickness_m);
             let points = values.points(0).unwrap_or_default().to_vec();
-            edited(app, "Draw wall", |plan| Ok(topology::draw_walls(plan, &points, thickness_m)?.plan))
+            edited(app, "Draw wall", |plan| Ok(edit::draw_walls(plan, &points, thickness_m)?.plan))
         },
         None,
     ),
@@ -315,16 +314,16 @@ pub(super) const COMMANDS: &[Command] = &[
         ],
         |app, values, _| {
             let given_m = values.number(2).copied();
-            let own_m = app.draw_options.walls_with_rooms.then_some(app.draw_options.thickness_m);
+            let own_m = app.tools.options.walls_with_rooms.then_some(app.tools.options.thickness_m);
             let thickness_m = given_m.or(own_m).filter(|thickness_m| *thickness_m > 0.0);
             let points = values.points(0).unwrap_or_default().to_vec();
             let takes_free = values.word(1) == Some(&"free");
             edited(app, "Draw room", |plan| {
                 if takes_free {
-                    let gap_m = topology::GAP_BETWEEN_ROOMS_M;
-                    Ok(topology::draw_room_in_free_space(plan, &points, thickness_m, gap_m)?.0)
+                    let gap_m = edit::GAP_BETWEEN_ROOMS_M;
+                    Ok(edit::draw_room_in_free_space(plan, &points, thickness_m, gap_m)?.0)
                 } else {
-                    Ok(topology::draw_room(plan, &points, thickness_m)?.0)
+                    Ok(edit::draw_room(plan, &points, thickness_m)?.0)
                 }
             })
         },
@@ -338,7 +337,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &[PLACE],
         |app, values, _| {
             let point = values.points(0).and_then(|points| points.first()).copied().unwrap_or_default();
-            edited(app, "Fill", |plan| Ok(topology::fill_at(plan, point)?.plan))
+            edited(app, "Fill", |plan| Ok(edit::fill_at(plan, point)?.plan))
         },
         None,
     ),
@@ -350,7 +349,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &[PATH],
         |app, values, _| {
             let points = values.points(0).unwrap_or_default().to_vec();
-            edited(app, "Split", |plan| topology::split_rooms(plan, &points).map(|split| split.0))
+            edited(app, "Split", |plan| edit::split_rooms(plan, &points).map(|split| split.0))
         },
         None,
     ),
@@ -362,7 +361,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &[RING],
         |app, values, _| {
             let points = values.points(0).unwrap_or_default().to_vec();
-            edited(app, "Cut out", |plan| topology::cut_out(plan, topology::room_around(plan, &points)?, &points))
+            edited(app, "Cut out", |plan| edit::cut_out(plan, edit::room_around(plan, &points)?, &points))
         },
         None,
     ),
@@ -385,7 +384,7 @@ pub(super) const COMMANDS: &[Command] = &[
             let kind = kind_of(values.word(0).copied().unwrap_or_default());
             let point = |index: usize| values.points(index).and_then(|points| points.first()).copied();
             let (at, towards) = (point(1).unwrap_or_default(), point(3));
-            let width_m = values.number(2).copied().unwrap_or(app.draw_options.opening_width_m);
+            let width_m = values.number(2).copied().unwrap_or(app.tools.options.opening_width_m);
             edited(app, &format!("Add {}", kind.name()), |plan| {
                 Ok(edit::place_opening(plan, kind, at, width_m, OPENING_REACH_M, towards)?.0)
             })

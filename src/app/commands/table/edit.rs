@@ -16,7 +16,7 @@ pub(super) const COMMANDS: &[Command] = &[
     .keys(&[ctrl(Key::Z)])
     .menu(Menu::Edit, 0)
     .tool(Icon::Undo, 0),
-    command("redo", "Redo", "Do again what was taken back", can_redo, |app, _| app.redo())
+    command("redo", "Redo", "Do again what was taken back", can_redo, |app, _| app.session.redo())
         .keys(&[ctrl_shift(Key::Z), ctrl(Key::Y)])
         .menu(Menu::Edit, 0)
         .tool(Icon::Redo, 0),
@@ -26,7 +26,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Go back or forth to a step of the history",
         has_plan,
         &[needed("STEP", ArgumentKind::Count, "which step of the history, the plan as it came being 1")],
-        |app, values, _| match app.jump_to_step(values.count(0).map_or(0, |step| step - 1)) {
+        |app, values, _| match app.session.jump_to_step(values.count(0).map_or(0, |step| step - 1)) {
             Ok(()) => Ran::Done,
             Err(reason) => Ran::Refused(reason),
         },
@@ -34,7 +34,7 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .menu(Menu::Edit, 0),
     command("clear-selection", "Clear selection", "Put the tool away, or select nothing", can_clear, |app, _| {
-        if app.tools.is_selecting() { app.pick(None) } else { app.put_tool_away() }
+        if app.tools.is_selecting() { app.session.pick(None) } else { app.put_tool_away() }
     })
     .keys(&[key(Key::Escape)])
     .menu(Menu::Edit, 1),
@@ -45,7 +45,7 @@ pub(super) const COMMANDS: &[Command] = &[
         has_plan,
         &[needed("NAME", ArgumentKind::Text, "the plan's name")],
         |app, values, _| {
-            app.change_meta("Rename plan", |meta| meta.name = values.text(0).unwrap_or_default().to_owned());
+            app.session.change_meta("Rename plan", |meta| meta.name = values.text(0).unwrap_or_default().to_owned());
             Ran::Done
         },
         Some(|app, _| {
@@ -62,7 +62,7 @@ pub(super) const COMMANDS: &[Command] = &[
         has_plan,
         &[needed("TYPOLOGY", ArgumentKind::Typology, "a typology with a label scheme, or 'unknown'")],
         |app, values, _| {
-            app.change_meta("Set typology", |meta| meta.typology = values.typology(0).cloned().flatten());
+            app.session.change_meta("Set typology", |meta| meta.typology = values.typology(0).cloned().flatten());
             Ran::Done
         },
         None,

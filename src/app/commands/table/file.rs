@@ -1,12 +1,14 @@
 //! Opening, saving, closing.
 
 use super::*;
-use crate::plan::storey::Keep;
+use crate::edit::storey::Keep;
 
 pub(super) const COMMANDS: &[Command] = &[
-    command("new-plan", "New plan", "Begin a plan on which nothing is drawn yet", always, |app, _| app.new_plan())
-        .keys(&[ctrl(Key::N)])
-        .menu(Menu::File, 0),
+    command("new-plan", "New plan", "Begin a plan on which nothing is drawn yet", always, |app, _| {
+        app.session.new_plan()
+    })
+    .keys(&[ctrl(Key::N)])
+    .menu(Menu::File, 0),
     with(
         "copy-storey",
         "Copy to another storey…",
@@ -21,7 +23,7 @@ pub(super) const COMMANDS: &[Command] = &[
             if storey.is_empty() {
                 return Ran::Refused("the new storey needs a name".to_owned());
             }
-            app.copy_storey(&storey, Keep::of_word(values.word(1).copied().unwrap_or_default()));
+            app.session.copy_storey(&storey, Keep::of_word(values.word(1).copied().unwrap_or_default()));
             Ran::Done
         },
         None,
@@ -39,11 +41,11 @@ pub(super) const COMMANDS: &[Command] = &[
         |app, values, _| {
             if let Some(path) = values.path(0) {
                 let storey = values.count(1).map_or(0, |storey| storey - 1);
-                app.open(Origin::File { path: path.to_owned(), storey });
+                app.session.open(Origin::File { path: path.to_owned(), storey });
             }
             Ran::Done
         },
-        Some(|app, _| app.choose_plan()),
+        Some(|app, _| app.session.choose_plan()),
     )
     .keys(&[ctrl(Key::O)])
     .menu(Menu::File, 0),
@@ -55,7 +57,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &[needed("SAMPLE", ArgumentKind::Sample, "the sample's file name without the ending")],
         |app, values, _| {
             if let Some(&sample) = values.sample(0) {
-                app.open(Origin::Bundled(sample));
+                app.session.open(Origin::Bundled(sample));
             }
             Ran::Done
         },
@@ -68,7 +70,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Save the plan in its file",
         has_plan,
         &[],
-        |app, _, _| if app.save(None) { Ran::Done } else { Ran::Asks },
+        |app, _, _| if app.session.save(None) { Ran::Done } else { Ran::Asks },
         None,
     )
     .keys(&[ctrl(Key::S)])
@@ -81,11 +83,11 @@ pub(super) const COMMANDS: &[Command] = &[
         &[needed("PATH", ArgumentKind::NewPlanFile, "the file, which is replaced if it exists; '.plan.json' is added")],
         |app, values, _| {
             if let Some(path) = values.path(0) {
-                app.save_in(path.to_owned(), None);
+                app.session.save_in(path.to_owned(), None);
             }
             Ran::Done
         },
-        Some(|app, _| app.ask_where_to_save(None, None)),
+        Some(|app, _| app.session.ask_where_to_save(None, None)),
     )
     .keys(&[ctrl_shift(Key::S)])
     .menu(Menu::File, 1),
@@ -104,7 +106,9 @@ pub(super) const COMMANDS: &[Command] = &[
         "Open what was not saved when Enfilade was ended; nothing is written until it is saved",
         can_recover,
         &[needed("NUMBER", ArgumentKind::Count, "which, from the top")],
-        |app, values, _| app.recover(values.count(0).copied().unwrap_or(1)).map_or_else(Ran::Refused, |()| Ran::Done),
+        |app, values, _| {
+            app.session.recover(values.count(0).copied().unwrap_or(1)).map_or_else(Ran::Refused, |()| Ran::Done)
+        },
         None,
     ),
     with(
@@ -114,7 +118,7 @@ pub(super) const COMMANDS: &[Command] = &[
         has_leftovers,
         &[needed("NUMBER", ArgumentKind::Count, "which, from the top")],
         |app, values, _| {
-            app.ask_to_discard(values.count(0).copied().unwrap_or(1)).map_or_else(Ran::Refused, |()| Ran::Done)
+            app.session.ask_to_discard(values.count(0).copied().unwrap_or(1)).map_or_else(Ran::Refused, |()| Ran::Done)
         },
         None,
     ),
@@ -132,7 +136,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Load the file as it is now",
         "Make the plan what somebody else put in its file; undo brings yours back",
         has_their_plan,
-        |app, context| app.load_theirs(context),
+        |app, context| app.session.load_theirs(context),
     )
     .menu(Menu::File, 2),
     command(
@@ -140,7 +144,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Keep mine",
         "Go on with the plan as it is here: saving replaces what somebody else put in its file",
         has_theirs,
-        |app, context| app.keep_mine(context),
+        |app, context| app.session.keep_mine(context),
     )
     .menu(Menu::File, 2),
     switch(
@@ -153,19 +157,19 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .menu(Menu::File, 2),
     command("previous-plan", "Previous plan", "Open the plan above in the list", has_several_plans, |app, _| {
-        app.open_neighbour(-1);
+        app.session.open_neighbour(-1);
     })
     .keys(&[key(Key::PageUp)])
     .menu(Menu::File, 3),
     command("next-plan", "Next plan", "Open the plan below in the list", has_several_plans, |app, _| {
-        app.open_neighbour(1);
+        app.session.open_neighbour(1);
     })
     .keys(&[key(Key::PageDown)])
     .menu(Menu::File, 3),
-    command("close", "Close plan", "Close the plan", has_plan, |app, _| app.request(Intent::Close))
+    command("close", "Close plan", "Close the plan", has_plan, |app, _| app.session.request(Intent::Close))
         .keys(&[ctrl(Key::W)])
         .menu(Menu::File, 4),
-    command("quit", "Quit", "Close the window", always, |app, _| app.request(Intent::Quit))
+    command("quit", "Quit", "Close the window", always, |app, _| app.session.request(Intent::Quit))
         .keys(&[ctrl(Key::Q)])
         .menu(Menu::File, 4),
 ];

@@ -11,27 +11,25 @@ mod room;
 mod script;
 mod view;
 
+use crate::app::session::origin::Origin;
 use std::path::Path;
 use std::sync::LazyLock;
 
 use egui::{Context, Key, KeyboardShortcut, Modifiers};
 
 use super::{Action, Argument, ArgumentKind, Availability, Command, Menu, Ran, Values};
-use crate::app::icons::Icon;
-use crate::app::panels::FieldKind;
-use crate::app::panels::palette::Palette;
-use crate::app::panels::shortcuts::Sheet;
-use crate::app::settings::GRID_RANGE_M;
-use crate::app::theme::ThemeChoice;
-use crate::app::{App, Intent, Origin, SelectMode};
+use crate::app::look::{icons::Icon, theme::ThemeChoice};
+use crate::app::panels::{palette::Palette, shortcuts::Sheet};
+use crate::app::session::{fields::FieldKind, questions::Intent, selection::SelectMode, settings::GRID_RANGE_M};
+use crate::app::state::App;
+use crate::base::units::Units;
 use crate::classify::{Algorithm, Method};
 use crate::draw::{Fill, LabelColours};
+use crate::edit::EditError;
 use crate::features::RoomStatus;
 use crate::geometry::{Bounds, Point, Segment, Vector, polygon, trim_m};
 use crate::labels::{Label, normalised_function};
-use crate::plan::edit::EditError;
 use crate::plan::{ElementId, Plan};
-use crate::units::Units;
 
 const fn key(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::NONE, key)
@@ -176,16 +174,16 @@ fn when(holds: bool, otherwise: &'static str) -> Availability {
 }
 
 fn has_plan(app: &App) -> Availability {
-    when(app.document.is_some(), "open a plan first")
+    when(app.session.document.is_some(), "open a plan first")
 }
 
 fn has_picked(app: &App) -> Availability {
     has_plan(app)?;
-    when(!app.selection.is_empty(), "select something first")
+    when(!app.session.selection.is_empty(), "select something first")
 }
 
 fn can_clear(app: &App) -> Availability {
-    when(!app.selection.is_empty() || !app.tools.is_selecting(), "nothing is selected")
+    when(!app.session.selection.is_empty() || !app.tools.is_selecting(), "nothing is selected")
 }
 
 fn has_room(app: &App) -> Availability {
@@ -205,33 +203,33 @@ fn has_openings(app: &App) -> Availability {
 
 fn can_undo(app: &App) -> Availability {
     has_plan(app)?;
-    let can = app.document.as_ref().is_some_and(|document| document.history.can_undo());
+    let can = app.session.document.as_ref().is_some_and(|document| document.history.can_undo());
     when(can || app.tools.tool().is_busy(), "there is nothing to undo")
 }
 
 fn can_redo(app: &App) -> Availability {
     has_plan(app)?;
-    let can = app.document.as_ref().is_some_and(|document| document.history.can_redo());
+    let can = app.session.document.as_ref().is_some_and(|document| document.history.can_redo());
     when(can, "nothing was undone")
 }
 
 /// Rooms are selected, or one is under the pointer.
 fn has_target(app: &App) -> Availability {
     has_plan(app)?;
-    when(app.target(None).is_some(), "pick a room first, or point at one")
+    when(app.session.target(None).is_some(), "pick a room first, or point at one")
 }
 
 fn has_own_label(app: &App) -> Availability {
     has_target(app)?;
-    let Some((plan, target)) = app.plan().zip(app.target(None)) else { return Ok(()) };
+    let Some((plan, target)) = app.plan().zip(app.session.target(None)) else { return Ok(()) };
     let has = target.rooms.iter().any(|&room| plan.room(room).is_some_and(|room| room.label.is_some()));
     when(has, "the room has no label of its own")
 }
 
 fn has_prediction(app: &App) -> Availability {
     has_plan(app)?;
-    when(app.selection.rooms().next().is_some(), "pick a room first")?;
-    when(!app.predictions_of_selected().is_empty(), "the room is not one that is predicted")
+    when(app.session.selection.rooms().next().is_some(), "pick a room first")?;
+    when(!app.session.predictions_of_selected().is_empty(), "the room is not one that is predicted")
 }
 
 fn has_unlabelled(app: &App) -> Availability {
@@ -242,7 +240,7 @@ fn has_unlabelled(app: &App) -> Availability {
 }
 
 fn has_several_plans(app: &App) -> Availability {
-    when(app.list.len() > 1, "there is only one plan in the list")
+    when(app.session.list.len() > 1, "there is only one plan in the list")
 }
 
 fn has_backdrop(app: &App) -> Availability {
@@ -253,12 +251,12 @@ fn has_backdrop(app: &App) -> Availability {
 
 fn has_notes(app: &App) -> Availability {
     has_plan(app)?;
-    let has = app.document.as_ref().is_some_and(|document| !document.notes.is_empty());
+    let has = app.session.document.as_ref().is_some_and(|document| !document.notes.is_empty());
     when(has, "nothing was mended or left out when the plan was opened")
 }
 
 fn has_leftovers(app: &App) -> Availability {
-    when(!app.safety.leftovers.is_empty(), "nothing was left unsaved")
+    when(!app.session.safety.leftovers.is_empty(), "nothing was left unsaved")
 }
 
 fn can_recover(app: &App) -> Availability {
@@ -268,16 +266,16 @@ fn can_recover(app: &App) -> Availability {
 
 fn has_theirs(app: &App) -> Availability {
     has_plan(app)?;
-    when(app.safety.theirs.is_some(), "nobody else has changed the plan's file")
+    when(app.session.safety.theirs.is_some(), "nobody else has changed the plan's file")
 }
 
 fn has_their_plan(app: &App) -> Availability {
     has_theirs(app)?;
-    when(app.their_plan().is_some(), "what is in the file is no plan")
+    when(app.session.their_plan().is_some(), "what is in the file is no plan")
 }
 
 fn has_messages(app: &App) -> Availability {
-    when(!app.messages.is_empty(), "there is no message")
+    when(!app.session.messages.is_empty(), "there is no message")
 }
 
 fn can_record(app: &App) -> Availability {
@@ -289,11 +287,11 @@ fn can_record(app: &App) -> Availability {
 }
 
 fn has_changed_keys(app: &App) -> Availability {
-    when(app.settings.is_any_changed(), "no shortcut was changed")
+    when(app.session.settings.is_any_changed(), "no shortcut was changed")
 }
 
 fn is_asked(app: &App) -> Availability {
-    when(app.question.is_some(), "nothing is asked")
+    when(app.session.question.is_some(), "nothing is asked")
 }
 
 /// The drawing area's half side in metres: coordinates beyond are no plan's.

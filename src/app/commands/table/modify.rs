@@ -4,9 +4,12 @@ use std::collections::BTreeSet;
 
 use super::draw::{KINDS, edited, kind_of};
 use super::*;
-use crate::app::{Document, ProposedChange, Question};
+use crate::app::session::{
+    document::Document,
+    questions::{ProposedChange, Question},
+};
+use crate::edit::{self, Alignment, Array};
 use crate::geometry::Transform;
-use crate::plan::edit::{self, Alignment, Array};
 use crate::plan::{LeafSide, OpeningId, OpeningKind, RoomId, Swing};
 use crate::topology;
 
@@ -16,7 +19,7 @@ pub(super) const COMMANDS: &[Command] = &[
     command("select-all", "Select all", "Select everything that is not locked", has_drawing, |app, _| {
         let Some(plan) = app.plan() else { return };
         let all: Vec<ElementId> = plan.elements().filter(|&element| is_selectable(app, element)).collect();
-        app.select(all, SelectMode::Replace);
+        app.session.select(all, SelectMode::Replace);
     })
     .keys(&[ctrl(Key::A)])
     .menu(Menu::Modify, 0),
@@ -31,7 +34,7 @@ pub(super) const COMMANDS: &[Command] = &[
             let Some(plan) = app.plan() else { return Ran::Done };
             let found: Vec<ElementId> = plan
                 .rooms()
-                .filter(|(_, room)| label_word(RoomStatus::of(plan, &app.schemes, room)) == wanted)
+                .filter(|(_, room)| label_word(RoomStatus::of(plan, &app.session.schemes, room)) == wanted)
                 .map(|(id, _)| ElementId::Room(id))
                 .collect();
             select_found(app, found, values)
@@ -251,7 +254,7 @@ pub(super) const COMMANDS: &[Command] = &[
                 Some(&"centre") => Alignment::Center,
                 _ => Alignment::Middle,
             };
-            let selected = app.selection.elements().clone();
+            let selected = app.session.selection.elements().clone();
             edited(app, "Align", |plan| edit::align(plan, &selected, alignment))
         },
         None,
@@ -265,7 +268,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &[needed("WAY", ArgumentKind::Word(&[("across", "Side by side"), ("up", "Above each other")]), "across or up")],
         |app, values, _| {
             let is_upright = values.word(0) == Some(&"up");
-            let selected = app.selection.elements().clone();
+            let selected = app.session.selection.elements().clone();
             edited(app, "Distribute", |plan| edit::distribute(plan, &selected, is_upright))
         },
         None,
@@ -283,7 +286,7 @@ pub(super) const COMMANDS: &[Command] = &[
         )],
         |app, values, _| {
             let max_rad = values.number(0).copied().unwrap_or(10.0).to_radians();
-            let rooms: BTreeSet<RoomId> = app.selection.rooms().collect();
+            let rooms: BTreeSet<RoomId> = app.session.selection.rooms().collect();
             let of = (!rooms.is_empty()).then_some(rooms);
             edited(app, "Square up", |plan| edit::square_up(plan, of.as_ref(), max_rad))
         },
@@ -325,7 +328,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &[needed("THICKNESS", ArgumentKind::Number { unit: " of metres", least: 0.0, most: 10.0 }, "in metres")],
         |app, values, _| {
             let thickness_m = values.number(0).copied().unwrap_or_default();
-            let walls: Vec<_> = app.selection.walls().collect();
+            let walls: Vec<_> = app.session.selection.walls().collect();
             if walls.is_empty() {
                 return Ran::Refused("select a wall first".to_owned());
             }
@@ -341,11 +344,11 @@ pub(super) const COMMANDS: &[Command] = &[
         has_picked,
         &[],
         |app, _, _| {
-            let rooms: Vec<RoomId> = app.selection.rooms().collect();
+            let rooms: Vec<RoomId> = app.session.selection.rooms().collect();
             if rooms.len() < 2 {
                 return Ran::Refused("select two rooms or more first".to_owned());
             }
-            edited(app, "Merge rooms", |plan| topology::merge_rooms(plan, &rooms))
+            edited(app, "Merge rooms", |plan| edit::merge_rooms(plan, &rooms))
         },
         None,
     )
@@ -412,8 +415,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Lock rooms",
         "Let the pointer neither select nor move rooms",
         always,
-        |app| app.layers.locked.rooms,
-        |app, is_on| app.layers.locked.rooms = is_on,
+        |app| app.session.layers.locked.rooms,
+        |app, is_on| app.session.layers.locked.rooms = is_on,
     )
     .menu(Menu::Modify, 9),
     switch(
@@ -421,8 +424,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Lock walls",
         "Let the pointer neither select nor move walls",
         always,
-        |app| app.layers.locked.walls,
-        |app, is_on| app.layers.locked.walls = is_on,
+        |app| app.session.layers.locked.walls,
+        |app, is_on| app.session.layers.locked.walls = is_on,
     )
     .menu(Menu::Modify, 9),
     switch(
@@ -430,8 +433,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Lock openings",
         "Let the pointer neither select nor move openings",
         always,
-        |app| app.layers.locked.openings,
-        |app, is_on| app.layers.locked.openings = is_on,
+        |app| app.session.layers.locked.openings,
+        |app, is_on| app.session.layers.locked.openings = is_on,
     )
     .menu(Menu::Modify, 9),
     // What the pointer does, for scripts.
@@ -454,7 +457,7 @@ pub(super) const COMMANDS: &[Command] = &[
             let touches = values.word(1) == Some(&"touching");
             let found = app.elements_in(bounds, touches);
             let mode = SelectMode::of_word(values.word(2).copied().unwrap_or("replace"));
-            app.select(found, mode);
+            app.session.select(found, mode);
             Ran::Done
         },
         None,
@@ -499,7 +502,7 @@ pub(super) const COMMANDS: &[Command] = &[
                 let gaps = topology::gaps(plan);
                 let nearest = gaps.iter().min_by(|p, q| p.segment.distance(at).total_cmp(&q.segment.distance(at)));
                 let Some(gap) = nearest else { return Err(EditError(NO_GAPS.to_owned())) };
-                Ok(topology::bridge_gaps(plan, std::slice::from_ref(gap), kind)?.0)
+                Ok(edit::bridge_gaps(plan, std::slice::from_ref(gap), kind)?.0)
             })
         },
         None,
@@ -564,7 +567,7 @@ const NO_GAPS: &str = "there is no gap of 30 to 150 cm between collinear walls";
 
 /// Moves what is selected.
 fn moved(app: &mut App, title: &str, transform: Transform) -> Ran {
-    let selected = app.selection.elements().clone();
+    let selected = app.session.selection.elements().clone();
     edited(app, title, |plan| {
         let next = edit::move_elements(plan, &selected, transform)?;
         // What comes to lie on something else shares its corners.
@@ -574,7 +577,7 @@ fn moved(app: &mut App, title: &str, transform: Transform) -> Ran {
 
 /// Copies what is selected and selects the copies.
 fn copied(app: &mut App, array: Array) -> Ran {
-    let selected = app.selection.elements().clone();
+    let selected = app.session.selection.elements().clone();
     let mut made = BTreeSet::new();
     let ran = edited(app, "Array", |plan| {
         let (next, copies) = edit::array(plan, &selected, array)?;
@@ -590,18 +593,18 @@ fn select_made(app: &mut App, made: &BTreeSet<ElementId>) {
     let made: Vec<ElementId> =
         made.iter().copied().filter(|element| !matches!(element, ElementId::Corner(_))).collect();
     if !made.is_empty() {
-        app.select(made, SelectMode::Replace);
+        app.session.select(made, SelectMode::Replace);
     }
 }
 
 fn has_copied(app: &App) -> Availability {
     has_plan(app)?;
-    when(app.copied.is_some(), "nothing was copied yet")
+    when(app.session.copied.is_some(), "nothing was copied yet")
 }
 
 fn has_opening(app: &App) -> Availability {
     has_picked(app)?;
-    when(app.selection.openings().next().is_some(), "select a door or another opening first")
+    when(app.session.selection.openings().next().is_some(), "select a door or another opening first")
 }
 
 /// The labels as words, and rooms without one.
@@ -627,8 +630,8 @@ fn select_found(app: &mut App, found: Vec<ElementId>, values: &Values) -> Ran {
     if found.is_empty() {
         return Ran::Refused("there is no such room".to_owned());
     }
-    app.status = format!("Found {}", crate::app::panels::status::count(found.len(), "room"));
-    app.select(found, SelectMode::of_word(values.word(1).copied().unwrap_or("replace")));
+    app.session.status = format!("Found {}", crate::base::wording::count(found.len(), "room"));
+    app.session.select(found, SelectMode::of_word(values.word(1).copied().unwrap_or("replace")));
     Ran::Done
 }
 
@@ -639,7 +642,7 @@ fn has_drawing(app: &App) -> Availability {
 
 /// Corners are selected by hand only: they are part of everything else.
 fn is_selectable(app: &App, element: ElementId) -> bool {
-    !matches!(element, ElementId::Corner(_)) && !app.layers.is_locked(element)
+    !matches!(element, ElementId::Corner(_)) && !app.session.layers.is_locked(element)
 }
 
 impl App {
@@ -676,7 +679,7 @@ impl App {
     /// Says why something was refused, where the command cannot.
     fn report(&mut self, act: impl FnOnce(&mut Self) -> Ran) {
         if let Ran::Refused(reason) = act(self) {
-            self.status = reason;
+            self.session.status = reason;
         }
     }
 
@@ -684,8 +687,8 @@ impl App {
     fn centre_of_selection(&self, values: &Values, index: usize) -> Point {
         let named = values.points(index).and_then(|points| points.first()).copied();
         named.unwrap_or_else(|| {
-            let document = self.document.as_ref();
-            let bounds = self.selection.iter().filter_map(|element| document?.bounds_of(element));
+            let document = self.session.document.as_ref();
+            let bounds = self.session.selection.iter().filter_map(|element| document?.bounds_of(element));
             bounds.reduce(Bounds::union).map_or(Point::default(), Bounds::center)
         })
     }
@@ -693,12 +696,12 @@ impl App {
     /// Keeps what is selected, here and in the system's clipboard.
     fn copy_selected(&mut self, context: &Context) -> Ran {
         let Some(plan) = self.plan() else { return Ran::Done };
-        match edit::fragment(plan, self.selection.elements()) {
+        match edit::fragment(plan, self.session.selection.elements()) {
             Ok(fragment) => {
                 let text = String::from_utf8_lossy(&crate::formats::plan_json::to_bytes(&fragment)).into_owned();
                 context.copy_text(text);
-                self.status = format!("Copied {} elements", self.selection.len());
-                self.copied = Some(fragment);
+                self.session.status = format!("Copied {} elements", self.session.selection.len());
+                self.session.copied = Some(fragment);
                 Ran::Done
             }
             Err(error) => Ran::Refused(error.to_string()),
@@ -706,16 +709,16 @@ impl App {
     }
 
     /// Takes over what the system's clipboard holds, where that is part of a plan.
-    pub(in crate::app) fn take_pasted(&mut self, text: &str) {
+    pub(crate) fn take_pasted(&mut self, text: &str) {
         if let Ok(plan) = crate::formats::plan_json::from_bytes(text.as_bytes())
             && !plan.is_empty()
         {
-            self.copied = Some(plan);
+            self.session.copied = Some(plan);
         }
     }
 
     fn paste_at(&mut self, at: Point) -> Ran {
-        let Some(fragment) = self.copied.clone() else { return Ran::Done };
+        let Some(fragment) = self.session.copied.clone() else { return Ran::Done };
         let by = at - fragment.bounds().center();
         let mut made = BTreeSet::new();
         let ran = edited(self, "Paste", |plan| {
@@ -740,13 +743,13 @@ impl App {
                 let mut marks: Vec<Segment> =
                     weld.merged.iter().map(|&(from, to)| Segment::new(place(from), place(to))).collect();
                 marks.extend(weld.onto_edges.iter().map(|&(corner, _)| Segment::new(place(corner), place(corner))));
-                let count = crate::app::panels::status::count;
+                let count = crate::base::wording::count;
                 let (corners, edges) = (count(weld.merged.len(), "corner"), count(weld.onto_edges.len(), "edge"));
                 let text = format!(
                     "{corners} would become another within {}, and {edges} would be split at a corner: marked on the plan.",
                     self.units().length(tolerance_m)
                 );
-                self.question = Some(Question::Change(ProposedChange {
+                self.session.question = Some(Question::Change(ProposedChange {
                     title: "Weld these corners?".to_owned(),
                     text,
                     answers: &[("weld", "Weld"), ("cancel", "Cancel")],
@@ -766,11 +769,11 @@ impl App {
         if gaps.is_empty() {
             return Ran::Refused(NO_GAPS.to_owned());
         }
-        match topology::bridge_gaps(plan, &gaps, OpeningKind::Door) {
+        match edit::bridge_gaps(plan, &gaps, OpeningKind::Door) {
             Err(error) => Ran::Refused(error.to_string()),
             Ok((next, _)) => {
-                let gaps_said = crate::app::panels::status::count(gaps.len(), "gap");
-                self.question = Some(Question::Change(ProposedChange {
+                let gaps_said = crate::base::wording::count(gaps.len(), "gap");
+                self.session.question = Some(Question::Change(ProposedChange {
                     title: "Put doors into these gaps?".to_owned(),
                     text: format!("{gaps_said} between collinear walls, 30 to 150 cm wide: marked on the plan."),
                     answers: &[("bridge", "Put doors in"), ("cancel", "Cancel")],
@@ -787,16 +790,16 @@ impl App {
     fn offset_selected(&mut self, values: &Values) -> Ran {
         let distance_m = values.number(0).copied().unwrap_or_default();
         let named = values.points(1).and_then(|points| points.first()).copied();
-        let towards = named.or(self.canvas.pointer).unwrap_or_default();
-        let walls: Vec<_> = self.selection.walls().collect();
-        let room = self.selection.rooms().next();
-        let thickness_m = self.draw_options.thickness_m;
+        let towards = named.or(self.session.pointed.at).unwrap_or_default();
+        let walls: Vec<_> = self.session.selection.walls().collect();
+        let room = self.session.selection.rooms().next();
+        let thickness_m = self.tools.options.thickness_m;
         edited(self, "Offset", |plan| match (walls.is_empty(), room) {
-            (false, _) => Ok(topology::offset_walls(plan, &walls, distance_m, towards)?.plan),
+            (false, _) => Ok(edit::offset_walls(plan, &walls, distance_m, towards)?.plan),
             (true, Some(room)) => {
                 let points = plan.room(room).map(|room| plan.ring_points(&room.outer)).unwrap_or_default();
                 let is_inside = polygon::locate_in_ring(&points, towards) != polygon::Location::Outside;
-                Ok(topology::offset_room(plan, room, distance_m, is_inside, thickness_m)?.plan)
+                Ok(edit::offset_room(plan, room, distance_m, is_inside, thickness_m)?.plan)
             }
             (true, None) => Err(EditError("select walls or a room first".to_owned())),
         })
@@ -808,9 +811,10 @@ impl App {
         title: &str,
         change: impl Fn(&Plan, OpeningId, Swing) -> Result<Plan, EditError>,
     ) -> Ran {
-        let derived = self.document.as_ref().and_then(Document::derived).cloned();
+        let derived = self.session.document.as_ref().and_then(Document::derived).cloned();
         let drawn = |id: OpeningId| derived.as_ref().and_then(|derived| derived.drawing.swing_of(id));
         let openings: Vec<(OpeningId, Swing)> = self
+            .session
             .selection
             .openings()
             .map(|id| (id, drawn(id).unwrap_or(Swing { hinge_at_start: true, side: LeafSide::Left })))
@@ -823,25 +827,17 @@ impl App {
     /// Deletes what is selected; asks first where more would go with it.
     fn delete_selected(&mut self) -> Ran {
         let Some(plan) = self.plan() else { return Ran::Done };
-        let selected: Vec<ElementId> = self.selection.iter().collect();
+        let selected: Vec<ElementId> = self.session.selection.iter().collect();
         let gone = edit::removed_with(plan, &selected);
         // Corners that nothing uses any more are no loss.
-        let is_loss =
-            |element: &ElementId| !self.selection.contains(*element) && !matches!(element, ElementId::Corner(_));
+        let is_loss = |element: &ElementId| {
+            !self.session.selection.contains(*element) && !matches!(element, ElementId::Corner(_))
+        };
         if gone.iter().any(is_loss) {
-            self.question = Some(Question::Delete { selected, gone });
+            self.session.question = Some(Question::Delete { selected, gone });
             return Ran::Asks;
         }
-        self.delete(&selected);
+        self.session.delete(&selected);
         Ran::Done
-    }
-
-    /// Deletes elements and what depends on them.
-    pub(in crate::app) fn delete(&mut self, elements: &[ElementId]) {
-        let title = match elements {
-            [one] => format!("Delete {}", one.kind()),
-            several => format!("Delete {} elements", several.len()),
-        };
-        self.edit(&title, |plan| edit::remove(plan, elements));
     }
 }

@@ -1,8 +1,9 @@
 //! The picture under the plan, to trace over.
 
 use super::*;
-use crate::app::backdrop::PictureUse;
-use crate::plan::{DEFAULT_DOOR_WIDTH_M, DrawingMoves, ElementId};
+use crate::app::session::tracing::PictureUse;
+use crate::edit::DrawingMoves;
+use crate::plan::{DEFAULT_DOOR_WIDTH_M, ElementId};
 
 const DRAWING: Argument = optional(
     "DRAWING",
@@ -33,7 +34,7 @@ fn has_opening_on_picture(app: &App) -> Availability {
 }
 
 fn selected_opening(app: &App) -> Option<crate::plan::OpeningId> {
-    match app.selection.one()? {
+    match app.session.selection.one()? {
         ElementId::Opening(id) => Some(id),
         _ => None,
     }
@@ -41,7 +42,7 @@ fn selected_opening(app: &App) -> Option<crate::plan::OpeningId> {
 
 fn has_pages(app: &App) -> Availability {
     has_backdrop(app)?;
-    when(app.canvas.backdrop.pages() > 1, "the picture has one page")
+    when(app.session.backdrop.pages() > 1, "the picture has one page")
 }
 
 /// The argument at a place that says what becomes of the drawing.
@@ -68,11 +69,11 @@ pub(super) const COMMANDS: &[Command] = &[
         |app, values, _| {
             if let Some(path) = values.path(0) {
                 let page = values.count(1).map_or(1, |page| u32::try_from(*page).unwrap_or(u32::MAX));
-                app.use_picture(PictureUse::Add, path.to_owned(), page);
+                app.session.use_picture(PictureUse::Add, path.to_owned(), page);
             }
             Ran::Done
         },
-        Some(|app, _| app.choose_picture(PictureUse::Add)),
+        Some(|app, _| app.session.choose_picture(PictureUse::Add)),
     )
     .menu(Menu::Picture, 0),
     with(
@@ -84,11 +85,11 @@ pub(super) const COMMANDS: &[Command] = &[
         |app, values, _| {
             if let Some(path) = values.path(0) {
                 let page = app.plan().and_then(crate::plan::Plan::backdrop).map_or(1, |backdrop| backdrop.page);
-                app.use_picture(PictureUse::Relink, path.to_owned(), page);
+                app.session.use_picture(PictureUse::Relink, path.to_owned(), page);
             }
             Ran::Done
         },
-        Some(|app, _| app.choose_picture(PictureUse::Relink)),
+        Some(|app, _| app.session.choose_picture(PictureUse::Relink)),
     )
     .menu(Menu::Picture, 0),
     with(
@@ -99,17 +100,17 @@ pub(super) const COMMANDS: &[Command] = &[
         &[needed("PAGE", ArgumentKind::Count, "from 1")],
         |app, values, _| {
             let page = values.count(0).map_or(1, |page| u32::try_from(*page).unwrap_or(u32::MAX));
-            if page > app.canvas.backdrop.pages() {
-                return Ran::Refused(format!("it has {} pages", app.canvas.backdrop.pages()));
+            if page > app.session.backdrop.pages() {
+                return Ran::Refused(format!("it has {} pages", app.session.backdrop.pages()));
             }
-            app.change_backdrop("Show page", |backdrop| backdrop.page = page);
+            app.session.change_backdrop("Show page", |backdrop| backdrop.page = page);
             Ran::Done
         },
         None,
     )
     .menu(Menu::Picture, 0),
     command("remove-picture", "Remove picture", "Take the picture away from under the plan", has_backdrop, |app, _| {
-        app.remove_picture();
+        app.session.remove_picture();
     })
     .menu(Menu::Picture, 0),
     choose(
@@ -146,7 +147,7 @@ pub(super) const COMMANDS: &[Command] = &[
         ],
         |app, values, _| match (point(values, 0), point(values, 2), values.number(4)) {
             (Some(from), Some(to), Some(&length_m)) => {
-                done(app.add_measurement(from, to, length_m, drawing(values, 5)))
+                done(app.session.add_measurement(from, to, length_m, drawing(values, 5)))
             }
             _ => Ran::Done,
         },
@@ -162,7 +163,7 @@ pub(super) const COMMANDS: &[Command] = &[
         |app, values, _| {
             let width_m = values.number(0).copied().unwrap_or(DEFAULT_DOOR_WIDTH_M);
             let Some(opening) = selected_opening(app) else { return Ran::Done };
-            done(app.measure_opening(opening, width_m, drawing(values, 1)))
+            done(app.session.measure_opening(opening, width_m, drawing(values, 1)))
         },
         None,
     )
@@ -175,7 +176,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &[needed("NUMBER", ArgumentKind::Count, "which of the list, from 1"), DRAWING],
         |app, values, _| {
             let index = values.count(0).map_or(0, |number| number - 1);
-            done(app.remove_measurement(index, drawing(values, 1)))
+            done(app.session.remove_measurement(index, drawing(values, 1)))
         },
         None,
     )
@@ -202,7 +203,7 @@ pub(super) const COMMANDS: &[Command] = &[
             DRAWING,
         ],
         |app, values, _| match (point(values, 0), point(values, 2)) {
-            (Some(from), Some(to)) => done(app.straighten(from, to, drawing(values, 4))),
+            (Some(from), Some(to)) => done(app.session.straighten(from, to, drawing(values, 4))),
             _ => Ran::Done,
         },
         None,
@@ -221,7 +222,7 @@ pub(super) const COMMANDS: &[Command] = &[
             DRAWING,
         ],
         |app, values, _| {
-            app.turn_picture(values.number(0).copied().unwrap_or(0.0), drawing(values, 1));
+            app.session.turn_picture(values.number(0).copied().unwrap_or(0.0), drawing(values, 1));
             Ran::Done
         },
         None,
@@ -235,7 +236,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &[metres("DX", "to the right, in metres"), metres("DY", "up, in metres")],
         |app, values, _| {
             if let Some(by) = point(values, 0) {
-                app.move_picture(Vector::new(by.x, by.y));
+                app.session.move_picture(Vector::new(by.x, by.y));
             }
             Ran::Done
         },
@@ -254,19 +255,19 @@ pub(super) const COMMANDS: &[Command] = &[
         )],
         |app, values, _| {
             let opacity = values.number(0).copied().unwrap_or(100.0) / 100.0;
-            app.change_backdrop("Set opacity", |backdrop| backdrop.opacity = opacity);
+            app.session.change_backdrop("Set opacity", |backdrop| backdrop.opacity = opacity);
             Ran::Done
         },
         None,
     )
     .menu(Menu::Picture, 3),
     command("picture-fainter", "Fainter", "Show the picture less strongly", has_backdrop, |app, _| {
-        app.change_backdrop("Set opacity", |backdrop| backdrop.opacity = stepped(backdrop.opacity, -1.0));
+        app.session.change_backdrop("Set opacity", |backdrop| backdrop.opacity = stepped(backdrop.opacity, -1.0));
     })
     .keys(&[key(Key::Comma)])
     .menu(Menu::Picture, 3),
     command("picture-stronger", "Stronger", "Show the picture more strongly", has_backdrop, |app, _| {
-        app.change_backdrop("Set opacity", |backdrop| backdrop.opacity = stepped(backdrop.opacity, 1.0));
+        app.session.change_backdrop("Set opacity", |backdrop| backdrop.opacity = stepped(backdrop.opacity, 1.0));
     })
     .keys(&[key(Key::Period)])
     .menu(Menu::Picture, 3),

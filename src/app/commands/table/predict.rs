@@ -8,8 +8,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Of the plan",
         "Predict by models of the plan's own typology, inferred where it has none",
         always,
-        |app| app.predictor.set.name() == "plan",
-        |app, _| app.predict_by_set("plan"),
+        |app| app.session.predictor.set.name() == "plan",
+        |app, _| app.session.predict_by_set("plan"),
     )
     .menu(Menu::Predict, 0),
     choose(
@@ -17,8 +17,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Inferred",
         "Predict by models of the typology that is inferred from the plan, whatever it says of itself",
         always,
-        |app| app.predictor.set.name() == "auto",
-        |app, _| app.predict_by_set("auto"),
+        |app| app.session.predictor.set.name() == "auto",
+        |app, _| app.session.predict_by_set("auto"),
     )
     .menu(Menu::Predict, 0),
     choose(
@@ -26,8 +26,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "House",
         "Predict by models that learned from houses",
         always,
-        |app| app.predictor.set.name() == "house",
-        |app, _| app.predict_by_set("house"),
+        |app| app.session.predictor.set.name() == "house",
+        |app, _| app.session.predict_by_set("house"),
     )
     .menu(Menu::Predict, 0),
     choose(
@@ -35,8 +35,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "School",
         "Predict by models that learned from schools",
         always,
-        |app| app.predictor.set.name() == "school",
-        |app, _| app.predict_by_set("school"),
+        |app| app.session.predictor.set.name() == "school",
+        |app, _| app.session.predict_by_set("school"),
     )
     .menu(Menu::Predict, 0),
     choose(
@@ -44,8 +44,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Office",
         "Predict by models that learned from offices",
         always,
-        |app| app.predictor.set.name() == "office",
-        |app, _| app.predict_by_set("office"),
+        |app| app.session.predictor.set.name() == "office",
+        |app, _| app.session.predict_by_set("office"),
     )
     .menu(Menu::Predict, 0),
     choose(
@@ -53,8 +53,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Standard",
         "Predict by models that learned from all typologies",
         always,
-        |app| app.predictor.set.name() == "standard",
-        |app, _| app.predict_by_set("standard"),
+        |app| app.session.predictor.set.name() == "standard",
+        |app, _| app.session.predict_by_set("standard"),
     )
     .menu(Menu::Predict, 0),
     choose(
@@ -62,8 +62,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Rule induction",
         "Predict by rules that can be read",
         always,
-        |app| app.predictor.method == Method::Each(Algorithm::Rules),
-        |app, _| app.predictor.method = Method::Each(Algorithm::Rules),
+        |app| app.session.predictor.method == Method::Each(Algorithm::Rules),
+        |app, _| app.session.predictor.method = Method::Each(Algorithm::Rules),
     )
     .menu(Menu::Predict, 1),
     choose(
@@ -71,8 +71,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Decision tree",
         "Predict by a decision tree",
         always,
-        |app| app.predictor.method == Method::Each(Algorithm::Tree),
-        |app, _| app.predictor.method = Method::Each(Algorithm::Tree),
+        |app| app.session.predictor.method == Method::Each(Algorithm::Tree),
+        |app, _| app.session.predictor.method = Method::Each(Algorithm::Tree),
     )
     .menu(Menu::Predict, 1),
     choose(
@@ -80,8 +80,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Nearest neighbours",
         "Predict by the most similar rooms of the training set",
         always,
-        |app| app.predictor.method == Method::Each(Algorithm::Knn),
-        |app, _| app.predictor.method = Method::Each(Algorithm::Knn),
+        |app| app.session.predictor.method == Method::Each(Algorithm::Knn),
+        |app, _| app.session.predictor.method = Method::Each(Algorithm::Knn),
     )
     .menu(Menu::Predict, 1),
     choose(
@@ -89,8 +89,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Perceptron",
         "Predict by a multilayer perceptron",
         always,
-        |app| app.predictor.method == Method::Each(Algorithm::Mlp),
-        |app, _| app.predictor.method = Method::Each(Algorithm::Mlp),
+        |app| app.session.predictor.method == Method::Each(Algorithm::Mlp),
+        |app, _| app.session.predictor.method = Method::Each(Algorithm::Mlp),
     )
     .menu(Menu::Predict, 1),
     choose(
@@ -98,8 +98,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "All rooms together",
         "Predict by a classifier that looks at all rooms of the plan in relation to each other",
         always,
-        |app| app.predictor.method == Method::Joint,
-        |app, _| app.predictor.method = Method::Joint,
+        |app| app.session.predictor.method == Method::Joint,
+        |app, _| app.session.predictor.method = Method::Joint,
     )
     .menu(Menu::Predict, 1),
     command(
@@ -107,7 +107,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Accept the prediction",
         "Make the predicted labels the selected rooms' own",
         has_prediction,
-        |app, _| app.accept_prediction(),
+        |app, _| app.session.accept_prediction(),
     )
     .keys(&[key(Key::A)])
     .menu(Menu::Predict, 2),
@@ -116,7 +116,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Accept all predictions",
         "Make the predicted labels those of all rooms without a label",
         has_unlabelled,
-        |app, _| app.accept_all_predictions(),
+        |app, _| app.session.accept_all_predictions(),
     )
     .keys(&[shift(Key::A)])
     .menu(Menu::Predict, 2),

@@ -1,9 +1,9 @@
 //! The picked room: finding, naming, labelling.
 
 use super::*;
-use crate::app::bulk::{Change, Order, Which};
-use crate::app::labelling::Target;
 use crate::app::panels::bulk::Bulk;
+use crate::app::session::bulk::{Change, Order, Which};
+use crate::app::session::labelling::Target;
 use crate::plan::RoomId;
 
 const TARGET: Argument = optional(
@@ -24,13 +24,13 @@ const fn label(
 }
 
 fn label_target(app: &mut App, values: &Values, label: Option<Label>) -> Ran {
-    on_target(app, values.room(0).copied(), &[], |app, target| app.label_rooms(target, label))
+    on_target(app, values.room(0).copied(), &[], |app, target| app.session.label_rooms(target, label))
 }
 
 /// Does something with the rooms that a command is about; a recording names one that was only under the
 /// pointer.
 fn on_target(app: &mut App, named: Option<RoomId>, given: &[&str], act: impl FnOnce(&mut App, &Target)) -> Ran {
-    let Some((plan, target)) = app.plan().zip(app.target(named)) else {
+    let Some((plan, target)) = app.plan().zip(app.session.target(named)) else {
         return Ran::Refused("pick a room first, or point at one".to_owned());
     };
     let words = given.iter().map(|word| (*word).to_owned()).chain(target.word(plan)).collect();
@@ -47,7 +47,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &[ROOM],
         |app, values, _| {
             if let Some(picked) = values.room(0).copied().map(ElementId::Room) {
-                app.pick(Some(picked));
+                app.session.pick(Some(picked));
                 app.canvas.reveal(picked);
             }
             Ran::Done
@@ -63,7 +63,7 @@ pub(super) const COMMANDS: &[Command] = &[
         has_room,
         &[needed("NAME", ArgumentKind::Text, "the room's name")],
         |app, values, _| {
-            app.write_field(FieldKind::Name, values.text(0).unwrap_or_default());
+            app.session.write_field(FieldKind::Name, values.text(0).unwrap_or_default());
             Ran::Done
         },
         Some(|app, _| app.ask_for_field(FieldKind::Name)),
@@ -86,10 +86,12 @@ pub(super) const COMMANDS: &[Command] = &[
         ],
         |app, values, _| {
             let function = values.text(0).unwrap_or_default().to_owned();
-            on_target(app, values.room(1).copied(), &[&function], |app, target| app.set_function_of(target, &function))
+            on_target(app, values.room(1).copied(), &[&function], |app, target| {
+                app.session.set_function_of(target, &function)
+            })
         },
         Some(|app, _| {
-            let Some((plan, target)) = app.plan().zip(app.target(None)) else { return };
+            let Some((plan, target)) = app.plan().zip(app.session.target(None)) else { return };
             let (title, rest) = (target.title(plan), target.word(plan));
             let asking = crate::app::commands::find("set-function").map(|command| Palette::asking(command, Vec::new()));
             app.panels.palette = asking.map(|palette| palette.about(&title, rest.into_iter().collect()));
@@ -105,7 +107,7 @@ pub(super) const COMMANDS: &[Command] = &[
         has_room,
         &[needed("TEXT", ArgumentKind::Text, "the note")],
         |app, values, _| {
-            app.write_field(FieldKind::Note, values.text(0).unwrap_or_default());
+            app.session.write_field(FieldKind::Note, values.text(0).unwrap_or_default());
             Ran::Done
         },
         Some(|app, _| app.ask_for_field(FieldKind::Note)),
@@ -135,7 +137,7 @@ pub(super) const COMMANDS: &[Command] = &[
             let order = Order::of_word(values.word(2).copied().unwrap_or_default());
             let start = values.number(3).map_or(1, |start| start.round() as u32);
             let pattern = values.text(0).unwrap_or_default();
-            match which.and_then(|which| app.name_rooms(pattern, &which, order, start)) {
+            match which.and_then(|which| app.session.name_rooms(pattern, &which, order, start)) {
                 Ok(()) => Ran::Done,
                 Err(reason) => Ran::Refused(reason),
             }
@@ -161,7 +163,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &[needed("POINTS", ArgumentKind::Points { least: 2 }, "the line's points, X,Y in metres with blanks between")],
         |app, values, _| {
             let which = Which::Along(values.points(0).unwrap_or_default().to_vec());
-            if app.rooms_of(&which).is_empty() {
+            if app.session.rooms_of(&which).is_empty() {
                 return Ran::Refused("the line goes through no room".to_owned());
             }
             app.panels.bulk = Some(Bulk::naming_these(app, which));
@@ -182,7 +184,7 @@ pub(super) const COMMANDS: &[Command] = &[
         |app, values, _| {
             let which = Which::of_word(values.text(0).unwrap_or_default());
             let change = Change::of_word(values.text(1).unwrap_or_default());
-            match which.and_then(|which| app.change_rooms(&which, &change?)) {
+            match which.and_then(|which| app.session.change_rooms(&which, &change?)) {
                 Ok(()) => Ran::Done,
                 Err(reason) => Ran::Refused(reason),
             }
@@ -195,7 +197,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Small room",
         "Label the selected rooms, or the one under the pointer, as a small room",
         |app, values, _| label_target(app, values, Some(Label::SmallRoom)),
-        |app| app.selected_label() == Some(Label::SmallRoom),
+        |app| app.session.selected_label() == Some(Label::SmallRoom),
     )
     .keys(&[key(Key::S), key(Key::Num1)]),
     label(
@@ -203,7 +205,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Medium room",
         "Label the selected rooms, or the one under the pointer, as a medium room",
         |app, values, _| label_target(app, values, Some(Label::MediumRoom)),
-        |app| app.selected_label() == Some(Label::MediumRoom),
+        |app| app.session.selected_label() == Some(Label::MediumRoom),
     )
     .keys(&[key(Key::M), key(Key::Num2)]),
     label(
@@ -211,7 +213,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Big room",
         "Label the selected rooms, or the one under the pointer, as a big room",
         |app, values, _| label_target(app, values, Some(Label::BigRoom)),
-        |app| app.selected_label() == Some(Label::BigRoom),
+        |app| app.session.selected_label() == Some(Label::BigRoom),
     )
     .keys(&[key(Key::B), key(Key::Num3)]),
     label(
@@ -219,7 +221,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Corridor",
         "Label the selected rooms, or the one under the pointer, as a corridor",
         |app, values, _| label_target(app, values, Some(Label::Corridor)),
-        |app| app.selected_label() == Some(Label::Corridor),
+        |app| app.session.selected_label() == Some(Label::Corridor),
     )
     .keys(&[key(Key::C), key(Key::Num4)]),
     label(
@@ -227,7 +229,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Hall",
         "Label the selected rooms, or the one under the pointer, as a hall",
         |app, values, _| label_target(app, values, Some(Label::Hall)),
-        |app| app.selected_label() == Some(Label::Hall),
+        |app| app.session.selected_label() == Some(Label::Hall),
     )
     .keys(&[key(Key::H), key(Key::Num5)]),
     with(
@@ -242,12 +244,12 @@ pub(super) const COMMANDS: &[Command] = &[
     .when_complete(has_rooms)
     .menu(Menu::Room, 2),
     command("next-room", "Next room", "Pick the next room, as one reads: from the top left", has_rooms, |app, _| {
-        app.pick_neighbour(1);
+        app.session.pick_neighbour(1);
     })
     .keys(&[key(Key::CloseBracket)])
     .menu(Menu::Room, 3),
     command("previous-room", "Previous room", "Pick the room before", has_rooms, |app, _| {
-        app.pick_neighbour(-1);
+        app.session.pick_neighbour(-1);
     })
     .keys(&[key(Key::OpenBracket)])
     .menu(Menu::Room, 3),

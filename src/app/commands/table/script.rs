@@ -10,7 +10,7 @@ pub(super) const COMMANDS: &[Command] = &[
         has_rooms,
         &[ROOM],
         |app, values, _| {
-            app.pick(values.room(0).copied().map(ElementId::Room));
+            app.session.pick(values.room(0).copied().map(ElementId::Room));
             Ran::Done
         },
         None,
@@ -26,7 +26,7 @@ pub(super) const COMMANDS: &[Command] = &[
         ],
         |app, values, _| {
             let mode = SelectMode::of_word(values.word(1).copied().unwrap_or("replace"));
-            app.select(values.elements(0).unwrap_or_default().iter().copied(), mode);
+            app.session.select(values.elements(0).unwrap_or_default().iter().copied(), mode);
             Ran::Done
         },
         None,
@@ -42,7 +42,7 @@ pub(super) const COMMANDS: &[Command] = &[
         ],
         |app, values, _| {
             if let Some(picked) = values.opening(0).copied().map(ElementId::Opening) {
-                app.pick(Some(picked));
+                app.session.pick(Some(picked));
                 if values.switch(1) == Some(&true) {
                     app.canvas.reveal(picked);
                 }
@@ -58,7 +58,7 @@ pub(super) const COMMANDS: &[Command] = &[
         has_rooms,
         &[needed("DIRECTION", ArgumentKind::Word(DIRECTIONS), "left, right, up or down")],
         |app, values, _| {
-            app.pick_towards(match values.word(0) {
+            app.session.pick_towards(match values.word(0) {
                 Some(&"left") => Vector::new(-1.0, 0.0),
                 Some(&"right") => Vector::new(1.0, 0.0),
                 Some(&"up") => Vector::new(0.0, 1.0),
@@ -102,12 +102,12 @@ pub(super) const COMMANDS: &[Command] = &[
         has_messages,
         &[optional("NUMBER", ArgumentKind::Count, "which one, the oldest being 1; without, the newest")],
         |app, values, _| {
-            let newest = app.messages.len();
+            let newest = app.session.messages.len();
             let number = values.count(0).copied().unwrap_or(newest);
             if number > newest {
                 return Ran::Refused(format!("there are {newest} messages"));
             }
-            app.messages.remove(number - 1);
+            app.session.messages.remove(number - 1);
             Ran::Done
         },
         None,
@@ -123,7 +123,7 @@ pub(super) const COMMANDS: &[Command] = &[
         ],
         |app, values, _| {
             let word = values.word(0).copied().unwrap_or("cancel");
-            if app.answer(word, values.path(1).map(Path::to_owned)) { Ran::Done } else { Ran::Asks }
+            if app.session.answer(word, values.path(1).map(Path::to_owned)) { Ran::Done } else { Ran::Asks }
         },
         None,
     ),

@@ -1,8 +1,8 @@
 //! What is seen, and how.
 
 use super::*;
-use crate::plan::edit::EditError;
-use crate::plan::guides::{add_guide, clear_guides, move_guide, remove_guide};
+use crate::edit::EditError;
+use crate::edit::guides::{add_guide, clear_guides, move_guide, remove_guide};
 use crate::plan::{GuideAxis, Plan};
 
 const AXES: &[(&str, &str)] = &[("horizontal", "Horizontal"), ("vertical", "Vertical")];
@@ -17,7 +17,7 @@ const POSITION: Argument = needed(
 
 fn has_ghost(app: &App) -> Availability {
     has_plan(app)?;
-    when(app.ghost.is_some(), "show a storey below first")
+    when(app.session.ghost.is_some(), "show a storey below first")
 }
 
 fn has_guides(app: &App) -> Availability {
@@ -38,8 +38,8 @@ impl App {
         let Some(plan) = self.plan() else { return Ran::Done };
         match change(plan, axis, number(1), number(2)) {
             Ok(plan) => {
-                self.layers.guides = true;
-                self.edit(title, |_| Ok(plan));
+                self.session.layers.guides = true;
+                self.session.edit(title, |_| Ok(plan));
                 Ran::Done
             }
             Err(error) => Ran::Refused(error.0),
@@ -56,7 +56,7 @@ pub(super) const COMMANDS: &[Command] = &[
         .menu(Menu::View, 0)
         .tool(Icon::Fit, 1),
     command("zoom-to-selection", "Zoom to selection", "Show what is picked as large as fits", has_picked, |app, _| {
-        app.zoom_to_picked();
+        app.session.zoom_to_picked();
     })
     .keys(&[shift(Key::F)])
     .menu(Menu::View, 0)
@@ -72,8 +72,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Fill by label",
         "Colour each room by its label",
         always,
-        |app| app.layers.fill == Fill::Label,
-        |app, _| app.layers.fill = Fill::Label,
+        |app| app.session.layers.fill == Fill::Label,
+        |app, _| app.session.layers.fill = Fill::Label,
     )
     .keys(&[key(Key::L)])
     .menu(Menu::View, 1),
@@ -82,8 +82,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Fill by function",
         "Colour each room by what it is for",
         always,
-        |app| app.layers.fill == Fill::Function,
-        |app, _| app.layers.fill = Fill::Function,
+        |app| app.session.layers.fill == Fill::Function,
+        |app, _| app.session.layers.fill = Fill::Function,
     )
     .keys(&[shift(Key::L)])
     .menu(Menu::View, 1),
@@ -92,8 +92,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Fill by prediction",
         "Colour each room by its predicted label; a known label that is another rims its room",
         always,
-        |app| app.layers.fill == Fill::Prediction,
-        |app, _| app.layers.fill = Fill::Prediction,
+        |app| app.session.layers.fill == Fill::Prediction,
+        |app, _| app.session.layers.fill = Fill::Prediction,
     )
     .keys(&[shift(Key::P)])
     .menu(Menu::View, 1),
@@ -102,8 +102,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "No fill",
         "Show walls and openings only",
         always,
-        |app| app.layers.fill == Fill::None,
-        |app, _| app.layers.fill = Fill::None,
+        |app| app.session.layers.fill == Fill::None,
+        |app, _| app.session.layers.fill = Fill::None,
     )
     .keys(&[key(Key::K)])
     .menu(Menu::View, 1),
@@ -112,9 +112,9 @@ pub(super) const COMMANDS: &[Command] = &[
         "Colour-blind safe colours",
         "Show labels in five colours that are told apart without seeing red, green or blue",
         always,
-        |app| app.layers.colours == LabelColours::ColourBlindSafe,
+        |app| app.session.layers.colours == LabelColours::ColourBlindSafe,
         |app, is_on| {
-            app.layers.colours = if is_on { LabelColours::ColourBlindSafe } else { LabelColours::Standard };
+            app.session.layers.colours = if is_on { LabelColours::ColourBlindSafe } else { LabelColours::Standard };
         },
     )
     .menu(Menu::View, 1),
@@ -123,8 +123,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Graph",
         "Show which rooms the openings join",
         always,
-        |app| app.layers.graph,
-        |app, is_on| app.layers.graph = is_on,
+        |app| app.session.layers.graph,
+        |app, is_on| app.session.layers.graph = is_on,
     )
     .keys(&[key(Key::G)])
     .menu(Menu::View, 2)
@@ -134,8 +134,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Names",
         "Show names and areas of rooms",
         always,
-        |app| app.layers.names,
-        |app, is_on| app.layers.names = is_on,
+        |app| app.session.layers.names,
+        |app, is_on| app.session.layers.names = is_on,
     )
     .keys(&[key(Key::N)])
     .menu(Menu::View, 2)
@@ -145,8 +145,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Backdrop",
         "Show the picture under the plan",
         has_backdrop,
-        |app| app.layers.backdrop,
-        |app, is_on| app.layers.backdrop = is_on,
+        |app| app.session.layers.backdrop,
+        |app, is_on| app.session.layers.backdrop = is_on,
     )
     .keys(&[key(Key::P)])
     .menu(Menu::View, 2)
@@ -156,8 +156,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Grid",
         "Show a grid of whole metres",
         always,
-        |app| app.layers.grid,
-        |app, is_on| app.layers.grid = is_on,
+        |app| app.session.layers.grid,
+        |app, is_on| app.session.layers.grid = is_on,
     )
     .keys(&[shift(Key::G)])
     .menu(Menu::View, 2)
@@ -167,8 +167,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Guides",
         "Show the guide lines",
         has_guides,
-        |app| app.layers.guides,
-        |app, is_on| app.layers.guides = is_on,
+        |app| app.session.layers.guides,
+        |app, is_on| app.session.layers.guides = is_on,
     )
     .menu(Menu::View, 2),
     switch(
@@ -176,8 +176,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Dimensions",
         "Show lengths, area and perimeter of what is selected",
         always,
-        |app| app.layers.dimensions,
-        |app, is_on| app.layers.dimensions = is_on,
+        |app| app.session.layers.dimensions,
+        |app, is_on| app.session.layers.dimensions = is_on,
     )
     .menu(Menu::View, 2),
     switch(
@@ -185,8 +185,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Storey below",
         "Show the plan that was chosen as the storey below, faintly",
         has_ghost,
-        |app| app.layers.ghost,
-        |app, is_on| app.layers.ghost = is_on,
+        |app| app.session.layers.ghost,
+        |app, is_on| app.session.layers.ghost = is_on,
     )
     .menu(Menu::View, 2),
     with(
@@ -204,12 +204,12 @@ pub(super) const COMMANDS: &[Command] = &[
         ],
         |app, values, _| {
             if let Some(path) = values.path(0) {
-                app.read_ghost(path.to_owned(), values.count(1).map(|storey| storey - 1));
+                app.session.read_ghost(path.to_owned(), values.count(1).map(|storey| storey - 1));
             }
             Ran::Done
         },
         Some(|app, _| {
-            let choices = app.ghost_choices();
+            let choices = app.session.ghost_choices();
             let asking = crate::app::commands::find("ghost").map(|command| Palette::asking(command, Vec::new()));
             app.panels.palette =
                 asking.map(|palette| if choices.is_empty() { palette } else { palette.with_choices(choices) });
@@ -217,7 +217,7 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .menu(Menu::View, 3),
     command("clear-ghost", "Show no storey below", "Take the storey below away", has_ghost, |app, _| {
-        app.show_ghost(None);
+        app.session.show_ghost(None);
     })
     .menu(Menu::View, 3),
     switch(
@@ -225,8 +225,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Rulers",
         "Show rulers along the canvas, out of which guide lines are dragged",
         always,
-        |app| app.layers.rulers,
-        |app, is_on| app.layers.rulers = is_on,
+        |app| app.session.layers.rulers,
+        |app, is_on| app.session.layers.rulers = is_on,
     )
     .keys(&[ctrl(Key::R)])
     .menu(Menu::View, 3),
@@ -261,7 +261,7 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     ),
     command("clear-guides", "Clear guides", "Take all guide lines away", has_guides, |app, _| {
-        app.edit("Clear guides", |plan| Ok(clear_guides(plan)));
+        app.session.edit("Clear guides", |plan| Ok(clear_guides(plan)));
     })
     .menu(Menu::View, 3),
     with(
@@ -289,7 +289,7 @@ pub(super) const COMMANDS: &[Command] = &[
             }
         },
         Some(|app, _| {
-            let now = app.settings.grid_m().map_or(AUTO.to_owned(), |grid_m| app.units().exact_length(grid_m));
+            let now = app.session.settings.grid_m().map_or(AUTO.to_owned(), |grid_m| app.units().exact_length(grid_m));
             let asking = crate::app::commands::find("grid-spacing").map(|command| Palette::asking(command, Vec::new()));
             app.panels.palette = asking.map(|palette| palette.with_text(&now));
         }),

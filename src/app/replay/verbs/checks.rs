@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use super::{Group, Verb};
-use crate::app::Control;
 use crate::app::commands::{self, COMMANDS};
-use crate::app::replay::script::{Act, shortened};
+use crate::app::offscreen::controls::Control;
+use crate::app::replay::script::Act;
 use crate::app::replay::snapshot::{self, Look, Region};
 use crate::app::replay::stage::{Fault, Stage, count};
 use crate::app::replay::verbs::window::{is_dark, scale, size};
-use crate::app::replay::words::{Words, did_you_mean, in_quotes, written};
+use crate::app::replay::words::{Words, did_you_mean, in_quotes, told, written};
 use crate::features::RoomStatus;
 use crate::formats::{self, plan_json};
 use crate::labels::Label;
@@ -29,7 +29,7 @@ pub(super) const GROUP: Group = Group {
                 let Some(expectation) = known else {
                     let near = did_you_mean(name, EXPECTATIONS.iter().map(|expectation| expectation.name));
                     let near = if near.is_empty() { near } else { format!(" ({near})") };
-                    return Err(format!("{} is nothing that can be expected{near}", written(&shortened(name))));
+                    return Err(format!("{} is nothing that can be expected{near}", told(name)));
                 };
                 (expectation.parse)(words).map_err(|what| format!("{what}, as in expect {}", expectation.form))
             },
@@ -191,7 +191,7 @@ pub(super) const EXPECTATIONS: &[Expectation] = &[
             let id = words.text("the command")?;
             let Some(command) = commands::find(id) else {
                 let near = did_you_mean(id, COMMANDS.iter().map(|command| command.id));
-                return Err(format!("{} is no command ({near})", written(&shortened(id))).replace(" ()", ""));
+                return Err(format!("{} is no command ({near})", told(id)).replace(" ()", ""));
             };
             let word = words.text("available or unavailable")?;
             let expected = choice(word, [("available", true), ("unavailable", false)])?;
@@ -347,7 +347,7 @@ fn snapshot(words: &mut Words<'_>) -> Result<Act, String> {
     let name = words.text("the picture's name")?;
     let is_plain = |letter: char| letter.is_alphanumeric() || letter == '-' || letter == '_';
     if name.is_empty() || !name.chars().all(is_plain) {
-        return Err(format!("a picture's name is letters, digits, - and _, not {}", written(&shortened(name))));
+        return Err(format!("a picture's name is letters, digits, - and _, not {}", told(name)));
     }
     let name = name.to_owned();
     let mut look = Look::default();
@@ -360,7 +360,7 @@ fn snapshot(words: &mut Words<'_>) -> Result<Act, String> {
             "--size" => look.size = Some(size(words)?),
             "--scale" => look.scale = Some(scale(words)?),
             "--theme" => look.is_dark = Some(is_dark(words)?),
-            other => return Err(format!("{} is no option of a snapshot", written(&shortened(other)))),
+            other => return Err(format!("{} is no option of a snapshot", told(other))),
         }
     }
     Ok(Box::new(move |stage| snapshot::take(stage, &name, &look)))
@@ -373,7 +373,7 @@ fn choice<T: Clone, const N: usize>(word: &str, choices: [(&str, T); N]) -> Resu
         Some((_, value)) => Ok(value.clone()),
         None => {
             let names: Vec<&str> = choices.iter().map(|(name, _)| *name).collect();
-            Err(format!("{} is none of {}", written(&shortened(word)), names.join(", ")))
+            Err(format!("{} is none of {}", told(word), names.join(", ")))
         }
     }
 }

@@ -3,8 +3,8 @@
 use egui::{Key, Modifiers};
 
 use super::{Group, Verb};
-use crate::app::replay::script::{Act, shortened};
-use crate::app::replay::words::{Words, did_you_mean, written};
+use crate::app::replay::script::Act;
+use crate::app::replay::words::{Words, did_you_mean, told};
 
 pub(super) const GROUP: Group = Group {
     title: "Keyboard",
@@ -74,7 +74,7 @@ fn modifier(name: &str) -> Option<Modifiers> {
 pub(super) fn modifiers_of(text: &str) -> Result<Modifiers, String> {
     text.split('+').try_fold(Modifiers::NONE, |modifiers, name| match modifier(name) {
         Some(modifier) => Ok(modifiers.plus(modifier)),
-        None => Err(format!("{} is no modifier key: Ctrl, Shift, Alt", written(&shortened(name)))),
+        None => Err(format!("{} is no modifier key: Ctrl, Shift, Alt", told(name))),
     })
 }
 
@@ -95,7 +95,7 @@ fn key_of(name: &str) -> Result<Key, String> {
     Key::from_name(name).ok_or_else(|| {
         let near = did_you_mean(name, Key::ALL.iter().map(|key| key.name()));
         let near = if near.is_empty() { near } else { format!(" ({near})") };
-        format!("{} is no key{near}", written(&shortened(name)))
+        format!("{} is no key{near}", told(name))
     })
 }
 

@@ -1,7 +1,7 @@
 //! The window as a whole, and time.
 
 use super::{Group, Verb};
-use crate::app::OffscreenOptions;
+use crate::app::offscreen::OffscreenOptions;
 use crate::app::replay::stage::Fault;
 use crate::app::replay::words::{Words, number, written};
 

@@ -1,0 +1,93 @@
+//! Guide lines on the canvas.
+
+use egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, vec2};
+
+use crate::app::look::theme;
+use crate::app::paint::places::{on_screen, plan_point};
+use crate::app::session::Session;
+use crate::base::units::Units;
+use crate::draw::View;
+use crate::geometry::{Point, trim_m};
+use crate::plan::GuideAxis;
+
+/// A guide that the pointer holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Drag {
+    pub axis: GuideAxis,
+    /// Where it stood; `None` for a new one.
+    pub from_m: Option<f64>,
+    /// Where it would be let go; `None` where that would be none.
+    pub to_m: Option<f64>,
+    /// The ruler it was taken from, by the axis of the guides that cross it.
+    pub ruler: GuideAxis,
+}
+
+/// Where the guides of an axis are, the one that is dragged left out.
+pub(crate) fn places(session: &Session, drag: Option<Drag>, axis: GuideAxis) -> impl Iterator<Item = f64> + '_ {
+    let dragged = drag.filter(|drag| drag.axis == axis).and_then(|drag| drag.from_m);
+    session
+        .guides()
+        .iter()
+        .filter(move |guide| guide.axis == axis && Some(guide.at_m) != dragged)
+        .map(|guide| guide.at_m)
+}
+
+/// A point of the screen on a guide.
+pub(crate) fn on_canvas(rect: Rect, view: &View, axis: GuideAxis, at_m: f64) -> Pos2 {
+    on_screen(
+        rect,
+        view,
+        match axis {
+            GuideAxis::Horizontal => Point::new(0.0, at_m),
+            GuideAxis::Vertical => Point::new(at_m, 0.0),
+        },
+    )
+}
+
+/// A place as an argument of commands, in any units.
+pub(crate) fn word(at_m: f64) -> String {
+    format!("{at_m}m")
+}
+
+/// Where a dragged guide would be let go at a place of the screen: at the nearest round length that a
+/// pixel can tell. `None` beyond the canvas, for a new guide also on the ruler.
+pub(crate) fn dropped_at(drag: &Drag, at: Pos2, rect: Rect, view: &View, units: Units) -> Option<f64> {
+    let is_inside = match (drag.from_m, drag.axis) {
+        (None, _) => rect.contains(at),
+        // Along its ruler, on it or not.
+        (Some(_), GuideAxis::Vertical) => rect.x_range().contains(at.x),
+        (Some(_), GuideAxis::Horizontal) => rect.y_range().contains(at.y),
+    };
+    let step_m = units.round_length_at_most(1.0 / view.px_per_m);
+    let at_m = drag.axis.coordinate(plan_point(view, rect, at));
+    is_inside.then(|| trim_m((at_m / step_m).round() * step_m))
+}
+
+/// Paints the guides, and the one that is dragged with its place.
+pub(crate) fn paint(painter: &Painter, rect: Rect, view: &View, session: &Session, drag: Option<Drag>) {
+    let colours = theme::colours(&painter.ctx().global_style().visuals);
+    let line = |axis: GuideAxis, at_m: f64, stroke: Stroke| {
+        let place = on_canvas(rect, view, axis, at_m);
+        match axis {
+            GuideAxis::Horizontal => painter.hline(rect.x_range(), place.y, stroke),
+            GuideAxis::Vertical => painter.vline(place.x, rect.y_range(), stroke),
+        };
+    };
+    let stroke = Stroke::new(1.0, colours.accent.gamma_multiply(0.75));
+    for axis in GuideAxis::ALL {
+        for at_m in places(session, drag, axis) {
+            line(axis, at_m, stroke);
+        }
+    }
+    let Some((drag, to_m)) = drag.and_then(|drag| Some((drag, drag.to_m?))) else { return };
+    line(drag.axis, to_m, Stroke::new(1.5, colours.accent));
+    if let Some(pointer) = painter.ctx().pointer_hover_pos() {
+        let name = if drag.axis == GuideAxis::Vertical { "x" } else { "y" };
+        let text = format!("{name} {}", session.units().length(to_m));
+        let font = FontId::new(theme::SMALL, theme::semibold());
+        let galley = painter.layout_no_wrap(text, font, colours.on_accent);
+        let place = Align2::LEFT_TOP.anchor_size(pointer + vec2(14.0, 14.0), galley.size() + vec2(12.0, 6.0));
+        painter.rect_filled(place, 4.0, colours.accent);
+        painter.galley(place.min + vec2(6.0, 3.0), galley, colours.on_accent);
+    }
+}

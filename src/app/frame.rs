@@ -1,0 +1,241 @@
+//! One frame of the window: what happened since the last, what the plan still needs, and the panels.
+
+use crate::app::canvas::Canvas;
+use crate::app::commands;
+use crate::app::commands::CommandError;
+use crate::app::commands::sample_word;
+use crate::app::look::theme;
+use crate::app::look::theme::ThemeChoice;
+use crate::app::panels;
+use crate::app::panels::Panels;
+use crate::app::panels::welcome::Samples;
+use crate::app::session::Pointed;
+use crate::app::session::Session;
+use crate::app::session::document::Derived;
+use crate::app::session::file_dialogs::Dialogs;
+use crate::app::session::jobs::Mode;
+use crate::app::session::messages::Severity;
+use crate::app::session::origin::Origin;
+use crate::app::session::wishes::Wish;
+use crate::app::state::App;
+use crate::app::state::Done;
+use crate::app::tools::Toolbox;
+use crate::store::pictures;
+use egui::Ui;
+use egui::{Context, ViewportCommand};
+use std::sync::Arc;
+/// A plan with more elements is analysed off the frame's path; below, that takes a few milliseconds.
+const LARGE_PLAN_ELEMENTS: usize = 2000;
+
+impl App {
+    pub(crate) fn new(context: &Context, mode: Mode, dialogs: Dialogs, motion: theme::Motion) -> Self {
+        theme::install(context, motion);
+        Self {
+            session: Session::new(mode, dialogs),
+            canvas: Canvas::default(),
+            tools: Toolbox::default(),
+            theme: ThemeChoice::default(),
+            panels: Panels::default(),
+            samples: Samples::default(),
+            was_typing: false,
+            is_close_sent: false,
+            shown_title: String::new(),
+            recorder: None,
+            wants_recording: false,
+        }
+    }
+
+    /// One frame.
+    pub(crate) fn frame(&mut self, ui: &mut Ui) {
+        let context = ui.ctx().clone();
+        // What was done since the last frame; what it opens is still known.
+        self.write_executed();
+        self.take_outcomes(&context);
+        self.grant_wishes(&context);
+        self.session.take_waiting();
+        if let Some(path) = self.session.recovering.take() {
+            self.session.show_recovered(&path, &context);
+        }
+        self.grant_wishes(&context);
+        self.session.watch_file(&context);
+        self.take_dropped_files(&context);
+        self.take_close_request(&context);
+        self.take_tool_keys(&context);
+        self.take_shortcuts(&context);
+        self.refresh();
+        self.session.compare_with_theirs();
+        self.grant_wishes(&context);
+        panels::show(self, ui);
+        self.grant_wishes(&context);
+        self.was_typing = context.text_edit_focused();
+        self.session.keep_journal(&context);
+        self.update_title(&context);
+        self.record(&context);
+        if self.session.background.is_busy() {
+            self.session.background.request_frame(&context);
+        }
+    }
+
+    pub(crate) fn take_outcomes(&mut self, context: &Context) {
+        for outcome in self.session.background.take() {
+            match outcome {
+                None => {
+                    self.session.saving = 0;
+                    self.session.say(
+                        Severity::Error,
+                        "Something broke inside Enfilade",
+                        "Your plan is untouched. Please report what you did.",
+                    );
+                }
+                Some(Done::Opened(origin, result)) => self.session.was_opened(&origin, *result),
+                Some(Done::Derived(plan, derived)) => {
+                    if let Some((document, derived)) = self.session.document.as_mut().zip(derived) {
+                        document.set_derived(plan, derived);
+                    }
+                }
+                Some(Done::Leftovers(offered)) => self.session.were_left_over(offered),
+                Some(Done::Looked(looked)) => self.session.was_looked_at(looked),
+                Some(Done::Listed(folder, files)) => self.session.list.set_folder(folder, files),
+                Some(Done::Chosen(answer)) => {
+                    self.session.dialogs.answered();
+                    self.session.was_chosen(answer, context);
+                }
+                Some(Done::Saved { document, path, plan, result, then }) => {
+                    self.session.was_saved(document, path, plan, result, then, context);
+                }
+                Some(Done::RecordingSaved { path, recording, result, then }) => {
+                    self.recording_was_saved(&path, *recording, result, then);
+                }
+                Some(Done::Ghost(origin, result)) => self.session.ghost_was_read(&origin, *result),
+                Some(Done::Backdrop(wanted, read)) => self.session.backdrop_was_read(wanted, &read),
+                Some(Done::PictureRead { document, use_, path, page, result }) => {
+                    self.session.picture_was_read(document, use_, &path, page, result);
+                }
+            }
+        }
+    }
+
+    pub(crate) fn take_shortcuts(&mut self, context: &Context) {
+        // Escape has taken the keyboard from the text by now, but belongs to it all the same.
+        let is_typing = std::mem::take(&mut self.was_typing) || context.text_edit_focused();
+        // An open menu has the keys to itself; the list under a text field leaves them to the text.
+        let is_menu_open = egui::Popup::is_any_open(context) && !is_typing;
+        if self.session.question.is_some() || self.panels.is_dialog_open() || is_menu_open {
+            return;
+        }
+        let pressed = context.input_mut(|input| commands::take_pressed(input, &self.session.settings, is_typing));
+        for command in pressed {
+            match self.run_command_with(command.id, &[], context) {
+                // Escape with nothing picked needs no word.
+                Err(CommandError::NotNow { reason, .. }) if command.id != "clear-selection" => {
+                    self.session.status = format!("{}: {reason}", command.plain_title());
+                }
+                Ok(()) | Err(_) => {}
+            }
+        }
+    }
+
+    /// Starts what the plan on screen still needs: its analysis, its backdrop.
+    pub(crate) fn refresh(&mut self) {
+        let Some(document) = &mut self.session.document else { return };
+        document.predict_by(&self.session.predictor);
+        let plan = document.plan().clone();
+        self.session.selection.keep_what_is_in(&plan);
+        if document.needs_deriving() {
+            let (schemes, predictor) = (self.session.schemes.clone(), self.session.predictor.clone());
+            if plan.rooms().len() + plan.openings().len() + plan.walls().len() <= LARGE_PLAN_ELEMENTS {
+                let derived = Arc::new(Derived::new(&plan, &schemes, Some(predictor)));
+                document.set_derived(plan.clone(), derived);
+            } else {
+                let outdated = document.await_derived();
+                let plan = plan.clone();
+                self.session.background.start(move || {
+                    let derived = Derived::unless_outdated(&plan, &schemes, Some(predictor), &outdated).map(Arc::new);
+                    Done::Derived(plan, derived)
+                });
+            }
+        }
+        self.session.refresh_backdrop();
+    }
+
+    /// Does what the session asks for.
+    pub(crate) fn grant_wishes(&mut self, context: &Context) {
+        for wish in std::mem::take(&mut self.session.wishes) {
+            match wish {
+                Wish::ForgetPlan => {
+                    self.tools.drop_work();
+                    self.canvas.forget();
+                    self.session.pointed = Pointed::default();
+                    self.panels.forget();
+                }
+                Wish::ForgetDrawing => {
+                    self.tools.drop_work();
+                    self.canvas.forget();
+                    self.session.pointed = Pointed::default();
+                }
+                Wish::Reveal(element) => self.canvas.reveal(element),
+                Wish::ZoomTo(bounds) => self.canvas.zoom_to(bounds),
+                Wish::Fit => self.canvas.fit(),
+                Wish::ScaleView { about, factor } => self.canvas.scale_view(about, factor),
+                Wish::OfferRecovery => self.panels.recovery = true,
+                Wish::CloseRecovery => self.panels.recovery = false,
+                Wish::CloseDifferences => self.panels.differences = false,
+                Wish::Run(id, arguments) => {
+                    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+                    self.act(id, &words, context);
+                }
+                Wish::EndRecording(then) => self.stop_recording(Some(then)),
+                Wish::SaveRecording { recording, path, then } => self.save_recording(*recording, path, then),
+            }
+        }
+    }
+
+    pub(crate) fn take_dropped_files(&mut self, context: &Context) {
+        let dropped = context.input_mut(|input| std::mem::take(&mut input.raw.dropped_files));
+        let Some(first) = dropped.first() else { return };
+        if dropped.len() > 1 {
+            let text = format!("{} files were dropped; the first is opened", dropped.len());
+            self.session.say(Severity::Info, text, "Plans that lie in the same folder are in the list on the left.");
+        }
+        let word = first.path().to_string_lossy().into_owned();
+        let is_picture = pictures::is_picture_name(first.path());
+        self.act(if is_picture { "picture" } else { "open" }, &[&word], context);
+    }
+
+    /// Opens what a row of the list or a card stands for.
+    pub(crate) fn open_listed(&mut self, origin: &Origin, context: &Context) {
+        match origin {
+            Origin::Bundled(index) => self.act("open-sample", &[sample_word(*index)], context),
+            Origin::Untitled => self.act("new-plan", &[], context),
+            Origin::File { path, storey: 0 } => self.act("open", &[&path.to_string_lossy()], context),
+            Origin::File { path, storey } => {
+                self.act("open", &[&path.to_string_lossy(), &(storey + 1).to_string()], context);
+            }
+        }
+    }
+
+    pub(crate) fn take_close_request(&mut self, context: &Context) {
+        if context.input(|input| input.viewport().close_requested()) && !self.session.quitting {
+            context.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.run_command("quit", context);
+        }
+        if self.session.quitting && !self.is_close_sent {
+            self.is_close_sent = true;
+            context.send_viewport_cmd(ViewportCommand::Close);
+        }
+    }
+
+    pub(crate) fn update_title(&mut self, context: &Context) {
+        let title = match &self.session.document {
+            None => "Enfilade".to_owned(),
+            Some(document) => {
+                let mark = if document.is_changed() { "• " } else { "" };
+                format!("{mark}{} – Enfilade", document.title())
+            }
+        };
+        if title != self.shown_title {
+            context.send_viewport_cmd(ViewportCommand::Title(title.clone()));
+            self.shown_title = title;
+        }
+    }
+}

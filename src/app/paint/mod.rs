@@ -1,0 +1,8 @@
+//! What is painted on the canvas: scenes, backdrops, previews.
+
+pub(crate) mod backdrop;
+pub(crate) mod ghost;
+pub(crate) mod pending;
+pub(crate) mod places;
+pub(crate) mod preview;
+pub(crate) mod scene_painter;

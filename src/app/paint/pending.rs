@@ -1,0 +1,162 @@
+//! What changed since everything was worked out last, painted at once over the drawing of the plan
+//! before, so that nobody waits to see an edit.
+
+use std::collections::BTreeSet;
+
+use egui::{Color32, Painter, Rect, Shape, Stroke};
+
+use crate::app::look::theme;
+use crate::app::paint::{
+    places::on_screen,
+    scene_painter::{earcut, outline_mesh, polygon_mesh},
+};
+use crate::draw::{Fill, Palette, Style, View};
+use crate::features::RoomStatus;
+use crate::geometry::{Point, Segment};
+use crate::labels::Schemes;
+use crate::plan::{CornerId, Difference, ElementId, OpeningId, Place, Plan, RoomId, Wall};
+
+/// With more changes everything is veiled until it is worked out: they would take longer than a frame.
+const MOST_CHANGES: usize = 1500;
+
+/// No wall is drawn thinner than this, in points.
+const THINNEST_WALL_PX: f64 = 1.5;
+
+/// An outer ring, its holes, and the room that is there now.
+type Area = (Vec<Point>, Vec<Vec<Point>>, Option<RoomId>);
+
+/// The difference between two plans, as far as it can be seen.
+pub(crate) struct Pending {
+    earlier: Plan,
+    plan: Plan,
+    /// Whether too much changed to be painted by itself, or what concerns all.
+    is_all: bool,
+    /// Areas to be drawn over, where what was drawn is no more so, each with the fill it gets: none where
+    /// there is no room now.
+    areas: Vec<Area>,
+    /// Walls that are no more.
+    gone: Vec<(Segment, f64)>,
+    /// Walls that changed, and those around rooms that did, which are drawn over.
+    walls: Vec<(Segment, f64)>,
+    openings: Vec<OpeningId>,
+}
+
+impl Pending {
+    /// What changed.
+    pub(crate) fn new(earlier: &Plan, plan: &Plan) -> Self {
+        let mut pending = Self {
+            earlier: earlier.clone(),
+            plan: plan.clone(),
+            is_all: true,
+            areas: Vec::new(),
+            gone: Vec::new(),
+            walls: Vec::new(),
+            openings: Vec::new(),
+        };
+        let changed = Difference::between(earlier, plan).seen(earlier, plan);
+        if earlier.meta() != plan.meta() || changed.len() > MOST_CHANGES {
+            return pending;
+        }
+        pending.is_all = false;
+        let mut around: BTreeSet<CornerId> = BTreeSet::new();
+        for &element in changed.keys() {
+            match element {
+                ElementId::Room(id) => {
+                    for (of, room, now) in [(earlier, earlier.room(id), None), (plan, plan.room(id), Some(id))] {
+                        let Some(room) = room else { continue };
+                        let rings: Vec<Vec<Point>> = room.rings().map(|ring| of.ring_points(ring)).collect();
+                        if let Some((outer, holes)) = rings.split_first().filter(|(outer, _)| outer.len() > 2) {
+                            pending.areas.push((outer.clone(), holes.to_vec(), now));
+                        }
+                        around.extend(room.rings().flat_map(|ring| ring.iter().copied()));
+                    }
+                }
+                ElementId::Wall(id) => {
+                    let seen = |plan: &Plan, wall: &Wall| Some((plan.wall_segment(wall)?, wall.thickness_m));
+                    pending.gone.extend(earlier.wall(id).and_then(|wall| seen(earlier, wall)));
+                    if let Some(wall) = plan.wall(id) {
+                        around.extend([wall.from, wall.to]);
+                    }
+                }
+                ElementId::Opening(_) | ElementId::Corner(_) => {}
+            }
+        }
+        // What is drawn over is drawn again.
+        if !around.is_empty() {
+            let walls = plan.walls().filter(|(_, wall)| around.contains(&wall.from) && around.contains(&wall.to));
+            pending.walls.extend(walls.filter_map(|(_, wall)| Some((plan.wall_segment(wall)?, wall.thickness_m))));
+        }
+        let is_around = |place: &Place| match place {
+            Place::Hosted { from, to, .. } => around.contains(from) && around.contains(to),
+            Place::Free { .. } => false,
+        };
+        let openings = plan
+            .openings()
+            .filter(|(id, opening)| changed.contains_key(&ElementId::Opening(*id)) || is_around(&opening.place));
+        pending.openings.extend(openings.map(|(id, _)| id));
+        // Openings that are no more leave a closed wall.
+        let closed = changed.keys().filter_map(|&element| match element {
+            ElementId::Opening(id) if plan.opening(id).is_none() => earlier.opening_segment(earlier.opening(id)?),
+            _ => None,
+        });
+        pending.walls.extend(closed.map(|segment| (segment, crate::plan::DEFAULT_WALL_THICKNESS_M)));
+        // First what is no more, then what is.
+        pending.areas.sort_by_key(|(_, _, now)| now.is_some());
+        pending
+    }
+
+    /// Whether this is the difference between these plans.
+    pub(crate) fn is_between(&self, earlier: &Plan, plan: &Plan) -> bool {
+        self.earlier.is_same_value(earlier) && self.plan.is_same_value(plan)
+    }
+
+    /// Paints it; where it concerns all, or predictions that rest on all rooms are shown, a veil. No name is drawn: what was there before is covered.
+    pub(crate) fn paint(&self, painter: &Painter, rect: Rect, view: &View, style: &Style, schemes: &Schemes) {
+        let palette = style.palette();
+        if self.is_all || style.fill == Fill::Prediction {
+            painter.rect_filled(rect, 0.0, theme::colour(palette.paper).gamma_multiply(0.6));
+            return;
+        }
+        let seen = view.bounds().inflated(1.0);
+        for (outer, holes, now) in &self.areas {
+            let triangles = earcut(outer, holes);
+            let fill = now.and_then(|id| self.plan.room(id)).map_or(palette.paper, |room| match style.fill {
+                Fill::Label => palette.status(RoomStatus::of(&self.plan, schemes, room)),
+                Fill::Function | Fill::Prediction | Fill::None => palette.paper,
+            });
+            let mesh = polygon_mesh(rect, view, outer, holes, &triangles, theme::colour(fill));
+            painter.add(Shape::mesh(mesh));
+            if now.is_some() {
+                for ring in std::iter::once(outer).chain(holes) {
+                    let stroke = Stroke::new(1.0, theme::colour(palette.boundary));
+                    painter.add(Shape::mesh(outline_mesh(rect, view, ring, stroke)));
+                }
+            }
+        }
+        let band = |segment: &Segment, width_px: f64, colour: Color32| {
+            if seen.meets(*segment) {
+                let ends = [segment.a, segment.b].map(|point| on_screen(rect, view, point));
+                painter.line_segment(ends, Stroke::new(width_px as f32, colour));
+            }
+        };
+        for (segment, thickness_m) in &self.gone {
+            // A pixel more on both sides, to cover the soft edges.
+            band(segment, (thickness_m * view.px_per_m).max(THINNEST_WALL_PX) + 2.0, theme::colour(palette.paper));
+        }
+        for (segment, thickness_m) in &self.walls {
+            band(segment, (thickness_m * view.px_per_m).max(THINNEST_WALL_PX), theme::colour(palette.wall));
+        }
+        for id in &self.openings {
+            let segment = self.plan.opening(*id).and_then(|opening| self.plan.opening_segment(opening));
+            let Some(segment) = segment else { continue };
+            self.paint_opening(&segment, palette, &band, view);
+        }
+    }
+
+    /// A gap with a line for what closes it.
+    fn paint_opening(&self, segment: &Segment, palette: &Palette, band: &dyn Fn(&Segment, f64, Color32), view: &View) {
+        let width_px = (crate::plan::DEFAULT_WALL_THICKNESS_M * view.px_per_m).max(THINNEST_WALL_PX) + 2.0;
+        band(segment, width_px, theme::colour(palette.paper));
+        band(segment, 1.0, theme::colour(palette.leaf));
+    }
+}

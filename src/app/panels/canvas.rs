@@ -1,0 +1,72 @@
+//! The canvas among the panels: shows it, and runs the commands that what a person does there calls for.
+
+use egui::Ui;
+
+use crate::app::canvas::{Act, Beginning, rulers};
+use crate::app::commands::{self, CommandError};
+use crate::app::paint::places::canvas_id;
+use crate::app::state::App;
+use crate::app::tools::Call;
+use crate::base::wording::sentence;
+
+/// Shows the canvas in all that is left of `ui`.
+pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    let keys = |id: &str| commands::find(id).map(|command| app.keys_text(command, ui.ctx())).unwrap_or_default();
+    let beginning = Beginning {
+        walls: keys("tool-walls"),
+        fill: keys("fill-all"),
+        rectangle: keys("tool-rectangle"),
+        door: keys("tool-door"),
+    };
+    let App { session, canvas, tools, .. } = app;
+    let mut backdrop = std::mem::take(&mut session.backdrop);
+    let act = session
+        .document
+        .as_ref()
+        .and_then(|document| canvas.show(ui, document, session, &mut backdrop, tools, &beginning));
+    session.backdrop = backdrop;
+    session.pointed = canvas.pointed;
+    if let Some((centre, px_per_m)) = canvas.take_moved() {
+        let numbers = [centre.x, centre.y, px_per_m];
+        session.note_executed("view", numbers.map(|number| number.to_string()).to_vec());
+    }
+    let help = commands::find("add-guide").map_or("", |command| command.help);
+    let guided = rulers::show(canvas, session, help, ui);
+    for (id, arguments) in guided {
+        let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+        app.act(id, &words, ui.ctx());
+    }
+    match act {
+        None => {}
+        Some(Act::Calls(calls)) => run(app, calls, ui),
+        Some(Act::Pick(element)) => app.act("select", &[&element.to_string()], ui.ctx()),
+        Some(Act::PickNeighbour(step)) if app.session.pick_neighbour(step) => {
+            app.session.note_executed(if step > 0 { "next-room" } else { "previous-room" }, Vec::new());
+        }
+        Some(Act::PickNeighbour(step)) => {
+            let direction = if step > 0 { egui::FocusDirection::Next } else { egui::FocusDirection::Previous };
+            ui.memory_mut(|memory| {
+                memory.surrender_focus(canvas_id());
+                memory.move_focus(direction);
+            });
+        }
+        Some(Act::PickTowards(direction)) => app.act("pick-towards", &[direction], ui.ctx()),
+        Some(Act::Rename) => {
+            app.run_command("rename", ui.ctx());
+        }
+    }
+}
+
+/// Runs what a tool calls for; it is told when the plan does not take it.
+fn run(app: &mut App, calls: Vec<Call>, ui: &Ui) {
+    for (id, arguments) in calls {
+        let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+        if let Err(error) = app.run_command_with(id, &words, ui.ctx()) {
+            app.tools.tool_mut().was_refused();
+            app.session.status = match error {
+                CommandError::NotNow { reason, .. } => sentence(&reason),
+                other => other.to_string(),
+            };
+        }
+    }
+}

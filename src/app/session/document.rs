@@ -1,0 +1,284 @@
+//! The plan that is open: its history, where it came from, and what follows from it.
+
+use crate::app::session::origin::Origin;
+use crate::app::session::origin::bundled;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::app::session::plan_list;
+use crate::edit;
+use crate::formats::{self, FileError, Note, Place, ReadError};
+use crate::geometry::Bounds;
+use crate::labels::Schemes;
+pub(crate) use crate::pipeline::Derived;
+use crate::plan::{ElementId, History, Meta, Plan, Scale, ScaleOrigin};
+use crate::predict::Predictor;
+use crate::store::{self, Stamp};
+
+/// What follows from a bundled plan without predictions, which its picture does not show: worked out once.
+pub(crate) fn derived_sample(index: usize, plan: &Plan) -> Arc<Derived> {
+    static DERIVED: Mutex<BTreeMap<usize, Arc<Derived>>> = Mutex::new(BTreeMap::new());
+    // A poisoned map only lacks an entry.
+    let mut derived = DERIVED.lock().unwrap_or_else(PoisonError::into_inner);
+    derived.entry(index).or_insert_with(|| Arc::new(Derived::new(plan, &Schemes::bundled(), None))).clone()
+}
+
+/// What a file or a bundled plan gave.
+#[derive(Debug)]
+pub(crate) struct Opened {
+    pub origin: Origin,
+    /// All plans of the file; `origin` says which is shown.
+    pub storeys: Vec<Plan>,
+    pub notes: Vec<Note>,
+    /// What the file held when it was read; `None` for what cannot be saved in place.
+    pub stamp: Option<Stamp>,
+    /// The first step of a plan that begins as something else.
+    pub begun: Option<Box<Begun>>,
+}
+
+/// How a plan begins.
+#[derive(Debug)]
+pub(crate) struct Begun {
+    /// What was done, as in the history.
+    pub title: String,
+    pub plan: Plan,
+    /// The storey it came from.
+    pub below: Plan,
+}
+
+impl Opened {
+    /// A plan on which nothing is drawn yet, of a typology yet unknown.
+    pub(crate) fn untitled() -> Self {
+        let scale = Scale { origin: ScaleOrigin::Drawn, ..Scale::default() };
+        let plan = edit::set_meta(&Plan::default(), Meta { scale, ..Meta::default() });
+        Self { origin: Origin::Untitled, storeys: vec![plan], notes: Vec::new(), stamp: None, begun: None }
+    }
+}
+
+/// Reads a plan from where it is.
+///
+/// # Errors
+/// When the file cannot be read; an error names the path.
+pub(crate) fn open(origin: Origin) -> Result<Opened, FileError> {
+    let (storeys, notes, stamp) = match &origin {
+        Origin::Bundled(index) => {
+            let plan = bundled().get(*index).map(|(_, plan)| plan.clone()).unwrap_or_default();
+            (vec![plan], Vec::new(), None)
+        }
+        Origin::Untitled => return Ok(Opened::untitled()),
+        Origin::File { path, storey } if path.is_dir() => {
+            let first = plan_list::plans_in(path).into_iter().next();
+            let Some(path) = first else {
+                let what = "there is no plan in this folder".to_owned();
+                let hint = format!("open a plan file; {}", formats::known_formats());
+                let error = ReadError { place: Place::default(), what, hint };
+                return Err(FileError { path: path.clone(), error });
+            };
+            return open(Origin::File { path, storey: *storey });
+        }
+        Origin::File { path, .. } => {
+            // Before the plan: a change between the two is then noticed when saving, not lost.
+            let stamp = is_own_file(path).then(|| Stamp::of(path)).flatten();
+            let import = formats::read_file(path)?;
+            (import.plans, import.notes, stamp)
+        }
+    };
+    Ok(Opened { origin, storeys, notes, stamp, begun: None })
+}
+
+/// Whether a path names a file of Enfilade's own, which can be saved in place.
+pub(crate) fn is_own_file(path: &Path) -> bool {
+    path.to_string_lossy().to_lowercase().ends_with(".plan.json")
+}
+
+/// The open plan.
+pub(crate) struct Document {
+    /// Tells documents apart that were open one after the other.
+    pub number: u64,
+    pub history: History,
+    pub origin: Origin,
+    /// All plans of the file it came from, as they were read.
+    pub storeys: Vec<Plan>,
+    pub notes: Vec<Note>,
+    /// What its file held when it was last read or written.
+    pub stamp: Option<Stamp>,
+    /// The plan as it is on the disk, or as it came; `None` when it is in no file.
+    saved: Option<Plan>,
+    /// Whether its file was removed.
+    pub is_gone: bool,
+    derived: Option<(Plan, Arc<Derived>)>,
+    /// What is being worked out.
+    awaited: Option<Awaited>,
+    /// Which models predict.
+    predictor: Predictor,
+}
+
+/// The plan for which a job is at work, and the models it uses.
+struct Awaited {
+    plan: Plan,
+    predictor: Predictor,
+    /// Tells the job that nobody waits for it any more.
+    outdated: Arc<AtomicBool>,
+}
+
+impl Drop for Awaited {
+    fn drop(&mut self) {
+        self.outdated.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Document {
+    pub(crate) fn new(number: u64, opened: Opened) -> Self {
+        let Opened { origin, storeys, notes, stamp, begun } = opened;
+        let storey = match origin {
+            Origin::Bundled(_) | Origin::Untitled => 0,
+            Origin::File { storey, .. } => storey,
+        };
+        let plan = storeys.get(storey).or(storeys.first()).cloned().unwrap_or_default();
+        let mut history = History::new("Open", plan.clone());
+        if let Some(begun) = begun {
+            history.push(begun.title, begun.plan);
+        }
+        let (derived, awaited, predictor) = (None, None, Predictor::default());
+        let (saved, is_gone) = (Some(plan), false);
+        Self { number, history, origin, storeys, notes, stamp, saved, is_gone, derived, awaited, predictor }
+    }
+
+    pub(crate) fn plan(&self) -> &Plan {
+        self.history.plan()
+    }
+
+    /// The plan's name, or its file's.
+    pub(crate) fn title(&self) -> String {
+        let name = &self.plan().meta().name;
+        if name.is_empty() { self.origin.title() } else { name.clone() }
+    }
+
+    /// Whether something would be lost by closing.
+    pub(crate) fn is_changed(&self) -> bool {
+        let is_saved = |saved: &Plan| self.plan().is_same_value(saved) || self.plan() == saved;
+        self.is_gone || !self.saved.as_ref().is_some_and(is_saved)
+    }
+
+    /// The plan as it is on the disk, or as it came.
+    pub(crate) fn saved(&self) -> Option<&Plan> {
+        self.saved.as_ref()
+    }
+
+    /// Takes note of what the file holds now: a plan, if it is one.
+    pub(crate) fn stands_in_file(&mut self, plan: Option<Plan>, stamp: Option<Stamp>) {
+        self.saved = plan;
+        self.stamp = stamp;
+        self.is_gone = false;
+    }
+
+    /// The step of the history whose plan is the one on the disk, counted from 0; the last of several.
+    pub(crate) fn saved_step(&self) -> Option<usize> {
+        let saved = self.saved.as_ref()?;
+        self.history.steps().iter().rposition(|step| step.plan.is_same_value(saved))
+    }
+
+    /// Notes that `plan` now stands in a file.
+    pub(crate) fn was_saved(&mut self, plan: Plan, path: PathBuf, stamp: Option<Stamp>) {
+        self.stands_in_file(Some(plan), stamp);
+        if self.origin.path() != Some(&path) {
+            self.origin = Origin::File { path, storey: 0 };
+            self.storeys.clear();
+        }
+    }
+
+    /// What follows from the plan as it is now; `None` while that is being worked out.
+    pub(crate) fn derived(&self) -> Option<&Arc<Derived>> {
+        let is_fresh = |(plan, derived): &&(Plan, Arc<Derived>)| {
+            plan.is_same_value(self.plan()) && derived.predictor.as_ref() == Some(&self.predictor)
+        };
+        self.derived.as_ref().filter(is_fresh).map(|(_, derived)| derived)
+    }
+
+    /// Lets these models predict.
+    pub(crate) fn predict_by(&mut self, predictor: &Predictor) {
+        if self.predictor != *predictor {
+            self.predictor.clone_from(predictor);
+        }
+    }
+
+    /// The last plan for which everything was worked out, perhaps an earlier one: to be drawn in the
+    /// meantime, and never shown as fresh.
+    pub(crate) fn last_derived(&self) -> Option<&(Plan, Arc<Derived>)> {
+        self.derived.as_ref()
+    }
+
+    /// Whether what follows from the plan is neither known nor being worked out.
+    pub(crate) fn needs_deriving(&self) -> bool {
+        let is_awaited = self
+            .awaited
+            .as_ref()
+            .is_some_and(|awaited| awaited.plan.is_same_value(self.plan()) && awaited.predictor == self.predictor);
+        self.derived().is_none() && !is_awaited
+    }
+
+    /// Notes that a job is at work for the plan. One that is for an earlier plan is told to give up. Gives
+    /// what will tell this one.
+    pub(crate) fn await_derived(&mut self) -> Arc<AtomicBool> {
+        let outdated = Arc::new(AtomicBool::new(false));
+        let (plan, predictor) = (self.plan().clone(), self.predictor.clone());
+        self.awaited = Some(Awaited { plan, predictor, outdated: outdated.clone() });
+        outdated
+    }
+
+    /// Takes over what was worked out for a plan; dropped when the plan or the models are others by now.
+    pub(crate) fn set_derived(&mut self, plan: Plan, derived: Arc<Derived>) {
+        if plan.is_same_value(self.plan()) && derived.predictor.as_ref() == Some(&self.predictor) {
+            self.derived = Some((plan, derived));
+            self.awaited = None;
+        }
+    }
+
+    /// The box around something.
+    pub(crate) fn bounds_of(&self, picked: ElementId) -> Option<Bounds> {
+        let plan = self.plan();
+        let bounds = match picked {
+            ElementId::Room(id) => Bounds::of(plan.ring_points(&plan.room(id)?.outer)),
+            ElementId::Opening(id) => plan.opening_segment(plan.opening(id)?)?.bounds(),
+            ElementId::Wall(id) => plan.wall_segment(plan.wall(id)?)?.bounds(),
+            ElementId::Corner(id) => Bounds::of([plan.position(id)?]),
+        };
+        (!bounds.is_empty()).then_some(bounds)
+    }
+}
+
+/// Saves a plan to a path and gives the file's stamp.
+///
+/// # Errors
+/// As [`store::save_plan`]; [`SaveFailure::ChangedOnDisk`] when the file there is not the one that
+/// `expected` stamps.
+pub(crate) fn save(path: &Path, plan: &Plan, expected: Expected) -> Result<Option<Stamp>, SaveFailure> {
+    if let Expected::Seen(stamp) = expected
+        && path.exists()
+        && Stamp::of(path) != stamp
+    {
+        return Err(SaveFailure::ChangedOnDisk);
+    }
+    let bytes = store::checked_bytes(path, plan).map_err(SaveFailure::Store)?;
+    store::save_bytes(path, &bytes).map_err(SaveFailure::Store)?;
+    // Not read from the disk: somebody may have changed the file by now.
+    Ok(Some(Stamp::of_bytes(&bytes)))
+}
+
+/// What stands at the path that a plan is saved to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Expected {
+    /// The file as it was last seen; `None` for no file.
+    Seen(Option<Stamp>),
+    /// Whatever: the person chose the path, or agreed to overwrite.
+    Anything,
+}
+
+/// Why a plan was not saved.
+#[derive(Debug)]
+pub(crate) enum SaveFailure {
+    ChangedOnDisk,
+    Store(store::SaveError),
+}

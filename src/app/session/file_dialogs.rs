@@ -1,0 +1,136 @@
+//! Dialogs that ask for a file: the system's, or answers given beforehand where there is no screen.
+
+use crate::app::session::tracing::PictureUse;
+use std::collections::VecDeque;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use crate::app::replay::Recording;
+use crate::app::session::{jobs::Background, questions::Intent};
+use crate::app::state::Done;
+use crate::store::pictures::PICTURE_ENDINGS;
+
+/// Who answers.
+pub(crate) enum Dialogs {
+    /// The system's dialogs, one at a time.
+    System { is_open: bool },
+    /// Answers given beforehand.
+    Given(Given),
+}
+
+/// Answers given beforehand, in order; `None` cancels, and so does having none left.
+#[derive(Default)]
+pub(crate) struct Given {
+    pub answers: VecDeque<Option<PathBuf>>,
+    /// How many dialogs had no answer left.
+    pub unanswered: usize,
+}
+
+/// What a file is wanted for.
+#[derive(Debug)]
+pub(crate) enum Purpose {
+    Open,
+    Picture(PictureUse),
+    /// `answering`: the answer to a question that a file is chosen for.
+    Save {
+        then: Option<Intent>,
+        answering: Option<&'static str>,
+    },
+    /// To save what was recorded.
+    Recording {
+        recording: Box<Recording>,
+        then: Option<Intent>,
+    },
+}
+
+/// A dialog's answer.
+#[derive(Debug)]
+pub(crate) struct Answer {
+    pub purpose: Purpose,
+    /// `None` when the dialog was cancelled.
+    pub path: Option<PathBuf>,
+    /// Whether a person can have seen the dialog.
+    pub was_shown: bool,
+}
+
+/// Nobody cancels a dialog faster: it was never shown.
+const QUICKEST_CANCEL: Duration = Duration::from_millis(250);
+
+impl Dialogs {
+    /// Asks for a file; the answer comes as [`Done::Chosen`]. Does nothing while a dialog is open.
+    pub(crate) fn ask(
+        &mut self,
+        purpose: Purpose,
+        folder: Option<PathBuf>,
+        name: String,
+        background: &mut Background<Done>,
+    ) {
+        match self {
+            Self::Given(given) => {
+                let answer = given.answers.pop_front();
+                given.unanswered += usize::from(answer.is_none());
+                let path = answer.flatten();
+                background.start(move || Done::Chosen(Answer { purpose, path, was_shown: true }));
+            }
+            Self::System { is_open: true } => {}
+            Self::System { is_open } => {
+                *is_open = true;
+                let mut dialog = rfd::AsyncFileDialog::new();
+                if let Some(folder) = folder.filter(|folder| folder.is_dir()) {
+                    dialog = dialog.set_directory(folder);
+                }
+                // Made here, on the thread of the window, as some systems require; waited for elsewhere.
+                let chosen = match purpose {
+                    Purpose::Open => {
+                        let dialog = dialog
+                            .set_title("Open a plan")
+                            .add_filter("Plans", &crate::formats::dialog_endings())
+                            .add_filter("All files", &["*"]);
+                        Box::pin(dialog.pick_file()) as Waiting
+                    }
+                    Purpose::Picture(_) => {
+                        let dialog = dialog
+                            .set_title("Choose a picture to trace over")
+                            .add_filter("Pictures", PICTURE_ENDINGS)
+                            .add_filter("All files", &["*"]);
+                        Box::pin(dialog.pick_file())
+                    }
+                    Purpose::Save { .. } => {
+                        let dialog = dialog
+                            .set_title("Save the plan")
+                            .set_file_name(name)
+                            .add_filter("Enfilade plan", &["plan.json"]);
+                        Box::pin(dialog.save_file())
+                    }
+                    Purpose::Recording { .. } => {
+                        let dialog = dialog
+                            .set_title("Save the recording")
+                            .set_file_name(name)
+                            .add_filter("Replay scripts", &["replay"]);
+                        Box::pin(dialog.save_file())
+                    }
+                };
+                background.start(move || {
+                    let asked = now();
+                    let path = pollster::block_on(chosen).map(|file| file.path().to_owned());
+                    let was_shown = path.is_some() || asked.elapsed() >= QUICKEST_CANCEL;
+                    Done::Chosen(Answer { purpose, path, was_shown })
+                });
+            }
+        }
+    }
+
+    /// Notes that the dialog is gone.
+    pub(crate) fn answered(&mut self) {
+        if let Self::System { is_open } = self {
+            *is_open = false;
+        }
+    }
+}
+
+type Waiting = std::pin::Pin<Box<dyn Future<Output = Option<rfd::FileHandle>> + Send>>;
+
+#[expect(clippy::disallowed_methods, reason = "tells a dialog that was never shown from one that was cancelled")]
+fn now() -> Instant {
+    Instant::now()
+}

@@ -1,0 +1,338 @@
+//! Opening, saving, closing: never losing unsaved work, never overwriting silently.
+
+use super::wishes::Wish;
+use crate::app::session::Session;
+use crate::app::session::origin::file_name;
+use crate::app::session::tracing::PictureUse;
+use crate::app::session::tracing::plan_in_folder;
+use std::path::{Path, PathBuf};
+
+use egui::Context;
+
+use crate::app::session::{
+    document::{self, Begun, Document, Expected, Opened, SaveFailure},
+    file_dialogs::{Answer, Purpose},
+    ghost::Ghost,
+    messages::{Message, Remedy, Severity},
+    origin::Origin,
+    plan_list,
+    questions::{Intent, Question},
+    selection::Selection,
+};
+use crate::app::state::Done;
+use crate::edit::{
+    DrawingMoves,
+    storey::{Keep, copied},
+};
+use crate::formats::FileError;
+use crate::plan::Plan;
+use crate::store::Stamp;
+
+impl Session {
+    /// Asks which plan to open.
+    pub(crate) fn choose_plan(&mut self) {
+        let folder = self.document.as_ref().and_then(|document| document.origin.folder()).map(Path::to_owned);
+        self.dialogs.ask(Purpose::Open, folder, String::new(), &mut self.background);
+    }
+
+    /// Shows a plan on which nothing is drawn yet.
+    pub(crate) fn new_plan(&mut self) {
+        // What is still being read was asked for before.
+        self.opening = None;
+        self.request(Intent::Show(Box::new(Opened::untitled())));
+    }
+
+    /// Begins a plan of another storey as a copy of this one, which is shown below it.
+    pub(crate) fn copy_storey(&mut self, storey: &str, keep: Keep) {
+        let Some(below) = self.plan().cloned() else { return };
+        self.opening = None;
+        let begun = Begun { title: format!("Copy storey as {storey}"), plan: copied(&below, storey, keep), below };
+        let opened = Opened { begun: Some(Box::new(begun)), ..Opened::untitled() };
+        self.request(Intent::Show(Box::new(opened)));
+    }
+
+    /// Reads a plan and shows it when it is there.
+    pub(crate) fn open(&mut self, origin: Origin) {
+        self.opening = Some(origin.clone());
+        self.background.start(move || {
+            let opened = document::open(origin.clone());
+            Done::Opened(origin, Box::new(opened))
+        });
+    }
+
+    pub(crate) fn was_opened(&mut self, origin: &Origin, result: Result<Opened, FileError>) {
+        // Only what was asked for last counts.
+        if self.opening.as_ref() != Some(origin) {
+            return;
+        }
+        self.opening = None;
+        match result {
+            Ok(opened) => self.request(Intent::Show(Box::new(opened))),
+            Err(FileError { path, error }) => {
+                self.say(Severity::Error, format!("Could not open {}", file_name(&path)), {
+                    format!("{error}\n{}", self.shown_path(&path))
+                });
+            }
+        }
+    }
+
+    /// Opens the plan `step` places further down the list.
+    pub(crate) fn open_neighbour(&mut self, step: isize) {
+        let current = self.document.as_ref().map(|document| &document.origin);
+        if let Some(origin) = self.list.neighbour(current, step) {
+            self.open(origin);
+        }
+    }
+
+    /// Does what a person wants, after asking where that would lose unsaved work.
+    pub(crate) fn request(&mut self, intent: Intent) {
+        self.commit_field();
+        if self.question.is_some() || self.saving > 0 {
+            // One thing after the other: what is saved need not be asked for.
+            self.waiting = Some(intent);
+        } else if self.has_unsaved_changes() {
+            self.question = Some(Question::Unsaved(intent));
+        } else {
+            self.perform(intent);
+        }
+    }
+
+    /// Goes on with what waited for an answer, or for a file to be saved.
+    pub(crate) fn take_waiting(&mut self) {
+        if self.question.is_none()
+            && self.saving == 0
+            && let Some(intent) = self.waiting.take()
+        {
+            self.request(intent);
+        }
+    }
+
+    /// Does it, unsaved work or not.
+    pub(crate) fn perform(&mut self, intent: Intent) {
+        match intent {
+            Intent::Show(opened) => self.show(*opened),
+            Intent::Recover(path) => self.recovering = Some(path),
+            Intent::Close => {
+                self.end_journal();
+                self.document = None;
+                self.selection = Selection::default();
+                self.wishes.push(Wish::ForgetDrawing);
+            }
+            // The recording first, or it would be lost.
+            Intent::Quit if self.is_recording => self.wishes.push(Wish::EndRecording(Intent::Quit)),
+            Intent::Quit => {
+                self.end_journal();
+                self.quitting = true;
+            }
+        }
+    }
+
+    pub(crate) fn show(&mut self, opened: Opened) {
+        self.end_journal();
+        let folder = opened.origin.folder().map(Path::to_owned);
+        self.selection = Selection::default();
+        self.field = None;
+        self.wishes.push(Wish::ForgetPlan);
+        self.status.clear();
+        if !opened.notes.is_empty() {
+            let summary = crate::app::panels::notes::summary(&opened.notes);
+            let text = format!("Imported {}: {summary}", opened.origin.title());
+            let remedies = vec![Remedy::ShowNotes];
+            let (severity, detail) = (Severity::Info, String::new());
+            self.add_message(Message { severity, text, detail, remedies, stays: false });
+        }
+        let below = opened.begun.as_ref().map(|begun| begun.below.clone());
+        self.ghost = below.map(|below| Ghost::new(below, None, &self.schemes));
+        self.documents += 1;
+        self.document = Some(Document::new(self.documents, opened));
+        if let Some(folder) = folder {
+            self.list_folder(folder);
+        }
+    }
+
+    fn list_folder(&mut self, folder: PathBuf) {
+        self.background.start(move || {
+            let files = plan_list::plans_in(&folder);
+            Done::Listed(folder, files)
+        });
+    }
+
+    /// Answers the question that is asked. `path`: the file to save in, where there must be one; the
+    /// dialog asks for it without. Gives whether it did not have to ask.
+    pub(crate) fn answer(&mut self, word: &'static str, path: Option<PathBuf>) -> bool {
+        let then = match (self.question.take(), word) {
+            (Some(Question::Unsaved(intent)), "save") => {
+                if path.is_none() && self.has_own_file() {
+                    self.save(Some(intent));
+                    return true;
+                }
+                Some(intent)
+            }
+            (Some(Question::Replace { then, .. }), "elsewhere") => then,
+            (Some(Question::Unsaved(intent)), "discard") => {
+                self.perform(intent);
+                return true;
+            }
+            (Some(Question::Drawing(change)), "along" | "stays") => {
+                self.apply_picture_change(&change, DrawingMoves::of_word(word));
+                return true;
+            }
+            (Some(Question::Change(change)), "weld" | "bridge") => {
+                self.edit(change.step, |_| Ok(change.plan));
+                return true;
+            }
+            (Some(Question::Delete { selected, .. }), "delete") => {
+                self.delete(&selected);
+                return true;
+            }
+            (Some(Question::Discard { path, .. }), "discard") => {
+                self.discard_leftover(&path);
+                return true;
+            }
+            (Some(Question::Replace { path, then, .. }), "replace") => {
+                self.save_to(path, Expected::Anything, then);
+                return true;
+            }
+            _ => return true,
+        };
+        match path {
+            Some(path) => self.save_in(path, then),
+            None => {
+                self.ask_where_to_save(then, Some(word));
+                return false;
+            }
+        }
+        true
+    }
+
+    fn has_own_file(&self) -> bool {
+        let path = self.document.as_ref().and_then(|document| document.origin.path());
+        path.is_some_and(document::is_own_file)
+    }
+
+    /// Saves the plan in its file; then does what was to follow. Where it has none of Enfilade's own,
+    /// asks for one. Gives whether it did not have to ask.
+    pub(crate) fn save(&mut self, then: Option<Intent>) -> bool {
+        let Some(document) = &self.document else { return true };
+        match document.origin.path() {
+            Some(path) if document::is_own_file(path) => {
+                let (path, expected) = (path.to_owned(), Expected::Seen(document.stamp));
+                self.save_to(path, expected, then);
+                true
+            }
+            _ => {
+                self.ask_where_to_save(then, None);
+                false
+            }
+        }
+    }
+
+    /// Asks for a file to save the plan in; then does what was to follow. `answering`: the answer to
+    /// a question that led here.
+    pub(crate) fn ask_where_to_save(&mut self, then: Option<Intent>, answering: Option<&'static str>) {
+        let Some(document) = &self.document else { return };
+        let folder = document.origin.folder().map(Path::to_owned);
+        let name = format!("{}.plan.json", document.origin.stem());
+        self.dialogs.ask(Purpose::Save { then, answering }, folder, name, &mut self.background);
+    }
+
+    /// Saves the plan in a file that a person has chosen; the ending is added where it is missing.
+    pub(crate) fn save_in(&mut self, mut path: PathBuf, then: Option<Intent>) {
+        if document::is_own_file(&path) {
+            // Who chose it has been asked whether to replace.
+            self.save_to(path, Expected::Anything, then);
+            return;
+        }
+        path.as_mut_os_string().push(".plan.json");
+        if path.exists() {
+            self.question = Some(Question::Replace { path, is_changed_since: false, then });
+        } else {
+            self.save_to(path, Expected::Anything, then);
+        }
+    }
+
+    pub(crate) fn was_chosen(&mut self, answer: Answer, _context: &Context) {
+        let Answer { purpose, path, was_shown } = answer;
+        let Some(path) = path else {
+            if !was_shown {
+                self.say(
+                    Severity::Warning,
+                    "This system has no dialog to choose files",
+                    "Drop a file on the window, or start Enfilade with the file's path. On Linux, dialogs come from \
+                     the desktop's portal or from zenity.",
+                );
+            }
+            // Cancel means cancel: what was to follow is forgotten.
+            if let Purpose::Save { answering: Some(_), .. } = purpose {
+                self.note_executed("answer", vec!["cancel".to_owned()]);
+            }
+            return;
+        };
+        let word = path.to_string_lossy().into_owned();
+        match purpose {
+            Purpose::Open => self.wishes.push(Wish::Run("open", vec![word])),
+            Purpose::Picture(PictureUse::Add) => self.wishes.push(Wish::Run("picture", vec![word])),
+            Purpose::Picture(PictureUse::Relink) => self.wishes.push(Wish::Run("relink-picture", vec![word])),
+            Purpose::Recording { recording, then } => self.wishes.push(Wish::SaveRecording { recording, path, then }),
+            Purpose::Save { then: None, answering: None } => self.wishes.push(Wish::Run("save-as", vec![word])),
+            Purpose::Save { then, answering } => {
+                if let Some(answer) = answering {
+                    self.note_executed("answer", vec![answer.to_owned(), word]);
+                }
+                self.save_in(path, then);
+            }
+        }
+    }
+
+    pub(crate) fn save_to(&mut self, path: PathBuf, expected: Expected, then: Option<Intent>) {
+        let Some(document) = &self.document else { return };
+        let plan = plan_in_folder(document.plan(), document.origin.folder(), path.parent());
+        let document = document.number;
+        self.begins_to_save();
+        self.background.start(move || {
+            let result = document::save(&path, &plan, expected);
+            Done::Saved { document, path, plan, result, then }
+        });
+    }
+
+    pub(crate) fn was_saved(
+        &mut self,
+        number: u64,
+        path: PathBuf,
+        plan: Plan,
+        result: Result<Option<Stamp>, SaveFailure>,
+        then: Option<Intent>,
+        context: &Context,
+    ) {
+        self.saving = self.saving.saturating_sub(1);
+        match result {
+            Ok(stamp) => {
+                self.status = format!("Saved in {}", file_name(&path));
+                let folder = path.parent().map(Path::to_owned);
+                if let Some(document) = self.document.as_mut().filter(|document| document.number == number) {
+                    let from = document.origin.folder().map(Path::to_owned);
+                    document.history.rewrite(|plan| plan_in_folder(plan, from.as_deref(), folder.as_deref()));
+                    document.was_saved(plan, path, stamp);
+                    self.is_saved(context);
+                }
+                if let Some(folder) = folder {
+                    self.list_folder(folder);
+                }
+                // Asks again if there were changes since.
+                if let Some(intent) = then {
+                    self.request(intent);
+                }
+            }
+            Err(SaveFailure::ChangedOnDisk) => {
+                self.waiting = None;
+                self.look_soon();
+                self.question = Some(Question::Replace { path, is_changed_since: true, then });
+            }
+            Err(SaveFailure::Store(error)) => {
+                // What was to follow a save does not follow a failure.
+                self.waiting = None;
+                self.is_not_saved(error);
+            }
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! Editing. Every change goes through here and is a step of the history.
+
+use super::Session;
+use crate::app::session::fields::Field;
+use crate::app::session::fields::FieldKind;
+use crate::app::session::messages::Severity;
+use crate::edit;
+use crate::edit::EditError;
+use crate::plan::ElementId;
+use crate::plan::Meta;
+use crate::plan::Plan;
+impl Session {
+    pub(crate) fn edit(&mut self, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) {
+        if let Err(error) = self.try_edit(title, change) {
+            self.say(Severity::Warning, format!("Nothing was changed: {error}"), "");
+        }
+    }
+
+    /// As [`App::edit`], but leaves it to the caller to say why nothing was changed.
+    pub(crate) fn try_edit(
+        &mut self,
+        title: &str,
+        change: impl FnOnce(&Plan) -> Result<Plan, EditError>,
+    ) -> Result<(), EditError> {
+        let Some(document) = &mut self.document else { return Ok(()) };
+        let plan = change(document.plan())?;
+        document.history.push(title, plan);
+        Ok(())
+    }
+
+    /// Makes what stands in a text field part of the plan.
+    pub(crate) fn commit_field(&mut self) {
+        if let Some(field) = self.field.take() {
+            self.edit(field.title(), |plan| field.apply(plan));
+            // The field's room is the picked one: picking another ends the typing first.
+            let (id, text) = field.as_command();
+            if id == "set-function" {
+                self.remember_function(&text);
+            }
+            self.note_executed(id, vec![text]);
+        }
+    }
+
+    /// Writes a text of the picked room.
+    pub(crate) fn write_field(&mut self, kind: FieldKind, text: &str) {
+        let Some((room, _)) = self.picked_room() else { return };
+        let field = Field::new(room, kind, text);
+        self.edit(field.title(), |plan| field.apply(plan));
+    }
+
+    /// Changes what is known of the plan as a whole.
+    pub(crate) fn change_meta(&mut self, title: &str, change: impl FnOnce(&mut Meta)) {
+        self.edit(title, |plan| {
+            let mut meta = plan.meta().clone();
+            change(&mut meta);
+            Ok(edit::set_meta(plan, meta))
+        });
+    }
+
+    pub(crate) fn redo(&mut self) {
+        if let Some(title) = self.document.as_mut().and_then(|document| document.history.redo()) {
+            self.status = format!("Redone: {title}");
+        }
+    }
+
+    /// Goes to a step of the history, counted from 0; gives why not where there is none.
+    pub(crate) fn jump_to_step(&mut self, step: usize) -> Result<(), String> {
+        let Some(document) = &mut self.document else { return Ok(()) };
+        let number = document.history.steps().len();
+        let Some(title) = document.history.steps().get(step).map(|step| step.title.clone()) else {
+            return Err(format!("the history has {}", crate::base::wording::count(number, "step")));
+        };
+        document.history.jump_to(step);
+        self.status = format!("Step {} of {number}: {title}", step + 1);
+        Ok(())
+    }
+
+    /// Takes the last change back.
+    pub(crate) fn undo(&mut self) {
+        if let Some(title) = self.document.as_mut().and_then(|document| document.history.undo()) {
+            self.status = format!("Undone: {title}");
+        }
+    }
+
+    /// Deletes elements and what depends on them.
+    pub(crate) fn delete(&mut self, elements: &[ElementId]) {
+        let title = match elements {
+            [one] => format!("Delete {}", one.kind()),
+            several => format!("Delete {} elements", several.len()),
+        };
+        self.edit(&title, |plan| edit::remove(plan, elements));
+    }
+}

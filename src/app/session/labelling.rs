@@ -1,0 +1,163 @@
+//! What labelling and naming are about: the selected rooms, or the one under the pointer.
+
+use std::collections::BTreeMap;
+
+use super::Session;
+use crate::app::commands::{self, Choice};
+use crate::base::wording::count;
+use crate::base::wording::sentence;
+use crate::edit::{self, EditError};
+use crate::features::RoomStatus;
+use crate::labels::{Label, Meaning, normalised_function};
+use crate::plan::titles::room_title;
+use crate::plan::{ElementId, LabelOrigin, Plan, RoomId, RoomLabel};
+
+/// Functions that were set are remembered, so many of them.
+const MOST_RECENT: usize = 12;
+
+/// The rooms that a command is about.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Target {
+    pub rooms: Vec<RoomId>,
+    /// Whether they are the selected ones, which a recording has selected before.
+    pub is_selection: bool,
+}
+
+impl Target {
+    /// The argument that names it in a call; none for the selection.
+    pub(crate) fn word(&self, plan: &Plan) -> Option<String> {
+        self.rooms.first().filter(|_| !self.is_selection).map(|&room| commands::room_word(plan, room))
+    }
+
+    /// What it is called: 'Kitchen', '5 rooms'.
+    pub(crate) fn title(&self, plan: &Plan) -> String {
+        match self.rooms.as_slice() {
+            [one] => plan.room(*one).map(room_title).unwrap_or_default(),
+            several => count(several.len(), "room"),
+        }
+    }
+}
+
+impl Session {
+    /// The rooms that a command is about: one that is named, else the selected ones, else the one under
+    /// the pointer, if nothing is selected. `None` without any.
+    pub(crate) fn target(&self, named: Option<RoomId>) -> Option<Target> {
+        let plan = self.plan()?;
+        let pointed = || self.room_under_pointer().filter(|_| self.selection.is_empty());
+        if let Some(room) = named.or_else(pointed).filter(|&room| plan.room(room).is_some()) {
+            return Some(Target { rooms: vec![room], is_selection: false });
+        }
+        let rooms: Vec<RoomId> = self.selection.rooms().collect();
+        (!rooms.is_empty()).then_some(Target { rooms, is_selection: true })
+    }
+
+    /// The room under the pointer, also where a wall or a door lies above it.
+    fn room_under_pointer(&self) -> Option<RoomId> {
+        if let Some(ElementId::Room(room)) = self.pointed.element {
+            return Some(room);
+        }
+        let shapes = &self.document.as_ref()?.derived()?.analysis.shapes;
+        let index = shapes.at(self.pointed.at?).into_iter().next()?;
+        shapes.all().get(index).map(|shape| shape.id)
+    }
+
+    /// The label that all selected rooms have, whoever gave it.
+    pub(crate) fn selected_label(&self) -> Option<Label> {
+        let plan = self.plan()?;
+        let label = |room: RoomId| RoomStatus::of(plan, &self.schemes, plan.room(room)?).label();
+        let mut rooms = self.selection.rooms();
+        let first = label(rooms.next()?)?;
+        rooms.all(|room| label(room) == Some(first)).then_some(first)
+    }
+
+    /// Gives rooms a label, or takes their own away, in one step.
+    pub(crate) fn label_rooms(&mut self, target: &Target, label: Option<Label>) {
+        let Some(plan) = self.plan() else { return };
+        let what = label.map_or("Label by function".to_owned(), |label| format!("Label {label}"));
+        let title = if target.rooms.len() == 1 { what } else { format!("{what}: {}", target.title(plan)) };
+        let status = label.map_or("labelled by function".to_owned(), |label| label.name().to_owned());
+        let status = format!("{}: {status}", target.title(plan));
+        let given = label.map(|label| RoomLabel { label, origin: LabelOrigin::Person });
+        self.edit(&title, |plan| for_each(plan, &target.rooms, |plan, room| edit::set_label(plan, room, given)));
+        self.status = status;
+    }
+
+    /// Writes what rooms are for, in one step.
+    pub(crate) fn set_function_of(&mut self, target: &Target, function: &str) {
+        let Some(plan) = self.plan() else { return };
+        let function = function.trim();
+        let title = match target.rooms.len() {
+            1 => "Set function".to_owned(),
+            _ => format!("Set function: {}", target.title(plan)),
+        };
+        let said = if function.is_empty() { "no function" } else { function };
+        let status = format!("{}: {said}", target.title(plan));
+        self.edit(&title, |plan| for_each(plan, &target.rooms, |plan, room| edit::set_function(plan, room, function)));
+        self.status = status;
+        self.remember_function(function);
+    }
+
+    /// Keeps a function for the next list of them.
+    pub(crate) fn remember_function(&mut self, function: &str) {
+        let function = normalised_function(function);
+        if !function.is_empty() {
+            let recent = &mut self.recent_functions;
+            recent.retain(|other| *other != function);
+            recent.insert(0, function);
+            recent.truncate(MOST_RECENT);
+        }
+    }
+
+    /// The functions of the plan and of its typology's scheme: first those that most rooms of the plan
+    /// have, then those that were set lately, then as the scheme has them.
+    pub(crate) fn function_choices(&self) -> Vec<Choice> {
+        let Some(plan) = self.plan() else { return Vec::new() };
+        let typology = plan.meta().typology.as_ref();
+        let mut used: BTreeMap<String, usize> = BTreeMap::new();
+        for (_, room) in plan.rooms() {
+            *used.entry(normalised_function(&room.function)).or_default() += 1;
+        }
+        used.remove("");
+        let mut functions: Vec<String> = typology
+            .into_iter()
+            .flat_map(|typology| self.schemes.functions(typology))
+            .map(|(f, _)| f.to_owned())
+            .collect();
+        let more = used.keys().chain(&self.recent_functions);
+        for function in more.collect::<Vec<_>>() {
+            if !functions.contains(function) {
+                functions.push(function.clone());
+            }
+        }
+        let recent =
+            |function: &String| self.recent_functions.iter().position(|other| other == function).unwrap_or(usize::MAX);
+        let number = |function: &String| used.get(function).copied().unwrap_or(0);
+        // Stable: else as they are.
+        functions.sort_by_key(|function| (std::cmp::Reverse(number(function)), recent(function)));
+        let choice = |function: String| {
+            let (status, detail) = match self.schemes.meaning(typology, &function) {
+                Some(Meaning::Labelled(label)) => (RoomStatus::Labelled(label), label.name()),
+                Some(Meaning::NotClassified) => (RoomStatus::NotClassified, "not classified"),
+                None => (RoomStatus::Unlabelled, "not in the label scheme"),
+            };
+            let number = number(&function);
+            Choice {
+                title: sentence(&function),
+                detail: detail.to_owned(),
+                trail: if number > 0 { count(number, "room") } else { String::new() },
+                status: Some(status),
+                word: function,
+            }
+        };
+        functions.into_iter().map(choice).collect()
+    }
+}
+
+/// Changes some rooms one after the other.
+pub(crate) fn for_each(
+    plan: &Plan,
+    rooms: &[RoomId],
+    change: impl Fn(&Plan, RoomId) -> Result<Plan, EditError>,
+) -> Result<Plan, EditError> {
+    rooms.iter().try_fold(plan.clone(), |plan, &room| change(&plan, room))
+}

@@ -1,0 +1,208 @@
+//! The work at hand: the open plan and all that is done with it. It knows no canvas, tool, panel or command.
+
+pub(crate) mod bulk;
+pub(crate) mod document;
+pub(crate) mod executed;
+pub(crate) mod fields;
+pub(crate) mod file_dialogs;
+pub(crate) mod files;
+pub(crate) mod ghost;
+pub(crate) mod history;
+pub(crate) mod jobs;
+pub(crate) mod labelling;
+pub(crate) mod layers;
+pub(crate) mod messages;
+pub(crate) mod origin;
+pub(crate) mod picking;
+pub(crate) mod plan_list;
+pub(crate) mod predictions;
+pub(crate) mod questions;
+pub(crate) mod recovery;
+pub(crate) mod selection;
+pub(crate) mod settings;
+pub(crate) mod tracing;
+pub(crate) mod wishes;
+
+use crate::app::paint::backdrop::BackdropView;
+use crate::app::session::document::Document;
+use crate::app::session::executed::Executed;
+use crate::app::session::fields::Field;
+use crate::app::session::file_dialogs::Dialogs;
+use crate::app::session::jobs::Background;
+use crate::app::session::jobs::Mode;
+use crate::app::session::layers::LayerSettings;
+use crate::app::session::messages::Message;
+use crate::app::session::messages::Severity;
+use crate::app::session::origin::Origin;
+use crate::app::session::plan_list::PlanList;
+use crate::app::session::questions::Intent;
+use crate::app::session::questions::Question;
+use crate::app::session::recovery::Safety;
+use crate::app::session::selection::Selection;
+use crate::app::session::settings::Settings;
+use crate::app::session::wishes::Wish;
+use crate::app::state::Done;
+use crate::draw;
+use crate::draw::Palette;
+use crate::geometry::Point;
+use crate::labels::Schemes;
+use crate::plan::ElementId;
+use crate::plan::Plan;
+use crate::predict::Predictor;
+use egui::Ui;
+use std::path::Path;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// The open plan, what is selected and asked, what is kept safe: all of the window but how it is shown.
+pub(crate) struct Session {
+    pub(crate) schemes: Arc<Schemes>,
+    pub(crate) document: Option<Document>,
+    /// What is being read to be opened.
+    pub(crate) opening: Option<Origin>,
+    pub(crate) list: PlanList,
+    pub(crate) selection: Selection,
+    /// What was copied: a part of a plan.
+    pub(crate) copied: Option<Plan>,
+    pub(crate) layers: LayerSettings,
+    /// The storey drawn faintly under the plan.
+    pub(crate) ghost: Option<ghost::Ghost>,
+    /// Which models predict.
+    pub(crate) predictor: Predictor,
+    pub(crate) settings: Settings,
+    pub(crate) messages: Vec<Message>,
+    /// What was just done, for the status line.
+    pub(crate) status: String,
+    pub(crate) question: Option<Question>,
+    /// What a person wants once a question is answered, or a file saved.
+    pub(crate) waiting: Option<Intent>,
+    /// How many files are being saved.
+    pub(crate) saving: usize,
+    /// The journal that is to be opened.
+    pub(crate) recovering: Option<PathBuf>,
+    pub(crate) safety: Safety,
+    pub(crate) background: Background<Done>,
+    pub(crate) dialogs: Dialogs,
+    pub(crate) quitting: bool,
+    /// Where scripts work: paths below are shown from here.
+    pub(crate) named_from: Option<PathBuf>,
+    /// How many documents have been shown.
+    pub(crate) documents: u64,
+    /// The commands that were done, where a recorder wants them.
+    pub(crate) executed: Option<Vec<Executed>>,
+    /// The name of a picture that is being read to lie under the plan.
+    pub(crate) reading_picture: Option<String>,
+    /// What the pointer points at on the canvas.
+    pub(crate) pointed: Pointed,
+    /// The picture under the plan, as far as it is read.
+    pub(crate) backdrop: BackdropView,
+    /// Text that a person has changed and not finished.
+    pub(crate) field: Option<Field>,
+    /// Functions that were set, the last one first, as schemes compare them.
+    pub(crate) recent_functions: Vec<String>,
+    /// Whether what is done is being recorded.
+    pub(crate) is_recording: bool,
+    /// What the rest of the window is to do about it.
+    pub(crate) wishes: Vec<Wish>,
+}
+
+/// What the pointer points at.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Pointed {
+    pub element: Option<ElementId>,
+    /// The place in the plan; `None` off the canvas.
+    pub at: Option<Point>,
+}
+
+impl Session {
+    /// A session without a plan.
+    pub(crate) fn new(mode: Mode, dialogs: Dialogs) -> Self {
+        Self {
+            schemes: Arc::new(Schemes::bundled()),
+            document: None,
+            opening: None,
+            list: PlanList::default(),
+            selection: Selection::default(),
+            copied: None,
+            layers: LayerSettings::default(),
+            ghost: None,
+            predictor: Predictor::default(),
+            settings: Settings::default(),
+            messages: Vec::new(),
+            status: String::new(),
+            question: None,
+            waiting: None,
+            saving: 0,
+            recovering: None,
+            safety: Safety::default(),
+            background: Background::new(mode),
+            dialogs,
+            quitting: false,
+            named_from: None,
+            documents: 0,
+            executed: None,
+            reading_picture: None,
+            pointed: Pointed::default(),
+            backdrop: BackdropView::default(),
+            field: None,
+            recent_functions: Vec::new(),
+            is_recording: false,
+            wishes: Vec::new(),
+        }
+    }
+
+    /// The open plan.
+    pub(crate) fn plan(&self) -> Option<&Plan> {
+        self.document.as_ref().map(Document::plan)
+    }
+
+    /// What is selected.
+    pub(crate) fn selection(&self) -> &Selection {
+        &self.selection
+    }
+
+    /// The element that is selected, where it is exactly one.
+    pub(crate) fn picked(&self) -> Option<ElementId> {
+        self.selection.one()
+    }
+
+    /// What stands above the canvas: messages, the oldest first, then what stays as long as it is so.
+    pub(crate) fn messages(&self) -> Vec<Message> {
+        let mut messages = self.messages.clone();
+        messages.extend(self.bars());
+        messages
+    }
+
+    /// Whether the plan has changes that are in no file.
+    pub(crate) fn has_unsaved_changes(&self) -> bool {
+        self.document.as_ref().is_some_and(Document::is_changed)
+    }
+
+    /// A path as it is shown.
+    pub(crate) fn shown_path(&self, path: &Path) -> String {
+        let folder = self.named_from.as_deref().unwrap_or(Path::new(""));
+        path.strip_prefix(folder).unwrap_or(path).display().to_string()
+    }
+
+    pub(crate) fn say(&mut self, severity: Severity, text: impl Into<String>, detail: impl Into<String>) {
+        self.add_message(Message {
+            severity,
+            text: text.into(),
+            detail: detail.into(),
+            remedies: Vec::new(),
+            stays: false,
+        });
+    }
+
+    pub(crate) fn add_message(&mut self, message: Message) {
+        // The same thing said again moves to the end.
+        self.messages.retain(|other| *other != message);
+        self.messages.push(message);
+    }
+
+    /// The colours of the plan, in the window's theme.
+    pub(crate) fn palette(&self, ui: &Ui) -> &'static Palette {
+        let theme = if ui.visuals().dark_mode { draw::Theme::Dark } else { draw::Theme::Light };
+        Palette::of(theme, self.layers.colours)
+    }
+}

@@ -1,0 +1,66 @@
+//! Where a plan came from.
+
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+use crate::formats;
+use crate::plan::Plan;
+use crate::store;
+
+/// The plans that come with the program, each with its file's name, the one shown first in front.
+pub(crate) fn bundled() -> &'static [(&'static str, Plan)] {
+    static PLANS: OnceLock<Vec<(&str, Plan)>> = OnceLock::new();
+    // They read, or the tests fail; were one broken, there would be no samples.
+    PLANS.get_or_init(|| store::bundled_plans().unwrap_or_default())
+}
+
+/// Where a plan came from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Origin {
+    /// One of [`bundled`], by its index.
+    Bundled(usize),
+    /// Begun here, and in no file yet.
+    Untitled,
+    /// A file; `storey` counts the plans in it from 0.
+    File { path: PathBuf, storey: usize },
+}
+
+impl Origin {
+    /// The file, if it is one.
+    pub(crate) fn path(&self) -> Option<&Path> {
+        match self {
+            Self::Bundled(_) | Self::Untitled => None,
+            Self::File { path, .. } => Some(path),
+        }
+    }
+
+    /// The folder the file lies in.
+    pub(crate) fn folder(&self) -> Option<&Path> {
+        self.path().and_then(Path::parent)
+    }
+
+    /// What it is called in lists and titles.
+    pub(crate) fn title(&self) -> String {
+        match self {
+            Self::Bundled(index) => bundled().get(*index).map_or("", |(_, plan)| &plan.meta().name).to_owned(),
+            Self::Untitled => "Untitled".to_owned(),
+            Self::File { path, .. } => file_name(path),
+        }
+    }
+
+    /// Its file's name without the ending.
+    pub(crate) fn stem(&self) -> String {
+        match self {
+            Self::Bundled(index) => {
+                formats::file_stem(bundled().get(*index).map_or("plan", |(name, _)| name)).to_owned()
+            }
+            Self::Untitled => "untitled".to_owned(),
+            Self::File { path, .. } => formats::file_stem(&file_name(path)).to_owned(),
+        }
+    }
+}
+
+/// A path's last part.
+pub(crate) fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}

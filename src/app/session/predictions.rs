@@ -1,0 +1,59 @@
+//! What classifiers say of the rooms, and accepting it.
+
+use super::Session;
+use crate::app::session::messages::Severity;
+use crate::edit;
+use crate::labels::Label;
+use crate::plan::LabelOrigin;
+use crate::plan::RoomId;
+use crate::plan::RoomLabel;
+use crate::predict::Predictions;
+impl Session {
+    /// What is said of the rooms of the plan as it is now; `None` while that is being worked out.
+    pub fn predictions(&self) -> Option<&Predictions> {
+        self.document.as_ref()?.derived()?.predictions.as_ref()
+    }
+
+    pub(crate) fn predict_by_set(&mut self, word: &str) {
+        match word.parse() {
+            Ok(set) => self.predictor.set = set,
+            Err(error) => self.say(Severity::Warning, error.to_string(), ""),
+        }
+    }
+
+    /// The selected rooms that are predicted, with what is said of them.
+    pub(crate) fn predictions_of_selected(&self) -> Vec<(RoomId, Label)> {
+        let Some(predictions) = self.predictions() else { return Vec::new() };
+        self.selection.rooms().filter_map(|id| Some((id, predictions.label(id)?))).collect()
+    }
+
+    /// Labels the selected rooms as predicted, in one step.
+    pub(crate) fn accept_prediction(&mut self) {
+        let said = self.predictions_of_selected();
+        match said.as_slice() {
+            [] => {}
+            [(_, label)] => self.accept(&format!("Accept {label}"), &said),
+            several => self.accept(&format!("Accept {} predictions", several.len()), &said),
+        }
+    }
+
+    pub(crate) fn accept(&mut self, title: &str, said: &[(RoomId, Label)]) {
+        self.edit(title, |plan| {
+            said.iter().try_fold(plan.clone(), |plan, &(id, label)| {
+                let given = RoomLabel { label, origin: LabelOrigin::AcceptedPrediction };
+                edit::set_label(&plan, id, Some(given))
+            })
+        });
+    }
+
+    /// Labels all rooms that have no label as predicted.
+    pub(crate) fn accept_all_predictions(&mut self) {
+        let Some(predictions) = self.predictions() else { return };
+        let unlabelled = predictions.network.rooms.iter().filter(|room| room.label.is_none());
+        let said: Vec<(RoomId, Label)> =
+            unlabelled.filter_map(|room| Some((room.id, predictions.label(room.id)?))).collect();
+        let title = format!("Accept {} predictions", said.len());
+        self.accept(&title, &said);
+        self.status = title;
+    }
+}

@@ -1,0 +1,316 @@
+//! What a person has set, kept in a file from session to session: the shortcuts, the units, the grid.
+//!
+//! The file is JSON. What this version does not know in it is kept. A file that cannot be read is
+//! moved aside and never overwritten.
+
+use super::Session;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Map, Value, json};
+
+use crate::app::commands::{self, COMMANDS, Command};
+use crate::app::look::keys::Keys;
+use crate::app::session::messages::{Message, Severity};
+use crate::base::units::Units;
+use crate::store;
+
+/// Names the settings file in place of the system's; empty for none: nothing is read or kept.
+const VARIABLE: &str = "ENFILADE_SETTINGS";
+
+/// The version of the file that is written.
+const VERSION: u64 = 1;
+
+/// Lines of the grid are at least so far apart, and at most, in metres.
+pub(crate) const GRID_RANGE_M: std::ops::RangeInclusive<f64> = 0.001..=1000.0;
+
+/// No settings file is larger.
+const MOST_BYTES: u64 = 1 << 20;
+
+/// The shortcuts commands come with, by place in the table.
+fn shipped() -> &'static [Vec<Keys>] {
+    static SHIPPED: std::sync::OnceLock<Vec<Vec<Keys>>> = std::sync::OnceLock::new();
+    SHIPPED.get_or_init(|| {
+        COMMANDS.iter().map(|command| command.shortcuts.iter().map(|&shortcut| shortcut.into()).collect()).collect()
+    })
+}
+
+/// What a person has set.
+#[derive(Debug, Default)]
+pub(crate) struct Settings {
+    /// Where it is kept; `None` for not at all.
+    file: Option<PathBuf>,
+    /// All that the file holds.
+    kept: Map<String, Value>,
+    /// The shortcuts that are not those the commands come with.
+    changed: BTreeMap<&'static str, Vec<Keys>>,
+    units: Units,
+    /// Distance of the grid's lines in metres; `None` for as the zoom has it.
+    grid_m: Option<f64>,
+}
+
+/// Why a command does not get a shortcut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Refused {
+    /// Another command has the keys.
+    Taken(&'static str),
+    /// Nobody may choose the keys, and why.
+    Reserved(&'static str),
+}
+
+impl Refused {
+    /// The reason in a sentence.
+    pub(crate) fn reason(self, keys: &str) -> String {
+        match self {
+            Self::Taken(by) => {
+                let title = commands::find(by).map_or(by, |command| command.title);
+                format!("{keys} is the shortcut of '{}'", title.trim_end_matches('…'))
+            }
+            Self::Reserved(why) => format!("{keys} cannot be a shortcut: {why}"),
+        }
+    }
+}
+
+/// The file in which settings are kept: the one the environment names, or the system's place; `None`
+/// where there is none.
+pub(crate) fn file() -> Option<PathBuf> {
+    use etcetera::BaseStrategy as _;
+    match std::env::var_os(VARIABLE) {
+        Some(path) => (!path.is_empty()).then(|| PathBuf::from(path)),
+        None => {
+            let place = etcetera::choose_base_strategy().ok()?;
+            Some(place.config_dir().join("enfilade").join("settings.json"))
+        }
+    }
+}
+
+impl Settings {
+    /// Reads the settings that a file keeps, or starts a new one; and what is to be said about it.
+    pub(crate) fn read(file: PathBuf) -> (Self, Vec<Message>) {
+        let mut problems = Vec::new();
+        let text = match read_text(&file) {
+            Ok(text) => text,
+            Err(what) => {
+                // Neither read nor ever written.
+                let text = format!("Your settings cannot be read: {what}");
+                let detail = format!("What you change lasts until the window is closed.\n{}", file.display());
+                return (Self::default(), vec![warning(text, detail)]);
+            }
+        };
+        let kept = match text.as_deref().map(serde_json::from_str::<Map<String, Value>>) {
+            None => Map::new(),
+            Some(Ok(kept)) if kept.get("version").and_then(Value::as_u64).is_some_and(|version| version > VERSION) => {
+                let text = "Your settings are of a newer version of Enfilade".to_owned();
+                let detail = format!(
+                    "They are left as they are; what you change lasts until the window is closed.\n{}",
+                    file.display()
+                );
+                return (Self::default(), vec![warning(text, detail)]);
+            }
+            Some(Ok(kept)) => kept,
+            Some(Err(error)) => {
+                let text = "Your settings are damaged: Enfilade starts with its own".to_owned();
+                let at = format!("line {}, column {}: {}", error.line(), error.column(), file.display());
+                return match set_aside(&file) {
+                    Ok(aside) => {
+                        problems.push(warning(text, format!("{at}\nThe damaged file is kept as {}.", aside.display())));
+                        (Self { file: Some(file), ..Self::default() }, problems)
+                    }
+                    Err(error) => {
+                        let detail =
+                            format!("{at}\nIt cannot be moved aside ({error}), so nothing you change is kept.");
+                        (Self::default(), vec![warning(text, detail)])
+                    }
+                };
+            }
+        };
+        // A word or a number of another version leaves what the program comes with.
+        let units = kept.get("units").and_then(Value::as_str).and_then(Units::from_name).unwrap_or_default();
+        let is_grid = |grid_m: &f64| GRID_RANGE_M.contains(grid_m);
+        let grid_m = kept.get("grid_m").and_then(Value::as_f64).filter(is_grid);
+        let mut settings = Self { file: Some(file), kept, changed: BTreeMap::new(), units, grid_m };
+        problems.extend(settings.read_shortcuts());
+        (settings, problems)
+    }
+
+    /// Takes over the shortcuts that the file keeps, except those that cannot be.
+    fn read_shortcuts(&mut self) -> Option<Message> {
+        let kept = self.kept.get("shortcuts")?.as_object().cloned().unwrap_or_default();
+        let mut wrong = Vec::new();
+        for (id, value) in &kept {
+            // A command of another version.
+            let Some(command) = commands::find(id) else { continue };
+            let keys: Option<Vec<Keys>> =
+                value.as_array().and_then(|list| list.iter().map(|keys| keys.as_str()?.parse().ok()).collect());
+            match keys {
+                Some(keys) => drop(self.changed.insert(command.id, keys)),
+                None => wrong.push(format!("{id}: {value} is no list of keys")),
+            }
+        }
+        // With all changes in place, so that two commands may have changed keys. One that is dropped
+        // gets back the keys it comes with, which another may have.
+        while let Some((id, reason)) = self.changed.iter().find_map(|(id, keys)| {
+            let command = commands::find(id)?;
+            let (keys, refused) = keys.iter().find_map(|&keys| Some((keys, self.why_refused(command, keys)?)))?;
+            Some((*id, refused.reason(&keys.to_string())))
+        }) {
+            wrong.push(format!("{id}: {reason}"));
+            self.changed.remove(id);
+        }
+        let file = self.file.as_deref().map(Path::display);
+        let place = file.map(|file| file.to_string()).unwrap_or_default();
+        let text = "Some shortcuts in your settings cannot be used".to_owned();
+        (!wrong.is_empty()).then(|| warning(text, format!("{}\n{place}", wrong.join("\n"))))
+    }
+
+    /// In which units lengths and areas are shown and typed.
+    pub(crate) fn units(&self) -> Units {
+        self.units
+    }
+
+    pub(crate) fn set_units(&mut self, units: Units) {
+        self.units = units;
+        self.kept.insert("units".to_owned(), json!(units.name()));
+    }
+
+    /// The distance of the grid's lines in metres; `None` for as the zoom has it.
+    pub(crate) fn grid_m(&self) -> Option<f64> {
+        self.grid_m
+    }
+
+    pub(crate) fn set_grid_m(&mut self, grid_m: Option<f64>) {
+        self.grid_m = grid_m;
+        match grid_m {
+            Some(grid_m) => drop(self.kept.insert("grid_m".to_owned(), json!(grid_m))),
+            None => drop(self.kept.shift_remove("grid_m")),
+        }
+    }
+
+    /// The shortcuts of a command, the first of which is shown.
+    pub(crate) fn keys_of(&self, command: &Command) -> &[Keys] {
+        self.changed.get(command.id).map_or_else(|| self.shipped_keys(command), Vec::as_slice)
+    }
+
+    fn shipped_keys(&self, command: &Command) -> &'static [Keys] {
+        let index = COMMANDS.iter().position(|other| other.id == command.id);
+        index.and_then(|index| shipped().get(index)).map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether a command's shortcuts are not those it comes with.
+    pub(crate) fn is_changed(&self, command: &Command) -> bool {
+        self.changed.contains_key(command.id)
+    }
+
+    /// Whether any shortcut is changed.
+    pub(crate) fn is_any_changed(&self) -> bool {
+        !self.changed.is_empty()
+    }
+
+    /// Why a command cannot have a shortcut; `None` when it can.
+    fn why_refused(&self, command: &Command, keys: Keys) -> Option<Refused> {
+        let other = COMMANDS.iter().find(|other| other.id != command.id && self.keys_of(other).contains(&keys));
+        let reserved = keys.why_reserved().filter(|_| !self.shipped_keys(command).contains(&keys));
+        reserved.map(Refused::Reserved).or(other.map(|other| Refused::Taken(other.id)))
+    }
+
+    /// Gives a command a shortcut in place of those it has; `None` takes them away.
+    ///
+    /// # Errors
+    /// When another command has the keys, or nobody may.
+    pub(crate) fn set_keys(&mut self, command: &'static Command, keys: Option<Keys>) -> Result<(), Refused> {
+        if let Some(refused) = keys.and_then(|keys| self.why_refused(command, keys)) {
+            return Err(refused);
+        }
+        let keys: Vec<Keys> = keys.into_iter().collect();
+        if self.keys_of(command) != keys {
+            self.changed.insert(command.id, keys);
+        }
+        Ok(())
+    }
+
+    /// Gives a command the shortcuts it comes with.
+    ///
+    /// # Errors
+    /// When another command has them by now; the keys and the command.
+    pub(crate) fn reset_keys(&mut self, command: &'static Command) -> Result<(), (Keys, Refused)> {
+        for &keys in self.shipped_keys(command) {
+            if let Some(refused) = self.why_refused(command, keys) {
+                return Err((keys, refused));
+            }
+        }
+        self.changed.remove(command.id);
+        Ok(())
+    }
+
+    /// Gives every command the shortcuts it comes with.
+    pub(crate) fn reset_all_keys(&mut self) {
+        self.changed.clear();
+    }
+
+    /// Keeps the settings in their file, if they have one.
+    ///
+    /// # Errors
+    /// What to say when they could not be written.
+    pub(crate) fn write(&mut self) -> Result<(), Message> {
+        let mut shortcuts = self.kept.get("shortcuts").and_then(Value::as_object).cloned().unwrap_or_default();
+        // Those of commands that this version does not know stay.
+        shortcuts.retain(|id, _| commands::find(id).is_none());
+        for (id, keys) in &self.changed {
+            let keys: Vec<String> = keys.iter().map(Keys::to_string).collect();
+            shortcuts.insert((*id).to_owned(), json!(keys));
+        }
+        shortcuts.sort_keys();
+        self.kept.insert("version".to_owned(), json!(VERSION));
+        self.kept.insert("shortcuts".to_owned(), Value::Object(shortcuts));
+        let Some(file) = &self.file else { return Ok(()) };
+        let written = serde_json::to_string_pretty(&self.kept).map_err(|error| error.to_string()).and_then(|text| {
+            if let Some(folder) = file.parent() {
+                std::fs::create_dir_all(folder).map_err(|error| error.to_string())?;
+            }
+            store::save_bytes(file, (text + "\n").as_bytes()).map_err(|error| error.to_string())
+        });
+        written.map_err(|what| {
+            let detail = format!("{what}\nWhat you change lasts until the window is closed.");
+            warning("Your settings could not be kept".to_owned(), detail)
+        })
+    }
+}
+
+fn warning(text: String, detail: String) -> Message {
+    Message { severity: Severity::Warning, text, detail, remedies: Vec::new(), stays: false }
+}
+
+/// The text of a file; `None` when there is none.
+fn read_text(file: &Path) -> Result<Option<String>, String> {
+    match std::fs::metadata(file) {
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error.to_string()),
+        Ok(metadata) if !metadata.is_file() => Err("it is no file".to_owned()),
+        Ok(metadata) if metadata.len() > MOST_BYTES => Err("it is too large".to_owned()),
+        // What is no text is damaged like any other text that is no JSON.
+        Ok(_) => std::fs::read(file)
+            .map(|bytes| Some(String::from_utf8_lossy(&bytes).into_owned()))
+            .map_err(|error| error.to_string()),
+    }
+}
+
+/// Renames a file to the first free name with 'damaged' in it.
+fn set_aside(file: &Path) -> std::io::Result<PathBuf> {
+    let stem = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let free = (1..)
+        .map(
+            |number| if number == 1 { format!("{stem}.damaged.json") } else { format!("{stem}.damaged-{number}.json") },
+        )
+        .map(|name| file.with_file_name(name))
+        .find(|aside| !aside.exists())
+        .ok_or(std::io::ErrorKind::AlreadyExists)?;
+    std::fs::rename(file, &free)?;
+    Ok(free)
+}
+
+impl Session {
+    /// In which units lengths and areas are shown and typed.
+    pub(crate) fn units(&self) -> Units {
+        self.settings.units()
+    }
+}

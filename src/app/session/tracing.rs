@@ -1,0 +1,333 @@
+//! What a person does with the picture under the plan. Every change is a step of the history.
+
+use super::wishes::Wish;
+use crate::app::session::Session;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::app::paint::backdrop::{Read, Wanted, read};
+use crate::app::session::{
+    document::Document,
+    file_dialogs::Purpose,
+    messages::{Message, Remedy, Severity},
+    origin::file_name,
+    questions::Question,
+};
+use crate::app::state::Done;
+use crate::edit::{self, DrawingMoves, EditError};
+use crate::geometry::{Point, Vector};
+use crate::plan::{Backdrop, Measurement, OpeningId, Plan};
+use crate::store::pictures::{self, LoadedPicture, PictureError};
+
+/// What a picture is read for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PictureUse {
+    /// To lie under the plan, in place of one that does.
+    Add,
+    /// To be the one that the plan asks for.
+    Relink,
+}
+
+/// A change of the picture that the drawing may follow.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum PictureChange {
+    /// The lengths its scale follows from.
+    Measurements(Vec<Measurement>),
+    /// A turn about a point of the plan, counter-clockwise.
+    Turn { about: Point, angle_rad: f64 },
+}
+
+impl PictureChange {
+    /// What it is called in the history.
+    const fn title(&self) -> &'static str {
+        match self {
+            Self::Measurements(_) => "Set scale",
+            Self::Turn { .. } => "Turn picture",
+        }
+    }
+
+    fn apply(&self, plan: &Plan, drawing: DrawingMoves) -> Result<Plan, EditError> {
+        match self {
+            Self::Measurements(measurements) => edit::set_measurements(plan, measurements.clone(), drawing),
+            Self::Turn { about, angle_rad } => edit::turn_picture(plan, *about, *angle_rad, drawing),
+        }
+    }
+}
+
+impl Session {
+    // Reading.
+
+    /// Starts to read the picture that the plan asks for, unless it is known.
+    pub(crate) fn refresh_backdrop(&mut self) {
+        let Some(document) = &self.document else { return };
+        let (backdrop, folder) = (document.plan().backdrop(), document.origin.folder());
+        let Some(wanted) = self.backdrop.wanted(backdrop, folder) else { return };
+        let Some(backdrop) = backdrop.cloned() else { return };
+        let folder = folder.map(Path::to_owned);
+        self.background.start(move || {
+            let read = read(&wanted, &backdrop, folder.as_deref());
+            Done::Backdrop(wanted, read)
+        });
+    }
+
+    pub(crate) fn backdrop_was_read(&mut self, wanted: Wanted, read: &Read) {
+        if !self.backdrop.set_read(wanted.clone(), read) {
+            return;
+        }
+        let shown = self.shown_path(&wanted.path);
+        let (severity, text, detail, remedy) = match read {
+            Read::Shown { picture, found_at: None } => {
+                if wanted.content_hash.is_empty() || wanted.content_hash == picture.content_hash {
+                    return;
+                }
+                let text = "The picture under the plan has changed since it was put there".to_owned();
+                let detail = format!("Check that what is drawn still lies on its lines.\n{shown}");
+                (Severity::Warning, text, detail, Remedy::KeepPicture)
+            }
+            Read::Shown { found_at: Some(path), .. } => {
+                let text = format!("The picture under the plan has moved: it was found at {}", self.shown_path(path));
+                let detail = format!("The plan says that it lies at {shown}");
+                (Severity::Info, text, detail, Remedy::KeepPicture)
+            }
+            Read::Missing { error, candidate } => {
+                let text = format!("The picture under the plan is missing: {} {}", file_name(&wanted.path), error.what);
+                let also = candidate.as_ref().map_or(String::new(), |candidate| {
+                    format!("\nThere is another picture of this name: {}", self.shown_path(candidate))
+                });
+                (Severity::Warning, text, format!("{shown}{also}"), Remedy::RelinkPicture)
+            }
+        };
+        self.add_message(Message { severity, text, detail, remedies: vec![remedy], stays: false });
+    }
+
+    /// Asks which picture to use.
+    pub(crate) fn choose_picture(&mut self, use_: PictureUse) {
+        let folder = self.document.as_ref().and_then(|document| document.origin.folder()).map(Path::to_owned);
+        self.dialogs.ask(Purpose::Picture(use_), folder, String::new(), &mut self.background);
+    }
+
+    /// Reads a picture, then makes it the one under the plan.
+    pub(crate) fn use_picture(&mut self, use_: PictureUse, path: PathBuf, page: u32) {
+        if self.document.is_none() {
+            self.new_plan();
+        }
+        let Some(document) = self.document.as_ref().map(|document| document.number) else { return };
+        self.reading_picture = Some(file_name(&path));
+        self.background.start(move || {
+            let result = pictures::load_picture(&path, page).map(Box::new);
+            Done::PictureRead { document, use_, path, page, result }
+        });
+    }
+
+    pub(crate) fn picture_was_read(
+        &mut self,
+        number: u64,
+        use_: PictureUse,
+        path: &Path,
+        page: u32,
+        result: Result<Box<LoadedPicture>, PictureError>,
+    ) {
+        self.reading_picture = None;
+        let Some(document) = self.document.as_ref().filter(|document| document.number == number) else { return };
+        let picture = match result {
+            Ok(picture) => picture,
+            Err(error) => {
+                let text = format!("{} cannot be used: it {}", file_name(path), error.what);
+                let detail = format!("To do: {}.\n{}", error.hint, self.shown_path(path));
+                self.say(Severity::Error, text, detail);
+                return;
+            }
+        };
+        let folder = document.origin.folder().map(Path::to_owned);
+        let stated = pictures::relative_path(path, folder.as_deref());
+        let hash = picture.content_hash.clone();
+        let before = document.plan().backdrop().cloned();
+        let [width, height] = picture.levels.size_px();
+        let (title, backdrop) = match (use_, before) {
+            (PictureUse::Relink, Some(before)) => {
+                self.messages.retain(|message| {
+                    !message.remedies.iter().any(|remedy| matches!(remedy, Remedy::RelinkPicture | Remedy::KeepPicture))
+                });
+                if !before.content_hash.is_empty() && before.content_hash != hash {
+                    self.say(
+                        Severity::Warning,
+                        "The picture linked now is not the one that was under the plan",
+                        "Its place and scale are kept. Check that what is drawn lies on its lines.",
+                    );
+                }
+                ("Relink picture", Backdrop { path: stated, content_hash: hash, page, ..before })
+            }
+            // Its scale is another's to know, but how strongly a picture is seen is a habit.
+            (_, before) => {
+                let opacity = before.map_or(1.0, |before| before.opacity);
+                ("Add picture", Backdrop { page, opacity, ..Backdrop::new(stated, hash) })
+            }
+        };
+        let wanted = Wanted::of(&backdrop, folder.as_deref());
+        self.backdrop.set_shown(wanted, Arc::from(picture));
+        self.layers.backdrop = true;
+        let is_new = use_ == PictureUse::Add;
+        let is_empty = document_is_empty(self.document.as_ref());
+        self.edit(title, |plan| Ok(edit::set_backdrop(plan, Some(backdrop))));
+        if is_new && is_empty {
+            self.wishes.push(Wish::Fit);
+        }
+        self.status = format!("{} has {width} x {height} pixels", file_name(path));
+    }
+
+    /// Makes the picture that is shown the one that the plan asks for, as it is and where it is.
+    pub(crate) fn shown_picture_word(&self) -> Option<String> {
+        self.backdrop.shown_path().map(|path| path.to_string_lossy().into_owned())
+    }
+
+    // Changing.
+
+    /// Changes the picture's entry in the plan.
+    pub(crate) fn change_backdrop(&mut self, title: &str, change: impl FnOnce(&mut Backdrop)) {
+        self.edit(title, |plan| {
+            let mut backdrop = plan.backdrop().cloned();
+            if let Some(backdrop) = &mut backdrop {
+                change(backdrop);
+            }
+            Ok(edit::set_backdrop(plan, backdrop))
+        });
+    }
+
+    pub(crate) fn remove_picture(&mut self) {
+        self.messages.retain(|message| {
+            !message.remedies.iter().any(|remedy| matches!(remedy, Remedy::RelinkPicture | Remedy::KeepPicture))
+        });
+        self.edit("Remove picture", |plan| Ok(edit::set_backdrop(plan, None)));
+    }
+
+    /// Adds a known length between two points of the plan to those the scale follows from.
+    ///
+    /// # Errors
+    /// When it measures nothing.
+    pub(crate) fn add_measurement(
+        &mut self,
+        from: Point,
+        to: Point,
+        length_m: f64,
+        drawing: Option<DrawingMoves>,
+    ) -> Result<(), String> {
+        let Some(backdrop) = self.plan().and_then(Plan::backdrop) else { return Ok(()) };
+        let added = backdrop.measurement(from, to, length_m).map_err(|error| error.to_string())?;
+        let mut measurements = backdrop.measurements.clone();
+        measurements.push(added);
+        self.change_picture(PictureChange::Measurements(measurements), drawing);
+        Ok(())
+    }
+
+    /// Adds the width of a door that was drawn over the picture.
+    ///
+    /// # Errors
+    /// When there is no such opening, or it measures nothing.
+    pub(crate) fn measure_opening(
+        &mut self,
+        opening: OpeningId,
+        width_m: f64,
+        drawing: Option<DrawingMoves>,
+    ) -> Result<(), String> {
+        let segment =
+            self.plan().and_then(|plan| plan.opening(opening).and_then(|opening| plan.opening_segment(opening)));
+        let Some(segment) = segment else { return Err("the opening has no place".to_owned()) };
+        self.add_measurement(segment.a, segment.b, width_m, drawing)
+    }
+
+    /// Forgets the known length with an index.
+    ///
+    /// # Errors
+    /// When there are not so many.
+    pub(crate) fn remove_measurement(&mut self, index: usize, drawing: Option<DrawingMoves>) -> Result<(), String> {
+        let Some(backdrop) = self.plan().and_then(Plan::backdrop) else { return Ok(()) };
+        let mut measurements = backdrop.measurements.clone();
+        if index >= measurements.len() {
+            return Err(format!("there are {} measurements", measurements.len()));
+        }
+        measurements.remove(index);
+        self.change_picture(PictureChange::Measurements(measurements), drawing);
+        Ok(())
+    }
+
+    /// Turns the picture so that a line between two points of the plan follows the nearest axis.
+    ///
+    /// # Errors
+    /// When both points are the same.
+    pub(crate) fn straighten(&mut self, from: Point, to: Point, drawing: Option<DrawingMoves>) -> Result<(), String> {
+        let angle_rad = edit::straightening_rad(to - from).ok_or("the two points are the same")?;
+        self.change_picture(PictureChange::Turn { about: from.midpoint(to), angle_rad }, drawing);
+        Ok(())
+    }
+
+    /// Turns the picture about the middle of what is seen of it.
+    pub(crate) fn turn_picture(&mut self, angle_deg: f64, drawing: Option<DrawingMoves>) {
+        let Some(backdrop) = self.plan().and_then(Plan::backdrop) else { return };
+        let bounds = self.backdrop.bounds(Some(backdrop));
+        let about = if bounds.is_empty() { backdrop.origin } else { bounds.center() };
+        self.change_picture(PictureChange::Turn { about, angle_rad: angle_deg.to_radians() }, drawing);
+    }
+
+    pub(crate) fn move_picture(&mut self, by: Vector) {
+        self.edit("Move picture", |plan| edit::move_picture(plan, by));
+    }
+
+    /// Changes the picture; where something is drawn and nobody has said what becomes of it, asks.
+    fn change_picture(&mut self, change: PictureChange, drawing: Option<DrawingMoves>) {
+        let Some(plan) = self.plan() else { return };
+        let drawing = match drawing {
+            Some(drawing) => drawing,
+            None if plan.is_empty() || !moves_picture(plan, &change) => DrawingMoves::Along,
+            None => {
+                self.question = Some(Question::Drawing(change));
+                return;
+            }
+        };
+        self.apply_picture_change(&change, drawing);
+    }
+
+    pub(crate) fn apply_picture_change(&mut self, change: &PictureChange, drawing: DrawingMoves) {
+        let placed = |app: &Self| {
+            app.plan().and_then(Plan::backdrop).map(|backdrop| (backdrop.origin, backdrop.metres_per_pixel))
+        };
+        let before = placed(self);
+        self.edit(change.title(), |plan| change.apply(plan, drawing));
+        let (Some((_, before)), Some((origin, after))) = (before, placed(self)) else { return };
+        let factor = after / before;
+        // The picture stays where it is on the screen, and all that goes along with it.
+        if drawing == DrawingMoves::Along && factor != 1.0 {
+            self.wishes.push(Wish::ScaleView { about: origin, factor });
+        }
+        if let PictureChange::Measurements(_) = change {
+            self.status = format!("A pixel of the picture is {}", millimetres(after));
+        }
+    }
+}
+
+/// Whether a change moves anything that is drawn on.
+fn moves_picture(plan: &Plan, change: &PictureChange) -> bool {
+    let after = change.apply(plan, DrawingMoves::Stays);
+    let placed = |plan: &Plan| plan.backdrop().map(|b| (b.metres_per_pixel, b.rotation_rad, b.origin));
+    after.is_ok_and(|after| placed(&after) != placed(plan))
+}
+
+/// A plan as it is saved in a folder: the picture's path starts there.
+pub(crate) fn plan_in_folder(plan: &Plan, from: Option<&Path>, to: Option<&Path>) -> Plan {
+    match (plan.backdrop(), to) {
+        (Some(backdrop), Some(to)) if from != Some(to) => {
+            edit::set_backdrop(plan, Some(pictures::relocated(backdrop, from, to)))
+        }
+        _ => plan.clone(),
+    }
+}
+
+fn document_is_empty(document: Option<&Document>) -> bool {
+    document.is_some_and(|document| document.plan().is_empty())
+}
+
+/// A size of a pixel, as people read it.
+pub(crate) fn millimetres(metres: f64) -> String {
+    let mm = metres * 1000.0;
+    let decimals = if mm < 10.0 { 2 } else { 1 };
+    format!("{mm:.decimals$} mm")
+}

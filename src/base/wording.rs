@@ -1,0 +1,72 @@
+//! Words for people: counts, lists, cut texts, words that may have been meant.
+
+/// A text with a capital letter.
+pub fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
+}
+
+/// A number of things, in words.
+pub fn count(number: usize, thing: &str) -> String {
+    let plural = if number == 1 { "" } else { "s" };
+    format!("{} {thing}{plural}", thousands(number as u64))
+}
+
+/// A number with its thousands apart.
+pub fn thousands(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            // A thin space that does not break, as ISO 80000 has it.
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// The words most like one that is wrong, the likest first.
+pub fn similar<'a>(wrong: &str, words: impl Iterator<Item = &'a str>, most: usize) -> Vec<&'a str> {
+    // Below, two words have hardly more in common than any two.
+    const LEAST: f64 = 0.75;
+    let wrong = wrong.trim().to_lowercase();
+    let mut found: Vec<(f64, &str)> = words
+        .map(|word| (strsim::jaro_winkler(&wrong, &word.to_lowercase()), word))
+        .filter(|(likeness, _)| *likeness >= LEAST)
+        .collect();
+    found.sort_by(|p, q| q.0.total_cmp(&p.0).then(p.1.cmp(q.1)));
+    // Next to a good guess, poor ones only distract.
+    let best = found.first().map_or(1.0, |(likeness, _)| *likeness);
+    found.retain(|(likeness, _)| *likeness >= best - 0.05);
+    found.into_iter().take(most).map(|(_, word)| word).collect()
+}
+
+/// 'a', 'b' or 'c'.
+pub fn or_list(words: &[&str]) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| format!("'{word}'")).collect();
+    match quoted.as_slice() {
+        [all @ .., last] if !all.is_empty() => format!("{} or {last}", all.join(", ")),
+        _ => quoted.concat(),
+    }
+}
+
+/// A text of at most so many characters, cut with an ellipsis.
+pub fn shortened(text: &str, most: usize) -> String {
+    if text.chars().count() <= most {
+        return text.to_owned();
+    }
+    text.chars().take(most.saturating_sub(1)).chain(['…']).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_well() {
+        assert_eq!(count(1, "room"), "1 room");
+        assert_eq!(count(0, "room"), "0 rooms");
+        assert_eq!(count(1234567, "wall"), "1\u{202f}234\u{202f}567 walls");
+    }
+}

@@ -1,0 +1,188 @@
+//! Drawing a room where no room is yet.
+
+use std::collections::BTreeSet;
+
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::float::simplify::SimplifyShape as _;
+use i_overlay::float::single::SingleFloatOverlay as _;
+
+use crate::edit::draw::{add_walls, added, closed, lay_ring, without_leftovers};
+use crate::edit::fill::Boundary;
+use crate::edit::overlay::{Laid, lay};
+use crate::edit::{self, EditError, fail};
+use crate::geometry::areas::{self, Shapes};
+use crate::geometry::polygon::{self, Location};
+use crate::geometry::segments::SegmentIndex;
+use crate::geometry::{Bounds, GRID_M, Point, Segment, TOUCH_M};
+use crate::plan::{CornerId, Plan, Room, RoomId, ordered};
+use crate::topology::RoomShape;
+use crate::topology::RoomShapes;
+use crate::topology::plan_faces::{EdgeFaces, is_sliver};
+
+/// What is left between drawn rooms is no part of a new one where it is no wider than this, in
+/// metres: neighbours in real drawings leave gaps of some centimetres up to the thickness of an inner
+/// wall (`data`: rooms are drawn one by one).
+pub const GAP_BETWEEN_ROOMS_M: f64 = 0.3;
+
+/// Draws a room with what of an area no room covers yet; holes are left where rooms lie inside it.
+///
+/// Of several pieces the largest becomes the room. Arms that reach between or along existing rooms
+/// and are no wider than `gap_m` (see [`GAP_BETWEEN_ROOMS_M`]) are cut off; slivers are dropped.
+/// Edges along rooms are shared with them. Walls as for [`super::draw_room`].
+///
+/// # Errors
+/// When the boundary crosses itself or encloses nothing, lies outside the drawing area, or rooms
+/// cover all of it.
+pub fn draw_room_in_free_space(
+    plan: &Plan,
+    outer: &[Point],
+    wall_thickness_m: Option<f64>,
+    gap_m: f64,
+) -> Result<(Plan, RoomId), EditError> {
+    // Alone on an empty plan: whether it is a boundary at all.
+    let (alone, ring) = lay_ring(&Plan::default(), outer)?;
+    let outer = alone.ring_points(&ring);
+    let shapes = RoomShapes::new(plan);
+    let near: Vec<&RoomShape> =
+        shapes.near(polygon::bounds(&outer).inflated(TOUCH_M)).into_iter().map(|index| &shapes.all()[index]).collect();
+    let free = free_pieces(&outer, &near, gap_m);
+    let largest = free
+        .into_iter()
+        .filter(|(outer, holes)| !is_sliver(outer, holes))
+        .max_by(|(p, in_p), (q, in_q)| polygon::area(p, in_p).total_cmp(&polygon::area(q, in_q)));
+    let Some((outer, holes)) = largest else { return fail("rooms cover this place already") };
+    let LaidArea { plan: mut next, boundary: Boundary { outer, holes }, corners } = lay_area(plan, &outer, &holes)?;
+    if let Some(thickness_m) = wall_thickness_m {
+        for ring in std::iter::once(&outer).chain(&holes) {
+            next = add_walls(&next, &[(&closed(ring), thickness_m)])?.0;
+        }
+    }
+    let (next, id) = edit::add_room(&next, Room { outer, holes, ..Room::default() })?;
+    Ok((without_leftovers(plan, &next, added(plan, &corners)), id))
+}
+
+/// An area laid into a plan.
+pub(crate) struct LaidArea {
+    pub plan: Plan,
+    pub boundary: Boundary,
+    /// All corners that its rings came through, used or not.
+    pub corners: Vec<CornerId>,
+}
+
+/// Lays the boundary of an area with holes into a plan, see [`lay`].
+///
+/// # Errors
+/// When it lies outside the drawing area, or encloses nothing.
+pub(crate) fn lay_area(plan: &Plan, outer: &[Point], holes: &[Vec<Point>]) -> Result<LaidArea, EditError> {
+    let rings = std::iter::once(outer).chain(holes.iter().map(Vec::as_slice));
+    let paths: Vec<Vec<Point>> = rings.map(|ring| ring.iter().chain(ring.first()).copied().collect()).collect();
+    let Laid { plan: laid, chains } = lay(plan, &paths)?;
+    let edges = chains.iter().flat_map(|chain| chain.windows(2)).map(|pair| ordered(pair[0], pair[1]));
+    // Rounding may pinch a narrow place: the largest face of what is left is the area.
+    let faces = EdgeFaces::new(&laid, edges.collect::<BTreeSet<_>>())?;
+    let area = |i: usize| {
+        let (outer, holes) = faces.positions(i);
+        polygon::area(&outer, &holes)
+    };
+    let inside = |&i: &usize| polygon::locate(outer, holes, faces.interior_point(i)) == Location::Inside;
+    let largest = (0..faces.count()).filter(inside).max_by(|&p, &q| area(p).total_cmp(&area(q)));
+    let (plan, boundaries) = faces.boundaries(largest.as_slice())?;
+    match boundaries.into_iter().next() {
+        Some(boundary) => Ok(LaidArea { plan, boundary, corners: chains.into_iter().flatten().collect() }),
+        None => fail("the boundary encloses nothing"),
+    }
+}
+
+/// A room's rings as an area.
+pub(crate) fn oriented(room: &RoomShape) -> impl Iterator<Item = areas::Ring> + '_ {
+    room.rings().enumerate().map(|(i, ring)| areas::directed(ring, i == 0))
+}
+
+/// The pieces of an area that no room covers, without narrow arms along rooms; on the grid.
+fn free_pieces(outer: &[Point], rooms: &[&RoomShape], gap_m: f64) -> Vec<(Vec<Point>, Vec<Vec<Point>>)> {
+    // As if the area lay at the origin: the same comes out wherever it lies, to the last digit.
+    let origin = polygon::bounds(outer).min;
+    let here = |ring: &[Point]| -> Vec<Point> {
+        ring.iter().map(|&point| (Point::default() + (point - origin)).trimmed()).collect()
+    };
+    let there = |ring: &[Point]| -> Vec<Point> {
+        ring.iter().map(|&point| (point.trimmed() + (origin - Point::default())).trimmed()).collect()
+    };
+    let rooms: Vec<Vec<Vec<Point>>> = rooms.iter().map(|room| room.rings().map(|ring| here(ring)).collect()).collect();
+    areas::pieces(&free_shapes(&here(outer), &rooms, gap_m))
+        .iter()
+        .map(|(outer, holes)| (there(outer), holes.iter().map(|hole| there(hole)).collect()))
+        .collect()
+}
+
+/// What [`free_pieces`] gives, of rooms as rings, the outer one first.
+fn free_shapes(outer: &[Point], rooms: &[Vec<Vec<Point>>], gap_m: f64) -> Shapes {
+    let covered: Vec<areas::Ring> = rooms
+        .iter()
+        .flat_map(|rings| rings.iter().enumerate().map(|(i, ring)| areas::directed(ring, i == 0)))
+        .collect();
+    let free = areas::without(vec![vec![areas::ring(outer)]], &covered);
+    if rooms.is_empty() || gap_m <= 0.0 {
+        return free;
+    }
+    let wide = areas::opened(&free, (gap_m + BETWEEN_GRID_M) / 2.0);
+    if wide.is_empty() {
+        // All of it is narrow: a shaft, drawn on purpose.
+        return free;
+    }
+    let edges = SegmentIndex::new(rooms.iter().flatten().flat_map(|ring| polygon::edges(ring)).collect());
+    // What was opened has the same edges up to rounding, which leaves threads along them; they would
+    // join narrow parts that lie apart.
+    let narrow = areas::opened(&free.overlay(&wide, OverlayRule::Difference, FillRule::NonZero), THREAD_M / 2.0);
+    let arms: Shapes = narrow.into_iter().filter(|part| is_along(part, &edges)).collect();
+    if arms.is_empty() {
+        return free;
+    }
+    // A little more than the arms, so that no thread joins what lies beyond; of the wide part nothing.
+    let cut = areas::grown(&arms, THREAD_M / 2.0).overlay(&wide, OverlayRule::Difference, FillRule::NonZero);
+    let left = free.overlay(&cut, OverlayRule::Difference, FillRule::NonZero);
+    areas::cleaned(&left).simplify_shape(FillRule::NonZero)
+}
+
+/// Added to the gap: drawn lengths are multiples of the grid, so that rounding never decides whether a
+/// strip exactly as wide as the gap is narrow.
+const BETWEEN_GRID_M: f64 = 4.5 * GRID_M;
+
+/// What is narrower is no part of an area but left by rounding; below [`TOUCH_M`], between two lengths
+/// on the grid.
+const THREAD_M: f64 = 8.5 * GRID_M;
+
+/// A narrow part is an arm along rooms when more than this share of its boundary is theirs: both
+/// sides of a gap between two rooms are, about half of a strip beside one room; the tip of a sharp
+/// corner that the person drew in the open is not. No simple fraction: a strip that ends in the open
+/// has the share L / (2 L + 2 W), which would be just that for some W on the grid.
+const ARM_SHARE: f64 = 0.2937;
+
+/// Whether an area is an arm along the edges of rooms.
+fn is_along(area: &[areas::Ring], edges: &SegmentIndex) -> bool {
+    let rings: Vec<Vec<Point>> = area.iter().map(areas::points).collect();
+    let perimeter_m: f64 = rings.iter().map(|ring| polygon::perimeter(ring)).sum();
+    let along_m: f64 = rings.iter().flat_map(|ring| polygon::edges(ring)).map(|edge| length_along(edge, edges)).sum();
+    along_m > ARM_SHARE * perimeter_m
+}
+
+/// The length in metres on which an edge runs within [`TOUCH_M`] of others, however these are cut.
+fn length_along(edge: Segment, others: &SegmentIndex) -> f64 {
+    let near = others.near(edge.bounds().inflated(TOUCH_M)).map(|index| others.get(index));
+    let mut parts: Vec<(f64, f64)> = near.filter_map(|other| part_along(edge, other)).collect();
+    parts.sort_by(|p, q| p.0.total_cmp(&q.0));
+    let (mut share, mut counted_to) = (0.0, 0.0_f64);
+    for (from, to) in parts {
+        share += (to - from.max(counted_to)).max(0.0);
+        counted_to = counted_to.max(to);
+    }
+    share * edge.length()
+}
+
+/// From where to where an edge runs within [`TOUCH_M`] of another, as fractions.
+fn part_along(edge: Segment, other: Segment) -> Option<(f64, f64)> {
+    let along = other.vector().unit()?;
+    let seen = |point: Point| Point::new((point - other.a).dot(along), (point - other.a).dot(along.left()));
+    Bounds::of([seen(other.a), seen(other.b)]).inflated(TOUCH_M).part_of(Segment::new(seen(edge.a), seen(edge.b)))
+}

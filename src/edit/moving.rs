@@ -1,0 +1,407 @@
+//! Moving, turning, mirroring, scaling and ordering what is there.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use crate::edit::{EditError, checked_position, fail, move_corners, require_corners};
+use crate::geometry::{Bounds, Point, Segment, TOUCH_M, Transform, Vector, polygon, trim_m};
+use crate::plan::{CornerId, ElementId, OpeningId, Place, Plan, RoomId, WallId, ring_edges};
+
+/// Moves elements: each corner they use once, and with it everything that shares it; free openings
+/// too. An opening chosen without its wall slides along it.
+///
+/// Mirrored doors keep opening into the room they open to. Scaling takes the positions and widths of
+/// the openings on scaled edges along, and the thickness of chosen walls.
+///
+/// # Errors
+/// When an element does not exist, a target lies outside the drawing area, or an edge that hosts an
+/// opening would lose its length.
+pub fn move_elements(plan: &Plan, elements: &BTreeSet<ElementId>, transform: Transform) -> Result<Plan, EditError> {
+    let corners = corners_of(plan, elements)?;
+    let targets: Vec<(CornerId, Point)> =
+        corners.iter().filter_map(|&id| Some((id, transform.point(plan.position(id)?)))).collect();
+    let mut next = move_corners(plan, &targets)?;
+    let factor = transform.factor();
+    let openings: Vec<OpeningId> = plan.openings().map(|(id, _)| id).collect();
+    for id in openings {
+        let Some(opening) = plan.opening(id) else { continue };
+        let chosen = elements.contains(&ElementId::Opening(id));
+        match opening.place {
+            Place::Hosted { from, to, at_m, width_m } if corners.contains(&from) && corners.contains(&to) => {
+                if transform.keeps_lengths() && !transform.mirrors() {
+                    continue;
+                }
+                let length_m = next.position(from).zip(next.position(to)).map_or(0.0, |(a, b)| a.distance(b));
+                let (at_m, width_m) = (trim_m((at_m * factor).min(length_m)), trim_m(width_m * factor));
+                if !(width_m > 0.0 && width_m <= 1000.0) {
+                    return fail("an opening would get too small or too large");
+                }
+                let Some(shared) = next.openings.get_mut(&id) else { continue };
+                let opening = Arc::make_mut(shared);
+                opening.place = Place::Hosted { from, to, at_m, width_m };
+                mirror_swing(opening, transform);
+            }
+            Place::Hosted { from, to, .. } if chosen && !corners.contains(&from) && !corners.contains(&to) => {
+                if let Some(segment) = plan.opening_segment(opening) {
+                    next = super::slide_opening(&next, id, transform.point(segment.midpoint()))?;
+                }
+            }
+            Place::Free { from, to } if chosen => {
+                let (from, to) = (checked_position(transform.point(from))?, checked_position(transform.point(to))?);
+                if from == to {
+                    return fail("an opening would lose its width");
+                }
+                let Some(shared) = next.openings.get_mut(&id) else { continue };
+                let opening = Arc::make_mut(shared);
+                opening.place = Place::Free { from, to };
+                mirror_swing(opening, transform);
+            }
+            _ => {}
+        }
+    }
+    if !transform.keeps_lengths() {
+        for element in elements {
+            if let ElementId::Wall(id) = element
+                && let Some(wall) = next.walls.get_mut(id)
+            {
+                wall.thickness_m = trim_m((wall.thickness_m * factor).min(10.0));
+            }
+        }
+    }
+    Ok(next)
+}
+
+/// A mirrored door opens to the other side of its segment, which has both its ends where they were.
+pub(crate) fn mirror_swing(opening: &mut crate::plan::Opening, transform: Transform) {
+    if transform.mirrors()
+        && let Some(swing) = &mut opening.swing
+    {
+        swing.side = swing.side.other();
+    }
+}
+
+/// The corners that elements use; those of a hosted opening are its wall's, not its own.
+///
+/// # Errors
+/// When an element does not exist.
+pub fn corners_of(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<BTreeSet<CornerId>, EditError> {
+    let mut corners = BTreeSet::new();
+    for element in elements {
+        match element {
+            ElementId::Corner(id) => {
+                require_corners(plan, &[*id])?;
+                corners.insert(*id);
+            }
+            ElementId::Wall(id) => match plan.wall(*id) {
+                Some(wall) => corners.extend([wall.from, wall.to]),
+                None => return fail(format!("{id} does not exist")),
+            },
+            ElementId::Room(id) => match plan.room(*id) {
+                Some(room) => corners.extend(room.rings().flat_map(|ring| ring.iter().copied())),
+                None => return fail(format!("{id} does not exist")),
+            },
+            ElementId::Opening(id) => {
+                if plan.opening(*id).is_none() {
+                    return fail(format!("{id} does not exist"));
+                }
+            }
+        }
+    }
+    Ok(corners)
+}
+
+/// Gives walls a thickness in metres.
+///
+/// # Errors
+/// When a wall does not exist, or the thickness is not within 0..=10 m.
+pub fn set_thickness(plan: &Plan, walls: &[WallId], thickness_m: f64) -> Result<Plan, EditError> {
+    super::check_thickness(thickness_m)?;
+    let mut next = plan.clone();
+    for id in walls {
+        match next.walls.get_mut(id) {
+            Some(wall) => wall.thickness_m = trim_m(thickness_m),
+            None => return fail(format!("{id} does not exist")),
+        }
+    }
+    Ok(next)
+}
+
+/// Which sides or middles of elements come onto one line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Alignment {
+    /// Left sides, at the leftmost of them.
+    Left,
+    /// Right sides, at the rightmost.
+    Right,
+    /// Upper sides, at the highest.
+    Top,
+    /// Lower sides, at the lowest.
+    Bottom,
+    /// Middles onto one upright line, that of the box around all.
+    Center,
+    /// Middles onto one level line, that of the box around all.
+    Middle,
+}
+
+/// Aligns elements. What shares corners moves as one; a corner chosen alone is aligned by itself.
+///
+/// # Errors
+/// When an element does not exist, or fewer than two things can be aligned.
+pub fn align(plan: &Plan, elements: &BTreeSet<ElementId>, alignment: Alignment) -> Result<Plan, EditError> {
+    let groups = groups(plan, elements)?;
+    if groups.len() < 2 {
+        return fail("choose two things or more that share no corner");
+    }
+    let all = groups.iter().fold(Bounds::EMPTY, |all, group| all.union(group.bounds));
+    let by = |bounds: Bounds| match alignment {
+        Alignment::Left => Vector::new(all.min.x - bounds.min.x, 0.0),
+        Alignment::Right => Vector::new(all.max.x - bounds.max.x, 0.0),
+        Alignment::Top => Vector::new(0.0, all.max.y - bounds.max.y),
+        Alignment::Bottom => Vector::new(0.0, all.min.y - bounds.min.y),
+        Alignment::Center => Vector::new(all.center().x - bounds.center().x, 0.0),
+        Alignment::Middle => Vector::new(0.0, all.center().y - bounds.center().y),
+    };
+    let moves = groups.iter().map(|group| (group, by(group.bounds)));
+    moved(plan, moves)
+}
+
+/// Spaces elements so that their middles stand at equal distances, between the outermost two, which
+/// stay: along x, or along y when `is_upright`. What shares corners moves as one.
+///
+/// # Errors
+/// When an element does not exist, or fewer than three things can be spaced.
+pub fn distribute(plan: &Plan, elements: &BTreeSet<ElementId>, is_upright: bool) -> Result<Plan, EditError> {
+    let mut groups = groups(plan, elements)?;
+    if groups.len() < 3 {
+        return fail("choose three things or more that share no corner");
+    }
+    let middle = |group: &Group| if is_upright { group.bounds.center().y } else { group.bounds.center().x };
+    groups.sort_by(|p, q| middle(p).total_cmp(&middle(q)));
+    let (first, last) = (middle(&groups[0]), middle(&groups[groups.len() - 1]));
+    let step = (last - first) / (groups.len() - 1) as f64;
+    let moves = groups.iter().enumerate().map(|(i, group)| {
+        let by = first + step * i as f64 - middle(group);
+        (group, if is_upright { Vector::new(0.0, by) } else { Vector::new(by, 0.0) })
+    });
+    moved(plan, moves)
+}
+
+/// Elements that share corners.
+struct Group {
+    elements: BTreeSet<ElementId>,
+    bounds: Bounds,
+}
+
+fn moved<'a>(plan: &Plan, moves: impl Iterator<Item = (&'a Group, Vector)>) -> Result<Plan, EditError> {
+    let mut next = plan.clone();
+    for (group, by) in moves {
+        next = move_elements(&next, &group.elements, Transform::translation(by))?;
+    }
+    Ok(next)
+}
+
+/// Groups elements by the corners they share, in the order of their first elements. Hosted openings
+/// follow their walls and make no group.
+fn groups(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<Vec<Group>, EditError> {
+    let mut groups: Vec<Option<(Group, BTreeSet<CornerId>)>> = Vec::new();
+    let mut group_of: BTreeMap<CornerId, usize> = BTreeMap::new();
+    for &element in elements {
+        let corners = corners_of(plan, &[element].into())?;
+        let mut bounds = Bounds::of(corners.iter().filter_map(|&id| plan.position(id)));
+        if let ElementId::Opening(id) = element
+            && let Some(Place::Free { from, to }) = plan.opening(id).map(|opening| opening.place)
+        {
+            bounds = Bounds::of([from, to]);
+        }
+        if bounds.is_empty() {
+            continue;
+        }
+        let mut group = (Group { elements: [element].into(), bounds }, corners);
+        let index = groups.len();
+        let met: BTreeSet<usize> = group.1.iter().filter_map(|corner| group_of.get(corner).copied()).collect();
+        for other in met {
+            if let Some((mut joined, corners)) = groups[other].take() {
+                group.0.elements.append(&mut joined.elements);
+                group.0.bounds = group.0.bounds.union(joined.bounds);
+                group.1.extend(corners);
+            }
+        }
+        group_of.extend(group.1.iter().map(|&corner| (corner, index)));
+        groups.push(Some(group));
+    }
+    let mut groups: Vec<Group> = groups.into_iter().flatten().map(|(group, _)| group).collect();
+    groups.sort_by(|p, q| p.elements.cmp(&q.elements));
+    Ok(groups)
+}
+
+/// A drawing whose main direction strays from the axes by no more than this (1 degree) is meant to lie
+/// along them.
+const UPRIGHT_RAD: f64 = std::f64::consts::PI / 180.0;
+
+/// Makes nearly right angles right, in rooms or (`None`) in the whole plan, walls included.
+///
+/// The main direction is the one from which, or from whose perpendicular, the greatest length of edges
+/// strays by no more than `max_angle_rad`, and the mean of these; the axes of the drawing where it is
+/// within a degree of them. An edge that strays from it or from its perpendicular by at most `max_angle_rad` becomes
+/// parallel to it: its ends get the same coordinate across. Corners linked that way get the mean of
+/// their coordinates, which moves them least (in the sum of squares). Corners are shared before and
+/// after; edges at other angles stay between theirs.
+///
+/// # Errors
+/// When a room does not exist, nothing has edges, an edge would lose its length, or a room would turn
+/// inside out.
+pub fn square_up(plan: &Plan, rooms: Option<&BTreeSet<RoomId>>, max_angle_rad: f64) -> Result<Plan, EditError> {
+    let mut edges: Vec<(CornerId, CornerId)> = Vec::new();
+    match rooms {
+        Some(rooms) => {
+            for &id in rooms {
+                super::require_room(plan, id)?;
+                let rings = plan.room(id).into_iter().flat_map(|room| room.rings());
+                edges.extend(rings.flat_map(|ring| ring_edges(ring)));
+            }
+        }
+        None => edges.extend(crate::edit::overlay::plan_edges(plan)),
+    }
+    let segment = |(a, b): (CornerId, CornerId)| Some(Segment::new(plan.position(a)?, plan.position(b)?));
+    let Some(main_rad) = main_direction(edges.iter().filter_map(|&edge| segment(edge)), max_angle_rad) else {
+        return fail("there is no main direction to square up to");
+    };
+    let (along, across) = (Vector::new(1.0, 0.0).rotated(main_rad), Vector::new(0.0, 1.0).rotated(main_rad));
+    // Corners linked by edges along the main direction share the coordinate across it, and vice versa.
+    let mut linked = [Links::default(), Links::default()];
+    for &(a, b) in &edges {
+        let Some(edge) = segment((a, b)) else { continue };
+        let vector = edge.vector();
+        let (u, v) = (vector.dot(along).abs(), vector.dot(across).abs());
+        if v <= u * max_angle_rad.tan() {
+            linked[1].link(a, b);
+        } else if u <= v * max_angle_rad.tan() {
+            linked[0].link(a, b);
+        }
+    }
+    let origin = edges.first().and_then(|&(a, _)| plan.position(a)).unwrap_or_default();
+    let mut by: BTreeMap<CornerId, Vector> = BTreeMap::new();
+    for (links, axis) in linked.into_iter().zip([along, across]) {
+        for group in links.groups() {
+            let at = |id: &CornerId| plan.position(*id).map_or(0.0, |point| (point - origin).dot(axis));
+            let mean = group.iter().map(at).sum::<f64>() / group.len() as f64;
+            for id in group {
+                let shift = axis * (mean - at(&id));
+                *by.entry(id).or_default() = *by.entry(id).or_default() + shift;
+            }
+        }
+    }
+    let targets: Vec<(CornerId, Point)> = by
+        .iter()
+        .filter_map(|(&id, &shift)| Some((id, plan.position(id)? + shift)))
+        .filter(|&(id, to)| plan.position(id) != Some(to.trimmed()))
+        .collect();
+    let next = move_corners(plan, &targets)?;
+    check_shapes(plan, &next, &targets.iter().map(|&(id, _)| id).collect(), "squaring up")?;
+    Ok(next)
+}
+
+/// The direction that most edges share up to quarter turns, in radians, in -π/4..=π/4; see
+/// [`square_up`].
+fn main_direction(edges: impl Iterator<Item = Segment>, max_angle_rad: f64) -> Option<f64> {
+    const QUARTER_RAD: f64 = std::f64::consts::FRAC_PI_2;
+    /// A quarter of a degree each: a fraction of what a hand-drawn line strays by.
+    const BINS: usize = 360;
+    let stray = |angle_rad: f64, from_rad: f64| {
+        (angle_rad - from_rad + QUARTER_RAD / 2.0).rem_euclid(QUARTER_RAD) - QUARTER_RAD / 2.0
+    };
+    let directions: Vec<(f64, f64)> = edges
+        .map(|edge| (edge.vector().angle_rad(), edge.length()))
+        .filter(|&(_, length_m)| length_m > TOUCH_M)
+        .collect();
+    let center = |bin: usize| QUARTER_RAD * bin as f64 / BINS as f64;
+    let mut lengths_m = vec![0.0; BINS];
+    for &(angle_rad, length_m) in &directions {
+        let bin = (angle_rad.rem_euclid(QUARTER_RAD) / QUARTER_RAD * BINS as f64).round() as usize % BINS;
+        lengths_m[bin] += length_m;
+    }
+    let window_rad = max_angle_rad.max(UPRIGHT_RAD);
+    let within = |bin: usize| -> f64 {
+        (0..BINS).filter(|&other| stray(center(other), center(bin)).abs() <= window_rad).map(|i| lengths_m[i]).sum()
+    };
+    let best = (0..BINS).map(|bin| (within(bin), bin)).max_by(|p, q| p.0.total_cmp(&q.0).then(q.1.cmp(&p.1)))?.1;
+    let near = directions.iter().map(|&(angle_rad, length_m)| (stray(angle_rad, center(best)), length_m));
+    let (weighted, length_m) = near
+        .filter(|(stray_rad, _)| stray_rad.abs() <= window_rad)
+        .fold((0.0, 0.0), |(sum, total), (stray_rad, length_m)| (sum + stray_rad * length_m, total + length_m));
+    let main_rad = (length_m > 0.0).then(|| stray(center(best) + weighted / length_m, 0.0))?;
+    Some(if main_rad.abs() <= UPRIGHT_RAD { 0.0 } else { main_rad })
+}
+
+/// Refuses an edit that moved corners where an edge lost its length, or a room turned inside out or
+/// began to cross itself.
+///
+/// # Errors
+/// Says which of these.
+pub(crate) fn check_shapes(
+    before: &Plan,
+    after: &Plan,
+    moved: &BTreeSet<CornerId>,
+    what: &str,
+) -> Result<(), EditError> {
+    for (a, b) in crate::edit::overlay::plan_edges(after) {
+        if (moved.contains(&a) || moved.contains(&b))
+            && let (Some(p), Some(q)) = (after.position(a), after.position(b))
+            && p.distance(q) <= TOUCH_M
+            && before.position(a).zip(before.position(b)).is_some_and(|(p, q)| p.distance(q) > TOUCH_M)
+        {
+            return fail(format!("{what} would leave a wall without length"));
+        }
+    }
+    for (id, room) in after.rooms() {
+        let touched = room.rings().any(|ring| ring.iter().any(|corner| moved.contains(corner)));
+        let Some(old) = before.room(id).filter(|_| touched) else { continue };
+        for (old, new) in old.rings().zip(room.rings()) {
+            let (old, new) = (before.ring_points(old), after.ring_points(new));
+            let turned = polygon::signed_area(&old) * polygon::signed_area(&new) < 0.0;
+            let is_simple = crate::geometry::path::is_simple_ring;
+            if turned || (is_simple(&old) && !is_simple(&new)) {
+                let name = if room.name.is_empty() { id.to_string() } else { format!("'{}'", room.name) };
+                return fail(format!("{what} would turn the room {name} inside out"));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Corners linked with each other, directly or through others.
+#[derive(Default)]
+struct Links {
+    parent: BTreeMap<CornerId, CornerId>,
+}
+
+impl Links {
+    fn root(&mut self, mut id: CornerId) -> CornerId {
+        while let Some(&parent) = self.parent.get(&id)
+            && parent != id
+        {
+            let above = self.parent.get(&parent).copied().unwrap_or(parent);
+            self.parent.insert(id, above);
+            id = above;
+        }
+        id
+    }
+
+    fn link(&mut self, a: CornerId, b: CornerId) {
+        for id in [a, b] {
+            self.parent.entry(id).or_insert(id);
+        }
+        let (p, q) = (self.root(a), self.root(b));
+        self.parent.insert(p.max(q), p.min(q));
+    }
+
+    /// The groups of linked corners, by their smallest.
+    fn groups(mut self) -> Vec<Vec<CornerId>> {
+        let mut groups: BTreeMap<CornerId, Vec<CornerId>> = BTreeMap::new();
+        let all: Vec<CornerId> = self.parent.keys().copied().collect();
+        for id in all {
+            groups.entry(self.root(id)).or_default().push(id);
+        }
+        groups.into_values().collect()
+    }
+}

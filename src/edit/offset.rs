@@ -1,0 +1,154 @@
+//! Parallel copies of walls and boundaries.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::edit::draw::{Drawn, draw_walls};
+use crate::edit::{self, EditError, fail};
+use crate::geometry::path::parallel;
+use crate::geometry::{Point, Segment, polygon};
+use crate::plan::{CornerId, Plan, RoomId, WallId};
+
+/// Draws walls parallel to walls, at a distance in metres, on the side on which the point `towards`
+/// lies of the nearest of them. Walls that follow each other are mitred where they join, closed chains
+/// all round; where more than two meet, chains end. Each copy is as thick as its
+/// original, all of a chain as its first where a sharp corner is cut off.
+///
+/// # Errors
+/// When a wall does not exist, the distance is not above 0 or too large for one of the walls.
+pub fn offset_walls(plan: &Plan, walls: &[WallId], distance_m: f64, towards: Point) -> Result<Drawn, EditError> {
+    check_distance(distance_m)?;
+    let mut by_corner: BTreeMap<CornerId, Vec<WallId>> = BTreeMap::new();
+    let chosen: BTreeSet<WallId> = walls.iter().copied().collect();
+    for &id in &chosen {
+        let Some(wall) = plan.wall(id) else { return fail(format!("{id} does not exist")) };
+        for corner in [wall.from, wall.to] {
+            by_corner.entry(corner).or_default().push(id);
+        }
+    }
+    let mut drawn = Drawn { plan: plan.clone(), walls: Vec::new(), rooms: Vec::new() };
+    let mut left = chosen;
+    while let Some(start) = first_of_chain(plan, &left, &by_corner) {
+        let chain = chain_from(plan, start, &mut left, &by_corner);
+        draw_parallel(plan, &mut drawn, &chain, distance_m, towards)?;
+    }
+    if drawn.walls.is_empty() {
+        return fail("walls stand there already");
+    }
+    drawn.rooms.sort_unstable();
+    drawn.rooms.dedup();
+    Ok(drawn)
+}
+
+/// Draws walls parallel to a room's outer boundary, at a distance in metres inside or outside of it.
+///
+/// # Errors
+/// When the room does not exist or has no boundary, the distance is not above 0 or too large for one
+/// of its sides, or the thickness is not within 0..=10 m.
+pub fn offset_room(
+    plan: &Plan,
+    room: RoomId,
+    distance_m: f64,
+    is_inside: bool,
+    thickness_m: f64,
+) -> Result<Drawn, EditError> {
+    edit::require_room(plan, room)?;
+    check_distance(distance_m)?;
+    let ring = plan.room(room).map(|room| plan.ring_points(&room.outer)).unwrap_or_default();
+    let is_left = (polygon::signed_area(&ring) > 0.0) == is_inside;
+    let Some(mut path) = parallel(&ring, true, if is_left { distance_m } else { -distance_m }) else {
+        return fail("the distance is too large for this boundary");
+    };
+    path.extend(path.first().copied());
+    draw_walls(plan, &path, thickness_m)
+}
+
+fn check_distance(distance_m: f64) -> Result<(), EditError> {
+    if distance_m > 0.0 && distance_m.is_finite() {
+        return Ok(());
+    }
+    fail(format!("the distance of a parallel is above 0 m, not {distance_m} m"))
+}
+
+/// A corner to start the next chain at, and the first wall from there: an end or a branching if there
+/// is one, else any corner of a closed chain.
+fn first_of_chain(
+    plan: &Plan,
+    left: &BTreeSet<WallId>,
+    by_corner: &BTreeMap<CornerId, Vec<WallId>>,
+) -> Option<(CornerId, WallId)> {
+    let ends = |id: &WallId| plan.wall(*id).map(|wall| [wall.from, wall.to]).into_iter().flatten();
+    let starts = left.iter().flat_map(|id| ends(id).map(move |corner| (corner, *id)));
+    let is_end = |corner: &CornerId| by_corner.get(corner).is_some_and(|walls| walls.len() != 2);
+    let mut closed = None;
+    for (corner, id) in starts {
+        if is_end(&corner) {
+            return Some((corner, id));
+        }
+        closed.get_or_insert((corner, id));
+    }
+    closed
+}
+
+/// A chain of walls: its corners, one more than its walls.
+struct Chain {
+    corners: Vec<CornerId>,
+    walls: Vec<WallId>,
+}
+
+/// The walls that follow each other from a corner on, taken out of those left.
+fn chain_from(
+    plan: &Plan,
+    (start, first): (CornerId, WallId),
+    left: &mut BTreeSet<WallId>,
+    by_corner: &BTreeMap<CornerId, Vec<WallId>>,
+) -> Chain {
+    let mut chain = Chain { corners: vec![start], walls: Vec::new() };
+    let (mut at, mut next) = (start, Some(first));
+    while let Some(id) = next.filter(|id| left.remove(id)) {
+        let Some(wall) = plan.wall(id) else { break };
+        at = if wall.from == at { wall.to } else { wall.from };
+        chain.corners.push(at);
+        chain.walls.push(id);
+        let here = by_corner.get(&at).map(Vec::as_slice).unwrap_or_default();
+        next = if here.len() == 2 { here.iter().copied().find(|id| left.contains(id)) } else { None };
+    }
+    chain
+}
+
+/// Draws the parallel of a chain, wall by wall, so that each is as thick as its original.
+fn draw_parallel(
+    plan: &Plan,
+    drawn: &mut Drawn,
+    chain: &Chain,
+    distance_m: f64,
+    towards: Point,
+) -> Result<(), EditError> {
+    let mut points = plan.ring_points(&chain.corners);
+    let pieces = points.windows(2).map(|pair| Segment::new(pair[0], pair[1]));
+    let nearest = pieces.min_by(|p, q| p.distance(towards).total_cmp(&q.distance(towards)));
+    let Some(nearest) = nearest else { return Ok(()) };
+    let is_left = polygon::orientation(nearest.a, nearest.b, towards) >= 0.0;
+    let is_closed = chain.corners.len() > 3 && chain.corners.first() == chain.corners.last();
+    if is_closed {
+        points.pop();
+    }
+    let Some(mut path) = parallel(&points, is_closed, if is_left { distance_m } else { -distance_m }) else {
+        return fail("the distance is too large for one of the walls");
+    };
+    if is_closed {
+        path.extend(path.first().copied());
+    }
+    let thickness_m = |id: &WallId| plan.wall(*id).map_or(0.0, |wall| wall.thickness_m);
+    let is_mitred = path.len() == chain.walls.len() + 1;
+    for (i, pair) in path.windows(2).enumerate() {
+        let original = if is_mitred { chain.walls.get(i) } else { chain.walls.first() };
+        let thickness_m = original.map_or(0.0, thickness_m);
+        // Where a wall stands already, none is needed.
+        if let Ok(more) = draw_walls(&drawn.plan, pair, thickness_m) {
+            drawn.plan = more.plan;
+            drawn.walls.extend(more.walls);
+            drawn.rooms.extend(more.rooms);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,303 @@
+//! Joining corners that nearly coincide.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
+
+use crate::edit::overlay::plan_edges;
+use crate::edit::split::{Splits, nearest_part, split_edges};
+use crate::edit::{EditError, fail};
+use crate::geometry::segments::SegmentIndex;
+use crate::geometry::{Bounds, Point, Segment, TOUCH_M, polygon};
+use crate::plan::{CornerId, Place, Plan, Positions, RoomId, WallId, ordered};
+
+/// What welding does, to show before it is done.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Weld {
+    /// Corners that become another: each with the one it becomes, by id.
+    pub merged: Vec<(CornerId, CornerId)>,
+    /// Corners that edges nearly pass through, each with the edge that is split there.
+    pub onto_edges: Vec<(CornerId, [CornerId; 2])>,
+    /// The welded plan.
+    pub plan: Plan,
+}
+
+impl Weld {
+    /// Whether there is nothing to weld.
+    pub fn is_empty(&self) -> bool {
+        self.merged.is_empty() && self.onto_edges.is_empty()
+    }
+}
+
+/// Joins corners no further apart than a tolerance in metres, and then splits edges at corners that
+/// lie as close to them.
+///
+/// Of corners that join, the one with most edges stays where it is (among equals the first by id);
+/// others become it, but never by way of a third. Walls between joined corners go, and of two walls
+/// between the same corners the first by id stays. Boundaries lose the spikes that arise. A hosted
+/// opening keeps its place on what its edge becomes, or becomes a free one where that is gone.
+///
+/// # Errors
+/// When the tolerance is not above 0, or a room would vanish or turn inside out.
+pub fn weld(plan: &Plan, tolerance_m: f64) -> Result<Weld, EditError> {
+    weld_some(plan, tolerance_m, None)
+}
+
+/// Welds what was moved to where it came to lie, within [`TOUCH_M`]: a moved corner that lies on
+/// another becomes that one, one that lies on an edge splits it, and so does a corner on which a moved
+/// edge lies. To be done when a drag ends, so that a corner exists once.
+///
+/// # Errors
+/// As [`weld`].
+pub fn settle(plan: &Plan, moved: &BTreeSet<CornerId>) -> Result<Plan, EditError> {
+    weld_some(plan, TOUCH_M, Some(moved)).map(|weld| weld.plan)
+}
+
+/// Welds everything, or only where one of some corners takes part.
+fn weld_some(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -> Result<Weld, EditError> {
+    if !(tolerance_m > 0.0 && tolerance_m.is_finite()) {
+        return fail(format!("a tolerance is above 0 m, not {tolerance_m} m"));
+    }
+    let (around, mut edges) = concerned(plan, tolerance_m, only);
+    let becomes = joined(plan, tolerance_m, only, around, &edges);
+    let mut next = with_openings_in_place(plan, with_joined(plan, &becomes), &becomes);
+    if !becomes.is_empty() {
+        edges = concerned(&next, tolerance_m, only).1;
+    }
+    let (splits, onto_edges) = near_edges(&edges, tolerance_m, only);
+    if !splits.is_empty() {
+        let cut: BTreeSet<CornerId> =
+            splits.iter().flat_map(|(ends, inner)| ends.iter().chain(inner)).copied().collect();
+        next = without_repeated_walls(split_edges(&next, &splits)?, &cut);
+    }
+    let touched: BTreeSet<CornerId> = becomes.values().copied().chain(splits.values().flatten().copied()).collect();
+    let rooms: Vec<RoomId> = next
+        .rooms()
+        .filter(|(_, room)| room.rings().any(|ring| ring.iter().any(|corner| touched.contains(corner))))
+        .map(|(id, _)| id)
+        .collect();
+    for id in rooms {
+        let (Some(before), Some(shared)) = (plan.room(id), next.rooms.get_mut(&id)) else { continue };
+        let room = Arc::make_mut(shared);
+        room.outer = without_spikes(&room.outer);
+        room.holes = room.holes.iter().map(|hole| without_spikes(hole)).filter(|hole| hole.len() >= 3).collect();
+        let area = |plan: &Plan, ring: &[CornerId]| polygon::signed_area(&plan.ring_points(ring));
+        let (outer, name) = (Arc::clone(&room.outer), room.name.clone());
+        if outer.len() < 3 || area(plan, &before.outer) * area(&next, &outer) <= 0.0 {
+            let name = if name.is_empty() { id.to_string() } else { format!("'{name}'") };
+            return fail(format!("the room {name} is narrower than {tolerance_m} m: choose a smaller tolerance"));
+        }
+    }
+    let merged = becomes.into_iter().collect();
+    Ok(Weld { merged, onto_edges, plan: next })
+}
+
+/// Which corner each corner that goes becomes; with `only`, those join others, not others them.
+fn joined(
+    plan: &Plan,
+    tolerance_m: f64,
+    only: Option<&BTreeSet<CornerId>>,
+    around: Bounds,
+    edges: &[Edge],
+) -> BTreeMap<CornerId, CornerId> {
+    let mut uses: BTreeMap<CornerId, usize> = BTreeMap::new();
+    for (corner, _) in edges.iter().flatten() {
+        *uses.entry(*corner).or_default() += 1;
+    }
+    let mut order: Vec<(CornerId, Point)> =
+        plan.corners().map(|(id, corner)| (id, corner.position)).filter(|&(_, at)| around.contains(at)).collect();
+    let points = order.iter().map(|&(id, at)| GeomWithData::new([at.x, at.y], id)).collect();
+    let tree = RTree::bulk_load(points);
+    let may_go = |id: &CornerId| only.is_none_or(|only| only.contains(id));
+    order.sort_by_key(|&(id, _)| {
+        (only.is_some() && may_go(&id), std::cmp::Reverse(uses.get(&id).copied().unwrap_or(0)), id)
+    });
+    let mut becomes: BTreeMap<CornerId, CornerId> = BTreeMap::new();
+    let mut stays: BTreeSet<CornerId> = BTreeSet::new();
+    for (id, at) in order {
+        if becomes.contains_key(&id) {
+            continue;
+        }
+        stays.insert(id);
+        for near in tree.locate_within_distance([at.x, at.y], tolerance_m * tolerance_m) {
+            if may_go(&near.data) && !stays.contains(&near.data) {
+                becomes.entry(near.data).or_insert(id);
+            }
+        }
+    }
+    becomes
+}
+
+/// The plan with corners joined; its openings still name the old ones.
+fn with_joined(plan: &Plan, becomes: &BTreeMap<CornerId, CornerId>) -> Plan {
+    let now = |id: CornerId| becomes.get(&id).copied().unwrap_or(id);
+    let mut next = plan.clone();
+    let walls: Vec<WallId> = plan
+        .walls()
+        .filter(|(_, wall)| becomes.contains_key(&wall.from) || becomes.contains_key(&wall.to))
+        .map(|(id, _)| id)
+        .collect();
+    for id in walls {
+        let Some(wall) = next.walls.get_mut(&id) else { continue };
+        (wall.from, wall.to) = (now(wall.from), now(wall.to));
+        if wall.from == wall.to {
+            next.walls.remove(&id);
+        }
+    }
+    let rooms: Vec<RoomId> = plan
+        .rooms()
+        .filter(|(_, room)| room.rings().any(|ring| ring.iter().any(|corner| becomes.contains_key(corner))))
+        .map(|(id, _)| id)
+        .collect();
+    for id in rooms {
+        let Some(shared) = next.rooms.get_mut(&id) else { continue };
+        let room = Arc::make_mut(shared);
+        for ring in std::iter::once(&mut room.outer).chain(&mut room.holes) {
+            *ring = ring.iter().map(|&corner| now(corner)).collect();
+        }
+    }
+    for id in becomes.keys() {
+        next.corners.remove(id);
+    }
+    if becomes.is_empty() { next } else { without_repeated_walls(next, &becomes.values().copied().collect()) }
+}
+
+/// Of walls between the same two of some corners only the first by id.
+fn without_repeated_walls(plan: Plan, between: &BTreeSet<CornerId>) -> Plan {
+    let mut seen: BTreeSet<[CornerId; 2]> = BTreeSet::new();
+    let repeated: Vec<WallId> = plan
+        .walls()
+        .filter(|(_, wall)| between.contains(&wall.from) || between.contains(&wall.to))
+        .filter(|(_, wall)| !seen.insert(ordered(wall.from, wall.to)))
+        .map(|(id, _)| id)
+        .collect();
+    let mut next = plan;
+    for id in repeated {
+        next.walls.remove(&id);
+    }
+    next
+}
+
+/// The corners that edges pass within a tolerance, as splits and as a list; with `only`, where one of
+/// those is the corner or an end of the edge.
+fn near_edges(
+    edges: &[Edge],
+    tolerance_m: f64,
+    only: Option<&BTreeSet<CornerId>>,
+) -> (Splits, Vec<(CornerId, [CornerId; 2])>) {
+    let known: Vec<([CornerId; 2], Segment)> = edges
+        .iter()
+        .filter(|[a, b]| a.0 != b.0)
+        .map(|&[(a, from), (b, to)]| ([a, b], Segment::new(from, to)))
+        .collect();
+    let index = SegmentIndex::new(known.iter().map(|&(_, segment)| segment).collect());
+    let corners: BTreeMap<CornerId, Point> =
+        known.iter().flat_map(|&(ends, at)| ends.into_iter().zip([at.a, at.b])).collect();
+    let mut along: BTreeMap<[CornerId; 2], Vec<(f64, CornerId)>> = BTreeMap::new();
+    let mut list = Vec::new();
+    for (corner, at) in corners {
+        let mut near: Vec<usize> = index.near(Bounds::of([at]).inflated(tolerance_m)).collect();
+        near.sort_unstable();
+        for i in near {
+            let (ends, segment) = known[i];
+            let apart = at.distance(segment.a) > tolerance_m && at.distance(segment.b) > tolerance_m;
+            let concerned =
+                only.is_none_or(|only| [corner, ends[0], ends[1]].iter().any(|corner| only.contains(corner)));
+            if concerned && !ends.contains(&corner) && apart && segment.distance(at) <= tolerance_m {
+                along.entry(ends).or_default().push((segment.nearest_fraction(at), corner));
+                list.push((corner, ends));
+            }
+        }
+    }
+    let splits = along
+        .into_iter()
+        .map(|(ends, mut inner)| {
+            inner.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+            (ends, inner.into_iter().map(|(_, corner)| corner).collect())
+        })
+        .collect();
+    (splits, list)
+}
+
+/// An edge by its ends and where they lie, the lower id first.
+type Edge = [(CornerId, Point); 2];
+
+/// The box, larger by a tolerance, of some corners and all edges that end at one of them, and the edges
+/// whose boxes meet it, each once, by the ids of their ends: nothing else can lie on those. For `None`
+/// everything.
+fn concerned(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -> (Bounds, Vec<Edge>) {
+    let positions = Positions::new(plan);
+    let located = |(a, b): (CornerId, CornerId)| -> Option<Edge> {
+        let [a, b] = ordered(a, b);
+        Some([(a, positions.get(a)?), (b, positions.get(b)?)])
+    };
+    let box_of = |edge: &Edge| Bounds::of(edge.map(|(_, at)| at));
+    let mut edges: Vec<Edge> = plan_edges(plan).filter_map(located).collect();
+    let around = match only {
+        None => Bounds::of(plan.corners().map(|(_, corner)| corner.position)),
+        Some(only) => {
+            let ends = edges.iter().filter(|edge| edge.iter().any(|(corner, _)| only.contains(corner)));
+            let ends = ends.flatten().map(|&(_, at)| at);
+            let around = Bounds::of(only.iter().filter_map(|&id| positions.get(id)).chain(ends)).inflated(tolerance_m);
+            edges.retain(|edge| box_of(edge).intersects(around));
+            around
+        }
+    };
+    edges.sort_unstable_by_key(|[(a, _), (b, _)]| (*a, *b));
+    edges.dedup_by_key(|[(a, _), (b, _)]| (*a, *b));
+    (around, edges)
+}
+
+/// A ring without corners that follow themselves and without ways that go somewhere and straight
+/// back.
+fn without_spikes(ring: &[CornerId]) -> Arc<[CornerId]> {
+    let mut kept: Vec<CornerId> = Vec::with_capacity(ring.len());
+    for &corner in ring {
+        kept.push(corner);
+        while let [.., a, b] = kept[..]
+            && a == b
+        {
+            kept.pop();
+        }
+        while let [.., a, _, b] = kept[..]
+            && a == b
+        {
+            kept.truncate(kept.len() - 2);
+        }
+    }
+    // The same across the place where the ring begins.
+    loop {
+        let n = kept.len();
+        if n > 1 && kept[0] == kept[n - 1] {
+            kept.pop();
+        } else if n > 2 && kept[0] == kept[n - 2] {
+            kept.truncate(n - 2);
+        } else if n > 2 && kept[1] == kept[n - 1] {
+            kept.remove(0);
+            kept.pop();
+        } else {
+            return kept.into();
+        }
+    }
+}
+
+/// Moves hosted openings to what became of their edges.
+fn with_openings_in_place(before: &Plan, plan: Plan, becomes: &BTreeMap<CornerId, CornerId>) -> Plan {
+    let now = |id: CornerId| becomes.get(&id).copied().unwrap_or(id);
+    let mut next = plan;
+    for (id, opening) in before.openings() {
+        let Place::Hosted { from, to, width_m, .. } = opening.place else { continue };
+        if now(from) == from && now(to) == to {
+            continue;
+        }
+        let Some(segment) = before.opening_segment(opening) else { continue };
+        let place = nearest_part(&next, &[now(from), now(to)], segment.midpoint(), width_m)
+            .unwrap_or(Place::Free { from: segment.a.trimmed(), to: segment.b.trimmed() });
+        if let Some(shared) = next.openings.get_mut(&id) {
+            Arc::make_mut(shared).place = place;
+        }
+    }
+    next
+}

@@ -1,0 +1,287 @@
+//! From a plan to all that follows from it: analysis -> network -> labels -> drawing. The one way there, for
+//! the window, every subcommand and the robot, so that they cannot say different things of one plan.
+//!
+//! [`Pipeline`] works each step out when it is first asked for; [`Derived`] is all of it, with what the window
+//! needs to pick and to snap.
+
+use std::cell::OnceCell;
+use std::collections::BTreeMap;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use rstar::{AABB, PointDistance, RTree, RTreeObject};
+
+use crate::base::work::{Cancelled, Work};
+use crate::classify::model_file::ModelFileError;
+use crate::classify::models::StoredModel;
+use crate::dataset::RoomNetwork;
+use crate::dataset::sets::set_name;
+use crate::draw::Drawing;
+use crate::features::{Analysis, NeighbourLabels, analyse};
+use crate::geometry::{Bounds, Point, Segment};
+use crate::labels::{Schemes, normalised_function};
+use crate::plan::{ElementId, OpeningId, Plan, RoomId};
+use crate::predict::{Choice, Predictions, Predictor};
+use crate::snapping::PlanIndex;
+use crate::topology::{self, Gap};
+
+/// What follows from a plan, each step worked out when it is first asked for.
+pub struct Pipeline<'a> {
+    plan: &'a Plan,
+    schemes: &'a Schemes,
+    neighbours: NeighbourLabels,
+    analysis: OnceCell<Analysis>,
+    network: OnceCell<RoomNetwork>,
+}
+
+impl<'a> Pipeline<'a> {
+    /// Nothing is worked out yet. Features count the known labels of neighbours.
+    pub fn new(plan: &'a Plan, schemes: &'a Schemes) -> Self {
+        Self::counting(plan, schemes, NeighbourLabels::True)
+    }
+
+    /// The same, with features that count these labels of neighbours. The network and the predictions do not
+    /// depend on it: they count labels themselves.
+    pub fn counting(plan: &'a Plan, schemes: &'a Schemes, neighbours: NeighbourLabels) -> Self {
+        Self { plan, schemes, neighbours, analysis: OnceCell::new(), network: OnceCell::new() }
+    }
+
+    /// Shapes, graph, and the features and status of each room.
+    pub fn analysis(&self) -> &Analysis {
+        self.analysis.get_or_init(|| analyse(self.plan, self.schemes, self.neighbours))
+    }
+
+    /// The rooms as classifiers see them.
+    pub fn network(&self) -> &RoomNetwork {
+        self.network.get_or_init(|| RoomNetwork::of(self.plan, self.analysis()))
+    }
+
+    /// What a model says of the rooms.
+    ///
+    /// # Errors
+    /// When a bundled model cannot be read, which the tests exclude.
+    pub fn predictions(&self, asked: &Asked) -> Result<Predictions, ModelFileError> {
+        let network = self.network().clone();
+        let known = if asked.hides_labels { vec![None; network.rooms.len()] } else { network.known_labels() };
+        match &asked.model {
+            None => asked.predictor.predict(network, &known, asked.neighbours),
+            Some(model) => {
+                let choice = Choice::stated(set_name(model.about.typology.as_ref()), "the model's");
+                Ok(Predictions::new(network, choice, model.clone(), &known, asked.neighbours))
+            }
+        }
+    }
+
+    /// The plan as it is drawn, with the labels that are said where there are predictions.
+    pub fn drawing(&self, predictions: Option<&Predictions>) -> Drawing {
+        let drawing = Drawing::new(self.plan, self.analysis());
+        match predictions {
+            None => drawing,
+            Some(predictions) => drawing.with_predictions(&predictions.labels()),
+        }
+    }
+
+    /// The analysis, for good.
+    pub fn into_analysis(self) -> Analysis {
+        self.analysis();
+        self.analysis.into_inner().unwrap_or_else(|| analyse(self.plan, self.schemes, self.neighbours))
+    }
+}
+
+/// How rooms are to be classified.
+#[derive(Clone, Debug, Default)]
+pub struct Asked {
+    /// Which bundled models.
+    pub predictor: Predictor,
+    /// A model of the user's own, instead.
+    pub model: Option<Arc<StoredModel>>,
+    /// Which labels of neighbours count; `None`: as the model learned.
+    pub neighbours: Option<NeighbourLabels>,
+    /// Whether no label counts as known, as in a new building.
+    pub hides_labels: bool,
+}
+
+impl Asked {
+    /// By bundled models, with all that is known: what the window shows, and `enfilade classify` without options.
+    pub fn by(predictor: &Predictor) -> Self {
+        Self { predictor: predictor.clone(), ..Self::default() }
+    }
+}
+
+/// What follows from a plan.
+pub struct Derived {
+    pub analysis: Analysis,
+    pub drawing: Drawing,
+    /// What a classifier says of the rooms; `None` where none was asked, and if its model did not read,
+    /// which the tests exclude.
+    pub predictions: Option<Predictions>,
+    /// Which models were to predict.
+    pub predictor: Option<Predictor>,
+    /// Why a room got its label, as asked for last.
+    reason: Mutex<Option<(RoomId, Option<String>)>>,
+    /// Corners, walls and boundaries by place: to snap to, and to select.
+    pub index: PlanIndex,
+    /// Doorways left open in walls.
+    pub gaps: Vec<Gap>,
+    openings: RTree<OpeningPlace>,
+    reading_order: Vec<RoomId>,
+    /// How many rooms have each function, as [`normalised_function`] writes it.
+    pub functions: BTreeMap<String, usize>,
+}
+
+#[derive(Debug)]
+struct OpeningPlace {
+    id: OpeningId,
+    segment: Segment,
+}
+
+impl RTreeObject for OpeningPlace {
+    type Envelope = AABB<[f64; 2]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        let Segment { a, b } = self.segment;
+        AABB::from_corners([a.x.min(b.x), a.y.min(b.y)], [a.x.max(b.x), a.y.max(b.y)])
+    }
+}
+
+impl PointDistance for OpeningPlace {
+    fn distance_2(&self, point: &[f64; 2]) -> f64 {
+        self.segment.distance(Point::new(point[0], point[1])).powi(2)
+    }
+}
+
+impl Derived {
+    /// Works out all that follows from a plan; without a predictor all but predictions.
+    pub fn new(plan: &Plan, schemes: &Schemes, predictor: Option<Predictor>) -> Self {
+        let pipeline = Pipeline::new(plan, schemes);
+        let predictions = predictor.as_ref().and_then(|predictor| pipeline.predictions(&Asked::by(predictor)).ok());
+        let drawing = Drawing::in_tiles(plan, pipeline.analysis());
+        Self::of(plan, pipeline.into_analysis(), predictions, predictor, drawing)
+    }
+
+    /// The same, given up between its steps when `outdated` is set since a later plan is worked out.
+    pub fn unless_outdated(
+        plan: &Plan,
+        schemes: &Schemes,
+        predictor: Option<Predictor>,
+        outdated: &AtomicBool,
+    ) -> Option<Self> {
+        Self::by_steps(plan, schemes, predictor, &Work::quiet().watched(&|_, _| {}, outdated)).ok()
+    }
+
+    /// The same, given up between its steps when the work is cancelled.
+    ///
+    /// # Errors
+    /// When it is.
+    pub fn by_steps(
+        plan: &Plan,
+        schemes: &Schemes,
+        predictor: Option<Predictor>,
+        work: &Work<'_>,
+    ) -> Result<Self, Cancelled> {
+        let pipeline = Pipeline::new(plan, schemes);
+        work.go_on()?;
+        pipeline.analysis();
+        work.go_on()?;
+        let predictions = predictor.as_ref().and_then(|predictor| pipeline.predictions(&Asked::by(predictor)).ok());
+        work.go_on()?;
+        let drawing = Drawing::in_tiles(plan, pipeline.analysis());
+        work.go_on()?;
+        Ok(Self::of(plan, pipeline.into_analysis(), predictions, predictor, drawing))
+    }
+
+    fn of(
+        plan: &Plan,
+        analysis: Analysis,
+        predictions: Option<Predictions>,
+        predictor: Option<Predictor>,
+        drawing: Drawing,
+    ) -> Self {
+        let openings = plan
+            .openings()
+            .filter_map(|(id, opening)| Some(OpeningPlace { id, segment: plan.opening_segment(opening)? }))
+            .collect();
+        let labels = predictions.as_ref().map(Predictions::labels).unwrap_or_default();
+        let drawing = drawing.with_predictions(&labels);
+        let reading_order = reading_order(&analysis);
+        let openings = RTree::bulk_load(openings);
+        let index = PlanIndex::new(plan);
+        let mut functions: BTreeMap<String, usize> = BTreeMap::new();
+        for (_, room) in plan.rooms() {
+            *functions.entry(normalised_function(&room.function)).or_default() += 1;
+        }
+        let gaps = topology::gaps(plan);
+        let reason = Mutex::default();
+        Self { analysis, drawing, predictions, predictor, reason, index, gaps, openings, reading_order, functions }
+    }
+
+    /// The rooms with a boundary as one reads: from the top left, line by line.
+    pub fn reading_order(&self) -> &[RoomId] {
+        &self.reading_order
+    }
+
+    /// The rooms with a boundary from the top left, column by column.
+    pub fn column_order(&self) -> Vec<RoomId> {
+        in_lines(&self.analysis, |bounds| (bounds.min.x, bounds.width()), |bounds| -bounds.max.y)
+    }
+
+    /// Why a room got the label that is predicted, in words; `None` where none is. Worked out when asked
+    /// for another room.
+    pub fn reason(&self, room: RoomId) -> Option<String> {
+        let predictions = self.predictions.as_ref()?;
+        // A poisoned one holds what was there before, which is right.
+        let mut last = self.reason.lock().unwrap_or_else(PoisonError::into_inner);
+        if last.as_ref().is_none_or(|(of, _)| *of != room) {
+            *last = Some((room, predictions.reason(room)));
+        }
+        last.as_ref().and_then(|(_, reason)| reason.clone())
+    }
+
+    /// What can be picked at a point: openings within `reach_m` metres, then walls, the nearest first, then
+    /// rooms, the smallest first. A wall is reached half as far beside it as an opening.
+    pub fn at(&self, point: Point, reach_m: f64) -> Vec<ElementId> {
+        let place = [point.x, point.y];
+        let mut near: Vec<(f64, OpeningId)> = self
+            .openings
+            .locate_within_distance(place, reach_m * reach_m)
+            .map(|opening| (opening.distance_2(&place), opening.id))
+            .collect();
+        near.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+        let openings = near.into_iter().map(|(_, id)| ElementId::Opening(id));
+        let shapes = &self.analysis.shapes;
+        let rooms = shapes.at(point).into_iter().map(|index| ElementId::Room(shapes.all()[index].id));
+        let walls =
+            self.index.edges_near(point, reach_m / 2.0).into_iter().filter_map(|edge| edge.wall).map(ElementId::Wall);
+        openings.chain(walls).chain(rooms).collect()
+    }
+}
+
+/// Rooms from the top left, line by line.
+fn reading_order(analysis: &Analysis) -> Vec<RoomId> {
+    in_lines(analysis, |bounds| (-bounds.max.y, bounds.height()), |bounds| bounds.min.x)
+}
+
+/// Rooms in lines, and in order within each. `across` tells where a room begins across the lines and how
+/// far it extends: a line is as wide as half a typical room.
+fn in_lines(
+    analysis: &Analysis,
+    across: impl Fn(&Bounds) -> (f64, f64),
+    along: impl Fn(&Bounds) -> f64,
+) -> Vec<RoomId> {
+    let mut rooms: Vec<(RoomId, Bounds)> = analysis
+        .shapes
+        .all()
+        .iter()
+        .filter(|shape| !shape.bounds.is_empty())
+        .map(|shape| (shape.id, shape.bounds))
+        .collect();
+    let mut extents: Vec<f64> = rooms.iter().map(|(_, bounds)| across(bounds).1).collect();
+    extents.sort_by(f64::total_cmp);
+    let line_m = extents.get(extents.len() / 2).map_or(1.0, |extent| (extent / 2.0).max(0.1));
+    let line = |bounds: &Bounds| (across(bounds).0 / line_m).ceil() as i64;
+    rooms.sort_by(|(p, a), (q, b)| {
+        let within = along(a).total_cmp(&along(b)).then(across(a).0.total_cmp(&across(b).0));
+        line(a).cmp(&line(b)).then(within).then(p.cmp(q))
+    });
+    rooms.into_iter().map(|(id, _)| id).collect()
+}
