@@ -244,7 +244,7 @@ fn prediction(sets: &[Set]) {
     println!("\nOne prediction, microseconds of processor time, model of all rows of the set asked for the same rows");
     print_table(sets, |algorithm, set| {
         let table = &sets[set].table;
-        let classifier = Classifier::train(Algorithm::ALL[algorithm], table, 1);
+        let classifier = Classifier::train(Algorithm::ALL[algorithm], table, 1, &Work::quiet()).unwrap();
         let seconds = least(thread_s, RUNS, || {
             for values in table.values() {
                 black_box(classifier.predict(black_box(values)));

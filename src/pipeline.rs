@@ -13,15 +13,14 @@ use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
 use crate::base::work::{Cancelled, Work};
 use crate::classify::model_file::ModelFileError;
-use crate::classify::models::StoredModel;
+use crate::classify::models::{Models, StoredModel};
 use crate::dataset::RoomNetwork;
-use crate::dataset::sets::set_name;
 use crate::draw::Drawing;
 use crate::features::{Analysis, NeighbourLabels, analyse};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::labels::{Schemes, normalised_function};
 use crate::plan::{ElementId, OpeningId, Plan, RoomId};
-use crate::predict::{Choice, Predictions, Predictor};
+use crate::predict::{Predictions, Predictor};
 use crate::snapping::PlanIndex;
 use crate::topology::{self, Gap};
 
@@ -64,11 +63,8 @@ impl<'a> Pipeline<'a> {
         let network = self.network().clone();
         let known = if asked.hides_labels { vec![None; network.rooms.len()] } else { network.known_labels() };
         match &asked.model {
-            None => asked.predictor.predict(network, &known, asked.neighbours),
-            Some(model) => {
-                let choice = Choice::stated(set_name(model.about.typology.as_ref()), "the model's");
-                Ok(Predictions::new(network, choice, model.clone(), &known, asked.neighbours))
-            }
+            None => asked.predictor.predict(network, &known, asked.neighbours, &asked.models),
+            Some(model) => Ok(Predictions::by(network, model.clone(), &known, asked.neighbours)),
         }
     }
 
@@ -91,9 +87,10 @@ impl<'a> Pipeline<'a> {
 /// How rooms are to be classified.
 #[derive(Clone, Debug, Default)]
 pub struct Asked {
-    /// Which bundled models.
+    /// Which of the models at hand.
     pub predictor: Predictor,
-    /// A model of the user's own, instead.
+    pub models: Models,
+    /// A model from a file, instead.
     pub model: Option<Arc<StoredModel>>,
     /// Which labels of neighbours count; `None`: as the model learned.
     pub neighbours: Option<NeighbourLabels>,
@@ -102,9 +99,10 @@ pub struct Asked {
 }
 
 impl Asked {
-    /// By bundled models, with all that is known: what the window shows, and `enfilade classify` without options.
-    pub fn by(predictor: &Predictor) -> Self {
-        Self { predictor: predictor.clone(), ..Self::default() }
+    /// By the models at hand, with all that is known: what the window shows, and `enfilade classify` without
+    /// options.
+    pub fn by(predictor: &Predictor, models: &Models) -> Self {
+        Self { predictor: predictor.clone(), models: models.clone(), ..Self::default() }
     }
 }
 
@@ -112,8 +110,8 @@ impl Asked {
 pub struct Derived {
     pub analysis: Analysis,
     pub drawing: Drawing,
-    /// What a classifier says of the rooms; `None` where none was asked, and if its model did not read,
-    /// which the tests exclude.
+    /// What a classifier says of the rooms; `None` where none was asked, and where there is no model of the
+    /// method that is asked for.
     pub predictions: Option<Predictions>,
     /// Which models were to predict.
     pub predictor: Option<Predictor>,
@@ -152,18 +150,18 @@ impl PointDistance for OpeningPlace {
 
 impl Derived {
     /// Works out all that follows from a plan; without a predictor all but predictions.
-    pub fn new(plan: &Plan, schemes: &Schemes, predictor: Option<Predictor>) -> Self {
+    pub fn new(plan: &Plan, schemes: &Schemes, predictor: Option<(Predictor, Models)>) -> Self {
         let pipeline = Pipeline::new(plan, schemes);
-        let predictions = predictor.as_ref().and_then(|predictor| pipeline.predictions(&Asked::by(predictor)).ok());
+        let predictions = predictor.as_ref().and_then(|(by, models)| pipeline.predictions(&Asked::by(by, models)).ok());
         let drawing = Drawing::in_tiles(plan, pipeline.analysis());
-        Self::of(plan, pipeline.into_analysis(), predictions, predictor, drawing)
+        Self::of(plan, pipeline.into_analysis(), predictions, predictor.map(|(by, _)| by), drawing)
     }
 
     /// The same, given up between its steps when `outdated` is set since a later plan is worked out.
     pub fn unless_outdated(
         plan: &Plan,
         schemes: &Schemes,
-        predictor: Option<Predictor>,
+        predictor: Option<(Predictor, Models)>,
         outdated: &AtomicBool,
     ) -> Option<Self> {
         Self::by_steps(plan, schemes, predictor, &Work::quiet().watched(&|_, _| {}, outdated)).ok()
@@ -176,18 +174,18 @@ impl Derived {
     pub fn by_steps(
         plan: &Plan,
         schemes: &Schemes,
-        predictor: Option<Predictor>,
+        predictor: Option<(Predictor, Models)>,
         work: &Work<'_>,
     ) -> Result<Self, Cancelled> {
         let pipeline = Pipeline::new(plan, schemes);
-        work.go_on()?;
+        work.goes_on()?;
         pipeline.analysis();
-        work.go_on()?;
-        let predictions = predictor.as_ref().and_then(|predictor| pipeline.predictions(&Asked::by(predictor)).ok());
-        work.go_on()?;
+        work.goes_on()?;
+        let predictions = predictor.as_ref().and_then(|(by, models)| pipeline.predictions(&Asked::by(by, models)).ok());
+        work.goes_on()?;
         let drawing = Drawing::in_tiles(plan, pipeline.analysis());
-        work.go_on()?;
-        Ok(Self::of(plan, pipeline.into_analysis(), predictions, predictor, drawing))
+        work.goes_on()?;
+        Ok(Self::of(plan, pipeline.into_analysis(), predictions, predictor.map(|(by, _)| by), drawing))
     }
 
     fn of(

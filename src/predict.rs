@@ -3,13 +3,13 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
-use std::str::FromStr;
 use std::sync::Arc;
 
+use crate::base::wording::sentence;
 use crate::classify::in_plan::{self, InPlan};
 use crate::classify::joint::FirstRound;
 use crate::classify::model_file::ModelFileError;
-use crate::classify::models::{StoredModel, bundled_model, bundled_sets, bundled_typologies, bundled_unknown};
+use crate::classify::models::{Models, StoredModel, bundled_typologies, bundled_unknown};
 use crate::classify::{Distribution, Method, PlanClassifier};
 use crate::dataset::RoomNetwork;
 use crate::dataset::sets::STANDARD;
@@ -17,16 +17,18 @@ use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
 use crate::plan::{OpeningId, RoomId};
 
-/// Of which typology the models are to be.
+/// By which models is predicted.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ModelSet {
-    /// The plan's own typology; inferred from the plan where it has none, or one without models.
+    /// Those of the plan's own typology; inferred from the plan where it has none, or one without models.
     #[default]
     OfPlan,
-    /// Inferred from the plan, whatever it says of itself.
+    /// Those of the typology that is inferred from the plan, whatever it says of itself.
     Auto,
-    /// A typology that has bundled models, or [`STANDARD`].
+    /// Those of a typology of which there are models, or of [`STANDARD`].
     Named(String),
+    /// The one of this name, whatever its method.
+    Model(String),
 }
 
 impl ModelSet {
@@ -35,48 +37,84 @@ impl ModelSet {
         match self {
             Self::OfPlan => "plan",
             Self::Auto => "auto",
-            Self::Named(name) => name,
+            Self::Named(name) | Self::Model(name) => name,
         }
     }
 
-    /// All there are, in the order of menus.
-    pub fn all() -> Vec<Self> {
-        let named = bundled_sets().map(|set| Self::Named(set.to_owned()));
-        [Self::OfPlan, Self::Auto].into_iter().chain(named).collect()
+    /// The name for menus.
+    pub fn title(&self) -> String {
+        match self {
+            Self::OfPlan => "Of the plan".to_owned(),
+            Self::Auto => "Inferred".to_owned(),
+            Self::Named(name) => sentence(name),
+            Self::Model(name) => name.clone(),
+        }
+    }
+
+    /// What it is, in a sentence without a full stop.
+    pub fn help(&self) -> String {
+        match self {
+            Self::OfPlan => "Predict by models of the plan's own typology, inferred where it has none".to_owned(),
+            Self::Auto => {
+                "Predict by models of the typology that is inferred from the plan, whatever it says of itself"
+                    .to_owned()
+            }
+            Self::Named(name) if name == STANDARD => "Predict by models that learned from all typologies".to_owned(),
+            Self::Named(name) => format!("Predict by models that learned from the typology '{name}'"),
+            Self::Model(name) => format!("Predict by your own model '{name}'"),
+        }
+    }
+
+    /// All there are, in the order of menus: of the plan, inferred, the sets at hand, the user's own models.
+    pub fn all(models: &Models) -> Vec<Self> {
+        let named = models.sets().into_iter().map(|set| Self::Named(set.to_owned()));
+        let own = models.own().iter().map(|model| Self::Model(model.name.clone()));
+        [Self::OfPlan, Self::Auto].into_iter().chain(named).chain(own).collect()
+    }
+
+    /// What a word means: 'plan', 'auto', the name of a set in any case, or that of a model.
+    ///
+    /// # Errors
+    /// When there are no models of that name.
+    pub fn read(word: &str, models: &Models) -> Result<Self, UnknownSet> {
+        let wanted = word.trim();
+        let found = Self::all(models).into_iter().find(|set| match set {
+            Self::Model(name) => name == wanted,
+            set => set.name() == wanted.to_lowercase(),
+        });
+        let bundled = || models.named(wanted).map(|_| Self::Model(wanted.to_owned()));
+        found.or_else(bundled).ok_or_else(|| UnknownSet {
+            word: word.to_owned(),
+            sets: models.sets().into_iter().map(str::to_owned).collect(),
+        })
     }
 }
 
 /// There are no models of that name.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct UnknownSet(String);
+pub struct UnknownSet {
+    pub word: String,
+    /// Those there are.
+    pub sets: Vec<String>,
+}
 
 impl fmt::Display for UnknownSet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let sets: Vec<&str> = bundled_sets().collect();
         write!(
             f,
             "there are no models of the typology '{}'; use plan, auto or one of {}, or train one with 'enfilade train'",
-            self.0,
-            sets.join(", ")
+            self.word,
+            self.sets.join(", ")
         )
     }
 }
 
 impl std::error::Error for UnknownSet {}
 
-impl FromStr for ModelSet {
-    type Err = UnknownSet;
-
-    fn from_str(word: &str) -> Result<Self, UnknownSet> {
-        let wanted = word.trim().to_lowercase();
-        Self::all().into_iter().find(|set| set.name() == wanted).ok_or_else(|| UnknownSet(word.to_owned()))
-    }
-}
-
 /// The method used where nobody says which: the best on buildings never seen (`docs/joint.md`).
 pub const DEFAULT_METHOD: Method = Method::Joint;
 
-/// Which bundled models are to predict.
+/// Which of the models at hand are to predict.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Predictor {
     pub set: ModelSet,
@@ -90,20 +128,36 @@ impl Default for Predictor {
 }
 
 impl Predictor {
-    /// Classifies the rooms of a network. `known` holds, for each, the label that may be used where it is
-    /// a neighbour; without `neighbours`, they are taken as the model learned.
+    /// Classifies the rooms of a network by one of the models at hand. `known` holds, for each, the label that
+    /// may be used where it is a neighbour; without `neighbours`, they are taken as the model learned.
     ///
     /// # Errors
-    /// When a bundled model cannot be read, which the tests exclude.
+    /// When there is no model of the set and the method.
     pub fn predict(
         &self,
         network: RoomNetwork,
         known: &[Option<Label>],
         neighbours: Option<NeighbourLabels>,
+        models: &Models,
     ) -> Result<Predictions, ModelFileError> {
-        let choice = choose(&network, &self.set);
-        let model = bundled_model(&choice.set, self.method)?;
+        if let ModelSet::Model(name) = &self.set
+            && let Some(model) = models.named(name)
+        {
+            return Ok(Predictions::by(network, model?, known, neighbours));
+        }
+        let choice = self.choose(&network, models);
+        let model = models.find(&choice.set, self.method)?;
         Ok(Predictions::new(network, choice, model, known, neighbours))
+    }
+
+    /// Chooses the set of models for a plan.
+    pub fn choose(&self, network: &RoomNetwork, models: &Models) -> Choice {
+        let has_models = |typology: &&Typology| models.methods(typology.as_str()).contains(&self.method);
+        match (&self.set, network.typology.as_ref().filter(has_models)) {
+            (ModelSet::Named(name) | ModelSet::Model(name), _) => Choice::stated(name, "as told"),
+            (ModelSet::OfPlan, Some(stated)) => Choice::stated(stated.as_str(), "the plan's"),
+            (ModelSet::OfPlan | ModelSet::Auto, _) => infer(network),
+        }
     }
 }
 
@@ -124,16 +178,6 @@ impl Choice {
     /// A choice that needs no inference.
     pub fn stated(set: &str, because: &str) -> Self {
         Self { set: set.to_owned(), because: because.to_owned(), posterior: Vec::new(), reasons: Vec::new() }
-    }
-}
-
-/// Chooses the set of models for a plan.
-pub fn choose(network: &RoomNetwork, wanted: &ModelSet) -> Choice {
-    let has_models = |typology: &&Typology| bundled_sets().any(|set| set == typology.as_str());
-    match (wanted, network.typology.as_ref().filter(has_models)) {
-        (ModelSet::Named(name), _) => Choice::stated(name, "as told"),
-        (ModelSet::OfPlan, Some(stated)) => Choice::stated(stated.as_str(), "the plan's"),
-        (ModelSet::OfPlan | ModelSet::Auto, _) => infer(network),
     }
 }
 
@@ -170,6 +214,17 @@ pub struct Predictions {
 }
 
 impl Predictions {
+    /// Classifies the rooms of a network by one model, whatever the plan's typology.
+    pub fn by(
+        network: RoomNetwork,
+        model: Arc<StoredModel>,
+        known: &[Option<Label>],
+        neighbours: Option<NeighbourLabels>,
+    ) -> Self {
+        let choice = Choice::stated(model.set(), "the model's");
+        Self::new(network, choice, model, known, neighbours)
+    }
+
     /// Classifies the rooms of a network. `known` holds, for each, the label that may be used where it is
     /// a neighbour; without `neighbours`, they are taken as the model learned.
     pub fn new(

@@ -142,15 +142,16 @@ impl App {
         let plan = document.plan().clone();
         self.session.selection.keep_what_is_in(&plan);
         if document.needs_deriving() {
-            let (schemes, predictor) = (self.session.schemes.clone(), self.session.predictor.clone());
+            let schemes = self.session.schemes.clone();
+            let predictor = Some((self.session.predictor.clone(), self.session.models.clone()));
             if plan.rooms().len() + plan.openings().len() + plan.walls().len() <= LARGE_PLAN_ELEMENTS {
-                let derived = Arc::new(Derived::new(&plan, &schemes, Some(predictor)));
+                let derived = Arc::new(Derived::new(&plan, &schemes, predictor));
                 document.set_derived(plan.clone(), derived);
             } else {
                 let outdated = document.await_derived();
                 let plan = plan.clone();
                 self.session.background.start(move || {
-                    let derived = Derived::unless_outdated(&plan, &schemes, Some(predictor), &outdated).map(Arc::new);
+                    let derived = Derived::unless_outdated(&plan, &schemes, predictor, &outdated).map(Arc::new);
                     Done::Derived(plan, derived)
                 });
             }

@@ -65,6 +65,7 @@ pub fn run_window(options: WindowOptions) -> Result<(), WindowError> {
         if let Some(file) = settings::file() {
             app.use_settings(file);
         }
+        app.session.use_own_schemes_and_models();
         app.session.use_clock(now);
         if let Some(folder) = store::journal_folder() {
             app.use_journal(folder);

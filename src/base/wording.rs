@@ -51,6 +51,14 @@ pub fn or_list(words: &[&str]) -> String {
     }
 }
 
+/// a, b or c: as [`or_list`], for words that need no quotes.
+pub fn or_words(words: &[&str]) -> String {
+    match words {
+        [all @ .., last] if !all.is_empty() => format!("{} or {last}", all.join(", ")),
+        _ => words.concat(),
+    }
+}
+
 /// A text of at most so many characters, cut with an ellipsis.
 pub fn shortened(text: &str, most: usize) -> String {
     if text.chars().count() <= most {

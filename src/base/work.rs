@@ -54,11 +54,17 @@ impl<'a> Work<'a> {
         Self { progress, cancelled, ..self }
     }
 
-    /// Between two steps: whether to go on.
+    /// For what is itself a part: cancelled with the whole, on one thread, its progress not told.
+    #[must_use]
+    pub fn alone(self) -> Self {
+        Self { threads: 1, progress: &|_, _| {}, ..self }
+    }
+
+    /// Between two steps, and now and then in long work that is not made of parts: whether to go on.
     ///
     /// # Errors
-    /// When cancelled.
-    pub fn go_on(&self) -> Result<(), Cancelled> {
+    /// When the work is cancelled.
+    pub fn goes_on(&self) -> Result<(), Cancelled> {
         if self.cancelled.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) }
     }
 

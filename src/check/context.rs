@@ -110,7 +110,7 @@ impl<'a> Context<'a> {
                     Some(PlacedOpening { id, opening, segment })
                 })
                 .collect(),
-            length_factor: sizes::length_factor(plan.meta().typology.as_ref(), labelled_areas),
+            length_factor: sizes::length_factor(schemes, plan.meta().typology.as_ref(), labelled_areas),
         }
     }
 

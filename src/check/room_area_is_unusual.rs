@@ -1,4 +1,4 @@
-use super::sizes::{tolerated_factors, usual_area};
+use super::sizes::tolerated_factors;
 use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::Point;
 use crate::labels::{Label, Typology};
@@ -40,7 +40,7 @@ impl Check for RoomAreaIsUnusual {
             if area_m2 <= 0.0 || !context.ring_faults[index].crossings.is_empty() {
                 continue;
             }
-            let Some(usual) = usual_area(Some(typology), label) else { continue };
+            let Some(usual) = context.schemes.usual_area(Some(typology), label) else { continue };
             let factor = usual.factor(area_m2 / area_factor);
             let (smaller, larger) = tolerated_factors(label);
             if factor < 1.0 / smaller || factor > larger {

@@ -48,29 +48,34 @@ pub fn evaluate_all(validations: &[Validation<'_>], work: &Work<'_>) -> Result<V
         .iter()
         .flat_map(|validation| (0..validation.folds.count()).map(move |fold| (validation, fold)))
         .collect();
-    let mut predicted = work.map(parts.len(), |part| predict_fold(parts[part].0, parts[part].1))?.into_iter();
+    let mut predicted =
+        work.map(parts.len(), |part| predict_fold(parts[part].0, parts[part].1, &work.alone()))?.into_iter();
     let gather = |validation: &Validation<'_>| {
         let mut predictions = vec![Distribution::UNIFORM; validation.table.len()];
         for fold in predicted.by_ref().take(validation.folds.count()) {
-            for (row, prediction) in fold {
+            for (row, prediction) in fold? {
                 predictions[row] = prediction;
             }
         }
         let rows = validation.folds.of_rows().iter().zip(&predictions).zip(validation.table.labels());
         let scores = Scores::of(rows.map(|((&fold, prediction), &truth)| (fold, prediction, truth)));
-        Validated { predictions, scores }
+        Ok(Validated { predictions, scores })
     };
-    Ok(validations.iter().map(gather).collect())
+    validations.iter().map(gather).collect()
 }
 
 /// The predictions of one fold's rows.
-fn predict_fold(validation: &Validation<'_>, fold: usize) -> Vec<(usize, Distribution)> {
+fn predict_fold(
+    validation: &Validation<'_>,
+    fold: usize,
+    work: &Work<'_>,
+) -> Result<Vec<(usize, Distribution)>, Cancelled> {
     let Validation { table, folds, algorithm, seed } = *validation;
     // Every fold has a row, and there are at least two: there is always something to learn from.
-    let Some(training) = table.subset(&folds.training_rows(fold)) else { return Vec::new() };
-    let classifier = Classifier::train(algorithm, &training, seed_of_part(seed, fold));
+    let Some(training) = table.subset(&folds.training_rows(fold)) else { return Ok(Vec::new()) };
+    let classifier = Classifier::train(algorithm, &training, seed_of_part(seed, fold), work)?;
     let predict = |row: usize| Some((row, classifier.predict(table.values().get(row)?)));
-    folds.test_rows(fold).into_iter().filter_map(predict).collect()
+    Ok(folds.test_rows(fold).into_iter().filter_map(predict).collect())
 }
 
 /// The scores of a trained classifier on rooms it did not learn from: another data set, say.

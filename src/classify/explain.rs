@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
+use super::Classifier;
+use super::learners::rules::{Bound, Condition};
 use super::numbers::{in_words, percent, value_in_words};
-use super::rules::{Bound, Condition};
-use super::{Classifier, Model};
 use crate::dataset::table::{FEATURES, RoomSource, Values};
 use crate::features::Features;
 use crate::labels::Label;
@@ -107,86 +107,9 @@ impl Classifier {
     pub fn explain(&self, values: &Values) -> Explanation {
         let distribution = self.predict(values);
         let label = distribution.label();
-        let probability = distribution.probability(label);
-        let reason = match self.model() {
-            Model::Rules(model) => {
-                let index = model.deciding(values);
-                let rule = &model.rules()[index];
-                Reason::Rule(RuleReason {
-                    number: index + 1,
-                    rules: model.rules().len(),
-                    conditions: rule.conditions.clone(),
-                    decides: rule.counts.iter().sum(),
-                    right: rule.counts[label.index()],
-                })
-            }
-            Model::Tree(model) => {
-                let path = model.path(values);
-                let steps: Vec<Step> = path
-                    .iter()
-                    .filter_map(|node| node.split)
-                    .map(|split| Step {
-                        feature: split.feature,
-                        at_most: split.at_most,
-                        yes: values[split.feature] <= split.at_most,
-                    })
-                    .collect();
-                let counts = path.last().map(|leaf| leaf.counts).unwrap_or_default();
-                Reason::Path(PathReason {
-                    conditions: tightest(&steps),
-                    steps,
-                    rooms: counts.iter().sum(),
-                    right: counts[label.index()],
-                })
-            }
-            Model::Knn(model) => {
-                let table = model.table();
-                let neighbours = model.nearest(values);
-                let near = neighbours.iter().map(|neighbour| NearRoom {
-                    source: table.sources()[neighbour.row].clone(),
-                    label: table.labels()[neighbour.row],
-                    values: table.values()[neighbour.row],
-                    distance: neighbour.distance,
-                });
-                Reason::Neighbours(NeighboursReason { neighbours: near.collect() })
-            }
-            Model::Mlp(model) => {
-                let effect = |feature: usize| {
-                    let mut changed = *values;
-                    changed[feature] = model.typical()[feature];
-                    let distribution = self.predict(&changed);
-                    Effect {
-                        feature,
-                        value: values[feature],
-                        typical: model.typical()[feature],
-                        probability_if_typical: distribution.probability(label),
-                        label_if_typical: distribution.label(),
-                    }
-                };
-                let mut effects: Vec<Effect> = (0..FEATURES).map(effect).collect();
-                effects.sort_by(|p, q| p.probability_if_typical.total_cmp(&q.probability_if_typical));
-                Reason::Features(FeaturesReason { effects })
-            }
-        };
-        Explanation { label, probability, reason }
+        let reason = self.model().explain(values, label, &|values| self.predict(values));
+        Explanation { label, probability: distribution.probability(label), reason }
     }
-}
-
-/// The bounds that answers come to, in the order of the features; an answer no is 'over'.
-fn tightest(steps: &[Step]) -> Vec<Condition> {
-    let mut conditions = Vec::new();
-    for feature in 0..FEATURES {
-        let answers = |yes: bool| {
-            steps.iter().filter(move |step| step.feature == feature && step.yes == yes).map(|step| step.at_most)
-        };
-        if let Some(bound) = answers(false).reduce(f64::max) {
-            conditions.push(Condition { feature, bound: Bound::Over(bound) });
-        }
-        if let Some(bound) = answers(true).reduce(f64::min) {
-            conditions.push(Condition { feature, bound: Bound::AtMost(bound) });
-        }
-    }
-    conditions
 }
 
 /// The bounds that conditions set to one feature.

@@ -3,6 +3,7 @@
 
 use super::{Algorithm, Classifier, Distribution};
 use crate::base::random::seed_of_part;
+use crate::base::work::{Cancelled, Work};
 use crate::dataset::folds::{Folds, Grouping};
 use crate::dataset::table::Table;
 use crate::dataset::{RoomNetwork, RoomPlace, Row};
@@ -70,6 +71,9 @@ const INNER_FOLDS: usize = 3;
 /// `rows` and `places` are all labelled rooms of the networks in one order, as a
 /// [`crate::dataset::Collection`] gives them; `training` are the indices of those that may be learned
 /// from. Gives the rows at these indices, in their order.
+///
+/// # Errors
+/// When the work is cancelled.
 pub fn rows_with_predicted_neighbours(
     networks: &[RoomNetwork],
     rows: &[Row],
@@ -78,7 +82,8 @@ pub fn rows_with_predicted_neighbours(
     algorithm: Algorithm,
     grouping: Grouping,
     seed: u64,
-) -> Vec<Row> {
+    work: &Work<'_>,
+) -> Result<Vec<Row>, Cancelled> {
     let temporary: Vec<Vec<Label>> = networks
         .iter()
         .map(|network| network.seen_labels(&network.known_labels(), NeighbourLabels::Temporary))
@@ -88,12 +93,12 @@ pub fn rows_with_predicted_neighbours(
         Row { features: networks[network].features(room, &seen[network]), ..rows[index].clone() }
     };
     let first: Vec<Row> = training.iter().map(|&index| with_neighbours(index, &temporary)).collect();
-    let Some(folds) = Folds::new(&first, grouping, INNER_FOLDS, seed).ok() else { return first };
+    let Some(folds) = Folds::new(&first, grouping, INNER_FOLDS, seed).ok() else { return Ok(first) };
     let mut seen = temporary;
     for fold in 0..folds.count() {
         let taught = folds.training_rows(fold).into_iter().map(|index| &first[index]);
         let Ok(table) = Table::from_rows(taught) else { continue };
-        let classifier = Classifier::train(algorithm, &table, seed_of_part(seed, fold));
+        let classifier = Classifier::train(algorithm, &table, seed_of_part(seed, fold), work)?;
         let mut predicted: Vec<Option<Vec<Distribution>>> = vec![None; networks.len()];
         for index in folds.test_rows(fold) {
             let RoomPlace { network, room } = places[training[index]];
@@ -104,5 +109,5 @@ pub fn rows_with_predicted_neighbours(
             seen[network][room] = distributions[room].label();
         }
     }
-    training.iter().map(|&index| with_neighbours(index, &seen)).collect()
+    Ok(training.iter().map(|&index| with_neighbours(index, &seen)).collect())
 }

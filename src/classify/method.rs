@@ -4,7 +4,7 @@ use std::str::FromStr;
 use super::joint::Joint;
 use super::{Algorithm, Classifier, UnknownAlgorithm};
 
-/// A way to label the rooms of a plan: each by itself, by one of the paper's algorithms, or all together.
+/// A way to label the rooms of a plan: each by itself, by one of the learners, or all together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Method {
     /// Each room by its own features `F_r`.
@@ -14,16 +14,19 @@ pub enum Method {
 }
 
 impl Method {
-    pub const ALL: [Self; 5] = [
-        Self::Each(Algorithm::Rules),
-        Self::Each(Algorithm::Tree),
-        Self::Each(Algorithm::Knn),
-        Self::Each(Algorithm::Mlp),
-        Self::Joint,
-    ];
+    /// All there are: the learners in their order, then the joint classifier.
+    pub const ALL: [Self; Algorithm::ALL.len() + 1] = {
+        let mut all = [Self::Joint; Algorithm::ALL.len() + 1];
+        let mut index = 0;
+        while index < Algorithm::ALL.len() {
+            all[index] = Self::Each(Algorithm::ALL[index]);
+            index += 1;
+        }
+        all
+    };
 
     /// The word for files and the command line.
-    pub const fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
             Self::Each(algorithm) => algorithm.name(),
             Self::Joint => "joint",
@@ -31,10 +34,26 @@ impl Method {
     }
 
     /// The name for people.
-    pub const fn title(self) -> &'static str {
+    pub fn title(self) -> &'static str {
         match self {
             Self::Each(algorithm) => algorithm.title(),
             Self::Joint => "joint classifier",
+        }
+    }
+
+    /// The name where there is little room, as in menus.
+    pub fn short_title(self) -> &'static str {
+        match self {
+            Self::Each(algorithm) => algorithm.learner().short_title(),
+            Self::Joint => "All rooms together",
+        }
+    }
+
+    /// What it predicts by, as the end of the sentence 'Predict by …'.
+    pub fn help(self) -> &'static str {
+        match self {
+            Self::Each(algorithm) => algorithm.learner().help(),
+            Self::Joint => "a classifier that looks at all rooms of the plan in relation to each other",
         }
     }
 }

@@ -1,15 +1,17 @@
-//! The models at hand: those that come with the program, and what is known of each.
+//! The models at hand, by name: those that come with the program, and the user's own.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use serde_json::Value;
 
-use crate::classify::model_file::{self, About, ModelFileError};
-use crate::classify::typology::TypologyModel;
-use crate::classify::unknown::Unknown;
-use crate::classify::{Algorithm, Method, PlanClassifier};
+use super::model_file::{self, About, ModelFileError};
+use super::typology::TypologyModel;
+use super::unknown::Unknown;
+use super::{Method, PlanClassifier};
+use crate::base::wording::or_words;
+use crate::dataset::sets::{STANDARD, set_name};
 
 /// A model and where it comes from.
 #[derive(Clone, Debug)]
@@ -22,52 +24,146 @@ pub struct StoredModel {
     pub about: About,
 }
 
-macro_rules! bundled {
-    ($($set:literal),+) => {
-        /// The models that come with the program: typology (or `standard`), method, and the file's text.
-        /// See `assets/models/NOTICE`.
-        const BUNDLED: &[(&str, Method, &str)] = &[$(
-            ($set, Method::Each(Algorithm::Rules), include_str!(concat!("../../assets/models/", $set, "-rules.model.json"))),
-            ($set, Method::Each(Algorithm::Tree), include_str!(concat!("../../assets/models/", $set, "-tree.model.json"))),
-            ($set, Method::Each(Algorithm::Knn), include_str!(concat!("../../assets/models/", $set, "-knn.model.json"))),
-            ($set, Method::Each(Algorithm::Mlp), include_str!(concat!("../../assets/models/", $set, "-mlp.model.json"))),
-            ($set, Method::Joint, include_str!(concat!("../../assets/models/", $set, "-joint.model.json"))),
-        )+];
-    };
+impl StoredModel {
+    /// The set it learned from: a typology, or [`STANDARD`].
+    pub fn set(&self) -> &str {
+        set_name(self.about.typology.as_ref())
+    }
+
+    pub fn method(&self) -> Method {
+        self.classifier.method()
+    }
 }
 
-bundled!("house", "school", "office", "standard");
+/// The models that come with the program, by name (a set and a method's word: 'school-tree'), and their
+/// files' texts. See `assets/models/NOTICE`.
+const BUNDLED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/models.rs"));
 
-/// The sets of which there are bundled models, `standard` last.
-pub fn bundled_sets() -> impl Iterator<Item = &'static str> {
-    BUNDLED.iter().step_by(Method::ALL.len()).map(|(set, _, _)| *set)
+/// Set and method of a bundled model, as its name says them.
+fn parts_of(name: &str) -> Option<(&str, Method)> {
+    let (set, method) = name.rsplit_once('-')?;
+    Some((set, method.parse().ok()?))
 }
 
-/// The bundled model of a set (a typology, or `standard`) and a method, read once.
-///
-/// # Errors
-/// When there is none for the set, or it cannot be read, which the tests exclude.
-pub fn bundled_model(set: &str, method: Method) -> Result<Arc<StoredModel>, ModelFileError> {
-    static READ: Mutex<BTreeMap<(&str, Method), Arc<StoredModel>>> = Mutex::new(BTreeMap::new());
-    let found = BUNDLED.iter().find(|(of, by, _)| *of == set && *by == method);
-    let Some(&(set, method, text)) = found else {
-        let sets: Vec<&str> = bundled_sets().collect();
-        return Err(ModelFileError {
-            line: None,
-            what: format!("there is no bundled model for the typology '{set}'"),
-            hint: format!("use one of {}, or train one with 'enfilade train'", sets.join(", ")),
-        });
-    };
+/// The name of the model of a set and a method.
+fn name_of(set: &str, method: Method) -> String {
+    format!("{set}-{}", method.name())
+}
+
+/// The models at hand. Cheap to clone.
+#[derive(Clone, Debug, Default)]
+pub struct Models {
+    /// By name.
+    own: Arc<[Arc<StoredModel>]>,
+}
+
+impl Models {
+    /// Those that come with the program.
+    pub fn bundled() -> Self {
+        Self::default()
+    }
+
+    /// These and some of the user's own. One that has the name of another takes its place, be it a bundled
+    /// one.
+    #[must_use]
+    pub fn with(&self, own: impl IntoIterator<Item = StoredModel>) -> Self {
+        let before = self.own.iter().map(|model| (model.name.clone(), model.clone()));
+        let added = own.into_iter().map(|model| (model.name.clone(), Arc::new(model)));
+        let by_name: BTreeMap<String, Arc<StoredModel>> = before.chain(added).collect();
+        Self { own: by_name.into_values().collect() }
+    }
+
+    /// The user's own, by name.
+    pub fn own(&self) -> &[Arc<StoredModel>] {
+        &self.own
+    }
+
+    /// The sets of which there are models: typologies in alphabetical order, then [`STANDARD`].
+    pub fn sets(&self) -> Vec<&str> {
+        let bundled = BUNDLED.iter().filter_map(|(name, _)| Some(parts_of(name)?.0));
+        let own = self.own.iter().map(|model| model.set());
+        let sets: BTreeSet<&str> = bundled.chain(own).collect();
+        let (last, mut typologies): (Vec<&str>, Vec<&str>) = sets.into_iter().partition(|set| *set == STANDARD);
+        typologies.extend(last);
+        typologies
+    }
+
+    /// The methods of which there is a model of a set.
+    pub fn methods(&self, set: &str) -> Vec<Method> {
+        let has = |method: &Method| {
+            let is_bundled = || BUNDLED.iter().any(|(name, _)| parts_of(name) == Some((set, *method)));
+            self.own_of(set, *method).is_some() || is_bundled()
+        };
+        Method::ALL.into_iter().filter(has).collect()
+    }
+
+    /// The user's own model of a set and a method: the one that has the name that a bundled one has, or where
+    /// none is bundled the first by name.
+    fn own_of(&self, set: &str, method: Method) -> Option<&Arc<StoredModel>> {
+        let usual = name_of(set, method);
+        let fits = |model: &&Arc<StoredModel>| model.set() == set && model.method() == method;
+        let has_name = |model: &&Arc<StoredModel>| model.name == usual;
+        let is_bundled = BUNDLED.iter().any(|(name, _)| *name == usual);
+        let any = || self.own.iter().find(fits).filter(|_| !is_bundled);
+        self.own.iter().filter(fits).find(has_name).or_else(any)
+    }
+
+    /// The model of a set (a typology, or [`STANDARD`]) and a method.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn find(&self, set: &str, method: Method) -> Result<Arc<StoredModel>, ModelFileError> {
+        if let Some(own) = self.own_of(set, method) {
+            return Ok(own.clone());
+        }
+        if let Some(bundled) = bundled(&name_of(set, method)) {
+            return bundled;
+        }
+        let methods: Vec<&str> = self.methods(set).into_iter().map(Method::name).collect();
+        let (what, there_are) = if methods.is_empty() {
+            (format!("there is no model of the typology '{set}'"), self.sets().join(", "))
+        } else {
+            (format!("there is no model of {set} by {method}"), or_words(&methods))
+        };
+        let command = format!("enfilade train --algorithm {}", method.name());
+        Err(ModelFileError { line: None, what, hint: format!("use {there_are}, or train one with '{command}'") })
+    }
+
+    /// The model of a name, the user's own before a bundled one.
+    ///
+    /// # Errors
+    /// When a bundled model cannot be read, which the tests exclude.
+    pub fn named(&self, name: &str) -> Option<Result<Arc<StoredModel>, ModelFileError>> {
+        let own = self.own.iter().find(|model| model.name == name);
+        own.map(|model| Ok(model.clone())).or_else(|| bundled(name))
+    }
+
+    /// All there are: the bundled ones by set and method, then the user's own.
+    ///
+    /// # Errors
+    /// When a bundled model cannot be read, which the tests exclude.
+    pub fn all(&self) -> Result<Vec<Arc<StoredModel>>, ModelFileError> {
+        let of_set = |set| Method::ALL.into_iter().filter_map(move |method| bundled(&name_of(set, method)));
+        let bundled: Result<Vec<_>, _> = self.sets().into_iter().flat_map(of_set).collect();
+        Ok(bundled?.into_iter().chain(self.own.iter().cloned()).collect())
+    }
+}
+
+/// The bundled model of a name, read once.
+fn bundled(name: &str) -> Option<Result<Arc<StoredModel>, ModelFileError>> {
+    static READ: Mutex<BTreeMap<&str, Arc<StoredModel>>> = Mutex::new(BTreeMap::new());
+    let &(name, text) = BUNDLED.iter().find(|(of, _)| *of == name)?;
     // A poisoned map only lacks an entry.
     let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(model) = read.get(&(set, method)) {
-        return Ok(model.clone());
+    if let Some(model) = read.get(name) {
+        return Some(Ok(model.clone()));
     }
-    let (classifier, about) = model_file::from_bytes(text.as_bytes())?;
-    let name = format!("{set}-{}", method.name());
-    let model = Arc::new(StoredModel { name, path: None, classifier, about });
-    read.insert((set, method), model.clone());
-    Ok(model)
+    let model = model_file::from_bytes(text.as_bytes()).map(|(classifier, about)| {
+        let model = Arc::new(StoredModel { name: name.to_owned(), path: None, classifier, about });
+        read.insert(name, model.clone());
+        model
+    });
+    Some(model)
 }
 
 /// What tells typologies apart, as it comes with the program; `None` if it does not read, which the tests
@@ -91,4 +187,37 @@ pub fn bundled_unknown(set: &str) -> Option<&'static Unknown> {
         sets.filter_map(|(set, value)| Some((set.clone(), serde_json::from_value(value.clone()).ok()?))).collect()
     };
     READ.get_or_init(read).get(set)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn own_models_are_found_by_set_and_by_name() {
+        let tree: Method = "tree".parse().expect("a method");
+        let bundled = Models::bundled();
+        assert_eq!(bundled.sets(), ["house", "office", "school", STANDARD]);
+        let own = |name: &str, typology: &str| {
+            let mut model = (*bundled.find("house", tree).expect("bundled")).clone();
+            model.name = name.to_owned();
+            model.about.typology = crate::labels::Typology::new(typology);
+            model
+        };
+        let models = bundled.with([own("wards", "hospital"), own("school-tree", "school"), own("other", "office")]);
+        assert_eq!(models.sets(), ["hospital", "house", "office", "school", STANDARD]);
+        assert_eq!(models.methods("hospital"), [tree]);
+        assert_eq!(models.find("hospital", tree).expect("own").name, "wards");
+        assert_eq!(models.find("school", tree).expect("own").set(), "school");
+        assert_eq!(models.find("office", tree).expect("bundled").name, "office-tree");
+        assert_eq!(models.named("other").expect("own").expect("sound").name, "other");
+        let said = models.find("hospital", Method::Joint).expect_err("none").to_string();
+        assert_eq!(
+            said,
+            "there is no model of hospital by joint classifier; use tree, or train one with 'enfilade train \
+             --algorithm joint'"
+        );
+        let said = models.find("castle", tree).expect_err("none").to_string();
+        assert!(said.starts_with("there is no model of the typology 'castle'; use hospital, house"), "{said}");
+    }
 }

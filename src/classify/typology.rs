@@ -482,7 +482,7 @@ fn solve(matrix: [Measures; MEASURES], right: Measures) -> Measures {
     x
 }
 
-/// The fold of each network: the buildings of each typology are dealt in random order.
+/// The fold of each network: the buildings of each typology are assigned in random order.
 fn building_folds(networks: &[&RoomNetwork], folds: usize, seed: u64) -> Vec<usize> {
     let building = |network: &RoomNetwork| (network.typology.clone(), network.building.clone());
     let mut buildings: Vec<_> = networks.iter().map(|network| building(network)).collect();

@@ -7,18 +7,18 @@ use serde_json::json;
 
 use super::batch::{self, Input};
 use super::collect::neighbour_labels;
-use super::train::method;
+use super::train::{each_room, method};
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
-use crate::classify::{Distribution, Method, models::StoredModel};
+use crate::classify::{Distribution, Method, models::Models};
 use crate::dataset::NetworkRoom;
 use crate::edit;
 use crate::features::NeighbourLabels;
 use crate::formats::Import;
-use crate::labels::{Label, Schemes};
+use crate::labels::Label;
 use crate::pipeline::{Asked, Pipeline};
 use crate::plan::{LabelOrigin, OpeningId, Plan, RoomLabel};
-use crate::predict::{Agreement, DEFAULT_METHOD, ModelSet, Predictions, Predictor, UnknownSet};
-use crate::store::{load_model, save_plan};
+use crate::predict::{Agreement, DEFAULT_METHOD, ModelSet, Predictions, Predictor};
+use crate::store::{load_model, models_folder, models_in, save_plan};
 
 /// `enfilade classify`: labels for the rooms of plans.
 #[derive(clap::Args)]
@@ -28,7 +28,7 @@ pub struct ClassifyCommand {
     plans: Vec<PathBuf>,
     #[command(flatten)]
     predictor: PredictorOptions,
-    /// Use this model instead of a bundled one
+    /// Use the model of this file
     #[arg(long, value_name = "FILE.model.json", conflicts_with_all = ["typology", "algorithm"])]
     model: Option<PathBuf>,
     /// Neighbours' labels: 'true' (where known, else temporary), 'temporary', or 'predicted' (where not
@@ -58,24 +58,58 @@ pub struct ClassifyCommand {
 /// Options of every subcommand that predicts.
 #[derive(clap::Args)]
 pub struct PredictorOptions {
-    /// Models of house, school, office or 'standard' (learned from all); 'auto' infers it from the plan;
-    /// without it the plan's own, inferred where it has none
-    #[arg(long, value_name = "NAME", default_value = "plan", hide_default_value = true, value_parser = model_set)]
-    typology: ModelSet,
-    /// rules, tree, knn or mlp, each room by itself; or joint, all rooms of a plan together
-    #[arg(long, value_name = "NAME", default_value = DEFAULT_METHOD.name(), value_parser = method)]
+    /// Predict by models of this typology, or of 'standard' (learned from all), or by the model of this name,
+    /// bundled or your own ('enfilade models' lists them); 'auto' infers the typology from the plan; without
+    /// it the plan's own, inferred where it has none
+    #[arg(long, value_name = "NAME", default_value = "plan", hide_default_value = true)]
+    typology: String,
+    #[arg(long, value_name = "NAME", default_value = DEFAULT_METHOD.name(), value_parser = method,
+          help = format!("{}, each room by itself; or joint, all rooms of a plan together", each_room()))]
     algorithm: Method,
+    #[command(flatten)]
+    models: ModelsOption,
 }
 
-impl PredictorOptions {
-    pub fn predictor(&self) -> Predictor {
-        Predictor { set: self.typology.clone(), method: self.algorithm }
+/// Where a subcommand finds the user's own models.
+#[derive(clap::Args)]
+pub struct ModelsOption {
+    /// The folder of your own models, instead of the usual one ('enfilade models' names it)
+    #[arg(long = "models", value_name = "DIR")]
+    folder: Option<PathBuf>,
+}
+
+impl ModelsOption {
+    /// The folder of the user's own models; `None` where the system tells of no home.
+    pub fn folder(&self) -> Option<PathBuf> {
+        self.folder.clone().or_else(models_folder)
+    }
+
+    /// The models at hand. What cannot be used of the user's own is said on stderr; gives their number as well.
+    ///
+    /// # Errors
+    /// When the folder that is named does not exist, or stderr cannot be written.
+    pub fn read(&self, terminal: &mut Terminal) -> Result<(Models, usize), CliError> {
+        if let Some(folder) = self.folder.as_ref().filter(|folder| !folder.is_dir()) {
+            return Err(CliError::new(format!("{}: no such folder of models; check the path", folder.display())));
+        }
+        let (own, errors) = self.folder().as_deref().map(models_in).unwrap_or_default();
+        for error in &errors {
+            writeln!(terminal.err, "enfilade: {error}")?;
+        }
+        Ok((Models::bundled().with(own), errors.len()))
     }
 }
 
-/// Which models to use, as an option's value.
-fn model_set(word: &str) -> Result<ModelSet, String> {
-    word.parse().map_err(|error: UnknownSet| error.to_string())
+impl PredictorOptions {
+    /// What is to predict, and the models at hand.
+    ///
+    /// # Errors
+    /// When there are no models of the name given.
+    pub fn read(&self, terminal: &mut Terminal) -> Result<(Predictor, Models), CliError> {
+        let (models, _) = self.models.read(terminal)?;
+        let set = ModelSet::read(&self.typology, &models)?;
+        Ok((Predictor { set, method: self.algorithm }, models))
+    }
 }
 
 impl Subcommand for ClassifyCommand {
@@ -85,16 +119,19 @@ impl Subcommand for ClassifyCommand {
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let schemes = inputs::schemes(&self.scheme)?;
+        let (predictor, models) = self.predictor.read(terminal)?;
         let own = self.model.as_deref().map(load_model).transpose()?.map(Arc::new);
         let files = batch::inputs(&self.plans)?;
         let mut objects: Vec<serde_json::Value> = Vec::new();
         let mut total = Agreement::default();
         let mut plans = 0;
+        let asked =
+            Asked { predictor, models, model: own, neighbours: self.neighbours, hides_labels: self.hide_labels };
         let work = |_: &Input, import: Import| -> Result<Vec<(Plan, Predictions)>, CliError> {
             import
                 .plans
                 .into_iter()
-                .map(|plan| Ok((plan.clone(), self.classify(&plan, &schemes, own.as_ref())?)))
+                .map(|plan| Ok((plan.clone(), Pipeline::new(&plan, &schemes).predictions(&asked)?)))
                 .collect()
         };
         let failed = batch::for_each_import(&files, "classifying", terminal, work, |file, classified, terminal| {
@@ -128,21 +165,6 @@ impl Subcommand for ClassifyCommand {
 }
 
 impl ClassifyCommand {
-    fn classify(
-        &self,
-        plan: &Plan,
-        schemes: &Schemes,
-        own: Option<&Arc<StoredModel>>,
-    ) -> Result<Predictions, CliError> {
-        let asked = Asked {
-            predictor: self.predictor.predictor(),
-            model: own.cloned(),
-            neighbours: self.neighbours,
-            hides_labels: self.hide_labels,
-        };
-        Ok(Pipeline::new(plan, schemes).predictions(&asked)?)
-    }
-
     /// Writes the predictions of the rooms without a label into a plan file; gives the file and their number.
     fn write(
         &self,

@@ -16,7 +16,7 @@ pub struct EvaluateCommand {
     /// Folds of each cross-validation
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = folds)]
     folds: usize,
-    /// What is dealt to folds: 'room', as in the paper, or 'building', which none is tested on that was
+    /// What is assigned to folds: 'room', as in the paper, or 'building', which none is tested on that was
     /// learned from
     #[arg(long, value_name = "UNIT", default_value = "room", value_parser = grouping)]
     by: Grouping,
@@ -43,7 +43,7 @@ fn folds(word: &str) -> Result<usize, String> {
     word.parse().ok().filter(|&folds| folds >= 2).ok_or_else(|| "use a whole number from 2 up".to_owned())
 }
 
-/// What is dealt to folds, as an option's value.
+/// What is assigned to folds, as an option's value.
 fn grouping(word: &str) -> Result<Grouping, String> {
     inputs::one_of(word, &Grouping::ALL, Grouping::name)
 }

@@ -6,17 +6,18 @@ use std::path::{Path, PathBuf};
 use super::{CliError, Terminal};
 use crate::formats;
 use crate::labels::Schemes;
+use crate::store::{schemes_folder, schemes_in, with_scheme_file};
 
-/// The bundled label schemes, extended by the files a user names.
+/// The bundled label schemes, extended by those in the user's folder and then by the files named.
 ///
 /// # Errors
-/// When a file cannot be read or is no label scheme.
+/// When one of the files cannot be read or is no label scheme.
 pub fn schemes(files: &[PathBuf]) -> Result<Schemes, CliError> {
-    files.iter().try_fold(Schemes::bundled(), |schemes, file| {
-        let text =
-            std::fs::read_to_string(file).map_err(|error| CliError::new(format!("{}: {error}", file.display())))?;
-        schemes.extended_by(&text).map_err(|error| CliError::new(format!("{}: {error}", file.display())))
-    })
+    let (own, errors) = schemes_folder().map_or_else(|| (Schemes::bundled(), Vec::new()), |own| schemes_in(&own));
+    if let Some(error) = errors.into_iter().next() {
+        return Err(error.into());
+    }
+    Ok(files.iter().try_fold(own, |schemes, file| with_scheme_file(schemes, file))?)
 }
 
 /// The one of `all` that goes by a word, as an option's value.

@@ -1,17 +1,15 @@
 use std::io::Write as _;
 use std::sync::Arc;
 
+use super::classify::ModelsOption;
 use super::{CliError, Outcome, Subcommand, Terminal};
-use crate::classify::{
-    Method,
-    models::{StoredModel, bundled_model, bundled_sets},
-};
-use crate::dataset::sets::set_name;
-use crate::store::{models_folder, models_in};
+use crate::classify::models::StoredModel;
 
 /// `enfilade models`: the classifiers at hand.
 #[derive(clap::Args)]
 pub struct ModelsCommand {
+    #[command(flatten)]
+    models: ModelsOption,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -23,34 +21,23 @@ impl Subcommand for ModelsCommand {
     const EXAMPLE: &'static str = "enfilade models";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
-        let mut models: Vec<Arc<StoredModel>> = Vec::new();
-        for set in bundled_sets() {
-            for method in Method::ALL {
-                models.push(bundled_model(set, method)?);
-            }
-        }
-        let folder = models_folder();
-        let (own, errors) = folder.as_deref().map(models_in).unwrap_or_default();
-        let own_count = own.len();
-        models.extend(own.into_iter().map(Arc::new));
-        for error in &errors {
-            writeln!(terminal.err, "enfilade: {error}")?;
-        }
+        let (at_hand, failed) = self.models.read(terminal)?;
+        let models = at_hand.all()?;
         if self.json {
             let objects: Vec<serde_json::Value> = models.iter().map(|model| json(model)).collect();
             serde_json::to_writer_pretty(&mut terminal.out, &objects)?;
             writeln!(terminal.out)?;
         } else {
             print(&models, terminal)?;
-            if let (0, Some(folder)) = (own_count, folder) {
+            if let (true, Some(folder)) = (at_hand.own().is_empty(), self.models.folder()) {
                 writeln!(terminal.out, "\nYour own models go into {}: none yet.", folder.display())?;
             }
         }
-        Ok(if errors.is_empty() { Outcome::Done } else { Outcome::InputWrong })
+        Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
     }
 }
 
-/// The accuracy of the cross-validation that dealt these units to folds.
+/// The accuracy of the cross-validation that assigned these units to folds.
 fn accuracy(model: &StoredModel, folds_by: &str) -> Option<f64> {
     model.about.scores.iter().find(|scores| scores.folds_by == folds_by).map(|scores| scores.accuracy)
 }
@@ -59,8 +46,8 @@ fn json(model: &StoredModel) -> serde_json::Value {
     serde_json::json!({
         "name": model.name,
         "path": model.path,
-        "typology": set_name(model.about.typology.as_ref()),
-        "algorithm": model.classifier.method().name(),
+        "typology": model.set(),
+        "algorithm": model.method().name(),
         "neighbours": model.about.neighbours.name(),
         "rooms": model.about.data.rooms,
         "buildings": model.about.data.buildings,
@@ -85,8 +72,8 @@ fn print(models: &[Arc<StoredModel>], terminal: &mut Terminal) -> Result<(), Cli
             out,
             "{:<width$}  {:<8}  {:<21}  {:>7}  {:>9}  {:>7}  {:>11}  {}",
             model.name,
-            set_name(model.about.typology.as_ref()),
-            model.classifier.method().title(),
+            model.set(),
+            model.method().title(),
             model.about.data.rooms,
             model.about.data.buildings,
             percent(accuracy(model, "room")),

@@ -9,7 +9,6 @@ use crate::draw::sheet::{self, Furniture, PageSize};
 use crate::draw::{Style, png, svg};
 use crate::features::NeighbourLabels;
 use crate::formats;
-use crate::labels::Schemes;
 use crate::pipeline::Pipeline;
 use crate::plan::Plan;
 use crate::store::{bundled_plans, save_bytes_fast};
@@ -59,7 +58,7 @@ fn headless(plan: Option<&Path>, terminal: &mut Terminal) -> Result<Outcome, Cli
     };
     let folder = Path::new(OUTPUT);
     std::fs::create_dir_all(folder)?;
-    let schemes = Schemes::bundled();
+    let schemes = super::inputs::schemes(&[])?;
     let mut rows: Vec<Row> = Vec::new();
     let mut left_out = LeftOut::default();
     for (name, plan) in &plans {

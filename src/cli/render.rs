@@ -76,6 +76,8 @@ impl Subcommand for RenderCommand {
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let schemes = inputs::schemes(&self.scheme)?;
+        let (predictor, models) = self.predictor.read(terminal)?;
+        let asked = Asked::by(&predictor, &models);
         let files = batch::inputs(&self.plans)?;
         let style = self.style();
         let single = picture_ending(&self.output).filter(|_| !self.output.is_dir());
@@ -88,7 +90,11 @@ impl Subcommand for RenderCommand {
         let ending = single.unwrap_or(&self.format);
         let mut written: BTreeSet<PathBuf> = BTreeSet::new();
         let work = |input: &Input, import: Import| -> Vec<Picture> {
-            import.plans.iter().map(|plan| self.picture_of(plan, &input.path, &schemes, &style, ending)).collect()
+            import
+                .plans
+                .iter()
+                .map(|plan| self.picture_of(plan, &input.path, &schemes, &asked, &style, ending))
+                .collect()
         };
         let mut not_drawn = 0;
         let failed = batch::for_each_import(&files, "drawing", terminal, work, |input, pictures, terminal| {
@@ -152,7 +158,15 @@ impl RenderCommand {
     }
 
     /// `file` is where the plan comes from: the picture that it was traced over is found from there.
-    fn picture_of(&self, plan: &Plan, file: &Path, schemes: &Schemes, style: &Style, ending: &str) -> Picture {
+    fn picture_of(
+        &self,
+        plan: &Plan,
+        file: &Path,
+        schemes: &Schemes,
+        asked: &Asked,
+        style: &Style,
+        ending: &str,
+    ) -> Picture {
         let mut warning = None;
         let backdrop = plan.backdrop().filter(|_| !self.no_picture);
         let traced = backdrop.and_then(|backdrop| {
@@ -166,7 +180,7 @@ impl RenderCommand {
                 }
             }
         });
-        Picture { bytes: self.picture(plan, traced, schemes, style, ending), warning }
+        Picture { bytes: self.picture(plan, traced, schemes, asked, style, ending), warning }
     }
 
     /// `traced`: the picture under the plan.
@@ -175,13 +189,14 @@ impl RenderCommand {
         plan: &Plan,
         traced: Option<(Arc<PictureLevels>, &Backdrop)>,
         schemes: &Schemes,
+        asked: &Asked,
         style: &Style,
         ending: &str,
     ) -> Result<Vec<u8>, CliError> {
         let pipeline = Pipeline::new(plan, schemes);
         let furniture = Furniture { title: !self.bare, legend: !self.bare, scale: !self.bare };
-        let asked = (style.fill == Fill::Prediction).then(|| Asked::by(&self.predictor.predictor()));
-        let predictions = asked.map(|asked| pipeline.predictions(&asked)).transpose()?;
+        let asked = (style.fill == Fill::Prediction).then_some(asked);
+        let predictions = asked.map(|asked| pipeline.predictions(asked)).transpose()?;
         let mut drawing = pipeline.drawing(predictions.as_ref());
         let mut style = style.clone();
         if let Some((levels, backdrop)) = traced {

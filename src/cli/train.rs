@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use super::collect::{CollectOptions, Collected, collect, neighbour_labels};
 use super::progress::with_progress;
 use super::{CliError, Outcome, Subcommand, Terminal};
+use crate::base::wording::or_words;
+use crate::base::work::Work;
 use crate::classify::{
     Algorithm, Classifier, Method, PlanClassifier, Scores, in_plan,
     joint::{self, Joint},
@@ -28,9 +30,11 @@ use crate::study::{Cell, Condition, Options, StudyError, validate};
 pub struct TrainCommand {
     #[command(flatten)]
     collect: CollectOptions,
-    /// rules, tree, knn or mlp, which look at each room by itself, or joint, which looks at all rooms of a
-    /// plan together; without it, all of them
-    #[arg(long, value_name = "NAME", value_parser = method)]
+    #[arg(long, value_name = "NAME", value_parser = method, help = format!(
+        "{}, which look at each room by itself, or joint, which looks at all rooms of a plan together; without it, \
+         all of them",
+        each_room()
+    ))]
     algorithm: Option<Method>,
     /// Learn from this typology's rooms only, or 'standard' for all rooms; without it, a model for each
     /// typology of the data, and standard ones where there are several
@@ -54,8 +58,13 @@ pub struct TrainCommand {
     output: PathBuf,
 }
 
-/// The scores of each method, and what was dealt to folds for them.
+/// The scores of each method, and what was assigned to folds for them.
 type ScoresOf = Vec<(Method, (Grouping, Scores))>;
+
+/// The words of the learners: 'rules, tree, knn or mlp'.
+pub fn each_room() -> String {
+    or_words(&Algorithm::ALL.map(Algorithm::name))
+}
 
 /// A way to classify, as an option's value.
 pub fn method(word: &str) -> Result<Method, String> {
@@ -245,11 +254,12 @@ impl TrainCommand {
                 algorithm,
                 Grouping::Building,
                 self.seed,
-            );
+                &Work::quiet(),
+            )?;
         }
         let table = Table::from_rows(&rows)?;
         let classifier: PlanClassifier = match method {
-            Method::Each(algorithm) => Classifier::train(algorithm, &table, self.seed).into(),
+            Method::Each(algorithm) => Classifier::train(algorithm, &table, self.seed, &Work::quiet())?.into(),
             Method::Joint => {
                 let networks: Vec<&RoomNetwork> = part.networks().iter().collect();
                 with_progress("training the joint classifier", None, terminal, |work| {

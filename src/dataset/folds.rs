@@ -7,7 +7,7 @@ use super::Row;
 use crate::base::random::Random;
 use crate::labels::Label;
 
-/// How rows are dealt to folds.
+/// How rows are assigned to folds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Grouping {
     /// Room by room, as in the paper: rooms of one building stand on both sides, which flatters.
@@ -36,7 +36,7 @@ pub struct Folds {
     of_row: Vec<usize>,
 }
 
-/// Why rows cannot be dealt to so many folds.
+/// Why rows cannot be assigned to so many folds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FoldsError {
     /// One fold leaves nothing to test on, or nothing to learn from.
@@ -115,7 +115,7 @@ impl Folds {
             counts[group][label.index()] += 1.0;
             groups_of_rows.push(group);
         }
-        let of_group = deal_groups(&counts, count, seed);
+        let of_group = assign_groups(&counts, count, seed);
         Ok(Self { count, of_row: groups_of_rows.into_iter().map(|group| of_group[group]).collect() })
     }
 
@@ -193,9 +193,9 @@ const PASSES: usize = 8;
 /// Swaps are tried only up to so many groups: beyond, moves alone even out everything that matters.
 const GROUPS_TO_SWAP: usize = 1000;
 
-/// The fold of each group: the most even of several attempts. Few groups are hard to deal and quick
+/// The fold of each group: the most even of several attempts. Few groups are hard to spread evenly and quick
 /// to try again, many are easy.
-fn deal_groups(groups: &[Counts], folds: usize, seed: u64) -> Vec<usize> {
+fn assign_groups(groups: &[Counts], folds: usize, seed: u64) -> Vec<usize> {
     let mut total = NOTHING;
     for group in groups {
         for (sum, count) in total.iter_mut().zip(group) {

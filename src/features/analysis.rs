@@ -1,5 +1,5 @@
 use super::{Features, NeighbourLabels};
-use crate::features::temporary as naive;
+use crate::features::temporary;
 use crate::geometry::runs::{self, Axes};
 use crate::labels::{Label, Meaning, Schemes};
 use crate::plan::{Joint, LabelOrigin, Plan, Room, RoomId};
@@ -84,7 +84,7 @@ fn other_side(sides: [Joint; 2], id: RoomId) -> Joint {
 pub fn analyse(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels) -> Analysis {
     let shapes = RoomShapes::new(plan);
     let graph = Graph::new(plan, &shapes);
-    let typology = plan.meta().typology.as_ref();
+    let rules = schemes.temporary_rules(plan.meta().typology.as_ref());
     let mut rooms: Vec<RoomAnalysis> = plan
         .rooms()
         .enumerate()
@@ -101,7 +101,7 @@ pub fn analyse(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels) -> A
             });
             let temporary = features
                 .filter(|_| status != RoomStatus::NotClassified)
-                .map(|features| naive::classify(typology, features.area_m2, features.axes_ratio, features.doors));
+                .map(|features| temporary::classify(rules, features.area_m2, features.axes_ratio, features.doors));
             RoomAnalysis { id, status, axes, features, temporary }
         })
         .collect();

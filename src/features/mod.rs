@@ -24,6 +24,11 @@ impl Features {
     /// Names of the eight features in their fixed order, as in files and the paper.
     pub const NAMES: [&'static str; 8] = ["a", "rt", "d", "l_S", "l_M", "l_B", "l_C", "l_H"];
 
+    /// The position of a feature's name in [`Features::NAMES`].
+    pub fn index(name: &str) -> Option<usize> {
+        Self::NAMES.iter().position(|feature| *feature == name)
+    }
+
     /// The eight values in the order of [`Features::NAMES`].
     pub fn values(&self) -> [f64; 8] {
         let l = self.doors_to.map(f64::from);

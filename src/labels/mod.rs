@@ -1,9 +1,11 @@
 //! The five labels, typologies, and label schemes: the tables from functions to labels.
 
+mod expectations;
 mod label;
 mod scheme;
 mod typology;
 
+pub use expectations::{TemporaryRule, UsualArea};
 pub use label::Label;
 pub use scheme::{Meaning, SchemeError, Schemes, function_title, normalised_function};
 pub use typology::Typology;

@@ -1,9 +1,11 @@
 use std::collections::BTreeMap;
 use std::fmt;
+use std::sync::OnceLock;
 
 use serde::Deserialize;
 
-use super::{Label, Typology};
+use super::expectations::{self, DiskRule};
+use super::{Label, TemporaryRule, Typology, UsualArea};
 use crate::base::wording::sentence;
 
 /// What a scheme says of a function.
@@ -29,10 +31,40 @@ pub enum Meaning {
 ///
 /// Functions compare by [`normalised_function`]. A later file extends an earlier one and wins where
 /// both name a function.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+///
+/// A table may also say what is expected of rooms, see [`TemporaryRule`] and [`UsualArea`]; without, a
+/// neighbour's temporary label follows the rules of `[standard]`, and no size is unusual:
+///
+/// ```toml
+/// temporary = [
+///     { label = "C", axes_ratio_at_least = 4.5, doors_at_least = 2, reason = "wards are nearly square" },
+///     { label = "S", area_below_m2 = 12.0 },
+///     { label = "M" },
+/// ]
+/// usual_area_m2 = { S = [3.0, 9.0], M = [18.0, 30.0] }
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Schemes {
-    by_typology: BTreeMap<Typology, BTreeMap<String, Meaning>>,
+    by_typology: BTreeMap<Typology, Scheme>,
+    /// The rules where a typology is unknown or has none of its own.
+    standard: Vec<TemporaryRule>,
 }
+
+/// What is known of a typology.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Scheme {
+    /// By [`normalised_function`].
+    functions: BTreeMap<String, Meaning>,
+    /// The first that holds gives the label; none for those of [`Schemes::standard`].
+    temporary: Vec<TemporaryRule>,
+    usual_areas: BTreeMap<Label, UsualArea>,
+}
+
+/// The table of a scheme file that is no typology, but what holds where none is known.
+const STANDARD: &str = "standard";
+
+/// The schemes that come with the program: the name and text of each file.
+const BUNDLED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/schemes.rs"));
 
 /// A scheme file that cannot be used, in words that say what to do.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,28 +97,29 @@ struct DiskScheme {
     H: Vec<String>,
     #[serde(default)]
     not_classified: Vec<String>,
+    #[serde(default)]
+    temporary: Vec<DiskRule>,
+    #[serde(default)]
+    usual_area_m2: BTreeMap<String, [f64; 2]>,
 }
 
 impl Schemes {
-    /// The schemes of house, school and office that come with the program.
+    /// The schemes that come with the program.
     pub fn bundled() -> Self {
-        let mut schemes = Self::default();
-        for text in [
-            include_str!("../../assets/schemes/house.scheme.toml"),
-            include_str!("../../assets/schemes/school.scheme.toml"),
-            include_str!("../../assets/schemes/office.scheme.toml"),
-        ] {
+        static READ: OnceLock<Schemes> = OnceLock::new();
+        let read = || {
             // A broken bundled file is caught by the test below; at run time it would only be missing.
-            schemes = schemes.clone().extended_by(text).unwrap_or(schemes);
-        }
-        schemes
+            let extend = |schemes: Self, (_, text): &(&str, &str)| schemes.clone().extended_by(text).unwrap_or(schemes);
+            BUNDLED.iter().fold(Self::default(), extend)
+        };
+        READ.get_or_init(read).clone()
     }
 
     /// These schemes extended by the text of a scheme file.
     ///
     /// # Errors
-    /// When the text is not TOML, misses its version or has a newer one, uses a key that is neither
-    /// a label's letter nor `not_classified`, or names a function under two labels of one typology.
+    /// When the text is not TOML, misses its version or has a newer one, uses an unknown key, names a
+    /// function under two labels of one typology, or expects what cannot be.
     pub fn extended_by(mut self, text: &str) -> Result<Self, SchemeError> {
         let mut table: toml::Table = toml::from_str(text)
             .map_err(|error| SchemeError(format!("not a label scheme: {}", error.to_string().trim())))?;
@@ -102,7 +135,10 @@ impl Schemes {
         for (name, value) in table {
             let typology = Typology::new(&name).ok_or_else(|| SchemeError("a typology needs a name".to_owned()))?;
             let disk: DiskScheme = value.try_into().map_err(|error: toml::de::Error| {
-                SchemeError(format!("[{name}]: {}; the keys are S, M, B, C, H and not_classified", error.message()))
+                SchemeError(format!(
+                    "[{name}]: {}; the keys are S, M, B, C, H, not_classified, temporary and usual_area_m2",
+                    error.message()
+                ))
             })?;
             let groups = [
                 (Meaning::Labelled(Label::SmallRoom), disk.S),
@@ -121,7 +157,24 @@ impl Schemes {
                     }
                 }
             }
-            self.by_typology.entry(typology).or_default().extend(added);
+            let wrong = |what: String| SchemeError(format!("[{name}]: {what}"));
+            let temporary = expectations::rules(disk.temporary).map_err(wrong)?;
+            let usual_areas = expectations::usual_areas(disk.usual_area_m2).map_err(wrong)?;
+            if typology.as_str() == STANDARD {
+                if !added.is_empty() || !usual_areas.is_empty() {
+                    return Err(wrong(
+                        "it is no typology, and has no functions or sizes; give yours a name".to_owned(),
+                    ));
+                }
+                self.standard = temporary;
+                continue;
+            }
+            let scheme = self.by_typology.entry(typology).or_default();
+            scheme.functions.extend(added);
+            scheme.usual_areas.extend(usual_areas);
+            if !temporary.is_empty() {
+                scheme.temporary = temporary;
+            }
         }
         Ok(self)
     }
@@ -133,13 +186,25 @@ impl Schemes {
 
     /// The functions of a typology with their meaning, in alphabetical order, normalised.
     pub fn functions(&self, typology: &Typology) -> impl Iterator<Item = (&str, Meaning)> {
-        self.by_typology.get(typology).into_iter().flatten().map(|(function, &meaning)| (function.as_str(), meaning))
+        let functions = self.by_typology.get(typology).map(|scheme| &scheme.functions);
+        functions.into_iter().flatten().map(|(function, &meaning)| (function.as_str(), meaning))
     }
 
     /// What the scheme of a typology says of a function; `None` when it does not know it, or when
     /// the plan has no typology or one without a scheme. Never guessed.
     pub fn meaning(&self, typology: Option<&Typology>, function: &str) -> Option<Meaning> {
-        self.by_typology.get(typology?)?.get(&normalised_function(function)).copied()
+        self.by_typology.get(typology?)?.functions.get(&normalised_function(function)).copied()
+    }
+
+    /// The rules that give a room of a typology its temporary label: its own, else the standard ones.
+    pub fn temporary_rules(&self, typology: Option<&Typology>) -> &[TemporaryRule] {
+        let own = typology.and_then(|typology| self.by_typology.get(typology)).map(|scheme| &scheme.temporary);
+        own.filter(|rules| !rules.is_empty()).unwrap_or(&self.standard)
+    }
+
+    /// What area is usual for a label in a typology; `None` where nothing is known of it.
+    pub fn usual_area(&self, typology: Option<&Typology>, label: Label) -> Option<UsualArea> {
+        self.by_typology.get(typology?)?.usual_areas.get(&label).copied()
     }
 }
 
@@ -189,6 +254,19 @@ mod tests {
     }
 
     #[test]
+    fn a_users_typology_may_say_what_is_expected_of_rooms() {
+        let text = "version = 1\n[hospital]\ntemporary = [{ label = 'S', area_below_m2 = 12 }, { label = 'M' }]\n\
+                    usual_area_m2 = { M = [18.0, 30.0] }";
+        let schemes = Schemes::bundled().extended_by(text).expect("a valid scheme");
+        let hospital = Typology::new("hospital");
+        assert_eq!(schemes.temporary_rules(hospital.as_ref()).len(), 2);
+        let usual = schemes.usual_area(hospital.as_ref(), Label::MediumRoom).expect("just said");
+        assert_eq!((usual.factor(36.0), usual.factor(9.0), usual.factor(20.0)), (1.2, 0.5, 1.0));
+        assert_eq!(schemes.usual_area(hospital.as_ref(), Label::Hall), None);
+        assert_eq!(schemes.temporary_rules(Typology::new("castle").as_ref()), schemes.temporary_rules(None));
+    }
+
+    #[test]
     fn broken_files_say_what_is_wrong() {
         for (text, word) in [
             ("version = 2", "version 2"),
@@ -196,6 +274,11 @@ mod tests {
             ("version = 1\n[house]\nX = ['a']", "keys are"),
             ("version = 1\n[house]\nS = ['a']\nM = ['A']", "two labels"),
             ("version = 1\n[house", "not a label scheme"),
+            ("version = 1\n[house]\ntemporary = [{ label = 'S', area_below_m2 = 9 }]", "leave rooms without a label"),
+            ("version = 1\n[house]\ntemporary = [{ label = 'X' }]", "unknown label"),
+            ("version = 1\n[house]\ntemporary = [{ label = 'S', area_at_least_m2 = nan }]", "not a number"),
+            ("version = 1\n[house]\nusual_area_m2 = { S = [9.0, 3.0] }", "smaller first"),
+            ("version = 1\n[standard]\nS = ['cupboard']", "no typology"),
         ] {
             let error = Schemes::default().extended_by(text).expect_err(text).to_string();
             assert!(error.contains(word), "{text:?} gave {error:?}");

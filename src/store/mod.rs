@@ -1,4 +1,4 @@
-//! Plans and models on disk: loading, saving without ever losing what was there, and a journal of what is
+//! Plans, models and label schemes on disk: loading, saving without ever losing what was there, and a journal of what is
 //! not saved yet.
 
 mod bundled;
@@ -8,6 +8,7 @@ pub mod pictures;
 mod plan_file;
 mod plan_folder;
 mod save;
+mod schemes;
 mod stamp;
 
 pub use bundled::{BUNDLED, bundled_plans};
@@ -19,4 +20,5 @@ pub use models::{LARGEST_BYTES, MODEL_ENDING, MODELS_VARIABLE, ModelError, load_
 pub use plan_file::{checked_bytes, load_plan, save_plan};
 pub use plan_folder::{FoundPlan, plans_below};
 pub use save::{SaveError, save_bytes, save_bytes_fast};
+pub use schemes::{SCHEME_ENDING, SCHEMES_VARIABLE, SchemeFileError, schemes_folder, schemes_in, with_scheme_file};
 pub use stamp::Stamp;

@@ -2,17 +2,19 @@
 //! and what it leaves open (buildings never seen, neighbours whose labels are not known). Numbers only;
 //! [`report`] writes them as a page and as tables.
 
+mod compare;
 mod comparison;
 mod measure;
 pub mod paper;
 pub mod report;
+mod run;
 
 use std::fmt;
 
 use serde::{Serialize, Serializer};
 
 pub use comparison::Comparison;
-pub use measure::{study, validate};
+pub use run::{study, validate};
 
 use crate::base::work::Cancelled;
 use crate::classify::{Algorithm, Confusion, Scores, TableRates};
@@ -26,7 +28,7 @@ use crate::labels::{Label, Typology};
 pub struct Options {
     /// Folds of each cross-validation, at least 2. The paper: 10.
     pub folds: usize,
-    /// What is dealt to folds in the main condition, under which all tables stand. The paper: rooms.
+    /// What is assigned to folds in the main condition, under which all tables stand. The paper: rooms.
     pub grouping: Grouping,
     /// Neighbours' labels in the main condition. The paper: true.
     pub neighbours: NeighbourLabels,
@@ -223,10 +225,10 @@ pub struct Importance {
 #[derive(Clone, Debug, Serialize)]
 pub struct JointCell {
     pub set: String,
-    /// The best of the four algorithms under the same condition.
+    /// The best of the learners under the same condition.
     #[serde(serialize_with = "algorithm_name")]
     pub best: Algorithm,
-    /// First the joint classifier, second the best of the four.
+    /// First the joint classifier, second the best of the learners.
     pub comparison: Comparison,
     pub scores: Scores,
 }

@@ -6,13 +6,12 @@ use std::sync::Arc;
 use enfilade::classify::explain::{
     Effect, Explanation, FeaturesReason, NearRoom, NeighboursReason, PathReason, Reason, RuleReason,
 };
-use enfilade::classify::rules::{Bound, Condition};
-use enfilade::classify::{Algorithm, Classifier};
+use enfilade::classify::learners::rules::{Bound, Condition};
 use enfilade::dataset::table::{RoomSource, Values};
 use enfilade::labels::Label::{self, BigRoom, Corridor, Hall, MediumRoom, SmallRoom};
 
 use super::generated::generated_rows;
-use super::{table, table_of};
+use super::{table, table_of, trained};
 
 const AREA: usize = 0;
 const RATIO: usize = 1;
@@ -167,14 +166,14 @@ const ENTRANCE_HALL: Values = [240.0, 1.8, 8.0, 2.0, 2.0, 0.0, 4.0, 0.0];
 fn explanations_read_well() {
     let rows = generated_rows(400, 10);
     let table = table(&rows);
-    let forms: [(Algorithm, &[&str]); 4] = [
-        (Algorithm::Rules, &["Rule ", "None of the "]),
-        (Algorithm::Tree, &["All ", "Of the "]),
-        (Algorithm::Knn, &["All 9 most similar ", "Of the 9 most similar "]),
-        (Algorithm::Mlp, &["What speaks for a ", "No single feature decides"]),
+    let forms: [(&str, &[&str]); 4] = [
+        ("rules", &["Rule ", "None of the "]),
+        ("tree", &["All ", "Of the "]),
+        ("knn", &["All 9 most similar ", "Of the 9 most similar "]),
+        ("mlp", &["What speaks for a ", "No single feature decides"]),
     ];
     for (algorithm, forms) in forms {
-        let classifier = Classifier::train(algorithm, &table, 1);
+        let classifier = trained(algorithm.parse().unwrap(), &table, 1);
         let sure = [(CUPBOARD, SmallRoom), (CLASSROOM, MediumRoom), (LONG_CORRIDOR, Corridor), (ENTRANCE_HALL, Hall)];
         for (values, label) in sure {
             let explanation = classifier.explain(&values);
@@ -190,16 +189,17 @@ fn explanations_read_well() {
         assert!(gymnasium.probability > least, "{algorithm}: {}", gymnasium.probability);
     }
     // Each says what decided: the corridor's shape, the cupboard's area.
-    let said = |algorithm, values: &Values| Classifier::train(algorithm, &table, 1).explain(values).words();
+    let said =
+        |algorithm: &str, values: &Values| trained(algorithm.parse().unwrap(), &table, 1).explain(values).words();
     for (algorithm, shape) in [
-        (Algorithm::Rules, "axes ratio at least 3"),
-        (Algorithm::Tree, "axes ratio over 3"),
-        (Algorithm::Mlp, "an axes ratio of 9.5 (with the typical 1."),
+        ("rules", "axes ratio at least 3"),
+        ("tree", "axes ratio over 3"),
+        ("mlp", "an axes ratio of 9.5 (with the typical 1."),
     ] {
         let words = said(algorithm, &LONG_CORRIDOR);
         assert!(words.contains(shape), "{algorithm}: {words}");
     }
-    let cupboard = said(Algorithm::Mlp, &CUPBOARD);
+    let cupboard = said("mlp", &CUPBOARD);
     assert!(cupboard.starts_with("What speaks for a small room: an area of 3.2 m² (with the typical 4"), "{cupboard}");
 }
 
@@ -208,11 +208,11 @@ fn explanations_read_well() {
 fn explanations_where_there_is_nothing_to_tell_apart() {
     let halls = table_of(&[([100.0, 1.5, 4.0, 0.0, 0.0, 0.0, 4.0, 0.0], Hall); 20]);
     for (algorithm, words) in [
-        (Algorithm::Rules, "The only rule: every room is a hall. It decides 20 training rooms, all of them rightly."),
-        (Algorithm::Tree, "All 20 training rooms are halls."),
-        (Algorithm::Knn, "The most similar training room is a hall: 0 in p0 (100 m², 4 openings)."),
-        (Algorithm::Mlp, "No single feature decides: with any one at its typical value a hall is as likely."),
+        ("rules", "The only rule: every room is a hall. It decides 20 training rooms, all of them rightly."),
+        ("tree", "All 20 training rooms are halls."),
+        ("knn", "The most similar training room is a hall: 0 in p0 (100 m², 4 openings)."),
+        ("mlp", "No single feature decides: with any one at its typical value a hall is as likely."),
     ] {
-        assert_eq!(Classifier::train(algorithm, &halls, 1).explain(&CUPBOARD).words(), words, "{algorithm}");
+        assert_eq!(trained(algorithm.parse().unwrap(), &halls, 1).explain(&CUPBOARD).words(), words, "{algorithm}");
     }
 }

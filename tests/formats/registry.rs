@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
+use enfilade::edit::set_meta;
 use enfilade::formats::registry::{Ambiguous, find, foreign_kind};
 use enfilade::formats::{
     self, DiskFolder, FORMATS, Files, Format, Head, Holds, Import, Importer, NamedPlan, Options, ReadError, Reading,
     Recognition, Source, manual,
 };
 use enfilade::labels::Schemes;
-use enfilade::plan::Plan;
+use enfilade::plan::{Meta, Plan};
 use enfilade::store::bundled_plans;
 
 use crate::support::enfilade;
@@ -86,8 +87,8 @@ impl Importer for Toy {
             Source::File { bytes, .. } => bytes.to_vec(),
             Source::Folder { files, .. } => files.read(self.0)?,
         };
-        let mut plan = Plan::default();
-        plan.extra = Some(std::sync::Arc::new(serde_json::Map::from_iter([("bytes".to_owned(), bytes.len().into())])));
+        let name = format!("{} bytes", bytes.len());
+        let plan = set_meta(&Plan::default(), Meta { name, ..Meta::default() });
         Ok(Import { plans: vec![plan], notes: Vec::new() })
     }
 }
@@ -127,7 +128,7 @@ fn a_folder_can_be_a_plan() {
     let (format, importer) = find(&[&A, &B], &Head::Folder { files: files.names() }).unwrap().unwrap();
     assert_eq!(format.id, "b");
     let import = importer.read(&Source::Folder { stem: "x", files: &files }, &Options::default()).unwrap();
-    assert_eq!(import.plans[0].extra.as_ref().unwrap()["bytes"], 7);
+    assert_eq!(import.plans[0].meta().name, "7 bytes");
     for outside in ["../secret", "/etc/passwd", "missing"] {
         assert!(files.read(outside).unwrap_err().to_string().contains("is not in the folder"), "{outside}");
     }
@@ -158,7 +159,7 @@ fn the_command_line_says_what_is_there_and_what_is_lost() {
     let xml = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/import/cases/plain.xml");
     let (code, out, _) = enfilade(["import", "--preview", xml]);
     assert_eq!(code, 0);
-    assert!(out.contains("plain.xml: XML of the paper's authors: 1 plan, 2 rooms, 3 openings, 0 walls, "), "{out}");
+    assert!(out.contains("plain.xml: XML of the paper's authors: 1 plan, 2 rooms, 1 opening, 0 walls, "), "{out}");
     let plan = concat!(env!("CARGO_MANIFEST_DIR"), "/plans/office.plan.json");
     let (code, _, err) = enfilade(["export", plan, "-o", &at("all.geojson")]);
     assert_eq!((code, err.as_str()), (0, ""));

@@ -20,7 +20,11 @@ use super::support::enfilade;
 
 /// What `enfilade classify` is to say of the rooms, from what the window holds.
 fn held(plan: &Plan) -> Vec<Value> {
-    let derived = Derived::new(plan, &Schemes::bundled(), Some(Predictor::default()));
+    let derived = Derived::new(
+        plan,
+        &Schemes::bundled(),
+        Some((Predictor::default(), enfilade::classify::models::Models::bundled())),
+    );
     let predictions = derived.predictions.as_ref().unwrap();
     let rooms = predictions.network.rooms.iter().map(|room| {
         let said = predictions.distribution(room.id).unwrap();

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use enfilade::classify::{
     Method,
-    models::{bundled_model, bundled_sets, bundled_typologies},
+    models::{Models, bundled_typologies},
 };
 use enfilade::edit;
 use enfilade::labels::Schemes;
@@ -123,13 +123,15 @@ fn real_schools_and_offices() {
 
 #[test]
 fn every_bundled_model_reads_and_says_where_it_comes_from() {
-    assert_eq!(bundled_sets().collect::<Vec<_>>(), ["house", "school", "office", "standard"]);
-    for set in bundled_sets() {
-        for method in Method::ALL {
-            let model = bundled_model(set, method).unwrap_or_else(|error| panic!("{set}, {method}: {error}"));
-            assert_eq!(model.classifier.method(), method, "{set}");
+    let models = Models::bundled();
+    assert_eq!(models.sets(), ["house", "office", "school", "standard"]);
+    for set in models.sets() {
+        let methods: Vec<&str> = models.methods(set).into_iter().map(Method::name).collect();
+        assert_eq!(methods, ["rules", "tree", "knn", "mlp", "joint"], "{set}");
+        for method in models.methods(set) {
+            let model = models.find(set, method).unwrap_or_else(|error| panic!("{set}, {method}: {error}"));
+            assert_eq!((model.method(), model.set()), (method, set));
             let about = &model.about;
-            assert_eq!(about.typology.as_ref().map_or("standard", |typology| typology.as_str()), set);
             assert!(about.command.starts_with("enfilade train") && about.licence.contains("MIT"), "{set}, {method}");
             assert!(!about.scores.is_empty() && about.data.rooms > 600, "{set}, {method}");
         }
@@ -196,7 +198,8 @@ fn predictions_in_words() {
         ("mlp", 24, &["What speaks for a ", "No single feature decides: "]),
         ("joint", 28, &["What speaks for ", "No single trait decides for "]),
     ];
-    assert_eq!(methods.map(|(name, ..)| name), Method::ALL.map(Method::name));
+    let bundled: Vec<&str> = Models::bundled().methods("office").iter().map(|method| method.name()).collect();
+    assert_eq!(methods.map(|(name, ..)| name).as_slice(), bundled);
     for (method, about, forms) in methods {
         let (code, out, err) = enfilade(["classify", &plan, "--algorithm", method]);
         assert_eq!((code, err.as_str()), (0, ""));
@@ -356,6 +359,56 @@ fn a_model_that_was_trained_is_used() {
         assert_eq!((code, err.as_str()), (0, ""));
         assert!(out.starts_with("Office on a corner: typology office (the model's), model mine\n"), "{out}");
     }
+}
+
+/// A typology of one's own: a scheme file, a model learned with it, and both found by name.
+#[test]
+fn a_typology_of_ones_own_needs_two_files() {
+    let folder = folder();
+    let scheme = folder.path().join("clinic.scheme.toml");
+    let text = "version = 1\n[clinic]\nM = ['office', 'shared office', 'conference room']\nC = ['corridor']\nS = ['toilet', \
+                'storage']\nH = ['lobby']\n";
+    enfilade::store::save_bytes(&scheme, text.as_bytes()).unwrap();
+    let plan = folder.path().join("clinic.plan.json");
+    let office = bundled("office");
+    let typology = enfilade::labels::Typology::new("clinic");
+    save_plan(&plan, &edit::set_meta(&office, enfilade::plan::Meta { typology, ..office.meta().clone() })).unwrap();
+    let models = folder.path().join("models");
+    std::fs::create_dir(&models).unwrap();
+    let model = models.join("ours.model.json");
+    let (code, out, err) = enfilade([
+        "train",
+        text_of(&plan),
+        "--scheme",
+        text_of(&scheme),
+        "--algorithm",
+        "tree",
+        "--folds",
+        "0",
+        "-o",
+        text_of(&model),
+    ]);
+    assert_eq!(code, 0, "{out}{err}");
+    let classify = |arguments: &[&str]| {
+        let all =
+            [&["classify", text_of(&plan), "--scheme", text_of(&scheme), "--models", text_of(&models)], arguments];
+        let (code, out, err) = enfilade(&all.concat());
+        (code, format!("{}{err}", out.lines().next().unwrap_or_default()))
+    };
+    let (code, said) = classify(&["--algorithm", "tree"]);
+    assert_eq!((code, said.as_str()), (0, "Office on a corner: typology clinic (the plan's), model ours"));
+    let (code, said) = classify(&["--algorithm", "tree", "--typology", "clinic"]);
+    assert_eq!((code, said.as_str()), (0, "Office on a corner: typology clinic (as told), model ours"));
+    let (code, said) = classify(&["--typology", "ours"]);
+    assert_eq!((code, said.as_str()), (0, "Office on a corner: typology clinic (the model's), model ours"));
+    // Without a model by that method the typology is inferred from those that have one.
+    let (code, said) = classify(&["--algorithm", "joint"]);
+    assert!(code == 0 && said.contains("(inferred, ") && said.contains("-joint"), "{said}");
+    let (code, said) = classify(&["--algorithm", "joint", "--typology", "clinic"]);
+    assert!(
+        code == 1 && said.contains("there is no model of clinic by joint classifier; use tree, or train"),
+        "{said}"
+    );
 }
 
 /// What cannot be done is refused in words that say what to do.

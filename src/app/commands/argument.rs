@@ -1,6 +1,8 @@
 //! What commands take: files, rooms, functions, numbers. Each kind reads its words, and offers
 //! choices where there are any.
 
+use crate::classify::Method;
+use crate::predict::ModelSet;
 use std::path::{Path, PathBuf};
 
 use super::{COMMANDS, Command, find};
@@ -59,6 +61,10 @@ pub enum ArgumentKind {
     Function,
     /// A typology that has a label scheme, or 'unknown'.
     Typology,
+    /// Which models predict, see [`ModelSet`].
+    ModelSet,
+    /// A way to classify: its word.
+    Method,
     /// A plan that comes with the program: its file's name without the ending.
     Sample,
     /// 'on' or 'off'.
@@ -85,6 +91,8 @@ pub(crate) enum Value {
     Elements(Vec<ElementId>),
     Points(Vec<Point>),
     Typology(Option<Typology>),
+    ModelSet(ModelSet),
+    Method(Method),
     /// Its index.
     Sample(usize),
     Switch(bool),
@@ -119,6 +127,8 @@ impl Values {
     getter!(elements, Elements, [ElementId]);
     getter!(points, Points, [Point]);
     getter!(typology, Typology, Option<Typology>);
+    getter!(model_set, ModelSet, ModelSet);
+    getter!(method, Method, Method);
     getter!(sample, Sample, usize);
     getter!(switch, Switch, bool);
     getter!(word, Word, &'static str);
@@ -168,6 +178,8 @@ impl ArgumentKind {
             Self::Points { least } => format!("at least {least} points of the plan in metres, such as '0,0 4.2,0'"),
             Self::Function => "what a room is for".to_owned(),
             Self::Typology => "a typology, or 'unknown'".to_owned(),
+            Self::ModelSet => "'plan', 'auto', or models at hand".to_owned(),
+            Self::Method => "an algorithm".to_owned(),
             Self::Sample => "a plan that comes with the program".to_owned(),
             Self::Switch => "'on' or 'off'".to_owned(),
             Self::Answer => "a button of the question".to_owned(),
@@ -183,6 +195,15 @@ impl ArgumentKind {
     /// Whether it can be something else than its choices.
     pub(crate) const fn is_open(self) -> bool {
         matches!(self, Self::Function)
+    }
+
+    /// The word of what it is now, for what is chosen among a few that menus show at once.
+    pub(in crate::app) fn current(self, app: &App) -> Option<&str> {
+        match self {
+            Self::ModelSet => Some(app.session.predictor.set.name()),
+            Self::Method => Some(app.session.predictor.method.name()),
+            _ => None,
+        }
     }
 
     /// Reads an argument.
@@ -246,6 +267,11 @@ impl ArgumentKind {
                     app.session.schemes.typologies().find(|typology| typology.as_str().eq_ignore_ascii_case(wanted));
                 found.cloned().map(|found| Value::Typology(Some(found))).ok_or_else(|| with_choices(self.expected()))
             }
+            Self::ModelSet => {
+                let set = ModelSet::read(text, &app.session.models).ok();
+                set.map(Value::ModelSet).ok_or_else(|| with_choices(self.expected()))
+            }
+            Self::Method => text.parse().map(Value::Method).map_err(|_| with_choices(self.expected())),
             Self::Sample => {
                 let wanted = text.trim();
                 let index = bundled().iter().position(|(name, _)| formats::file_stem(name) == wanted);
@@ -292,6 +318,8 @@ impl ArgumentKind {
             Value::Elements(elements) => elements_word(elements.iter().copied()),
             Value::Points(points) => points_word(points),
             Value::Typology(typology) => typology.as_ref().map_or(UNKNOWN, Typology::as_str).to_owned(),
+            Value::ModelSet(set) => set.name().to_owned(),
+            Value::Method(method) => method.name().to_owned(),
             Value::Sample(index) => sample_word(*index).to_owned(),
             Value::Switch(is_on) => switch_word(*is_on).to_owned(),
             Value::Word(word) => (*word).to_owned(),
@@ -328,6 +356,16 @@ impl ArgumentKind {
                 let known =
                     app.session.schemes.typologies().map(|typology| plain(typology.as_str(), &typology.title()));
                 known.chain([plain(UNKNOWN, "Unknown")]).collect()
+            }
+            Self::ModelSet => {
+                let choice = |set: ModelSet| Choice { detail: set.help(), ..plain(set.name(), &set.title()) };
+                ModelSet::all(&app.session.models).into_iter().map(choice).collect()
+            }
+            Self::Method => {
+                let help = |method: Method| format!("Predict by {}", method.help());
+                let choice =
+                    |method: Method| Choice { detail: help(method), ..plain(method.name(), method.short_title()) };
+                Method::ALL.into_iter().map(choice).collect()
             }
             Self::Sample => {
                 let choice = |(name, plan): &(&str, Plan)| Choice {

@@ -154,6 +154,13 @@ impl Command {
         self.arguments.get(given).filter(|argument| !argument.is_optional && !asks_itself)
     }
 
+    /// What it can be set to, and the word of what it is set to now: for a command whose choices menus show in its
+    /// place, one a row.
+    pub(super) fn settings<'a>(&self, app: &'a App) -> Option<(Vec<Choice>, &'a str)> {
+        let [argument] = self.arguments else { return None };
+        Some((argument.kind.choices(app)?, argument.kind.current(app)?))
+    }
+
     /// How it is called: 'open PATH [STOREY]'. What stands in brackets may be left out.
     pub fn usage(&self) -> String {
         let mut usage = self.id.to_owned();

@@ -35,7 +35,18 @@ enum Act {
     Revert,
     ShowNotes,
     Command(&'static str),
+    /// A command with its argument.
+    Choose(&'static str, String),
     Picture(PictureAct),
+}
+
+impl Act {
+    fn of(asked: prediction::Asked) -> Self {
+        match asked {
+            (id, Some(word)) => Self::Choose(id, word),
+            (id, None) => Self::Command(id),
+        }
+    }
 }
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
@@ -87,6 +98,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             app.act(id, &arguments, ui.ctx());
         }
         Some(Act::Command(id)) => app.act(id, &[], ui.ctx()),
+        Some(Act::Choose(id, word)) => app.act(id, &[&word], ui.ctx()),
         Some(Act::ShowNotes) => app.act("import-notes", &["on"], ui.ctx()),
     }
 }
@@ -152,7 +164,7 @@ impl Inspected<'_> {
     fn predicted(&self, ui: &mut Ui, id: RoomId, status: RoomStatus, derived: &Derived) -> Option<Act> {
         let predictions = derived.predictions.as_ref()?;
         let reason = derived.reason(id);
-        prediction::of_room(ui, self.app, self.palette, predictions, reason, id, status).map(Act::Command)
+        prediction::of_room(ui, self.app, self.palette, predictions, reason, id, status).map(Act::of)
     }
 
     /// A text of a room that can be changed.
@@ -498,7 +510,7 @@ impl Inspected<'_> {
             && !predictions.network.rooms.is_empty()
         {
             hairline(ui);
-            act = act.or(prediction::of_plan(ui, self.app, predictions).map(Act::Command));
+            act = act.or(prediction::of_plan(ui, self.app, predictions).map(Act::of));
         }
         if !self.document.notes.is_empty() {
             hairline(ui);

@@ -2,11 +2,9 @@
 
 use egui::{Align2, ComboBox, FontId, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
-use crate::app::commands::{self, COMMANDS, Menu};
-use crate::app::look::{
-    theme,
-    widgets::{caption, colours, focus_ring, follow_focus, section, text_button},
-};
+use crate::app::commands;
+use crate::app::look::theme;
+use crate::app::look::widgets::{caption, colours, focus_ring, follow_focus, section, text_button};
 use crate::app::state::App;
 use crate::base::wording::sentence;
 use crate::draw::Palette;
@@ -15,7 +13,10 @@ use crate::labels::Label;
 use crate::plan::RoomId;
 use crate::predict::Predictions;
 
-/// The prediction for a room, with its reason. Gives the id of a command that was asked for.
+/// The id of a command that was asked for, with the word of its argument.
+pub(super) type Asked = (&'static str, Option<String>);
+
+/// The prediction for a room, with its reason. Gives the command that was asked for.
 pub(super) fn of_room(
     ui: &mut Ui,
     app: &App,
@@ -24,7 +25,7 @@ pub(super) fn of_room(
     reason: Option<String>,
     room: RoomId,
     status: RoomStatus,
-) -> Option<&'static str> {
+) -> Option<Asked> {
     section(ui, "Prediction");
     let Some(distribution) = predictions.distribution(room) else {
         caption(ui, "Only rooms with an area that the label scheme classifies are predicted.");
@@ -48,15 +49,15 @@ pub(super) fn of_room(
         None => {
             ui.add_space(2.0);
             if text_button(ui, &format!("Accept {said}"), false).clicked() {
-                asked = Some("accept-prediction");
+                asked = Some(("accept-prediction", None));
             }
         }
     }
     asked.or(models(ui, app, predictions))
 }
 
-/// What is said of a plan as a whole. Gives the id of a command that was asked for.
-pub(super) fn of_plan(ui: &mut Ui, app: &App, predictions: &Predictions) -> Option<&'static str> {
+/// What is said of a plan as a whole. Gives the command that was asked for.
+pub(super) fn of_plan(ui: &mut Ui, app: &App, predictions: &Predictions) -> Option<Asked> {
     section(ui, "Prediction");
     let agreement = predictions.agreement();
     if let Some(share) = agreement.share() {
@@ -70,17 +71,17 @@ pub(super) fn of_plan(ui: &mut Ui, app: &App, predictions: &Predictions) -> Opti
         let rooms = if unknown == 1 { "room has" } else { "rooms have" };
         caption(ui, format!("{unknown} {rooms} no label."));
         if text_button(ui, "Accept all predictions", false).clicked() {
-            asked = Some("accept-all-predictions");
+            asked = Some(("accept-all-predictions", None));
         }
     }
     asked.or(models(ui, app, predictions))
 }
 
-/// The choice of models. Gives the id of a command that was asked for.
-fn models(ui: &mut Ui, app: &App, predictions: &Predictions) -> Option<&'static str> {
+/// The choice of models. Gives the command that was asked for.
+fn models(ui: &mut Ui, app: &App, predictions: &Predictions) -> Option<Asked> {
     ui.add_space(4.0);
-    let mut asked = choice(ui, app, "Typology", 0);
-    asked = choice(ui, app, "Algorithm", 1).or(asked);
+    let mut asked = choice(ui, app, "Typology", "models");
+    asked = choice(ui, app, "Algorithm", "predict-by").or(asked);
     let about = &predictions.model.about;
     let learned = format!("{} rooms of {} buildings", about.data.rooms, about.data.buildings);
     let set = &predictions.choice;
@@ -92,10 +93,10 @@ fn models(ui: &mut Ui, app: &App, predictions: &Predictions) -> Option<&'static 
     asked
 }
 
-/// One of the sections of the menu of models as a list to choose from.
-fn choice(ui: &mut Ui, app: &App, name: &str, of_menu: u8) -> Option<&'static str> {
-    let entries = || COMMANDS.iter().filter(|command| command.menu == Some((Menu::Predict, of_menu)));
-    let current = entries().find(|command| command.is_on(app) == Some(true)).map_or("", |command| command.title);
+/// What a command can set as a list to choose from.
+fn choice(ui: &mut Ui, app: &App, name: &str, id: &'static str) -> Option<Asked> {
+    let (choices, set) = commands::find(id)?.settings(app)?;
+    let current = choices.iter().find(|choice| choice.word == set).map_or(set, |choice| choice.title.as_str());
     let mut asked = None;
     ui.horizontal(|ui| {
         let (rect, _) = ui.allocate_exact_size(vec2(64.0, 28.0), Sense::hover());
@@ -103,10 +104,10 @@ fn choice(ui: &mut Ui, app: &App, name: &str, of_menu: u8) -> Option<&'static st
         ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, name, font, colours(ui).text_weak);
         let list = ComboBox::from_id_salt(("models", name)).width(ui.available_width() - 8.0).selected_text(current);
         let shown = list.show_ui(ui, |ui| {
-            for command in entries() {
-                let row = ui.selectable_label(command.is_on(app) == Some(true), command.title);
-                if row.on_hover_text(command.help).clicked() {
-                    asked = Some(command.id);
+            for choice in &choices {
+                let row = ui.selectable_label(choice.word == set, &choice.title);
+                if row.on_hover_text(&choice.detail).clicked() {
+                    asked = Some((id, Some(choice.word.clone())));
                 }
             }
         });

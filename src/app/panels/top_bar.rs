@@ -5,11 +5,9 @@ use egui::{
     vec2,
 };
 
-use crate::app::commands::{COMMANDS, Command, Menu};
-use crate::app::look::{
-    theme,
-    widgets::{Lead, ROW, Row, colours, focus_ring, icon_button, strong},
-};
+use crate::app::commands::{COMMANDS, Choice, Command, Menu};
+use crate::app::look::theme;
+use crate::app::look::widgets::{Lead, ROW, Row, colours, focus_ring, icon_button, strong};
 use crate::app::state::App;
 use crate::base::wording::sentence;
 
@@ -47,6 +45,24 @@ fn menu_entries(app: &mut App, ui: &mut Ui, menu: Menu) {
             ui.separator();
         }
         section = Some(this);
+        if let Some((choices, current)) = command.settings(app) {
+            let rows: Vec<(Choice, bool)> = choices
+                .into_iter()
+                .map(|choice| {
+                    let is_on = choice.word == current;
+                    (choice, is_on)
+                })
+                .collect();
+            for (choice, is_on) in rows {
+                let response = Row::new(Lead::Tick(is_on), &choice.title).button(ui, Role::MenuItem);
+                if response.on_hover_text(&choice.detail).clicked() {
+                    let context = ui.ctx().clone();
+                    app.act(command.id, &[&choice.word], &context);
+                    ui.close();
+                }
+            }
+            continue;
+        }
         let why_not = command.why_not(app);
         let shortcut = app.keys_text(command, ui.ctx());
         let is_on = command.is_on(app) == Some(true);

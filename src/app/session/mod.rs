@@ -42,6 +42,7 @@ use crate::app::session::selection::Selection;
 use crate::app::session::settings::Settings;
 use crate::app::session::wishes::Wish;
 use crate::app::state::Done;
+use crate::classify::models::Models;
 use crate::draw;
 use crate::draw::Palette;
 use crate::geometry::Point;
@@ -69,6 +70,8 @@ pub(crate) struct Session {
     pub(crate) ghost: Option<ghost::Ghost>,
     /// Which models predict.
     pub(crate) predictor: Predictor,
+    /// The models at hand: bundled, and the user's own.
+    pub(crate) models: Models,
     pub(crate) settings: Settings,
     pub(crate) messages: Vec<Message>,
     /// What was just done, for the status line.
@@ -127,6 +130,7 @@ impl Session {
             layers: LayerSettings::default(),
             ghost: None,
             predictor: Predictor::default(),
+            models: Models::bundled(),
             settings: Settings::default(),
             messages: Vec::new(),
             status: String::new(),

@@ -47,7 +47,7 @@ impl PlanList {
 const LIST_LIMIT: usize = 20_000;
 
 /// The plan files in a folder, in natural order of their names; none when it cannot be read.
-pub(super) fn plans_in(folder: &Path) -> Vec<PathBuf> {
+pub(crate) fn plans_in(folder: &Path) -> Vec<PathBuf> {
     let listed = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let found = store::plans_below(listed, 1, |_| false).filter(|found| found.problem.is_none());
     let mut files: Vec<PathBuf> = found

@@ -2,23 +2,19 @@
 
 use super::Session;
 use crate::app::session::messages::Severity;
+use crate::classify::models::Models;
 use crate::edit;
 use crate::labels::Label;
 use crate::plan::LabelOrigin;
 use crate::plan::RoomId;
 use crate::plan::RoomLabel;
 use crate::predict::Predictions;
+use crate::store;
+use std::sync::Arc;
 impl Session {
     /// What is said of the rooms of the plan as it is now; `None` while that is being worked out.
     pub fn predictions(&self) -> Option<&Predictions> {
         self.document.as_ref()?.derived()?.predictions.as_ref()
-    }
-
-    pub(crate) fn predict_by_set(&mut self, word: &str) {
-        match word.parse() {
-            Ok(set) => self.predictor.set = set,
-            Err(error) => self.say(Severity::Warning, error.to_string(), ""),
-        }
     }
 
     /// The selected rooms that are predicted, with what is said of them.
@@ -55,5 +51,23 @@ impl Session {
         let title = format!("Accept {} predictions", said.len());
         self.accept(&title, &said);
         self.status = title;
+    }
+
+    /// Takes the user's own label schemes and models from their folders; says what cannot be used.
+    pub(crate) fn use_own_schemes_and_models(&mut self) {
+        if let Some(folder) = store::schemes_folder() {
+            let (schemes, errors) = store::schemes_in(&folder);
+            self.schemes = Arc::new(schemes);
+            for error in errors {
+                self.say(Severity::Warning, "A label scheme cannot be used.", error.to_string());
+            }
+        }
+        if let Some(folder) = store::models_folder() {
+            let (own, errors) = store::models_in(&folder);
+            self.models = Models::bundled().with(own);
+            for error in errors {
+                self.say(Severity::Warning, "A model cannot be used.", error.to_string());
+            }
+        }
     }
 }

@@ -57,10 +57,10 @@ pub(crate) struct Offered {
 }
 
 impl Offered {
-    fn new(leftover: Leftover) -> Self {
+    fn new(leftover: Leftover, schemes: &Schemes) -> Self {
         let picture = leftover.content.as_ref().ok().map(|recovered| {
             let plan = recovered.history.plan();
-            let derived = Arc::new(Derived::new(plan, &Schemes::bundled(), None));
+            let derived = Arc::new(Derived::new(plan, schemes, None));
             PlanPicture::new(recovered.base(), plan, derived, &BTreeSet::new())
         });
         Self { leftover, picture }
@@ -148,7 +148,7 @@ enum Found {
 }
 
 /// Looks at a file that held `stamp`, and was like `seen` when its bytes were last read.
-fn look(path: &Path, stamp: Option<Stamp>, seen: Option<&Facts>) -> (Option<Facts>, Found) {
+fn look(path: &Path, stamp: Option<Stamp>, seen: Option<&Facts>, schemes: &Schemes) -> (Option<Facts>, Found) {
     let facts = match Facts::of(path) {
         Ok(facts) => facts,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
@@ -169,7 +169,7 @@ fn look(path: &Path, stamp: Option<Stamp>, seen: Option<&Facts>) -> (Option<Fact
         Ok(import) => import.plans.into_iter().next().map_or_else(
             || Content::Broken("it holds no plan".to_owned()),
             |plan| {
-                let derived = Arc::new(Derived::new(&plan, &Schemes::bundled(), None));
+                let derived = Arc::new(Derived::new(&plan, schemes, None));
                 Content::Plan(Box::new(plan), derived)
             },
         ),
@@ -209,7 +209,11 @@ impl Session {
     /// Keeps journals in a folder from now on, and offers what is left there.
     pub fn use_journal(&mut self, folder: PathBuf) {
         self.safety.folder = Some(folder.clone());
-        self.background.start(move || Done::Leftovers(leftovers(&folder).into_iter().map(Offered::new).collect()));
+        let schemes = self.schemes.clone();
+        self.background.start(move || {
+            let offered = leftovers(&folder).into_iter().map(|leftover| Offered::new(leftover, &schemes));
+            Done::Leftovers(offered.collect())
+        });
     }
 
     /// Tells from now on how old things are.
@@ -365,9 +369,9 @@ impl Session {
         watch.is_looking = true;
         watch.next_secs = now_secs + LOOK_SECS;
         let (path, stamp, seen, saves) = (path.to_owned(), document.stamp, watch.seen.clone(), watch.saves);
-        let document = document.number;
+        let (document, schemes) = (document.number, self.schemes.clone());
         self.background.start(move || {
-            let (facts, found) = look(&path, stamp, seen.as_ref());
+            let (facts, found) = look(&path, stamp, seen.as_ref(), &schemes);
             Done::Looked(Looked { document, saves, facts, found })
         });
     }

@@ -305,7 +305,7 @@ fn inner_folds(networks: &[&RoomNetwork], places: &[RoomPlace], seed: u64) -> Op
 }
 
 /// A forest for each fold, of the samples of the others, and one of all. `times` is how often the rooms
-/// that were dealt to folds stand in the samples, one after the other.
+/// that were assigned to folds stand in the samples, one after the other.
 fn grow(
     samples: &Samples,
     folds: Option<&Folds>,

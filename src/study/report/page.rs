@@ -20,7 +20,7 @@ pub(super) fn page(study: &Study) -> String {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { "Room classifiers by building typology" }
-                style { (PreEscaped(include_str!("page.css"))) }
+                style { (PreEscaped(include_str!("page.css"))) (PreEscaped(further_colours())) }
             }
             body {
                 main {
@@ -52,7 +52,7 @@ fn head(study: &Study) -> Markup {
             p.lead {
                 "Labels of rooms predicted from " i { "F" sub { "r" } }
                 " = ⟨a, rt, d, l" sub { "S" } ", l" sub { "M" } ", l" sub { "B" } ", l" sub { "C" } ", l" sub { "H" }
-                "⟩ by four algorithms, learned from each typology and from all together; measured as in section 4.2 of \
+                "⟩ by " (in_words(Algorithm::ALL.len())) " algorithms, learned from each typology and from all together; measured as in section 4.2 of \
                  Luperto, Quattrini Li and Amigoni, and beyond. Grey figures in brackets and grey bands are the \
                  paper's, measured on its own buildings."
             }
@@ -73,6 +73,27 @@ fn head(study: &Study) -> Markup {
             ul.notes { @for note in &study.notes { li { (note) } } }
         }
     }
+}
+
+/// A small number as a text has it: 'four'.
+fn in_words(number: usize) -> String {
+    let words = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
+    words.get(number).map_or_else(|| number.to_string(), |word| (*word).to_owned())
+}
+
+/// Learners that the style sheet has colours for.
+const COLOURS: usize = 4;
+
+/// Styles of the other learners: hues a golden angle apart, so that they differ however many there are.
+fn further_colours() -> String {
+    let style = |index: usize| {
+        let colour = format!("hsl({:.0} 50% 55%)", (40.0 + 137.5 * index as f64) % 360.0);
+        format!(
+            ".swatch{index} {{ background: {colour} }} .fill{index} {{ fill: {colour} }} \
+             .line{index} {{ fill: none; stroke-width: 1.8; stroke: {colour} }}\n"
+        )
+    };
+    (COLOURS..Algorithm::ALL.len()).map(style).collect()
 }
 
 /// The names of the algorithms with their colours.
@@ -548,7 +569,7 @@ fn curves(study: &Study) -> Markup {
                         ticks: ticks_of_rooms(least, most),
                     };
                     @let drawn: Vec<Line> = of_set.iter().map(|curve| Line {
-                        colour: curve.algorithm as usize,
+                        colour: curve.algorithm.index(),
                         points: curve.points.iter().map(|point| (point.training_rooms.ln(), point.accuracy)).collect(),
                     }).collect();
                     figure {
@@ -631,7 +652,7 @@ fn calibration(study: &Study) -> Markup {
                         let scores = study.scores(&set.name, algorithm, study.condition)?;
                         let bins = scores.reliability.iter().filter(|bin| bin.rooms >= LEAST_IN_BIN);
                         Some(Line {
-                            colour: algorithm as usize,
+                            colour: algorithm.index(),
                             points: bins.map(|bin| (bin.probability, bin.right)).collect(),
                         })
                     }).collect();

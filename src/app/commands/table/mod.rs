@@ -23,7 +23,6 @@ use crate::app::panels::{palette::Palette, shortcuts::Sheet};
 use crate::app::session::{fields::FieldKind, questions::Intent, selection::SelectMode, settings::GRID_RANGE_M};
 use crate::app::state::App;
 use crate::base::units::Units;
-use crate::classify::{Algorithm, Method};
 use crate::draw::{Fill, LabelColours};
 use crate::edit::EditError;
 use crate::features::RoomStatus;

@@ -1,105 +1,37 @@
 //! What classifiers say.
 
 use super::*;
+use crate::predict::DEFAULT_METHOD;
 
 pub(super) const COMMANDS: &[Command] = &[
-    choose(
-        "models-plan",
-        "Of the plan",
-        "Predict by models of the plan's own typology, inferred where it has none",
+    with(
+        "models",
+        "Models…",
+        "Say which models predict: those of the plan's typology, of another, or one of your own",
         always,
-        |app| app.session.predictor.set.name() == "plan",
-        |app, _| app.session.predict_by_set("plan"),
+        &[needed(
+            "MODELS",
+            ArgumentKind::ModelSet,
+            "'plan', 'auto' (inferred), a typology, 'standard', or a model's name",
+        )],
+        |app, values, _| {
+            app.session.predictor.set = values.model_set(0).cloned().unwrap_or_default();
+            Ran::Done
+        },
+        None,
     )
     .menu(Menu::Predict, 0),
-    choose(
-        "models-auto",
-        "Inferred",
-        "Predict by models of the typology that is inferred from the plan, whatever it says of itself",
+    with(
+        "predict-by",
+        "Predict by…",
+        "Say by which algorithm is predicted",
         always,
-        |app| app.session.predictor.set.name() == "auto",
-        |app, _| app.session.predict_by_set("auto"),
-    )
-    .menu(Menu::Predict, 0),
-    choose(
-        "models-house",
-        "House",
-        "Predict by models that learned from houses",
-        always,
-        |app| app.session.predictor.set.name() == "house",
-        |app, _| app.session.predict_by_set("house"),
-    )
-    .menu(Menu::Predict, 0),
-    choose(
-        "models-school",
-        "School",
-        "Predict by models that learned from schools",
-        always,
-        |app| app.session.predictor.set.name() == "school",
-        |app, _| app.session.predict_by_set("school"),
-    )
-    .menu(Menu::Predict, 0),
-    choose(
-        "models-office",
-        "Office",
-        "Predict by models that learned from offices",
-        always,
-        |app| app.session.predictor.set.name() == "office",
-        |app, _| app.session.predict_by_set("office"),
-    )
-    .menu(Menu::Predict, 0),
-    choose(
-        "models-standard",
-        "Standard",
-        "Predict by models that learned from all typologies",
-        always,
-        |app| app.session.predictor.set.name() == "standard",
-        |app, _| app.session.predict_by_set("standard"),
-    )
-    .menu(Menu::Predict, 0),
-    choose(
-        "predict-by-rules",
-        "Rule induction",
-        "Predict by rules that can be read",
-        always,
-        |app| app.session.predictor.method == Method::Each(Algorithm::Rules),
-        |app, _| app.session.predictor.method = Method::Each(Algorithm::Rules),
-    )
-    .menu(Menu::Predict, 1),
-    choose(
-        "predict-by-tree",
-        "Decision tree",
-        "Predict by a decision tree",
-        always,
-        |app| app.session.predictor.method == Method::Each(Algorithm::Tree),
-        |app, _| app.session.predictor.method = Method::Each(Algorithm::Tree),
-    )
-    .menu(Menu::Predict, 1),
-    choose(
-        "predict-by-knn",
-        "Nearest neighbours",
-        "Predict by the most similar rooms of the training set",
-        always,
-        |app| app.session.predictor.method == Method::Each(Algorithm::Knn),
-        |app, _| app.session.predictor.method = Method::Each(Algorithm::Knn),
-    )
-    .menu(Menu::Predict, 1),
-    choose(
-        "predict-by-mlp",
-        "Perceptron",
-        "Predict by a multilayer perceptron",
-        always,
-        |app| app.session.predictor.method == Method::Each(Algorithm::Mlp),
-        |app, _| app.session.predictor.method = Method::Each(Algorithm::Mlp),
-    )
-    .menu(Menu::Predict, 1),
-    choose(
-        "predict-by-joint",
-        "All rooms together",
-        "Predict by a classifier that looks at all rooms of the plan in relation to each other",
-        always,
-        |app| app.session.predictor.method == Method::Joint,
-        |app, _| app.session.predictor.method = Method::Joint,
+        &[needed("ALGORITHM", ArgumentKind::Method, "an algorithm, or 'joint' for all rooms of the plan together")],
+        |app, values, _| {
+            app.session.predictor.method = values.method(0).copied().unwrap_or(DEFAULT_METHOD);
+            Ran::Done
+        },
+        None,
     )
     .menu(Menu::Predict, 1),
     command(

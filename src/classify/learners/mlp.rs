@@ -2,11 +2,19 @@
 //! with Adam (Kingma and Ba 2015), decoupled weight decay (Loshchilov and Hutter 2019) and early
 //! stopping on rooms kept apart.
 
-use super::calibration::fitted_temperature;
-use super::scale::{Scale, Transform};
-use super::{Distribution, Trained};
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
 use crate::base::numbers::lower_median;
 use crate::base::random::Random;
+use crate::base::work::{Cancelled, Work};
+use crate::classify::Distribution;
+use crate::classify::calibration::fitted_temperature;
+use crate::classify::explain::{Effect, FeaturesReason, Reason};
+use crate::classify::learner::{Learner, Model, Trained};
+use crate::classify::scale::{Scale, Transform};
 use crate::dataset::folds::Folds;
 use crate::dataset::table::{FEATURES, Table, Values};
 use crate::labels::Label;
@@ -42,6 +50,120 @@ const PATIENCE: usize = 12;
 
 /// Slope of a hidden unit for negative sums: it never dies.
 const LEAK: f32 = 0.1;
+
+/// The learner.
+pub struct Backpropagation;
+
+impl Learner for Backpropagation {
+    fn id(&self) -> &'static str {
+        "mlp"
+    }
+
+    fn title(&self) -> &'static str {
+        "multilayer perceptron"
+    }
+
+    fn short_title(&self) -> &'static str {
+        "Perceptron"
+    }
+
+    fn help(&self) -> &'static str {
+        "a multilayer perceptron"
+    }
+
+    fn train(&self, table: &Table, seed: u64, work: &Work<'_>) -> Result<Trained<Arc<dyn Model>>, Cancelled> {
+        Ok(Perceptron::train(table, seed, work)?.shared())
+    }
+
+    fn from_json(&self, model: Value) -> Option<Arc<dyn Model>> {
+        let DiskPerceptron { scale, typical, units, output_bias } = serde_json::from_value(model).ok()?;
+        let units: [DiskUnit; HIDDEN] = units.try_into().ok()?;
+        let hidden = std::array::from_fn(|input| {
+            std::array::from_fn(|unit: usize| {
+                let DiskUnit { from, bias, .. } = &units[unit];
+                from.get(input).copied().unwrap_or(*bias) as f32
+            })
+        });
+        let output = std::array::from_fn(|label| std::array::from_fn(|unit: usize| units[unit].to[label] as f32));
+        let weights = Weights { hidden, output, output_bias: output_bias.map(|bias| bias as f32) };
+        let scale = Scale {
+            transform: Transform::from_name(&scale.transform)?,
+            means: scale.means,
+            deviations: scale.deviations,
+        };
+        Some(Arc::new(Perceptron::from_parts(scale, weights, typical)?))
+    }
+}
+
+impl Model for Perceptron {
+    fn predict(&self, values: &Values) -> Distribution {
+        self.predict(values)
+    }
+
+    fn explain(&self, values: &Values, label: Label, predict: &dyn Fn(&Values) -> Distribution) -> Reason {
+        let effect = |feature: usize| {
+            let mut changed = *values;
+            changed[feature] = self.typical[feature];
+            let distribution = predict(&changed);
+            Effect {
+                feature,
+                value: values[feature],
+                typical: self.typical[feature],
+                probability_if_typical: distribution.probability(label),
+                label_if_typical: distribution.label(),
+            }
+        };
+        let mut effects: Vec<Effect> = (0..FEATURES).map(effect).collect();
+        effects.sort_by(|p, q| p.probability_if_typical.total_cmp(&q.probability_if_typical));
+        Reason::Features(FeaturesReason { effects })
+    }
+
+    fn to_json(&self) -> Value {
+        let Scale { transform, means, deviations } = self.scale.clone();
+        let weights = &self.weights;
+        let unit = |unit: usize| DiskUnit {
+            from: std::array::from_fn(|input| short(weights.hidden[input][unit])),
+            bias: short(weights.hidden[FEATURES][unit]),
+            to: std::array::from_fn(|label| short(weights.output[label][unit])),
+        };
+        let disk = DiskPerceptron {
+            scale: DiskScale { transform: transform.name().to_owned(), means, deviations },
+            typical: self.typical,
+            units: (0..HIDDEN).map(unit).collect(),
+            output_bias: weights.output_bias.map(short),
+        };
+        // Plain structs of numbers and texts can always be written.
+        serde_json::to_value(disk).unwrap_or_default()
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+struct DiskPerceptron {
+    scale: DiskScale,
+    typical: Values,
+    units: Vec<DiskUnit>,
+    output_bias: [f64; LABELS],
+}
+
+#[derive(Serialize, Deserialize)]
+struct DiskScale {
+    transform: String,
+    means: Values,
+    deviations: Values,
+}
+
+/// A hidden unit: its weights from each input, its bias, its weights to each label.
+#[derive(Serialize, Deserialize)]
+struct DiskUnit {
+    from: [f64; FEATURES],
+    bias: f64,
+    to: [f64; LABELS],
+}
+
+/// The number that reads as this one and is written with the fewest digits.
+fn short(number: f32) -> f64 {
+    number.to_string().parse().unwrap_or(f64::from(number))
+}
 
 /// A trained net.
 #[derive(Clone, Debug, PartialEq)]
@@ -195,7 +317,10 @@ impl Optimiser {
 
 impl Perceptron {
     /// Learns a net. The same seed gives the same net.
-    pub fn train(table: &Table, seed: u64) -> Trained<Self> {
+    ///
+    /// # Errors
+    /// When the work is cancelled.
+    pub fn train(table: &Table, seed: u64, work: &Work<'_>) -> Result<Trained<Self>, Cancelled> {
         let mut random = Random::new(seed);
         // Logarithms: what counts of an area is how many times it is another, all the more as the scale
         // of real plans is doubtful.
@@ -215,6 +340,7 @@ impl Perceptron {
         let rounds = (VISITS / learn.len()).clamp(*ROUNDS.start(), *ROUNDS.end());
         let mut best = (f64::INFINITY, weights.clone(), 0);
         for round in 0..rounds {
+            work.goes_on()?;
             let step = STEP * 0.5 * (1.0 + (std::f32::consts::PI * round as f32 / rounds as f32).cos());
             random.shuffle(&mut learn);
             for rooms in learn.chunks(BATCH) {
@@ -236,7 +362,7 @@ impl Perceptron {
         let model = Self { scale, weights: best.1, typical: medians(table.values()) };
         let temperature =
             fitted_temperature(check.iter().map(|&room| (model.predict(&table.values()[room]), table.labels()[room])));
-        Trained { model, temperature }
+        Ok(Trained { model, temperature })
     }
 
     /// A net of these parts; `None` if a number is not one.

@@ -1,12 +1,22 @@
 //! k nearest neighbours: standardised features; scaling, metric, k and the weight of distance are
 //! chosen by leaving rooms out of the training set in turn.
 
-use super::calibration::{brier, fitted_temperature};
-use super::neighbours::{Found, KdTree, Metric, Point};
-use super::scale::{Scale, Transform};
-use super::{Distribution, Trained};
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
 use crate::base::random::Random;
-use crate::dataset::table::{Table, Values};
+use crate::base::work::{Cancelled, Work};
+use crate::classify::Distribution;
+use crate::classify::calibration::{brier, fitted_temperature};
+use crate::classify::explain::{NearRoom, NeighboursReason, Reason};
+use crate::classify::learner::{Learner, Model, Trained};
+use crate::classify::neighbours::{Found, KdTree, Metric, Point};
+use crate::classify::scale::{Scale, Transform};
+use crate::dataset::table::{RoomSource, Table, Values};
+use crate::labels::Label;
 
 /// Numbers of neighbours tried.
 const NUMBERS: [usize; 8] = [1, 3, 5, 7, 9, 12, 16, 20];
@@ -21,6 +31,96 @@ const PRIOR_ROOMS: f64 = 1.0;
 /// Weighted by distance, a neighbour counts 1 / (distance + this): two that are nearly the same room
 /// do not outvote everyone. In standard deviations.
 const CLOSEST: f64 = 0.05;
+
+/// The learner.
+pub struct NearestNeighbours;
+
+impl Learner for NearestNeighbours {
+    fn id(&self) -> &'static str {
+        "knn"
+    }
+
+    fn title(&self) -> &'static str {
+        "k-nearest neighbours"
+    }
+
+    fn short_title(&self) -> &'static str {
+        "Nearest neighbours"
+    }
+
+    fn help(&self) -> &'static str {
+        "the most similar rooms of the training set"
+    }
+
+    fn train(&self, table: &Table, seed: u64, work: &Work<'_>) -> Result<Trained<Arc<dyn Model>>, Cancelled> {
+        Ok(Neighbours::train(table, seed, work)?.shared())
+    }
+
+    fn from_json(&self, model: Value) -> Option<Arc<dyn Model>> {
+        let disk: DiskNeighbours = serde_json::from_value(model).ok()?;
+        let plans: Vec<Arc<str>> = disk.plans.into_iter().map(Arc::from).collect();
+        let (mut values, mut labels, mut sources) = (Vec::new(), Vec::new(), Vec::new());
+        for (room_values, label, plan, room) in disk.rooms {
+            values.push(room_values);
+            labels.push(label.parse().ok()?);
+            sources.push(RoomSource { plan: plans.get(plan)?.clone(), room: room.into() });
+        }
+        let settings = Settings {
+            transform: Transform::from_name(&disk.transform)?,
+            metric: Metric::from_name(&disk.metric)?,
+            k: disk.k,
+            by_distance: disk.by_distance,
+        };
+        Some(Arc::new(Neighbours::new(Table::from_columns(values, labels, sources).ok()?, settings)))
+    }
+}
+
+impl Model for Neighbours {
+    fn predict(&self, values: &Values) -> Distribution {
+        self.predict(values)
+    }
+
+    fn explain(&self, values: &Values, _: Label, _: &dyn Fn(&Values) -> Distribution) -> Reason {
+        let near = |neighbour: Neighbour| NearRoom {
+            source: self.table.sources()[neighbour.row].clone(),
+            label: self.table.labels()[neighbour.row],
+            values: self.table.values()[neighbour.row],
+            distance: neighbour.distance,
+        };
+        Reason::Neighbours(NeighboursReason { neighbours: self.nearest(values).into_iter().map(near).collect() })
+    }
+
+    fn to_json(&self) -> Value {
+        let Settings { transform, metric, k, by_distance } = self.settings;
+        let mut index_of: BTreeMap<&Arc<str>, usize> = BTreeMap::new();
+        let mut plans = Vec::new();
+        let rooms = self.table.values().iter().zip(self.table.labels()).zip(self.table.sources());
+        let rooms = rooms.map(|((values, label), source)| {
+            let plan = *index_of.entry(&source.plan).or_insert_with(|| {
+                plans.push(source.plan.to_string());
+                plans.len() - 1
+            });
+            (*values, label.letter().to_owned(), plan, source.room.to_string())
+        });
+        let rooms = rooms.collect();
+        let (metric, transform) = (metric.name().to_owned(), transform.name().to_owned());
+        // Plain structs of numbers and texts can always be written.
+        serde_json::to_value(DiskNeighbours { k, metric, by_distance, transform, plans, rooms }).unwrap_or_default()
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+struct DiskNeighbours {
+    k: usize,
+    metric: String,
+    by_distance: bool,
+    transform: String,
+    plans: Vec<String>,
+    rooms: Vec<DiskRoom>,
+}
+
+/// The values, the label, the index of the plan, and the room's name.
+type DiskRoom = (Values, String, usize, String);
 
 /// How neighbours vote.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,7 +154,10 @@ pub struct Neighbour {
 
 impl Neighbours {
     /// Chooses settings and keeps the rooms. The same seed gives the same choice.
-    pub fn train(table: &Table, seed: u64) -> Trained<Self> {
+    ///
+    /// # Errors
+    /// When the work is cancelled.
+    pub fn train(table: &Table, seed: u64, work: &Work<'_>) -> Result<Trained<Self>, Cancelled> {
         let mut left_out: Vec<usize> = (0..table.len()).collect();
         Random::new(seed).shuffle(&mut left_out);
         left_out.truncate(LEFT_OUT);
@@ -63,6 +166,7 @@ impl Neighbours {
         for transform in [Transform::Identity, Transform::Logarithm] {
             let (points, tree) = arranged(table, &Scale::of(table.values(), transform));
             for metric in Metric::ALL {
+                work.goes_on()?;
                 let neighbours: Vec<Vec<Found>> = left_out
                     .iter()
                     .map(|&row| {
@@ -91,7 +195,7 @@ impl Neighbours {
         });
         let truths = left_out.iter().map(|&row| table.labels()[row]);
         let temperature = fitted_temperature(predictions.into_iter().zip(truths));
-        Trained { model: Self::new(table.clone(), settings), temperature }
+        Ok(Trained { model: Self::new(table.clone(), settings), temperature })
     }
 
     /// These rooms, to be searched with these settings; `k` is brought within 1 and their number.

@@ -1,9 +1,20 @@
 //! A decision tree after Quinlan's C4.5 (1993): gain ratio, numeric splits, pessimistic pruning with
 //! subtree raising, probabilities by Laplace.
 
-use super::Distribution;
-use super::numbers::readable_between;
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::rules::{Bound, Condition};
+use crate::base::work::{Cancelled, Work};
+use crate::classify::Distribution;
+use crate::classify::explain::{PathReason, Reason, Step};
+use crate::classify::learner::{Learner, Model, Trained};
+use crate::classify::numbers::readable_between;
 use crate::dataset::table::{FEATURES, Table, Values};
+use crate::features::Features;
+use crate::labels::Label;
 
 /// Fewest training rooms on a side of a split (C4.5's default).
 const LEAST_ROOMS: f64 = 2.0;
@@ -17,6 +28,127 @@ const DEVIATIONS: f64 = 0.674_489_750_196_081_7;
 
 /// Longest path. Trees on real rooms stay below 30; the cap bounds recursion on contrived data.
 const DEEPEST: usize = 120;
+
+/// The learner.
+pub struct C45;
+
+impl Learner for C45 {
+    fn id(&self) -> &'static str {
+        "tree"
+    }
+
+    fn title(&self) -> &'static str {
+        "decision tree"
+    }
+
+    fn short_title(&self) -> &'static str {
+        "Decision tree"
+    }
+
+    fn help(&self) -> &'static str {
+        "a decision tree"
+    }
+
+    fn train(&self, table: &Table, _: u64, work: &Work<'_>) -> Result<Trained<Arc<dyn Model>>, Cancelled> {
+        work.goes_on()?;
+        // Laplace's correction alone makes it as believable as a temperature would: see the rules.
+        Ok(Trained { model: Tree::train(table), temperature: 1.0 }.shared())
+    }
+
+    fn from_json(&self, model: Value) -> Option<Arc<dyn Model>> {
+        let disk: DiskTree = serde_json::from_value(model).ok()?;
+        let nodes = disk.nodes.into_iter().map(DiskNode::live).collect::<Option<_>>()?;
+        Some(Arc::new(Tree::from_nodes(nodes)?))
+    }
+}
+
+impl Model for Tree {
+    fn predict(&self, values: &Values) -> Distribution {
+        self.predict(values)
+    }
+
+    fn explain(&self, values: &Values, label: Label, _: &dyn Fn(&Values) -> Distribution) -> Reason {
+        let path = self.path(values);
+        let steps: Vec<Step> = path
+            .iter()
+            .filter_map(|node| node.split)
+            .map(|split| Step {
+                feature: split.feature,
+                at_most: split.at_most,
+                yes: values[split.feature] <= split.at_most,
+            })
+            .collect();
+        let counts = path.last().map(|leaf| leaf.counts).unwrap_or_default();
+        Reason::Path(PathReason {
+            conditions: tightest(&steps),
+            steps,
+            rooms: counts.iter().sum(),
+            right: counts[label.index()],
+        })
+    }
+
+    fn to_json(&self) -> Value {
+        let nodes = self.nodes.iter().map(DiskNode::of).collect();
+        // Plain structs of numbers and texts can always be written.
+        serde_json::to_value(DiskTree { nodes }).unwrap_or_default()
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+struct DiskTree {
+    nodes: Vec<DiskNode>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct DiskNode {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    feature: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at_most: Option<f64>,
+    /// Indices of the nodes for yes and no.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    then: Option<[usize; 2]>,
+    rooms: Counts,
+}
+
+impl DiskNode {
+    fn of(node: &Node) -> Self {
+        Self {
+            feature: node.split.map(|split| Features::NAMES[split.feature].to_owned()),
+            at_most: node.split.map(|split| split.at_most),
+            then: node.split.map(|split| [split.yes, split.no]),
+            rooms: node.counts,
+        }
+    }
+
+    fn live(self) -> Option<Node> {
+        let split = match (self.feature, self.at_most, self.then) {
+            (None, None, None) => None,
+            (Some(feature), Some(at_most), Some([yes, no])) => {
+                Some(Split { feature: Features::index(&feature)?, at_most, yes, no })
+            }
+            _ => return None,
+        };
+        Some(Node { counts: self.rooms, split })
+    }
+}
+
+/// The bounds that answers come to, in the order of the features; an answer no is 'over'.
+fn tightest(steps: &[Step]) -> Vec<Condition> {
+    let mut conditions = Vec::new();
+    for feature in 0..FEATURES {
+        let answers = |yes: bool| {
+            steps.iter().filter(move |step| step.feature == feature && step.yes == yes).map(|step| step.at_most)
+        };
+        if let Some(bound) = answers(false).reduce(f64::max) {
+            conditions.push(Condition { feature, bound: Bound::Over(bound) });
+        }
+        if let Some(bound) = answers(true).reduce(f64::min) {
+            conditions.push(Condition { feature, bound: Bound::AtMost(bound) });
+        }
+    }
+    conditions
+}
 
 /// Numbers of rooms of each label, in the order of the labels.
 pub type Counts = [u32; 5];

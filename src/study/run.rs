@@ -1,0 +1,62 @@
+//! Doing a study: every fold, foreign test and point of a curve is a task of its own, so that all
+//! threads are busy to the end and progress is even.
+
+use super::compare::Results;
+use super::measure::{Experiment, Task, infer_typologies};
+use super::{Cell, Condition, Options, Study, StudyError};
+use crate::base::random::Random;
+use crate::base::work::{Cancelled, Work};
+use crate::classify::Algorithm;
+use crate::dataset::{Collection, RoomNetwork};
+
+/// Studies a collection. `blind` are the same plans as [`RoomNetwork::without_typology`] sees them; without
+/// them, the inference of the typology is not measured. `work` is told how many tasks are done of how many; they come in random
+/// order, so that the share done is close to the share of the time.
+///
+/// # Errors
+/// When there is too little data for even one cross-validation, or the work is cancelled.
+pub fn study(
+    collection: &Collection,
+    blind: &[RoomNetwork],
+    options: Options,
+    work: &Work<'_>,
+) -> Result<Study, StudyError> {
+    let experiment = Experiment::new(collection, options)?;
+    let mut tasks = experiment.tasks();
+    Random::new(options.seed).shuffle(&mut tasks);
+    let mut study = experiment.gather(&perform(&experiment, tasks, work)?);
+    study.typologies = infer_typologies(collection, blind, options);
+    Ok(study)
+}
+
+/// Cross-validates some algorithms on one set under some conditions, without the rest of a study.
+/// Conditions that cannot be measured are left out and named in the notes beside the cells.
+///
+/// # Errors
+/// As [`study`].
+pub fn validate(
+    collection: &Collection,
+    options: Options,
+    set: &str,
+    algorithms: &[Algorithm],
+    conditions: &[Condition],
+    work: &Work<'_>,
+) -> Result<(Vec<Cell>, Vec<String>), StudyError> {
+    let experiment = Experiment::new(collection, options)?;
+    let all = experiment.conditions();
+    let is_wanted = |task: &Task| match *task {
+        Task::Fold { condition, set: of, algorithm, .. } => {
+            experiment.sets[of].name == set && algorithms.contains(&algorithm) && conditions.contains(&all[condition])
+        }
+        Task::Foreign { .. } | Task::Point { .. } | Task::Joint { .. } | Task::Unknown { .. } => false,
+    };
+    let tasks: Vec<Task> = experiment.tasks().into_iter().filter(is_wanted).collect();
+    let results = perform(&experiment, tasks, work)?;
+    let cells = experiment.cells(&results).into_iter().filter(|cell| cell.scores.rooms > 0).collect();
+    Ok((cells, experiment.notes))
+}
+
+fn perform(experiment: &Experiment<'_>, tasks: Vec<Task>, work: &Work<'_>) -> Result<Results, Cancelled> {
+    let outcomes = work.map(tasks.len(), |index| experiment.perform(tasks[index], &work.alone()))?;
+    Ok(Results::new(tasks, outcomes.into_iter().collect::<Result<_, _>>()?))
+}
