@@ -41,7 +41,9 @@ fn every_thing_that_can_be_added_is_added_where_the_page_says() {
             }
         }
         // Lists are written in capitals.
-        for list in quoted(paragraph).into_iter().filter(|word| word.len() > 3 && word.chars().all(|c| c.is_uppercase())) {
+        for list in
+            quoted(paragraph).into_iter().filter(|word| word.len() > 3 && word.chars().all(|c| c.is_uppercase()))
+        {
             let text = std::fs::read_to_string(root().join(&last_file)).unwrap_or_default();
             let anywhere = quoted(paragraph)
                 .iter()

@@ -164,7 +164,9 @@ fn uses(text: &str, module: &[&str]) -> Vec<(bool, Vec<String>)> {
     let children: BTreeSet<&str> = text
         .lines()
         .filter_map(|line| line.trim().strip_suffix(';'))
-        .filter_map(|line| line.rsplit_once("mod ").filter(|(before, _)| before.is_empty() || before.starts_with("pub")))
+        .filter_map(|line| {
+            line.rsplit_once("mod ").filter(|(before, _)| before.is_empty() || before.starts_with("pub"))
+        })
         .map(|(_, name)| name)
         .collect();
     let mut found = Vec::new();
@@ -208,7 +210,9 @@ fn tree(text: &str, before: &[String], leaves: &mut Vec<Vec<String>>) {
     parts.push(&text[start..]);
     for part in parts.into_iter().map(str::trim).filter(|part| !part.is_empty()) {
         let (head, inner) = match part.find('{') {
-            Some(open) => (part[..open].trim_end_matches("::"), Some(&part[open + 1..part.rfind('}').unwrap_or(open + 1)])),
+            Some(open) => {
+                (part[..open].trim_end_matches("::"), Some(&part[open + 1..part.rfind('}').unwrap_or(open + 1)]))
+            }
             None => (part.split(" as ").next().unwrap_or_default(), None),
         };
         let names = head.split("::").map(|name| name.trim().to_owned()).filter(|name| !name.is_empty());
@@ -266,7 +270,8 @@ fn is_use(part: &str) -> bool {
 fn floor_of(file: &str) -> (usize, &'static str) {
     let stem = file.trim_end_matches(".rs");
     let fits = |prefix: &str| stem == prefix || stem.strip_prefix(prefix).is_some_and(|rest| rest.starts_with('/'));
-    let all = FLOORS.iter().enumerate().flat_map(|(floor, prefixes)| prefixes.iter().map(move |prefix| (floor, *prefix)));
+    let all =
+        FLOORS.iter().enumerate().flat_map(|(floor, prefixes)| prefixes.iter().map(move |prefix| (floor, *prefix)));
     all.filter(|(_, prefix)| fits(prefix))
         .max_by_key(|(_, prefix)| prefix.len())
         .unwrap_or_else(|| panic!("src/{file} is on no floor: say in tests/house/mod.rs (FLOORS) where it belongs"))
@@ -361,7 +366,8 @@ fn the_core_is_pure() {
 
 #[test]
 fn the_reader_of_imports_reads() {
-    let leaves = uses("pub use a::B;\nuse crate::{plan::{self, Plan}, edit::*};\nuse super::x::Y as Z;\nmod a;", &["m", "n"]);
+    let leaves =
+        uses("pub use a::B;\nuse crate::{plan::{self, Plan}, edit::*};\nuse super::x::Y as Z;\nmod a;", &["m", "n"]);
     let texts: Vec<String> = leaves.iter().map(|(public, path)| format!("{public} {}", path.join("::"))).collect();
     assert_eq!(texts, ["true m::n::a::B", "false plan", "false plan::Plan", "false edit", "false m::x::Y"]);
     assert_eq!(inline_paths("let x = crate::plan::Plan::default();", &["m"]), [["plan", "Plan", "default"]]);

@@ -12,8 +12,8 @@
 //! hot and which pieces meet them. The work is near-linear in pieces and crossings, wherever they
 //! lie and however long they are.
 
-use crate::geometry::arrangement::error::{PASSINGS_LIMIT, TESTS_LIMIT};
 use crate::geometry::arrangement::error::ArrangementError;
+use crate::geometry::arrangement::error::{PASSINGS_LIMIT, TESTS_LIMIT};
 use crate::geometry::arrangement::grid::{GridPoint, Piece};
 
 /// A cell with so few pieces is not divided further: testing all pairs costs less.
