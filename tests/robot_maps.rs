@@ -58,7 +58,7 @@ fn two_rooms_and_their_door_are_found_in_the_maps_frame() {
     two_rooms(folder.path(), 0);
     let (code, out, err) = segment(folder.path(), &["--typology", "office"]);
     assert_eq!(code, 0, "{err}");
-    assert!(out.contains("2 rooms, 1 doorways, typology office"), "{out}");
+    assert!(out.contains("2 rooms, 1 doorway, typology office"), "{out}");
     let map = semantics(folder.path());
     assert_eq!((map.frame.as_str(), map.map.as_str(), map.origin), ("map", "floor.yaml", [-2.0, 1.0, 0.0]));
     for room in &map.rooms {

@@ -253,7 +253,8 @@ impl ExploreCommand {
 
 /// Reads the four alphas of the motion model.
 fn alphas(text: &str) -> Result<OdometryNoise, String> {
-    let numbers: Vec<f64> = text.split(',').filter_map(|part| part.trim().parse().ok()).collect();
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse::<f64>()).collect();
+    let numbers = numbers.unwrap_or_default();
     match numbers[..] {
         [alpha_1, alpha_2, alpha_3, alpha_4] if numbers.iter().all(|alpha| (0.0..=10.0).contains(alpha)) => {
             Ok(OdometryNoise { alpha_1, alpha_2, alpha_3, alpha_4 })

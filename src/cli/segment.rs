@@ -107,15 +107,20 @@ impl Subcommand for SegmentCommand {
         let update = before.map_or(String::new(), |_| format!(", {kept} of the rooms known before"));
         writeln!(
             terminal.out,
-            "{}: {} rooms, {} doorways, typology {} ({}){update}",
+            "{}: {}, {}, typology {} ({}){update}",
             self.output.display(),
-            rooms.len(),
-            doorways.len(),
+            counted(rooms.len(), "room"),
+            counted(doorways.len(), "doorway"),
             said.choice.set,
             said.choice.because
         )?;
         Ok(Outcome::Done)
     }
+}
+
+/// '1 room', '2 rooms'.
+fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
 /// Pixels of the longer side of the plan's picture, as `enfilade render` draws it.

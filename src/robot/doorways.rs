@@ -233,8 +233,8 @@ pub(super) fn is_inside(boundary: &RayGrid, point: Point) -> bool {
 const DEEPEST_M: f64 = 0.65;
 
 /// The floor beside a doorway is at least so much wider than it, in metres, and by that share of its width.
-const WIDER_M: f64 = 0.1;
-const WIDER_SHARE: f64 = 0.08;
+const WIDER_M: f64 = 0.06;
+const WIDER_SHARE: f64 = 0.03;
 
 /// Rays along a gap look no further, in metres.
 const WIDTH_LIMIT_M: f64 = 6.0;

@@ -61,8 +61,9 @@ impl RobotOptions {
 const LOOK_M: f64 = 0.4;
 const LOOK_RAD: f64 = 0.8;
 
-/// A frontier is looked at from within so many metres.
-const VIEW_M: f64 = 1.2;
+/// A frontier is looked at from within so many metres; where no such place can be reached, from further
+/// away: through a doorway, say, of whose other side only a wedge is known.
+const VIEWS_M: [f64; 3] = [1.2, 3.0, 6.0];
 
 /// Places to look from are tried so many metres apart.
 const VIEW_SPACING_M: f64 = 0.15;
@@ -325,7 +326,11 @@ impl Exploration {
             })
             .filter(|(_, visits)| *visits < VISITS)
             .collect();
-        self.goal = self.planned_radii_m().into_iter().find_map(|radius_m| self.cheapest(&open, radius_m));
+        let radii_m = self.planned_radii_m();
+        self.goal = VIEWS_M
+            .into_iter()
+            .flat_map(|view_m| radii_m.map(|radius_m| (view_m, radius_m)))
+            .find_map(|(view_m, radius_m)| self.cheapest(&open, radius_m, view_m));
         self.activity = if self.goal.is_some() { Activity::Driving } else { Activity::Finished };
         if self.goal.is_none() {
             self.mapper.finish();
@@ -333,7 +338,7 @@ impl Exploration {
         }
     }
 
-    fn cheapest(&self, open: &[(Frontier, usize)], radius_m: f64) -> Option<Goal> {
+    fn cheapest(&self, open: &[(Frontier, usize)], radius_m: f64, view_m: f64) -> Option<Goal> {
         if open.is_empty() {
             return None;
         }
@@ -341,12 +346,13 @@ impl Exploration {
         let edges = self.free.shapes().iter().flatten().map(crate::geometry::areas::points);
         let edges: Vec<Segment> = edges.flat_map(|ring| polygon::edges(&ring).collect::<Vec<_>>()).collect();
         let grid = RayGrid::new(edges);
+        let spacing_m = VIEW_SPACING_M * view_m / VIEWS_M[0];
         // What looking from a cell costs beyond the way there, at least.
         let mut views: Vec<(usize, usize, f64)> = Vec::new();
         for (index, (frontier, visits)) in open.iter().enumerate() {
             let worth = PER_FRONTIER_METRE * frontier.length_m.min(LONGEST_WORTH_M);
             let seen = frontier.middle - frontier.outward * 0.05;
-            for cell in routes.cells_near(frontier.middle, VIEW_M, VIEW_SPACING_M, radius_m) {
+            for cell in routes.cells_near(frontier.middle, view_m, spacing_m, radius_m) {
                 let from = routes.centre(cell);
                 if !grid.blocks(from, seen) && (*visits == 0 || !self.was_seen_from(frontier, from)) {
                     let extra = PER_METRE[(*visits).min(1)] * from.distance(frontier.middle) - worth;
