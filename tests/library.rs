@@ -13,5 +13,6 @@ mod import;
 mod joint;
 mod pictures;
 mod pipeline;
+mod robot;
 mod study;
 mod support;

@@ -3,8 +3,6 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "a test writes into a folder of its own")]
 
-mod support;
-
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -186,7 +184,7 @@ fn the_command_writes_map_plan_pictures_and_score() {
         let output = folder.path().join(name);
         let words =
             ["explore".into(), plan_file.clone().into_os_string(), "-o".into(), output.clone().into_os_string()];
-        let (code, _, errors) = support::enfilade(words);
+        let (code, _, errors) = crate::support::enfilade(words);
         assert_eq!((code, errors.as_str()), (0, ""));
         let files = std::fs::read_dir(&output).expect("a folder").map(|entry| entry.expect("an entry").path());
         files

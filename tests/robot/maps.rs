@@ -4,15 +4,13 @@
 #![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]
 #![allow(clippy::print_stdout, reason = "a skipped test says so")]
 
-mod support;
-
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use crate::support::{Picture, enfilade};
 use enfilade::geometry::{Point, polygon};
 use enfilade::robot::semantics::SemanticMap;
 use enfilade::store::load_plan;
-use support::{Picture, enfilade};
 
 const YAML: &str = "image: floor.pgm\nresolution: 0.05\norigin: [-2.0, 1.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
 

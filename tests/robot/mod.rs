@@ -1,0 +1,5 @@
+//! The robot: logs, grid maps, exploration.
+
+mod explore;
+mod logs;
+mod maps;
