@@ -1,3 +1,4 @@
+use super::explain::Explanation;
 use std::sync::Arc;
 
 use super::learner::{Model, Trained};
@@ -45,5 +46,15 @@ impl Classifier {
     /// The distribution over the labels for a room. Whatever the values are, there is an answer.
     pub fn predict(&self, values: &Values) -> Distribution {
         self.model.predict(values).at_temperature(self.temperature)
+    }
+}
+
+impl Classifier {
+    /// The prediction for a room and what it rests on.
+    pub fn explain(&self, values: &Values) -> Explanation {
+        let distribution = self.predict(values);
+        let label = distribution.label();
+        let reason = self.model().explain(values, label, &|values| self.predict(values));
+        Explanation { label, probability: distribution.probability(label), reason }
     }
 }

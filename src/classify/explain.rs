@@ -2,8 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::Classifier;
-use super::learners::rules::{Bound, Condition};
+use super::condition::{Bound, Condition};
 use super::numbers::{in_words, percent, value_in_words};
 use crate::dataset::table::{FEATURES, RoomSource, Values};
 use crate::features::Features;
@@ -100,16 +99,6 @@ pub struct Effect {
     pub probability_if_typical: f64,
     /// The label that would then be given.
     pub label_if_typical: Label,
-}
-
-impl Classifier {
-    /// The prediction for a room and what it rests on.
-    pub fn explain(&self, values: &Values) -> Explanation {
-        let distribution = self.predict(values);
-        let label = distribution.label();
-        let reason = self.model().explain(values, label, &|values| self.predict(values));
-        Explanation { label, probability: distribution.probability(label), reason }
-    }
 }
 
 /// The bounds that conditions set to one feature.

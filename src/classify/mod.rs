@@ -2,6 +2,7 @@
 
 pub mod calibration;
 mod classifier;
+pub mod condition;
 mod distribution;
 mod evaluate;
 pub mod explain;
@@ -22,7 +23,7 @@ pub mod unknown;
 pub use classifier::Classifier;
 pub use distribution::Distribution;
 pub use evaluate::{Validated, Validation, evaluate, evaluate_all, test};
-pub use learners::{Algorithm, UnknownAlgorithm};
-pub use method::{Method, PlanClassifier};
+pub use learners::Algorithm;
+pub use method::{Method, PlanClassifier, UnknownAlgorithm};
 pub use neighbours::Metric;
 pub use scores::{Confusion, FoldScore, LabelCounts, ReliabilityBin, Scores, TableRates};

@@ -1,9 +1,11 @@
+mod file;
 mod report;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
+use self::file::{Content, File, ImportedPlan, Job, State};
 use self::report::{Report, list_notes, print_outcome, print_table, summarise_notes};
 use super::batch::{self, Input};
 use super::{CliError, Outcome, Subcommand, Terminal};
@@ -12,7 +14,7 @@ use crate::edit;
 use crate::formats::registry::Found;
 use crate::formats::{self, FORMATS, Note, NoteKind, Place, Preview, Reading, building_name, manual, plan_json};
 use crate::labels::Typology;
-use crate::plan::{Meta, Plan};
+use crate::plan::Meta;
 use crate::store::save_bytes_fast;
 
 /// How the files that are written end.
@@ -109,61 +111,6 @@ impl Subcommand for ImportCommand {
         }
         let is_wrong = files.iter().any(File::is_wrong);
         Ok(if is_wrong { Outcome::InputWrong } else { Outcome::Done })
-    }
-}
-
-/// A file to import.
-struct Job {
-    input: Input,
-    /// The folder it is counted under.
-    folder: PathBuf,
-    /// Where its plan goes in the output folder, without the ending.
-    target: PathBuf,
-}
-
-/// A file and what became of it.
-struct File {
-    job: Job,
-    content: Content,
-}
-
-enum Content {
-    Plans {
-        plans: Vec<ImportedPlan>,
-        notes: Vec<Note>,
-    },
-    /// No plan, although its name ends like one: passed over.
-    Foreign(String),
-    Failed(formats::FileError),
-}
-
-struct ImportedPlan {
-    plan: Plan,
-    target: PathBuf,
-    state: State,
-}
-
-/// What became of a plan's file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-enum State {
-    Waiting,
-    Written,
-    /// The same plan was there.
-    Unchanged,
-    /// Another plan was there, and stays.
-    Kept,
-    NotSaved(String),
-}
-
-impl State {
-    const fn name(&self) -> &'static str {
-        match self {
-            Self::Waiting => "waiting",
-            Self::Written => "written",
-            Self::Unchanged => "unchanged",
-            Self::Kept => "kept",
-            Self::NotSaved(_) => "not saved",
-        }
     }
 }
 
@@ -317,46 +264,5 @@ fn save(plan: &ImportedPlan, force: bool) -> State {
     match save_bytes_fast(&plan.target, &bytes) {
         Ok(()) => State::Written,
         Err(error) => State::NotSaved(error.to_string()),
-    }
-}
-
-impl File {
-    fn plans(&self) -> &[ImportedPlan] {
-        match &self.content {
-            Content::Plans { plans, .. } => plans,
-            Content::Foreign(_) | Content::Failed(_) => &[],
-        }
-    }
-
-    fn notes(&self) -> &[Note] {
-        match &self.content {
-            Content::Plans { notes, .. } => notes,
-            Content::Foreign(_) | Content::Failed(_) => &[],
-        }
-    }
-
-    /// Whether it could not be read, or a plan of it could not be saved.
-    fn is_wrong(&self) -> bool {
-        matches!(self.content, Content::Failed(_))
-            || self.plans().iter().any(|plan| matches!(plan.state, State::Kept | State::NotSaved(_)))
-    }
-
-    fn report_errors(&self, terminal: &mut Terminal) -> Result<(), CliError> {
-        if let Content::Failed(error) = &self.content {
-            writeln!(terminal.err, "enfilade: {error}")?;
-        }
-        for plan in self.plans() {
-            match &plan.state {
-                State::Kept => writeln!(
-                    terminal.err,
-                    "enfilade: {}: kept: it differs from what {} gives; --force replaces it",
-                    plan.target.display(),
-                    self.job.input.path.display()
-                )?,
-                State::NotSaved(why) => writeln!(terminal.err, "enfilade: {why}")?,
-                State::Waiting | State::Written | State::Unchanged => {}
-            }
-        }
-        Ok(())
     }
 }

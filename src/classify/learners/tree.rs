@@ -6,9 +6,9 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::rules::{Bound, Condition};
 use crate::base::work::{Cancelled, Work};
 use crate::classify::Distribution;
+use crate::classify::condition::{Bound, Condition};
 use crate::classify::explain::{PathReason, Reason, Step};
 use crate::classify::learner::{Learner, Model, Trained};
 use crate::classify::numbers::readable_between;

@@ -7,7 +7,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::super::{CliError, Terminal};
-use super::{Content, File, State};
+use super::file::{Content, File, State};
 use crate::formats::{FileError, Note, NoteKind};
 
 /// Every note as `path:line: kind: element: what`, then an empty line.

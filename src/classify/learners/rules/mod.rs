@@ -19,6 +19,7 @@ use serde_json::Value;
 use crate::base::random::Random;
 use crate::base::work::{Cancelled, Work};
 use crate::classify::Distribution;
+pub use crate::classify::condition::{Bound, Condition};
 use crate::classify::explain::{Reason, RuleReason};
 use crate::classify::learner::{Learner, Model, Trained};
 use crate::classify::numbers::readable_between;
@@ -159,33 +160,6 @@ pub struct Rule {
     pub conditions: Vec<Condition>,
     /// Training rooms of each label that this rule decides, in the order of the labels.
     pub counts: [u32; 5],
-}
-
-/// A bound on one feature.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Condition {
-    /// Index of the feature.
-    pub feature: usize,
-    pub bound: Bound,
-}
-
-/// Which values a condition admits.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Bound {
-    AtMost(f64),
-    AtLeast(f64),
-    /// More than this. Rules are written without; a path down a tree comes to it.
-    Over(f64),
-}
-
-impl Condition {
-    fn holds(&self, values: &Values) -> bool {
-        match self.bound {
-            Bound::AtMost(most) => values[self.feature] <= most,
-            Bound::AtLeast(least) => values[self.feature] >= least,
-            Bound::Over(less) => values[self.feature] > less,
-        }
-    }
 }
 
 impl Rule {

@@ -1,0 +1,104 @@
+//! A file to import and what became of it.
+
+use super::super::batch::Input;
+use super::super::{CliError, Terminal};
+use crate::formats::{self, Note};
+use crate::plan::Plan;
+use std::io::Write as _;
+use std::path::PathBuf;
+
+/// A file to import.
+pub(super) struct Job {
+    pub(super) input: Input,
+    /// The folder it is counted under.
+    pub(super) folder: PathBuf,
+    /// Where its plan goes in the output folder, without the ending.
+    pub(super) target: PathBuf,
+}
+
+/// A file and what became of it.
+pub(super) struct File {
+    pub(super) job: Job,
+    pub(super) content: Content,
+}
+
+pub(super) enum Content {
+    Plans {
+        plans: Vec<ImportedPlan>,
+        notes: Vec<Note>,
+    },
+    /// No plan, although its name ends like one: passed over.
+    Foreign(String),
+    Failed(formats::FileError),
+}
+
+pub(super) struct ImportedPlan {
+    pub(super) plan: Plan,
+    pub(super) target: PathBuf,
+    pub(super) state: State,
+}
+
+/// What became of a plan's file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum State {
+    Waiting,
+    Written,
+    /// The same plan was there.
+    Unchanged,
+    /// Another plan was there, and stays.
+    Kept,
+    NotSaved(String),
+}
+
+impl State {
+    pub(super) const fn name(&self) -> &'static str {
+        match self {
+            Self::Waiting => "waiting",
+            Self::Written => "written",
+            Self::Unchanged => "unchanged",
+            Self::Kept => "kept",
+            Self::NotSaved(_) => "not saved",
+        }
+    }
+}
+
+impl File {
+    pub(super) fn plans(&self) -> &[ImportedPlan] {
+        match &self.content {
+            Content::Plans { plans, .. } => plans,
+            Content::Foreign(_) | Content::Failed(_) => &[],
+        }
+    }
+
+    pub(super) fn notes(&self) -> &[Note] {
+        match &self.content {
+            Content::Plans { notes, .. } => notes,
+            Content::Foreign(_) | Content::Failed(_) => &[],
+        }
+    }
+
+    /// Whether it could not be read, or a plan of it could not be saved.
+    pub(super) fn is_wrong(&self) -> bool {
+        matches!(self.content, Content::Failed(_))
+            || self.plans().iter().any(|plan| matches!(plan.state, State::Kept | State::NotSaved(_)))
+    }
+
+    pub(super) fn report_errors(&self, terminal: &mut Terminal) -> Result<(), CliError> {
+        if let Content::Failed(error) = &self.content {
+            writeln!(terminal.err, "enfilade: {error}")?;
+        }
+        for plan in self.plans() {
+            match &plan.state {
+                State::Kept => writeln!(
+                    terminal.err,
+                    "enfilade: {}: kept: it differs from what {} gives; --force replaces it",
+                    plan.target.display(),
+                    self.job.input.path.display()
+                )?,
+                State::NotSaved(why) => writeln!(terminal.err, "enfilade: {why}")?,
+                State::Waiting | State::Written | State::Unchanged => {}
+            }
+        }
+        Ok(())
+    }
+}
