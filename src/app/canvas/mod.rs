@@ -397,7 +397,7 @@ impl Canvas {
         let painter = ui.painter_at(rect);
         painter.rect_filled(rect, 0.0, theme::colour(palette.paper));
         let placed = document.plan().backdrop().filter(|_| session.layers.backdrop);
-        backdrop.paint(&painter, rect, &view, placed, session.background.is_inline());
+        backdrop.paint(&painter, rect, &view, placed, session.jobs.is_inline());
         if let Some(derived) = shown {
             self.painter.paint(&painter, rect, derived, &style, &view);
         }

@@ -15,11 +15,11 @@ use crate::app::commands::sample_word;
 use crate::app::panels::plan_picture::PlanPicture;
 use crate::app::session::{
     document::{self, Derived, Document, Opened},
+    jobs::Kind,
     messages::{Message, Remedy, Severity},
     origin::{Origin, bundled},
     questions::{Intent, Question},
 };
-use crate::app::state::Done;
 use crate::formats;
 use crate::labels::Schemes;
 use crate::plan::{Difference, Plan};
@@ -210,9 +210,10 @@ impl Session {
     pub fn use_journal(&mut self, folder: PathBuf) {
         self.safety.folder = Some(folder.clone());
         let schemes = self.schemes.clone();
-        self.background.start(move || {
+        self.jobs.start(Kind::new("look for unsaved work"), move |_| {
             let offered = leftovers(&folder).into_iter().map(|leftover| Offered::new(leftover, &schemes));
-            Done::Leftovers(offered.collect())
+            let offered: Vec<Offered> = offered.collect();
+            move |session: &mut Session, _: &_| session.were_left_over(offered)
         });
     }
 
@@ -232,7 +233,7 @@ impl Session {
         }
         let (Some(document), Some(journal)) = (&self.document, &mut self.safety.journal) else { return };
         journal.note(&document.history);
-        if self.background.is_inline() {
+        if self.jobs.is_inline() {
             // What it says is asked below.
             let _ = journal.wait();
         }
@@ -363,16 +364,21 @@ impl Session {
         let watch = &mut self.safety.watch;
         let comes_back = is_focused && !std::mem::replace(&mut watch.was_focused, is_focused);
         context.request_repaint_after_secs(LOOK_SECS as f32);
-        if watch.is_looking || self.saving > 0 || (now_secs < watch.next_secs && !comes_back) {
+        if watch.is_looking || self.jobs.is_one_to_end() || (now_secs < watch.next_secs && !comes_back) {
             return;
         }
         watch.is_looking = true;
         watch.next_secs = now_secs + LOOK_SECS;
         let (path, stamp, seen, saves) = (path.to_owned(), document.stamp, watch.seen.clone(), watch.saves);
         let (document, schemes) = (document.number, self.schemes.clone());
-        self.background.start(move || {
+        let kind = Kind::new("look at the plan's file").if_broken(move |session| {
+            if session.document.as_ref().is_some_and(|open| open.number == document) {
+                session.safety.watch.is_looking = false;
+            }
+        });
+        self.jobs.start(kind, move |_| {
             let (facts, found) = look(&path, stamp, seen.as_ref(), &schemes);
-            Done::Looked(Looked { document, saves, facts, found })
+            move |session: &mut Session, _: &_| session.was_looked_at(Looked { document, saves, facts, found })
         });
     }
 
@@ -461,7 +467,6 @@ impl Session {
     // Saving.
 
     pub(crate) fn begins_to_save(&mut self) {
-        self.saving += 1;
         self.safety.watch.saves += 1;
     }
 
