@@ -4,6 +4,7 @@ use crate::app::canvas::Canvas;
 use crate::app::commands;
 use crate::app::commands::CommandError;
 use crate::app::commands::sample_word;
+use crate::app::dialogs::OpenDialogs;
 use crate::app::look::theme;
 use crate::app::look::theme::ThemeChoice;
 use crate::app::panels;
@@ -30,6 +31,7 @@ impl App {
             tools: Toolbox::default(),
             theme: ThemeChoice::default(),
             panels: Panels::default(),
+            dialogs: OpenDialogs::new(panels::DIALOGS),
             samples: Samples::default(),
             was_typing: false,
             is_close_sent: false,
@@ -75,7 +77,7 @@ impl App {
         let is_typing = std::mem::take(&mut self.was_typing) || context.text_edit_focused();
         // An open menu has the keys to itself; the list under a text field leaves them to the text.
         let is_menu_open = egui::Popup::is_any_open(context) && !is_typing;
-        if self.session.question.is_some() || self.panels.is_dialog_open() || is_menu_open {
+        if self.session.question.is_some() || self.dialogs.is_any_open() || is_menu_open {
             return;
         }
         let pressed = context.input_mut(|input| commands::take_pressed(input, &self.session.settings, is_typing));
@@ -104,7 +106,8 @@ impl App {
                     self.tools.drop_work();
                     self.canvas.forget();
                     self.session.pointed = Pointed::default();
-                    self.panels.forget();
+                    self.dialogs.forget_plan();
+                    self.panels.focus = None;
                 }
                 Wish::ForgetDrawing => {
                     self.tools.drop_work();
@@ -115,9 +118,9 @@ impl App {
                 Wish::ZoomTo(bounds) => self.canvas.zoom_to(bounds),
                 Wish::Fit => self.canvas.fit(),
                 Wish::ScaleView { about, factor } => self.canvas.scale_view(about, factor),
-                Wish::OfferRecovery => self.panels.recovery = true,
-                Wish::CloseRecovery => self.panels.recovery = false,
-                Wish::CloseDifferences => self.panels.differences = false,
+                Wish::OfferRecovery => self.set_dialog(panels::recovery::ID, true),
+                Wish::CloseRecovery => self.set_dialog(panels::recovery::ID, false),
+                Wish::CloseDifferences => self.set_dialog(panels::differences::ID, false),
                 Wish::Run(id, arguments) => {
                     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
                     self.act(id, &words, context);

@@ -1,6 +1,7 @@
 //! The window's state, apart from any display.
 
 use crate::app::canvas::Canvas;
+use crate::app::dialogs::OpenDialogs;
 use crate::app::look::theme::ThemeChoice;
 use crate::app::panels::Panels;
 use crate::app::panels::welcome::Samples;
@@ -26,6 +27,7 @@ pub struct App {
     pub(crate) tools: Toolbox,
     pub(crate) theme: ThemeChoice,
     pub(crate) panels: Panels,
+    pub(crate) dialogs: OpenDialogs,
     pub(crate) samples: Samples,
     /// Whether a text field had the keyboard when the last frame ended.
     pub(crate) was_typing: bool,

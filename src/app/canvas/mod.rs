@@ -29,7 +29,7 @@ use crate::app::paint::{
 };
 use crate::app::session::Session;
 use crate::app::session::document::{Derived, Document};
-use crate::app::session::questions::Question;
+use crate::app::session::questions::Shown;
 use crate::base::units::{METRES_PER_FOOT, Units};
 use crate::draw::{self, Layers, Palette, Style, View};
 use crate::features::RoomStatus;
@@ -705,8 +705,8 @@ impl Canvas {
 
 /// What an open question is about.
 fn preview_question(session: &Session, plan: &Plan, preview: &mut Preview) {
-    match &session.question {
-        Some(Question::Delete { gone, .. }) => {
+    match session.question.as_ref().map(|question| &question.shown) {
+        Some(Shown::Gone(gone)) => {
             for &element in gone.iter().take(MOST_MARKED) {
                 match element {
                     ElementId::Room(id) => {
@@ -729,13 +729,13 @@ fn preview_question(session: &Session, plan: &Plan, preview: &mut Preview) {
                 }
             }
         }
-        Some(Question::Change(change)) => {
-            for mark in change.marks.iter().take(MOST_MARKED) {
+        Some(Shown::Marks(marks)) => {
+            for mark in marks.iter().take(MOST_MARKED) {
                 preview.line(vec![mark.a, mark.b], false, Look::Danger);
                 preview.handle(mark.b, Look::Danger);
             }
         }
-        _ => {}
+        Some(Shown::Nothing) | None => {}
     }
 }
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::{COMMANDS, Command, find};
 use crate::app::look::keys::{Keys, NoKeys};
-use crate::app::session::origin::bundled;
+use crate::app::session::origin::{bundled, sample_word};
 use crate::app::state::App;
 use crate::base::{
     units::Units,
@@ -290,7 +290,7 @@ impl ArgumentKind {
                     .map(crate::app::session::questions::Question::answers)
                     .unwrap_or_default();
                 let found = answers.iter().find(|(word, _)| *word == text.trim());
-                found.map(|(word, _)| Value::Word(word)).ok_or_else(|| with_choices(self.expected()))
+                found.map(|&(word, _)| Value::Word(word)).ok_or_else(|| with_choices(self.expected()))
             }
             Self::Command => {
                 let command = find(text.trim()).filter(|command| command.menu.is_some());
@@ -401,11 +401,6 @@ const UNKNOWN: &str = "unknown";
 
 pub(crate) const fn switch_word(is_on: bool) -> &'static str {
     if is_on { "on" } else { "off" }
-}
-
-/// The word for a plan that comes with the program.
-pub(crate) fn sample_word(index: usize) -> &'static str {
-    bundled().get(index).map_or("", |(name, _)| formats::file_stem(name))
 }
 
 /// The room that a word means. `Err(Some(…))` says why a word that names several rooms means none.

@@ -18,7 +18,8 @@ pub use run::CommandError;
 pub use table::COMMANDS;
 
 pub(super) use crate::app::look::keys::take_pressed;
-pub(super) use argument::{Values, elements_word, point, points_word, room_word, sample_word};
+pub(super) use crate::app::session::origin::sample_word;
+pub(super) use argument::{Values, elements_word, point, points_word, room_word};
 
 use crate::app::look::icons::Icon;
 use crate::app::state::App;

@@ -1,7 +1,6 @@
 //! Running commands by their words, and telling a recorder which ran.
 
 use crate::app::session::executed::Executed;
-use crate::app::session::tracing::PictureChange;
 use crate::base::wording::{or_list, similar};
 use std::fmt;
 use std::path::PathBuf;
@@ -12,7 +11,7 @@ use super::argument::{Values, switch_word};
 use super::{Action, COMMANDS, Command, Ran, find};
 use crate::app::look::keys::Keys;
 use crate::app::panels::palette::Palette;
-use crate::app::session::{messages::Severity, questions::Question, settings::Settings};
+use crate::app::session::{messages::Severity, settings::Settings};
 use crate::app::state::App;
 use crate::base::units::Units;
 
@@ -86,7 +85,7 @@ impl App {
         if let Some(question) = &self.session.question
             && command.id != "answer"
         {
-            return Err(not_now(format!("answer '{}' first", question.title(self))));
+            return Err(not_now(format!("answer '{}' first", question.title)));
         }
         let is_complete = !arguments.is_empty() && arguments.len() == command.arguments.len();
         let availability = command.complete_availability.filter(|_| is_complete).unwrap_or(command.availability);
@@ -144,7 +143,7 @@ impl App {
                 Ran::Refused(reason) => return Err(reason),
             },
             Action::With { ask: Some(ask), .. } => ask(self, context),
-            Action::With { ask: None, .. } => self.panels.palette = Some(Palette::asking(command, written)),
+            Action::With { ask: None, .. } => self.open_palette(Palette::asking(command, written)),
         }
         Ok(())
     }
@@ -165,44 +164,6 @@ impl App {
     /// Empty unless they are watched.
     pub fn take_executed(&mut self) -> Vec<Executed> {
         self.session.executed.as_mut().map(std::mem::take).unwrap_or_default()
-    }
-}
-
-impl Question {
-    /// What is asked, in a sentence.
-    pub(crate) fn title(&self, app: &App) -> String {
-        match self {
-            Self::Unsaved(_) => {
-                let name = app
-                    .session
-                    .document
-                    .as_ref()
-                    .map(crate::app::session::document::Document::title)
-                    .unwrap_or_default();
-                format!("Save changes to {name}?")
-            }
-            Self::Drawing(PictureChange::Measurements(_)) => "Scale the drawing along with the picture?".to_owned(),
-            Self::Drawing(PictureChange::Turn { .. }) => "Turn the drawing along with the picture?".to_owned(),
-            Self::Change(change) => change.title.clone(),
-            Self::Delete { selected, .. } if selected.len() == 1 => {
-                format!("Delete the {} and what depends on it?", selected[0].kind())
-            }
-            Self::Delete { selected, .. } => format!("Delete {} elements and what depends on them?", selected.len()),
-            Self::Discard { title, .. } => format!("Discard the changes to {title}?"),
-            Self::Replace { path, .. } => format!("Replace {}?", crate::app::session::origin::file_name(path)),
-        }
-    }
-
-    /// The answers there are, each with what its button says, the main one first.
-    pub(crate) const fn answers(&self) -> &'static [(&'static str, &'static str)] {
-        match self {
-            Self::Unsaved(_) => &[("save", "Save"), ("discard", "Don't save"), ("cancel", "Cancel")],
-            Self::Drawing(_) => &[("along", "Drawing too"), ("stays", "Picture only"), ("cancel", "Cancel")],
-            Self::Change(change) => change.answers,
-            Self::Delete { .. } => &[("delete", "Delete"), ("cancel", "Cancel")],
-            Self::Discard { .. } => &[("cancel", "Cancel"), ("discard", "Discard")],
-            Self::Replace { .. } => &[("elsewhere", "Save as…"), ("replace", "Replace"), ("cancel", "Cancel")],
-        }
     }
 }
 

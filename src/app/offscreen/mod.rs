@@ -152,9 +152,18 @@ impl Offscreen {
         self.run_held(name, true)
     }
 
+    /// As [`Self::end_job`], by its place in [`Self::held_jobs`].
+    pub fn end_job_at(&mut self, index: usize) -> bool {
+        self.run_held_at(index, false)
+    }
+
     fn run_held(&mut self, name: &str, breaks: bool) -> bool {
         let index = self.held_jobs().iter().position(|held| *held == name);
-        let is_there = index.is_some_and(|index| self.app.session.jobs.run_held(index, breaks));
+        index.is_some_and(|index| self.run_held_at(index, breaks))
+    }
+
+    fn run_held_at(&mut self, index: usize, breaks: bool) -> bool {
+        let is_there = self.app.session.jobs.run_held(index, breaks);
         self.frame(Vec::new(), Vec::new(), false);
         is_there
     }

@@ -8,6 +8,7 @@ use egui::{
 };
 
 use crate::app::commands::{Argument, COMMANDS, Choice, Command};
+use crate::app::dialogs::{After, Dialog, Entry};
 use crate::app::look::{
     icons::Icon,
     search::{Hit, Search},
@@ -144,35 +145,45 @@ enum Act {
     Close,
 }
 
-pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    // A question comes first, and what was begun here is forgotten.
-    if app.session.question.is_some() {
-        app.panels.palette = None;
+pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(Palette::default()), is_of_plan: false };
+
+pub(crate) const ID: &str = "commands";
+
+impl App {
+    /// Opens the list of commands, or what it asks for, in place of one that is open.
+    pub(crate) fn open_palette(&mut self, palette: Palette) {
+        self.dialogs.open(ID, Box::new(palette));
     }
-    let Some(mut palette) = app.panels.palette.take() else { return };
-    let lines = palette.lines(app, ui);
-    let act = palette.show(ui, &lines);
-    let is_done = act.is_some();
-    let keep = match act {
-        None => true,
-        Some(Act::Close) => false,
-        Some(Act::Back) => palette.go_back(),
-        Some(Act::Take(index)) => match lines.into_iter().nth(index).map(|line| (line.is_available, line.taken)) {
-            Some((true, Taken::Command(command))) => palette.take_command(app, ui, command),
-            Some((true, Taken::Argument(word))) => palette.take_argument(app, ui, word),
-            Some((false, _)) | None => true,
-        },
-        Some(Act::TakeText) => {
-            let text = palette.query.clone();
-            palette.take_argument(app, ui, text)
+}
+
+impl Dialog for Palette {
+    fn show(&mut self, app: &mut App, ui: &mut Ui) -> After {
+        // A question comes first, and what was begun here is forgotten.
+        if app.session.question.is_some() {
+            return After::Close;
         }
-    };
-    // A command may have opened a palette of its own.
-    if keep && app.panels.palette.is_none() {
-        app.panels.palette = Some(palette);
-        if is_done {
+        let lines = self.lines(app, ui);
+        let act = self.show_in(ui, &lines);
+        let is_done = act.is_some();
+        let keep = match act {
+            None => true,
+            Some(Act::Close) => false,
+            Some(Act::Back) => self.go_back(),
+            Some(Act::Take(index)) => match lines.into_iter().nth(index).map(|line| (line.is_available, line.taken)) {
+                Some((true, Taken::Command(command))) => self.take_command(app, ui, command),
+                Some((true, Taken::Argument(word))) => self.take_argument(app, ui, word),
+                Some((false, _)) | None => true,
+            },
+            Some(Act::TakeText) => {
+                let text = self.query.clone();
+                self.take_argument(app, ui, text)
+            }
+        };
+        // A command may have opened a palette of its own.
+        if keep && is_done && !app.dialogs.is_waiting(ID) {
             ui.request_repaint();
         }
+        if keep { After::Stay } else { After::Close }
     }
 }
 
@@ -248,7 +259,7 @@ impl Palette {
 
     // How it looks.
 
-    fn show(&mut self, ui: &mut Ui, lines: &[Line]) -> Option<Act> {
+    fn show_in(&mut self, ui: &mut Ui, lines: &[Line]) -> Option<Act> {
         let id = Id::unique("command palette");
         let screen = ui.ctx().content_rect();
         let area = Modal::default_area(id).anchor(Align2::CENTER_TOP, vec2(0.0, TOP.min(screen.height() * 0.08)));

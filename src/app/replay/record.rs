@@ -16,8 +16,8 @@ use super::words::written;
 use crate::app::commands::{self, ArgumentKind, COMMANDS, Executed, Menu, elements_word, room_word, sample_word};
 use crate::app::look::theme::Motion;
 use crate::app::session::{
-    file_dialogs::{Dialogs, Given, Purpose},
     Session,
+    file_dialogs::{Dialogs, Given, Purpose},
     jobs::{Kind, Mode},
     messages::Severity,
     origin::Origin,

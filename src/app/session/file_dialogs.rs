@@ -58,13 +58,7 @@ const QUICKEST_CANCEL: Duration = Duration::from_millis(250);
 
 impl Dialogs {
     /// Asks for a file; the answer comes to [`Session::was_chosen`]. Does nothing while a dialog is open.
-    pub(crate) fn ask(
-        &mut self,
-        purpose: Purpose,
-        folder: Option<PathBuf>,
-        name: String,
-        jobs: &mut Jobs,
-    ) {
+    pub(crate) fn ask(&mut self, purpose: Purpose, folder: Option<PathBuf>, name: String, jobs: &mut Jobs) {
         let kind = Kind::new("ask for a file").if_broken(|session| session.dialogs.answered());
         match self {
             Self::Given(given) => {

@@ -20,10 +20,7 @@ use crate::app::session::{
     questions::{Intent, Question},
     selection::Selection,
 };
-use crate::edit::{
-    DrawingMoves,
-    storey::{Keep, copied},
-};
+use crate::edit::storey::{Keep, copied};
 use crate::formats::FileError;
 use crate::plan::Plan;
 use crate::store::Stamp;
@@ -92,7 +89,8 @@ impl Session {
             // One thing after the other: what is saved need not be asked for.
             self.waiting = Some(intent);
         } else if self.has_unsaved_changes() {
-            self.question = Some(Question::Unsaved(intent));
+            let title = self.document.as_ref().map(Document::title).unwrap_or_default();
+            self.ask(Question::unsaved(&title, intent));
         } else {
             self.perform(intent);
         }
@@ -136,7 +134,7 @@ impl Session {
         self.wishes.push(Wish::ForgetPlan);
         self.status.clear();
         if !opened.notes.is_empty() {
-            let summary = crate::app::panels::notes::summary(&opened.notes);
+            let summary = crate::app::session::origin::notes_in_words(&opened.notes);
             let text = format!("Imported {}: {summary}", opened.origin.title());
             let remedies = vec![Remedy::ShowNotes];
             let (severity, detail) = (Severity::Info, String::new());
@@ -158,55 +156,7 @@ impl Session {
         });
     }
 
-    /// Answers the question that is asked. `path`: the file to save in, where there must be one; the
-    /// dialog asks for it without. Gives whether it did not have to ask.
-    pub(crate) fn answer(&mut self, word: &'static str, path: Option<PathBuf>) -> bool {
-        let then = match (self.question.take(), word) {
-            (Some(Question::Unsaved(intent)), "save") => {
-                if path.is_none() && self.has_own_file() {
-                    self.save(Some(intent));
-                    return true;
-                }
-                Some(intent)
-            }
-            (Some(Question::Replace { then, .. }), "elsewhere") => then,
-            (Some(Question::Unsaved(intent)), "discard") => {
-                self.perform(intent);
-                return true;
-            }
-            (Some(Question::Drawing(change)), "along" | "stays") => {
-                self.apply_picture_change(&change, DrawingMoves::of_word(word));
-                return true;
-            }
-            (Some(Question::Change(change)), "weld" | "bridge") => {
-                self.edit(change.step, |_| Ok(change.plan));
-                return true;
-            }
-            (Some(Question::Delete { selected, .. }), "delete") => {
-                self.delete(&selected);
-                return true;
-            }
-            (Some(Question::Discard { path, .. }), "discard") => {
-                self.discard_leftover(&path);
-                return true;
-            }
-            (Some(Question::Replace { path, then, .. }), "replace") => {
-                self.save_to(path, Expected::Anything, then);
-                return true;
-            }
-            _ => return true,
-        };
-        match path {
-            Some(path) => self.save_in(path, then),
-            None => {
-                self.ask_where_to_save(then, Some(word));
-                return false;
-            }
-        }
-        true
-    }
-
-    fn has_own_file(&self) -> bool {
+    pub(super) fn has_own_file(&self) -> bool {
         let path = self.document.as_ref().and_then(|document| document.origin.path());
         path.is_some_and(document::is_own_file)
     }
@@ -246,7 +196,7 @@ impl Session {
         }
         path.as_mut_os_string().push(".plan.json");
         if path.exists() {
-            self.question = Some(Question::Replace { path, is_changed_since: false, then });
+            self.ask(Question::replace(path, false, then));
         } else {
             self.save_to(path, Expected::Anything, then);
         }
@@ -330,7 +280,7 @@ impl Session {
             Err(SaveFailure::ChangedOnDisk) => {
                 self.waiting = None;
                 self.look_soon();
-                self.question = Some(Question::Replace { path, is_changed_since: true, then });
+                self.ask(Question::replace(path, true, then));
             }
             Err(SaveFailure::Store(error)) => {
                 // What was to follow a save does not follow a failure.

@@ -4,20 +4,17 @@
 use super::wishes::Wish;
 use crate::app::session::Session;
 use crate::app::session::origin::file_name;
-use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
 
 use egui::Context;
 
-use crate::app::commands::sample_word;
-use crate::app::panels::plan_picture::PlanPicture;
 use crate::app::session::{
     document::{self, Derived, Document, Opened},
     jobs::Kind,
     messages::{Message, Remedy, Severity},
-    origin::{Origin, bundled},
+    origin::{Origin, bundled, sample_word},
     questions::{Intent, Question},
 };
 use crate::formats;
@@ -52,18 +49,15 @@ pub(crate) struct Safety {
 /// A journal that is offered.
 pub(crate) struct Offered {
     pub leftover: Leftover,
-    /// What would be recovered, what changed marked.
-    pub picture: Option<PlanPicture>,
+    /// What follows from the plan that would be recovered.
+    pub derived: Option<Arc<Derived>>,
 }
 
 impl Offered {
     fn new(leftover: Leftover, schemes: &Schemes) -> Self {
-        let picture = leftover.content.as_ref().ok().map(|recovered| {
-            let plan = recovered.history.plan();
-            let derived = Arc::new(Derived::new(plan, schemes, None));
-            PlanPicture::new(recovered.base(), plan, derived, &BTreeSet::new())
-        });
-        Self { leftover, picture }
+        let recovered = leftover.content.as_ref().ok();
+        let derived = recovered.map(|recovered| Arc::new(Derived::new(recovered.history.plan(), schemes, None)));
+        Self { leftover, derived }
     }
 
     /// What the plan is called.
@@ -291,7 +285,8 @@ impl Session {
     /// Asks whether to discard the Nth of what was left behind.
     pub(crate) fn ask_to_discard(&mut self, number: usize) -> Result<(), String> {
         let offered = self.offered(number)?;
-        self.question = Some(Question::Discard { path: offered.leftover.path.clone(), title: offered.title() });
+        let question = Question::discard(offered.leftover.path.clone(), &offered.title());
+        self.ask(question);
         Ok(())
     }
 
@@ -424,7 +419,7 @@ impl Session {
         let mine = document.plan();
         if !differs.as_ref().is_some_and(|(of, _)| of.is_same_value(mine)) {
             let difference = Difference::between(mine, theirs);
-            let summary = crate::app::panels::differences::summary(&difference.seen(mine, theirs), &difference);
+            let summary = difference.in_words(&difference.seen(mine, theirs));
             *differs = Some((mine.clone(), summary));
         }
     }

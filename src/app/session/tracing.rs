@@ -288,7 +288,7 @@ impl Session {
             Some(drawing) => drawing,
             None if plan.is_empty() || !moves_picture(plan, &change) => DrawingMoves::Along,
             None => {
-                self.question = Some(Question::Drawing(change));
+                self.ask(Question::drawing(change));
                 return;
             }
         };

@@ -514,7 +514,7 @@ impl App {
     pub(super) fn take_tool_keys(&mut self, context: &Context) {
         let is_typing = self.was_typing || context.text_edit_focused();
         let is_covered =
-            self.session.question.is_some() || self.panels.is_dialog_open() || egui::Popup::is_any_open(context);
+            self.session.question.is_some() || self.dialogs.is_any_open() || egui::Popup::is_any_open(context);
         if is_typing || is_covered || self.session.document.is_none() {
             return;
         }

@@ -51,7 +51,7 @@ pub(super) const COMMANDS: &[Command] = &[
         Some(|app, _| {
             let name = app.plan().map(|plan| plan.meta().name.clone()).unwrap_or_default();
             let asking = crate::app::commands::find("rename-plan").map(|command| Palette::asking(command, Vec::new()));
-            app.panels.palette = asking.map(|palette| palette.with_text(&name));
+            asking.into_iter().for_each(|palette| app.open_palette(palette.with_text(&name)));
         }),
     )
     .menu(Menu::Edit, 2),

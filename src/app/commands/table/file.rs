@@ -96,8 +96,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Recover unsaved work",
         "Show what was not saved when Enfilade was ended, with pictures",
         has_leftovers,
-        |app| app.panels.recovery,
-        |app, is_on| app.panels.recovery = is_on,
+        |app| app.dialogs.is_open(crate::app::panels::recovery::ID),
+        |app, is_on| app.set_dialog(crate::app::panels::recovery::ID, is_on),
     )
     .menu(Menu::File, 2),
     with(
@@ -127,8 +127,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Differences to the file",
         "Show how the plan and its file, which somebody else changed, differ",
         has_their_plan,
-        |app| app.panels.differences,
-        |app, is_on| app.panels.differences = is_on,
+        |app| app.dialogs.is_open(crate::app::panels::differences::ID),
+        |app, is_on| app.set_dialog(crate::app::panels::differences::ID, is_on),
     )
     .menu(Menu::File, 2),
     command(
@@ -152,8 +152,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Import notes",
         "Show what was mended or left out when the plan was opened",
         has_notes,
-        |app| app.panels.notes,
-        |app, is_on| app.panels.notes = is_on,
+        |app| app.dialogs.is_open(crate::app::panels::notes::ID),
+        |app, is_on| app.set_dialog(crate::app::panels::notes::ID, is_on),
     )
     .menu(Menu::File, 2),
     command("previous-plan", "Previous plan", "Open the plan above in the list", has_several_plans, |app, _| {

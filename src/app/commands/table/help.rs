@@ -10,7 +10,7 @@ pub(super) const COMMANDS: &[Command] = &[
         always,
         &[],
         |app, _, _| {
-            app.panels.palette = Some(Palette::default());
+            app.open_dialog(crate::app::panels::palette::ID);
             Ran::Asks
         },
         None,
@@ -24,7 +24,7 @@ pub(super) const COMMANDS: &[Command] = &[
         always,
         &[],
         |app, _, _| {
-            app.panels.sheet = Some(Sheet::default());
+            app.open_dialog(crate::app::panels::shortcuts::ID);
             Ran::Asks
         },
         None,
@@ -97,7 +97,7 @@ pub(super) const COMMANDS: &[Command] = &[
         always,
         &[],
         |app, _, _| {
-            app.panels.about = true;
+            app.open_dialog(crate::app::panels::about::ID);
             Ran::Asks
         },
         None,

@@ -19,7 +19,7 @@ use egui::{Context, Key, KeyboardShortcut, Modifiers};
 
 use super::{Action, Argument, ArgumentKind, Availability, Command, Menu, Ran, Values};
 use crate::app::look::{icons::Icon, theme::ThemeChoice};
-use crate::app::panels::{palette::Palette, shortcuts::Sheet};
+use crate::app::panels::palette::Palette;
 use crate::app::session::{fields::FieldKind, questions::Intent, selection::SelectMode, settings::GRID_RANGE_M};
 use crate::app::state::App;
 use crate::base::units::Units;

@@ -4,10 +4,7 @@ use std::collections::BTreeSet;
 
 use super::draw::{KINDS, edited, kind_of};
 use super::*;
-use crate::app::session::{
-    document::Document,
-    questions::{ProposedChange, Question},
-};
+use crate::app::session::{document::Document, questions::Question};
 use crate::edit::{self, Alignment, Array};
 use crate::geometry::Transform;
 use crate::plan::{LeafSide, OpeningId, OpeningKind, RoomId, Swing};
@@ -749,14 +746,8 @@ impl App {
                     "{corners} would become another within {}, and {edges} would be split at a corner: marked on the plan.",
                     self.units().length(tolerance_m)
                 );
-                self.session.question = Some(Question::Change(ProposedChange {
-                    title: "Weld these corners?".to_owned(),
-                    text,
-                    answers: &[("weld", "Weld"), ("cancel", "Cancel")],
-                    step: "Weld",
-                    plan: weld.plan,
-                    marks,
-                }));
+                let answer = ("weld", "Weld");
+                self.session.ask(Question::change("Weld these corners?", text, answer, "Weld", weld.plan, marks));
                 Ran::Asks
             }
         }
@@ -773,14 +764,10 @@ impl App {
             Err(error) => Ran::Refused(error.to_string()),
             Ok((next, _)) => {
                 let gaps_said = crate::base::wording::count(gaps.len(), "gap");
-                self.session.question = Some(Question::Change(ProposedChange {
-                    title: "Put doors into these gaps?".to_owned(),
-                    text: format!("{gaps_said} between collinear walls, 30 to 150 cm wide: marked on the plan."),
-                    answers: &[("bridge", "Put doors in"), ("cancel", "Cancel")],
-                    step: "Bridge gaps",
-                    plan: next,
-                    marks: gaps.into_iter().map(|gap| gap.segment).collect(),
-                }));
+                let (title, answer) = ("Put doors into these gaps?", ("bridge", "Put doors in"));
+                let text = format!("{gaps_said} between collinear walls, 30 to 150 cm wide: marked on the plan.");
+                let marks = gaps.into_iter().map(|gap| gap.segment).collect();
+                self.session.ask(Question::change(title, text, answer, "Bridge gaps", next, marks));
                 Ran::Asks
             }
         }
@@ -834,7 +821,7 @@ impl App {
             !self.session.selection.contains(*element) && !matches!(element, ElementId::Corner(_))
         };
         if gone.iter().any(is_loss) {
-            self.session.question = Some(Question::Delete { selected, gone });
+            self.session.ask(Question::delete(selected, gone));
             return Ran::Asks;
         }
         self.session.delete(&selected);

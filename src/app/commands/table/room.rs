@@ -94,7 +94,8 @@ pub(super) const COMMANDS: &[Command] = &[
             let Some((plan, target)) = app.plan().zip(app.session.target(None)) else { return };
             let (title, rest) = (target.title(plan), target.word(plan));
             let asking = crate::app::commands::find("set-function").map(|command| Palette::asking(command, Vec::new()));
-            app.panels.palette = asking.map(|palette| palette.about(&title, rest.into_iter().collect()));
+            let asking = asking.map(|palette| palette.about(&title, rest.into_iter().collect()));
+            asking.into_iter().for_each(|palette| app.open_palette(palette));
         }),
     )
     .when_complete(has_rooms)
@@ -142,7 +143,7 @@ pub(super) const COMMANDS: &[Command] = &[
                 Err(reason) => Ran::Refused(reason),
             }
         },
-        Some(|app, _| app.panels.bulk = Some(Bulk::naming(app))),
+        Some(|app, _| app.open_dialog(crate::app::panels::bulk::ID)),
     )
     .keys(&[ctrl(Key::F2)])
     .menu(Menu::Room, 1),
@@ -166,7 +167,8 @@ pub(super) const COMMANDS: &[Command] = &[
             if app.session.rooms_of(&which).is_empty() {
                 return Ran::Refused("the line goes through no room".to_owned());
             }
-            app.panels.bulk = Some(Bulk::naming_these(app, which));
+            let dialog = Bulk::naming_these(app, which);
+            app.dialogs.open(crate::app::panels::bulk::ID, Box::new(dialog));
             Ran::Asks
         },
         None,
@@ -189,7 +191,10 @@ pub(super) const COMMANDS: &[Command] = &[
                 Err(reason) => Ran::Refused(reason),
             }
         },
-        Some(|app, _| app.panels.bulk = Some(Bulk::changing(app))),
+        Some(|app, _| {
+            let dialog = Bulk::changing(app);
+            app.dialogs.open(crate::app::panels::bulk::ID, Box::new(dialog));
+        }),
     )
     .menu(Menu::Room, 1),
     label(

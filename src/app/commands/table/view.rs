@@ -211,8 +211,8 @@ pub(super) const COMMANDS: &[Command] = &[
         Some(|app, _| {
             let choices = app.session.ghost_choices();
             let asking = crate::app::commands::find("ghost").map(|command| Palette::asking(command, Vec::new()));
-            app.panels.palette =
-                asking.map(|palette| if choices.is_empty() { palette } else { palette.with_choices(choices) });
+            let asking = asking.map(|palette| if choices.is_empty() { palette } else { palette.with_choices(choices) });
+            asking.into_iter().for_each(|palette| app.open_palette(palette));
         }),
     )
     .menu(Menu::View, 3),
@@ -291,7 +291,7 @@ pub(super) const COMMANDS: &[Command] = &[
         Some(|app, _| {
             let now = app.session.settings.grid_m().map_or(AUTO.to_owned(), |grid_m| app.units().exact_length(grid_m));
             let asking = crate::app::commands::find("grid-spacing").map(|command| Palette::asking(command, Vec::new()));
-            app.panels.palette = asking.map(|palette| palette.with_text(&now));
+            asking.into_iter().for_each(|palette| app.open_palette(palette.with_text(&now)));
         }),
     )
     .menu(Menu::View, 3),
