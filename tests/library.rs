@@ -8,6 +8,7 @@ mod edits;
 mod faces;
 mod features;
 mod formats;
+mod house;
 mod import;
 mod joint;
 mod pictures;

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+use miniz_oxide::inflate::decompress_to_vec_zlib;
 use serde_json::Value;
 
 use super::model_file::{self, About, ModelFileError};
@@ -36,8 +37,8 @@ impl StoredModel {
 }
 
 /// The models that come with the program, by name (a set and a method's word: 'school-tree'), and their
-/// files' texts. See `assets/models/NOTICE`.
-const BUNDLED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/models.rs"));
+/// files, packed by `build.rs`: a quarter of the texts' size. See `assets/models/NOTICE`.
+const BUNDLED: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/models.rs"));
 
 /// Set and method of a bundled model, as its name says them.
 fn parts_of(name: &str) -> Option<(&str, Method)> {
@@ -152,13 +153,15 @@ impl Models {
 /// The bundled model of a name, read once.
 fn bundled(name: &str) -> Option<Result<Arc<StoredModel>, ModelFileError>> {
     static READ: Mutex<BTreeMap<&str, Arc<StoredModel>>> = Mutex::new(BTreeMap::new());
-    let &(name, text) = BUNDLED.iter().find(|(of, _)| *of == name)?;
+    let &(name, packed) = BUNDLED.iter().find(|(of, _)| *of == name)?;
     // A poisoned map only lacks an entry.
     let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(model) = read.get(name) {
         return Some(Ok(model.clone()));
     }
-    let model = model_file::from_bytes(text.as_bytes()).map(|(classifier, about)| {
+    // One that does not unpack is no model file either, and is refused as such.
+    let text = decompress_to_vec_zlib(packed).unwrap_or_default();
+    let model = model_file::from_bytes(&text).map(|(classifier, about)| {
         let model = Arc::new(StoredModel { name: name.to_owned(), path: None, classifier, about });
         read.insert(name, model.clone());
         model

@@ -10,6 +10,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
+use nalgebra::{Cholesky, Const, SMatrix, SVector};
 use serde_json::{Value, json};
 
 use crate::base::random::Random;
@@ -40,7 +41,9 @@ pub enum Measure {
 
 const MEASURES: usize = 8;
 
-type Measures = [f64; MEASURES];
+type Measures = SVector<f64, MEASURES>;
+
+type Covariance = SMatrix<f64, MEASURES, MEASURES>;
 
 impl Measure {
     pub const ALL: [Self; MEASURES] = [
@@ -96,7 +99,7 @@ fn measures(network: &RoomNetwork) -> Option<Measures> {
     let passages = doors.filter(|door| door.kind == OpeningKind::Passage).count();
     let ends = share(&|room| room.doors.iter().filter_map(|door| door.to).collect::<BTreeSet<_>>().len() <= 1);
     let largest = areas.last().map_or(0.0, |largest| largest - median);
-    let measures = [
+    let measures = Measures::from([
         rooms.ln(),
         median,
         variance.sqrt(),
@@ -105,7 +108,7 @@ fn measures(network: &RoomNetwork) -> Option<Measures> {
         ends,
         share(&|room| room.axes_ratio > std::f64::consts::E),
         passages as f64 / (openings.max(1)) as f64,
-    ];
+    ]);
     measures.iter().all(|measure| measure.is_finite()).then_some(measures)
 }
 
@@ -125,7 +128,7 @@ pub struct TypologyModel {
     /// By typology, at least one.
     known: Vec<Known>,
     /// The covariance that all share, shrunk, positive definite.
-    covariance: [Measures; MEASURES],
+    covariance: Covariance,
     left_out: BTreeSet<Measure>,
     /// The evidence is divided by this, which makes the posterior believable.
     temperature: f64,
@@ -219,35 +222,26 @@ impl TypologyModel {
             return Err(NoTypologies);
         }
         let mut known = Vec::new();
-        let mut covariance = [[0.0; MEASURES]; MEASURES];
+        let mut covariance = Covariance::zeros();
         for (&typology, plans) in &plans {
             let count = plans.len() as f64;
-            let mean: Measures =
-                std::array::from_fn(|i| plans.iter().map(|(measures, _)| measures[i]).sum::<f64>() / count);
+            let mean: Measures = plans.iter().map(|(measures, _)| measures).sum::<Measures>() / count;
             for (measures, _) in plans {
-                for (i, row) in covariance.iter_mut().enumerate() {
-                    for (j, cell) in row.iter_mut().enumerate() {
-                        *cell += (measures[i] - mean[i]) * (measures[j] - mean[j]) / count;
-                    }
-                }
+                let off = measures - mean;
+                covariance += off * off.transpose() / count;
             }
             let counts: [f64; 5] =
                 std::array::from_fn(|label| 1.0 + plans.iter().map(|(_, of)| of[label]).sum::<f64>());
             let all: f64 = counts.iter().sum();
             known.push(Known { typology: typology.clone(), plans: plans.len(), mean, labels: counts.map(|n| n / all) });
         }
-        let typologies = known.len() as f64;
-        for (i, row) in covariance.iter_mut().enumerate() {
-            for (j, cell) in row.iter_mut().enumerate() {
-                *cell /= typologies;
-                let is_used = ![i, j].iter().any(|&measure| left_out.contains(&Measure::ALL[measure]));
-                *cell = match (i == j, is_used) {
-                    (true, _) => cell.max(LEAST_VARIANCE),
-                    (false, true) => *cell * (1.0 - SHRINKAGE),
-                    (false, false) => 0.0,
-                };
-            }
-        }
+        covariance /= known.len() as f64;
+        let is_used = |measure: usize| !left_out.contains(&Measure::ALL[measure]);
+        let covariance = Covariance::from_fn(|i, j| match (i == j, is_used(i) && is_used(j)) {
+            (true, _) => covariance[(i, j)].max(LEAST_VARIANCE),
+            (false, true) => covariance[(i, j)] * (1.0 - SHRINKAGE),
+            (false, false) => 0.0,
+        });
         Ok(Self { known, covariance, left_out: left_out.clone(), temperature: 1.0 })
     }
 
@@ -273,8 +267,7 @@ impl TypologyModel {
         let (Some(best), Some(next), Some(measured)) = (find(0), find(1), measures(network)) else {
             return Vec::new();
         };
-        let difference: Measures = std::array::from_fn(|i| self.used(i, best.mean[i] - next.mean[i]));
-        let weights = solve(self.covariance, difference);
+        let weights = self.solver().solve(&self.used(best.mean - next.mean));
         let mut reasons: Vec<(f64, String)> = Measure::ALL
             .iter()
             .enumerate()
@@ -303,19 +296,31 @@ impl TypologyModel {
         reasons.into_iter().map(|(_, words)| words).collect()
     }
 
-    fn used(&self, measure: usize, value: f64) -> f64 {
-        if self.left_out.contains(&Measure::ALL[measure]) { 0.0 } else { value }
+    /// The measures with those that are left out at zero.
+    fn used(&self, measures: Measures) -> Measures {
+        Measures::from_fn(|i, _| if self.left_out.contains(&Measure::ALL[i]) { 0.0 } else { measures[i] })
+    }
+
+    /// Solves by the covariance; by its diagonal alone where it is not positive definite, which one that was
+    /// learned from ordinary plans always is.
+    fn solver(&self) -> Cholesky<f64, Const<MEASURES>> {
+        let diagonal = || {
+            let variances = self.covariance.diagonal().map(|variance| variance.max(LEAST_VARIANCE));
+            Cholesky::new_unchecked(Covariance::from_diagonal(&variances))
+        };
+        Cholesky::new(self.covariance).unwrap_or_else(diagonal)
     }
 
     /// The logarithm of the likelihood of what is seen under each typology, up to a constant.
     fn evidence(&self, network: &RoomNetwork, known: &[Option<Label>]) -> Vec<f64> {
         let counts = counts_of(known);
         let measured = measures(network);
+        let solver = self.solver();
         let of_typology = |of: &Known| {
+            // Half the squared Mahalanobis distance.
             let shape = measured.map_or(0.0, |measured| {
-                let off: Measures = std::array::from_fn(|i| self.used(i, measured[i] - of.mean[i]));
-                let weights = solve(self.covariance, off);
-                -0.5 * off.iter().zip(weights).map(|(off, weight)| off * weight).sum::<f64>()
+                let off = self.used(measured - of.mean);
+                -0.5 * off.dot(&solver.solve(&off))
             });
             shape + urn(&counts, &of.labels)
         };
@@ -341,7 +346,7 @@ impl TypologyModel {
         });
         json!({
             "typologies": typologies.collect::<Vec<_>>(),
-            "covariance": self.covariance.iter().map(named).collect::<Vec<_>>(),
+            "covariance": self.covariance.row_iter().map(|row| named(&row.transpose())).collect::<Vec<_>>(),
             "without": self.left_out.iter().map(|measure| measure.name()).collect::<Vec<_>>(),
             "temperature": self.temperature,
         })
@@ -356,8 +361,8 @@ impl TypologyModel {
         let list = |name: &str| value.get(name).and_then(Value::as_array);
         let number = |value: Option<&Value>| value.and_then(Value::as_f64).filter(|number| number.is_finite());
         let named = |value: Option<&Value>| -> Option<Measures> {
-            let mut measures = [0.0; MEASURES];
-            for (measure, slot) in Measure::ALL.iter().zip(&mut measures) {
+            let mut measures = Measures::zeros();
+            for (measure, slot) in Measure::ALL.iter().zip(measures.iter_mut()) {
                 *slot = number(value?.get(measure.name()))?;
             }
             Some(measures)
@@ -387,11 +392,12 @@ impl TypologyModel {
             return Err(refuse("it knows no typology"));
         }
         let rows = list("covariance").filter(|rows| rows.len() == MEASURES);
-        let mut covariance = [[0.0; MEASURES]; MEASURES];
-        for (row, slot) in rows.ok_or(refuse("'covariance' is no square"))?.iter().zip(&mut covariance) {
-            *slot = named(Some(row)).ok_or(refuse("'covariance' does not hold a number for each pair"))?;
+        let mut covariance = Covariance::zeros();
+        for (row, mut slot) in rows.ok_or(refuse("'covariance' is no square"))?.iter().zip(covariance.row_iter_mut()) {
+            let row = named(Some(row)).ok_or(refuse("'covariance' does not hold a number for each pair"))?;
+            slot.copy_from(&row.transpose());
         }
-        if cholesky(covariance).is_none() {
+        if Cholesky::new(covariance).is_none() {
             return Err(refuse("'covariance' is not positive definite"));
         }
         let mut left_out = BTreeSet::new();
@@ -446,40 +452,6 @@ fn urn(counts: &[u32; 5], shares: &[f64; 5]) -> f64 {
         }
     }
     sum
-}
-
-/// The lower triangle L of a positive definite matrix L Lᵀ; `None` of another.
-fn cholesky(matrix: [Measures; MEASURES]) -> Option<[Measures; MEASURES]> {
-    let mut lower = [[0.0; MEASURES]; MEASURES];
-    for i in 0..MEASURES {
-        for j in 0..=i {
-            let rest = matrix[i][j] - (0..j).map(|k| lower[i][k] * lower[j][k]).sum::<f64>();
-            if i == j {
-                if rest.is_nan() || rest <= 0.0 {
-                    return None;
-                }
-                lower[i][i] = rest.sqrt();
-            } else {
-                lower[i][j] = rest / lower[j][j];
-            }
-        }
-    }
-    Some(lower)
-}
-
-/// Solves `matrix x = right`; where the matrix is not positive definite, as if it had its diagonal only.
-fn solve(matrix: [Measures; MEASURES], right: Measures) -> Measures {
-    let Some(lower) = cholesky(matrix) else {
-        return std::array::from_fn(|i| right[i] / matrix[i][i].max(LEAST_VARIANCE));
-    };
-    let mut x = right;
-    for i in 0..MEASURES {
-        x[i] = (x[i] - (0..i).map(|k| lower[i][k] * x[k]).sum::<f64>()) / lower[i][i];
-    }
-    for i in (0..MEASURES).rev() {
-        x[i] = (x[i] - (i + 1..MEASURES).map(|k| lower[k][i] * x[k]).sum::<f64>()) / lower[i][i];
-    }
-    x
 }
 
 /// The fold of each network: the buildings of each typology are assigned in random order.

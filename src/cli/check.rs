@@ -306,11 +306,7 @@ fn json_file(path: &Path, import: &Import, checked: &[(&Plan, Vec<Finding>)]) ->
         .notes
         .iter()
         .map(|note| {
-            let kind = match note.kind {
-                NoteKind::Healed => "healed",
-                NoteKind::Skipped => "skipped",
-            };
-            json!({ "kind": kind, "line": note.place.line, "element": note.place.element, "what": note.what })
+            json!({ "kind": note.kind.name(), "line": note.place.line, "element": note.place.element, "what": note.what })
         })
         .collect();
     let plans: Vec<Value> = checked

@@ -21,6 +21,16 @@ pub enum NoteKind {
     Skipped,
 }
 
+impl NoteKind {
+    /// Its word in reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Healed => "healed",
+            Self::Skipped => "skipped",
+        }
+    }
+}
+
 /// Where in a file something stands.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Place {
@@ -43,11 +53,7 @@ impl fmt::Display for Place {
 
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let kind = match self.kind {
-            NoteKind::Healed => "healed",
-            NoteKind::Skipped => "skipped",
-        };
-        write!(f, "{kind}: {}: {}", self.place, self.what)
+        write!(f, "{}: {}: {}", self.kind.name(), self.place, self.what)
     }
 }
 

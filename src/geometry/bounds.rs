@@ -94,3 +94,9 @@ impl Bounds {
         self.min.x <= other.max.x && other.min.x <= self.max.x && self.min.y <= other.max.y && other.min.y <= self.max.y
     }
 }
+
+impl Segment {
+    pub fn bounds(self) -> Bounds {
+        Bounds::of([self.a, self.b])
+    }
+}

@@ -1,4 +1,4 @@
-use super::{Bounds, Point, Vector};
+use super::{Point, Vector};
 
 /// A straight piece between two points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,10 +23,6 @@ impl Segment {
 
     pub fn midpoint(self) -> Point {
         self.a.midpoint(self.b)
-    }
-
-    pub fn bounds(self) -> Bounds {
-        Bounds::of([self.a, self.b])
     }
 
     /// Where along the segment the point nearest to `point` lies, as a fraction in 0..=1.

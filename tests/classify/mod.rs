@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "a skipped test says so")]
 
+mod explanations;
 mod generated;
 mod real_rows;
 
@@ -289,37 +290,6 @@ fn a_model_file_may_be_indented_anew_and_begin_with_a_mark() {
 }
 
 // Explanations.
-
-#[test]
-fn explanations_read_well() {
-    let rows = generated_rows(400, 10);
-    let table = table(&rows);
-    let rooms: [(&str, Values); 6] = [
-        ("a cupboard", [3.2, 1.4, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]),
-        ("a classroom", [55.25, 1.25, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]),
-        ("a gymnasium", [190.0, 1.5, 3.0, 1.0, 0.0, 0.0, 2.0, 0.0]),
-        ("a long corridor", [72.5, 9.5, 11.0, 3.0, 6.0, 1.0, 0.0, 1.0]),
-        ("an entrance hall", [240.0, 1.8, 8.0, 2.0, 2.0, 0.0, 4.0, 0.0]),
-        ("a room with no opening", [30.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
-    ];
-    let mut said = String::new();
-    for algorithm in Algorithm::ALL {
-        let classifier = trained(algorithm, &table, 1);
-        let _ = writeln!(said, "== {algorithm}");
-        for (room, values) in &rooms {
-            let explanation = classifier.explain(values);
-            let percent = explanation.probability * 100.0;
-            let _ = writeln!(said, "{room}: {} ({percent:.0} %)\n    {}", explanation.label, explanation.words());
-        }
-    }
-    // One label only: nothing to tell apart.
-    let halls = table_of(&[([100.0, 1.5, 4.0, 0.0, 0.0, 0.0, 4.0, 0.0], Label::Hall); 20]);
-    for algorithm in Algorithm::ALL {
-        let explanation = trained(algorithm, &halls, 1).explain(&rooms[0].1);
-        let _ = writeln!(said, "== {algorithm}, learned from halls alone\n    {}", explanation.words());
-    }
-    support::assert_text(&fixture("explanations.txt"), &said);
-}
 
 #[test]
 fn explanations_agree_with_predictions() {

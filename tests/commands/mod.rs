@@ -4,7 +4,6 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod arguments;
-mod golden;
 mod manual;
 mod palette;
 mod pictures;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use egui::Modifiers;
+use egui::{Modifiers, Rect, pos2};
 use enfilade::app::{Offscreen, OffscreenOptions, Severity};
 use enfilade::store::load_plan;
 
@@ -37,9 +37,13 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     std::fs::read_dir(folder).map(|entries| entries.map(|entry| entry.unwrap().path()).collect()).unwrap_or_default()
 }
 
-fn compare(window: &mut Offscreen, name: &str) {
+/// Compares the messages, which stand between the top bar and the canvas, with a picture.
+fn compare_messages(window: &mut Offscreen, name: &str) {
+    const TOP_BAR: f32 = 44.0;
     let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/recovery").join(name);
-    assert_picture(&reference, &window.picture().to_png().unwrap());
+    let canvas = window.app().canvas_rect().unwrap();
+    let messages = Rect::from_min_max(pos2(canvas.left(), TOP_BAR), canvas.right_top());
+    assert_picture(&reference, &window.picture_of(messages).to_png().unwrap());
 }
 
 /// A path that leads to the disk that is always full.
@@ -67,7 +71,7 @@ fn a_full_disk_stays_in_sight_until_a_save_works() {
     window.key(Modifiers::NONE, egui::Key::Escape);
     window.advance(60.0);
     assert_eq!(window.app().messages().len(), 1);
-    compare(&mut window, "full_disk.png");
+    compare_messages(&mut window, "full_disk.png");
     // Closing: a save that fails does not close, by whatever way.
     window.ask_to_close();
     window.settle().unwrap();
@@ -99,7 +103,8 @@ fn a_journal_that_cannot_be_written_stays_in_sight_until_it_can() {
     assert!(bar.text.starts_with("Your changes are not kept safe: "), "{}", bar.text);
     assert!(bar.stays && bar.severity == Severity::Error);
     #[cfg(target_os = "linux")]
-    compare(&mut window, "journal_fails_dark.png");
+    compare_messages(&mut window, "journal_fails_dark.png");
+    assert!(window.controls().iter().any(|control| control.name == "● Not kept safe"), "the status line says so too");
     std::fs::remove_file(&state).unwrap();
     run(&mut window, "label-small", &[]);
     // It is tried again every two seconds.

@@ -99,10 +99,14 @@ fn is_updating() -> bool {
     std::env::var_os("UPDATE_GOLDEN").is_some()
 }
 
+/// No reference picture is larger: they stay in the repository for good.
+const MOST_BYTES: usize = 200_000;
+
 /// Compares a PNG file's bytes with the reference picture, pixel for pixel.
 pub fn assert_picture(reference: &Path, actual: &[u8]) {
     let (out, diff) = (reference.with_extension("out.png"), reference.with_extension("diff.png"));
     if is_updating() {
+        assert!(actual.len() <= MOST_BYTES, "{}: {} bytes are too many", reference.display(), actual.len());
         std::fs::write(reference, actual).unwrap();
     }
     let picture = Picture::decode(actual);

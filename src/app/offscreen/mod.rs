@@ -11,8 +11,8 @@ use std::sync::Arc;
 use egui::accesskit;
 use egui::os::OperatingSystem;
 use egui::{
-    Context, Event, FullOutput, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, RawInput, Rect,
-    TouchPhase, Vec2, ViewportCommand, ViewportId, vec2,
+    Context, Event, FullOutput, Key, LayerId, Modifiers, MouseWheelSource, MouseWheelUnit, Order, PointerButton, Pos2,
+    RawInput, Rect, TouchPhase, Vec2, ViewportCommand, ViewportId, vec2,
 };
 
 use crate::app::commands::{CommandError, Executed};
@@ -550,6 +550,16 @@ impl Offscreen {
         let primitives = self.context.tessellate(shapes, scale);
         let background = self.context.global_style().visuals.panel_fill;
         self.raster.paint(&primitives, size_px, scale, background)
+    }
+
+    /// Where the dialog, palette or menu in front is, in logical pixels; `None` where there is none.
+    pub fn front_rect(&self) -> Option<Rect> {
+        self.context.memory(|memory| {
+            let shown = memory.areas().visible_layer_ids();
+            let is_front = |layer: &LayerId| layer.order == Order::Foreground && shown.contains(layer);
+            let front = memory.layer_ids().filter(is_front).last()?;
+            memory.area_rect(front.id)
+        })
     }
 
     /// The controls that are on the screen, in the tree's order.

@@ -58,8 +58,9 @@ pub(crate) struct Panels {
     pub recent: Vec<&'static str>,
     /// The pattern by which rooms were named last.
     pub pattern: Option<String>,
-    /// Where the panel on the left and the inspector were in the last frame, as far as shown.
+    /// Where the panel on the left, what is between, and the inspector were in the last frame, as far as shown.
     pub left_rect: Option<egui::Rect>,
+    pub middle_rect: Option<egui::Rect>,
     pub right_rect: Option<egui::Rect>,
     /// Height in points that the fill and the layers took when they were last shown.
     layers_height: f32,
@@ -75,6 +76,7 @@ impl Default for Panels {
             recent: Vec::new(),
             pattern: None,
             left_rect: None,
+            middle_rect: None,
             right_rect: None,
             layers_height: 360.0,
         }
@@ -156,7 +158,7 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
             .frame(frame(Margin::symmetric(6, 8)))
             .show(ui, |ui| tool_strip::show(app, ui));
     }
-    CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
+    let shown = CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         messages::show(app, ui);
         if app.session.document.is_some() {
@@ -166,6 +168,7 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
         }
         welcome::show_drop_target(ui);
     });
+    app.panels.middle_rect = Some(shown.response.rect);
     tool_options::show(app, ui);
     status::show(app, &mut ui.new_child(UiBuilder::new().max_rect(status_rect).id_salt("status")));
     app.show_dialogs(ui);

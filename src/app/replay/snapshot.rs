@@ -26,6 +26,10 @@ pub(super) enum Region {
     #[default]
     All,
     Canvas,
+    /// The canvas with its rulers, and the messages above it.
+    Middle,
+    /// The dialog, palette or menu in front.
+    Dialog,
     /// The inspector on the right.
     Panel,
     /// Plans and layers on the left.
@@ -33,12 +37,14 @@ pub(super) enum Region {
 }
 
 impl Region {
-    pub(super) const ALL: [Self; 4] = [Self::All, Self::Canvas, Self::Panel, Self::List];
+    pub(super) const ALL: [Self; 6] = [Self::All, Self::Canvas, Self::Middle, Self::Dialog, Self::Panel, Self::List];
 
     pub(super) const fn name(self) -> &'static str {
         match self {
             Self::All => "all",
             Self::Canvas => "canvas",
+            Self::Middle => "middle",
+            Self::Dialog => "dialog",
             Self::Panel => "panel",
             Self::List => "list",
         }
@@ -49,6 +55,8 @@ impl Region {
         match self {
             Self::All => Some(Rect::EVERYTHING),
             Self::Canvas => stage.window.app().canvas_rect(),
+            Self::Middle => stage.window.app().panels.middle_rect,
+            Self::Dialog => stage.window.front_rect(),
             Self::Panel => stage.window.app().panels.right_rect,
             Self::List => stage.window.app().panels.left_rect,
         }

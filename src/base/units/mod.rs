@@ -15,13 +15,7 @@ mod typed;
 
 use std::fmt;
 
-pub use crate::base::units::typed::{NotUnderstood, parse_angle_rad};
-
-/// Metres in an inch, by its definition of 1959.
-pub const METRES_PER_INCH: f64 = 0.0254;
-
-/// Metres in a foot.
-pub const METRES_PER_FOOT: f64 = 12.0 * METRES_PER_INCH;
+pub use crate::base::units::typed::{METRES_PER_FOOT, METRES_PER_INCH, NotUnderstood, parse_angle_rad};
 
 /// A foot is so many eighths of an inch.
 const EIGHTHS_PER_FOOT: u64 = 96;

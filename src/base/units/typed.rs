@@ -2,7 +2,11 @@
 
 use std::fmt;
 
-use crate::base::units::{METRES_PER_FOOT, METRES_PER_INCH};
+/// Metres in a foot.
+pub const METRES_PER_FOOT: f64 = 12.0 * METRES_PER_INCH;
+
+/// Metres in an inch, by its definition of 1959.
+pub const METRES_PER_INCH: f64 = 0.0254;
 
 /// Why a typed text is no length or angle, with what would be.
 #[derive(Clone, Debug, PartialEq, Eq)]

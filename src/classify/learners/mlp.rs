@@ -1,6 +1,9 @@
 //! A multilayer perceptron: one hidden layer with leaky rectifiers, softmax and cross-entropy, trained
 //! with Adam (Kingma and Ba 2015), decoupled weight decay (Loshchilov and Hutter 2019) and early
 //! stopping on rooms kept apart.
+//!
+//! Arrays, not nalgebra's matrices: a batch of 32 rooms takes 4 µs with them, 12 µs as six products of
+//! `SMatrix`, which differ in the last bits besides.
 
 use std::sync::Arc;
 

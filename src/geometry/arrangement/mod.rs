@@ -13,9 +13,8 @@ use snap_rounding as snap;
 
 use crate::geometry::{Point, Segment};
 
-pub use error::ArrangementError;
+pub use error::{ArrangementError, PASSINGS_LIMIT, TESTS_LIMIT};
 pub use faces::{Face, faces};
-pub use snap_rounding::{PASSINGS_LIMIT, TESTS_LIMIT};
 
 /// Index of a node of an [`Arrangement`].
 pub type NodeIndex = u32;

@@ -36,10 +36,11 @@ pub(super) const GROUP: Group = Group {
         },
         Verb {
             name: "snapshot",
-            form: "snapshot NAME [--region all|canvas|panel|list] [--size WIDTHxHEIGHT] [--scale NUMBER] [--theme \
-                   light|dark]",
-            help: "Compares the window with the picture NAME.png, pixel for pixel; all of it, the canvas, the panel on \
-                   the right, or the list on the left. Size, scale and theme are for the picture only.",
+            form: "snapshot NAME [--region all|canvas|middle|dialog|panel|list] [--size WIDTHxHEIGHT] [--scale NUMBER] \
+                   [--theme light|dark]",
+            help: "Compares the window with the picture NAME.png, pixel for pixel; all of it, the canvas, the canvas \
+                   with its rulers and the messages above it (middle), the dialog, palette or menu in front, the panel \
+                   on the right, or the list on the left. Size, scale and theme are for the picture only.",
             parse: snapshot,
         },
     ],
