@@ -7,6 +7,7 @@ mod argument;
 mod manual;
 mod run;
 mod table;
+mod tools;
 
 use egui::{Context, KeyboardShortcut};
 
