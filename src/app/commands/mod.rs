@@ -23,6 +23,7 @@ pub(super) use argument::{Values, elements_word, point, points_word, room_word, 
 
 use crate::app::look::icons::Icon;
 use crate::app::state::App;
+use crate::app::tools::Entry;
 
 /// Something a person can do.
 #[derive(Clone, Copy)]
@@ -66,6 +67,8 @@ enum Action {
         is_on: fn(&App) -> bool,
         run: fn(&mut App, &Context),
     },
+    /// Takes up a tool.
+    TakeUp(&'static Entry),
     With {
         run: fn(&mut App, &Values, &Context) -> Ran,
         /// Asks for what is missing; the palette does without.
@@ -139,6 +142,7 @@ impl Command {
     pub fn is_on(&self, app: &App) -> Option<bool> {
         match self.action {
             Action::Switch { is_on, .. } | Action::Choose { is_on, .. } => Some(is_on(app)),
+            Action::TakeUp(tool) => Some(app.tools.is(tool.id)),
             Action::With { is_on, .. } => is_on.map(|is_on| is_on(app)),
             Action::Plain(_) => None,
         }

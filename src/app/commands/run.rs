@@ -129,6 +129,10 @@ impl App {
                 run(self, context);
                 self.session.note_executed(command.id, written);
             }
+            Action::TakeUp(tool) => {
+                self.tools.take_up(tool.id);
+                self.session.note_executed(command.id, written);
+            }
             Action::Switch { is_on, set } => {
                 let wanted = match values.switch(0) {
                     Some(&wanted) => wanted,

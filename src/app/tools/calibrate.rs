@@ -9,8 +9,24 @@ use crate::edit::Calibration;
 use crate::geometry::{Point, Segment};
 use crate::plan::Backdrop;
 
-pub(super) const BY_LENGTH: Entry = Entry { id: "calibrate", make: || Box::new(Calibrate::new(Known::Typed)) };
-pub(super) const BY_DOOR: Entry = Entry { id: "calibrate-door", make: || Box::new(Calibrate::new(Known::Door)) };
+pub(crate) const BY_LENGTH: Entry = Entry {
+    id: "tool-calibrate",
+    title: "Set scale by a length",
+    help: "Click both ends of a length on the picture and type how long it is in truth; more lengths make it surer",
+    keys: &[],
+    strip: None,
+    options: &[],
+    make: || Box::new(Calibrate::new(Known::Typed)),
+};
+pub(crate) const BY_DOOR: Entry = Entry {
+    id: "tool-calibrate-door",
+    title: "Set scale by a door",
+    help: "Click both sides of a door on the picture: it is as wide as doors are drawn, 0.9 m unless set otherwise",
+    keys: &[],
+    strip: None,
+    options: &[],
+    make: || Box::new(Calibrate::new(Known::Door)),
+};
 
 /// Whose length it is.
 #[derive(Clone, Copy, PartialEq)]

@@ -23,9 +23,13 @@ mod typing;
 mod walls;
 
 pub(crate) use crate::app::paint::preview::{paint_snap, tag};
+pub(crate) use calibrate::{BY_DOOR as CALIBRATE_BY_DOOR, BY_LENGTH as CALIBRATE_BY_LENGTH};
 pub(crate) use input::{Anchor, DrawOptions, Ground, Input, Scope};
+pub(crate) use number::ENTRY as NUMBER;
+pub(crate) use paste::ENTRY as PASTE;
 pub(crate) use select::{REACH_PX, hit};
-pub(crate) use tool::{Call, Entry, TakenBack, Tool};
+pub(crate) use straighten::ENTRY as STRAIGHTEN;
+pub(crate) use tool::{Call, Entry, Group, TakenBack, Tool, ToolOption};
 pub(crate) use toolbox::Toolbox;
 pub(crate) use typing::{Typed, Typing};
 

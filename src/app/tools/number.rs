@@ -5,7 +5,15 @@ use crate::app::commands::points_word;
 use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, polygon};
 
-pub(super) const ENTRY: Entry = Entry { id: "number", make: || Box::new(Number::default()) };
+pub(crate) const ENTRY: Entry = Entry {
+    id: "tool-number",
+    title: "Name along a line",
+    help: "Drag a line through rooms: they are named in the order in which it comes to them",
+    keys: &[],
+    strip: None,
+    options: &[],
+    make: || Box::new(Number::default()),
+};
 
 /// The line has a point at least every so many pixels of the way.
 const STEP_PX: f64 = 4.0;

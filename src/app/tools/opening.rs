@@ -1,6 +1,10 @@
 //! Puts doors, passages and windows into walls, and closes gaps between walls with them.
 
+use egui::{Key, KeyboardShortcut, Modifiers};
+
+use super::tool::{Group, WIDTH};
 use super::{Call, Entry, Input, Scope, Tool, Typed, Typing, word};
+use crate::app::look::icons::Icon;
 use crate::app::paint::preview::{Look, Preview};
 use crate::edit::opening_on;
 use crate::geometry::{Point, Segment};
@@ -9,11 +13,42 @@ use crate::plan::{Joint, LeafSide, Opening as PlanOpening, OpeningKind, Swing};
 use crate::snapping::IndexedEdge;
 use crate::topology::{Gap, sides_by_geometry};
 
-pub(super) const DOOR: Entry = Entry { id: "door", make: || Box::new(Opening::new(OpeningKind::Door)) };
-pub(super) const DOUBLE_DOOR: Entry =
-    Entry { id: "double-door", make: || Box::new(Opening::new(OpeningKind::DoubleDoor)) };
-pub(super) const PASSAGE: Entry = Entry { id: "passage", make: || Box::new(Opening::new(OpeningKind::Passage)) };
-pub(super) const WINDOW: Entry = Entry { id: "window", make: || Box::new(Opening::new(OpeningKind::Window)) };
+pub(super) const DOOR: Entry = Entry {
+    id: "tool-door",
+    title: "Door",
+    help: "Put a door into a wall",
+    keys: &[KeyboardShortcut::new(Modifiers::NONE, Key::D)],
+    strip: Some((Icon::Door, Group::Openings)),
+    options: &[WIDTH],
+    make: || Box::new(Opening::new(OpeningKind::Door)),
+};
+pub(super) const DOUBLE_DOOR: Entry = Entry {
+    id: "tool-double-door",
+    title: "Double door",
+    help: "Put a door with two leaves into a wall",
+    keys: &[KeyboardShortcut::new(Modifiers::SHIFT, Key::D)],
+    strip: Some((Icon::DoubleDoor, Group::Openings)),
+    options: &[WIDTH],
+    make: || Box::new(Opening::new(OpeningKind::DoubleDoor)),
+};
+pub(super) const PASSAGE: Entry = Entry {
+    id: "tool-passage",
+    title: "Passage",
+    help: "Put a free passage into a wall or a boundary",
+    keys: &[KeyboardShortcut::new(Modifiers::NONE, Key::O)],
+    strip: Some((Icon::Passage, Group::Openings)),
+    options: &[WIDTH],
+    make: || Box::new(Opening::new(OpeningKind::Passage)),
+};
+pub(super) const WINDOW: Entry = Entry {
+    id: "tool-window",
+    title: "Window",
+    help: "Put a window into a wall",
+    keys: &[KeyboardShortcut::new(Modifiers::SHIFT, Key::O)],
+    strip: Some((Icon::Window, Group::Openings)),
+    options: &[WIDTH],
+    make: || Box::new(Opening::new(OpeningKind::Window)),
+};
 
 struct Opening {
     kind: OpeningKind,

@@ -5,7 +5,15 @@ use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, Segment, Vector};
 use crate::plan::Plan;
 
-pub(super) const ENTRY: Entry = Entry { id: "paste", make: || Box::new(Paste) };
+pub(crate) const ENTRY: Entry = Entry {
+    id: "paste",
+    title: "Paste",
+    help: "Place what was copied: it hangs on the pointer until you click",
+    keys: &[],
+    strip: None,
+    options: &[],
+    make: || Box::new(Paste),
+};
 
 /// What hangs on the pointer is what was copied last.
 struct Paste;

@@ -2,10 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use egui::CursorIcon;
+use egui::{CursorIcon, Key, KeyboardShortcut, Modifiers};
 
+use super::tool::Group;
 use super::{Anchor, Call, Entry, Input, Scope, Tool, word};
 use crate::app::commands::{elements_word, points_word, room_word};
+use crate::app::look::icons::Icon;
+use crate::app::look::icons::Part::Loop;
 use crate::app::paint::preview::{Look, Preview};
 use crate::app::session::document::Derived;
 use crate::app::session::layers::LayerSettings;
@@ -13,7 +16,26 @@ use crate::app::session::selection::{SelectMode, Selection};
 use crate::geometry::{Point, Segment, Vector};
 use crate::plan::{CornerId, ElementId, OpeningId, Place, Plan};
 
-pub(super) const ENTRY: Entry = Entry { id: "select", make: || Box::new(Select::default()) };
+pub(super) const ENTRY: Entry = Entry {
+    id: "tool-select",
+    title: "Select",
+    help: "Select, move, drag corners; drag over free space for a box",
+    keys: &[KeyboardShortcut::new(Modifiers::NONE, Key::V)],
+    strip: Some((
+        Icon::Drawn(&[Loop(&[
+            (4.0, 2.0),
+            (4.0, 12.6),
+            (6.7, 10.1),
+            (8.5, 14.0),
+            (10.4, 13.1),
+            (8.6, 9.4),
+            (12.2, 9.2),
+        ])]),
+        Group::Select,
+    )),
+    options: &[],
+    make: || Box::new(Select::default()),
+};
 
 #[derive(Default)]
 struct Select {

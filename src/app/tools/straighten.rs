@@ -5,7 +5,15 @@ use crate::app::paint::preview::{Look, Preview};
 use crate::edit::straightening_rad;
 use crate::geometry::{Point, Segment};
 
-pub(super) const ENTRY: Entry = Entry { id: "straighten", make: || Box::new(Straighten { from: None }) };
+pub(crate) const ENTRY: Entry = Entry {
+    id: "tool-straighten",
+    title: "Straighten",
+    help: "Click along a wall of the picture that should be level or upright: the picture turns",
+    keys: &[],
+    strip: None,
+    options: &[],
+    make: || Box::new(Straighten { from: None }),
+};
 
 struct Straighten {
     from: Option<Point>,

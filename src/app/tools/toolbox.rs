@@ -93,9 +93,9 @@ impl Toolbox {
         self.tool.as_mut()
     }
 
-    /// The word of the tool in the hand.
-    pub(crate) fn id(&self) -> &'static str {
-        self.entry.id
+    /// The tool in the hand, as the list has it.
+    pub(crate) fn entry(&self) -> &'static Entry {
+        self.entry
     }
 
     pub(crate) fn take_back(&mut self) -> TakenBack {

@@ -1,20 +1,8 @@
 //! Drawing: walls, rooms, openings.
 
 use super::*;
-use crate::app::tools::TOOLS;
 use crate::edit;
 use crate::plan::OpeningKind;
-
-/// Takes up a tool.
-const fn tool(
-    id: &'static str,
-    title: &'static str,
-    help: &'static str,
-    is_on: fn(&App) -> bool,
-    run: fn(&mut App, &Context),
-) -> Command {
-    choose(id, title, help, has_plan, is_on, run)
-}
 
 const PATH: Argument = needed(
     "POINTS",
@@ -51,120 +39,6 @@ pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> R
 }
 
 pub(super) const COMMANDS: &[Command] = &[
-    tool(
-        "tool-select",
-        "Select",
-        "Select, move, drag corners; drag over free space for a box",
-        |app| app.tools.is(TOOLS[0].id),
-        |app, _| app.tools.take_up(TOOLS[0].id),
-    )
-    .keys(&[key(Key::V)])
-    .menu(Menu::Draw, 0)
-    .strip(Icon::Select, 0),
-    tool(
-        "tool-walls",
-        "Walls",
-        "Draw a chain of walls",
-        |app| app.tools.is("walls"),
-        |app, _| app.tools.take_up("walls"),
-    )
-    .keys(&[key(Key::W)])
-    .menu(Menu::Draw, 0)
-    .strip(Icon::Walls, 1),
-    tool(
-        "tool-rectangle",
-        "Rectangular room",
-        "Draw a room as a rectangle: it takes what no room covers yet",
-        |app| app.tools.is("rectangle"),
-        |app, _| app.tools.take_up("rectangle"),
-    )
-    .keys(&[key(Key::R)])
-    .menu(Menu::Draw, 0)
-    .strip(Icon::Rectangle, 1),
-    tool(
-        "tool-room",
-        "Room by corners",
-        "Draw a room corner by corner",
-        |app| app.tools.is("room"),
-        |app, _| app.tools.take_up("room"),
-    )
-    .keys(&[shift(Key::R)])
-    .menu(Menu::Draw, 0)
-    .strip(Icon::Polygon, 1),
-    tool(
-        "tool-fill",
-        "Fill",
-        "Make a room of what walls enclose",
-        |app| app.tools.is("fill"),
-        |app, _| app.tools.take_up("fill"),
-    )
-    .keys(&[key(Key::E)])
-    .menu(Menu::Draw, 0)
-    .strip(Icon::Bucket, 1),
-    tool(
-        "tool-split",
-        "Split",
-        "Split a room along a line",
-        |app| app.tools.is("split"),
-        |app, _| app.tools.take_up("split"),
-    )
-    .keys(&[key(Key::X)])
-    .menu(Menu::Draw, 0)
-    .strip(Icon::Split, 2),
-    tool(
-        "tool-cut-out",
-        "Courtyard",
-        "Cut a courtyard or a shaft out of a room",
-        |app| app.tools.is("cut-out"),
-        |app, _| app.tools.take_up("cut-out"),
-    )
-    .keys(&[shift(Key::X)])
-    .menu(Menu::Draw, 0)
-    .strip(Icon::CutOut, 2),
-    tool("tool-door", "Door", "Put a door into a wall", |app| app.tools.is("door"), |app, _| app.tools.take_up("door"))
-        .keys(&[key(Key::D)])
-        .menu(Menu::Draw, 1)
-        .strip(Icon::Door, 3),
-    tool(
-        "tool-double-door",
-        "Double door",
-        "Put a door with two leaves into a wall",
-        |app| app.tools.is("double-door"),
-        |app, _| app.tools.take_up("double-door"),
-    )
-    .keys(&[shift(Key::D)])
-    .menu(Menu::Draw, 1)
-    .strip(Icon::DoubleDoor, 3),
-    tool(
-        "tool-passage",
-        "Passage",
-        "Put a free passage into a wall or a boundary",
-        |app| app.tools.is("passage"),
-        |app, _| app.tools.take_up("passage"),
-    )
-    .keys(&[key(Key::O)])
-    .menu(Menu::Draw, 1)
-    .strip(Icon::Passage, 3),
-    tool(
-        "tool-window",
-        "Window",
-        "Put a window into a wall",
-        |app| app.tools.is("window"),
-        |app, _| app.tools.take_up("window"),
-    )
-    .keys(&[shift(Key::O)])
-    .menu(Menu::Draw, 1)
-    .strip(Icon::Window, 3),
-    tool(
-        "tool-measure",
-        "Measure",
-        "Measure distances, angles and areas",
-        |app| app.tools.is("measure"),
-        |app, _| app.tools.take_up("measure"),
-    )
-    .keys(&[key(Key::T)])
-    .menu(Menu::Draw, 2)
-    .strip(Icon::Measure, 4),
     with(
         "fill-all",
         "Fill all",

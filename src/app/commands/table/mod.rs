@@ -22,6 +22,7 @@ use crate::app::look::{icons::Icon, theme::ThemeChoice};
 use crate::app::panels::{palette::Palette, shortcuts::Sheet};
 use crate::app::session::{fields::FieldKind, questions::Intent, selection::SelectMode, settings::GRID_RANGE_M};
 use crate::app::state::App;
+use crate::app::tools::{self, Entry, Group, TOOLS};
 use crate::base::units::Units;
 use crate::draw::{Fill, LabelColours};
 use crate::edit::EditError;
@@ -102,6 +103,29 @@ const fn choose(
     run: fn(&mut App, &Context),
 ) -> Command {
     entry(id, title, help, availability, Action::Choose { is_on, run })
+}
+
+/// Takes up a tool: all but when and where is said in the tool's own file.
+const fn tool(tool: &'static Entry, availability: fn(&App) -> Availability) -> Command {
+    entry(tool.id, tool.title, tool.help, availability, Action::TakeUp(tool)).keys(tool.keys)
+}
+
+/// The commands of the tools that stand in the strip, by their groups.
+fn tools_of_the_strip() -> Vec<Command> {
+    let mut tools: Vec<(Group, Command)> = TOOLS
+        .iter()
+        .filter_map(|entry| {
+            let (icon, group) = entry.strip?;
+            let section = match group {
+                Group::Select | Group::Draw | Group::Divide => 0,
+                Group::Openings => 1,
+                Group::Measure => 2,
+            };
+            Some((group, tool(entry, has_plan).menu(Menu::Draw, section).strip(icon, group as u8)))
+        })
+        .collect();
+    tools.sort_by_key(|(group, _)| *group);
+    tools.into_iter().map(|(_, command)| command).collect()
 }
 
 /// Something that takes arguments; missing ones are asked for by `ask`, or in the palette.
@@ -317,19 +341,21 @@ const DIRECTIONS: &[(&str, &str)] = &[("left", "Left"), ("right", "Right"), ("up
 /// How much a step of zooming changes the size.
 const ZOOM_STEP: f64 = 1.25;
 
-/// The parts of the table, in the order of the menus. A part is a file.
-const PARTS: &[&[Command]] = &[
-    file::COMMANDS,
-    edit::COMMANDS,
-    draw::COMMANDS,
-    modify::COMMANDS,
-    room::COMMANDS,
-    picture::COMMANDS,
-    predict::COMMANDS,
-    view::COMMANDS,
-    help::COMMANDS,
-    script::COMMANDS,
-];
-
-/// Every command, in the order of the menus.
-pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| PARTS.concat());
+/// Every command, in the order of the menus. A menu is a file; the tools' commands follow from the tools.
+pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| {
+    let tools = tools_of_the_strip();
+    let parts: [&[Command]; 11] = [
+        file::COMMANDS,
+        edit::COMMANDS,
+        &tools,
+        draw::COMMANDS,
+        modify::COMMANDS,
+        room::COMMANDS,
+        picture::COMMANDS,
+        predict::COMMANDS,
+        view::COMMANDS,
+        help::COMMANDS,
+        script::COMMANDS,
+    ];
+    parts.concat()
+});

@@ -98,15 +98,9 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .keys(&[ctrl(Key::X)])
     .menu(Menu::Modify, 2),
-    command(
-        "paste",
-        "Paste",
-        "Place what was copied: it hangs on the pointer until you click",
-        has_copied,
-        |app, _| {
-            app.tools.take_up("paste");
-        },
-    )
+    command(tools::PASTE.id, tools::PASTE.title, tools::PASTE.help, has_copied, |app, _| {
+        app.tools.take_up(tools::PASTE.id);
+    })
     .keys(&[ctrl(Key::V)])
     .menu(Menu::Modify, 2),
     with(
@@ -118,7 +112,7 @@ pub(super) const COMMANDS: &[Command] = &[
         |app, _, context| {
             let ran = app.copy_selected(context);
             if ran == Ran::Done {
-                app.tools.take_up("paste");
+                app.tools.take_up(tools::PASTE.id);
             }
             ran
         },

@@ -113,24 +113,8 @@ pub(super) const COMMANDS: &[Command] = &[
         app.session.remove_picture();
     })
     .menu(Menu::Picture, 0),
-    choose(
-        "tool-calibrate",
-        "Set scale by a length",
-        "Click both ends of a length on the picture and type how long it is in truth; more lengths make it surer",
-        has_backdrop,
-        |app| app.tools.is("calibrate"),
-        |app, _| app.tools.take_up("calibrate"),
-    )
-    .menu(Menu::Picture, 1),
-    choose(
-        "tool-calibrate-door",
-        "Set scale by a door",
-        "Click both sides of a door on the picture: it is as wide as doors are drawn, 0.9 m unless set otherwise",
-        has_backdrop,
-        |app| app.tools.is("calibrate-door"),
-        |app, _| app.tools.take_up("calibrate-door"),
-    )
-    .menu(Menu::Picture, 1),
+    tool(&tools::CALIBRATE_BY_LENGTH, has_backdrop)    .menu(Menu::Picture, 1),
+    tool(&tools::CALIBRATE_BY_DOOR, has_backdrop)    .menu(Menu::Picture, 1),
     with(
         "calibrate",
         "Set scale",
@@ -181,15 +165,7 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .menu(Menu::Picture, 1),
-    choose(
-        "tool-straighten",
-        "Straighten",
-        "Click along a wall of the picture that should be level or upright: the picture turns",
-        has_backdrop,
-        |app| app.tools.is("straighten"),
-        |app, _| app.tools.take_up("straighten"),
-    )
-    .menu(Menu::Picture, 2),
+    tool(&tools::STRAIGHTEN, has_backdrop)    .menu(Menu::Picture, 2),
     with(
         "straighten",
         "Straighten by a line",

@@ -146,15 +146,7 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .keys(&[ctrl(Key::F2)])
     .menu(Menu::Room, 1),
-    choose(
-        "tool-number",
-        "Name along a line",
-        "Drag a line through rooms: they are named in the order in which it comes to them",
-        has_rooms,
-        |app| app.tools.is("number"),
-        |app, _| app.tools.take_up("number"),
-    )
-    .menu(Menu::Room, 1),
+    tool(&tools::NUMBER, has_rooms).menu(Menu::Room, 1),
     with(
         "name-along",
         "Name rooms along a line",
