@@ -17,7 +17,8 @@ use egui::{
     Shape, Stroke, Ui, Vec2, WidgetInfo, vec2,
 };
 
-use super::tools::{self, Call, Input, Scope, Toolbox};
+use super::tools::{self, Input, Scope, Toolbox};
+use super::value::{Call, Direction};
 use crate::app::look::theme;
 use crate::app::paint::backdrop::BackdropView;
 use crate::app::paint::ghost::GhostPainter;
@@ -115,8 +116,8 @@ pub(crate) enum Act {
     Pick(ElementId),
     /// Pick the next or previous room; leave the canvas behind the last.
     PickNeighbour(isize),
-    /// Pick the room nearest in a direction of the plan: the argument of the command.
-    PickTowards(&'static str),
+    /// Pick the room nearest in a direction of the plan.
+    PickTowards(Direction),
     Rename,
 }
 
@@ -580,10 +581,10 @@ impl Canvas {
                 let egui::Event::Key { key, pressed: true, modifiers, .. } = event else { return None };
                 match key {
                     Key::Tab => Some(Act::PickNeighbour(if modifiers.shift { -1 } else { 1 })),
-                    Key::ArrowLeft => Some(Act::PickTowards("left")),
-                    Key::ArrowRight => Some(Act::PickTowards("right")),
-                    Key::ArrowUp => Some(Act::PickTowards("up")),
-                    Key::ArrowDown => Some(Act::PickTowards("down")),
+                    Key::ArrowLeft => Some(Act::PickTowards(Direction::Left)),
+                    Key::ArrowRight => Some(Act::PickTowards(Direction::Right)),
+                    Key::ArrowUp => Some(Act::PickTowards(Direction::Up)),
+                    Key::ArrowDown => Some(Act::PickTowards(Direction::Down)),
                     Key::Enter => Some(Act::Rename),
                     _ => None,
                 }

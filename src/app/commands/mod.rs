@@ -4,6 +4,7 @@
 //! A new command is one entry. Its id is the word by which scripts call it, and never changes.
 
 mod argument;
+mod given;
 mod manual;
 mod run;
 mod table;
@@ -19,7 +20,8 @@ pub use run::CommandError;
 pub use table::COMMANDS;
 
 pub(super) use crate::app::look::keys::take_pressed;
-pub(super) use argument::{Values, elements_word, point, points_word, room_word, sample_word};
+pub(super) use crate::app::value::{elements_word, point, points_word, room_word, sample_word};
+use given::Run;
 
 use crate::app::look::icons::Icon;
 use crate::app::state::App;
@@ -70,7 +72,7 @@ enum Action {
     /// Takes up a tool.
     TakeUp(&'static Entry),
     With {
-        run: fn(&mut App, &Values, &Context) -> Ran,
+        run: &'static dyn Run,
         /// Asks for what is missing; the palette does without.
         ask: Option<fn(&mut App, &Context)>,
         /// For what is on or off: which it is.

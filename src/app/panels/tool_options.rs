@@ -10,6 +10,7 @@ use crate::app::look::{
 };
 use crate::app::state::App;
 use crate::app::tools::ToolOption;
+use crate::app::value::{Call, Value};
 use crate::base::units::Units;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
@@ -89,8 +90,8 @@ fn length(
     };
     let response = ui.add(field).labelled_by(label.id);
     if response.changed() {
-        let word = ((value_m * 1000.0).round() / 1000.0).to_string();
+        let to_the_millimetre = Value::Number((value_m * 1000.0).round() / 1000.0);
         let context = ui.ctx().clone();
-        app.act(command, &[&word], &context);
+        app.act_on(Call::new(command, [to_the_millimetre]), &context);
     }
 }

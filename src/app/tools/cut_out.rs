@@ -4,8 +4,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::path::Path;
 use super::tool::{GRID, Group, RIGHT_ANGLES, SNAPPING};
-use super::{Anchor, Call, Entry, Input, Scope, Tool};
-use crate::app::commands::points_word;
+use super::{Anchor, Call, Entry, Input, Scope, Tool, Value};
 use crate::app::look::icons::Icon;
 use crate::app::look::icons::Part::Loop;
 use crate::app::paint::preview::{Look, Preview};
@@ -46,7 +45,7 @@ impl CutOut {
     /// Drawing -> Ready
     fn close(&mut self) -> Vec<Call> {
         let points = rectangle_of_two(std::mem::take(&mut self.path).points);
-        if points.len() < 3 { Vec::new() } else { vec![("cut-out", vec![points_word(&points)])] }
+        if points.len() < 3 { Vec::new() } else { vec![Call::new("cut-out", [Value::points(&points)])] }
     }
 }
 

@@ -5,7 +5,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 use std::cell::RefCell;
 
 use super::tool::Group;
-use super::{Call, Entry, Input, Scope, Tool, word};
+use super::{Call, Entry, Input, Scope, Tool, Value};
 use crate::app::look::icons::{Icon, Part};
 use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, polygon};
@@ -55,7 +55,7 @@ impl Fill {
 impl Tool for Fill {
     fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
         match input {
-            Input::Click => vec![("fill-at", vec![word(scope.pointer)])],
+            Input::Click => vec![Call::new("fill-at", [Value::point(scope.pointer)])],
             _ => Vec::new(),
         }
     }

@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use egui::{Key, Modifiers};
 
-use super::tool::Call;
-use super::{Typed, points_word};
+use super::{Call, Typed, Value};
 use crate::app::session::{document::Derived, layers::LayerSettings, selection::Selection};
+use crate::app::value::Space;
 use crate::base::units::Units;
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::plan::{DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, Plan};
@@ -42,8 +42,8 @@ impl DrawOptions {
     pub(super) fn draw_room(&self, corners: &[Point]) -> Call {
         let thickness_m = if self.walls_with_rooms { self.thickness_m } else { 0.0 };
         // Along rooms that are there the boundary need not be drawn exactly: it may run through them.
-        let space = if self.over_rooms { "exact" } else { "free" };
-        ("draw-room", vec![points_word(corners), space.to_owned(), thickness_m.to_string()])
+        let space = if self.over_rooms { Space::Exact } else { Space::Free };
+        Call::new("draw-room", [Value::points(corners), Value::word(space), Value::Number(thickness_m)])
     }
 }
 

@@ -23,18 +23,16 @@ mod typing;
 mod walls;
 
 pub(crate) use crate::app::paint::preview::{paint_snap, tag};
+pub(crate) use crate::app::value::{Call, Value};
 pub(crate) use calibrate::{BY_DOOR as CALIBRATE_BY_DOOR, BY_LENGTH as CALIBRATE_BY_LENGTH};
 pub(crate) use input::{Anchor, DrawOptions, Ground, Input, Scope};
 pub(crate) use number::ENTRY as NUMBER;
 pub(crate) use paste::ENTRY as PASTE;
 pub(crate) use select::{REACH_PX, hit};
 pub(crate) use straighten::ENTRY as STRAIGHTEN;
-pub(crate) use tool::{Call, Entry, Group, TakenBack, Tool, ToolOption};
+pub(crate) use tool::{Entry, Group, TakenBack, Tool, ToolOption};
 pub(crate) use toolbox::Toolbox;
 pub(crate) use typing::{Typed, Typing};
-
-use super::commands::points_word;
-use crate::geometry::Point;
 
 /// Every tool. The first one is in the hand when nothing else is.
 pub(crate) const TOOLS: &[Entry] = &[
@@ -57,15 +55,9 @@ pub(crate) const TOOLS: &[Entry] = &[
     straighten::ENTRY,
 ];
 
-/// A point as a command's word.
-pub(crate) fn word(point: Point) -> String {
-    points_word(&[point])
-}
-
-/// Places and lengths of a picture as a command's words: a hundredth of a millimetre of the plan is less
-/// than any pixel.
-fn picture_words<const N: usize>(values: [f64; N]) -> Vec<String> {
-    values.map(|value| ((value * 1e5).round() / 1e5).to_string()).to_vec()
+/// Places and lengths of a picture: a hundredth of a millimetre of the plan is less than any pixel.
+fn picture_numbers<const N: usize>(values: [f64; N]) -> [Value; N] {
+    values.map(|value| Value::Number((value * 1e5).round() / 1e5))
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! Names rooms in the order in which a line is drawn through them.
 
-use super::{Call, Entry, Input, Scope, Tool};
-use crate::app::commands::points_word;
+use super::{Call, Entry, Input, Scope, Tool, Value};
 use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, polygon};
 
@@ -48,7 +47,7 @@ impl Tool for Number {
                 self.add(scope);
                 let line = std::mem::take(&mut self.line);
                 if line.len() > 1 {
-                    return vec![("name-along", vec![points_word(&line)])];
+                    return vec![Call::new("name-along", [Value::points(&line)])];
                 }
             }
             Input::Escape => self.line.clear(),

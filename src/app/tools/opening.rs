@@ -3,7 +3,7 @@
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::tool::{Group, WIDTH};
-use super::{Call, Entry, Input, Scope, Tool, Typed, Typing, word};
+use super::{Call, Entry, Input, Scope, Tool, Typed, Typing, Value};
 use crate::app::look::icons::Icon;
 use crate::app::paint::preview::{Look, Preview};
 use crate::edit::opening_on;
@@ -101,14 +101,19 @@ impl Opening {
     /// Ready -> Ready
     fn place(&self, scope: &Scope<'_>) -> Vec<Call> {
         if let Some(gap) = Self::gap(scope) {
-            let kind = self.kind.name().replace(' ', "-");
-            return vec![("bridge-gap", vec![word(gap.segment.midpoint()), kind])];
+            let values = [Value::point(gap.segment.midpoint()), Value::word(self.kind)];
+            return vec![Call::new("bridge-gap", values)];
         }
         let planned = self.planned(scope);
         let Some(segment) = planned.and_then(|opening| scope.plan.opening_segment(&opening)) else { return Vec::new() };
-        let kind = self.kind.name().replace(' ', "-");
         let width_m = (segment.length() * 1e4).round() / 1e4;
-        vec![("add-opening", vec![kind, word(segment.midpoint()), width_m.to_string(), word(scope.pointer)])]
+        let values = [
+            Value::word(self.kind),
+            Value::point(segment.midpoint()),
+            Value::Number(width_m),
+            Value::point(scope.pointer),
+        ];
+        vec![Call::new("add-opening", values)]
     }
 }
 
@@ -131,7 +136,7 @@ impl Tool for Opening {
                 self.from = None;
                 Vec::new()
             }
-            Input::Typed(Typed::Length { length_m, .. }) => vec![("opening-width", vec![length_m.to_string()])],
+            Input::Typed(Typed::Length { length_m, .. }) => vec![Call::new("opening-width", [Value::Number(length_m)])],
             _ => Vec::new(),
         }
     }

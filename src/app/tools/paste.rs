@@ -1,6 +1,6 @@
 //! Places what was copied.
 
-use super::{Call, Entry, Input, Scope, Tool, word};
+use super::{Call, Entry, Input, Scope, Tool, Value};
 use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, Segment, Vector};
 use crate::plan::Plan;
@@ -24,8 +24,8 @@ const MOST_LINES: usize = 3000;
 impl Tool for Paste {
     fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
         match input {
-            Input::Click => vec![("paste-at", vec![word(scope.at())])],
-            Input::SecondaryClick => vec![("clear-selection", Vec::new())],
+            Input::Click => vec![Call::new("paste-at", [Value::point(scope.at())])],
+            Input::SecondaryClick => vec![Call::new("clear-selection", [])],
             _ => Vec::new(),
         }
     }

@@ -4,8 +4,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::path::Path;
 use super::tool::{GRID, Group, RIGHT_ANGLES, SNAPPING};
-use super::{Call, Entry, Input, Scope, Tool};
-use crate::app::commands::points_word;
+use super::{Call, Entry, Input, Scope, Tool, Value};
 use crate::app::look::icons::Icon;
 use crate::app::look::icons::Part::Line;
 use crate::app::paint::preview::{Look, Preview};
@@ -66,7 +65,7 @@ impl Split {
     /// Cutting -> Ready
     fn end(&mut self) -> Vec<Call> {
         let points = std::mem::take(&mut self.path).points;
-        if points.len() < 2 { Vec::new() } else { vec![("split-rooms", vec![points_word(&points)])] }
+        if points.len() < 2 { Vec::new() } else { vec![Call::new("split-rooms", [Value::points(&points)])] }
     }
 }
 
@@ -78,7 +77,7 @@ impl Tool for Split {
         match input {
             // Ready -> Ready
             Input::Click if self.path.is_empty() && !scope.modifiers.shift => match self.across(scope) {
-                Some(Across { line, .. }) => vec![("split-rooms", vec![points_word(&[line.a, line.b])])],
+                Some(Across { line, .. }) => vec![Call::new("split-rooms", [Value::points(&[line.a, line.b])])],
                 None => Vec::new(),
             },
             Input::Click | Input::Drop => self.to(scope.at(), scope),

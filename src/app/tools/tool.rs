@@ -2,6 +2,7 @@
 
 use egui::{CursorIcon, Key, KeyboardShortcut};
 
+use super::Call;
 use super::input::{Anchor, DrawOptions, Input, Scope};
 use super::path::Path;
 use super::typing::Typing;
@@ -90,9 +91,6 @@ pub(super) const WIDTH: ToolOption = ToolOption::Length {
     now_m: |options| options.opening_width_m,
     is_shown: |_| true,
 };
-
-/// A command to run: its id and its arguments.
-pub(crate) type Call = (&'static str, Vec<String>);
 
 /// What undo does to a tool at work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

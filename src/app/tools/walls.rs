@@ -4,8 +4,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::path::{ARC_HINT, Path};
 use super::tool::{GRID, Group, RIGHT_ANGLES, SNAPPING, THICKNESS};
-use super::{Call, Entry, Input, Scope, TakenBack, Tool};
-use crate::app::commands::points_word;
+use super::{Call, Entry, Input, Scope, TakenBack, Tool, Value};
 use crate::app::look::icons::Icon;
 use crate::app::look::icons::Part::Line;
 use crate::app::paint::preview::{Look, Preview};
@@ -55,11 +54,11 @@ impl Walls {
                 if !path.go_to(point, scope) {
                     return Vec::new();
                 }
-                let words = vec![points_word(&path.points), scope.options.thickness_m.to_string()];
+                let values = [Value::points(&path.points), Value::Number(scope.options.thickness_m)];
                 if is_closed {
                     *self = Self::Ready;
                 }
-                vec![("draw-walls", words)]
+                vec![Call::new("draw-walls", values)]
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::draw::{KINDS, edited, kind_of};
+use super::draw::edited;
 use super::*;
 use crate::app::session::{
     document::Document,
@@ -10,10 +10,10 @@ use crate::app::session::{
 };
 use crate::edit::{self, Alignment, Array};
 use crate::geometry::Transform;
-use crate::plan::{LeafSide, OpeningId, OpeningKind, RoomId, Swing};
+use crate::plan::{LeafSide, OpeningId, Swing};
 use crate::topology;
 
-const MODE: Argument = optional("MODE", ArgumentKind::Word(SelectMode::WORDS), "replace (without), add or toggle");
+const MODE: Arg<Option<SelectMode>> = optional("MODE", one_of::<SelectMode>(), "replace (without), add or toggle");
 
 pub(super) const COMMANDS: &[Command] = &[
     command("select-all", "Select all", "Select everything that is not locked", has_drawing, |app, _| {
@@ -28,17 +28,19 @@ pub(super) const COMMANDS: &[Command] = &[
         "Select by label…",
         "Select all rooms with a label",
         has_rooms,
-        &[needed("LABEL", ArgumentKind::Word(LABELS), "small, medium, big, corridor, hall or none"), MODE],
-        |app, values, _| {
-            let wanted = values.word(0).copied().unwrap_or_default();
-            let Some(plan) = app.plan() else { return Ran::Done };
-            let found: Vec<ElementId> = plan
-                .rooms()
-                .filter(|(_, room)| label_word(RoomStatus::of(plan, &app.session.schemes, room)) == wanted)
-                .map(|(id, _)| ElementId::Room(id))
-                .collect();
-            select_found(app, found, values)
-        },
+        &given2(
+            needed("LABEL", one_of::<Wanted>(), "small, medium, big, corridor, hall or none"),
+            MODE,
+            |app, Wanted(wanted), mode, _| {
+                let Some(plan) = app.plan() else { return Ran::Done };
+                let found: Vec<ElementId> = plan
+                    .rooms()
+                    .filter(|(_, room)| is_labelled(RoomStatus::of(plan, &app.session.schemes, room), wanted))
+                    .map(|(id, _)| ElementId::Room(id))
+                    .collect();
+                select_found(app, found, mode)
+            },
+        ),
         None,
     )
     .menu(Menu::Modify, 0),
@@ -47,17 +49,16 @@ pub(super) const COMMANDS: &[Command] = &[
         "Select by function…",
         "Select all rooms that are for something",
         has_rooms,
-        &[needed("FUNCTION", ArgumentKind::Function, "what the rooms are for"), MODE],
-        |app, values, _| {
-            let wanted = normalised_function(values.text(0).unwrap_or_default());
+        &given2(needed("FUNCTION", FUNCTION, "what the rooms are for"), MODE, |app, function, mode, _| {
+            let wanted = normalised_function(&function);
             let Some(plan) = app.plan() else { return Ran::Done };
             let found: Vec<ElementId> = plan
                 .rooms()
                 .filter(|(_, room)| normalised_function(&room.function) == wanted)
                 .map(|(id, _)| ElementId::Room(id))
                 .collect();
-            select_found(app, found, values)
-        },
+            select_found(app, found, mode)
+        }),
         None,
     )
     .menu(Menu::Modify, 0),
@@ -66,8 +67,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Delete",
         "Delete what is selected, and what cannot stand without it",
         has_picked,
-        &[],
-        |app, _, _| app.delete_selected(),
+        &given0(|app, _| app.delete_selected()),
         None,
     )
     .keys(&[key(Key::Delete)])
@@ -78,8 +78,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Copy",
         "Keep what is selected, to paste it here or into another plan",
         has_picked,
-        &[],
-        |app, _, context| app.copy_selected(context),
+        &given0(|app, context| app.copy_selected(context)),
         None,
     )
     .keys(&[ctrl(Key::C)])
@@ -89,11 +88,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Cut",
         "Keep what is selected, to paste it, and delete it here",
         has_picked,
-        &[],
-        |app, _, context| match app.copy_selected(context) {
+        &given0(|app, context| match app.copy_selected(context) {
             Ran::Done => app.delete_selected(),
             other => other,
-        },
+        }),
         None,
     )
     .keys(&[ctrl(Key::X)])
@@ -108,14 +106,13 @@ pub(super) const COMMANDS: &[Command] = &[
         "Duplicate",
         "Place a copy of what is selected",
         has_picked,
-        &[],
-        |app, _, context| {
+        &given0(|app, context| {
             let ran = app.copy_selected(context);
             if ran == Ran::Done {
                 app.tools.take_up(tools::PASTE.id);
             }
             ran
-        },
+        }),
         None,
     )
     .keys(&[ctrl(Key::D)])
@@ -126,19 +123,15 @@ pub(super) const COMMANDS: &[Command] = &[
         "Rotate…",
         "Turn what is selected about its middle, counter-clockwise; what shares its corners follows",
         has_picked,
-        &[
-            needed(
-                "ANGLE",
-                ArgumentKind::Number { unit: " of degrees", least: -360.0, most: 360.0 },
-                "in degrees, counter-clockwise",
-            ),
+        &given2(
+            needed("ANGLE", number(" of degrees", -360.0, 360.0), "in degrees, counter-clockwise"),
             CENTRE,
-        ],
-        |app, values, _| {
-            let angle_rad = values.number(0).copied().unwrap_or_default().to_radians();
-            let about = app.centre_of_selection(values, 1);
-            moved(app, "Rotate", Transform::rotation(about, angle_rad))
-        },
+            |app, angle, about, _| {
+                let angle_rad = angle.to_radians();
+                let about = app.centre_of_selection(about);
+                moved(app, "Rotate", Transform::rotation(about, angle_rad))
+            },
+        ),
         None,
     )
     .menu(Menu::Modify, 3),
@@ -148,7 +141,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Turn what is selected by a right angle, counter-clockwise",
         has_picked,
         |app, _| {
-            let about = app.centre_of_selection(&Values::default(), 0);
+            let about = app.centre_of_selection(None);
             app.report(|app| moved(app, "Rotate", Transform::rotation(about, std::f64::consts::FRAC_PI_2)));
         },
     )
@@ -158,15 +151,17 @@ pub(super) const COMMANDS: &[Command] = &[
         "Mirror…",
         "Mirror what is selected over the upright or the level line through its middle",
         has_picked,
-        &[needed("WAY", ArgumentKind::Word(MIRRORS), "left-right or up-down"), CENTRE],
-        |app, values, _| {
-            let about = app.centre_of_selection(values, 1);
-            let way = if values.word(0) == Some(&"up-down") { Vector::new(1.0, 0.0) } else { Vector::new(0.0, 1.0) };
+        &given2(needed("WAY", one_of::<Mirror>(), "left-right or up-down"), CENTRE, |app, mirror, about, _| {
+            let about = app.centre_of_selection(about);
+            let way = match mirror {
+                Mirror::LeftRight => Vector::new(0.0, 1.0),
+                Mirror::UpDown => Vector::new(1.0, 0.0),
+            };
             match Transform::reflection(about, about + way) {
                 Some(transform) => moved(app, "Mirror", transform),
                 None => Ran::Done,
             }
-        },
+        }),
         None,
     )
     .menu(Menu::Modify, 3),
@@ -175,14 +170,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Scale…",
         "Make what is selected larger or smaller about its middle",
         has_picked,
-        &[
-            needed("FACTOR", ArgumentKind::Number { unit: "", least: 0.001, most: 1000.0 }, "2 is twice as large"),
-            CENTRE,
-        ],
-        |app, values, _| {
-            let about = app.centre_of_selection(values, 1);
-            moved(app, "Scale", Transform::scaling(about, values.number(0).copied().unwrap_or(1.0)))
-        },
+        &given2(needed("FACTOR", number("", 0.001, 1000.0), "2 is twice as large"), CENTRE, |app, factor, about, _| {
+            let about = app.centre_of_selection(about);
+            moved(app, "Scale", Transform::scaling(about, factor))
+        }),
         None,
     )
     .menu(Menu::Modify, 3),
@@ -191,22 +182,15 @@ pub(super) const COMMANDS: &[Command] = &[
         "Array…",
         "Copy what is selected into columns and rows",
         has_picked,
-        &[
-            needed("COLUMNS", ArgumentKind::Count, "how many side by side, the original among them"),
-            needed("ROWS", ArgumentKind::Count, "how many above each other"),
-            needed(
-                "STEP",
-                ArgumentKind::Points { least: 1 },
-                "from column to column and from row to row, in metres, as '4,3'",
-            ),
-        ],
-        |app, values, _| {
-            let step = values.points(2).and_then(|points| points.first()).copied().unwrap_or_default();
-            let columns = values.count(0).copied().unwrap_or(1);
-            let rows = values.count(1).copied().unwrap_or(1);
-            let (column_step, row_step) = (Vector::new(step.x, 0.0), Vector::new(0.0, step.y));
-            copied(app, Array::Grid { columns, rows, column_step, row_step })
-        },
+        &given3(
+            needed("COLUMNS", COUNT, "how many side by side, the original among them"),
+            needed("ROWS", COUNT, "how many above each other"),
+            needed("STEP", POINT, "from column to column and from row to row, in metres, as '4,3'"),
+            |app, columns, rows, step, _| {
+                let (column_step, row_step) = (Vector::new(step.x, 0.0), Vector::new(0.0, step.y));
+                copied(app, Array::Grid { columns, rows, column_step, row_step })
+            },
+        ),
         None,
     )
     .menu(Menu::Modify, 3),
@@ -215,21 +199,15 @@ pub(super) const COMMANDS: &[Command] = &[
         "Array around a point…",
         "Copy what is selected around a point",
         has_picked,
-        &[
-            needed("ABOUT", ArgumentKind::Points { least: 1 }, "the point, in metres, as '4,3'"),
-            needed("COUNT", ArgumentKind::Count, "how many, the original among them"),
-            needed(
-                "ANGLE",
-                ArgumentKind::Number { unit: " of degrees", least: -360.0, most: 360.0 },
-                "from one to the next, in degrees",
-            ),
-        ],
-        |app, values, _| {
-            let about = values.points(0).and_then(|points| points.first()).copied().unwrap_or_default();
-            let count = values.count(1).copied().unwrap_or(1);
-            let step_rad = values.number(2).copied().unwrap_or_default().to_radians();
-            copied(app, Array::Polar { about, count, step_rad })
-        },
+        &given3(
+            needed("ABOUT", POINT, "the point, in metres, as '4,3'"),
+            needed("COUNT", COUNT, "how many, the original among them"),
+            needed("ANGLE", number(" of degrees", -360.0, 360.0), "from one to the next, in degrees"),
+            |app, about, count, step, _| {
+                let step_rad = step.to_radians();
+                copied(app, Array::Polar { about, count, step_rad })
+            },
+        ),
         None,
     )
     .menu(Menu::Modify, 3),
@@ -238,19 +216,13 @@ pub(super) const COMMANDS: &[Command] = &[
         "Align…",
         "Bring sides or middles of what is selected into line",
         has_picked,
-        &[needed("SIDE", ArgumentKind::Word(ALIGNMENTS), "left, right, top, bottom, centre or middle")],
-        |app, values, _| {
-            let alignment = match values.word(0) {
-                Some(&"left") => Alignment::Left,
-                Some(&"right") => Alignment::Right,
-                Some(&"top") => Alignment::Top,
-                Some(&"bottom") => Alignment::Bottom,
-                Some(&"centre") => Alignment::Center,
-                _ => Alignment::Middle,
-            };
-            let selected = app.session.selection.elements().clone();
-            edited(app, "Align", |plan| edit::align(plan, &selected, alignment))
-        },
+        &given1(
+            needed("SIDE", one_of::<Alignment>(), "left, right, top, bottom, centre or middle"),
+            |app, alignment, _| {
+                let selected = app.session.selection.elements().clone();
+                edited(app, "Align", |plan| edit::align(plan, &selected, alignment))
+            },
+        ),
         None,
     )
     .menu(Menu::Modify, 4),
@@ -259,12 +231,11 @@ pub(super) const COMMANDS: &[Command] = &[
         "Distribute…",
         "Put what is selected at equal distances",
         has_picked,
-        &[needed("WAY", ArgumentKind::Word(&[("across", "Side by side"), ("up", "Above each other")]), "across or up")],
-        |app, values, _| {
-            let is_upright = values.word(0) == Some(&"up");
+        &given1(needed("WAY", one_of::<Way>(), "across or up"), |app, way, _| {
+            let is_upright = way == Way::Up;
             let selected = app.session.selection.elements().clone();
             edited(app, "Distribute", |plan| edit::distribute(plan, &selected, is_upright))
-        },
+        }),
         None,
     )
     .menu(Menu::Modify, 4),
@@ -273,17 +244,19 @@ pub(super) const COMMANDS: &[Command] = &[
         "Square up",
         "Make angles that are nearly right ones right: of the selected rooms, or of all",
         has_drawing,
-        &[optional(
-            "ANGLE",
-            ArgumentKind::Number { unit: " of degrees", least: 0.01, most: 44.0 },
-            "how far from right an angle may be, in degrees; 10 without, the paper's threshold",
-        )],
-        |app, values, _| {
-            let max_rad = values.number(0).copied().unwrap_or(10.0).to_radians();
-            let rooms: BTreeSet<RoomId> = app.session.selection.rooms().collect();
-            let of = (!rooms.is_empty()).then_some(rooms);
-            edited(app, "Square up", |plan| edit::square_up(plan, of.as_ref(), max_rad))
-        },
+        &given1(
+            optional(
+                "ANGLE",
+                number(" of degrees", 0.01, 44.0),
+                "how far from right an angle may be, in degrees; 10 without, the paper's threshold",
+            ),
+            |app, angle, _| {
+                let max_rad = angle.unwrap_or(10.0).to_radians();
+                let rooms: BTreeSet<RoomId> = app.session.selection.rooms().collect();
+                let of = (!rooms.is_empty()).then_some(rooms);
+                edited(app, "Square up", |plan| edit::square_up(plan, of.as_ref(), max_rad))
+            },
+        ),
         None,
     )
     .menu(Menu::Modify, 5),
@@ -292,8 +265,9 @@ pub(super) const COMMANDS: &[Command] = &[
         "Weld corners…",
         "Join corners that are no further apart than a tolerance; shows what it does before it does it",
         has_drawing,
-        &[needed("TOLERANCE", ArgumentKind::Number { unit: " of metres", least: 0.0001, most: 10.0 }, "in metres")],
-        |app, values, _| app.ask_to_weld(values.number(0).copied().unwrap_or_default()),
+        &given1(needed("TOLERANCE", metres(0.0001, 10.0), "in metres"), |app, tolerance_m, _| {
+            app.ask_to_weld(tolerance_m)
+        }),
         None,
     )
     .menu(Menu::Modify, 5),
@@ -302,15 +276,11 @@ pub(super) const COMMANDS: &[Command] = &[
         "Offset copy…",
         "Draw walls beside the selected walls, or inside or outside the selected room",
         has_picked,
-        &[
-            needed("DISTANCE", ArgumentKind::Number { unit: " of metres", least: 0.001, most: 1000.0 }, "in metres"),
-            optional(
-                "TOWARDS",
-                ArgumentKind::Points { least: 1 },
-                "a point on the side where the copy goes; without, where the pointer is",
-            ),
-        ],
-        |app, values, _| app.offset_selected(values),
+        &given2(
+            needed("DISTANCE", metres(0.001, 1000.0), "in metres"),
+            optional("TOWARDS", POINT, "a point on the side where the copy goes; without, where the pointer is"),
+            |app, distance_m, towards, _| app.offset_selected(distance_m, towards),
+        ),
         None,
     )
     .menu(Menu::Modify, 5),
@@ -319,15 +289,13 @@ pub(super) const COMMANDS: &[Command] = &[
         "Thickness…",
         "Make the selected walls as thick as this",
         has_picked,
-        &[needed("THICKNESS", ArgumentKind::Number { unit: " of metres", least: 0.0, most: 10.0 }, "in metres")],
-        |app, values, _| {
-            let thickness_m = values.number(0).copied().unwrap_or_default();
+        &given1(needed("THICKNESS", metres(0.0, 10.0), "in metres"), |app, thickness_m, _| {
             let walls: Vec<_> = app.session.selection.walls().collect();
             if walls.is_empty() {
                 return Ran::Refused("select a wall first".to_owned());
             }
             edited(app, "Set thickness", |plan| edit::set_thickness(plan, &walls, thickness_m))
-        },
+        }),
         None,
     )
     .menu(Menu::Modify, 5),
@@ -336,14 +304,13 @@ pub(super) const COMMANDS: &[Command] = &[
         "Merge rooms",
         "Make one room of the selected ones; walls and openings between them go",
         has_picked,
-        &[],
-        |app, _, _| {
+        &given0(|app, _| {
             let rooms: Vec<RoomId> = app.session.selection.rooms().collect();
             if rooms.len() < 2 {
                 return Ran::Refused("select two rooms or more first".to_owned());
             }
             edited(app, "Merge rooms", |plan| edit::merge_rooms(plan, &rooms))
-        },
+        }),
         None,
     )
     .keys(&[key(Key::J)])
@@ -353,8 +320,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Doors into all gaps",
         "Close the gaps of 30 to 150 cm between collinear walls with doorways",
         has_drawing,
-        &[],
-        |app, _, _| app.ask_to_bridge(),
+        &given0(|app, _| app.ask_to_bridge()),
         None,
     )
     .menu(Menu::Modify, 6),
@@ -363,8 +329,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Hinge at the other end",
         "Hinge the selected doors at their other end",
         has_opening,
-        &[],
-        |app, _, _| app.change_openings("Flip hinge", edit::flip_hinge),
+        &given0(|app, _| app.change_openings("Flip hinge", edit::flip_hinge)),
         None,
     )
     .menu(Menu::Modify, 7),
@@ -373,8 +338,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Open to the other side",
         "Let the selected doors open to their other side",
         has_opening,
-        &[],
-        |app, _, _| app.change_openings("Flip side", edit::flip_side),
+        &given0(|app, _| app.change_openings("Flip side", edit::flip_side)),
         None,
     )
     .menu(Menu::Modify, 7),
@@ -383,11 +347,9 @@ pub(super) const COMMANDS: &[Command] = &[
         "Kind of opening…",
         "Make doors, double doors, passages or windows of the selected openings",
         has_opening,
-        &[needed("KIND", ArgumentKind::Word(KINDS), "door, double-door, passage or window")],
-        |app, values, _| {
-            let kind = kind_of(values.word(0).copied().unwrap_or_default());
+        &given1(needed("KIND", one_of::<OpeningKind>(), "door, double-door, passage or window"), |app, kind, _| {
             app.change_openings("Change opening", |plan, id, _| edit::set_opening_kind(plan, id, kind))
-        },
+        }),
         None,
     )
     .menu(Menu::Modify, 7),
@@ -396,11 +358,9 @@ pub(super) const COMMANDS: &[Command] = &[
         "Width of opening…",
         "Make the selected openings as wide as this",
         has_opening,
-        &[needed("WIDTH", ArgumentKind::Number { unit: " of metres", least: 0.01, most: 1000.0 }, "in metres")],
-        |app, values, _| {
-            let width_m = values.number(0).copied().unwrap_or_default();
+        &given1(needed("WIDTH", metres(0.01, 1000.0), "in metres"), |app, width_m, _| {
             app.change_openings("Set width", |plan, id, _| edit::resize_opening(plan, id, width_m))
-        },
+        }),
         None,
     )
     .menu(Menu::Modify, 7),
@@ -437,23 +397,18 @@ pub(super) const COMMANDS: &[Command] = &[
         "Select in a box",
         "Select what lies in a box, or also what it touches",
         has_plan,
-        &[
-            needed("CORNERS", ArgumentKind::Points { least: 2 }, "two opposite corners of the box"),
-            optional(
-                "HOW",
-                ArgumentKind::Word(&[("inside", "Inside"), ("touching", "Touching")]),
-                "inside (without) or touching",
-            ),
+        &given3(
+            needed("CORNERS", points(2), "two opposite corners of the box"),
+            optional("HOW", one_of::<Boxed>(), "inside (without) or touching"),
             MODE,
-        ],
-        |app, values, _| {
-            let bounds = Bounds::of(values.points(0).unwrap_or_default().iter().copied());
-            let touches = values.word(1) == Some(&"touching");
-            let found = app.elements_in(bounds, touches);
-            let mode = SelectMode::of_word(values.word(2).copied().unwrap_or("replace"));
-            app.session.select(found, mode);
-            Ran::Done
-        },
+            |app, corners, boxed, mode, _| {
+                let bounds = Bounds::of(corners);
+                let touches = boxed == Some(Boxed::Touching);
+                let found = app.elements_in(bounds, touches);
+                app.session.select(found, mode.unwrap_or(SelectMode::Replace));
+                Ran::Done
+            },
+        ),
         None,
     ),
     with(
@@ -461,11 +416,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Move the selection",
         "Move what is selected; what shares its corners follows",
         has_picked,
-        &[needed("BY", ArgumentKind::Points { least: 1 }, "how far right and up, in metres, as '0.5,-1'")],
-        |app, values, _| {
-            let by = values.points(0).and_then(|points| points.first()).copied().unwrap_or_default() - Point::default();
+        &given1(needed("BY", POINT, "how far right and up, in metres, as '0.5,-1'"), |app, by, _| {
+            let by = by - Point::default();
             moved(app, "Move", Transform::translation(by))
-        },
+        }),
         None,
     ),
     with(
@@ -473,11 +427,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Paste at a place",
         "Place what was copied with its middle at a point",
         has_copied,
-        &[needed("PLACE", ArgumentKind::Points { least: 1 }, "a point in metres, as '2,1.5'")],
-        |app, values, _| {
-            let at = values.points(0).and_then(|points| points.first()).copied().unwrap_or_default();
-            app.paste_at(at)
-        },
+        &given1(needed("PLACE", POINT, "a point in metres, as '2,1.5'"), |app, at, _| app.paste_at(at)),
         None,
     ),
     with(
@@ -485,20 +435,19 @@ pub(super) const COMMANDS: &[Command] = &[
         "Door into a gap",
         "Close the gap between two collinear walls that is nearest to a point with an opening",
         has_drawing,
-        &[
-            needed("PLACE", ArgumentKind::Points { least: 1 }, "a point in metres, as '2,1.5'"),
-            optional("KIND", ArgumentKind::Word(KINDS), "door (without), double-door, passage or window"),
-        ],
-        |app, values, _| {
-            let at = values.points(0).and_then(|points| points.first()).copied().unwrap_or_default();
-            let kind = kind_of(values.word(1).copied().unwrap_or("door"));
-            edited(app, "Bridge gap", |plan| {
-                let gaps = topology::gaps(plan);
-                let nearest = gaps.iter().min_by(|p, q| p.segment.distance(at).total_cmp(&q.segment.distance(at)));
-                let Some(gap) = nearest else { return Err(EditError(NO_GAPS.to_owned())) };
-                Ok(edit::bridge_gaps(plan, std::slice::from_ref(gap), kind)?.0)
-            })
-        },
+        &given2(
+            needed("PLACE", POINT, "a point in metres, as '2,1.5'"),
+            optional("KIND", one_of::<OpeningKind>(), "door (without), double-door, passage or window"),
+            |app, at, kind, _| {
+                let kind = kind.unwrap_or(OpeningKind::Door);
+                edited(app, "Bridge gap", |plan| {
+                    let gaps = topology::gaps(plan);
+                    let nearest = gaps.iter().min_by(|p, q| p.segment.distance(at).total_cmp(&q.segment.distance(at)));
+                    let Some(gap) = nearest else { return Err(EditError(NO_GAPS.to_owned())) };
+                    Ok(edit::bridge_gaps(plan, std::slice::from_ref(gap), kind)?.0)
+                })
+            },
+        ),
         None,
     ),
     with(
@@ -506,20 +455,18 @@ pub(super) const COMMANDS: &[Command] = &[
         "Move a corner",
         "Move a corner; everything that shares it follows",
         has_plan,
-        &[
-            needed("CORNER", ArgumentKind::Elements, "the corner's id"),
-            needed("TO", ArgumentKind::Points { least: 1 }, "where to, in metres"),
-        ],
-        |app, values, _| {
-            let to = values.points(1).and_then(|points| points.first()).copied().unwrap_or_default();
-            let Some(ElementId::Corner(corner)) = values.elements(0).and_then(|elements| elements.first()).copied()
-            else {
-                return Ran::Refused("this is no corner".to_owned());
-            };
-            edited(app, "Move corner", |plan| {
-                edit::settle(&edit::move_corners(plan, &[(corner, to)])?, &BTreeSet::from([corner]))
-            })
-        },
+        &given2(
+            needed("CORNER", ELEMENTS, "the corner's id"),
+            needed("TO", POINT, "where to, in metres"),
+            |app, elements, to, _| {
+                let Some(ElementId::Corner(corner)) = elements.first().copied() else {
+                    return Ran::Refused("this is no corner".to_owned());
+                };
+                edited(app, "Move corner", |plan| {
+                    edit::settle(&edit::move_corners(plan, &[(corner, to)])?, &BTreeSet::from([corner]))
+                })
+            },
+        ),
         None,
     ),
     with(
@@ -527,35 +474,42 @@ pub(super) const COMMANDS: &[Command] = &[
         "Slide an opening",
         "Slide an opening along its wall, as near to a point as the wall lets it",
         has_openings,
-        &[
-            needed("OPENING", ArgumentKind::Opening, "the opening's id"),
-            needed("TOWARDS", ArgumentKind::Points { least: 1 }, "a point, in metres"),
-        ],
-        |app, values, _| {
-            let towards = values.points(1).and_then(|points| points.first()).copied().unwrap_or_default();
-            let Some(&opening) = values.opening(0) else { return Ran::Done };
-            edited(app, "Slide opening", |plan| edit::slide_opening(plan, opening, towards))
-        },
+        &given2(
+            needed("OPENING", OPENING, "the opening's id"),
+            needed("TOWARDS", POINT, "a point, in metres"),
+            |app, opening, towards, _| edited(app, "Slide opening", |plan| edit::slide_opening(plan, opening, towards)),
+        ),
         None,
     ),
 ];
 
-const CENTRE: Argument = optional(
-    "ABOUT",
-    ArgumentKind::Points { least: 1 },
-    "a point, in metres, as '4,3'; the middle of what is selected without",
-);
+const CENTRE: Arg<Option<Point>> =
+    optional("ABOUT", POINT, "a point, in metres, as '4,3'; the middle of what is selected without");
 
-const MIRRORS: &[(&str, &str)] = &[("left-right", "Left and right"), ("up-down", "Up and down")];
+/// Over which line things are mirrored.
+#[derive(Clone, Copy)]
+enum Mirror {
+    LeftRight,
+    UpDown,
+}
 
-const ALIGNMENTS: &[(&str, &str)] = &[
-    ("left", "Left sides"),
-    ("right", "Right sides"),
-    ("top", "Upper sides"),
-    ("bottom", "Lower sides"),
-    ("centre", "Middles, on an upright line"),
-    ("middle", "Middles, on a level line"),
-];
+impl Worded for Mirror {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("left-right", "Left and right"), ("up-down", "Up and down")];
+    const ALL: &'static [Self] = &[Self::LeftRight, Self::UpDown];
+}
+
+/// Which way things are put at equal distances.
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    Across,
+    Up,
+}
+
+impl Worded for Way {
+    const WORDS: &'static [(&'static str, &'static str)] = &[("across", "Side by side"), ("up", "Above each other")];
+    const ALL: &'static [Self] = &[Self::Across, Self::Up];
+}
 
 const NO_GAPS: &str = "there is no gap of 30 to 150 cm between collinear walls";
 
@@ -601,31 +555,44 @@ fn has_opening(app: &App) -> Availability {
     when(app.session.selection.openings().next().is_some(), "select a door or another opening first")
 }
 
-/// The labels as words, and rooms without one.
-const LABELS: &[(&str, &str)] = &[
-    ("small", "Small room"),
-    ("medium", "Medium room"),
-    ("big", "Big room"),
-    ("corridor", "Corridor"),
-    ("hall", "Hall"),
-    ("none", "No label"),
-];
+/// A label that is looked for, or none.
+#[derive(Clone, Copy)]
+struct Wanted(Option<Label>);
 
-fn label_word(status: RoomStatus) -> &'static str {
+impl Worded for Wanted {
+    const WORDS: &'static [(&'static str, &'static str)] = &[
+        ("small", "Small room"),
+        ("medium", "Medium room"),
+        ("big", "Big room"),
+        ("corridor", "Corridor"),
+        ("hall", "Hall"),
+        ("none", "No label"),
+    ];
+    const ALL: &'static [Self] = &[
+        Self(Some(Label::SmallRoom)),
+        Self(Some(Label::MediumRoom)),
+        Self(Some(Label::BigRoom)),
+        Self(Some(Label::Corridor)),
+        Self(Some(Label::Hall)),
+        Self(None),
+    ];
+}
+
+fn is_labelled(status: RoomStatus, wanted: Option<Label>) -> bool {
     match status {
-        RoomStatus::Labelled(label) => LABELS[label.index()].0,
-        RoomStatus::Unlabelled => "none",
-        RoomStatus::NotClassified => "",
+        RoomStatus::Labelled(label) => wanted == Some(label),
+        RoomStatus::Unlabelled => wanted.is_none(),
+        RoomStatus::NotClassified => false,
     }
 }
 
 /// Selects what was looked for.
-fn select_found(app: &mut App, found: Vec<ElementId>, values: &Values) -> Ran {
+fn select_found(app: &mut App, found: Vec<ElementId>, mode: Option<SelectMode>) -> Ran {
     if found.is_empty() {
         return Ran::Refused("there is no such room".to_owned());
     }
     app.session.status = format!("Found {}", crate::base::wording::count(found.len(), "room"));
-    app.session.select(found, SelectMode::of_word(values.word(1).copied().unwrap_or("replace")));
+    app.session.select(found, mode.unwrap_or(SelectMode::Replace));
     Ran::Done
 }
 
@@ -678,8 +645,7 @@ impl App {
     }
 
     /// The point that an argument names, or the middle of what is selected.
-    fn centre_of_selection(&self, values: &Values, index: usize) -> Point {
-        let named = values.points(index).and_then(|points| points.first()).copied();
+    fn centre_of_selection(&self, named: Option<Point>) -> Point {
         named.unwrap_or_else(|| {
             let document = self.session.document.as_ref();
             let bounds = self.session.selection.iter().filter_map(|element| document?.bounds_of(element));
@@ -781,9 +747,7 @@ impl App {
     }
 
     /// Draws walls beside what is selected.
-    fn offset_selected(&mut self, values: &Values) -> Ran {
-        let distance_m = values.number(0).copied().unwrap_or_default();
-        let named = values.points(1).and_then(|points| points.first()).copied();
+    fn offset_selected(&mut self, distance_m: f64, named: Option<Point>) -> Ran {
         let towards = named.or(self.session.pointed.at).unwrap_or_default();
         let walls: Vec<_> = self.session.selection.walls().collect();
         let room = self.session.selection.rooms().next();
