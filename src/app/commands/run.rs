@@ -7,12 +7,12 @@ use std::path::PathBuf;
 
 use egui::Context;
 
-use super::argument::{Values, switch_word};
 use super::{Action, COMMANDS, Command, Ran, find};
 use crate::app::look::keys::Keys;
 use crate::app::panels::palette::Palette;
 use crate::app::session::{messages::Severity, settings::Settings};
 use crate::app::state::App;
+use crate::app::value::{Call, Value, Values, switch_word};
 use crate::base::units::Units;
 
 /// Why a command was not run.
@@ -76,6 +76,30 @@ impl App {
     /// # Errors
     /// When there is no such command, when it cannot be done now, when an argument is wrong.
     pub fn run_command_with(&mut self, id: &str, arguments: &[&str], context: &Context) -> Result<(), CommandError> {
+        let command = self.prepare(id, arguments.len())?;
+        let values = self.read_arguments(command, arguments)?;
+        self.finish(command, values, context)
+    }
+
+    /// Runs a command with values.
+    ///
+    /// # Errors
+    /// As [`App::run_command_with`].
+    pub(crate) fn run_call(&mut self, call: Call, context: &Context) -> Result<(), CommandError> {
+        let command = self.prepare(call.id, call.values.len())?;
+        let values = self.take_arguments(command, call.values)?;
+        self.finish(command, values, context)
+    }
+
+    /// Runs a command with values, and says why where that is refused.
+    pub(crate) fn act_on(&mut self, call: Call, context: &Context) {
+        if let Err(error) = self.run_call(call, context) {
+            self.session.say(Severity::Warning, error.to_string(), "");
+        }
+    }
+
+    /// The command, where it can be done now with so many arguments.
+    fn prepare(&mut self, id: &str, given: usize) -> Result<&'static Command, CommandError> {
         let command = find(id).ok_or_else(|| CommandError::Unknown {
             id: id.to_owned(),
             similar: similar(id, COMMANDS.iter().map(|command| command.id), 3),
@@ -87,10 +111,14 @@ impl App {
         {
             return Err(not_now(format!("answer '{}' first", question.title)));
         }
-        let is_complete = !arguments.is_empty() && arguments.len() == command.arguments.len();
+        let is_complete = given > 0 && given == command.arguments.len();
         let availability = command.complete_availability.filter(|_| is_complete).unwrap_or(command.availability);
         availability(self).map_err(|reason| not_now(reason.to_owned()))?;
-        let values = self.read_arguments(command, arguments)?;
+        Ok(command)
+    }
+
+    fn finish(&mut self, command: &'static Command, values: Values, context: &Context) -> Result<(), CommandError> {
+        let not_now = |reason: String| CommandError::NotNow { id: command.id, reason };
         let ran = self.run_with_values(command, values, context).map_err(not_now);
         self.grant_wishes(context);
         ran
@@ -117,6 +145,23 @@ impl App {
         read.collect::<Result<_, _>>().map(Values)
     }
 
+    fn take_arguments(&self, command: &'static Command, values: Vec<Value>) -> Result<Values, CommandError> {
+        let (id, most) = (command.id, command.arguments.len());
+        if values.len() > most {
+            return Err(CommandError::TooManyArguments { id, given: values.len(), most });
+        }
+        let taken = command.arguments.iter().zip(values).map(|(argument, value)| {
+            let given = argument.kind.write(self, &value);
+            argument.kind.take(self, value).map_err(|expected| CommandError::WrongArgument {
+                id,
+                argument: argument.name,
+                given,
+                expected,
+            })
+        });
+        taken.collect::<Result<_, _>>().map(Values)
+    }
+
     /// Runs a command that can be done now; `Err` says why it was not after all.
     fn run_with_values(&mut self, command: &'static Command, values: Values, context: &Context) -> Result<(), String> {
         let is_complete = command.arguments.get(values.0.len()).is_none_or(|argument| argument.is_optional);
@@ -128,15 +173,19 @@ impl App {
                 run(self, context);
                 self.session.note_executed(command.id, written);
             }
+            Action::TakeUp(tool) => {
+                self.tools.take_up(tool.id);
+                self.session.note_executed(command.id, written);
+            }
             Action::Switch { is_on, set } => {
-                let wanted = match values.switch(0) {
-                    Some(&wanted) => wanted,
-                    None => !is_on(self),
+                let wanted = match values.0.first() {
+                    Some(&Value::Switch(wanted)) => wanted,
+                    _ => !is_on(self),
                 };
                 set(self, wanted);
                 self.session.note_executed(command.id, vec![switch_word(wanted).to_owned()]);
             }
-            Action::With { run, .. } if is_complete => match run(self, &values, context) {
+            Action::With { run, .. } if is_complete => match run.run(self, &values, context) {
                 Ran::Done => self.session.note_executed(command.id, written),
                 Ran::DoneWith(arguments) => self.session.note_executed(command.id, arguments),
                 Ran::Asks => {}

@@ -153,10 +153,6 @@ impl Order {
     pub(crate) const WORDS: &'static [(&'static str, &'static str)] =
         &[("rows", "Line by line"), ("columns", "Column by column")];
 
-    pub(crate) fn of_word(word: &str) -> Self {
-        if word == "columns" { Self::Columns } else { Self::Rows }
-    }
-
     pub(crate) const fn word(self) -> &'static str {
         match self {
             Self::Rows => "rows",

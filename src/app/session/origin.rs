@@ -65,11 +65,6 @@ pub(crate) fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
-/// The word for a plan that comes with the program.
-pub(crate) fn sample_word(index: usize) -> &'static str {
-    bundled().get(index).map_or("", |(name, _)| formats::file_stem(name))
-}
-
 /// How many notes of each kind, in words: '3 things mended, 1 left out'.
 pub(crate) fn notes_in_words(notes: &[Note]) -> String {
     let number = |kind: NoteKind| notes.iter().filter(|note| note.kind == kind).count();

@@ -4,6 +4,7 @@
 use super::wishes::Wish;
 use crate::app::session::Session;
 use crate::app::session::origin::file_name;
+use crate::app::value::sample_word;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
@@ -14,7 +15,7 @@ use crate::app::session::{
     document::{self, Derived, Document, Opened},
     jobs::Kind,
     messages::{Message, Remedy, Severity},
-    origin::{Origin, bundled, sample_word},
+    origin::{Origin, bundled},
     questions::{Intent, Question},
 };
 use crate::formats;
