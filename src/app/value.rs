@@ -4,13 +4,15 @@
 use std::path::PathBuf;
 
 use crate::app::look::keys::Keys;
-use crate::app::session::{bulk::Order, origin::bundled, selection::SelectMode};
+pub(crate) use crate::app::session::words::{
+    UNKNOWN, element, elements_word, is_own_word, point, points_word, room, room_word, sample_word, switch_word,
+};
+use crate::app::session::{bulk::Order, selection::SelectMode};
 use crate::classify::Method;
 use crate::edit::{Alignment, DrawingMoves, storey::Keep};
-use crate::formats;
-use crate::geometry::{COORDINATE_LIMIT_M, Point};
+use crate::geometry::Point;
 use crate::labels::Typology;
-use crate::plan::{ElementId, GuideAxis, OpeningId, OpeningKind, Plan, Room, RoomId};
+use crate::plan::{ElementId, GuideAxis, OpeningId, OpeningKind, RoomId};
 use crate::predict::ModelSet;
 
 /// An argument that was read.
@@ -171,89 +173,4 @@ impl Worded for Direction {
     const WORDS: &'static [(&'static str, &'static str)] =
         &[("left", "Left"), ("right", "Right"), ("up", "Up"), ("down", "Down")];
     const ALL: &'static [Self] = &[Self::Left, Self::Right, Self::Up, Self::Down];
-}
-
-// Words.
-
-/// Of rooms that have the same name not more are told.
-const MOST_TOLD: usize = 3;
-
-/// The word for a plan without a typology.
-pub(crate) const UNKNOWN: &str = "unknown";
-
-pub(crate) const fn switch_word(is_on: bool) -> &'static str {
-    if is_on { "on" } else { "off" }
-}
-
-/// The word for a plan that comes with the program.
-pub(crate) fn sample_word(index: usize) -> &'static str {
-    bundled().get(index).map_or("", |(name, _)| formats::file_stem(name))
-}
-
-/// The room that a word means. `Err(Some(…))` says why a word that names several rooms means none.
-pub(crate) fn room(plan: &Plan, word: &str) -> Result<RoomId, Option<String>> {
-    if let Ok(id) = word.parse::<RoomId>()
-        && plan.room(id).is_some()
-    {
-        return Ok(id);
-    }
-    if word.is_empty() {
-        return Err(None);
-    }
-    let named = |is_it: &dyn Fn(&Room) -> bool| -> Vec<RoomId> {
-        plan.rooms().filter(|(_, room)| is_it(room)).map(|(id, _)| id).collect()
-    };
-    let exact = named(&|room| room.name == word);
-    let lower = word.to_lowercase();
-    let found = if exact.is_empty() { named(&|room| room.name.to_lowercase() == lower) } else { exact };
-    match found.as_slice() {
-        [] => Err(None),
-        [one] => Ok(*one),
-        several => {
-            let ids: Vec<String> = several.iter().take(MOST_TOLD).map(RoomId::to_string).collect();
-            let more = if several.len() > MOST_TOLD { ", …" } else { "" };
-            Err(Some(format!("an id, for {} rooms have this name: {}{more}", several.len(), ids.join(", "))))
-        }
-    }
-}
-
-/// The element that a word means.
-pub(crate) fn element(plan: &Plan, word: &str) -> Option<ElementId> {
-    let id = match word.chars().next()? {
-        'c' => word.parse().ok().map(ElementId::Corner),
-        'w' => word.parse().ok().map(ElementId::Wall),
-        'o' => word.parse().ok().map(ElementId::Opening),
-        _ => None,
-    };
-    id.or_else(|| room(plan, word).ok().map(ElementId::Room)).filter(|&element| plan.has(element))
-}
-
-/// The word for some elements.
-pub(crate) fn elements_word(elements: impl IntoIterator<Item = ElementId>) -> String {
-    let words: Vec<String> = elements.into_iter().map(|element| element.to_string()).collect();
-    words.join(" ")
-}
-
-/// The point that a word means.
-pub(crate) fn point(word: &str) -> Option<Point> {
-    let (x, y) = word.split_once(',')?;
-    let point = Point::new(x.parse().ok()?, y.parse().ok()?);
-    (point.is_finite() && point.x.abs() <= COORDINATE_LIMIT_M && point.y.abs() <= COORDINATE_LIMIT_M).then_some(point)
-}
-
-/// The word for some points, on the 0.1 mm grid.
-pub(crate) fn points_word(points: &[Point]) -> String {
-    let words: Vec<String> = points.iter().map(|point| point.trimmed()).map(|p| format!("{},{}", p.x, p.y)).collect();
-    words.join(" ")
-}
-
-/// The word for a room: its name, where that means no other room, or its id.
-pub(crate) fn room_word(plan: &Plan, id: RoomId) -> String {
-    let name = plan.room(id).map_or("", |room| room.name.as_str());
-    if room(plan, name) == Ok(id) && is_own_word(name) { name.to_owned() } else { id.to_string() }
-}
-
-/// Whether a name is read as a name, and whole.
-pub(crate) fn is_own_word(name: &str) -> bool {
-    name.trim() == name && name.parse::<RoomId>().is_err()
 }

@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use super::{COMMANDS, Command, find};
 use crate::app::look::keys::NoKeys;
 use crate::app::session::origin::bundled;
+use crate::app::session::words::Choice;
 use crate::app::state::App;
 use crate::app::value::{
     UNKNOWN, Value, element, elements_word, is_own_word, point, points_word, room, room_word, sample_word, switch_word,
@@ -80,21 +81,6 @@ pub enum ArgumentKind {
     Keys,
     /// One of some words, each with its title.
     Word(&'static [(&'static str, &'static str)]),
-}
-
-/// One of the things an argument can be.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Choice {
-    /// As it is written in a call.
-    pub word: String,
-    /// As it is shown.
-    pub title: String,
-    /// What tells it from others of the same title; may be empty.
-    pub detail: String,
-    /// At the end: how often there is such a thing; may be empty.
-    pub trail: String,
-    /// What a room is labelled, or a function means: for a swatch.
-    pub status: Option<RoomStatus>,
 }
 
 /// More words that may have been meant are not told.

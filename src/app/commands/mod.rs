@@ -14,13 +14,14 @@ use egui::{Context, KeyboardShortcut};
 
 pub use crate::app::look::keys::{Keys, NoKeys};
 pub use crate::app::session::executed::Executed;
-pub use argument::{Argument, ArgumentKind, Choice};
+pub use crate::app::session::words::Choice;
+pub use argument::{Argument, ArgumentKind};
 pub use manual::{keys_of, manual};
 pub use run::CommandError;
 pub use table::COMMANDS;
 
 pub(super) use crate::app::look::keys::take_pressed;
-pub(super) use crate::app::value::{elements_word, point, points_word, room_word, sample_word};
+pub(super) use crate::app::value::{elements_word, room_word, sample_word};
 use given::Run;
 
 use crate::app::look::icons::Icon;

@@ -5,7 +5,7 @@ use crate::app::session::origin::file_name;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::app::commands::Choice;
+use crate::app::session::words::Choice;
 use crate::app::session::{
     document::{self, Derived, Opened},
     jobs::Kind,

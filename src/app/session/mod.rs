@@ -23,6 +23,7 @@ pub(crate) mod selection;
 pub(crate) mod settings;
 pub(crate) mod tracing;
 pub(crate) mod wishes;
+pub(crate) mod words;
 
 use crate::app::paint::backdrop::BackdropView;
 use crate::app::session::document::Document;

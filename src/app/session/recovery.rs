@@ -4,7 +4,7 @@
 use super::wishes::Wish;
 use crate::app::session::Session;
 use crate::app::session::origin::file_name;
-use crate::app::value::sample_word;
+use crate::app::session::words::sample_word;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
