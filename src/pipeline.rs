@@ -6,7 +6,6 @@
 
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
-use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
@@ -155,16 +154,6 @@ impl Derived {
         let predictions = predictor.as_ref().and_then(|(by, models)| pipeline.predictions(&Asked::by(by, models)).ok());
         let drawing = Drawing::in_tiles(plan, pipeline.analysis());
         Self::of(plan, pipeline.into_analysis(), predictions, predictor.map(|(by, _)| by), drawing)
-    }
-
-    /// The same, given up between its steps when `outdated` is set since a later plan is worked out.
-    pub fn unless_outdated(
-        plan: &Plan,
-        schemes: &Schemes,
-        predictor: Option<(Predictor, Models)>,
-        outdated: &AtomicBool,
-    ) -> Option<Self> {
-        Self::by_steps(plan, schemes, predictor, &Work::quiet().watched(&|_, _| {}, outdated)).ok()
     }
 
     /// The same, given up between its steps when the work is cancelled.

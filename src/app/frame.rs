@@ -4,6 +4,7 @@ use crate::app::canvas::Canvas;
 use crate::app::commands;
 use crate::app::commands::CommandError;
 use crate::app::commands::sample_word;
+use crate::app::dialogs::OpenDialogs;
 use crate::app::look::theme;
 use crate::app::look::theme::ThemeChoice;
 use crate::app::panels;
@@ -11,22 +12,16 @@ use crate::app::panels::Panels;
 use crate::app::panels::welcome::Samples;
 use crate::app::session::Pointed;
 use crate::app::session::Session;
-use crate::app::session::document::Derived;
 use crate::app::session::file_dialogs::Dialogs;
 use crate::app::session::jobs::Mode;
 use crate::app::session::messages::Severity;
 use crate::app::session::origin::Origin;
 use crate::app::session::wishes::Wish;
 use crate::app::state::App;
-use crate::app::state::Done;
 use crate::app::tools::Toolbox;
 use crate::store::pictures;
 use egui::Ui;
 use egui::{Context, ViewportCommand};
-use std::sync::Arc;
-/// A plan with more elements is analysed off the frame's path; below, that takes a few milliseconds.
-const LARGE_PLAN_ELEMENTS: usize = 2000;
-
 impl App {
     pub(crate) fn new(context: &Context, mode: Mode, dialogs: Dialogs, motion: theme::Motion) -> Self {
         theme::install(context, motion);
@@ -36,6 +31,7 @@ impl App {
             tools: Toolbox::default(),
             theme: ThemeChoice::default(),
             panels: Panels::default(),
+            dialogs: OpenDialogs::new(panels::DIALOGS),
             samples: Samples::default(),
             was_typing: false,
             is_close_sent: false,
@@ -50,7 +46,7 @@ impl App {
         let context = ui.ctx().clone();
         // What was done since the last frame; what it opens is still known.
         self.write_executed();
-        self.take_outcomes(&context);
+        self.session.take_outcomes(&context);
         self.grant_wishes(&context);
         self.session.take_waiting();
         if let Some(path) = self.session.recovering.take() {
@@ -71,47 +67,8 @@ impl App {
         self.session.keep_journal(&context);
         self.update_title(&context);
         self.record(&context);
-        if self.session.background.is_busy() {
-            self.session.background.request_frame(&context);
-        }
-    }
-
-    pub(crate) fn take_outcomes(&mut self, context: &Context) {
-        for outcome in self.session.background.take() {
-            match outcome {
-                None => {
-                    self.session.saving = 0;
-                    self.session.say(
-                        Severity::Error,
-                        "Something broke inside Enfilade",
-                        "Your plan is untouched. Please report what you did.",
-                    );
-                }
-                Some(Done::Opened(origin, result)) => self.session.was_opened(&origin, *result),
-                Some(Done::Derived(plan, derived)) => {
-                    if let Some((document, derived)) = self.session.document.as_mut().zip(derived) {
-                        document.set_derived(plan, derived);
-                    }
-                }
-                Some(Done::Leftovers(offered)) => self.session.were_left_over(offered),
-                Some(Done::Looked(looked)) => self.session.was_looked_at(looked),
-                Some(Done::Listed(folder, files)) => self.session.list.set_folder(folder, files),
-                Some(Done::Chosen(answer)) => {
-                    self.session.dialogs.answered();
-                    self.session.was_chosen(answer, context);
-                }
-                Some(Done::Saved { document, path, plan, result, then }) => {
-                    self.session.was_saved(document, path, plan, result, then, context);
-                }
-                Some(Done::RecordingSaved { path, recording, result, then }) => {
-                    self.recording_was_saved(&path, *recording, result, then);
-                }
-                Some(Done::Ghost(origin, result)) => self.session.ghost_was_read(&origin, *result),
-                Some(Done::Backdrop(wanted, read)) => self.session.backdrop_was_read(wanted, &read),
-                Some(Done::PictureRead { document, use_, path, page, result }) => {
-                    self.session.picture_was_read(document, use_, &path, page, result);
-                }
-            }
+        if self.session.jobs.is_busy() {
+            self.session.jobs.request_frame(&context);
         }
     }
 
@@ -120,7 +77,7 @@ impl App {
         let is_typing = std::mem::take(&mut self.was_typing) || context.text_edit_focused();
         // An open menu has the keys to itself; the list under a text field leaves them to the text.
         let is_menu_open = egui::Popup::is_any_open(context) && !is_typing;
-        if self.session.question.is_some() || self.panels.is_dialog_open() || is_menu_open {
+        if self.session.question.is_some() || self.dialogs.is_any_open() || is_menu_open {
             return;
         }
         let pressed = context.input_mut(|input| commands::take_pressed(input, &self.session.settings, is_typing));
@@ -137,25 +94,7 @@ impl App {
 
     /// Starts what the plan on screen still needs: its analysis, its backdrop.
     pub(crate) fn refresh(&mut self) {
-        let Some(document) = &mut self.session.document else { return };
-        document.predict_by(&self.session.predictor);
-        let plan = document.plan().clone();
-        self.session.selection.keep_what_is_in(&plan);
-        if document.needs_deriving() {
-            let schemes = self.session.schemes.clone();
-            let predictor = Some((self.session.predictor.clone(), self.session.models.clone()));
-            if plan.rooms().len() + plan.openings().len() + plan.walls().len() <= LARGE_PLAN_ELEMENTS {
-                let derived = Arc::new(Derived::new(&plan, &schemes, predictor));
-                document.set_derived(plan.clone(), derived);
-            } else {
-                let outdated = document.await_derived();
-                let plan = plan.clone();
-                self.session.background.start(move || {
-                    let derived = Derived::unless_outdated(&plan, &schemes, predictor, &outdated).map(Arc::new);
-                    Done::Derived(plan, derived)
-                });
-            }
-        }
+        self.session.derive();
         self.session.refresh_backdrop();
     }
 
@@ -167,7 +106,8 @@ impl App {
                     self.tools.drop_work();
                     self.canvas.forget();
                     self.session.pointed = Pointed::default();
-                    self.panels.forget();
+                    self.dialogs.forget_plan();
+                    self.panels.focus = None;
                 }
                 Wish::ForgetDrawing => {
                     self.tools.drop_work();
@@ -178,15 +118,15 @@ impl App {
                 Wish::ZoomTo(bounds) => self.canvas.zoom_to(bounds),
                 Wish::Fit => self.canvas.fit(),
                 Wish::ScaleView { about, factor } => self.canvas.scale_view(about, factor),
-                Wish::OfferRecovery => self.panels.recovery = true,
-                Wish::CloseRecovery => self.panels.recovery = false,
-                Wish::CloseDifferences => self.panels.differences = false,
+                Wish::OfferRecovery => self.set_dialog(panels::recovery::ID, true),
+                Wish::CloseRecovery => self.set_dialog(panels::recovery::ID, false),
+                Wish::CloseDifferences => self.set_dialog(panels::differences::ID, false),
                 Wish::Run(id, arguments) => {
                     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
                     self.act(id, &words, context);
                 }
                 Wish::EndRecording(then) => self.stop_recording(Some(then)),
-                Wish::SaveRecording { recording, path, then } => self.save_recording(*recording, path, then),
+                Wish::Recording(news) => self.hear_of_recording(news),
             }
         }
     }

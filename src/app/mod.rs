@@ -3,11 +3,12 @@
 //! [`App`] is the whole window apart from any display: it takes egui's input and gives shapes.
 //! [`run_window`] shows it on a screen; [`Offscreen`] drives the same one without.
 //!
-//! The floors, from the ground: `look`, `paint`, `session`, `tools`, `canvas`, `state`, `commands`, `panels`,
+//! The floors, from the ground: `look`, `paint`, `session`, `value`, `tools`, `canvas`, `state`, `commands`, `panels`,
 //! `frame`; above these `native`, `offscreen` and `replay`.
 
 mod canvas;
 pub mod commands;
+mod dialogs;
 mod frame;
 mod look;
 mod native;
@@ -18,6 +19,7 @@ pub mod replay;
 mod session;
 mod state;
 mod tools;
+mod value;
 
 pub use commands::{CommandError, Executed};
 pub use look::icons::Icon;

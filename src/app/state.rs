@@ -1,42 +1,25 @@
 //! The window's state, apart from any display.
 
 use crate::app::canvas::Canvas;
+use crate::app::dialogs::OpenDialogs;
 use crate::app::look::theme::ThemeChoice;
-use crate::app::paint::backdrop;
 use crate::app::panels::Panels;
 use crate::app::panels::welcome::Samples;
 use crate::app::replay::Recorder;
-use crate::app::replay::Recording;
 use crate::app::session::Session;
-use crate::app::session::document::Derived;
-use crate::app::session::document::Opened;
-use crate::app::session::document::SaveFailure;
 use crate::app::session::fields::FieldKind;
-use crate::app::session::file_dialogs::Answer;
-use crate::app::session::ghost;
 use crate::app::session::messages::Message;
-use crate::app::session::origin::Origin;
-use crate::app::session::questions::Intent;
-use crate::app::session::recovery::Looked;
-use crate::app::session::recovery::Offered;
 use crate::app::session::selection::Selection;
-use crate::app::session::tracing::PictureUse;
 use crate::app::tools::TakenBack;
 use crate::app::tools::Toolbox;
 use crate::base::units::Units;
-use crate::formats::FileError;
 use crate::geometry::Segment;
 use crate::plan::ElementId;
 use crate::plan::Guide;
 use crate::plan::Plan;
 use crate::predict::Predictions;
-use crate::store::SaveError;
-use crate::store::Stamp;
-use crate::store::pictures::LoadedPicture;
-use crate::store::pictures::PictureError;
 use egui::Context;
 use std::path::PathBuf;
-use std::sync::Arc;
 /// The window's state, apart from any display.
 pub struct App {
     pub(crate) session: Session,
@@ -44,6 +27,7 @@ pub struct App {
     pub(crate) tools: Toolbox,
     pub(crate) theme: ThemeChoice,
     pub(crate) panels: Panels,
+    pub(crate) dialogs: OpenDialogs,
     pub(crate) samples: Samples,
     /// Whether a text field had the keyboard when the last frame ended.
     pub(crate) was_typing: bool,
@@ -53,39 +37,6 @@ pub struct App {
     pub(crate) recorder: Option<Recorder>,
     /// A recording is to begin.
     pub(crate) wants_recording: bool,
-}
-
-/// What a background job brought.
-pub(crate) enum Done {
-    Opened(Origin, Box<Result<Opened, FileError>>),
-    /// `None` where it was given up for a later plan's.
-    Derived(Plan, Option<Arc<Derived>>),
-    Listed(PathBuf, Vec<PathBuf>),
-    Chosen(Answer),
-    Saved {
-        document: u64,
-        path: PathBuf,
-        plan: Plan,
-        result: Result<Option<Stamp>, SaveFailure>,
-        then: Option<Intent>,
-    },
-    Backdrop(backdrop::Wanted, backdrop::Read),
-    PictureRead {
-        document: u64,
-        use_: PictureUse,
-        path: PathBuf,
-        page: u32,
-        result: Result<Box<LoadedPicture>, PictureError>,
-    },
-    RecordingSaved {
-        path: PathBuf,
-        recording: Box<Recording>,
-        result: Result<(), SaveError>,
-        then: Option<Intent>,
-    },
-    Leftovers(Vec<Offered>),
-    Looked(Looked),
-    Ghost(Origin, Box<Result<ghost::Ghost, FileError>>),
 }
 
 impl App {

@@ -6,6 +6,8 @@ use std::sync::Arc;
 use imbl::OrdMap;
 use imbl::ordmap::DiffItem;
 
+use crate::base::wording::count;
+
 use super::{CornerId, ElementId, OpeningId, Place, Plan, RoomId, WallId};
 
 /// What became of an element from one plan to another.
@@ -59,6 +61,31 @@ fn collect<K: Ord + Copy, V: PartialEq>(
 }
 
 impl Difference {
+    /// How much differs, in words: '2 rooms, 1 wall and the picture'. `seen`: as [`Self::seen`] gives it.
+    pub fn in_words(&self, seen: &BTreeMap<ElementId, ChangeKind>) -> String {
+        let number = |kind: &str| seen.keys().filter(|element| element.kind() == kind).count();
+        let counts = ["room", "wall", "opening"].map(|kind| (number(kind), kind));
+        let mut parts: Vec<String> =
+            counts.iter().filter(|(number, _)| *number > 0).map(|(number, kind)| count(*number, kind)).collect();
+        if self.meta {
+            parts.push("what is known of the plan".to_owned());
+        }
+        if self.backdrop {
+            parts.push("the picture under it".to_owned());
+        }
+        if self.guides {
+            parts.push("the guide lines".to_owned());
+        }
+        match parts.split_last() {
+            None if self.is_empty() => "nothing differs".to_owned(),
+            None => "only corners and fields of another version differ".to_owned(),
+            Some((last, [])) => {
+                format!("{last} differ{}", if last.starts_with("1 ") || self.meta { "s" } else { "" })
+            }
+            Some((last, rest)) => format!("{} and {last} differ", rest.join(", ")),
+        }
+    }
+
     /// What differs between two plans.
     pub fn between(before: &Plan, after: &Plan) -> Self {
         // Named one by one: a new part of plans must say here how it differs.

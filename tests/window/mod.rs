@@ -5,6 +5,7 @@
 mod access;
 mod files;
 mod monkey;
+mod orders;
 mod pictures;
 #[path = "use.rs"]
 mod use_;

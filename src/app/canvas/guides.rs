@@ -44,11 +44,6 @@ pub(crate) fn on_canvas(rect: Rect, view: &View, axis: GuideAxis, at_m: f64) -> 
     )
 }
 
-/// A place as an argument of commands, in any units.
-pub(crate) fn word(at_m: f64) -> String {
-    format!("{at_m}m")
-}
-
 /// Where a dragged guide would be let go at a place of the screen: at the nearest round length that a
 /// pixel can tell. `None` beyond the canvas, for a new guide also on the ruler.
 pub(crate) fn dropped_at(drag: &Drag, at: Pos2, rect: Rect, view: &View, units: Units) -> Option<f64> {

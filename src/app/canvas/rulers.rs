@@ -14,7 +14,7 @@ use crate::app::canvas::guides::{self, Drag};
 use crate::app::look::theme::{self, Colours};
 use crate::app::paint::places::{on_screen, plan_point};
 use crate::app::session::Session;
-use crate::app::tools::Call;
+use crate::app::value::{Call, Value};
 use crate::base::units::Units;
 use crate::draw::View;
 use crate::geometry::Point;
@@ -215,7 +215,7 @@ fn take_pointer(
     if response.double_clicked()
         && let Some(at_m) = under
     {
-        calls.push(("remove-guide", vec![axis.name().to_owned(), guides::word(at_m)]));
+        calls.push(Call::new("remove-guide", [Value::word(axis), Value::Number(at_m)]));
         return calls;
     }
     if response.drag_started_by(PointerButton::Primary) {
@@ -235,13 +235,13 @@ fn take_pointer(
         canvas.guide_drag = None;
     } else if response.drag_stopped() || !response.dragged() {
         canvas.guide_drag = None;
-        let way = drag.axis.name();
+        let way = Value::word(drag.axis);
         match (drag.from_m, drag.to_m) {
-            (None, Some(to_m)) => calls.push(("add-guide", vec![way.to_owned(), guides::word(to_m)])),
+            (None, Some(to_m)) => calls.push(Call::new("add-guide", [way, Value::Number(to_m)])),
             (Some(from_m), Some(to_m)) if from_m != to_m => {
-                calls.push(("move-guide", vec![way.to_owned(), guides::word(from_m), guides::word(to_m)]));
+                calls.push(Call::new("move-guide", [way, Value::Number(from_m), Value::Number(to_m)]));
             }
-            (Some(from_m), None) => calls.push(("remove-guide", vec![way.to_owned(), guides::word(from_m)])),
+            (Some(from_m), None) => calls.push(Call::new("remove-guide", [way, Value::Number(from_m)])),
             _ => {}
         }
     }

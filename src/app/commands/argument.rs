@@ -3,12 +3,16 @@
 
 use crate::classify::Method;
 use crate::predict::ModelSet;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::{COMMANDS, Command, find};
-use crate::app::look::keys::{Keys, NoKeys};
+use crate::app::look::keys::NoKeys;
 use crate::app::session::origin::bundled;
+use crate::app::session::words::Choice;
 use crate::app::state::App;
+use crate::app::value::{
+    UNKNOWN, Value, element, elements_word, is_own_word, point, points_word, room, room_word, sample_word, switch_word,
+};
 use crate::base::{
     units::Units,
     wording::{or_list, sentence, similar},
@@ -17,7 +21,7 @@ use crate::features::RoomStatus;
 use crate::formats;
 use crate::geometry::{COORDINATE_LIMIT_M, Point, trim_m};
 use crate::labels::Typology;
-use crate::plan::{ElementId, Joint, Opening, OpeningId, Plan, Room, RoomId, titles::room_title};
+use crate::plan::{ElementId, Joint, Opening, OpeningId, Plan, RoomId, titles::room_title};
 
 /// Something a command takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,78 +81,6 @@ pub enum ArgumentKind {
     Keys,
     /// One of some words, each with its title.
     Word(&'static [(&'static str, &'static str)]),
-}
-
-/// An argument that was read.
-#[derive(Clone)]
-pub(crate) enum Value {
-    Path(PathBuf),
-    Text(String),
-    Number(f64),
-    Count(usize),
-    Room(RoomId),
-    Opening(OpeningId),
-    Elements(Vec<ElementId>),
-    Points(Vec<Point>),
-    Typology(Option<Typology>),
-    ModelSet(ModelSet),
-    Method(Method),
-    /// Its index.
-    Sample(usize),
-    Switch(bool),
-    Word(&'static str),
-    Command(&'static Command),
-    Keys(Keys),
-}
-
-/// The arguments of a call, read. Those left out are missing at the end.
-#[derive(Clone, Default)]
-pub(crate) struct Values(pub(super) Vec<Value>);
-
-/// Gives the value at a place as what the command's entry in the table says it is.
-macro_rules! getter {
-    ($name:ident, $variant:ident, $type:ty) => {
-        pub(crate) fn $name(&self, index: usize) -> Option<&$type> {
-            match self.0.get(index) {
-                Some(Value::$variant(value)) => Some(value),
-                _ => None,
-            }
-        }
-    };
-}
-
-impl Values {
-    getter!(path, Path, Path);
-    getter!(text, Text, str);
-    getter!(number, Number, f64);
-    getter!(count, Count, usize);
-    getter!(room, Room, RoomId);
-    getter!(opening, Opening, OpeningId);
-    getter!(elements, Elements, [ElementId]);
-    getter!(points, Points, [Point]);
-    getter!(typology, Typology, Option<Typology>);
-    getter!(model_set, ModelSet, ModelSet);
-    getter!(method, Method, Method);
-    getter!(sample, Sample, usize);
-    getter!(switch, Switch, bool);
-    getter!(word, Word, &'static str);
-    getter!(command, Command, &'static Command);
-    getter!(keys, Keys, Keys);
-}
-
-/// One of the things an argument can be.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Choice {
-    /// As it is written in a call.
-    pub word: String,
-    /// As it is shown.
-    pub title: String,
-    /// What tells it from others of the same title; may be empty.
-    pub detail: String,
-    /// At the end: how often there is such a thing; may be empty.
-    pub trail: String,
-    /// What a room is labelled, or a function means: for a swatch.
-    pub status: Option<RoomStatus>,
 }
 
 /// More words that may have been meant are not told.
@@ -290,11 +222,11 @@ impl ArgumentKind {
                     .map(crate::app::session::questions::Question::answers)
                     .unwrap_or_default();
                 let found = answers.iter().find(|(word, _)| *word == text.trim());
-                found.map(|(word, _)| Value::Word(word)).ok_or_else(|| with_choices(self.expected()))
+                found.map(|&(word, _)| Value::Word(word)).ok_or_else(|| with_choices(self.expected()))
             }
             Self::Command => {
                 let command = find(text.trim()).filter(|command| command.menu.is_some());
-                command.map(Value::Command).ok_or_else(|| with_choices(self.expected()))
+                command.map(|command| Value::Command(command.id)).ok_or_else(|| with_choices(self.expected()))
             }
             Self::Keys => text.parse().map(Value::Keys).map_err(|error: NoKeys| error.to_string()),
             Self::Word(words) => {
@@ -302,6 +234,48 @@ impl ArgumentKind {
                 found.map(|(word, _)| Value::Word(word)).ok_or_else(|| self.expected())
             }
         }
+    }
+
+    /// Takes a value that was not written, if it is one that could have been.
+    ///
+    /// # Errors
+    /// What is expected instead.
+    pub(crate) fn take(self, app: &App, value: Value) -> Result<Value, String> {
+        let has = |element: ElementId| app.plan().is_some_and(|plan| plan.has(element));
+        let is_in_reach = |point: &Point| {
+            point.is_finite() && point.x.abs() <= COORDINATE_LIMIT_M && point.y.abs() <= COORDINATE_LIMIT_M
+        };
+        let is_taken = match (self, &value) {
+            (Self::PlanFile | Self::NewPlanFile | Self::PictureFile, Value::Path(path)) => !path.as_os_str().is_empty(),
+            (Self::Number { least, most, .. }, Value::Number(number)) => (least..=most).contains(number),
+            (Self::Length { least_m, most_m }, Value::Number(length_m)) => {
+                let length_m = trim_m(*length_m);
+                return if (least_m..=most_m).contains(&length_m) {
+                    Ok(Value::Number(length_m))
+                } else {
+                    Err(self.expected())
+                };
+            }
+            (Self::Count, Value::Count(count)) => *count > 0,
+            (Self::Room, Value::Room(id)) => has(ElementId::Room(*id)),
+            (Self::Opening, Value::Opening(id)) => has(ElementId::Opening(*id)),
+            (Self::Elements, Value::Elements(elements)) => {
+                !elements.is_empty() && elements.iter().all(|&element| has(element))
+            }
+            (Self::Points { least }, Value::Points(points)) => points.len() >= least && points.iter().all(is_in_reach),
+            (Self::Sample, Value::Sample(index)) => *index < bundled().len(),
+            (Self::Word(words), Value::Word(word)) => words.iter().any(|(own, _)| own == word),
+            (Self::Text | Self::Function, Value::Text(_))
+            | (Self::Typology, Value::Typology(_))
+            | (Self::ModelSet, Value::ModelSet(_))
+            | (Self::Method, Value::Method(_))
+            | (Self::Switch, Value::Switch(_))
+            | (Self::Answer, Value::Word(_))
+            | (Self::Command, Value::Command(_))
+            | (Self::Keys, Value::Keys(_)) => true,
+            _ => false,
+        };
+        if is_taken { Ok(value) } else { Err(self.expected()) }
     }
 
     /// An argument as it is written in a call, so that reading it gives the same again.
@@ -323,7 +297,7 @@ impl ArgumentKind {
             Value::Sample(index) => sample_word(*index).to_owned(),
             Value::Switch(is_on) => switch_word(*is_on).to_owned(),
             Value::Word(word) => (*word).to_owned(),
-            Value::Command(command) => command.id.to_owned(),
+            Value::Command(id) => (*id).to_owned(),
             Value::Keys(keys) => keys.to_string(),
         }
     }
@@ -394,86 +368,6 @@ impl ArgumentKind {
             Self::Word(words) => words.iter().map(|(word, title)| plain(word, title)).collect(),
         })
     }
-}
-
-/// The word for a plan without a typology.
-const UNKNOWN: &str = "unknown";
-
-pub(crate) const fn switch_word(is_on: bool) -> &'static str {
-    if is_on { "on" } else { "off" }
-}
-
-/// The word for a plan that comes with the program.
-pub(crate) fn sample_word(index: usize) -> &'static str {
-    bundled().get(index).map_or("", |(name, _)| formats::file_stem(name))
-}
-
-/// The room that a word means. `Err(Some(…))` says why a word that names several rooms means none.
-fn room(plan: &Plan, word: &str) -> Result<RoomId, Option<String>> {
-    if let Ok(id) = word.parse::<RoomId>()
-        && plan.room(id).is_some()
-    {
-        return Ok(id);
-    }
-    if word.is_empty() {
-        return Err(None);
-    }
-    let named = |is_it: &dyn Fn(&Room) -> bool| -> Vec<RoomId> {
-        plan.rooms().filter(|(_, room)| is_it(room)).map(|(id, _)| id).collect()
-    };
-    let exact = named(&|room| room.name == word);
-    let lower = word.to_lowercase();
-    let found = if exact.is_empty() { named(&|room| room.name.to_lowercase() == lower) } else { exact };
-    match found.as_slice() {
-        [] => Err(None),
-        [one] => Ok(*one),
-        several => {
-            let ids: Vec<String> = several.iter().take(MOST_SIMILAR).map(RoomId::to_string).collect();
-            let more = if several.len() > MOST_SIMILAR { ", …" } else { "" };
-            Err(Some(format!("an id, for {} rooms have this name: {}{more}", several.len(), ids.join(", "))))
-        }
-    }
-}
-
-/// The element that a word means.
-fn element(plan: &Plan, word: &str) -> Option<ElementId> {
-    let id = match word.chars().next()? {
-        'c' => word.parse().ok().map(ElementId::Corner),
-        'w' => word.parse().ok().map(ElementId::Wall),
-        'o' => word.parse().ok().map(ElementId::Opening),
-        _ => None,
-    };
-    id.or_else(|| room(plan, word).ok().map(ElementId::Room)).filter(|&element| plan.has(element))
-}
-
-/// The word for some elements.
-pub(crate) fn elements_word(elements: impl IntoIterator<Item = ElementId>) -> String {
-    let words: Vec<String> = elements.into_iter().map(|element| element.to_string()).collect();
-    words.join(" ")
-}
-
-/// The point that a word means.
-pub(crate) fn point(word: &str) -> Option<Point> {
-    let (x, y) = word.split_once(',')?;
-    let point = Point::new(x.parse().ok()?, y.parse().ok()?);
-    (point.is_finite() && point.x.abs() <= COORDINATE_LIMIT_M && point.y.abs() <= COORDINATE_LIMIT_M).then_some(point)
-}
-
-/// The word for some points, on the 0.1 mm grid.
-pub(crate) fn points_word(points: &[Point]) -> String {
-    let words: Vec<String> = points.iter().map(|point| point.trimmed()).map(|p| format!("{},{}", p.x, p.y)).collect();
-    words.join(" ")
-}
-
-/// The word for a room: its name, where that means no other room, or its id.
-pub(crate) fn room_word(plan: &Plan, id: RoomId) -> String {
-    let name = plan.room(id).map_or("", |room| room.name.as_str());
-    if room(plan, name) == Ok(id) && is_own_word(name) { name.to_owned() } else { id.to_string() }
-}
-
-/// Whether a name is read as a name, and whole.
-fn is_own_word(name: &str) -> bool {
-    name.trim() == name && name.parse::<RoomId>().is_err()
 }
 
 fn room_choices(app: &App) -> Vec<Choice> {

@@ -4,24 +4,29 @@
 //! A new command is one entry. Its id is the word by which scripts call it, and never changes.
 
 mod argument;
+mod given;
 mod manual;
 mod run;
 mod table;
+mod tools;
 
 use egui::{Context, KeyboardShortcut};
 
 pub use crate::app::look::keys::{Keys, NoKeys};
 pub use crate::app::session::executed::Executed;
-pub use argument::{Argument, ArgumentKind, Choice};
+pub use crate::app::session::words::Choice;
+pub use argument::{Argument, ArgumentKind};
 pub use manual::{keys_of, manual};
 pub use run::CommandError;
 pub use table::COMMANDS;
 
 pub(super) use crate::app::look::keys::take_pressed;
-pub(super) use argument::{Values, elements_word, point, points_word, room_word, sample_word};
+pub(super) use crate::app::value::{elements_word, room_word, sample_word};
+use given::Run;
 
 use crate::app::look::icons::Icon;
 use crate::app::state::App;
+use crate::app::tools::Entry;
 
 /// Something a person can do.
 #[derive(Clone, Copy)]
@@ -65,8 +70,10 @@ enum Action {
         is_on: fn(&App) -> bool,
         run: fn(&mut App, &Context),
     },
+    /// Takes up a tool.
+    TakeUp(&'static Entry),
     With {
-        run: fn(&mut App, &Values, &Context) -> Ran,
+        run: &'static dyn Run,
         /// Asks for what is missing; the palette does without.
         ask: Option<fn(&mut App, &Context)>,
         /// For what is on or off: which it is.
@@ -138,6 +145,7 @@ impl Command {
     pub fn is_on(&self, app: &App) -> Option<bool> {
         match self.action {
             Action::Switch { is_on, .. } | Action::Choose { is_on, .. } => Some(is_on(app)),
+            Action::TakeUp(tool) => Some(app.tools.is(tool.id)),
             Action::With { is_on, .. } => is_on.map(|is_on| is_on(app)),
             Action::Plain(_) => None,
         }

@@ -1,19 +1,18 @@
 //! Running commands by their words, and telling a recorder which ran.
 
 use crate::app::session::executed::Executed;
-use crate::app::session::tracing::PictureChange;
 use crate::base::wording::{or_list, similar};
 use std::fmt;
 use std::path::PathBuf;
 
 use egui::Context;
 
-use super::argument::{Values, switch_word};
 use super::{Action, COMMANDS, Command, Ran, find};
 use crate::app::look::keys::Keys;
 use crate::app::panels::palette::Palette;
-use crate::app::session::{messages::Severity, questions::Question, settings::Settings};
+use crate::app::session::{messages::Severity, settings::Settings};
 use crate::app::state::App;
+use crate::app::value::{Call, Value, Values, switch_word};
 use crate::base::units::Units;
 
 /// Why a command was not run.
@@ -77,6 +76,30 @@ impl App {
     /// # Errors
     /// When there is no such command, when it cannot be done now, when an argument is wrong.
     pub fn run_command_with(&mut self, id: &str, arguments: &[&str], context: &Context) -> Result<(), CommandError> {
+        let command = self.prepare(id, arguments.len())?;
+        let values = self.read_arguments(command, arguments)?;
+        self.finish(command, values, context)
+    }
+
+    /// Runs a command with values.
+    ///
+    /// # Errors
+    /// As [`App::run_command_with`].
+    pub(crate) fn run_call(&mut self, call: Call, context: &Context) -> Result<(), CommandError> {
+        let command = self.prepare(call.id, call.values.len())?;
+        let values = self.take_arguments(command, call.values)?;
+        self.finish(command, values, context)
+    }
+
+    /// Runs a command with values, and says why where that is refused.
+    pub(crate) fn act_on(&mut self, call: Call, context: &Context) {
+        if let Err(error) = self.run_call(call, context) {
+            self.session.say(Severity::Warning, error.to_string(), "");
+        }
+    }
+
+    /// The command, where it can be done now with so many arguments.
+    fn prepare(&mut self, id: &str, given: usize) -> Result<&'static Command, CommandError> {
         let command = find(id).ok_or_else(|| CommandError::Unknown {
             id: id.to_owned(),
             similar: similar(id, COMMANDS.iter().map(|command| command.id), 3),
@@ -86,12 +109,16 @@ impl App {
         if let Some(question) = &self.session.question
             && command.id != "answer"
         {
-            return Err(not_now(format!("answer '{}' first", question.title(self))));
+            return Err(not_now(format!("answer '{}' first", question.title)));
         }
-        let is_complete = !arguments.is_empty() && arguments.len() == command.arguments.len();
+        let is_complete = given > 0 && given == command.arguments.len();
         let availability = command.complete_availability.filter(|_| is_complete).unwrap_or(command.availability);
         availability(self).map_err(|reason| not_now(reason.to_owned()))?;
-        let values = self.read_arguments(command, arguments)?;
+        Ok(command)
+    }
+
+    fn finish(&mut self, command: &'static Command, values: Values, context: &Context) -> Result<(), CommandError> {
+        let not_now = |reason: String| CommandError::NotNow { id: command.id, reason };
         let ran = self.run_with_values(command, values, context).map_err(not_now);
         self.grant_wishes(context);
         ran
@@ -118,6 +145,23 @@ impl App {
         read.collect::<Result<_, _>>().map(Values)
     }
 
+    fn take_arguments(&self, command: &'static Command, values: Vec<Value>) -> Result<Values, CommandError> {
+        let (id, most) = (command.id, command.arguments.len());
+        if values.len() > most {
+            return Err(CommandError::TooManyArguments { id, given: values.len(), most });
+        }
+        let taken = command.arguments.iter().zip(values).map(|(argument, value)| {
+            let given = argument.kind.write(self, &value);
+            argument.kind.take(self, value).map_err(|expected| CommandError::WrongArgument {
+                id,
+                argument: argument.name,
+                given,
+                expected,
+            })
+        });
+        taken.collect::<Result<_, _>>().map(Values)
+    }
+
     /// Runs a command that can be done now; `Err` says why it was not after all.
     fn run_with_values(&mut self, command: &'static Command, values: Values, context: &Context) -> Result<(), String> {
         let is_complete = command.arguments.get(values.0.len()).is_none_or(|argument| argument.is_optional);
@@ -129,22 +173,26 @@ impl App {
                 run(self, context);
                 self.session.note_executed(command.id, written);
             }
+            Action::TakeUp(tool) => {
+                self.tools.take_up(tool.id);
+                self.session.note_executed(command.id, written);
+            }
             Action::Switch { is_on, set } => {
-                let wanted = match values.switch(0) {
-                    Some(&wanted) => wanted,
-                    None => !is_on(self),
+                let wanted = match values.0.first() {
+                    Some(&Value::Switch(wanted)) => wanted,
+                    _ => !is_on(self),
                 };
                 set(self, wanted);
                 self.session.note_executed(command.id, vec![switch_word(wanted).to_owned()]);
             }
-            Action::With { run, .. } if is_complete => match run(self, &values, context) {
+            Action::With { run, .. } if is_complete => match run.run(self, &values, context) {
                 Ran::Done => self.session.note_executed(command.id, written),
                 Ran::DoneWith(arguments) => self.session.note_executed(command.id, arguments),
                 Ran::Asks => {}
                 Ran::Refused(reason) => return Err(reason),
             },
             Action::With { ask: Some(ask), .. } => ask(self, context),
-            Action::With { ask: None, .. } => self.panels.palette = Some(Palette::asking(command, written)),
+            Action::With { ask: None, .. } => self.open_palette(Palette::asking(command, written)),
         }
         Ok(())
     }
@@ -165,44 +213,6 @@ impl App {
     /// Empty unless they are watched.
     pub fn take_executed(&mut self) -> Vec<Executed> {
         self.session.executed.as_mut().map(std::mem::take).unwrap_or_default()
-    }
-}
-
-impl Question {
-    /// What is asked, in a sentence.
-    pub(crate) fn title(&self, app: &App) -> String {
-        match self {
-            Self::Unsaved(_) => {
-                let name = app
-                    .session
-                    .document
-                    .as_ref()
-                    .map(crate::app::session::document::Document::title)
-                    .unwrap_or_default();
-                format!("Save changes to {name}?")
-            }
-            Self::Drawing(PictureChange::Measurements(_)) => "Scale the drawing along with the picture?".to_owned(),
-            Self::Drawing(PictureChange::Turn { .. }) => "Turn the drawing along with the picture?".to_owned(),
-            Self::Change(change) => change.title.clone(),
-            Self::Delete { selected, .. } if selected.len() == 1 => {
-                format!("Delete the {} and what depends on it?", selected[0].kind())
-            }
-            Self::Delete { selected, .. } => format!("Delete {} elements and what depends on them?", selected.len()),
-            Self::Discard { title, .. } => format!("Discard the changes to {title}?"),
-            Self::Replace { path, .. } => format!("Replace {}?", crate::app::session::origin::file_name(path)),
-        }
-    }
-
-    /// The answers there are, each with what its button says, the main one first.
-    pub(crate) const fn answers(&self) -> &'static [(&'static str, &'static str)] {
-        match self {
-            Self::Unsaved(_) => &[("save", "Save"), ("discard", "Don't save"), ("cancel", "Cancel")],
-            Self::Drawing(_) => &[("along", "Drawing too"), ("stays", "Picture only"), ("cancel", "Cancel")],
-            Self::Change(change) => change.answers,
-            Self::Delete { .. } => &[("delete", "Delete"), ("cancel", "Cancel")],
-            Self::Discard { .. } => &[("cancel", "Cancel"), ("discard", "Discard")],
-            Self::Replace { .. } => &[("elsewhere", "Save as…"), ("replace", "Replace"), ("cancel", "Cancel")],
-        }
     }
 }
 

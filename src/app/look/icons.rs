@@ -5,8 +5,10 @@ use egui::epaint::{PathShape, PathStroke};
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
 /// A picture for a command or a thing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Icon {
+    /// One that stands where it is used: a tool's.
+    Drawn(&'static [Part]),
     Open,
     Save,
     Undo,
@@ -43,18 +45,11 @@ pub enum Icon {
     Sidebar,
     Inspector,
     Search,
-    Select,
-    Walls,
-    Rectangle,
-    Polygon,
-    Bucket,
-    Split,
-    CutOut,
-    Measure,
 }
 
-/// Part of an icon, in units of the grid.
-enum Part {
+/// Part of an icon, in units of the grid: 16 by 16, y downward.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Part {
     Line(&'static [(f32, f32)]),
     Loop(&'static [(f32, f32)]),
     Fill(&'static [(f32, f32)]),
@@ -69,6 +64,7 @@ use Part::{Arc, Circle, Disc, Fill, Line, Loop};
 impl Icon {
     const fn parts(self) -> &'static [Part] {
         match self {
+            Self::Drawn(parts) => parts,
             Self::Open => &[
                 Line(&[(2.0, 12.5), (2.0, 3.5), (6.2, 3.5), (7.8, 5.5), (12.5, 5.5), (12.5, 7.5)]),
                 Loop(&[(2.0, 12.5), (4.2, 7.5), (14.2, 7.5), (12.0, 12.5)]),
@@ -196,50 +192,6 @@ impl Icon {
                 Line(&[(9.0, 2.5), (2.5, 2.5), (2.5, 13.5), (9.0, 13.5)]),
                 Line(&[(6.5, 8.0), (13.8, 8.0)]),
                 Line(&[(11.0, 5.2), (13.8, 8.0), (11.0, 10.8)]),
-            ],
-            Self::Select => {
-                &[Loop(&[(4.0, 2.0), (4.0, 12.6), (6.7, 10.1), (8.5, 14.0), (10.4, 13.1), (8.6, 9.4), (12.2, 9.2)])]
-            }
-            Self::Walls => &[
-                Line(&[(2.2, 13.5), (2.2, 2.2), (13.8, 2.2), (13.8, 9.0)]),
-                Line(&[(5.4, 13.5), (5.4, 5.4), (10.6, 5.4), (10.6, 9.0)]),
-                Line(&[(2.2, 13.5), (5.4, 13.5)]),
-                Line(&[(10.6, 9.0), (13.8, 9.0)]),
-            ],
-            Self::Rectangle => &[
-                Loop(&[(2.5, 3.5), (13.5, 3.5), (13.5, 12.5), (2.5, 12.5)]),
-                Fill(&[(2.5, 3.5), (13.5, 3.5), (13.5, 12.5), (2.5, 12.5)]),
-                Disc(2.5, 3.5, 1.6),
-                Disc(13.5, 12.5, 1.6),
-            ],
-            Self::Polygon => &[
-                Loop(&[(2.5, 13.0), (2.5, 3.0), (9.0, 3.0), (9.0, 7.5), (13.5, 7.5), (13.5, 13.0)]),
-                Fill(&[(2.5, 13.0), (2.5, 3.0), (9.0, 3.0), (9.0, 7.5), (13.5, 7.5), (13.5, 13.0)]),
-                Disc(2.5, 3.0, 1.5),
-                Disc(9.0, 3.0, 1.5),
-                Disc(13.5, 13.0, 1.5),
-            ],
-            Self::Bucket => &[
-                Loop(&[(7.2, 2.6), (12.6, 8.0), (7.4, 13.2), (2.0, 7.8)]),
-                Fill(&[(2.0, 7.8), (12.6, 8.0), (7.4, 13.2)]),
-                Line(&[(14.0, 10.0), (14.0, 13.4)]),
-            ],
-            Self::Split => &[
-                Line(&[(6.6, 3.0), (2.5, 3.0), (2.5, 13.0), (6.6, 13.0)]),
-                Line(&[(9.4, 3.0), (13.5, 3.0), (13.5, 13.0), (9.4, 13.0)]),
-                Line(&[(8.0, 1.8), (8.0, 5.0)]),
-                Line(&[(8.0, 6.6), (8.0, 9.4)]),
-                Line(&[(8.0, 11.0), (8.0, 14.2)]),
-            ],
-            Self::CutOut => &[
-                Loop(&[(2.5, 2.5), (13.5, 2.5), (13.5, 13.5), (2.5, 13.5)]),
-                Loop(&[(5.8, 5.8), (10.2, 5.8), (10.2, 10.2), (5.8, 10.2)]),
-            ],
-            Self::Measure => &[
-                Loop(&[(1.8, 10.6), (10.6, 1.8), (14.2, 5.4), (5.4, 14.2)]),
-                Line(&[(4.4, 8.0), (6.0, 9.6)]),
-                Line(&[(6.6, 5.8), (8.8, 8.0)]),
-                Line(&[(8.8, 3.6), (10.4, 5.2)]),
             ],
             Self::Search => &[Circle(7.0, 7.0, 4.5), Line(&[(10.4, 10.4), (13.8, 13.8)])],
             Self::Check => &[Line(&[(3.2, 8.4), (6.6, 11.8), (12.8, 4.6)])],

@@ -2,16 +2,26 @@
 
 use egui::{Id, Modal, Ui};
 
+use crate::app::dialogs::{After, Dialog, Entry};
 use crate::app::look::{
     theme,
     widgets::{caption, dialog_frame, right, strong, text_button},
 };
 use crate::app::state::App;
 
-pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    if !app.panels.about {
-        return;
+pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(About), is_of_plan: false };
+
+pub(crate) const ID: &str = "about";
+
+struct About;
+
+impl Dialog for About {
+    fn show(&mut self, _: &mut App, ui: &mut Ui) -> After {
+        show(ui)
     }
+}
+
+fn show(ui: &Ui) -> After {
     let response = Modal::new(Id::unique("about")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
         ui.set_width(440.0_f32.min(ui.ctx().content_rect().width() - 80.0).max(0.0));
         ui.label(strong("Enfilade", theme::DISPLAY));
@@ -33,7 +43,5 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         ui.horizontal(|ui| right(ui, |ui| is_done = text_button(ui, "Close", true).clicked()));
         is_done
     });
-    if response.inner || response.should_close() {
-        app.panels.about = false;
-    }
+    if response.inner || response.should_close() { After::Close } else { After::Stay }
 }

@@ -5,6 +5,7 @@ use egui::{
 };
 
 use crate::app::commands::Choice;
+use crate::app::dialogs::{After, Dialog, Entry};
 use crate::app::look::{
     theme,
     widgets::{
@@ -96,28 +97,34 @@ impl Bulk {
     }
 }
 
-pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    if app.session.question.is_some() || app.session.document.is_none() {
-        app.panels.bulk = None;
-    }
-    let Some(mut bulk) = app.panels.bulk.take() else { return };
-    let response = Modal::new(Id::unique("many rooms")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
-        ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 80.0).max(0.0));
-        match &mut bulk {
-            Bulk::Name(form) => form.show(app, ui),
-            Bulk::Change(form) => form.show(app, ui),
+pub(super) const ENTRY: Entry = Entry { id: ID, make: |app| Box::new(Bulk::naming(app)), is_of_plan: true };
+
+pub(crate) const ID: &str = "many-rooms";
+
+impl Dialog for Bulk {
+    fn show(&mut self, app: &mut App, ui: &mut Ui) -> After {
+        if app.session.question.is_some() || app.session.document.is_none() {
+            return After::Close;
         }
-    });
-    let is_closed = response.should_close();
-    match response.inner.or(is_closed.then_some(End::Cancel)) {
-        None => app.panels.bulk = Some(bulk),
-        Some(End::Cancel) => {}
-        Some(End::Do(id, arguments)) => {
-            if let Bulk::Name(form) = bulk {
-                app.panels.pattern = Some(form.pattern);
+        let response = Modal::new(Id::unique("many rooms")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
+            ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 80.0).max(0.0));
+            match self {
+                Self::Name(form) => form.show(app, ui),
+                Self::Change(form) => form.show(app, ui),
             }
-            let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-            app.act(id, &arguments, ui.ctx());
+        });
+        let is_closed = response.should_close();
+        match response.inner.or(is_closed.then_some(End::Cancel)) {
+            None => After::Stay,
+            Some(End::Cancel) => After::Close,
+            Some(End::Do(id, arguments)) => {
+                if let Self::Name(form) = self {
+                    app.panels.pattern = Some(form.pattern.clone());
+                }
+                let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+                app.act(id, &arguments, ui.ctx());
+                After::Close
+            }
         }
     }
 }

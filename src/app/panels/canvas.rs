@@ -6,7 +6,7 @@ use crate::app::canvas::{Act, Beginning, rulers};
 use crate::app::commands::{self, CommandError};
 use crate::app::paint::places::canvas_id;
 use crate::app::state::App;
-use crate::app::tools::Call;
+use crate::app::value::{Call, Value};
 use crate::base::wording::sentence;
 
 /// Shows the canvas in all that is left of `ui`.
@@ -32,14 +32,13 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     }
     let help = commands::find("add-guide").map_or("", |command| command.help);
     let guided = rulers::show(canvas, session, help, ui);
-    for (id, arguments) in guided {
-        let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
-        app.act(id, &words, ui.ctx());
+    for call in guided {
+        app.act_on(call, ui.ctx());
     }
     match act {
         None => {}
         Some(Act::Calls(calls)) => run(app, calls, ui),
-        Some(Act::Pick(element)) => app.act("select", &[&element.to_string()], ui.ctx()),
+        Some(Act::Pick(element)) => app.act_on(Call::new("select", [Value::Elements(vec![element])]), ui.ctx()),
         Some(Act::PickNeighbour(step)) if app.session.pick_neighbour(step) => {
             app.session.note_executed(if step > 0 { "next-room" } else { "previous-room" }, Vec::new());
         }
@@ -50,7 +49,9 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
                 memory.move_focus(direction);
             });
         }
-        Some(Act::PickTowards(direction)) => app.act("pick-towards", &[direction], ui.ctx()),
+        Some(Act::PickTowards(direction)) => {
+            app.act_on(Call::new("pick-towards", [Value::word(direction)]), ui.ctx());
+        }
         Some(Act::Rename) => {
             app.run_command("rename", ui.ctx());
         }
@@ -59,9 +60,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
 
 /// Runs what a tool calls for; it is told when the plan does not take it.
 fn run(app: &mut App, calls: Vec<Call>, ui: &Ui) {
-    for (id, arguments) in calls {
-        let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
-        if let Err(error) = app.run_command_with(id, &words, ui.ctx()) {
+    for call in calls {
+        if let Err(error) = app.run_call(call, ui.ctx()) {
             app.tools.tool_mut().was_refused();
             app.session.status = match error {
                 CommandError::NotNow { reason, .. } => sentence(&reason),

@@ -7,13 +7,13 @@ use std::sync::Arc;
 use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
 use super::plan_picture::{MarkKind, PlanPicture, legend};
+use crate::app::dialogs::{After, Dialog, Entry};
 use crate::app::look::{
     theme,
     widgets::{caption, colours, dialog_frame, right, section, strong, text_button},
 };
 use crate::app::session::document::Derived;
 use crate::app::state::App;
-use crate::base::wording::count;
 use crate::plan::{ChangeKind, Difference, ElementId, Plan, titles::title_of};
 
 /// More lines than these are not read; how many there are is said.
@@ -91,100 +91,89 @@ fn counted(lines: Vec<(MarkKind, String)>) -> Vec<(MarkKind, String)> {
     lines.chunk_by(|p, q| p == q).map(of_one).collect()
 }
 
-/// How much differs, in words: '2 rooms, 1 wall and the picture'.
-pub(crate) fn summary(seen: &BTreeMap<ElementId, ChangeKind>, difference: &Difference) -> String {
-    let number = |kind: &str| seen.keys().filter(|element| element.kind() == kind).count();
-    let counts = ["room", "wall", "opening"].map(|kind| (number(kind), kind));
-    let mut parts: Vec<String> =
-        counts.iter().filter(|(number, _)| *number > 0).map(|(number, kind)| count(*number, kind)).collect();
-    if difference.meta {
-        parts.push("what is known of the plan".to_owned());
-    }
-    if difference.backdrop {
-        parts.push("the picture under it".to_owned());
-    }
-    if difference.guides {
-        parts.push("the guide lines".to_owned());
-    }
-    match parts.split_last() {
-        None if difference.is_empty() => "nothing differs".to_owned(),
-        None => "only corners and fields of another version differ".to_owned(),
-        Some((last, [])) => {
-            format!("{last} differ{}", if last.starts_with("1 ") || difference.meta { "s" } else { "" })
-        }
-        Some((last, rest)) => format!("{} and {last} differ", rest.join(", ")),
+pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(Differences::default()), is_of_plan: true };
+
+pub(crate) const ID: &str = "differences";
+
+#[derive(Default)]
+struct Differences {
+    shown: Option<Shown>,
+}
+
+impl Dialog for Differences {
+    fn show(&mut self, app: &mut App, ui: &mut Ui) -> After {
+        self.show_in(app, ui);
+        After::Stay
     }
 }
 
-pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    if !app.panels.differences {
-        app.panels.shown_differences = None;
-        return;
-    }
-    let Some((theirs, document)) = app.session.their_plan().zip(app.session.document.as_ref()) else { return };
-    let Some(derived) = document.derived().cloned() else { return };
-    let mine = document.plan().clone();
-    let shown = app.panels.shown_differences.as_ref();
-    if !shown.is_some_and(|shown| shown.is_of(&mine, theirs.0)) {
-        let base = document.saved().cloned().unwrap_or_default();
-        let new = Shown::new(&base, (mine, derived), theirs);
-        app.panels.shown_differences = Some(Box::new(new));
-    }
-    let file = document.origin.title();
-    let Some(mut shown) = app.panels.shown_differences.take() else { return };
-    let response = Modal::new(Id::unique("differences")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
-        let window = ui.ctx().content_rect().size();
-        let width = 980.0_f32.min(window.x - 80.0);
-        ui.set_width(width);
-        ui.label(strong(format!("{file}: here and in the file"), theme::TITLE));
-        let text = "What each side changed since they were the same.";
-        ui.add(Label::new(RichText::new(text).color(colours(ui).text_weak)).wrap());
-        ui.add_space(10.0);
-        let gap = 16.0;
-        let side = (width - gap) / 2.0;
-        let list_height = (window.y * 0.18).clamp(60.0, 150.0);
-        let picture = vec2(side, (side * 0.66).min(window.y - list_height - 300.0).max(120.0));
-        ui.horizontal_top(|ui| {
-            ui.spacing_mut().item_spacing.x = gap;
-            for (index, title) in ["Here, not saved", "In the file now"].into_iter().enumerate() {
-                ui.vertical(|ui| {
-                    ui.set_width(side);
-                    section(ui, title);
-                    ui.add_space(4.0);
-                    shown.pictures[index].show(ui, picture, title);
-                    ui.add_space(6.0);
-                    ScrollArea::vertical()
-                        .id_salt(index)
-                        .max_height(list_height)
-                        .min_scrolled_height(list_height)
-                        .auto_shrink(false)
-                        .show(ui, |ui| {
-                            list(ui, &shown.lines[index]);
-                        });
-                });
-            }
-        });
-        ui.add_space(12.0);
-        let mut act = None;
-        ui.horizontal(|ui| {
-            let kinds = MarkKind::ALL.into_iter();
-            let used = |kind: &MarkKind| shown.pictures.iter().any(|picture| picture.kinds().any(|used| used == *kind));
-            legend(ui, kinds.filter(used));
-            right(ui, |ui| {
-                let close = text_button(ui, "Close", false).clicked().then_some(("differences", Some("off")));
-                let hint = "Saving then replaces what somebody else put in the file";
-                let keep = text_button(ui, "Keep mine", false).on_hover_text(hint).clicked();
-                let hint = "A step that can be undone";
-                let load = text_button(ui, "Load the file", true).on_hover_text(hint).clicked();
-                act = close.or(keep.then_some(("keep-mine", None))).or(load.then_some(("load-theirs", None)));
+impl Differences {
+    /// The button, and what else closes it, does so by the command, as it is recorded.
+    fn show_in(&mut self, app: &mut App, ui: &Ui) {
+        let Some((theirs, document)) = app.session.their_plan().zip(app.session.document.as_ref()) else { return };
+        let Some(derived) = document.derived().cloned() else { return };
+        let mine = document.plan().clone();
+        if !self.shown.as_ref().is_some_and(|shown| shown.is_of(&mine, theirs.0)) {
+            let base = document.saved().cloned().unwrap_or_default();
+            let new = Shown::new(&base, (mine, derived), theirs);
+            self.shown = Some(new);
+        }
+        let file = document.origin.title();
+        let Some(shown) = &mut self.shown else { return };
+        let response = Modal::new(Id::unique("differences")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
+            let window = ui.ctx().content_rect().size();
+            let width = 980.0_f32.min(window.x - 80.0);
+            ui.set_width(width);
+            ui.label(strong(format!("{file}: here and in the file"), theme::TITLE));
+            let text = "What each side changed since they were the same.";
+            ui.add(Label::new(RichText::new(text).color(colours(ui).text_weak)).wrap());
+            ui.add_space(10.0);
+            let gap = 16.0;
+            let side = (width - gap) / 2.0;
+            let list_height = (window.y * 0.18).clamp(60.0, 150.0);
+            let picture = vec2(side, (side * 0.66).min(window.y - list_height - 300.0).max(120.0));
+            ui.horizontal_top(|ui| {
+                ui.spacing_mut().item_spacing.x = gap;
+                for (index, title) in ["Here, not saved", "In the file now"].into_iter().enumerate() {
+                    ui.vertical(|ui| {
+                        ui.set_width(side);
+                        section(ui, title);
+                        ui.add_space(4.0);
+                        shown.pictures[index].show(ui, picture, title);
+                        ui.add_space(6.0);
+                        ScrollArea::vertical()
+                            .id_salt(index)
+                            .max_height(list_height)
+                            .min_scrolled_height(list_height)
+                            .auto_shrink(false)
+                            .show(ui, |ui| {
+                                list(ui, &shown.lines[index]);
+                            });
+                    });
+                }
             });
+            ui.add_space(12.0);
+            let mut act = None;
+            ui.horizontal(|ui| {
+                let kinds = MarkKind::ALL.into_iter();
+                let used =
+                    |kind: &MarkKind| shown.pictures.iter().any(|picture| picture.kinds().any(|used| used == *kind));
+                legend(ui, kinds.filter(used));
+                right(ui, |ui| {
+                    let close = text_button(ui, "Close", false).clicked().then_some(("differences", Some("off")));
+                    let hint = "Saving then replaces what somebody else put in the file";
+                    let keep = text_button(ui, "Keep mine", false).on_hover_text(hint).clicked();
+                    let hint = "A step that can be undone";
+                    let load = text_button(ui, "Load the file", true).on_hover_text(hint).clicked();
+                    act = close.or(keep.then_some(("keep-mine", None))).or(load.then_some(("load-theirs", None)));
+                });
+            });
+            act
         });
-        act
-    });
-    app.panels.shown_differences = Some(shown);
-    match response.inner.or(response.should_close().then_some(("differences", Some("off")))) {
-        None => {}
-        Some((id, argument)) => app.act(id, argument.as_slice(), ui.ctx()),
+        match response.inner.or(response.should_close().then_some(("differences", Some("off")))) {
+            None => {}
+            Some((id, argument)) => app.act(id, argument.as_slice(), ui.ctx()),
+        }
     }
 }
 
@@ -214,11 +203,11 @@ mod tests {
         let rooms = ["a", "b"].map(|key| ElementId::Room(builder.room(key, Room::default())));
         let seen = |rooms: &[ElementId]| rooms.iter().map(|&room| (room, ChangeKind::Added)).collect();
         let difference = |meta| Difference { meta, elements: seen(&rooms), ..Difference::default() };
-        assert_eq!(summary(&seen(&rooms), &difference(false)), "2 rooms differ");
-        assert_eq!(summary(&seen(&rooms[..1]), &difference(false)), "1 room differs");
-        assert_eq!(summary(&seen(&rooms), &difference(true)), "2 rooms and what is known of the plan differ");
+        assert_eq!(difference(false).in_words(&seen(&rooms)), "2 rooms differ");
+        assert_eq!(difference(false).in_words(&seen(&rooms[..1])), "1 room differs");
+        assert_eq!(difference(true).in_words(&seen(&rooms)), "2 rooms and what is known of the plan differ");
         let meta = Difference { meta: true, ..Difference::default() };
-        assert_eq!(summary(&BTreeMap::new(), &meta), "what is known of the plan differs");
-        assert_eq!(summary(&BTreeMap::new(), &Difference::default()), "nothing differs");
+        assert_eq!(meta.in_words(&BTreeMap::new()), "what is known of the plan differs");
+        assert_eq!(Difference::default().in_words(&BTreeMap::new()), "nothing differs");
     }
 }

@@ -147,6 +147,9 @@ impl Inspected<'_> {
         }
         section(ui, "Features");
         match analysed {
+            None if self.app.session.document.as_ref().is_some_and(|document| !document.is_awaited()) => {
+                caption(ui, "Could not be worked out");
+            }
             None => drop(caption(ui, "Being worked out…")),
             Some(analysed) => {
                 let perimeter_m =
@@ -515,7 +518,7 @@ impl Inspected<'_> {
         if !self.document.notes.is_empty() {
             hairline(ui);
             section(ui, "Import");
-            caption(ui, super::notes::summary(&self.document.notes));
+            caption(ui, crate::app::session::origin::notes_in_words(&self.document.notes));
             if link(ui, "Show notes").clicked() {
                 act = Some(Act::ShowNotes);
             }

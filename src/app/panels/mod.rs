@@ -1,6 +1,6 @@
 //! The panels around the canvas, one file each.
 
-mod about;
+pub(super) mod about;
 pub(super) mod bulk;
 mod canvas;
 pub(super) mod differences;
@@ -15,7 +15,7 @@ pub(super) mod plan_picture;
 mod plans;
 mod prediction;
 mod questions;
-mod recovery;
+pub(super) mod recovery;
 pub(super) mod shortcuts;
 pub(super) mod status;
 mod tool_options;
@@ -26,12 +26,13 @@ pub(super) mod welcome;
 use crate::app::session::fields::FieldKind;
 use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, UiBuilder};
 
-use bulk::Bulk;
-use palette::Palette;
-use shortcuts::Sheet;
-
+use crate::app::dialogs::Entry;
 use crate::app::look::theme;
 use crate::app::state::App;
+
+/// The dialogs there are; a later one lies above an earlier one.
+pub(crate) const DIALOGS: &[Entry] =
+    &[notes::ENTRY, differences::ENTRY, recovery::ENTRY, about::ENTRY, shortcuts::ENTRY, bulk::ENTRY, palette::ENTRY];
 
 /// So many points at least the list of plans keeps above the layers: its title and two plans.
 const LEAST_PLANS_HEIGHT: f32 = 110.0;
@@ -53,25 +54,10 @@ pub(crate) struct Panels {
     pub history: bool,
     /// The text of a room whose field is to take the keyboard.
     pub focus: Option<FieldKind>,
-    /// Whether the notes of the import are shown.
-    pub notes: bool,
-    /// Whether what programs left behind is shown.
-    pub recovery: bool,
-    /// Whether it is shown how the plan and its file differ.
-    pub differences: bool,
-    pub(super) shown_differences: Option<Box<differences::Shown>>,
-    /// The list of commands, while it is open.
-    pub palette: Option<Palette>,
     /// Commands that were done from the palette, the last one first.
     pub recent: Vec<&'static str>,
-    /// The shortcuts, while they are shown.
-    pub sheet: Option<Sheet>,
-    /// Naming or changing many rooms, while that is asked for.
-    pub bulk: Option<Bulk>,
     /// The pattern by which rooms were named last.
     pub pattern: Option<String>,
-    /// Whether it is shown what Enfilade is.
-    pub about: bool,
     /// Where the panel on the left, what is between, and the inspector were in the last frame, as far as shown.
     pub left_rect: Option<egui::Rect>,
     pub middle_rect: Option<egui::Rect>,
@@ -87,42 +73,13 @@ impl Default for Panels {
             right: true,
             history: false,
             focus: None,
-            notes: false,
-            recovery: false,
-            differences: false,
-            shown_differences: None,
-            palette: None,
             recent: Vec::new(),
-            sheet: None,
-            bulk: None,
             pattern: None,
-            about: false,
             left_rect: None,
             middle_rect: None,
             right_rect: None,
             layers_height: 360.0,
         }
-    }
-}
-
-impl Panels {
-    /// Forgets what belongs to the plan that was shown.
-    pub(super) fn forget(&mut self) {
-        self.notes = false;
-        self.bulk = None;
-        self.differences = false;
-        self.focus = None;
-    }
-
-    /// Whether a dialog covers the window.
-    pub(super) fn is_dialog_open(&self) -> bool {
-        self.notes
-            || self.recovery
-            || self.differences
-            || self.palette.is_some()
-            || self.sheet.is_some()
-            || self.bulk.is_some()
-            || self.about
     }
 }
 
@@ -214,12 +171,6 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     app.panels.middle_rect = Some(shown.response.rect);
     tool_options::show(app, ui);
     status::show(app, &mut ui.new_child(UiBuilder::new().max_rect(status_rect).id_salt("status")));
-    notes::show(app, ui);
-    differences::show(app, ui);
-    recovery::show(app, ui);
-    about::show(app, ui);
-    shortcuts::show(app, ui);
-    bulk::show(app, ui);
-    palette::show(app, ui);
+    app.show_dialogs(ui);
     questions::show(app, ui);
 }

@@ -2,31 +2,35 @@
 
 use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
+use crate::app::dialogs::{After, Dialog, Entry};
 use crate::app::look::{
     theme,
     widgets::{caption, colours, dialog_frame, right, strong, text_button},
 };
+use crate::app::session::origin::notes_in_words;
 use crate::app::state::App;
-use crate::formats::{Note, NoteKind};
+use crate::formats::NoteKind;
 
-/// How many notes of each kind, in words: '3 things mended, 1 left out'.
-pub(crate) fn summary(notes: &[Note]) -> String {
-    let number = |kind: NoteKind| notes.iter().filter(|note| note.kind == kind).count();
-    let (healed, skipped) = (number(NoteKind::Healed), number(NoteKind::Skipped));
-    let things = |number: usize| if number == 1 { "thing" } else { "things" };
-    match (healed, skipped) {
-        (0, skipped) => format!("{skipped} {} left out", things(skipped)),
-        (healed, 0) => format!("{healed} {} mended", things(healed)),
-        (healed, skipped) => format!("{healed} {} mended, {skipped} left out", things(healed)),
+pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(Notes), is_of_plan: true };
+
+pub(crate) const ID: &str = "import-notes";
+
+struct Notes;
+
+impl Dialog for Notes {
+    fn show(&mut self, app: &mut App, ui: &mut Ui) -> After {
+        show(app, ui);
+        After::Stay
     }
 }
 
-pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    let Some(document) = app.session.document.as_ref().filter(|_| app.panels.notes) else { return };
+/// The button, and what else closes it, does so by the command, as it is recorded.
+fn show(app: &mut App, ui: &Ui) {
+    let Some(document) = &app.session.document else { return };
     let response = Modal::new(Id::unique("import notes")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
         ui.set_width(620.0_f32.min(ui.ctx().content_rect().width() - 80.0).max(0.0));
         ui.label(strong("Import notes", theme::TITLE));
-        caption(ui, format!("{}: {}", document.origin.title(), summary(&document.notes)));
+        caption(ui, format!("{}: {}", document.origin.title(), notes_in_words(&document.notes)));
         ui.add_space(8.0);
         let height = (ui.ctx().content_rect().height() - 240.0).clamp(80.0, 420.0);
         ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
@@ -58,19 +62,5 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     });
     if response.inner || response.should_close() {
         app.act("import-notes", &["off"], ui.ctx());
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::formats::Place;
-
-    #[test]
-    fn summaries_read_well() {
-        let note = |kind| Note { kind, place: Place::default(), what: String::new() };
-        assert_eq!(summary(&[note(NoteKind::Healed)]), "1 thing mended");
-        assert_eq!(summary(&[note(NoteKind::Skipped), note(NoteKind::Skipped)]), "2 things left out");
-        assert_eq!(summary(&[note(NoteKind::Skipped), note(NoteKind::Healed)]), "1 thing mended, 1 left out");
     }
 }

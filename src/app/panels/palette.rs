@@ -1,5 +1,7 @@
 //! The palette: every command by a few letters of its name, and what it needs asked for in place.
 
+mod lines;
+
 use egui::text::{CCursor, CCursorRange, LayoutJob, TextFormat};
 use egui::text_edit::TextEditState;
 use egui::{
@@ -7,7 +9,9 @@ use egui::{
     Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
 };
 
+use self::lines::{argument_lines, command_lines, row};
 use crate::app::commands::{Argument, COMMANDS, Choice, Command};
+use crate::app::dialogs::{After, Dialog, Entry};
 use crate::app::look::{
     icons::Icon,
     search::{Hit, Search},
@@ -144,35 +148,45 @@ enum Act {
     Close,
 }
 
-pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    // A question comes first, and what was begun here is forgotten.
-    if app.session.question.is_some() {
-        app.panels.palette = None;
+pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(Palette::default()), is_of_plan: false };
+
+pub(crate) const ID: &str = "commands";
+
+impl App {
+    /// Opens the list of commands, or what it asks for, in place of one that is open.
+    pub(crate) fn open_palette(&mut self, palette: Palette) {
+        self.dialogs.open(ID, Box::new(palette));
     }
-    let Some(mut palette) = app.panels.palette.take() else { return };
-    let lines = palette.lines(app, ui);
-    let act = palette.show(ui, &lines);
-    let is_done = act.is_some();
-    let keep = match act {
-        None => true,
-        Some(Act::Close) => false,
-        Some(Act::Back) => palette.go_back(),
-        Some(Act::Take(index)) => match lines.into_iter().nth(index).map(|line| (line.is_available, line.taken)) {
-            Some((true, Taken::Command(command))) => palette.take_command(app, ui, command),
-            Some((true, Taken::Argument(word))) => palette.take_argument(app, ui, word),
-            Some((false, _)) | None => true,
-        },
-        Some(Act::TakeText) => {
-            let text = palette.query.clone();
-            palette.take_argument(app, ui, text)
+}
+
+impl Dialog for Palette {
+    fn show(&mut self, app: &mut App, ui: &mut Ui) -> After {
+        // A question comes first, and what was begun here is forgotten.
+        if app.session.question.is_some() {
+            return After::Close;
         }
-    };
-    // A command may have opened a palette of its own.
-    if keep && app.panels.palette.is_none() {
-        app.panels.palette = Some(palette);
-        if is_done {
+        let lines = self.lines(app, ui);
+        let act = self.show_in(ui, &lines);
+        let is_done = act.is_some();
+        let keep = match act {
+            None => true,
+            Some(Act::Close) => false,
+            Some(Act::Back) => self.go_back(),
+            Some(Act::Take(index)) => match lines.into_iter().nth(index).map(|line| (line.is_available, line.taken)) {
+                Some((true, Taken::Command(command))) => self.take_command(app, ui, command),
+                Some((true, Taken::Argument(word))) => self.take_argument(app, ui, word),
+                Some((false, _)) | None => true,
+            },
+            Some(Act::TakeText) => {
+                let text = self.query.clone();
+                self.take_argument(app, ui, text)
+            }
+        };
+        // A command may have opened a palette of its own.
+        if keep && is_done && !app.dialogs.is_waiting(ID) {
             ui.request_repaint();
         }
+        if keep { After::Stay } else { After::Close }
     }
 }
 
@@ -248,7 +262,7 @@ impl Palette {
 
     // How it looks.
 
-    fn show(&mut self, ui: &mut Ui, lines: &[Line]) -> Option<Act> {
+    fn show_in(&mut self, ui: &mut Ui, lines: &[Line]) -> Option<Act> {
         let id = Id::unique("command palette");
         let screen = ui.ctx().content_rect();
         let area = Modal::default_area(id).anchor(Align2::CENTER_TOP, vec2(0.0, TOP.min(screen.height() * 0.08)));
@@ -436,129 +450,4 @@ impl Palette {
         let role = if error.is_some() { Role::Alert } else { Role::Status };
         response.widget_info(|| WidgetInfo::labeled(role, true, &text));
     }
-}
-
-/// A line of the list. It does not take the keyboard, which stays in the text field.
-fn row(ui: &Ui, rect: Rect, index: usize, line: &Line, is_chosen: bool) -> Response {
-    let response = ui.interact(rect, ui.scope_id().with(("line", index)), Sense::CLICK);
-    let name = match (line.detail.as_str(), line.is_available) {
-        ("", _) => line.title.clone(),
-        (detail, true) => format!("{}, {detail}", line.title),
-        (detail, false) => format!("{}, not now: {detail}", line.title),
-    };
-    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, line.is_available, is_chosen, &name));
-    let colours = colours(ui);
-    let ground = match (is_chosen, response.hovered()) {
-        (true, _) => colours.accent_soft,
-        (false, true) => colours.hover,
-        (false, false) => Color32::TRANSPARENT,
-    };
-    ui.painter().rect_filled(rect, theme::RADIUS, ground);
-    let fade = if line.is_available { 1.0 } else { 0.6 };
-    let text = if line.is_available { colours.text } else { colours.text_weak };
-    let mut left = rect.left() + 10.0;
-    let middle = rect.center().y;
-    match line.lead {
-        LineLead::None => {}
-        LineLead::Tick => {
-            let square = Rect::from_center_size(pos2(left + ICON / 2.0, middle), Vec2::splat(ICON));
-            Icon::Check.paint(ui.painter(), square, text.gamma_multiply(fade));
-        }
-        LineLead::Swatch(colour) => swatch(ui, pos2(left + 8.0, middle), colour),
-    }
-    left += ICON + 8.0;
-    let small = FontId::proportional(theme::SMALL);
-    let trail = ui.painter().layout_no_wrap(line.trail.clone(), small.clone(), colours.text_weak);
-    let right = rect.right() - 10.0 - trail.rect.width();
-    let trail_rect = Rect::from_min_max(pos2(right, rect.top()), pos2(rect.right() - 10.0, rect.bottom()));
-    put_line(ui, &line.trail, small.clone(), colours.text_weak.gamma_multiply(fade), trail_rect);
-    let limit = if line.trail.is_empty() { right } else { right - 12.0 };
-    // The title keeps two thirds where both are long.
-    let most = if line.detail.is_empty() { limit - left } else { (limit - left) * 0.66 };
-    let job =
-        highlighted(&line.title, &line.characters, text, if line.is_available { colours.accent } else { text }, most);
-    let galley = ui.painter().layout_job(job);
-    let width = galley.rect.width();
-    let at = pos2(left, (middle - galley.rect.height() / 2.0).round());
-    ui.painter().galley(at, galley, text);
-    let detail = Rect::from_min_max(pos2(left + width + 10.0, rect.top()), pos2(limit, rect.bottom()));
-    put_line(ui, &line.detail, small, colours.text_weak, detail);
-    response
-}
-
-/// A text whose characters that were looked for stand out.
-fn highlighted(text: &str, characters: &[u32], colour: Color32, accent: Color32, width: f32) -> LayoutJob {
-    let plain = TextFormat::simple(FontId::proportional(theme::BODY), colour);
-    let marked = TextFormat::simple(FontId::new(theme::BODY, theme::semibold()), accent);
-    let mut job = LayoutJob::default();
-    for (index, letter) in (0u32..).zip(text.chars()) {
-        let is_marked = characters.binary_search(&index).is_ok();
-        job.append(letter.encode_utf8(&mut [0; 4]), 0.0, if is_marked { marked.clone() } else { plain.clone() });
-    }
-    job.wrap.max_width = width.max(0.0);
-    job.wrap.max_rows = 1;
-    job.wrap.break_anywhere = true;
-    job
-}
-
-fn command_lines(app: &App, ui: &Ui, search: &mut Search) -> Vec<Line> {
-    // First by where the letters were found, then by how well, then what can be done and was done
-    // last; of titles that fit alike, the shortest has least that was not looked for.
-    type Rank = (u8, std::cmp::Reverse<u32>, usize, bool, usize, usize);
-    let mut found: Vec<(Rank, Line)> = Vec::new();
-    for (index, command) in COMMANDS.iter().enumerate() {
-        let Some((menu, _)) = command.menu.filter(|_| command.id != "commands") else { continue };
-        let title = command.plain_title();
-        let why_not = command.why_not(app);
-        let (tier, hit) = match search.hit(title) {
-            Some(hit) => (0, hit),
-            None => {
-                let elsewhere = [format!("{} {title}", menu.title()), command.id.replace('-', " ")];
-                let Some(hit) = elsewhere.iter().filter_map(|text| search.hit(text)).max_by_key(|hit| hit.score) else {
-                    continue;
-                };
-                (1, Hit { characters: Vec::new(), ..hit })
-            }
-        };
-        let recent = app.panels.recent.iter().position(|id| *id == command.id).unwrap_or(usize::MAX);
-        let length = if search.is_empty() { 0 } else { title.chars().count() };
-        let rank = (tier, std::cmp::Reverse(hit.score), length, why_not.is_some(), recent, index);
-        let line = Line {
-            title: command.title.to_owned(),
-            characters: hit.characters,
-            detail: why_not.unwrap_or(menu.title()).to_owned(),
-            trail: app.keys_text(command, ui.ctx()),
-            lead: if command.is_on(app) == Some(true) { LineLead::Tick } else { LineLead::None },
-            is_available: why_not.is_none(),
-            taken: Taken::Command(command),
-        };
-        found.push((rank, line));
-    }
-    found.sort_by_key(|(rank, _)| *rank);
-    found.into_iter().map(|(_, line)| line).collect()
-}
-
-fn argument_lines(app: &App, ui: &Ui, choices: &[Choice], search: &mut Search) -> Vec<Line> {
-    let palette = app.session.palette(ui);
-    let mut found: Vec<(std::cmp::Reverse<u32>, Line)> = Vec::new();
-    for choice in choices {
-        let Choice { word, title, detail, trail, status } = choice;
-        let Some(hit) = search.hit(title) else { continue };
-        let lead = status.map_or(LineLead::None, |status| LineLead::Swatch(theme::colour(palette.status(status))));
-        let line = Line {
-            title: title.clone(),
-            characters: hit.characters,
-            detail: detail.clone(),
-            trail: trail.clone(),
-            lead,
-            is_available: true,
-            taken: Taken::Argument(word.clone()),
-        };
-        found.push((std::cmp::Reverse(hit.score), line));
-    }
-    // Stable: in their own order where they fit alike.
-    if !search.is_empty() {
-        found.sort_by_key(|(score, _)| *score);
-    }
-    found.into_iter().map(|(_, line)| line).collect()
 }

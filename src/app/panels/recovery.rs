@@ -1,10 +1,13 @@
 //! What programs that were killed left behind: a picture of each, and what to do with it.
 
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::PathBuf;
 use std::time::SystemTime;
 
 use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
-use super::plan_picture::{MarkKind, legend};
+use super::plan_picture::{MarkKind, PlanPicture, legend};
+use crate::app::dialogs::{After, Dialog, Entry};
 use crate::app::look::{
     theme,
     widgets::{caption, colours, dialog_frame, right, strong, text_button},
@@ -23,11 +26,44 @@ enum Act {
     Later,
 }
 
-pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    if !app.panels.recovery || app.session.safety.leftovers.is_empty() {
-        return;
+pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(Recovery::default()), is_of_plan: false };
+
+pub(crate) const ID: &str = "recovery";
+
+#[derive(Default)]
+struct Recovery {
+    /// What would be recovered, what changed marked, by the journal.
+    pictures: BTreeMap<PathBuf, PlanPicture>,
+}
+
+impl Dialog for Recovery {
+    fn show(&mut self, app: &mut App, ui: &mut Ui) -> After {
+        if !app.session.safety.leftovers.is_empty() {
+            self.draw(&app.session.safety.leftovers);
+            show(&mut self.pictures, app, ui);
+        }
+        After::Stay
     }
-    let mut leftovers = std::mem::take(&mut app.session.safety.leftovers);
+}
+
+impl Recovery {
+    /// Draws those that are new.
+    fn draw(&mut self, leftovers: &[Offered]) {
+        for Offered { leftover, derived } in leftovers {
+            if let (Ok(recovered), Some(derived)) = (&leftover.content, derived)
+                && !self.pictures.contains_key(&leftover.path)
+            {
+                let (base, plan) = (recovered.base(), recovered.history.plan());
+                let picture = PlanPicture::new(base, plan, derived.clone(), &BTreeSet::new());
+                self.pictures.insert(leftover.path.clone(), picture);
+            }
+        }
+    }
+}
+
+/// The button, and what else closes it, does so by the command, as it is recorded.
+fn show(pictures: &mut BTreeMap<PathBuf, PlanPicture>, app: &mut App, ui: &Ui) {
+    let leftovers = std::mem::take(&mut app.session.safety.leftovers);
     let now = app.session.safety.clock.map(|clock| clock());
     let response = Modal::new(Id::unique("recovery")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
         ui.set_width(680.0_f32.min(ui.ctx().content_rect().width() - 80.0).max(0.0));
@@ -39,11 +75,12 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         let mut act = None;
         let height = (ui.ctx().content_rect().height() - 260.0).clamp(120.0, 620.0);
         ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
-            for (index, offered) in leftovers.iter_mut().enumerate() {
+            for (index, offered) in leftovers.iter().enumerate() {
                 if index > 0 {
                     ui.add_space(14.0);
                 }
-                act = ui.push_id(index, |ui| one(app, ui, index + 1, offered, now)).inner.or(act.take());
+                let picture = pictures.get_mut(&offered.leftover.path);
+                act = ui.push_id(index, |ui| one(app, ui, index + 1, offered, picture, now)).inner.or(act.take());
             }
         });
         ui.add_space(12.0);
@@ -52,7 +89,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             let used = |kind: &MarkKind| {
                 leftovers
                     .iter()
-                    .filter_map(|offered| offered.picture.as_ref())
+                    .filter_map(|offered| pictures.get(&offered.leftover.path))
                     .any(|picture| picture.kinds().any(|k| k == *kind))
             };
             legend(ui, all.filter(used));
@@ -74,12 +111,19 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     }
 }
 
-fn one(app: &App, ui: &mut Ui, number: usize, offered: &mut Offered, now: Option<SystemTime>) -> Option<Act> {
+fn one(
+    app: &App,
+    ui: &mut Ui,
+    number: usize,
+    offered: &Offered,
+    picture: Option<&mut PlanPicture>,
+    now: Option<SystemTime>,
+) -> Option<Act> {
     let title = offered.title();
     let mut act = None;
     ui.horizontal_top(|ui| {
         ui.spacing_mut().item_spacing.x = 18.0;
-        match &mut offered.picture {
+        match picture {
             Some(picture) => picture.show(ui, PICTURE, &format!("What would be recovered of {title}")),
             None => {
                 ui.allocate_space(vec2(PICTURE.x, 90.0));

@@ -7,6 +7,7 @@ use egui::{
 };
 
 use crate::app::commands::{self, COMMANDS, Command, CommandError, Menu};
+use crate::app::dialogs::{After, Dialog, Entry};
 use crate::app::look::{
     icons::Icon,
     keys::Keys,
@@ -74,53 +75,19 @@ const COLUMNS: [&[&[Menu]]; 3] = [
     ],
 ];
 
-pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    if app.session.question.is_some() {
-        app.panels.sheet = None;
-    }
-    let Some(mut sheet) = app.panels.sheet.take() else { return };
-    let act = sheet.show(app, ui);
-    app.panels.sheet = Some(sheet);
-    if let Some(act) = act {
-        take(app, ui, act);
-        ui.request_repaint();
-    }
-}
+pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(Sheet::default()), is_of_plan: false };
 
-/// Does what a person did: by commands, as a script does.
-fn take(app: &mut App, ui: &Ui, act: Act) {
-    let (said, changing) = match act {
-        Act::Close => {
-            app.panels.sheet = None;
-            return;
+pub(crate) const ID: &str = "shortcuts";
+
+impl Dialog for Sheet {
+    fn show(&mut self, app: &mut App, ui: &mut Ui) -> After {
+        if app.session.question.is_some() {
+            return After::Close;
         }
-        Act::Change(command) => (None, Some(command.id)),
-        Act::GiveUp => (None, None),
-        Act::Set(command, keys) => {
-            let word = keys.map(|keys| keys.to_string());
-            let ran = match &word {
-                Some(keys) => app.run_command_with("set-shortcut", &[command.id, keys], ui.ctx()),
-                None => app.run_command_with("remove-shortcut", &[command.id], ui.ctx()),
-            };
-            let done = match keys {
-                Some(keys) => format!("{} is now the shortcut of '{}'", keys.text(ui.ctx()), command.plain_title()),
-                None => format!("'{}' has no shortcut any more", command.plain_title()),
-            };
-            let waits = ran.is_err().then_some(command.id);
-            (Some(said(ran, done)), waits)
-        }
-        Act::Reset(command) => {
-            let ran = app.run_command_with("reset-shortcut", &[command.id], ui.ctx());
-            (Some(said(ran, format!("'{}' has the shortcut it comes with", command.plain_title()))), None)
-        }
-        Act::ResetAll => {
-            let ran = app.run_command_with("reset-shortcuts", &[], ui.ctx());
-            (Some(said(ran, "All commands have the shortcuts they come with".to_owned())), None)
-        }
-    };
-    if let Some(sheet) = &mut app.panels.sheet {
-        sheet.said = said;
-        sheet.changing = changing;
+        let Some(act) = self.show_in(app, ui) else { return After::Stay };
+        let after = self.take(app, ui, act);
+        ui.request_repaint();
+        after
     }
 }
 
@@ -133,7 +100,39 @@ fn said(ran: Result<(), CommandError>, done: String) -> Said {
 }
 
 impl Sheet {
-    fn show(&mut self, app: &App, ui: &mut Ui) -> Option<Act> {
+    /// Does what a person did: by commands, as a script does.
+    fn take(&mut self, app: &mut App, ui: &Ui, act: Act) -> After {
+        let (said, changing) = match act {
+            Act::Close => return After::Close,
+            Act::Change(command) => (None, Some(command.id)),
+            Act::GiveUp => (None, None),
+            Act::Set(command, keys) => {
+                let word = keys.map(|keys| keys.to_string());
+                let ran = match &word {
+                    Some(keys) => app.run_command_with("set-shortcut", &[command.id, keys], ui.ctx()),
+                    None => app.run_command_with("remove-shortcut", &[command.id], ui.ctx()),
+                };
+                let done = match keys {
+                    Some(keys) => format!("{} is now the shortcut of '{}'", keys.text(ui.ctx()), command.plain_title()),
+                    None => format!("'{}' has no shortcut any more", command.plain_title()),
+                };
+                let waits = ran.is_err().then_some(command.id);
+                (Some(said(ran, done)), waits)
+            }
+            Act::Reset(command) => {
+                let ran = app.run_command_with("reset-shortcut", &[command.id], ui.ctx());
+                (Some(said(ran, format!("'{}' has the shortcut it comes with", command.plain_title()))), None)
+            }
+            Act::ResetAll => {
+                let ran = app.run_command_with("reset-shortcuts", &[], ui.ctx());
+                (Some(said(ran, "All commands have the shortcuts they come with".to_owned())), None)
+            }
+        };
+        (self.said, self.changing) = (said, changing);
+        After::Stay
+    }
+
+    fn show_in(&mut self, app: &App, ui: &mut Ui) -> Option<Act> {
         let screen = ui.ctx().content_rect();
         let frame = dialog_frame(ui);
         let outer = screen.width() - 80.0 - 2.0 * 22.0;

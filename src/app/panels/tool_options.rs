@@ -9,26 +9,12 @@ use crate::app::look::{
     widgets::{colours, toggle},
 };
 use crate::app::state::App;
+use crate::app::tools::ToolOption;
+use crate::app::value::{Call, Value};
 use crate::base::units::Units;
 
-/// The tools for which something can be told, with the commands of their switches.
-fn switches(id: &str) -> &'static [(&'static str, &'static str)] {
-    const SNAPPING: (&str, &str) = ("snapping", "Snap");
-    const GRID: (&str, &str) = ("snap-to-grid", "Grid");
-    const ANGLES: (&str, &str) = ("right-angles", "Right angles");
-    const WALLS: (&str, &str) = ("walls-with-rooms", "With walls");
-    const OVER: (&str, &str) = ("over-rooms", "Over rooms");
-    match id {
-        "walls" | "split" | "cut-out" => &[ANGLES, SNAPPING, GRID],
-        "room" => &[WALLS, OVER, ANGLES, SNAPPING, GRID],
-        "rectangle" => &[WALLS, OVER, SNAPPING, GRID],
-        "measure" => &[SNAPPING],
-        _ => &[],
-    }
-}
-
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    let id = app.tools.id();
+    let tool = app.tools.entry();
     if app.session.document.is_none() || app.tools.is_selecting() {
         return;
     }
@@ -46,21 +32,19 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             ui.set_max_width((canvas.width() - SPACE - EDGE - frame.total_margin().sum().x).max(LEAST_WIDTH));
             ui.horizontal_wrapped(|ui| {
                 ui.spacing_mut().item_spacing = vec2(8.0, 4.0);
-                let command = commands::find(&format!("tool-{id}")).or(commands::find(id));
-                let title = command.map_or("", |command| command.title);
-                ui.label(crate::app::look::widgets::strong(title, theme::BODY));
+                ui.label(crate::app::look::widgets::strong(tool.title, theme::BODY));
                 ui.add_space(8.0);
-                let has_thickness =
-                    id == "walls" || (matches!(id, "room" | "rectangle") && app.tools.options.walls_with_rooms);
-                if has_thickness {
-                    let now = app.tools.options.thickness_m;
-                    length(app, ui, "Thickness", "wall-thickness", now, 0.0..=10.0);
-                }
-                if matches!(id, "door" | "double-door" | "passage" | "window") {
-                    let now = app.tools.options.opening_width_m;
-                    length(app, ui, "Width", "opening-width", now, 0.1..=100.0);
-                }
-                for (id, name) in switches(id) {
+                for option in tool.options {
+                    let (id, name) = match option {
+                        ToolOption::Length { command, name, least_m, most_m, now_m, is_shown } => {
+                            let options = app.tools.options;
+                            if is_shown(&options) {
+                                length(app, ui, name, command, now_m(&options), *least_m..=*most_m);
+                            }
+                            continue;
+                        }
+                        ToolOption::Switch { command, name } => (command, name),
+                    };
                     let Some(command) = commands::find(id) else { continue };
                     let is_on = command.is_on(app) == Some(true);
                     let response = toggle(ui, name, is_on);
@@ -106,8 +90,8 @@ fn length(
     };
     let response = ui.add(field).labelled_by(label.id);
     if response.changed() {
-        let word = ((value_m * 1000.0).round() / 1000.0).to_string();
+        let to_the_millimetre = Value::Number((value_m * 1000.0).round() / 1000.0);
         let context = ui.ctx().clone();
-        app.act(command, &[&word], &context);
+        app.act_on(Call::new(command, [to_the_millimetre]), &context);
     }
 }

@@ -17,7 +17,7 @@ mod stage;
 mod verbs;
 mod words;
 
-pub(super) use record::{Recorder, Recording};
+pub(super) use record::Recorder;
 
 pub use guide::guide;
 pub use run::{Failure, FindError, ReplayOptions, Report, ScriptFile, find_scripts, replay, replay_telling};

@@ -6,6 +6,7 @@
 //! same way.
 
 use crate::app::session::origin::file_name;
+use std::any::Any;
 use std::path::{Path, PathBuf};
 
 use egui::Context;
@@ -15,18 +16,28 @@ use super::words::written;
 use crate::app::commands::{self, ArgumentKind, COMMANDS, Executed, Menu, elements_word, room_word, sample_word};
 use crate::app::look::theme::Motion;
 use crate::app::session::{
+    Session,
     file_dialogs::{Dialogs, Given, Purpose},
-    jobs::Mode,
+    jobs::{Kind, Mode},
     messages::Severity,
     origin::Origin,
     plan_list,
     questions::Intent,
+    wishes::Wish,
 };
-use crate::app::state::{App, Done};
+use crate::app::state::App;
 use crate::formats::{self, plan_json};
 use crate::geometry::Point;
 use crate::plan::{ElementId, Plan};
 use crate::store::{SaveError, save_bytes};
+
+/// What the recorder hears, through the session, which cannot read it.
+enum News {
+    /// Where to save a recording; then goes on.
+    Chosen { recording: Recording, path: PathBuf, then: Option<Intent> },
+    /// Whether that was done.
+    Saved { recording: Recording, path: PathBuf, result: Result<(), SaveError>, then: Option<Intent> },
+}
 
 /// A recording at work.
 pub(crate) struct Recorder {
@@ -440,8 +451,20 @@ impl App {
 
     fn ask_where_to_save_recording(&mut self, recording: Option<Recording>, then: Option<Intent>) {
         let Some(recording) = recording else { return };
-        let purpose = Purpose::Recording { recording: Box::new(recording), then };
-        self.session.dialogs.ask(purpose, None, "recording.replay".to_owned(), &mut self.session.background);
+        let purpose = Purpose::Recording(Box::new(move |path| Box::new(News::Chosen { recording, path, then })));
+        self.session.dialogs.ask(purpose, None, "recording.replay".to_owned(), &mut self.session.jobs);
+    }
+
+    /// Takes what the session was given to tell the recorder.
+    pub(crate) fn hear_of_recording(&mut self, news: Box<dyn Any + Send>) {
+        match news.downcast::<News>().map(|news| *news) {
+            Ok(News::Chosen { recording, path, then }) => self.save_recording(recording, path, then),
+            Ok(News::Saved { recording, path, result, then }) => {
+                self.recording_was_saved(&path, recording, result, then);
+            }
+            // Nobody else tells it anything.
+            Err(_) => {}
+        }
     }
 
     /// Saves a recording; the ending is added where it is missing.
@@ -449,9 +472,11 @@ impl App {
         if !path.to_string_lossy().ends_with(ENDING) {
             path.as_mut_os_string().push(ENDING);
         }
-        self.session.background.start(move || {
+        self.session.jobs.start(Kind::new("save the recording"), move |_| {
             let result = recording.save(&path);
-            Done::RecordingSaved { path, recording: Box::new(recording), result, then }
+            move |session: &mut Session, _: &Context| {
+                session.wishes.push(Wish::Recording(Box::new(News::Saved { recording, path, result, then })));
+            }
         });
     }
 

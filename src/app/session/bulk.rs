@@ -3,8 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::Session;
-use crate::app::commands;
-use crate::app::session::{document::Document, labelling::for_each};
+use crate::app::session::{document::Document, labelling::for_each, words};
 use crate::base::wording::count;
 use crate::edit::{
     self,
@@ -46,7 +45,7 @@ impl Which {
                 .map(|label| Self::Label(Some(label)))
                 .ok_or_else(|| not_understood(word, Self::FORMS)),
             ("along", points) => {
-                let points: Option<Vec<Point>> = points.split_whitespace().map(commands::point).collect();
+                let points: Option<Vec<Point>> = points.split_whitespace().map(words::point).collect();
                 let points = points.filter(|points| points.len() > 1);
                 points.map(Self::Along).ok_or_else(|| not_understood(word, Self::FORMS))
             }
@@ -57,7 +56,7 @@ impl Which {
     /// As it is written in a call.
     pub(crate) fn word(&self) -> String {
         match self {
-            Self::Along(points) => format!("along {}", commands::points_word(points)),
+            Self::Along(points) => format!("along {}", words::points_word(points)),
             Self::Selected => "selected".to_owned(),
             Self::Unnamed => "unnamed".to_owned(),
             Self::All => "all".to_owned(),
@@ -152,10 +151,6 @@ pub(crate) enum Order {
 impl Order {
     pub(crate) const WORDS: &'static [(&'static str, &'static str)] =
         &[("rows", "Line by line"), ("columns", "Column by column")];
-
-    pub(crate) fn of_word(word: &str) -> Self {
-        if word == "columns" { Self::Columns } else { Self::Rows }
-    }
 
     pub(crate) const fn word(self) -> &'static str {
         match self {

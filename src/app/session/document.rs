@@ -4,9 +4,9 @@ use crate::app::session::origin::Origin;
 use crate::app::session::origin::bundled;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use crate::app::session::jobs::Wanted;
 use crate::app::session::plan_list;
 use crate::edit;
 use crate::formats::{self, FileError, Note, Place, ReadError};
@@ -119,14 +119,8 @@ pub(crate) struct Document {
 struct Awaited {
     plan: Plan,
     predictor: Predictor,
-    /// Tells the job that nobody waits for it any more.
-    outdated: Arc<AtomicBool>,
-}
-
-impl Drop for Awaited {
-    fn drop(&mut self) {
-        self.outdated.store(true, Ordering::Relaxed);
-    }
+    /// The job; `None` where it broke, as it would again.
+    job: Option<Wanted>,
 }
 
 impl Document {
@@ -210,7 +204,7 @@ impl Document {
         self.derived.as_ref()
     }
 
-    /// Whether what follows from the plan is neither known nor being worked out.
+    /// Whether what follows from the plan is neither known nor being worked out, and can be.
     pub(crate) fn needs_deriving(&self) -> bool {
         let is_awaited = self
             .awaited
@@ -219,13 +213,23 @@ impl Document {
         self.derived().is_none() && !is_awaited
     }
 
-    /// Notes that a job is at work for the plan. One that is for an earlier plan is told to give up. Gives
-    /// what will tell this one.
-    pub(crate) fn await_derived(&mut self) -> Arc<AtomicBool> {
-        let outdated = Arc::new(AtomicBool::new(false));
+    /// Notes that a job is at work for the plan. One that is for an earlier plan is told to give up.
+    pub(crate) fn await_derived(&mut self, job: Wanted) {
         let (plan, predictor) = (self.plan().clone(), self.predictor.clone());
-        self.awaited = Some(Awaited { plan, predictor, outdated: outdated.clone() });
-        outdated
+        self.awaited = Some(Awaited { plan, predictor, job: Some(job) });
+    }
+
+    /// Notes that the job for a plan broke: nobody waits for it, and it is not begun again before the plan or the
+    /// models are others.
+    pub(crate) fn could_not_be_derived(&mut self, plan: &Plan) {
+        if let Some(awaited) = self.awaited.as_mut().filter(|awaited| awaited.plan.is_same_value(plan)) {
+            awaited.job = None;
+        }
+    }
+
+    /// Whether a job works out what follows from the plan.
+    pub(crate) fn is_awaited(&self) -> bool {
+        self.awaited.as_ref().is_some_and(|awaited| awaited.job.is_some())
     }
 
     /// Takes over what was worked out for a plan; dropped when the plan or the models are others by now.

@@ -1,13 +1,18 @@
 //! Dialogs that ask for a file: the system's, or answers given beforehand where there is no screen.
 
 use crate::app::session::tracing::PictureUse;
+use std::any::Any;
 use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use crate::app::replay::Recording;
-use crate::app::session::{jobs::Background, questions::Intent};
-use crate::app::state::Done;
+use egui::Context;
+
+use crate::app::session::{
+    Session,
+    jobs::{Jobs, Kind},
+    questions::Intent,
+};
 use crate::store::pictures::PICTURE_ENDINGS;
 
 /// Who answers.
@@ -27,7 +32,6 @@ pub(crate) struct Given {
 }
 
 /// What a file is wanted for.
-#[derive(Debug)]
 pub(crate) enum Purpose {
     Open,
     Picture(PictureUse),
@@ -36,15 +40,11 @@ pub(crate) enum Purpose {
         then: Option<Intent>,
         answering: Option<&'static str>,
     },
-    /// To save what was recorded.
-    Recording {
-        recording: Box<Recording>,
-        then: Option<Intent>,
-    },
+    /// To save what was recorded; gives what the recorder is told of the file.
+    Recording(Box<dyn FnOnce(PathBuf) -> Box<dyn Any + Send> + Send>),
 }
 
 /// A dialog's answer.
-#[derive(Debug)]
 pub(crate) struct Answer {
     pub purpose: Purpose,
     /// `None` when the dialog was cancelled.
@@ -57,20 +57,15 @@ pub(crate) struct Answer {
 const QUICKEST_CANCEL: Duration = Duration::from_millis(250);
 
 impl Dialogs {
-    /// Asks for a file; the answer comes as [`Done::Chosen`]. Does nothing while a dialog is open.
-    pub(crate) fn ask(
-        &mut self,
-        purpose: Purpose,
-        folder: Option<PathBuf>,
-        name: String,
-        background: &mut Background<Done>,
-    ) {
+    /// Asks for a file; the answer comes to [`Session::was_chosen`]. Does nothing while a dialog is open.
+    pub(crate) fn ask(&mut self, purpose: Purpose, folder: Option<PathBuf>, name: String, jobs: &mut Jobs) {
+        let kind = Kind::new("ask for a file").if_broken(|session| session.dialogs.answered());
         match self {
             Self::Given(given) => {
                 let answer = given.answers.pop_front();
                 given.unanswered += usize::from(answer.is_none());
                 let path = answer.flatten();
-                background.start(move || Done::Chosen(Answer { purpose, path, was_shown: true }));
+                jobs.start(kind, move |_| answers(Answer { purpose, path, was_shown: true }));
             }
             Self::System { is_open: true } => {}
             Self::System { is_open } => {
@@ -102,7 +97,7 @@ impl Dialogs {
                             .add_filter("Enfilade plan", &["plan.json"]);
                         Box::pin(dialog.save_file())
                     }
-                    Purpose::Recording { .. } => {
+                    Purpose::Recording(_) => {
                         let dialog = dialog
                             .set_title("Save the recording")
                             .set_file_name(name)
@@ -110,11 +105,11 @@ impl Dialogs {
                         Box::pin(dialog.save_file())
                     }
                 };
-                background.start(move || {
+                jobs.start(kind, move |_| {
                     let asked = now();
                     let path = pollster::block_on(chosen).map(|file| file.path().to_owned());
                     let was_shown = path.is_some() || asked.elapsed() >= QUICKEST_CANCEL;
-                    Done::Chosen(Answer { purpose, path, was_shown })
+                    answers(Answer { purpose, path, was_shown })
                 });
             }
         }
@@ -125,6 +120,13 @@ impl Dialogs {
         if let Self::System { is_open } = self {
             *is_open = false;
         }
+    }
+}
+
+fn answers(answer: Answer) -> impl FnOnce(&mut Session, &Context) {
+    move |session, context| {
+        session.dialogs.answered();
+        session.was_chosen(answer, context);
     }
 }
 

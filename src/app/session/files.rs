@@ -13,17 +13,14 @@ use crate::app::session::{
     document::{self, Begun, Document, Expected, Opened, SaveFailure},
     file_dialogs::{Answer, Purpose},
     ghost::Ghost,
+    jobs::Kind,
     messages::{Message, Remedy, Severity},
     origin::Origin,
     plan_list,
     questions::{Intent, Question},
     selection::Selection,
 };
-use crate::app::state::Done;
-use crate::edit::{
-    DrawingMoves,
-    storey::{Keep, copied},
-};
+use crate::edit::storey::{Keep, copied};
 use crate::formats::FileError;
 use crate::plan::Plan;
 use crate::store::Stamp;
@@ -32,7 +29,7 @@ impl Session {
     /// Asks which plan to open.
     pub(crate) fn choose_plan(&mut self) {
         let folder = self.document.as_ref().and_then(|document| document.origin.folder()).map(Path::to_owned);
-        self.dialogs.ask(Purpose::Open, folder, String::new(), &mut self.background);
+        self.dialogs.ask(Purpose::Open, folder, String::new(), &mut self.jobs);
     }
 
     /// Shows a plan on which nothing is drawn yet.
@@ -54,9 +51,10 @@ impl Session {
     /// Reads a plan and shows it when it is there.
     pub(crate) fn open(&mut self, origin: Origin) {
         self.opening = Some(origin.clone());
-        self.background.start(move || {
+        let kind = Kind::new("open a plan").newest_of("plan to show").if_broken(|session| session.opening = None);
+        self.jobs.start(kind, move |_| {
             let opened = document::open(origin.clone());
-            Done::Opened(origin, Box::new(opened))
+            move |session: &mut Session, _: &_| session.was_opened(&origin, opened)
         });
     }
 
@@ -87,11 +85,12 @@ impl Session {
     /// Does what a person wants, after asking where that would lose unsaved work.
     pub(crate) fn request(&mut self, intent: Intent) {
         self.commit_field();
-        if self.question.is_some() || self.saving > 0 {
+        if self.question.is_some() || self.jobs.is_one_to_end() {
             // One thing after the other: what is saved need not be asked for.
             self.waiting = Some(intent);
         } else if self.has_unsaved_changes() {
-            self.question = Some(Question::Unsaved(intent));
+            let title = self.document.as_ref().map(Document::title).unwrap_or_default();
+            self.ask(Question::unsaved(&title, intent));
         } else {
             self.perform(intent);
         }
@@ -100,7 +99,7 @@ impl Session {
     /// Goes on with what waited for an answer, or for a file to be saved.
     pub(crate) fn take_waiting(&mut self) {
         if self.question.is_none()
-            && self.saving == 0
+            && !self.jobs.is_one_to_end()
             && let Some(intent) = self.waiting.take()
         {
             self.request(intent);
@@ -135,7 +134,7 @@ impl Session {
         self.wishes.push(Wish::ForgetPlan);
         self.status.clear();
         if !opened.notes.is_empty() {
-            let summary = crate::app::panels::notes::summary(&opened.notes);
+            let summary = crate::app::session::origin::notes_in_words(&opened.notes);
             let text = format!("Imported {}: {summary}", opened.origin.title());
             let remedies = vec![Remedy::ShowNotes];
             let (severity, detail) = (Severity::Info, String::new());
@@ -151,61 +150,13 @@ impl Session {
     }
 
     fn list_folder(&mut self, folder: PathBuf) {
-        self.background.start(move || {
+        self.jobs.start(Kind::new("list the plans of a folder").newest_of("list of plans"), move |_| {
             let files = plan_list::plans_in(&folder);
-            Done::Listed(folder, files)
+            move |session: &mut Session, _: &_| session.list.set_folder(folder, files)
         });
     }
 
-    /// Answers the question that is asked. `path`: the file to save in, where there must be one; the
-    /// dialog asks for it without. Gives whether it did not have to ask.
-    pub(crate) fn answer(&mut self, word: &'static str, path: Option<PathBuf>) -> bool {
-        let then = match (self.question.take(), word) {
-            (Some(Question::Unsaved(intent)), "save") => {
-                if path.is_none() && self.has_own_file() {
-                    self.save(Some(intent));
-                    return true;
-                }
-                Some(intent)
-            }
-            (Some(Question::Replace { then, .. }), "elsewhere") => then,
-            (Some(Question::Unsaved(intent)), "discard") => {
-                self.perform(intent);
-                return true;
-            }
-            (Some(Question::Drawing(change)), "along" | "stays") => {
-                self.apply_picture_change(&change, DrawingMoves::of_word(word));
-                return true;
-            }
-            (Some(Question::Change(change)), "weld" | "bridge") => {
-                self.edit(change.step, |_| Ok(change.plan));
-                return true;
-            }
-            (Some(Question::Delete { selected, .. }), "delete") => {
-                self.delete(&selected);
-                return true;
-            }
-            (Some(Question::Discard { path, .. }), "discard") => {
-                self.discard_leftover(&path);
-                return true;
-            }
-            (Some(Question::Replace { path, then, .. }), "replace") => {
-                self.save_to(path, Expected::Anything, then);
-                return true;
-            }
-            _ => return true,
-        };
-        match path {
-            Some(path) => self.save_in(path, then),
-            None => {
-                self.ask_where_to_save(then, Some(word));
-                return false;
-            }
-        }
-        true
-    }
-
-    fn has_own_file(&self) -> bool {
+    pub(super) fn has_own_file(&self) -> bool {
         let path = self.document.as_ref().and_then(|document| document.origin.path());
         path.is_some_and(document::is_own_file)
     }
@@ -233,7 +184,7 @@ impl Session {
         let Some(document) = &self.document else { return };
         let folder = document.origin.folder().map(Path::to_owned);
         let name = format!("{}.plan.json", document.origin.stem());
-        self.dialogs.ask(Purpose::Save { then, answering }, folder, name, &mut self.background);
+        self.dialogs.ask(Purpose::Save { then, answering }, folder, name, &mut self.jobs);
     }
 
     /// Saves the plan in a file that a person has chosen; the ending is added where it is missing.
@@ -245,7 +196,7 @@ impl Session {
         }
         path.as_mut_os_string().push(".plan.json");
         if path.exists() {
-            self.question = Some(Question::Replace { path, is_changed_since: false, then });
+            self.ask(Question::replace(path, false, then));
         } else {
             self.save_to(path, Expected::Anything, then);
         }
@@ -273,7 +224,7 @@ impl Session {
             Purpose::Open => self.wishes.push(Wish::Run("open", vec![word])),
             Purpose::Picture(PictureUse::Add) => self.wishes.push(Wish::Run("picture", vec![word])),
             Purpose::Picture(PictureUse::Relink) => self.wishes.push(Wish::Run("relink-picture", vec![word])),
-            Purpose::Recording { recording, then } => self.wishes.push(Wish::SaveRecording { recording, path, then }),
+            Purpose::Recording(save) => self.wishes.push(Wish::Recording(save(path))),
             Purpose::Save { then: None, answering: None } => self.wishes.push(Wish::Run("save-as", vec![word])),
             Purpose::Save { then, answering } => {
                 if let Some(answer) = answering {
@@ -289,9 +240,13 @@ impl Session {
         let plan = plan_in_folder(document.plan(), document.origin.folder(), path.parent());
         let document = document.number;
         self.begins_to_save();
-        self.background.start(move || {
+        // What was to follow a save does not follow a broken one.
+        let kind = Kind::new("save the plan").must_end().if_broken(|session| session.waiting = None);
+        self.jobs.start(kind, move |_| {
             let result = document::save(&path, &plan, expected);
-            Done::Saved { document, path, plan, result, then }
+            move |session: &mut Session, context: &Context| {
+                session.was_saved(document, path, plan, result, then, context);
+            }
         });
     }
 
@@ -304,7 +259,6 @@ impl Session {
         then: Option<Intent>,
         context: &Context,
     ) {
-        self.saving = self.saving.saturating_sub(1);
         match result {
             Ok(stamp) => {
                 self.status = format!("Saved in {}", file_name(&path));
@@ -326,7 +280,7 @@ impl Session {
             Err(SaveFailure::ChangedOnDisk) => {
                 self.waiting = None;
                 self.look_soon();
-                self.question = Some(Question::Replace { path, is_changed_since: true, then });
+                self.ask(Question::replace(path, true, then));
             }
             Err(SaveFailure::Store(error)) => {
                 // What was to follow a save does not follow a failure.

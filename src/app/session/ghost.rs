@@ -5,13 +5,13 @@ use crate::app::session::origin::file_name;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::app::commands::Choice;
+use crate::app::session::words::Choice;
 use crate::app::session::{
     document::{self, Derived, Opened},
+    jobs::Kind,
     messages::Severity,
     origin::Origin,
 };
-use crate::app::state::Done;
 use crate::formats::{self, FileError, building_name};
 use crate::geometry::{Segment, polygon};
 use crate::labels::Schemes;
@@ -67,7 +67,7 @@ impl Session {
         });
         let origin = Origin::File { path, storey };
         let schemes = self.schemes.clone();
-        self.background.start(move || {
+        self.jobs.start(Kind::new("read the storey below").newest_of("storey below"), move |_| {
             let read = document::open(origin.clone()).map(|Opened { origin, mut storeys, .. }| {
                 let storey = if let Origin::File { storey, .. } = origin { storey } else { 0 };
                 let number = storeys.len();
@@ -75,7 +75,7 @@ impl Session {
                     if storeys.is_empty() { Plan::default() } else { storeys.swap_remove(storey.min(number - 1)) };
                 Ghost::new(plan, Some(origin), &schemes)
             });
-            Done::Ghost(origin, Box::new(read))
+            move |session: &mut Session, _: &_| session.ghost_was_read(&origin, read)
         });
     }
 

@@ -1,102 +1,269 @@
-//! Work off the frame's path: a job runs on a thread of its own and its outcome arrives in a later
-//! frame. Offscreen the same jobs run at once, so that a replayed session never waits for a clock.
+//! Work off the frame's path: a job runs elsewhere and gives a closure, which a later frame runs on the session.
+//! Offscreen the same jobs run at once, so that a replayed session never waits for a clock; tests hold them back
+//! and end them in any order.
 
+use std::collections::{BTreeMap, VecDeque};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-/// Runs jobs and collects their outcomes.
-pub(crate) struct Background<T> {
-    sender: Sender<Outcome<T>>,
-    receiver: Receiver<Outcome<T>>,
-    running: usize,
-    mode: Mode,
-}
+use egui::Context;
+
+use crate::app::session::Session;
+use crate::app::session::messages::Severity;
+use crate::base::work::Work;
+
+/// What a job gives: what is to be done with the session once it has ended.
+pub(crate) type Outcome = Box<dyn FnOnce(&mut Session, &Context) + Send>;
+
+type Job = Box<dyn FnOnce(&Work<'_>) -> Outcome + Send>;
 
 /// Where jobs run.
 pub(crate) enum Mode {
     /// On threads; the context is asked for a frame when one ends.
-    Threads(egui::Context),
+    Threads(Context),
     /// Within the call that starts them.
     Inline,
+    /// Not before they are told to, one by one: see [`Jobs::run_held`].
+    Held,
+    /// One a frame, within it: where there are no threads.
+    Sliced,
+}
+
+/// What a job is.
+pub(crate) struct Kind {
+    /// What it does, in words: 'open a plan'.
+    name: &'static str,
+    /// A later job of the same key replaces it.
+    key: Option<&'static str>,
+    must_end: bool,
+    broken: Option<Box<dyn FnOnce(&mut Session) + Send>>,
+}
+
+impl Kind {
+    pub(crate) const fn new(name: &'static str) -> Self {
+        Self { name, key: None, must_end: false, broken: None }
+    }
+
+    /// Only the newest of this key counts: an older one is cancelled, and its outcome dropped.
+    pub(crate) fn newest_of(self, key: &'static str) -> Self {
+        Self { key: Some(key), ..self }
+    }
+
+    /// Nothing that could lose work happens before it has ended: closing, or showing another plan.
+    pub(crate) fn must_end(self) -> Self {
+        Self { must_end: true, ..self }
+    }
+
+    /// What whoever started it does when it breaks instead of giving an outcome.
+    pub(crate) fn if_broken(self, broken: impl FnOnce(&mut Session) + Send + 'static) -> Self {
+        Self { broken: Some(Box::new(broken)), ..self }
+    }
+}
+
+/// How far a job is, and whether it is to go on.
+#[derive(Clone, Default)]
+struct Watched(Arc<State>);
+
+#[derive(Default)]
+struct State {
+    cancelled: AtomicBool,
+    done: AtomicUsize,
+    count: AtomicUsize,
+}
+
+impl Watched {
+    fn is_cancelled(&self) -> bool {
+        self.0.cancelled.load(Ordering::Relaxed)
+    }
+
+    fn cancel(&self) {
+        self.0.cancelled.store(true, Ordering::Relaxed);
+    }
+
+    /// Parts that are done, of how many; `None` for a job that does not tell.
+    fn progress(&self) -> Option<(usize, usize)> {
+        let count = self.0.count.load(Ordering::Relaxed);
+        (count > 0).then(|| (self.0.done.load(Ordering::Relaxed).min(count), count))
+    }
+}
+
+/// A job that is wanted as long as this is kept: dropped, it is cancelled, and so is its outcome.
+pub(crate) struct Wanted(Watched);
+
+impl Drop for Wanted {
+    fn drop(&mut self) {
+        self.0.cancel();
+    }
+}
+
+struct Running {
+    kind: Kind,
+    watched: Watched,
 }
 
 /// How a job ended: `None` when it panicked, which is a bug of ours, not to take the window down.
-type Outcome<T> = Option<T>;
+struct Ended {
+    number: u64,
+    outcome: Option<Outcome>,
+}
 
-impl<T: Send + 'static> Background<T> {
+struct Queued {
+    number: u64,
+    job: Job,
+    watched: Watched,
+}
+
+/// Runs jobs and collects their outcomes.
+pub(crate) struct Jobs {
+    sender: Sender<Ended>,
+    receiver: Receiver<Ended>,
+    /// By their numbers: those whose outcomes have not been taken.
+    running: BTreeMap<u64, Running>,
+    /// Those that have not begun, where they wait for that.
+    queued: VecDeque<Queued>,
+    started: u64,
+    mode: Mode,
+}
+
+impl Jobs {
     pub(crate) fn new(mode: Mode) -> Self {
         let (sender, receiver) = channel();
-        Self { sender, receiver, running: 0, mode }
+        Self { sender, receiver, running: BTreeMap::new(), queued: VecDeque::new(), started: 0, mode }
     }
 
-    /// Starts a job.
-    pub(crate) fn start(&mut self, job: impl FnOnce() -> T + Send + 'static) {
-        self.running += 1;
-        let sender = self.sender.clone();
+    /// Starts a job: what it gives runs in a later frame.
+    pub(crate) fn start<O>(&mut self, kind: Kind, job: impl FnOnce(&Work<'_>) -> O + Send + 'static)
+    where
+        O: FnOnce(&mut Session, &Context) + Send + 'static,
+    {
+        self.begin(kind, Box::new(move |work| Box::new(job(work))));
+    }
+
+    /// As [`Self::start`]; the job is cancelled when what this gives is dropped.
+    pub(crate) fn start_wanted<O>(&mut self, kind: Kind, job: impl FnOnce(&Work<'_>) -> O + Send + 'static) -> Wanted
+    where
+        O: FnOnce(&mut Session, &Context) + Send + 'static,
+    {
+        Wanted(self.begin(kind, Box::new(move |work| Box::new(job(work)))))
+    }
+
+    fn begin(&mut self, kind: Kind, job: Job) -> Watched {
+        if kind.key.is_some() {
+            self.running.values().filter(|running| running.kind.key == kind.key).for_each(|old| old.watched.cancel());
+        }
+        let watched = Watched::default();
+        self.started += 1;
+        let queued = Queued { number: self.started, job, watched: watched.clone() };
+        self.running.insert(self.started, Running { kind, watched: watched.clone() });
         match &self.mode {
-            Mode::Inline => deliver(job, &sender),
+            Mode::Inline => run(queued, Work::quiet(), &self.sender),
             Mode::Threads(context) => {
-                let context = context.clone();
+                let (sender, context) = (self.sender.clone(), context.clone());
                 std::thread::spawn(move || {
-                    deliver(job, &sender);
+                    run(queued, Work::quiet(), &sender);
                     context.request_repaint();
                 });
             }
+            Mode::Held | Mode::Sliced => self.queued.push_back(queued),
         }
+        watched
     }
 
-    /// The outcomes that arrived since the last call; `None` for a job that broke.
-    pub(crate) fn take(&mut self) -> Vec<Option<T>> {
-        let arrived: Vec<Outcome<T>> = self.receiver.try_iter().collect();
-        self.running -= arrived.len();
-        arrived
+    /// Runs the job that waits at a place in the queue, counted from 0, or lets it break. Gives whether one is there.
+    pub(crate) fn run_held(&mut self, index: usize, breaks: bool) -> bool {
+        let Some(queued) = self.queued.remove(index) else { return false };
+        if breaks {
+            deliver(queued.number, None, &self.sender);
+        } else {
+            run(queued, Work::quiet().on_threads(1), &self.sender);
+        }
+        true
+    }
+
+    /// What the jobs that have not begun do, the first in the queue first.
+    pub(crate) fn held(&self) -> Vec<&'static str> {
+        let name = |queued: &Queued| self.running.get(&queued.number).map(|running| running.kind.name);
+        self.queued.iter().filter_map(name).collect()
+    }
+
+    /// What the jobs at work do, and how far each is: parts done, of how many, where it tells.
+    pub(crate) fn progress(&self) -> Vec<(&'static str, Option<(usize, usize)>)> {
+        let wanted = self.running.values().filter(|running| !running.watched.is_cancelled());
+        wanted.map(|running| (running.kind.name, running.watched.progress())).collect()
+    }
+
+    /// The jobs that ended since the last call.
+    fn arrived(&mut self) -> Vec<Ended> {
+        if matches!(self.mode, Mode::Sliced) {
+            self.run_held(0, false);
+        }
+        self.receiver.try_iter().collect()
     }
 
     /// Asks for the frame that takes the next outcome.
-    pub(crate) fn request_frame(&self, context: &egui::Context) {
+    pub(crate) fn request_frame(&self, context: &Context) {
         match self.mode {
-            Mode::Inline => context.request_repaint(),
+            // They end when somebody says so.
+            Mode::Held if self.queued.len() == self.running.len() => {}
+            Mode::Inline | Mode::Held | Mode::Sliced => context.request_repaint(),
             // A thread asks when it is done; in between, what waits may say so.
             Mode::Threads(_) => context.request_repaint_after(std::time::Duration::from_millis(100)),
         }
     }
 
-    /// Whether jobs run within the call that starts them.
+    /// Whether no thread works beside the frames.
     pub(crate) fn is_inline(&self) -> bool {
-        matches!(self.mode, Mode::Inline)
+        !matches!(self.mode, Mode::Threads(_))
     }
 
-    /// Whether a job has not been taken yet.
+    /// Whether a job's outcome has not been taken yet.
     pub(crate) fn is_busy(&self) -> bool {
-        self.running > 0
+        !self.running.is_empty()
+    }
+
+    /// Whether a job is at work that must end first, such as a save.
+    pub(crate) fn is_one_to_end(&self) -> bool {
+        self.running.values().any(|running| running.kind.must_end)
     }
 }
 
-fn deliver<T>(job: impl FnOnce() -> T, sender: &Sender<Outcome<T>>) {
-    let outcome = catch_unwind(AssertUnwindSafe(job)).ok();
-    // The receiver is gone only when the window is: nobody waits for the outcome then.
-    let _ = sender.send(outcome);
+fn run(queued: Queued, work: Work<'_>, sender: &Sender<Ended>) {
+    let Queued { number, job, watched } = queued;
+    let progress = |done: usize, count: usize| {
+        watched.0.done.fetch_max(done, Ordering::Relaxed);
+        watched.0.count.store(count, Ordering::Relaxed);
+    };
+    let work = work.watched(&progress, &watched.0.cancelled);
+    let outcome = catch_unwind(AssertUnwindSafe(|| job(&work))).ok();
+    deliver(number, outcome, sender);
 }
 
-#[cfg(test)]
-mod tests {
-    use crate::app::session::jobs::*;
+fn deliver(number: u64, outcome: Option<Outcome>, sender: &Sender<Ended>) {
+    // The receiver is gone only when the window is: nobody waits for the outcome then.
+    let _ = sender.send(Ended { number, outcome });
+}
 
-    #[test]
-    fn outcomes_arrive_and_a_broken_job_is_told_apart() {
-        let mut inline = Background::new(Mode::Inline);
-        inline.start(|| 1);
-        inline.start(|| panic!("a bug"));
-        assert!(inline.is_busy());
-        assert_eq!(inline.take(), [Some(1), None]);
-        assert!(!inline.is_busy());
-        let mut threads = Background::new(Mode::Threads(egui::Context::default()));
-        threads.start(|| 2);
-        while threads.is_busy() {
-            for outcome in threads.take() {
-                assert_eq!(outcome, Some(2));
+impl Session {
+    /// Does what the jobs that ended since the last call gave.
+    pub(crate) fn take_outcomes(&mut self, context: &Context) {
+        for Ended { number, outcome } in self.jobs.arrived() {
+            let Some(Running { kind, watched }) = self.jobs.running.remove(&number) else { continue };
+            match outcome {
+                Some(outcome) if !watched.is_cancelled() => outcome(self, context),
+                Some(_) => {}
+                None => {
+                    if let Some(broken) = kind.broken.filter(|_| !watched.is_cancelled()) {
+                        broken(self);
+                    }
+                    self.say(
+                        Severity::Error,
+                        "Something broke inside Enfilade",
+                        "Your plan is untouched. Please report what you did.",
+                    );
+                }
             }
-            std::thread::yield_now();
         }
     }
 }

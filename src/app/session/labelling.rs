@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Session;
-use crate::app::commands::{self, Choice};
+use crate::app::session::words::{self, Choice};
 use crate::base::wording::count;
 use crate::base::wording::sentence;
 use crate::edit::{self, EditError};
@@ -26,7 +26,7 @@ pub(crate) struct Target {
 impl Target {
     /// The argument that names it in a call; none for the selection.
     pub(crate) fn word(&self, plan: &Plan) -> Option<String> {
-        self.rooms.first().filter(|_| !self.is_selection).map(|&room| commands::room_word(plan, room))
+        self.rooms.first().filter(|_| !self.is_selection).map(|&room| words::room_word(plan, room))
     }
 
     /// What it is called: 'Kitchen', '5 rooms'.

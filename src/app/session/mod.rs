@@ -1,6 +1,7 @@
 //! The work at hand: the open plan and all that is done with it. It knows no canvas, tool, panel or command.
 
 pub(crate) mod bulk;
+pub(crate) mod deriving;
 pub(crate) mod document;
 pub(crate) mod executed;
 pub(crate) mod fields;
@@ -22,13 +23,14 @@ pub(crate) mod selection;
 pub(crate) mod settings;
 pub(crate) mod tracing;
 pub(crate) mod wishes;
+pub(crate) mod words;
 
 use crate::app::paint::backdrop::BackdropView;
 use crate::app::session::document::Document;
 use crate::app::session::executed::Executed;
 use crate::app::session::fields::Field;
 use crate::app::session::file_dialogs::Dialogs;
-use crate::app::session::jobs::Background;
+use crate::app::session::jobs::Jobs;
 use crate::app::session::jobs::Mode;
 use crate::app::session::layers::LayerSettings;
 use crate::app::session::messages::Message;
@@ -41,7 +43,6 @@ use crate::app::session::recovery::Safety;
 use crate::app::session::selection::Selection;
 use crate::app::session::settings::Settings;
 use crate::app::session::wishes::Wish;
-use crate::app::state::Done;
 use crate::classify::models::Models;
 use crate::draw;
 use crate::draw::Palette;
@@ -79,12 +80,10 @@ pub(crate) struct Session {
     pub(crate) question: Option<Question>,
     /// What a person wants once a question is answered, or a file saved.
     pub(crate) waiting: Option<Intent>,
-    /// How many files are being saved.
-    pub(crate) saving: usize,
     /// The journal that is to be opened.
     pub(crate) recovering: Option<PathBuf>,
     pub(crate) safety: Safety,
-    pub(crate) background: Background<Done>,
+    pub(crate) jobs: Jobs,
     pub(crate) dialogs: Dialogs,
     pub(crate) quitting: bool,
     /// Where scripts work: paths below are shown from here.
@@ -136,10 +135,9 @@ impl Session {
             status: String::new(),
             question: None,
             waiting: None,
-            saving: 0,
             recovering: None,
             safety: Safety::default(),
-            background: Background::new(mode),
+            jobs: Jobs::new(mode),
             dialogs,
             quitting: false,
             named_from: None,

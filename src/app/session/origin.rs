@@ -1,9 +1,9 @@
-//! Where a plan came from.
+//! Where a plan came from, and what was said of it there.
 
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use crate::formats;
+use crate::formats::{self, Note, NoteKind};
 use crate::plan::Plan;
 use crate::store;
 
@@ -63,4 +63,30 @@ impl Origin {
 /// A path's last part.
 pub(crate) fn file_name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+/// How many notes of each kind, in words: '3 things mended, 1 left out'.
+pub(crate) fn notes_in_words(notes: &[Note]) -> String {
+    let number = |kind: NoteKind| notes.iter().filter(|note| note.kind == kind).count();
+    let (healed, skipped) = (number(NoteKind::Healed), number(NoteKind::Skipped));
+    let things = |number: usize| if number == 1 { "thing" } else { "things" };
+    match (healed, skipped) {
+        (0, skipped) => format!("{skipped} {} left out", things(skipped)),
+        (healed, 0) => format!("{healed} {} mended", things(healed)),
+        (healed, skipped) => format!("{healed} {} mended, {skipped} left out", things(healed)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formats::Place;
+
+    #[test]
+    fn summaries_read_well() {
+        let note = |kind| Note { kind, place: Place::default(), what: String::new() };
+        assert_eq!(notes_in_words(&[note(NoteKind::Healed)]), "1 thing mended");
+        assert_eq!(notes_in_words(&[note(NoteKind::Skipped), note(NoteKind::Skipped)]), "2 things left out");
+        assert_eq!(notes_in_words(&[note(NoteKind::Skipped), note(NoteKind::Healed)]), "1 thing mended, 1 left out");
+    }
 }

@@ -1,10 +1,14 @@
-//! What a person is asked, and what waits for the answer.
+//! What a person is asked, with what each answer does, and what waits for the answer.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use crate::app::session::document::Opened;
+use super::Session;
+use crate::app::session::document::{Expected, Opened};
+use crate::app::session::origin::file_name;
 use crate::app::session::tracing::PictureChange;
+use crate::base::wording::count;
+use crate::edit::DrawingMoves;
 use crate::geometry::Segment;
 use crate::plan::{ElementId, Plan};
 
@@ -20,35 +24,207 @@ pub(crate) enum Intent {
 }
 
 /// A question that must be answered before anything else.
-#[derive(Debug)]
-pub(crate) enum Question {
-    /// The plan has unsaved changes: save, give up, or keep working?
-    Unsaved(Intent),
-    /// More would go than is selected: delete it all?
-    Delete { selected: Vec<ElementId>, gone: BTreeSet<ElementId> },
-    /// Something large would be changed, as shown: do it?
-    Change(ProposedChange),
-    /// Something else stands in the file to be saved: replace it?
-    Replace { path: PathBuf, is_changed_since: bool, then: Option<Intent> },
-    /// Give up what a program left behind?
-    Discard { path: PathBuf, title: String },
-    /// The picture is about to be scaled or turned: does the drawing go along?
-    Drawing(PictureChange),
-}
-
-/// A change of the plan that is shown before it is made.
-#[derive(Debug)]
-pub(crate) struct ProposedChange {
+pub(crate) struct Question {
     /// What is asked, in a sentence.
     pub(crate) title: String,
-    /// What it would do.
     pub(crate) text: String,
-    /// The answer that makes it, and 'cancel'.
-    pub(crate) answers: &'static [(&'static str, &'static str)],
-    /// What it is called in the history.
-    pub(crate) step: &'static str,
-    /// The plan as it would be.
-    pub(crate) plan: Plan,
-    /// Where it would do something; a point is a segment without length.
-    pub(crate) marks: Vec<Segment>,
+    /// What is shown of it on the plan.
+    pub(crate) shown: Shown,
+    /// The main answer first.
+    answers: Vec<Answer>,
+    /// What waits for the answer.
+    then: Option<Intent>,
+}
+
+/// What a question shows on the plan.
+pub(crate) enum Shown {
+    Nothing,
+    /// Elements that would go.
+    Gone(BTreeSet<ElementId>),
+    /// Places that would change; a point is a segment without length.
+    Marks(Vec<Segment>),
+}
+
+struct Answer {
+    /// What it is called in scripts.
+    word: &'static str,
+    /// What its button says.
+    title: &'static str,
+    effect: Effect,
+}
+
+/// What an answer does; gives whether it did not have to ask for more.
+type Effect = Box<dyn FnOnce(&mut Session, Reply) -> bool>;
+
+/// What comes with an answer.
+struct Reply {
+    word: &'static str,
+    /// The file to save in, where a dialog would ask for it.
+    path: Option<PathBuf>,
+    /// What waited.
+    then: Option<Intent>,
+}
+
+/// The answer of every question that a click beside it gives, and Escape: nothing is done.
+pub(crate) const CANCEL: &str = "cancel";
+
+impl Question {
+    fn new(title: impl Into<String>, text: impl Into<String>) -> Self {
+        let (title, text) = (title.into(), text.into());
+        Self { title, text, shown: Shown::Nothing, answers: Vec::new(), then: None }
+    }
+
+    fn answer(
+        mut self,
+        (word, title): (&'static str, &'static str),
+        effect: impl FnOnce(&mut Session, Reply) -> bool + 'static,
+    ) -> Self {
+        self.answers.push(Answer { word, title, effect: Box::new(effect) });
+        self
+    }
+
+    /// An answer that needs nothing else.
+    fn simply(self, named: (&'static str, &'static str), effect: impl FnOnce(&mut Session) + 'static) -> Self {
+        self.answer(named, |session, _| {
+            effect(session);
+            true
+        })
+    }
+
+    fn cancel(self) -> Self {
+        self.simply((CANCEL, "Cancel"), |_| {})
+    }
+
+    /// The answers there are, each with what its button says, the main one first.
+    pub(crate) fn answers(&self) -> Vec<(&'static str, &'static str)> {
+        self.answers.iter().map(|answer| (answer.word, answer.title)).collect()
+    }
+
+    /// The plan has unsaved changes: save, give up, or keep working?
+    pub(crate) fn unsaved(plan: &str, intent: Intent) -> Self {
+        let then = match intent {
+            Intent::Show(_) | Intent::Recover(_) => "before another plan is shown",
+            Intent::Close | Intent::Quit => "before it is closed",
+        };
+        let text = format!("They are in no file yet. Save them {then}, or they are lost.");
+        let asked = Self { then: Some(intent), ..Self::new(format!("Save changes to {plan}?"), text) };
+        asked
+            .answer(("save", "Save"), |session, reply| {
+                if reply.path.is_none() && session.has_own_file() {
+                    return session.save(reply.then);
+                }
+                session.save_by(reply)
+            })
+            .answer(("discard", "Don't save"), |session, reply| {
+                reply.then.into_iter().for_each(|intent| session.perform(intent));
+                true
+            })
+            .cancel()
+    }
+
+    /// More would go than is selected: delete it all?
+    pub(crate) fn delete(selected: Vec<ElementId>, gone: BTreeSet<ElementId>) -> Self {
+        let title = match selected.as_slice() {
+            [one] => format!("Delete the {} and what depends on it?", one.kind()),
+            all => format!("Delete {} elements and what depends on them?", all.len()),
+        };
+        let others = |kind: &str| {
+            let is_it = |element: &&ElementId| element.kind() == kind && !selected.contains(element);
+            gone.iter().filter(is_it).count()
+        };
+        let counts = ["room", "wall", "opening"].map(|kind| (others(kind), kind));
+        let said: Vec<String> =
+            counts.iter().filter(|(number, _)| *number > 0).map(|(number, kind)| count(*number, kind)).collect();
+        let text = format!("{} cannot stand without it and would go as well: red on the plan.", said.join(", "));
+        let asked = Self { shown: Shown::Gone(gone), ..Self::new(title, text) };
+        asked.simply(("delete", "Delete"), move |session| session.delete(&selected)).cancel()
+    }
+
+    /// Something large would be changed: do it? `step`: what it is called in the history.
+    pub(crate) fn change(
+        title: &str,
+        text: String,
+        answer: (&'static str, &'static str),
+        step: &'static str,
+        plan: Plan,
+        marks: Vec<Segment>,
+    ) -> Self {
+        let asked = Self { shown: Shown::Marks(marks), ..Self::new(title, text) };
+        asked.simply(answer, move |session| session.edit(step, |_| Ok(plan))).cancel()
+    }
+
+    /// Something else stands in the file to be saved: replace it?
+    pub(crate) fn replace(path: PathBuf, is_changed_since: bool, then: Option<Intent>) -> Self {
+        let text = match is_changed_since {
+            true => "Somebody else has changed the file since it was opened here. Replacing it loses their changes.",
+            false => "There is a file of this name. Replacing it loses what it holds.",
+        };
+        Self { then, ..Self::new(format!("Replace {}?", file_name(&path)), text) }
+            .answer(("elsewhere", "Save as…"), Session::save_by)
+            .answer(("replace", "Replace"), |session, reply| {
+                session.save_to(path, Expected::Anything, reply.then);
+                true
+            })
+            .cancel()
+    }
+
+    /// Give up what a program left behind?
+    pub(crate) fn discard(path: PathBuf, plan: &str) -> Self {
+        let text = "They are in no file and cannot be brought back.";
+        Self::new(format!("Discard the changes to {plan}?"), text)
+            .cancel()
+            .simply(("discard", "Discard"), move |session| session.discard_leftover(&path))
+    }
+
+    /// The picture is about to be scaled or turned: does the drawing go along?
+    pub(crate) fn drawing(change: PictureChange) -> Self {
+        let title = match change {
+            PictureChange::Measurements(_) => "Scale the drawing along with the picture?",
+            PictureChange::Turn { .. } => "Turn the drawing along with the picture?",
+        };
+        let text = "What was traced on the picture should go along, so that it stays on its lines. What was right \
+                    before stays where it is.";
+        let alone = change.clone();
+        Self::new(title, text)
+            .simply(("along", "Drawing too"), move |session| {
+                session.apply_picture_change(&change, DrawingMoves::Along);
+            })
+            .simply(("stays", "Picture only"), move |session| {
+                session.apply_picture_change(&alone, DrawingMoves::Stays);
+            })
+            .cancel()
+    }
+}
+
+impl Session {
+    /// Asks: nothing else happens before this is answered.
+    pub(crate) fn ask(&mut self, question: Question) {
+        self.question = Some(question);
+    }
+
+    /// Answers the question that is asked. `path`: the file to save in, where there must be one; the
+    /// dialog asks for it without. Gives whether it did not have to ask.
+    pub(crate) fn answer(&mut self, word: &'static str, path: Option<PathBuf>) -> bool {
+        let Some(Question { answers, then, .. }) = self.question.take() else { return true };
+        match answers.into_iter().find(|answer| answer.word == word) {
+            Some(answer) => (answer.effect)(self, Reply { word, path, then }),
+            // Another word is no answer: nothing is done.
+            None => true,
+        }
+    }
+
+    /// Saves in the file that came with the answer, or asks for one. Gives whether it did not have to ask.
+    fn save_by(&mut self, reply: Reply) -> bool {
+        let Reply { word, path, then } = reply;
+        match path {
+            Some(path) => {
+                self.save_in(path, then);
+                true
+            }
+            None => {
+                self.ask_where_to_save(then, Some(word));
+                false
+            }
+        }
+    }
 }

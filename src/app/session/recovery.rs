@@ -4,22 +4,20 @@
 use super::wishes::Wish;
 use crate::app::session::Session;
 use crate::app::session::origin::file_name;
-use std::collections::BTreeSet;
+use crate::app::session::words::sample_word;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::SystemTime;
 
 use egui::Context;
 
-use crate::app::commands::sample_word;
-use crate::app::panels::plan_picture::PlanPicture;
 use crate::app::session::{
     document::{self, Derived, Document, Opened},
+    jobs::Kind,
     messages::{Message, Remedy, Severity},
     origin::{Origin, bundled},
     questions::{Intent, Question},
 };
-use crate::app::state::Done;
 use crate::formats;
 use crate::labels::Schemes;
 use crate::plan::{Difference, Plan};
@@ -52,18 +50,15 @@ pub(crate) struct Safety {
 /// A journal that is offered.
 pub(crate) struct Offered {
     pub leftover: Leftover,
-    /// What would be recovered, what changed marked.
-    pub picture: Option<PlanPicture>,
+    /// What follows from the plan that would be recovered.
+    pub derived: Option<Arc<Derived>>,
 }
 
 impl Offered {
     fn new(leftover: Leftover, schemes: &Schemes) -> Self {
-        let picture = leftover.content.as_ref().ok().map(|recovered| {
-            let plan = recovered.history.plan();
-            let derived = Arc::new(Derived::new(plan, schemes, None));
-            PlanPicture::new(recovered.base(), plan, derived, &BTreeSet::new())
-        });
-        Self { leftover, picture }
+        let recovered = leftover.content.as_ref().ok();
+        let derived = recovered.map(|recovered| Arc::new(Derived::new(recovered.history.plan(), schemes, None)));
+        Self { leftover, derived }
     }
 
     /// What the plan is called.
@@ -210,9 +205,10 @@ impl Session {
     pub fn use_journal(&mut self, folder: PathBuf) {
         self.safety.folder = Some(folder.clone());
         let schemes = self.schemes.clone();
-        self.background.start(move || {
+        self.jobs.start(Kind::new("look for unsaved work"), move |_| {
             let offered = leftovers(&folder).into_iter().map(|leftover| Offered::new(leftover, &schemes));
-            Done::Leftovers(offered.collect())
+            let offered: Vec<Offered> = offered.collect();
+            move |session: &mut Session, _: &_| session.were_left_over(offered)
         });
     }
 
@@ -232,7 +228,7 @@ impl Session {
         }
         let (Some(document), Some(journal)) = (&self.document, &mut self.safety.journal) else { return };
         journal.note(&document.history);
-        if self.background.is_inline() {
+        if self.jobs.is_inline() {
             // What it says is asked below.
             let _ = journal.wait();
         }
@@ -290,7 +286,8 @@ impl Session {
     /// Asks whether to discard the Nth of what was left behind.
     pub(crate) fn ask_to_discard(&mut self, number: usize) -> Result<(), String> {
         let offered = self.offered(number)?;
-        self.question = Some(Question::Discard { path: offered.leftover.path.clone(), title: offered.title() });
+        let question = Question::discard(offered.leftover.path.clone(), &offered.title());
+        self.ask(question);
         Ok(())
     }
 
@@ -363,16 +360,21 @@ impl Session {
         let watch = &mut self.safety.watch;
         let comes_back = is_focused && !std::mem::replace(&mut watch.was_focused, is_focused);
         context.request_repaint_after_secs(LOOK_SECS as f32);
-        if watch.is_looking || self.saving > 0 || (now_secs < watch.next_secs && !comes_back) {
+        if watch.is_looking || self.jobs.is_one_to_end() || (now_secs < watch.next_secs && !comes_back) {
             return;
         }
         watch.is_looking = true;
         watch.next_secs = now_secs + LOOK_SECS;
         let (path, stamp, seen, saves) = (path.to_owned(), document.stamp, watch.seen.clone(), watch.saves);
         let (document, schemes) = (document.number, self.schemes.clone());
-        self.background.start(move || {
+        let kind = Kind::new("look at the plan's file").if_broken(move |session| {
+            if session.document.as_ref().is_some_and(|open| open.number == document) {
+                session.safety.watch.is_looking = false;
+            }
+        });
+        self.jobs.start(kind, move |_| {
             let (facts, found) = look(&path, stamp, seen.as_ref(), &schemes);
-            Done::Looked(Looked { document, saves, facts, found })
+            move |session: &mut Session, _: &_| session.was_looked_at(Looked { document, saves, facts, found })
         });
     }
 
@@ -418,7 +420,7 @@ impl Session {
         let mine = document.plan();
         if !differs.as_ref().is_some_and(|(of, _)| of.is_same_value(mine)) {
             let difference = Difference::between(mine, theirs);
-            let summary = crate::app::panels::differences::summary(&difference.seen(mine, theirs), &difference);
+            let summary = difference.in_words(&difference.seen(mine, theirs));
             *differs = Some((mine.clone(), summary));
         }
     }
@@ -461,7 +463,6 @@ impl Session {
     // Saving.
 
     pub(crate) fn begins_to_save(&mut self) {
-        self.saving += 1;
         self.safety.watch.saves += 1;
     }
 

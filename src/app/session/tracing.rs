@@ -9,11 +9,11 @@ use crate::app::paint::backdrop::{Read, Wanted, read};
 use crate::app::session::{
     document::Document,
     file_dialogs::Purpose,
+    jobs::Kind,
     messages::{Message, Remedy, Severity},
     origin::file_name,
     questions::Question,
 };
-use crate::app::state::Done;
 use crate::edit::{self, DrawingMoves, EditError};
 use crate::geometry::{Point, Vector};
 use crate::plan::{Backdrop, Measurement, OpeningId, Plan};
@@ -64,9 +64,17 @@ impl Session {
         let Some(wanted) = self.backdrop.wanted(backdrop, folder) else { return };
         let Some(backdrop) = backdrop.cloned() else { return };
         let folder = folder.map(Path::to_owned);
-        self.background.start(move || {
+        let kind = Kind::new("read the picture under the plan").newest_of("picture under the plan").if_broken({
+            let wanted = wanted.clone();
+            move |session| {
+                let (what, hint) = ("could not be read", "use another picture, and report this one");
+                let error = PictureError { what: what.to_owned(), hint: hint.to_owned() };
+                session.backdrop_was_read(wanted, &Read::Missing { error, candidate: None });
+            }
+        });
+        self.jobs.start(kind, move |_| {
             let read = read(&wanted, &backdrop, folder.as_deref());
-            Done::Backdrop(wanted, read)
+            move |session: &mut Session, _: &_| session.backdrop_was_read(wanted, &read)
         });
     }
 
@@ -103,7 +111,7 @@ impl Session {
     /// Asks which picture to use.
     pub(crate) fn choose_picture(&mut self, use_: PictureUse) {
         let folder = self.document.as_ref().and_then(|document| document.origin.folder()).map(Path::to_owned);
-        self.dialogs.ask(Purpose::Picture(use_), folder, String::new(), &mut self.background);
+        self.dialogs.ask(Purpose::Picture(use_), folder, String::new(), &mut self.jobs);
     }
 
     /// Reads a picture, then makes it the one under the plan.
@@ -113,9 +121,10 @@ impl Session {
         }
         let Some(document) = self.document.as_ref().map(|document| document.number) else { return };
         self.reading_picture = Some(file_name(&path));
-        self.background.start(move || {
+        let kind = Kind::new("read a picture").if_broken(|session| session.reading_picture = None);
+        self.jobs.start(kind, move |_| {
             let result = pictures::load_picture(&path, page).map(Box::new);
-            Done::PictureRead { document, use_, path, page, result }
+            move |session: &mut Session, _: &_| session.picture_was_read(document, use_, &path, page, result)
         });
     }
 
@@ -279,7 +288,7 @@ impl Session {
             Some(drawing) => drawing,
             None if plan.is_empty() || !moves_picture(plan, &change) => DrawingMoves::Along,
             None => {
-                self.question = Some(Question::Drawing(change));
+                self.ask(Question::drawing(change));
                 return;
             }
         };

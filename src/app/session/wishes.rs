@@ -1,8 +1,7 @@
 //! What the session asks of the rest of the window, which it does not know.
 
-use std::path::PathBuf;
+use std::any::Any;
 
-use crate::app::replay::Recording;
 use crate::app::session::questions::Intent;
 use crate::geometry::{Bounds, Point};
 use crate::plan::ElementId;
@@ -32,10 +31,6 @@ pub(crate) enum Wish {
     Run(&'static str, Vec<String>),
     /// End the recording, then go on.
     EndRecording(Intent),
-    /// Write what was recorded into a file, then go on.
-    SaveRecording {
-        recording: Box<Recording>,
-        path: PathBuf,
-        then: Option<Intent>,
-    },
+    /// Tell the recorder something that it alone knows how to read.
+    Recording(Box<dyn Any + Send>),
 }

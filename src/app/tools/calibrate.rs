@@ -1,7 +1,7 @@
 //! Sets the scale of the picture under the plan by lengths that are known: written on the drawing, or
 //! the width of a door.
 
-use super::{Call, Entry, Input, Scope, TakenBack, Tool, Typed, Typing, picture_words};
+use super::{Call, Entry, Input, Scope, TakenBack, Tool, Typed, Typing, Value, picture_numbers};
 use crate::app::paint::preview::{Look, Preview};
 use crate::app::session::tracing::millimetres;
 use crate::base::units::Units;
@@ -9,8 +9,24 @@ use crate::edit::Calibration;
 use crate::geometry::{Point, Segment};
 use crate::plan::Backdrop;
 
-pub(super) const BY_LENGTH: Entry = Entry { id: "calibrate", make: || Box::new(Calibrate::new(Known::Typed)) };
-pub(super) const BY_DOOR: Entry = Entry { id: "calibrate-door", make: || Box::new(Calibrate::new(Known::Door)) };
+pub(crate) const BY_LENGTH: Entry = Entry {
+    id: "tool-calibrate",
+    title: "Set scale by a length",
+    help: "Click both ends of a length on the picture and type how long it is in truth; more lengths make it surer",
+    keys: &[],
+    strip: None,
+    options: &[],
+    make: || Box::new(Calibrate::new(Known::Typed)),
+};
+pub(crate) const BY_DOOR: Entry = Entry {
+    id: "tool-calibrate-door",
+    title: "Set scale by a door",
+    help: "Click both sides of a door on the picture: it is as wide as doors are drawn, 0.9 m unless set otherwise",
+    keys: &[],
+    strip: None,
+    options: &[],
+    make: || Box::new(Calibrate::new(Known::Door)),
+};
 
 /// Whose length it is.
 #[derive(Clone, Copy, PartialEq)]
@@ -45,7 +61,7 @@ impl Calibrate {
     /// Between -> Ready
     fn measured(&mut self, line: Segment, length_m: f64) -> Vec<Call> {
         self.state = State::Ready;
-        vec![("calibrate", picture_words([line.a.x, line.a.y, line.b.x, line.b.y, length_m]))]
+        vec![Call::new("calibrate", picture_numbers([line.a.x, line.a.y, line.b.x, line.b.y, length_m]))]
     }
 
     /// From -> Between, or with a door -> Ready
@@ -86,7 +102,7 @@ impl Tool for Calibrate {
                 return self.measured(line, length_m);
             }
             (Input::Typed(Typed::Length { length_m, .. }), _) if self.known == Known::Door => {
-                return vec![("opening-width", vec![length_m.to_string()])];
+                return vec![Call::new("opening-width", [Value::Number(length_m)])];
             }
             (Input::Escape | Input::SecondaryClick, _) => self.state = State::Ready,
             _ => {}

@@ -1,12 +1,30 @@
 //! Cuts a courtyard or a shaft out of a room.
 
+use egui::{Key, KeyboardShortcut, Modifiers};
+
 use super::path::Path;
-use super::{Anchor, Call, Entry, Input, Scope, Tool};
-use crate::app::commands::points_word;
+use super::tool::{GRID, Group, RIGHT_ANGLES, SNAPPING};
+use super::{Anchor, Call, Entry, Input, Scope, Tool, Value};
+use crate::app::look::icons::Icon;
+use crate::app::look::icons::Part::Loop;
 use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, polygon};
 
-pub(super) const ENTRY: Entry = Entry { id: "cut-out", make: || Box::new(CutOut::default()) };
+pub(super) const ENTRY: Entry = Entry {
+    id: "tool-cut-out",
+    title: "Courtyard",
+    help: "Cut a courtyard or a shaft out of a room",
+    keys: &[KeyboardShortcut::new(Modifiers::SHIFT, Key::X)],
+    strip: Some((
+        Icon::Drawn(&[
+            Loop(&[(2.5, 2.5), (13.5, 2.5), (13.5, 13.5), (2.5, 13.5)]),
+            Loop(&[(5.8, 5.8), (10.2, 5.8), (10.2, 10.2), (5.8, 10.2)]),
+        ]),
+        Group::Divide,
+    )),
+    options: &[RIGHT_ANGLES, SNAPPING, GRID],
+    make: || Box::new(CutOut::default()),
+};
 
 /// No corners yet, or some.
 #[derive(Default)]
@@ -27,7 +45,7 @@ impl CutOut {
     /// Drawing -> Ready
     fn close(&mut self) -> Vec<Call> {
         let points = rectangle_of_two(std::mem::take(&mut self.path).points);
-        if points.len() < 3 { Vec::new() } else { vec![("cut-out", vec![points_word(&points)])] }
+        if points.len() < 3 { Vec::new() } else { vec![Call::new("cut-out", [Value::points(&points)])] }
     }
 }
 

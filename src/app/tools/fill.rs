@@ -1,14 +1,33 @@
 //! Makes a room of what walls enclose.
 
+use egui::{Key, KeyboardShortcut, Modifiers};
+
 use std::cell::RefCell;
 
-use super::{Call, Entry, Input, Scope, Tool, word};
+use super::tool::Group;
+use super::{Call, Entry, Input, Scope, Tool, Value};
+use crate::app::look::icons::{Icon, Part};
 use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, polygon};
 use crate::plan::Plan;
 use crate::topology::{PlanFace, PlanFaces};
 
-pub(super) const ENTRY: Entry = Entry { id: "fill", make: || Box::new(Fill::default()) };
+pub(super) const ENTRY: Entry = Entry {
+    id: "tool-fill",
+    title: "Fill",
+    help: "Make a room of what walls enclose",
+    keys: &[KeyboardShortcut::new(Modifiers::NONE, Key::E)],
+    strip: Some((
+        Icon::Drawn(&[
+            Part::Loop(&[(7.2, 2.6), (12.6, 8.0), (7.4, 13.2), (2.0, 7.8)]),
+            Part::Fill(&[(2.0, 7.8), (12.6, 8.0), (7.4, 13.2)]),
+            Part::Line(&[(14.0, 10.0), (14.0, 13.4)]),
+        ]),
+        Group::Draw,
+    )),
+    options: &[],
+    make: || Box::new(Fill::default()),
+};
 
 #[derive(Default)]
 struct Fill {
@@ -36,7 +55,7 @@ impl Fill {
 impl Tool for Fill {
     fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
         match input {
-            Input::Click => vec![("fill-at", vec![word(scope.pointer)])],
+            Input::Click => vec![Call::new("fill-at", [Value::point(scope.pointer)])],
             _ => Vec::new(),
         }
     }

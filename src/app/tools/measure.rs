@@ -1,11 +1,32 @@
 //! Measures distances, angles and areas. Changes nothing.
 
+use egui::{Key, KeyboardShortcut, Modifiers};
+
 use super::path::Path;
+use super::tool::{Group, SNAPPING};
 use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
+use crate::app::look::icons::Icon;
+use crate::app::look::icons::Part::{Line, Loop};
 use crate::app::paint::preview::{Look, Preview, degrees};
 use crate::geometry::{Point, Segment, polygon};
 
-pub(super) const ENTRY: Entry = Entry { id: "measure", make: || Box::new(Measure::default()) };
+pub(super) const ENTRY: Entry = Entry {
+    id: "tool-measure",
+    title: "Measure",
+    help: "Measure distances, angles and areas",
+    keys: &[KeyboardShortcut::new(Modifiers::NONE, Key::T)],
+    strip: Some((
+        Icon::Drawn(&[
+            Loop(&[(1.8, 10.6), (10.6, 1.8), (14.2, 5.4), (5.4, 14.2)]),
+            Line(&[(4.4, 8.0), (6.0, 9.6)]),
+            Line(&[(6.6, 5.8), (8.8, 8.0)]),
+            Line(&[(8.8, 3.6), (10.4, 5.2)]),
+        ]),
+        Group::Measure,
+    )),
+    options: &[SNAPPING],
+    make: || Box::new(Measure::default()),
+};
 
 #[derive(Default)]
 struct Measure {

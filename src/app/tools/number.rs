@@ -1,11 +1,18 @@
 //! Names rooms in the order in which a line is drawn through them.
 
-use super::{Call, Entry, Input, Scope, Tool};
-use crate::app::commands::points_word;
+use super::{Call, Entry, Input, Scope, Tool, Value};
 use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, polygon};
 
-pub(super) const ENTRY: Entry = Entry { id: "number", make: || Box::new(Number::default()) };
+pub(crate) const ENTRY: Entry = Entry {
+    id: "tool-number",
+    title: "Name along a line",
+    help: "Drag a line through rooms: they are named in the order in which it comes to them",
+    keys: &[],
+    strip: None,
+    options: &[],
+    make: || Box::new(Number::default()),
+};
 
 /// The line has a point at least every so many pixels of the way.
 const STEP_PX: f64 = 4.0;
@@ -40,7 +47,7 @@ impl Tool for Number {
                 self.add(scope);
                 let line = std::mem::take(&mut self.line);
                 if line.len() > 1 {
-                    return vec![("name-along", vec![points_word(&line)])];
+                    return vec![Call::new("name-along", [Value::points(&line)])];
                 }
             }
             Input::Escape => self.line.clear(),

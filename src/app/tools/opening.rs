@@ -1,6 +1,10 @@
 //! Puts doors, passages and windows into walls, and closes gaps between walls with them.
 
-use super::{Call, Entry, Input, Scope, Tool, Typed, Typing, word};
+use egui::{Key, KeyboardShortcut, Modifiers};
+
+use super::tool::{Group, WIDTH};
+use super::{Call, Entry, Input, Scope, Tool, Typed, Typing, Value};
+use crate::app::look::icons::Icon;
 use crate::app::paint::preview::{Look, Preview};
 use crate::edit::opening_on;
 use crate::geometry::{Point, Segment};
@@ -9,11 +13,42 @@ use crate::plan::{Joint, LeafSide, Opening as PlanOpening, OpeningKind, Swing};
 use crate::snapping::IndexedEdge;
 use crate::topology::{Gap, sides_by_geometry};
 
-pub(super) const DOOR: Entry = Entry { id: "door", make: || Box::new(Opening::new(OpeningKind::Door)) };
-pub(super) const DOUBLE_DOOR: Entry =
-    Entry { id: "double-door", make: || Box::new(Opening::new(OpeningKind::DoubleDoor)) };
-pub(super) const PASSAGE: Entry = Entry { id: "passage", make: || Box::new(Opening::new(OpeningKind::Passage)) };
-pub(super) const WINDOW: Entry = Entry { id: "window", make: || Box::new(Opening::new(OpeningKind::Window)) };
+pub(super) const DOOR: Entry = Entry {
+    id: "tool-door",
+    title: "Door",
+    help: "Put a door into a wall",
+    keys: &[KeyboardShortcut::new(Modifiers::NONE, Key::D)],
+    strip: Some((Icon::Door, Group::Openings)),
+    options: &[WIDTH],
+    make: || Box::new(Opening::new(OpeningKind::Door)),
+};
+pub(super) const DOUBLE_DOOR: Entry = Entry {
+    id: "tool-double-door",
+    title: "Double door",
+    help: "Put a door with two leaves into a wall",
+    keys: &[KeyboardShortcut::new(Modifiers::SHIFT, Key::D)],
+    strip: Some((Icon::DoubleDoor, Group::Openings)),
+    options: &[WIDTH],
+    make: || Box::new(Opening::new(OpeningKind::DoubleDoor)),
+};
+pub(super) const PASSAGE: Entry = Entry {
+    id: "tool-passage",
+    title: "Passage",
+    help: "Put a free passage into a wall or a boundary",
+    keys: &[KeyboardShortcut::new(Modifiers::NONE, Key::O)],
+    strip: Some((Icon::Passage, Group::Openings)),
+    options: &[WIDTH],
+    make: || Box::new(Opening::new(OpeningKind::Passage)),
+};
+pub(super) const WINDOW: Entry = Entry {
+    id: "tool-window",
+    title: "Window",
+    help: "Put a window into a wall",
+    keys: &[KeyboardShortcut::new(Modifiers::SHIFT, Key::O)],
+    strip: Some((Icon::Window, Group::Openings)),
+    options: &[WIDTH],
+    make: || Box::new(Opening::new(OpeningKind::Window)),
+};
 
 struct Opening {
     kind: OpeningKind,
@@ -66,14 +101,19 @@ impl Opening {
     /// Ready -> Ready
     fn place(&self, scope: &Scope<'_>) -> Vec<Call> {
         if let Some(gap) = Self::gap(scope) {
-            let kind = self.kind.name().replace(' ', "-");
-            return vec![("bridge-gap", vec![word(gap.segment.midpoint()), kind])];
+            let values = [Value::point(gap.segment.midpoint()), Value::word(self.kind)];
+            return vec![Call::new("bridge-gap", values)];
         }
         let planned = self.planned(scope);
         let Some(segment) = planned.and_then(|opening| scope.plan.opening_segment(&opening)) else { return Vec::new() };
-        let kind = self.kind.name().replace(' ', "-");
         let width_m = (segment.length() * 1e4).round() / 1e4;
-        vec![("add-opening", vec![kind, word(segment.midpoint()), width_m.to_string(), word(scope.pointer)])]
+        let values = [
+            Value::word(self.kind),
+            Value::point(segment.midpoint()),
+            Value::Number(width_m),
+            Value::point(scope.pointer),
+        ];
+        vec![Call::new("add-opening", values)]
     }
 }
 
@@ -96,7 +136,7 @@ impl Tool for Opening {
                 self.from = None;
                 Vec::new()
             }
-            Input::Typed(Typed::Length { length_m, .. }) => vec![("opening-width", vec![length_m.to_string()])],
+            Input::Typed(Typed::Length { length_m, .. }) => vec![Call::new("opening-width", [Value::Number(length_m)])],
             _ => Vec::new(),
         }
     }

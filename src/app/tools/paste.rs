@@ -1,11 +1,19 @@
 //! Places what was copied.
 
-use super::{Call, Entry, Input, Scope, Tool, word};
+use super::{Call, Entry, Input, Scope, Tool, Value};
 use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, Segment, Vector};
 use crate::plan::Plan;
 
-pub(super) const ENTRY: Entry = Entry { id: "paste", make: || Box::new(Paste) };
+pub(crate) const ENTRY: Entry = Entry {
+    id: "paste",
+    title: "Paste",
+    help: "Place what was copied: it hangs on the pointer until you click",
+    keys: &[],
+    strip: None,
+    options: &[],
+    make: || Box::new(Paste),
+};
 
 /// What hangs on the pointer is what was copied last.
 struct Paste;
@@ -16,8 +24,8 @@ const MOST_LINES: usize = 3000;
 impl Tool for Paste {
     fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
         match input {
-            Input::Click => vec![("paste-at", vec![word(scope.at())])],
-            Input::SecondaryClick => vec![("clear-selection", Vec::new())],
+            Input::Click => vec![Call::new("paste-at", [Value::point(scope.at())])],
+            Input::SecondaryClick => vec![Call::new("clear-selection", [])],
             _ => Vec::new(),
         }
     }

@@ -1,10 +1,31 @@
 //! Draws a room as a rectangle: it takes what is free there, or what rooms cover too.
 
+use egui::{Key, KeyboardShortcut, Modifiers};
+
+use super::tool::{GRID, Group, OVER_ROOMS, SNAPPING, THICKNESS_WITH_ROOMS, WITH_WALLS};
 use super::{Call, Entry, Input, Scope, TakenBack, Tool, Typed, Typing};
+use crate::app::look::icons::Icon;
+use crate::app::look::icons::Part::{Disc, Fill, Loop};
 use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, Segment, Vector, polygon};
 
-pub(super) const ENTRY: Entry = Entry { id: "rectangle", make: || Box::new(Rectangle::Ready) };
+pub(super) const ENTRY: Entry = Entry {
+    id: "tool-rectangle",
+    title: "Rectangular room",
+    help: "Draw a room as a rectangle: it takes what no room covers yet",
+    keys: &[KeyboardShortcut::new(Modifiers::NONE, Key::R)],
+    strip: Some((
+        Icon::Drawn(&[
+            Loop(&[(2.5, 3.5), (13.5, 3.5), (13.5, 12.5), (2.5, 12.5)]),
+            Fill(&[(2.5, 3.5), (13.5, 3.5), (13.5, 12.5), (2.5, 12.5)]),
+            Disc(2.5, 3.5, 1.6),
+            Disc(13.5, 12.5, 1.6),
+        ]),
+        Group::Draw,
+    )),
+    options: &[THICKNESS_WITH_ROOMS, WITH_WALLS, OVER_ROOMS, SNAPPING, GRID],
+    make: || Box::new(Rectangle::Ready),
+};
 
 enum Rectangle {
     Ready,

@@ -1,13 +1,33 @@
 //! Draws a room by its corners: it takes what is free there, or what rooms cover too.
 
-use egui::Key;
+use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::path::{ARC_HINT, Path};
+use super::tool::{GRID, Group, OVER_ROOMS, RIGHT_ANGLES, SNAPPING, THICKNESS_WITH_ROOMS, WITH_WALLS};
 use super::{Call, Entry, Input, Scope, Tool};
+use crate::app::look::icons::Icon;
+use crate::app::look::icons::Part::{Disc, Fill, Loop};
 use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, Vector, polygon};
 
-pub(super) const ENTRY: Entry = Entry { id: "room", make: || Box::new(Room::default()) };
+pub(super) const ENTRY: Entry = Entry {
+    id: "tool-room",
+    title: "Room by corners",
+    help: "Draw a room corner by corner",
+    keys: &[KeyboardShortcut::new(Modifiers::SHIFT, Key::R)],
+    strip: Some((
+        Icon::Drawn(&[
+            Loop(&[(2.5, 13.0), (2.5, 3.0), (9.0, 3.0), (9.0, 7.5), (13.5, 7.5), (13.5, 13.0)]),
+            Fill(&[(2.5, 13.0), (2.5, 3.0), (9.0, 3.0), (9.0, 7.5), (13.5, 7.5), (13.5, 13.0)]),
+            Disc(2.5, 3.0, 1.5),
+            Disc(9.0, 3.0, 1.5),
+            Disc(13.5, 13.0, 1.5),
+        ]),
+        Group::Draw,
+    )),
+    options: &[THICKNESS_WITH_ROOMS, WITH_WALLS, OVER_ROOMS, RIGHT_ANGLES, SNAPPING, GRID],
+    make: || Box::new(Room::default()),
+};
 
 /// No corners yet, or some.
 #[derive(Default)]

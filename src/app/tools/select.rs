@@ -2,18 +2,40 @@
 
 use std::collections::BTreeSet;
 
-use egui::CursorIcon;
+use egui::{CursorIcon, Key, KeyboardShortcut, Modifiers};
 
-use super::{Anchor, Call, Entry, Input, Scope, Tool, word};
-use crate::app::commands::{elements_word, points_word, room_word};
+use super::tool::Group;
+use super::{Anchor, Call, Entry, Input, Scope, Tool, Value};
+use crate::app::look::icons::Icon;
+use crate::app::look::icons::Part::Loop;
 use crate::app::paint::preview::{Look, Preview};
 use crate::app::session::document::Derived;
 use crate::app::session::layers::LayerSettings;
 use crate::app::session::selection::{SelectMode, Selection};
+use crate::app::value::Boxed;
 use crate::geometry::{Point, Segment, Vector};
 use crate::plan::{CornerId, ElementId, OpeningId, Place, Plan};
 
-pub(super) const ENTRY: Entry = Entry { id: "select", make: || Box::new(Select::default()) };
+pub(super) const ENTRY: Entry = Entry {
+    id: "tool-select",
+    title: "Select",
+    help: "Select, move, drag corners; drag over free space for a box",
+    keys: &[KeyboardShortcut::new(Modifiers::NONE, Key::V)],
+    strip: Some((
+        Icon::Drawn(&[Loop(&[
+            (4.0, 2.0),
+            (4.0, 12.6),
+            (6.7, 10.1),
+            (8.5, 14.0),
+            (10.4, 13.1),
+            (8.6, 9.4),
+            (12.2, 9.2),
+        ])]),
+        Group::Select,
+    )),
+    options: &[],
+    make: || Box::new(Select::default()),
+};
 
 #[derive(Default)]
 struct Select {
@@ -84,11 +106,15 @@ impl Select {
         let mode = mode(scope);
         match (found, mode) {
             (None, SelectMode::Replace) if scope.selection.is_empty() => Vec::new(),
-            (None, SelectMode::Replace) => vec![("clear-selection", Vec::new())],
+            (None, SelectMode::Replace) => vec![Call::new("clear-selection", [])],
             (None, _) => Vec::new(),
-            (Some(ElementId::Room(id)), SelectMode::Replace) => vec![("pick", vec![room_word(scope.plan, id)])],
-            (Some(ElementId::Opening(id)), SelectMode::Replace) => vec![("pick-opening", vec![id.to_string()])],
-            (Some(element), mode) => vec![("select", vec![elements_word([element]), mode.word().to_owned()])],
+            (Some(ElementId::Room(id)), SelectMode::Replace) => vec![Call::new("pick", [Value::Room(id)])],
+            (Some(ElementId::Opening(id)), SelectMode::Replace) => {
+                vec![Call::new("pick-opening", [Value::Opening(id)])]
+            }
+            (Some(element), mode) => {
+                vec![Call::new("select", [Value::Elements(vec![element]), Value::word(mode)])]
+            }
         }
     }
 
@@ -135,12 +161,13 @@ impl Select {
         match std::mem::take(&mut self.state) {
             State::Ready => Vec::new(),
             State::Boxing { from } => {
-                let how = if is_inside(from, scope.pointer) { "inside" } else { "touching" };
-                let words = vec![points_word(&[from, scope.pointer]), how.to_owned(), mode(scope).word().to_owned()];
-                vec![("select-box", words)]
+                let how = if is_inside(from, scope.pointer) { Boxed::Inside } else { Boxed::Touching };
+                let corners = Value::points(&[from, scope.pointer]);
+                vec![Call::new("select-box", [corners, Value::word(how), Value::word(mode(scope))])]
             }
             State::MovingCorner { corner, from } if from.distance(scope.at()) > 0.0 => {
-                vec![("move-corner", vec![corner.to_string(), word(scope.at())])]
+                let moved = Value::Elements(vec![ElementId::Corner(corner)]);
+                vec![Call::new("move-corner", [moved, Value::point(scope.at())])]
             }
             State::Moving { from } => {
                 let by = moved_by(from, scope);
@@ -148,9 +175,11 @@ impl Select {
                     return Vec::new();
                 }
                 let to = Point::default() + by;
-                vec![("move-selection", vec![word(to)])]
+                vec![Call::new("move-selection", [Value::point(to)])]
             }
-            State::Sliding { opening } => vec![("slide-opening", vec![opening.to_string(), word(scope.pointer)])],
+            State::Sliding { opening } => {
+                vec![Call::new("slide-opening", [Value::Opening(opening), Value::point(scope.pointer)])]
+            }
             State::MovingCorner { .. } => Vec::new(),
         }
     }

@@ -1,13 +1,34 @@
 //! Splits rooms, without a wall: straight across by one click, or along a line.
 
+use egui::{Key, KeyboardShortcut, Modifiers};
+
 use super::path::Path;
-use super::{Call, Entry, Input, Scope, Tool};
-use crate::app::commands::points_word;
+use super::tool::{GRID, Group, RIGHT_ANGLES, SNAPPING};
+use super::{Call, Entry, Input, Scope, Tool, Value};
+use crate::app::look::icons::Icon;
+use crate::app::look::icons::Part::Line;
 use crate::app::paint::preview::{Look, Preview};
 use crate::edit::{Across, straight_across};
 use crate::geometry::Point;
 
-pub(super) const ENTRY: Entry = Entry { id: "split", make: || Box::new(Split::default()) };
+pub(super) const ENTRY: Entry = Entry {
+    id: "tool-split",
+    title: "Split",
+    help: "Split a room along a line",
+    keys: &[KeyboardShortcut::new(Modifiers::NONE, Key::X)],
+    strip: Some((
+        Icon::Drawn(&[
+            Line(&[(6.6, 3.0), (2.5, 3.0), (2.5, 13.0), (6.6, 13.0)]),
+            Line(&[(9.4, 3.0), (13.5, 3.0), (13.5, 13.0), (9.4, 13.0)]),
+            Line(&[(8.0, 1.8), (8.0, 5.0)]),
+            Line(&[(8.0, 6.6), (8.0, 9.4)]),
+            Line(&[(8.0, 11.0), (8.0, 14.2)]),
+        ]),
+        Group::Divide,
+    )),
+    options: &[RIGHT_ANGLES, SNAPPING, GRID],
+    make: || Box::new(Split::default()),
+};
 
 /// No points yet: a click splits straight across. Or some.
 #[derive(Default)]
@@ -44,7 +65,7 @@ impl Split {
     /// Cutting -> Ready
     fn end(&mut self) -> Vec<Call> {
         let points = std::mem::take(&mut self.path).points;
-        if points.len() < 2 { Vec::new() } else { vec![("split-rooms", vec![points_word(&points)])] }
+        if points.len() < 2 { Vec::new() } else { vec![Call::new("split-rooms", [Value::points(&points)])] }
     }
 }
 
@@ -56,7 +77,7 @@ impl Tool for Split {
         match input {
             // Ready -> Ready
             Input::Click if self.path.is_empty() && !scope.modifiers.shift => match self.across(scope) {
-                Some(Across { line, .. }) => vec![("split-rooms", vec![points_word(&[line.a, line.b])])],
+                Some(Across { line, .. }) => vec![Call::new("split-rooms", [Value::points(&[line.a, line.b])])],
                 None => Vec::new(),
             },
             Input::Click | Input::Drop => self.to(scope.at(), scope),

@@ -1,11 +1,19 @@
 //! Turns the picture under the plan so that a line of it becomes level or upright.
 
-use super::{Call, Entry, Input, Scope, TakenBack, Tool, picture_words};
+use super::{Call, Entry, Input, Scope, TakenBack, Tool, picture_numbers};
 use crate::app::paint::preview::{Look, Preview};
 use crate::edit::straightening_rad;
 use crate::geometry::{Point, Segment};
 
-pub(super) const ENTRY: Entry = Entry { id: "straighten", make: || Box::new(Straighten { from: None }) };
+pub(crate) const ENTRY: Entry = Entry {
+    id: "tool-straighten",
+    title: "Straighten",
+    help: "Click along a wall of the picture that should be level or upright: the picture turns",
+    keys: &[],
+    strip: None,
+    options: &[],
+    make: || Box::new(Straighten { from: None }),
+};
 
 struct Straighten {
     from: Option<Point>,
@@ -21,7 +29,7 @@ impl Straighten {
             return Vec::new();
         }
         self.from = None;
-        vec![("straighten", picture_words([from.x, from.y, scope.pointer.x, scope.pointer.y]))]
+        vec![Call::new("straighten", picture_numbers([from.x, from.y, scope.pointer.x, scope.pointer.y]))]
     }
 }
 

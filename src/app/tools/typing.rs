@@ -2,8 +2,18 @@
 
 use egui::Key;
 
-use super::Typing;
 use crate::base::units::{Units, parse_angle_rad};
+
+/// What can be typed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Typing {
+    /// A length, or a length and an angle: '3.2', '3.2<45'.
+    Length,
+    /// Two sides: '4x3'.
+    Size,
+    /// A width.
+    Width,
+}
 
 /// What was typed, read.
 #[derive(Clone, Copy, Debug, PartialEq)]

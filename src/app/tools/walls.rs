@@ -1,14 +1,32 @@
 //! Draws a chain of walls.
 
-use egui::Key;
+use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::path::{ARC_HINT, Path};
-use super::{Call, Entry, Input, Scope, TakenBack, Tool};
-use crate::app::commands::points_word;
+use super::tool::{GRID, Group, RIGHT_ANGLES, SNAPPING, THICKNESS};
+use super::{Call, Entry, Input, Scope, TakenBack, Tool, Value};
+use crate::app::look::icons::Icon;
+use crate::app::look::icons::Part::Line;
 use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, Segment};
 
-pub(super) const ENTRY: Entry = Entry { id: "walls", make: || Box::new(Walls::Ready) };
+pub(super) const ENTRY: Entry = Entry {
+    id: "tool-walls",
+    title: "Walls",
+    help: "Draw a chain of walls",
+    keys: &[KeyboardShortcut::new(Modifiers::NONE, Key::W)],
+    strip: Some((
+        Icon::Drawn(&[
+            Line(&[(2.2, 13.5), (2.2, 2.2), (13.8, 2.2), (13.8, 9.0)]),
+            Line(&[(5.4, 13.5), (5.4, 5.4), (10.6, 5.4), (10.6, 9.0)]),
+            Line(&[(2.2, 13.5), (5.4, 13.5)]),
+            Line(&[(10.6, 9.0), (13.8, 9.0)]),
+        ]),
+        Group::Draw,
+    )),
+    options: &[THICKNESS, RIGHT_ANGLES, SNAPPING, GRID],
+    make: || Box::new(Walls::Ready),
+};
 
 enum Walls {
     Ready,
@@ -36,11 +54,11 @@ impl Walls {
                 if !path.go_to(point, scope) {
                     return Vec::new();
                 }
-                let words = vec![points_word(&path.points), scope.options.thickness_m.to_string()];
+                let values = [Value::points(&path.points), Value::Number(scope.options.thickness_m)];
                 if is_closed {
                     *self = Self::Ready;
                 }
-                vec![("draw-walls", words)]
+                vec![Call::new("draw-walls", values)]
             }
         }
     }

@@ -1,46 +1,15 @@
 //! Drawing: walls, rooms, openings.
 
 use super::*;
-use crate::app::tools::TOOLS;
 use crate::edit;
 use crate::plan::OpeningKind;
 
-/// Takes up a tool.
-const fn tool(
-    id: &'static str,
-    title: &'static str,
-    help: &'static str,
-    is_on: fn(&App) -> bool,
-    run: fn(&mut App, &Context),
-) -> Command {
-    choose(id, title, help, has_plan, is_on, run)
-}
-
-const PATH: Argument = needed(
-    "POINTS",
-    ArgumentKind::Points { least: 2 },
-    "points in metres, as '0,0 4.2,0', where the last may be the first",
-);
-const RING: Argument = needed("CORNERS", ArgumentKind::Points { least: 3 }, "corners in metres, as '0,0 4,0 4,3 0,3'");
-const PLACE: Argument = needed("PLACE", ArgumentKind::Points { least: 1 }, "a point in metres, as '2,1.5'");
-const THICKNESS: Argument = optional(
-    "THICKNESS",
-    ArgumentKind::Number { unit: " of metres", least: 0.0, most: 10.0 },
-    "of walls, in metres; what is set without",
-);
-
-/// The kinds of openings as words.
-pub(super) const KINDS: &[(&str, &str)] =
-    &[("door", "Door"), ("double-door", "Double door"), ("passage", "Passage"), ("window", "Window")];
-
-pub(super) fn kind_of(word: &str) -> OpeningKind {
-    match word {
-        "double-door" => OpeningKind::DoubleDoor,
-        "passage" => OpeningKind::Passage,
-        "window" => OpeningKind::Window,
-        _ => OpeningKind::Door,
-    }
-}
+const PATH: Arg<Vec<Point>> =
+    needed("POINTS", points(2), "points in metres, as '0,0 4.2,0', where the last may be the first");
+const RING: Arg<Vec<Point>> = needed("CORNERS", points(3), "corners in metres, as '0,0 4,0 4,3 0,3'");
+const PLACE: Arg<Point> = needed("PLACE", POINT, "a point in metres, as '2,1.5'");
+const THICKNESS: Arg<Option<f64>> =
+    optional("THICKNESS", metres(0.0, 10.0), "of walls, in metres; what is set without");
 
 /// An edit whose refusal is the command's.
 pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) -> Ran {
@@ -51,127 +20,12 @@ pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> R
 }
 
 pub(super) const COMMANDS: &[Command] = &[
-    tool(
-        "tool-select",
-        "Select",
-        "Select, move, drag corners; drag over free space for a box",
-        |app| app.tools.is(TOOLS[0].id),
-        |app, _| app.tools.take_up(TOOLS[0].id),
-    )
-    .keys(&[key(Key::V)])
-    .menu(Menu::Draw, 0)
-    .strip(Icon::Select, 0),
-    tool(
-        "tool-walls",
-        "Walls",
-        "Draw a chain of walls",
-        |app| app.tools.is("walls"),
-        |app, _| app.tools.take_up("walls"),
-    )
-    .keys(&[key(Key::W)])
-    .menu(Menu::Draw, 0)
-    .strip(Icon::Walls, 1),
-    tool(
-        "tool-rectangle",
-        "Rectangular room",
-        "Draw a room as a rectangle: it takes what no room covers yet",
-        |app| app.tools.is("rectangle"),
-        |app, _| app.tools.take_up("rectangle"),
-    )
-    .keys(&[key(Key::R)])
-    .menu(Menu::Draw, 0)
-    .strip(Icon::Rectangle, 1),
-    tool(
-        "tool-room",
-        "Room by corners",
-        "Draw a room corner by corner",
-        |app| app.tools.is("room"),
-        |app, _| app.tools.take_up("room"),
-    )
-    .keys(&[shift(Key::R)])
-    .menu(Menu::Draw, 0)
-    .strip(Icon::Polygon, 1),
-    tool(
-        "tool-fill",
-        "Fill",
-        "Make a room of what walls enclose",
-        |app| app.tools.is("fill"),
-        |app, _| app.tools.take_up("fill"),
-    )
-    .keys(&[key(Key::E)])
-    .menu(Menu::Draw, 0)
-    .strip(Icon::Bucket, 1),
-    tool(
-        "tool-split",
-        "Split",
-        "Split a room along a line",
-        |app| app.tools.is("split"),
-        |app, _| app.tools.take_up("split"),
-    )
-    .keys(&[key(Key::X)])
-    .menu(Menu::Draw, 0)
-    .strip(Icon::Split, 2),
-    tool(
-        "tool-cut-out",
-        "Courtyard",
-        "Cut a courtyard or a shaft out of a room",
-        |app| app.tools.is("cut-out"),
-        |app, _| app.tools.take_up("cut-out"),
-    )
-    .keys(&[shift(Key::X)])
-    .menu(Menu::Draw, 0)
-    .strip(Icon::CutOut, 2),
-    tool("tool-door", "Door", "Put a door into a wall", |app| app.tools.is("door"), |app, _| app.tools.take_up("door"))
-        .keys(&[key(Key::D)])
-        .menu(Menu::Draw, 1)
-        .strip(Icon::Door, 3),
-    tool(
-        "tool-double-door",
-        "Double door",
-        "Put a door with two leaves into a wall",
-        |app| app.tools.is("double-door"),
-        |app, _| app.tools.take_up("double-door"),
-    )
-    .keys(&[shift(Key::D)])
-    .menu(Menu::Draw, 1)
-    .strip(Icon::DoubleDoor, 3),
-    tool(
-        "tool-passage",
-        "Passage",
-        "Put a free passage into a wall or a boundary",
-        |app| app.tools.is("passage"),
-        |app, _| app.tools.take_up("passage"),
-    )
-    .keys(&[key(Key::O)])
-    .menu(Menu::Draw, 1)
-    .strip(Icon::Passage, 3),
-    tool(
-        "tool-window",
-        "Window",
-        "Put a window into a wall",
-        |app| app.tools.is("window"),
-        |app, _| app.tools.take_up("window"),
-    )
-    .keys(&[shift(Key::O)])
-    .menu(Menu::Draw, 1)
-    .strip(Icon::Window, 3),
-    tool(
-        "tool-measure",
-        "Measure",
-        "Measure distances, angles and areas",
-        |app| app.tools.is("measure"),
-        |app, _| app.tools.take_up("measure"),
-    )
-    .keys(&[key(Key::T)])
-    .menu(Menu::Draw, 2)
-    .strip(Icon::Measure, 4),
     with(
         "fill-all",
         "Fill all",
         "Make rooms of everything that walls enclose and no room covers",
         has_walls,
-        &[],
-        |app, _, _| {
+        &given0(|app, _| {
             let mut filled = 0;
             let ran = edited(app, "Fill all", |plan| {
                 let all = edit::fill_all(plan)?;
@@ -183,7 +37,7 @@ pub(super) const COMMANDS: &[Command] = &[
             }
             app.session.status = format!("Made {}", crate::base::wording::count(filled, "room"));
             ran
-        },
+        }),
         None,
     )
     .keys(&[shift(Key::E)])
@@ -242,15 +96,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Wall thickness…",
         "Say how thick new walls are",
         always,
-        &[needed(
-            "THICKNESS",
-            ArgumentKind::Number { unit: " of metres", least: 0.0, most: 10.0 },
-            "of new walls, in metres",
-        )],
-        |app, values, _| {
-            app.tools.options.thickness_m = values.number(0).copied().unwrap_or_default();
+        &given1(needed("THICKNESS", metres(0.0, 10.0), "of new walls, in metres"), |app, thickness_m, _| {
+            app.tools.options.thickness_m = thickness_m;
             Ran::Done
-        },
+        }),
         None,
     )
     .menu(Menu::Draw, 4),
@@ -259,15 +108,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Opening width…",
         "Say how wide new doors, passages and windows are; double doors are twice as wide",
         always,
-        &[needed(
-            "WIDTH",
-            ArgumentKind::Number { unit: " of metres", least: 0.1, most: 100.0 },
-            "of new openings, in metres",
-        )],
-        |app, values, _| {
-            app.tools.options.opening_width_m = values.number(0).copied().unwrap_or_default();
+        &given1(needed("WIDTH", metres(0.1, 100.0), "of new openings, in metres"), |app, width_m, _| {
+            app.tools.options.opening_width_m = width_m;
             Ran::Done
-        },
+        }),
         None,
     )
     .menu(Menu::Draw, 4),
@@ -276,11 +120,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Arc tolerance…",
         "Say how near the chords stay to the arcs that they draw; press A while drawing for an arc",
         always,
-        &[needed("TOLERANCE", ArgumentKind::Number { unit: " of metres", least: 0.0005, most: 10.0 }, "in metres")],
-        |app, values, _| {
-            app.tools.options.arc_tolerance_m = values.number(0).copied().unwrap_or_default();
+        &given1(needed("TOLERANCE", metres(0.0005, 10.0), "in metres"), |app, tolerance_m, _| {
+            app.tools.options.arc_tolerance_m = tolerance_m;
             Ran::Done
-        },
+        }),
         None,
     )
     .menu(Menu::Draw, 4),
@@ -290,12 +133,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Draw walls",
         "Draw a chain of walls from point to point; a room that they cross is split",
         has_plan,
-        &[PATH, THICKNESS],
-        |app, values, _| {
-            let thickness_m = values.number(1).copied().unwrap_or(app.tools.options.thickness_m);
-            let points = values.points(0).unwrap_or_default().to_vec();
+        &given2(PATH, THICKNESS, |app, points, thickness_m, _| {
+            let thickness_m = thickness_m.unwrap_or(app.tools.options.thickness_m);
             edited(app, "Draw wall", |plan| Ok(edit::draw_walls(plan, &points, thickness_m)?.plan))
-        },
+        }),
         None,
     ),
     with(
@@ -303,30 +144,27 @@ pub(super) const COMMANDS: &[Command] = &[
         "Draw a room",
         "Draw a room with these corners",
         has_plan,
-        &[
+        &given3(
             RING,
             optional(
                 "SPACE",
-                ArgumentKind::Word(&[("exact", "This boundary"), ("free", "What no room covers of it")]),
+                one_of::<Space>(),
                 "exact (without) for this boundary, free for what no room covers of it",
             ),
             THICKNESS,
-        ],
-        |app, values, _| {
-            let given_m = values.number(2).copied();
-            let own_m = app.tools.options.walls_with_rooms.then_some(app.tools.options.thickness_m);
-            let thickness_m = given_m.or(own_m).filter(|thickness_m| *thickness_m > 0.0);
-            let points = values.points(0).unwrap_or_default().to_vec();
-            let takes_free = values.word(1) == Some(&"free");
-            edited(app, "Draw room", |plan| {
-                if takes_free {
-                    let gap_m = edit::GAP_BETWEEN_ROOMS_M;
-                    Ok(edit::draw_room_in_free_space(plan, &points, thickness_m, gap_m)?.0)
-                } else {
-                    Ok(edit::draw_room(plan, &points, thickness_m)?.0)
-                }
-            })
-        },
+            |app, points, space, thickness_m, _| {
+                let own_m = app.tools.options.walls_with_rooms.then_some(app.tools.options.thickness_m);
+                let thickness_m = thickness_m.or(own_m).filter(|thickness_m| *thickness_m > 0.0);
+                edited(app, "Draw room", |plan| {
+                    if space == Some(Space::Free) {
+                        let gap_m = edit::GAP_BETWEEN_ROOMS_M;
+                        Ok(edit::draw_room_in_free_space(plan, &points, thickness_m, gap_m)?.0)
+                    } else {
+                        Ok(edit::draw_room(plan, &points, thickness_m)?.0)
+                    }
+                })
+            },
+        ),
         None,
     ),
     with(
@@ -334,11 +172,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Fill at a place",
         "Make a room of what encloses a point",
         has_plan,
-        &[PLACE],
-        |app, values, _| {
-            let point = values.points(0).and_then(|points| points.first()).copied().unwrap_or_default();
-            edited(app, "Fill", |plan| Ok(edit::fill_at(plan, point)?.plan))
-        },
+        &given1(PLACE, |app, point, _| edited(app, "Fill", |plan| Ok(edit::fill_at(plan, point)?.plan))),
         None,
     ),
     with(
@@ -346,11 +180,9 @@ pub(super) const COMMANDS: &[Command] = &[
         "Split rooms along a line",
         "Split the rooms that a line crosses from boundary to boundary, without a wall",
         has_rooms,
-        &[PATH],
-        |app, values, _| {
-            let points = values.points(0).unwrap_or_default().to_vec();
+        &given1(PATH, |app, points, _| {
             edited(app, "Split", |plan| edit::split_rooms(plan, &points).map(|split| split.0))
-        },
+        }),
         None,
     ),
     with(
@@ -358,11 +190,9 @@ pub(super) const COMMANDS: &[Command] = &[
         "Cut out a courtyard",
         "Cut an area out of the room that it lies in",
         has_rooms,
-        &[RING],
-        |app, values, _| {
-            let points = values.points(0).unwrap_or_default().to_vec();
+        &given1(RING, |app, points, _| {
             edited(app, "Cut out", |plan| edit::cut_out(plan, edit::room_around(plan, &points)?, &points))
-        },
+        }),
         None,
     ),
     with(
@@ -370,25 +200,18 @@ pub(super) const COMMANDS: &[Command] = &[
         "Add an opening",
         "Put an opening into the wall or the boundary at a point",
         has_plan,
-        &[
-            needed("KIND", ArgumentKind::Word(KINDS), "door, double-door, passage or window"),
+        &given4(
+            needed("KIND", one_of::<OpeningKind>(), "door, double-door, passage or window"),
             PLACE,
-            optional(
-                "WIDTH",
-                ArgumentKind::Number { unit: " of metres", least: 0.01, most: 1000.0 },
-                "in metres; what is set without",
-            ),
-            optional("TOWARDS", ArgumentKind::Points { least: 1 }, "a point on the side that a door opens to"),
-        ],
-        |app, values, _| {
-            let kind = kind_of(values.word(0).copied().unwrap_or_default());
-            let point = |index: usize| values.points(index).and_then(|points| points.first()).copied();
-            let (at, towards) = (point(1).unwrap_or_default(), point(3));
-            let width_m = values.number(2).copied().unwrap_or(app.tools.options.opening_width_m);
-            edited(app, &format!("Add {}", kind.name()), |plan| {
-                Ok(edit::place_opening(plan, kind, at, width_m, OPENING_REACH_M, towards)?.0)
-            })
-        },
+            optional("WIDTH", metres(0.01, 1000.0), "in metres; what is set without"),
+            optional("TOWARDS", POINT, "a point on the side that a door opens to"),
+            |app, kind, at, width_m, towards, _| {
+                let width_m = width_m.unwrap_or(app.tools.options.opening_width_m);
+                edited(app, &format!("Add {}", kind.name()), |plan| {
+                    Ok(edit::place_opening(plan, kind, at, width_m, OPENING_REACH_M, towards)?.0)
+                })
+            },
+        ),
         None,
     ),
 ];

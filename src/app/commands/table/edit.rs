@@ -7,10 +7,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "undo",
         "Undo",
         "Take the last change back; while something is drawn, its last corner",
-        can_undo,
-        &[],
-        // A corner in the making is no change of the plan.
-        |app, _, _| if app.undo() { Ran::Done } else { Ran::Asks },
+        can_undo, // A corner in the making is no change of the plan.
+        &given0(|app, _| if app.undo() { Ran::Done } else { Ran::Asks }),
         None,
     )
     .keys(&[ctrl(Key::Z)])
@@ -25,11 +23,12 @@ pub(super) const COMMANDS: &[Command] = &[
         "Go to a step…",
         "Go back or forth to a step of the history",
         has_plan,
-        &[needed("STEP", ArgumentKind::Count, "which step of the history, the plan as it came being 1")],
-        |app, values, _| match app.session.jump_to_step(values.count(0).map_or(0, |step| step - 1)) {
-            Ok(()) => Ran::Done,
-            Err(reason) => Ran::Refused(reason),
-        },
+        &given1(needed("STEP", COUNT, "which step of the history, the plan as it came being 1"), |app, step, _| {
+            match app.session.jump_to_step(step - 1) {
+                Ok(()) => Ran::Done,
+                Err(reason) => Ran::Refused(reason),
+            }
+        }),
         Some(|app, _| app.panels.history = true),
     )
     .menu(Menu::Edit, 0),
@@ -43,15 +42,14 @@ pub(super) const COMMANDS: &[Command] = &[
         "Rename the plan…",
         "Write the plan's name",
         has_plan,
-        &[needed("NAME", ArgumentKind::Text, "the plan's name")],
-        |app, values, _| {
-            app.session.change_meta("Rename plan", |meta| meta.name = values.text(0).unwrap_or_default().to_owned());
+        &given1(needed("NAME", TEXT, "the plan's name"), |app, name, _| {
+            app.session.change_meta("Rename plan", |meta| meta.name = name);
             Ran::Done
-        },
+        }),
         Some(|app, _| {
             let name = app.plan().map(|plan| plan.meta().name.clone()).unwrap_or_default();
             let asking = crate::app::commands::find("rename-plan").map(|command| Palette::asking(command, Vec::new()));
-            app.panels.palette = asking.map(|palette| palette.with_text(&name));
+            asking.into_iter().for_each(|palette| app.open_palette(palette.with_text(&name)));
         }),
     )
     .menu(Menu::Edit, 2),
@@ -60,11 +58,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Typology…",
         "Say what the plan's building is for: its label scheme says what the rooms' functions mean",
         has_plan,
-        &[needed("TYPOLOGY", ArgumentKind::Typology, "a typology with a label scheme, or 'unknown'")],
-        |app, values, _| {
-            app.session.change_meta("Set typology", |meta| meta.typology = values.typology(0).cloned().flatten());
+        &given1(needed("TYPOLOGY", TYPOLOGY, "a typology with a label scheme, or 'unknown'"), |app, typology, _| {
+            app.session.change_meta("Set typology", |meta| meta.typology = typology);
             Ran::Done
-        },
+        }),
         None,
     )
     .menu(Menu::Edit, 2),

@@ -14,18 +14,17 @@ pub(super) const COMMANDS: &[Command] = &[
         "Copy to another storey…",
         "Begin a plan of another storey with the same walls and rooms; this one is drawn faintly below it",
         has_plan,
-        &[
-            needed("STOREY", ArgumentKind::Text, "what the new storey is called, as on the drawing: 2, first floor"),
-            optional("KEEP", ArgumentKind::Word(Keep::WORDS), "what rooms keep: functions (without), all or outlines"),
-        ],
-        |app, values, _| {
-            let storey = values.text(0).unwrap_or_default().to_owned();
-            if storey.is_empty() {
-                return Ran::Refused("the new storey needs a name".to_owned());
-            }
-            app.session.copy_storey(&storey, Keep::of_word(values.word(1).copied().unwrap_or_default()));
-            Ran::Done
-        },
+        &given2(
+            needed("STOREY", TEXT, "what the new storey is called, as on the drawing: 2, first floor"),
+            optional("KEEP", one_of::<Keep>(), "what rooms keep: functions (without), all or outlines"),
+            |app, storey, keep, _| {
+                if storey.is_empty() {
+                    return Ran::Refused("the new storey needs a name".to_owned());
+                }
+                app.session.copy_storey(&storey, keep.unwrap_or(Keep::Functions));
+                Ran::Done
+            },
+        ),
         None,
     )
     .menu(Menu::File, 0),
@@ -34,17 +33,15 @@ pub(super) const COMMANDS: &[Command] = &[
         "Open…",
         "Open a plan: a plan file, the authors' XML, or GeoJSON",
         always,
-        &[
-            needed("PATH", ArgumentKind::PlanFile, "a file with a plan, or a folder of which the first plan is opened"),
-            optional("STOREY", ArgumentKind::Count, "which plan of the file, from 1"),
-        ],
-        |app, values, _| {
-            if let Some(path) = values.path(0) {
-                let storey = values.count(1).map_or(0, |storey| storey - 1);
-                app.session.open(Origin::File { path: path.to_owned(), storey });
-            }
-            Ran::Done
-        },
+        &given2(
+            needed("PATH", PLAN_FILE, "a file with a plan, or a folder of which the first plan is opened"),
+            optional("STOREY", COUNT, "which plan of the file, from 1"),
+            |app, path, storey, _| {
+                let storey = storey.map_or(0, |storey| storey - 1);
+                app.session.open(Origin::File { path, storey });
+                Ran::Done
+            },
+        ),
         Some(|app, _| app.session.choose_plan()),
     )
     .keys(&[ctrl(Key::O)])
@@ -54,13 +51,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Open a sample…",
         "Open a plan that comes with the program",
         always,
-        &[needed("SAMPLE", ArgumentKind::Sample, "the sample's file name without the ending")],
-        |app, values, _| {
-            if let Some(&sample) = values.sample(0) {
-                app.session.open(Origin::Bundled(sample));
-            }
+        &given1(needed("SAMPLE", SAMPLE, "the sample's file name without the ending"), |app, Sample(sample), _| {
+            app.session.open(Origin::Bundled(sample));
             Ran::Done
-        },
+        }),
         None,
     )
     .menu(Menu::File, 0),
@@ -69,8 +63,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Save",
         "Save the plan in its file",
         has_plan,
-        &[],
-        |app, _, _| if app.session.save(None) { Ran::Done } else { Ran::Asks },
+        &given0(|app, _| if app.session.save(None) { Ran::Done } else { Ran::Asks }),
         None,
     )
     .keys(&[ctrl(Key::S)])
@@ -80,13 +73,13 @@ pub(super) const COMMANDS: &[Command] = &[
         "Save as…",
         "Save the plan in another file",
         has_plan,
-        &[needed("PATH", ArgumentKind::NewPlanFile, "the file, which is replaced if it exists; '.plan.json' is added")],
-        |app, values, _| {
-            if let Some(path) = values.path(0) {
-                app.session.save_in(path.to_owned(), None);
-            }
-            Ran::Done
-        },
+        &given1(
+            needed("PATH", NEW_PLAN_FILE, "the file, which is replaced if it exists; '.plan.json' is added"),
+            |app, path, _| {
+                app.session.save_in(path, None);
+                Ran::Done
+            },
+        ),
         Some(|app, _| app.session.ask_where_to_save(None, None)),
     )
     .keys(&[ctrl_shift(Key::S)])
@@ -96,8 +89,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Recover unsaved work",
         "Show what was not saved when Enfilade was ended, with pictures",
         has_leftovers,
-        |app| app.panels.recovery,
-        |app, is_on| app.panels.recovery = is_on,
+        |app| app.dialogs.is_open(crate::app::panels::recovery::ID),
+        |app, is_on| app.set_dialog(crate::app::panels::recovery::ID, is_on),
     )
     .menu(Menu::File, 2),
     with(
@@ -105,10 +98,9 @@ pub(super) const COMMANDS: &[Command] = &[
         "Recover",
         "Open what was not saved when Enfilade was ended; nothing is written until it is saved",
         can_recover,
-        &[needed("NUMBER", ArgumentKind::Count, "which, from the top")],
-        |app, values, _| {
-            app.session.recover(values.count(0).copied().unwrap_or(1)).map_or_else(Ran::Refused, |()| Ran::Done)
-        },
+        &given1(needed("NUMBER", COUNT, "which, from the top"), |app, number, _| {
+            app.session.recover(number).map_or_else(Ran::Refused, |()| Ran::Done)
+        }),
         None,
     ),
     with(
@@ -116,10 +108,9 @@ pub(super) const COMMANDS: &[Command] = &[
         "Discard what can be recovered",
         "Give up what was not saved when Enfilade was ended, after asking once more",
         has_leftovers,
-        &[needed("NUMBER", ArgumentKind::Count, "which, from the top")],
-        |app, values, _| {
-            app.session.ask_to_discard(values.count(0).copied().unwrap_or(1)).map_or_else(Ran::Refused, |()| Ran::Done)
-        },
+        &given1(needed("NUMBER", COUNT, "which, from the top"), |app, number, _| {
+            app.session.ask_to_discard(number).map_or_else(Ran::Refused, |()| Ran::Done)
+        }),
         None,
     ),
     switch(
@@ -127,8 +118,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Differences to the file",
         "Show how the plan and its file, which somebody else changed, differ",
         has_their_plan,
-        |app| app.panels.differences,
-        |app, is_on| app.panels.differences = is_on,
+        |app| app.dialogs.is_open(crate::app::panels::differences::ID),
+        |app, is_on| app.set_dialog(crate::app::panels::differences::ID, is_on),
     )
     .menu(Menu::File, 2),
     command(
@@ -152,8 +143,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Import notes",
         "Show what was mended or left out when the plan was opened",
         has_notes,
-        |app| app.panels.notes,
-        |app, is_on| app.panels.notes = is_on,
+        |app| app.dialogs.is_open(crate::app::panels::notes::ID),
+        |app, is_on| app.set_dialog(crate::app::panels::notes::ID, is_on),
     )
     .menu(Menu::File, 2),
     command("previous-plan", "Previous plan", "Open the plan above in the list", has_several_plans, |app, _| {

@@ -8,11 +8,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Commands…",
         "Find a command by its name and do it",
         always,
-        &[],
-        |app, _, _| {
-            app.panels.palette = Some(Palette::default());
+        &given0(|app, _| {
+            app.open_dialog(crate::app::panels::palette::ID);
             Ran::Asks
-        },
+        }),
         None,
     )
     .keys(&[ctrl_shift(Key::P)])
@@ -22,11 +21,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Shortcuts…",
         "Show the shortcuts of all commands, and change them",
         always,
-        &[],
-        |app, _, _| {
-            app.panels.sheet = Some(Sheet::default());
+        &given0(|app, _| {
+            app.open_dialog(crate::app::panels::shortcuts::ID);
             Ran::Asks
-        },
+        }),
         None,
     )
     .keys(&[key(Key::Questionmark), key(Key::F1)])
@@ -36,14 +34,11 @@ pub(super) const COMMANDS: &[Command] = &[
         "Set a shortcut…",
         "Give a command other keys than it has",
         always,
-        &[
-            needed("COMMAND", ArgumentKind::Command, "the command's id"),
-            needed("KEYS", ArgumentKind::Keys, "keys such as Ctrl+Shift+K, F5 or Plus"),
-        ],
-        |app, values, _| match values.command(0) {
-            Some(command) => app.set_shortcut(command, values.keys(1).copied()),
-            None => Ran::Done,
-        },
+        &given2(
+            needed("COMMAND", A_COMMAND, "the command's id"),
+            needed("KEYS", KEYS, "keys such as Ctrl+Shift+K, F5 or Plus"),
+            |app, command, keys, _| app.set_shortcut(command, Some(keys)),
+        ),
         None,
     )
     .menu(Menu::Help, 1),
@@ -52,11 +47,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Remove a shortcut…",
         "Leave a command without keys",
         always,
-        &[needed("COMMAND", ArgumentKind::Command, "the command's id")],
-        |app, values, _| match values.command(0) {
-            Some(command) => app.set_shortcut(command, None),
-            None => Ran::Done,
-        },
+        &given1(needed("COMMAND", A_COMMAND, "the command's id"), |app, command, _| app.set_shortcut(command, None)),
         None,
     ),
     with(
@@ -64,11 +55,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Reset a shortcut…",
         "Give a command the keys it comes with",
         has_changed_keys,
-        &[needed("COMMAND", ArgumentKind::Command, "the command's id")],
-        |app, values, _| match values.command(0) {
-            Some(command) => app.reset_shortcut(command),
-            None => Ran::Done,
-        },
+        &given1(needed("COMMAND", A_COMMAND, "the command's id"), |app, command, _| app.reset_shortcut(command)),
         None,
     ),
     command(
@@ -95,11 +82,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "About Enfilade",
         "Show the version, the licence and the paper",
         always,
-        &[],
-        |app, _, _| {
-            app.panels.about = true;
+        &given0(|app, _| {
+            app.open_dialog(crate::app::panels::about::ID);
             Ran::Asks
-        },
+        }),
         None,
     )
     .menu(Menu::Help, 3),

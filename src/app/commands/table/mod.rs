@@ -12,23 +12,25 @@ mod script;
 mod view;
 
 use crate::app::session::origin::Origin;
-use std::path::Path;
 use std::sync::LazyLock;
 
 use egui::{Context, Key, KeyboardShortcut, Modifiers};
 
-use super::{Action, Argument, ArgumentKind, Availability, Command, Menu, Ran, Values};
+use super::given::*;
+use super::{Action, Argument, Availability, Command, Menu, Ran};
 use crate::app::look::{icons::Icon, theme::ThemeChoice};
-use crate::app::panels::{palette::Palette, shortcuts::Sheet};
+use crate::app::panels::palette::Palette;
 use crate::app::session::{fields::FieldKind, questions::Intent, selection::SelectMode, settings::GRID_RANGE_M};
 use crate::app::state::App;
+use crate::app::tools::{self, Entry, Group, TOOLS};
+use crate::app::value::{Boxed, Direction, Space, Worded};
 use crate::base::units::Units;
 use crate::draw::{Fill, LabelColours};
 use crate::edit::EditError;
 use crate::features::RoomStatus;
 use crate::geometry::{Bounds, Point, Segment, Vector, polygon, trim_m};
 use crate::labels::{Label, normalised_function};
-use crate::plan::{ElementId, Plan};
+use crate::plan::{ElementId, OpeningKind, Plan, RoomId};
 
 const fn key(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::NONE, key)
@@ -78,7 +80,7 @@ const fn command(
     entry(id, title, help, availability, Action::Plain(run))
 }
 
-const SWITCH: &[Argument] = &[optional("SWITCH", ArgumentKind::Switch, "on or off; without, the other of what it is")];
+const SWITCH: &[Argument] = &[optional("SWITCH", ON_OR_OFF, "on or off; without, the other of what it is").argument()];
 
 /// Something that is on or off.
 const fn switch(
@@ -104,25 +106,42 @@ const fn choose(
     entry(id, title, help, availability, Action::Choose { is_on, run })
 }
 
-/// Something that takes arguments; missing ones are asked for by `ask`, or in the palette.
-const fn with(
+/// Takes up a tool: all but when and where is said in the tool's own file.
+const fn tool(tool: &'static Entry, availability: fn(&App) -> Availability) -> Command {
+    entry(tool.id, tool.title, tool.help, availability, Action::TakeUp(tool)).keys(tool.keys)
+}
+
+/// The commands of the tools that stand in the strip, by their groups.
+fn tools_of_the_strip() -> Vec<Command> {
+    let mut tools: Vec<(Group, Command)> = TOOLS
+        .iter()
+        .filter_map(|entry| {
+            let (icon, group) = entry.strip?;
+            let section = match group {
+                Group::Select | Group::Draw | Group::Divide => 0,
+                Group::Openings => 1,
+                Group::Measure => 2,
+            };
+            Some((group, tool(entry, has_plan).menu(Menu::Draw, section).strip(icon, group as u8)))
+        })
+        .collect();
+    tools.sort_by_key(|(group, _)| *group);
+    tools.into_iter().map(|(_, command)| command).collect()
+}
+
+/// Something that takes arguments, see [`given`](super::given); missing ones are asked for by `ask`, or in the palette.
+const fn with<const N: usize, G, F>(
     id: &'static str,
     title: &'static str,
     help: &'static str,
     availability: fn(&App) -> Availability,
-    arguments: &'static [Argument],
-    run: fn(&mut App, &Values, &Context) -> Ran,
+    given: &'static Given<N, G, F>,
     ask: Option<fn(&mut App, &Context)>,
-) -> Command {
-    entry(id, title, help, availability, Action::With { run, ask, is_on: None }).takes(arguments)
-}
-
-const fn needed(name: &'static str, kind: ArgumentKind, help: &'static str) -> Argument {
-    Argument { name, kind, is_optional: false, help }
-}
-
-const fn optional(name: &'static str, kind: ArgumentKind, help: &'static str) -> Argument {
-    Argument { name, kind, is_optional: true, help }
+) -> Command
+where
+    Given<N, G, F>: Run,
+{
+    entry(id, title, help, availability, Action::With { run: given, ask, is_on: None }).takes(&given.arguments)
 }
 
 impl Command {
@@ -296,40 +315,33 @@ fn is_asked(app: &App) -> Availability {
 /// The drawing area's half side in metres: coordinates beyond are no plan's.
 const FAR_M: f64 = 1e6;
 
-const X: Argument =
-    needed("X", ArgumentKind::Number { unit: " of metres", least: -FAR_M, most: FAR_M }, "to the right, in metres");
-const Y: Argument =
-    needed("Y", ArgumentKind::Number { unit: " of metres", least: -FAR_M, most: FAR_M }, "up, in metres");
-const WIDTH: Argument =
-    needed("WIDTH", ArgumentKind::Number { unit: " of metres", least: 0.001, most: FAR_M }, "in metres");
-const HEIGHT: Argument =
-    needed("HEIGHT", ArgumentKind::Number { unit: " of metres", least: 0.001, most: FAR_M }, "in metres");
-const SCALE: Argument = needed(
-    "SCALE",
-    ArgumentKind::Number { unit: " of pixels to the metre", least: 0.001, most: 1e5 },
-    "how many pixels a metre is long",
-);
+const X: Arg<f64> = needed("X", metres(-FAR_M, FAR_M), "to the right, in metres");
+const Y: Arg<f64> = needed("Y", metres(-FAR_M, FAR_M), "up, in metres");
+const WIDTH: Arg<f64> = needed("WIDTH", metres(0.001, FAR_M), "in metres");
+const HEIGHT: Arg<f64> = needed("HEIGHT", metres(0.001, FAR_M), "in metres");
+const SCALE: Arg<f64> =
+    needed("SCALE", number(" of pixels to the metre", 0.001, 1e5), "how many pixels a metre is long");
 
-const ROOM: Argument = needed("ROOM", ArgumentKind::Room, "a room's name, or its id where several have the name");
-
-const DIRECTIONS: &[(&str, &str)] = &[("left", "Left"), ("right", "Right"), ("up", "Up"), ("down", "Down")];
+const ROOM: Arg<RoomId> = needed("ROOM", A_ROOM, "a room's name, or its id where several have the name");
 
 /// How much a step of zooming changes the size.
 const ZOOM_STEP: f64 = 1.25;
 
-/// The parts of the table, in the order of the menus. A part is a file.
-const PARTS: &[&[Command]] = &[
-    file::COMMANDS,
-    edit::COMMANDS,
-    draw::COMMANDS,
-    modify::COMMANDS,
-    room::COMMANDS,
-    picture::COMMANDS,
-    predict::COMMANDS,
-    view::COMMANDS,
-    help::COMMANDS,
-    script::COMMANDS,
-];
-
-/// Every command, in the order of the menus.
-pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| PARTS.concat());
+/// Every command, in the order of the menus. A menu is a file; the tools' commands follow from the tools.
+pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| {
+    let tools = tools_of_the_strip();
+    let parts: [&[Command]; 11] = [
+        file::COMMANDS,
+        edit::COMMANDS,
+        &tools,
+        draw::COMMANDS,
+        modify::COMMANDS,
+        room::COMMANDS,
+        picture::COMMANDS,
+        predict::COMMANDS,
+        view::COMMANDS,
+        help::COMMANDS,
+        script::COMMANDS,
+    ];
+    parts.concat()
+});

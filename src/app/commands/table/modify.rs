@@ -1,19 +1,22 @@
 //! Selecting and changing what is drawn.
 
+mod acts;
+
 use std::collections::BTreeSet;
 
-use super::draw::{KINDS, edited, kind_of};
-use super::*;
-use crate::app::session::{
-    document::Document,
-    questions::{ProposedChange, Question},
+use self::acts::{
+    Mirror, NO_GAPS, Wanted, Way, copied, has_copied, has_drawing, has_opening, is_labelled, is_selectable, moved,
+    select_found,
 };
+use super::draw::edited;
+use super::*;
+use crate::app::session::{document::Document, questions::Question};
 use crate::edit::{self, Alignment, Array};
 use crate::geometry::Transform;
-use crate::plan::{LeafSide, OpeningId, OpeningKind, RoomId, Swing};
+use crate::plan::{LeafSide, OpeningId, Swing};
 use crate::topology;
 
-const MODE: Argument = optional("MODE", ArgumentKind::Word(SelectMode::WORDS), "replace (without), add or toggle");
+const MODE: Arg<Option<SelectMode>> = optional("MODE", one_of::<SelectMode>(), "replace (without), add or toggle");
 
 pub(super) const COMMANDS: &[Command] = &[
     command("select-all", "Select all", "Select everything that is not locked", has_drawing, |app, _| {
@@ -28,17 +31,19 @@ pub(super) const COMMANDS: &[Command] = &[
         "Select by label…",
         "Select all rooms with a label",
         has_rooms,
-        &[needed("LABEL", ArgumentKind::Word(LABELS), "small, medium, big, corridor, hall or none"), MODE],
-        |app, values, _| {
-            let wanted = values.word(0).copied().unwrap_or_default();
-            let Some(plan) = app.plan() else { return Ran::Done };
-            let found: Vec<ElementId> = plan
-                .rooms()
-                .filter(|(_, room)| label_word(RoomStatus::of(plan, &app.session.schemes, room)) == wanted)
-                .map(|(id, _)| ElementId::Room(id))
-                .collect();
-            select_found(app, found, values)
-        },
+        &given2(
+            needed("LABEL", one_of::<Wanted>(), "small, medium, big, corridor, hall or none"),
+            MODE,
+            |app, Wanted(wanted), mode, _| {
+                let Some(plan) = app.plan() else { return Ran::Done };
+                let found: Vec<ElementId> = plan
+                    .rooms()
+                    .filter(|(_, room)| is_labelled(RoomStatus::of(plan, &app.session.schemes, room), wanted))
+                    .map(|(id, _)| ElementId::Room(id))
+                    .collect();
+                select_found(app, found, mode)
+            },
+        ),
         None,
     )
     .menu(Menu::Modify, 0),
@@ -47,17 +52,16 @@ pub(super) const COMMANDS: &[Command] = &[
         "Select by function…",
         "Select all rooms that are for something",
         has_rooms,
-        &[needed("FUNCTION", ArgumentKind::Function, "what the rooms are for"), MODE],
-        |app, values, _| {
-            let wanted = normalised_function(values.text(0).unwrap_or_default());
+        &given2(needed("FUNCTION", FUNCTION, "what the rooms are for"), MODE, |app, function, mode, _| {
+            let wanted = normalised_function(&function);
             let Some(plan) = app.plan() else { return Ran::Done };
             let found: Vec<ElementId> = plan
                 .rooms()
                 .filter(|(_, room)| normalised_function(&room.function) == wanted)
                 .map(|(id, _)| ElementId::Room(id))
                 .collect();
-            select_found(app, found, values)
-        },
+            select_found(app, found, mode)
+        }),
         None,
     )
     .menu(Menu::Modify, 0),
@@ -66,8 +70,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Delete",
         "Delete what is selected, and what cannot stand without it",
         has_picked,
-        &[],
-        |app, _, _| app.delete_selected(),
+        &given0(|app, _| app.delete_selected()),
         None,
     )
     .keys(&[key(Key::Delete)])
@@ -78,8 +81,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Copy",
         "Keep what is selected, to paste it here or into another plan",
         has_picked,
-        &[],
-        |app, _, context| app.copy_selected(context),
+        &given0(|app, context| app.copy_selected(context)),
         None,
     )
     .keys(&[ctrl(Key::C)])
@@ -89,24 +91,17 @@ pub(super) const COMMANDS: &[Command] = &[
         "Cut",
         "Keep what is selected, to paste it, and delete it here",
         has_picked,
-        &[],
-        |app, _, context| match app.copy_selected(context) {
+        &given0(|app, context| match app.copy_selected(context) {
             Ran::Done => app.delete_selected(),
             other => other,
-        },
+        }),
         None,
     )
     .keys(&[ctrl(Key::X)])
     .menu(Menu::Modify, 2),
-    command(
-        "paste",
-        "Paste",
-        "Place what was copied: it hangs on the pointer until you click",
-        has_copied,
-        |app, _| {
-            app.tools.take_up("paste");
-        },
-    )
+    command(tools::PASTE.id, tools::PASTE.title, tools::PASTE.help, has_copied, |app, _| {
+        app.tools.take_up(tools::PASTE.id);
+    })
     .keys(&[ctrl(Key::V)])
     .menu(Menu::Modify, 2),
     with(
@@ -114,14 +109,13 @@ pub(super) const COMMANDS: &[Command] = &[
         "Duplicate",
         "Place a copy of what is selected",
         has_picked,
-        &[],
-        |app, _, context| {
+        &given0(|app, context| {
             let ran = app.copy_selected(context);
             if ran == Ran::Done {
-                app.tools.take_up("paste");
+                app.tools.take_up(tools::PASTE.id);
             }
             ran
-        },
+        }),
         None,
     )
     .keys(&[ctrl(Key::D)])
@@ -132,19 +126,15 @@ pub(super) const COMMANDS: &[Command] = &[
         "Rotate…",
         "Turn what is selected about its middle, counter-clockwise; what shares its corners follows",
         has_picked,
-        &[
-            needed(
-                "ANGLE",
-                ArgumentKind::Number { unit: " of degrees", least: -360.0, most: 360.0 },
-                "in degrees, counter-clockwise",
-            ),
+        &given2(
+            needed("ANGLE", number(" of degrees", -360.0, 360.0), "in degrees, counter-clockwise"),
             CENTRE,
-        ],
-        |app, values, _| {
-            let angle_rad = values.number(0).copied().unwrap_or_default().to_radians();
-            let about = app.centre_of_selection(values, 1);
-            moved(app, "Rotate", Transform::rotation(about, angle_rad))
-        },
+            |app, angle, about, _| {
+                let angle_rad = angle.to_radians();
+                let about = app.centre_of_selection(about);
+                moved(app, "Rotate", Transform::rotation(about, angle_rad))
+            },
+        ),
         None,
     )
     .menu(Menu::Modify, 3),
@@ -154,7 +144,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Turn what is selected by a right angle, counter-clockwise",
         has_picked,
         |app, _| {
-            let about = app.centre_of_selection(&Values::default(), 0);
+            let about = app.centre_of_selection(None);
             app.report(|app| moved(app, "Rotate", Transform::rotation(about, std::f64::consts::FRAC_PI_2)));
         },
     )
@@ -164,15 +154,17 @@ pub(super) const COMMANDS: &[Command] = &[
         "Mirror…",
         "Mirror what is selected over the upright or the level line through its middle",
         has_picked,
-        &[needed("WAY", ArgumentKind::Word(MIRRORS), "left-right or up-down"), CENTRE],
-        |app, values, _| {
-            let about = app.centre_of_selection(values, 1);
-            let way = if values.word(0) == Some(&"up-down") { Vector::new(1.0, 0.0) } else { Vector::new(0.0, 1.0) };
+        &given2(needed("WAY", one_of::<Mirror>(), "left-right or up-down"), CENTRE, |app, mirror, about, _| {
+            let about = app.centre_of_selection(about);
+            let way = match mirror {
+                Mirror::LeftRight => Vector::new(0.0, 1.0),
+                Mirror::UpDown => Vector::new(1.0, 0.0),
+            };
             match Transform::reflection(about, about + way) {
                 Some(transform) => moved(app, "Mirror", transform),
                 None => Ran::Done,
             }
-        },
+        }),
         None,
     )
     .menu(Menu::Modify, 3),
@@ -181,14 +173,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Scale…",
         "Make what is selected larger or smaller about its middle",
         has_picked,
-        &[
-            needed("FACTOR", ArgumentKind::Number { unit: "", least: 0.001, most: 1000.0 }, "2 is twice as large"),
-            CENTRE,
-        ],
-        |app, values, _| {
-            let about = app.centre_of_selection(values, 1);
-            moved(app, "Scale", Transform::scaling(about, values.number(0).copied().unwrap_or(1.0)))
-        },
+        &given2(needed("FACTOR", number("", 0.001, 1000.0), "2 is twice as large"), CENTRE, |app, factor, about, _| {
+            let about = app.centre_of_selection(about);
+            moved(app, "Scale", Transform::scaling(about, factor))
+        }),
         None,
     )
     .menu(Menu::Modify, 3),
@@ -197,22 +185,15 @@ pub(super) const COMMANDS: &[Command] = &[
         "Array…",
         "Copy what is selected into columns and rows",
         has_picked,
-        &[
-            needed("COLUMNS", ArgumentKind::Count, "how many side by side, the original among them"),
-            needed("ROWS", ArgumentKind::Count, "how many above each other"),
-            needed(
-                "STEP",
-                ArgumentKind::Points { least: 1 },
-                "from column to column and from row to row, in metres, as '4,3'",
-            ),
-        ],
-        |app, values, _| {
-            let step = values.points(2).and_then(|points| points.first()).copied().unwrap_or_default();
-            let columns = values.count(0).copied().unwrap_or(1);
-            let rows = values.count(1).copied().unwrap_or(1);
-            let (column_step, row_step) = (Vector::new(step.x, 0.0), Vector::new(0.0, step.y));
-            copied(app, Array::Grid { columns, rows, column_step, row_step })
-        },
+        &given3(
+            needed("COLUMNS", COUNT, "how many side by side, the original among them"),
+            needed("ROWS", COUNT, "how many above each other"),
+            needed("STEP", POINT, "from column to column and from row to row, in metres, as '4,3'"),
+            |app, columns, rows, step, _| {
+                let (column_step, row_step) = (Vector::new(step.x, 0.0), Vector::new(0.0, step.y));
+                copied(app, Array::Grid { columns, rows, column_step, row_step })
+            },
+        ),
         None,
     )
     .menu(Menu::Modify, 3),
@@ -221,21 +202,15 @@ pub(super) const COMMANDS: &[Command] = &[
         "Array around a point…",
         "Copy what is selected around a point",
         has_picked,
-        &[
-            needed("ABOUT", ArgumentKind::Points { least: 1 }, "the point, in metres, as '4,3'"),
-            needed("COUNT", ArgumentKind::Count, "how many, the original among them"),
-            needed(
-                "ANGLE",
-                ArgumentKind::Number { unit: " of degrees", least: -360.0, most: 360.0 },
-                "from one to the next, in degrees",
-            ),
-        ],
-        |app, values, _| {
-            let about = values.points(0).and_then(|points| points.first()).copied().unwrap_or_default();
-            let count = values.count(1).copied().unwrap_or(1);
-            let step_rad = values.number(2).copied().unwrap_or_default().to_radians();
-            copied(app, Array::Polar { about, count, step_rad })
-        },
+        &given3(
+            needed("ABOUT", POINT, "the point, in metres, as '4,3'"),
+            needed("COUNT", COUNT, "how many, the original among them"),
+            needed("ANGLE", number(" of degrees", -360.0, 360.0), "from one to the next, in degrees"),
+            |app, about, count, step, _| {
+                let step_rad = step.to_radians();
+                copied(app, Array::Polar { about, count, step_rad })
+            },
+        ),
         None,
     )
     .menu(Menu::Modify, 3),
@@ -244,19 +219,13 @@ pub(super) const COMMANDS: &[Command] = &[
         "Align…",
         "Bring sides or middles of what is selected into line",
         has_picked,
-        &[needed("SIDE", ArgumentKind::Word(ALIGNMENTS), "left, right, top, bottom, centre or middle")],
-        |app, values, _| {
-            let alignment = match values.word(0) {
-                Some(&"left") => Alignment::Left,
-                Some(&"right") => Alignment::Right,
-                Some(&"top") => Alignment::Top,
-                Some(&"bottom") => Alignment::Bottom,
-                Some(&"centre") => Alignment::Center,
-                _ => Alignment::Middle,
-            };
-            let selected = app.session.selection.elements().clone();
-            edited(app, "Align", |plan| edit::align(plan, &selected, alignment))
-        },
+        &given1(
+            needed("SIDE", one_of::<Alignment>(), "left, right, top, bottom, centre or middle"),
+            |app, alignment, _| {
+                let selected = app.session.selection.elements().clone();
+                edited(app, "Align", |plan| edit::align(plan, &selected, alignment))
+            },
+        ),
         None,
     )
     .menu(Menu::Modify, 4),
@@ -265,12 +234,11 @@ pub(super) const COMMANDS: &[Command] = &[
         "Distribute…",
         "Put what is selected at equal distances",
         has_picked,
-        &[needed("WAY", ArgumentKind::Word(&[("across", "Side by side"), ("up", "Above each other")]), "across or up")],
-        |app, values, _| {
-            let is_upright = values.word(0) == Some(&"up");
+        &given1(needed("WAY", one_of::<Way>(), "across or up"), |app, way, _| {
+            let is_upright = way == Way::Up;
             let selected = app.session.selection.elements().clone();
             edited(app, "Distribute", |plan| edit::distribute(plan, &selected, is_upright))
-        },
+        }),
         None,
     )
     .menu(Menu::Modify, 4),
@@ -279,17 +247,19 @@ pub(super) const COMMANDS: &[Command] = &[
         "Square up",
         "Make angles that are nearly right ones right: of the selected rooms, or of all",
         has_drawing,
-        &[optional(
-            "ANGLE",
-            ArgumentKind::Number { unit: " of degrees", least: 0.01, most: 44.0 },
-            "how far from right an angle may be, in degrees; 10 without, the paper's threshold",
-        )],
-        |app, values, _| {
-            let max_rad = values.number(0).copied().unwrap_or(10.0).to_radians();
-            let rooms: BTreeSet<RoomId> = app.session.selection.rooms().collect();
-            let of = (!rooms.is_empty()).then_some(rooms);
-            edited(app, "Square up", |plan| edit::square_up(plan, of.as_ref(), max_rad))
-        },
+        &given1(
+            optional(
+                "ANGLE",
+                number(" of degrees", 0.01, 44.0),
+                "how far from right an angle may be, in degrees; 10 without, the paper's threshold",
+            ),
+            |app, angle, _| {
+                let max_rad = angle.unwrap_or(10.0).to_radians();
+                let rooms: BTreeSet<RoomId> = app.session.selection.rooms().collect();
+                let of = (!rooms.is_empty()).then_some(rooms);
+                edited(app, "Square up", |plan| edit::square_up(plan, of.as_ref(), max_rad))
+            },
+        ),
         None,
     )
     .menu(Menu::Modify, 5),
@@ -298,8 +268,9 @@ pub(super) const COMMANDS: &[Command] = &[
         "Weld corners…",
         "Join corners that are no further apart than a tolerance; shows what it does before it does it",
         has_drawing,
-        &[needed("TOLERANCE", ArgumentKind::Number { unit: " of metres", least: 0.0001, most: 10.0 }, "in metres")],
-        |app, values, _| app.ask_to_weld(values.number(0).copied().unwrap_or_default()),
+        &given1(needed("TOLERANCE", metres(0.0001, 10.0), "in metres"), |app, tolerance_m, _| {
+            app.ask_to_weld(tolerance_m)
+        }),
         None,
     )
     .menu(Menu::Modify, 5),
@@ -308,15 +279,11 @@ pub(super) const COMMANDS: &[Command] = &[
         "Offset copy…",
         "Draw walls beside the selected walls, or inside or outside the selected room",
         has_picked,
-        &[
-            needed("DISTANCE", ArgumentKind::Number { unit: " of metres", least: 0.001, most: 1000.0 }, "in metres"),
-            optional(
-                "TOWARDS",
-                ArgumentKind::Points { least: 1 },
-                "a point on the side where the copy goes; without, where the pointer is",
-            ),
-        ],
-        |app, values, _| app.offset_selected(values),
+        &given2(
+            needed("DISTANCE", metres(0.001, 1000.0), "in metres"),
+            optional("TOWARDS", POINT, "a point on the side where the copy goes; without, where the pointer is"),
+            |app, distance_m, towards, _| app.offset_selected(distance_m, towards),
+        ),
         None,
     )
     .menu(Menu::Modify, 5),
@@ -325,15 +292,13 @@ pub(super) const COMMANDS: &[Command] = &[
         "Thickness…",
         "Make the selected walls as thick as this",
         has_picked,
-        &[needed("THICKNESS", ArgumentKind::Number { unit: " of metres", least: 0.0, most: 10.0 }, "in metres")],
-        |app, values, _| {
-            let thickness_m = values.number(0).copied().unwrap_or_default();
+        &given1(needed("THICKNESS", metres(0.0, 10.0), "in metres"), |app, thickness_m, _| {
             let walls: Vec<_> = app.session.selection.walls().collect();
             if walls.is_empty() {
                 return Ran::Refused("select a wall first".to_owned());
             }
             edited(app, "Set thickness", |plan| edit::set_thickness(plan, &walls, thickness_m))
-        },
+        }),
         None,
     )
     .menu(Menu::Modify, 5),
@@ -342,14 +307,13 @@ pub(super) const COMMANDS: &[Command] = &[
         "Merge rooms",
         "Make one room of the selected ones; walls and openings between them go",
         has_picked,
-        &[],
-        |app, _, _| {
+        &given0(|app, _| {
             let rooms: Vec<RoomId> = app.session.selection.rooms().collect();
             if rooms.len() < 2 {
                 return Ran::Refused("select two rooms or more first".to_owned());
             }
             edited(app, "Merge rooms", |plan| edit::merge_rooms(plan, &rooms))
-        },
+        }),
         None,
     )
     .keys(&[key(Key::J)])
@@ -359,8 +323,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Doors into all gaps",
         "Close the gaps of 30 to 150 cm between collinear walls with doorways",
         has_drawing,
-        &[],
-        |app, _, _| app.ask_to_bridge(),
+        &given0(|app, _| app.ask_to_bridge()),
         None,
     )
     .menu(Menu::Modify, 6),
@@ -369,8 +332,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Hinge at the other end",
         "Hinge the selected doors at their other end",
         has_opening,
-        &[],
-        |app, _, _| app.change_openings("Flip hinge", edit::flip_hinge),
+        &given0(|app, _| app.change_openings("Flip hinge", edit::flip_hinge)),
         None,
     )
     .menu(Menu::Modify, 7),
@@ -379,8 +341,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Open to the other side",
         "Let the selected doors open to their other side",
         has_opening,
-        &[],
-        |app, _, _| app.change_openings("Flip side", edit::flip_side),
+        &given0(|app, _| app.change_openings("Flip side", edit::flip_side)),
         None,
     )
     .menu(Menu::Modify, 7),
@@ -389,11 +350,9 @@ pub(super) const COMMANDS: &[Command] = &[
         "Kind of opening…",
         "Make doors, double doors, passages or windows of the selected openings",
         has_opening,
-        &[needed("KIND", ArgumentKind::Word(KINDS), "door, double-door, passage or window")],
-        |app, values, _| {
-            let kind = kind_of(values.word(0).copied().unwrap_or_default());
+        &given1(needed("KIND", one_of::<OpeningKind>(), "door, double-door, passage or window"), |app, kind, _| {
             app.change_openings("Change opening", |plan, id, _| edit::set_opening_kind(plan, id, kind))
-        },
+        }),
         None,
     )
     .menu(Menu::Modify, 7),
@@ -402,11 +361,9 @@ pub(super) const COMMANDS: &[Command] = &[
         "Width of opening…",
         "Make the selected openings as wide as this",
         has_opening,
-        &[needed("WIDTH", ArgumentKind::Number { unit: " of metres", least: 0.01, most: 1000.0 }, "in metres")],
-        |app, values, _| {
-            let width_m = values.number(0).copied().unwrap_or_default();
+        &given1(needed("WIDTH", metres(0.01, 1000.0), "in metres"), |app, width_m, _| {
             app.change_openings("Set width", |plan, id, _| edit::resize_opening(plan, id, width_m))
-        },
+        }),
         None,
     )
     .menu(Menu::Modify, 7),
@@ -443,23 +400,18 @@ pub(super) const COMMANDS: &[Command] = &[
         "Select in a box",
         "Select what lies in a box, or also what it touches",
         has_plan,
-        &[
-            needed("CORNERS", ArgumentKind::Points { least: 2 }, "two opposite corners of the box"),
-            optional(
-                "HOW",
-                ArgumentKind::Word(&[("inside", "Inside"), ("touching", "Touching")]),
-                "inside (without) or touching",
-            ),
+        &given3(
+            needed("CORNERS", points(2), "two opposite corners of the box"),
+            optional("HOW", one_of::<Boxed>(), "inside (without) or touching"),
             MODE,
-        ],
-        |app, values, _| {
-            let bounds = Bounds::of(values.points(0).unwrap_or_default().iter().copied());
-            let touches = values.word(1) == Some(&"touching");
-            let found = app.elements_in(bounds, touches);
-            let mode = SelectMode::of_word(values.word(2).copied().unwrap_or("replace"));
-            app.session.select(found, mode);
-            Ran::Done
-        },
+            |app, corners, boxed, mode, _| {
+                let bounds = Bounds::of(corners);
+                let touches = boxed == Some(Boxed::Touching);
+                let found = app.elements_in(bounds, touches);
+                app.session.select(found, mode.unwrap_or(SelectMode::Replace));
+                Ran::Done
+            },
+        ),
         None,
     ),
     with(
@@ -467,11 +419,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Move the selection",
         "Move what is selected; what shares its corners follows",
         has_picked,
-        &[needed("BY", ArgumentKind::Points { least: 1 }, "how far right and up, in metres, as '0.5,-1'")],
-        |app, values, _| {
-            let by = values.points(0).and_then(|points| points.first()).copied().unwrap_or_default() - Point::default();
+        &given1(needed("BY", POINT, "how far right and up, in metres, as '0.5,-1'"), |app, by, _| {
+            let by = by - Point::default();
             moved(app, "Move", Transform::translation(by))
-        },
+        }),
         None,
     ),
     with(
@@ -479,11 +430,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Paste at a place",
         "Place what was copied with its middle at a point",
         has_copied,
-        &[needed("PLACE", ArgumentKind::Points { least: 1 }, "a point in metres, as '2,1.5'")],
-        |app, values, _| {
-            let at = values.points(0).and_then(|points| points.first()).copied().unwrap_or_default();
-            app.paste_at(at)
-        },
+        &given1(needed("PLACE", POINT, "a point in metres, as '2,1.5'"), |app, at, _| app.paste_at(at)),
         None,
     ),
     with(
@@ -491,20 +438,19 @@ pub(super) const COMMANDS: &[Command] = &[
         "Door into a gap",
         "Close the gap between two collinear walls that is nearest to a point with an opening",
         has_drawing,
-        &[
-            needed("PLACE", ArgumentKind::Points { least: 1 }, "a point in metres, as '2,1.5'"),
-            optional("KIND", ArgumentKind::Word(KINDS), "door (without), double-door, passage or window"),
-        ],
-        |app, values, _| {
-            let at = values.points(0).and_then(|points| points.first()).copied().unwrap_or_default();
-            let kind = kind_of(values.word(1).copied().unwrap_or("door"));
-            edited(app, "Bridge gap", |plan| {
-                let gaps = topology::gaps(plan);
-                let nearest = gaps.iter().min_by(|p, q| p.segment.distance(at).total_cmp(&q.segment.distance(at)));
-                let Some(gap) = nearest else { return Err(EditError(NO_GAPS.to_owned())) };
-                Ok(edit::bridge_gaps(plan, std::slice::from_ref(gap), kind)?.0)
-            })
-        },
+        &given2(
+            needed("PLACE", POINT, "a point in metres, as '2,1.5'"),
+            optional("KIND", one_of::<OpeningKind>(), "door (without), double-door, passage or window"),
+            |app, at, kind, _| {
+                let kind = kind.unwrap_or(OpeningKind::Door);
+                edited(app, "Bridge gap", |plan| {
+                    let gaps = topology::gaps(plan);
+                    let nearest = gaps.iter().min_by(|p, q| p.segment.distance(at).total_cmp(&q.segment.distance(at)));
+                    let Some(gap) = nearest else { return Err(EditError(NO_GAPS.to_owned())) };
+                    Ok(edit::bridge_gaps(plan, std::slice::from_ref(gap), kind)?.0)
+                })
+            },
+        ),
         None,
     ),
     with(
@@ -512,20 +458,18 @@ pub(super) const COMMANDS: &[Command] = &[
         "Move a corner",
         "Move a corner; everything that shares it follows",
         has_plan,
-        &[
-            needed("CORNER", ArgumentKind::Elements, "the corner's id"),
-            needed("TO", ArgumentKind::Points { least: 1 }, "where to, in metres"),
-        ],
-        |app, values, _| {
-            let to = values.points(1).and_then(|points| points.first()).copied().unwrap_or_default();
-            let Some(ElementId::Corner(corner)) = values.elements(0).and_then(|elements| elements.first()).copied()
-            else {
-                return Ran::Refused("this is no corner".to_owned());
-            };
-            edited(app, "Move corner", |plan| {
-                edit::settle(&edit::move_corners(plan, &[(corner, to)])?, &BTreeSet::from([corner]))
-            })
-        },
+        &given2(
+            needed("CORNER", ELEMENTS, "the corner's id"),
+            needed("TO", POINT, "where to, in metres"),
+            |app, elements, to, _| {
+                let Some(ElementId::Corner(corner)) = elements.first().copied() else {
+                    return Ran::Refused("this is no corner".to_owned());
+                };
+                edited(app, "Move corner", |plan| {
+                    edit::settle(&edit::move_corners(plan, &[(corner, to)])?, &BTreeSet::from([corner]))
+                })
+            },
+        ),
         None,
     ),
     with(
@@ -533,311 +477,14 @@ pub(super) const COMMANDS: &[Command] = &[
         "Slide an opening",
         "Slide an opening along its wall, as near to a point as the wall lets it",
         has_openings,
-        &[
-            needed("OPENING", ArgumentKind::Opening, "the opening's id"),
-            needed("TOWARDS", ArgumentKind::Points { least: 1 }, "a point, in metres"),
-        ],
-        |app, values, _| {
-            let towards = values.points(1).and_then(|points| points.first()).copied().unwrap_or_default();
-            let Some(&opening) = values.opening(0) else { return Ran::Done };
-            edited(app, "Slide opening", |plan| edit::slide_opening(plan, opening, towards))
-        },
+        &given2(
+            needed("OPENING", OPENING, "the opening's id"),
+            needed("TOWARDS", POINT, "a point, in metres"),
+            |app, opening, towards, _| edited(app, "Slide opening", |plan| edit::slide_opening(plan, opening, towards)),
+        ),
         None,
     ),
 ];
 
-const CENTRE: Argument = optional(
-    "ABOUT",
-    ArgumentKind::Points { least: 1 },
-    "a point, in metres, as '4,3'; the middle of what is selected without",
-);
-
-const MIRRORS: &[(&str, &str)] = &[("left-right", "Left and right"), ("up-down", "Up and down")];
-
-const ALIGNMENTS: &[(&str, &str)] = &[
-    ("left", "Left sides"),
-    ("right", "Right sides"),
-    ("top", "Upper sides"),
-    ("bottom", "Lower sides"),
-    ("centre", "Middles, on an upright line"),
-    ("middle", "Middles, on a level line"),
-];
-
-const NO_GAPS: &str = "there is no gap of 30 to 150 cm between collinear walls";
-
-/// Moves what is selected.
-fn moved(app: &mut App, title: &str, transform: Transform) -> Ran {
-    let selected = app.session.selection.elements().clone();
-    edited(app, title, |plan| {
-        let next = edit::move_elements(plan, &selected, transform)?;
-        // What comes to lie on something else shares its corners.
-        edit::settle(&next, &edit::corners_of(plan, &selected)?)
-    })
-}
-
-/// Copies what is selected and selects the copies.
-fn copied(app: &mut App, array: Array) -> Ran {
-    let selected = app.session.selection.elements().clone();
-    let mut made = BTreeSet::new();
-    let ran = edited(app, "Array", |plan| {
-        let (next, copies) = edit::array(plan, &selected, array)?;
-        made = copies;
-        Ok(next)
-    });
-    select_made(app, &made);
-    ran
-}
-
-/// Selects what was made, but for corners.
-fn select_made(app: &mut App, made: &BTreeSet<ElementId>) {
-    let made: Vec<ElementId> =
-        made.iter().copied().filter(|element| !matches!(element, ElementId::Corner(_))).collect();
-    if !made.is_empty() {
-        app.session.select(made, SelectMode::Replace);
-    }
-}
-
-fn has_copied(app: &App) -> Availability {
-    has_plan(app)?;
-    when(app.session.copied.is_some(), "nothing was copied yet")
-}
-
-fn has_opening(app: &App) -> Availability {
-    has_picked(app)?;
-    when(app.session.selection.openings().next().is_some(), "select a door or another opening first")
-}
-
-/// The labels as words, and rooms without one.
-const LABELS: &[(&str, &str)] = &[
-    ("small", "Small room"),
-    ("medium", "Medium room"),
-    ("big", "Big room"),
-    ("corridor", "Corridor"),
-    ("hall", "Hall"),
-    ("none", "No label"),
-];
-
-fn label_word(status: RoomStatus) -> &'static str {
-    match status {
-        RoomStatus::Labelled(label) => LABELS[label.index()].0,
-        RoomStatus::Unlabelled => "none",
-        RoomStatus::NotClassified => "",
-    }
-}
-
-/// Selects what was looked for.
-fn select_found(app: &mut App, found: Vec<ElementId>, values: &Values) -> Ran {
-    if found.is_empty() {
-        return Ran::Refused("there is no such room".to_owned());
-    }
-    app.session.status = format!("Found {}", crate::base::wording::count(found.len(), "room"));
-    app.session.select(found, SelectMode::of_word(values.word(1).copied().unwrap_or("replace")));
-    Ran::Done
-}
-
-fn has_drawing(app: &App) -> Availability {
-    has_plan(app)?;
-    when(app.plan().is_some_and(|plan| !plan.is_empty()), "nothing is drawn yet")
-}
-
-/// Corners are selected by hand only: they are part of everything else.
-fn is_selectable(app: &App, element: ElementId) -> bool {
-    !matches!(element, ElementId::Corner(_)) && !app.session.layers.is_locked(element)
-}
-
-impl App {
-    /// What lies in a box, or also what it touches.
-    fn elements_in(&self, bounds: Bounds, touches: bool) -> Vec<ElementId> {
-        let Some(plan) = self.plan() else { return Vec::new() };
-        let is_in = |points: &[Point]| !points.is_empty() && points.iter().all(|&point| bounds.contains(point));
-        let is_met = |points: &[Point], closed: bool| {
-            let closing = points.last().zip(points.first()).filter(|_| closed);
-            let pairs = points.windows(2).map(|pair| (&pair[0], &pair[1])).chain(closing);
-            pairs.into_iter().any(|(a, b)| bounds.meets(Segment::new(*a, *b)))
-        };
-        let mut found = Vec::new();
-        for (id, room) in plan.rooms() {
-            let points = plan.ring_points(&room.outer);
-            let is_around = || polygon::locate_in_ring(&points, bounds.center()) == polygon::Location::Inside;
-            if is_in(&points) || (touches && (is_met(&points, true) || is_around())) {
-                found.push(ElementId::Room(id));
-            }
-        }
-        let walls = plan.walls().filter_map(|(id, wall)| Some((ElementId::Wall(id), plan.wall_segment(wall)?)));
-        let openings =
-            plan.openings().filter_map(|(id, opening)| Some((ElementId::Opening(id), plan.opening_segment(opening)?)));
-        for (element, segment) in walls.chain(openings) {
-            let ends = [segment.a, segment.b];
-            if is_in(&ends) || (touches && is_met(&ends, false)) {
-                found.push(element);
-            }
-        }
-        found.retain(|&element| is_selectable(self, element));
-        found
-    }
-
-    /// Says why something was refused, where the command cannot.
-    fn report(&mut self, act: impl FnOnce(&mut Self) -> Ran) {
-        if let Ran::Refused(reason) = act(self) {
-            self.session.status = reason;
-        }
-    }
-
-    /// The point that an argument names, or the middle of what is selected.
-    fn centre_of_selection(&self, values: &Values, index: usize) -> Point {
-        let named = values.points(index).and_then(|points| points.first()).copied();
-        named.unwrap_or_else(|| {
-            let document = self.session.document.as_ref();
-            let bounds = self.session.selection.iter().filter_map(|element| document?.bounds_of(element));
-            bounds.reduce(Bounds::union).map_or(Point::default(), Bounds::center)
-        })
-    }
-
-    /// Keeps what is selected, here and in the system's clipboard.
-    fn copy_selected(&mut self, context: &Context) -> Ran {
-        let Some(plan) = self.plan() else { return Ran::Done };
-        match edit::fragment(plan, self.session.selection.elements()) {
-            Ok(fragment) => {
-                let text = String::from_utf8_lossy(&crate::formats::plan_json::to_bytes(&fragment)).into_owned();
-                context.copy_text(text);
-                self.session.status = format!("Copied {} elements", self.session.selection.len());
-                self.session.copied = Some(fragment);
-                Ran::Done
-            }
-            Err(error) => Ran::Refused(error.to_string()),
-        }
-    }
-
-    /// Takes over what the system's clipboard holds, where that is part of a plan.
-    pub(crate) fn take_pasted(&mut self, text: &str) {
-        if let Ok(plan) = crate::formats::plan_json::from_bytes(text.as_bytes())
-            && !plan.is_empty()
-        {
-            self.session.copied = Some(plan);
-        }
-    }
-
-    fn paste_at(&mut self, at: Point) -> Ran {
-        let Some(fragment) = self.session.copied.clone() else { return Ran::Done };
-        let by = at - fragment.bounds().center();
-        let mut made = BTreeSet::new();
-        let ran = edited(self, "Paste", |plan| {
-            let (next, elements) = edit::insert(plan, &fragment, Transform::translation(by))?;
-            made = elements;
-            Ok(next)
-        });
-        select_made(self, &made);
-        ran
-    }
-
-    /// Shows which corners would be joined, and asks.
-    fn ask_to_weld(&mut self, tolerance_m: f64) -> Ran {
-        let Some(plan) = self.plan() else { return Ran::Done };
-        match edit::weld(plan, tolerance_m) {
-            Err(error) => Ran::Refused(error.to_string()),
-            Ok(weld) if weld.is_empty() => {
-                Ran::Refused(format!("no corners are within {}", self.units().length(tolerance_m)))
-            }
-            Ok(weld) => {
-                let place = |id| plan.position(id).unwrap_or_default();
-                let mut marks: Vec<Segment> =
-                    weld.merged.iter().map(|&(from, to)| Segment::new(place(from), place(to))).collect();
-                marks.extend(weld.onto_edges.iter().map(|&(corner, _)| Segment::new(place(corner), place(corner))));
-                let count = crate::base::wording::count;
-                let (corners, edges) = (count(weld.merged.len(), "corner"), count(weld.onto_edges.len(), "edge"));
-                let text = format!(
-                    "{corners} would become another within {}, and {edges} would be split at a corner: marked on the plan.",
-                    self.units().length(tolerance_m)
-                );
-                self.session.question = Some(Question::Change(ProposedChange {
-                    title: "Weld these corners?".to_owned(),
-                    text,
-                    answers: &[("weld", "Weld"), ("cancel", "Cancel")],
-                    step: "Weld",
-                    plan: weld.plan,
-                    marks,
-                }));
-                Ran::Asks
-            }
-        }
-    }
-
-    /// Shows the gaps in walls, and asks.
-    fn ask_to_bridge(&mut self) -> Ran {
-        let Some(plan) = self.plan() else { return Ran::Done };
-        let gaps = topology::gaps(plan);
-        if gaps.is_empty() {
-            return Ran::Refused(NO_GAPS.to_owned());
-        }
-        match edit::bridge_gaps(plan, &gaps, OpeningKind::Door) {
-            Err(error) => Ran::Refused(error.to_string()),
-            Ok((next, _)) => {
-                let gaps_said = crate::base::wording::count(gaps.len(), "gap");
-                self.session.question = Some(Question::Change(ProposedChange {
-                    title: "Put doors into these gaps?".to_owned(),
-                    text: format!("{gaps_said} between collinear walls, 30 to 150 cm wide: marked on the plan."),
-                    answers: &[("bridge", "Put doors in"), ("cancel", "Cancel")],
-                    step: "Bridge gaps",
-                    plan: next,
-                    marks: gaps.into_iter().map(|gap| gap.segment).collect(),
-                }));
-                Ran::Asks
-            }
-        }
-    }
-
-    /// Draws walls beside what is selected.
-    fn offset_selected(&mut self, values: &Values) -> Ran {
-        let distance_m = values.number(0).copied().unwrap_or_default();
-        let named = values.points(1).and_then(|points| points.first()).copied();
-        let towards = named.or(self.session.pointed.at).unwrap_or_default();
-        let walls: Vec<_> = self.session.selection.walls().collect();
-        let room = self.session.selection.rooms().next();
-        let thickness_m = self.tools.options.thickness_m;
-        edited(self, "Offset", |plan| match (walls.is_empty(), room) {
-            (false, _) => Ok(edit::offset_walls(plan, &walls, distance_m, towards)?.plan),
-            (true, Some(room)) => {
-                let points = plan.room(room).map(|room| plan.ring_points(&room.outer)).unwrap_or_default();
-                let is_inside = polygon::locate_in_ring(&points, towards) != polygon::Location::Outside;
-                Ok(edit::offset_room(plan, room, distance_m, is_inside, thickness_m)?.plan)
-            }
-            (true, None) => Err(EditError("select walls or a room first".to_owned())),
-        })
-    }
-
-    /// Changes the selected openings; the change is told how each is drawn.
-    fn change_openings(
-        &mut self,
-        title: &str,
-        change: impl Fn(&Plan, OpeningId, Swing) -> Result<Plan, EditError>,
-    ) -> Ran {
-        let derived = self.session.document.as_ref().and_then(Document::derived).cloned();
-        let drawn = |id: OpeningId| derived.as_ref().and_then(|derived| derived.drawing.swing_of(id));
-        let openings: Vec<(OpeningId, Swing)> = self
-            .session
-            .selection
-            .openings()
-            .map(|id| (id, drawn(id).unwrap_or(Swing { hinge_at_start: true, side: LeafSide::Left })))
-            .collect();
-        edited(self, title, |plan| {
-            openings.iter().try_fold(plan.clone(), |plan, &(id, swing)| change(&plan, id, swing))
-        })
-    }
-
-    /// Deletes what is selected; asks first where more would go with it.
-    fn delete_selected(&mut self) -> Ran {
-        let Some(plan) = self.plan() else { return Ran::Done };
-        let selected: Vec<ElementId> = self.session.selection.iter().collect();
-        let gone = edit::removed_with(plan, &selected);
-        // Corners that nothing uses any more are no loss.
-        let is_loss = |element: &ElementId| {
-            !self.session.selection.contains(*element) && !matches!(element, ElementId::Corner(_))
-        };
-        if gone.iter().any(is_loss) {
-            self.session.question = Some(Question::Delete { selected, gone });
-            return Ran::Asks;
-        }
-        self.session.delete(&selected);
-        Ran::Done
-    }
-}
+const CENTRE: Arg<Option<Point>> =
+    optional("ABOUT", POINT, "a point, in metres, as '4,3'; the middle of what is selected without");

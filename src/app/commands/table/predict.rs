@@ -1,7 +1,6 @@
 //! What classifiers say.
 
 use super::*;
-use crate::predict::DEFAULT_METHOD;
 
 pub(super) const COMMANDS: &[Command] = &[
     with(
@@ -9,15 +8,13 @@ pub(super) const COMMANDS: &[Command] = &[
         "Models…",
         "Say which models predict: those of the plan's typology, of another, or one of your own",
         always,
-        &[needed(
-            "MODELS",
-            ArgumentKind::ModelSet,
-            "'plan', 'auto' (inferred), a typology, 'standard', or a model's name",
-        )],
-        |app, values, _| {
-            app.session.predictor.set = values.model_set(0).cloned().unwrap_or_default();
-            Ran::Done
-        },
+        &given1(
+            needed("MODELS", MODEL_SET, "'plan', 'auto' (inferred), a typology, 'standard', or a model's name"),
+            |app, set, _| {
+                app.session.predictor.set = set;
+                Ran::Done
+            },
+        ),
         None,
     )
     .menu(Menu::Predict, 0),
@@ -26,11 +23,13 @@ pub(super) const COMMANDS: &[Command] = &[
         "Predict by…",
         "Say by which algorithm is predicted",
         always,
-        &[needed("ALGORITHM", ArgumentKind::Method, "an algorithm, or 'joint' for all rooms of the plan together")],
-        |app, values, _| {
-            app.session.predictor.method = values.method(0).copied().unwrap_or(DEFAULT_METHOD);
-            Ran::Done
-        },
+        &given1(
+            needed("ALGORITHM", METHOD, "an algorithm, or 'joint' for all rooms of the plan together"),
+            |app, method, _| {
+                app.session.predictor.method = method;
+                Ran::Done
+            },
+        ),
         None,
     )
     .menu(Menu::Predict, 1),

@@ -4,27 +4,29 @@ use super::*;
 use crate::app::panels::bulk::Bulk;
 use crate::app::session::bulk::{Change, Order, Which};
 use crate::app::session::labelling::Target;
-use crate::plan::RoomId;
 
-const TARGET: Argument = optional(
+const TARGET: Arg<Option<RoomId>> = optional(
     "ROOM",
-    ArgumentKind::Room,
+    A_ROOM,
     "a room's name or id; without, the selected rooms, or the one under the pointer where nothing is selected",
 );
 
 /// Gives rooms a label.
-const fn label(
+const fn label<G, F>(
     id: &'static str,
     title: &'static str,
     help: &'static str,
-    run: fn(&mut App, &Values, &Context) -> Ran,
+    given: &'static Given<1, G, F>,
     is_on: fn(&App) -> bool,
-) -> Command {
-    with(id, title, help, has_target, &[TARGET], run, None).when_complete(has_rooms).shown_on(is_on).menu(Menu::Room, 2)
+) -> Command
+where
+    Given<1, G, F>: Run,
+{
+    with(id, title, help, has_target, given, None).when_complete(has_rooms).shown_on(is_on).menu(Menu::Room, 2)
 }
 
-fn label_target(app: &mut App, values: &Values, label: Option<Label>) -> Ran {
-    on_target(app, values.room(0).copied(), &[], |app, target| app.session.label_rooms(target, label))
+fn label_target(app: &mut App, room: Option<RoomId>, label: Option<Label>) -> Ran {
+    on_target(app, room, &[], |app, target| app.session.label_rooms(target, label))
 }
 
 /// Does something with the rooms that a command is about; a recording names one that was only under the
@@ -44,14 +46,11 @@ pub(super) const COMMANDS: &[Command] = &[
         "Find a room…",
         "Pick a room by its name and bring it into sight",
         has_rooms,
-        &[ROOM],
-        |app, values, _| {
-            if let Some(picked) = values.room(0).copied().map(ElementId::Room) {
-                app.session.pick(Some(picked));
-                app.canvas.reveal(picked);
-            }
+        &given1(ROOM, |app, room, _| {
+            app.session.pick(Some(ElementId::Room(room)));
+            app.canvas.reveal(ElementId::Room(room));
             Ran::Done
-        },
+        }),
         None,
     )
     .keys(&[ctrl(Key::F)])
@@ -61,11 +60,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Rename…",
         "Write the picked room's name",
         has_room,
-        &[needed("NAME", ArgumentKind::Text, "the room's name")],
-        |app, values, _| {
-            app.session.write_field(FieldKind::Name, values.text(0).unwrap_or_default());
+        &given1(needed("NAME", TEXT, "the room's name"), |app, name, _| {
+            app.session.write_field(FieldKind::Name, &name);
             Ran::Done
-        },
+        }),
         Some(|app, _| app.ask_for_field(FieldKind::Name)),
     )
     .keys(&[key(Key::F2)])
@@ -76,25 +74,19 @@ pub(super) const COMMANDS: &[Command] = &[
         "Say what the selected rooms are for, or the one under the pointer: functions of the typology, those \
          most used first, or any other",
         has_target,
-        &[
-            needed(
-                "FUNCTION",
-                ArgumentKind::Function,
-                "what the room is for, as the label scheme or as the source has it",
-            ),
+        &given2(
+            needed("FUNCTION", FUNCTION, "what the room is for, as the label scheme or as the source has it"),
             TARGET,
-        ],
-        |app, values, _| {
-            let function = values.text(0).unwrap_or_default().to_owned();
-            on_target(app, values.room(1).copied(), &[&function], |app, target| {
-                app.session.set_function_of(target, &function)
-            })
-        },
+            |app, function, room, _| {
+                on_target(app, room, &[&function], |app, target| app.session.set_function_of(target, &function))
+            },
+        ),
         Some(|app, _| {
             let Some((plan, target)) = app.plan().zip(app.session.target(None)) else { return };
             let (title, rest) = (target.title(plan), target.word(plan));
             let asking = crate::app::commands::find("set-function").map(|command| Palette::asking(command, Vec::new()));
-            app.panels.palette = asking.map(|palette| palette.about(&title, rest.into_iter().collect()));
+            let asking = asking.map(|palette| palette.about(&title, rest.into_iter().collect()));
+            asking.into_iter().for_each(|palette| app.open_palette(palette));
         }),
     )
     .when_complete(has_rooms)
@@ -105,11 +97,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Write note…",
         "Write a note on the picked room",
         has_room,
-        &[needed("TEXT", ArgumentKind::Text, "the note")],
-        |app, values, _| {
-            app.session.write_field(FieldKind::Note, values.text(0).unwrap_or_default());
+        &given1(needed("TEXT", TEXT, "the note"), |app, note, _| {
+            app.session.write_field(FieldKind::Note, &note);
             Ran::Done
-        },
+        }),
         Some(|app, _| app.ask_for_field(FieldKind::Note)),
     )
     .menu(Menu::Room, 1),
@@ -118,57 +109,47 @@ pub(super) const COMMANDS: &[Command] = &[
         "Name rooms…",
         "Name many rooms by a pattern such as {function} {n}, after showing what each would be called",
         has_rooms,
-        &[
-            needed(
-                "PATTERN",
-                ArgumentKind::Text,
-                "text with {n}, {nn}, {function}, {label}, {letter}, {storey}, {building}",
-            ),
+        &given4(
+            needed("PATTERN", TEXT, "text with {n}, {nn}, {function}, {label}, {letter}, {storey}, {building}"),
             optional(
                 "ROOMS",
-                ArgumentKind::Text,
+                TEXT,
                 "unnamed (without), selected, all, 'function office', 'label big' or 'along 1,2 5,2'",
             ),
-            optional("ORDER", ArgumentKind::Word(Order::WORDS), "rows (without) or columns, from the top left"),
-            optional("START", ArgumentKind::Number { unit: "", least: 0.0, most: 1e6 }, "the first number, 1 without"),
-        ],
-        |app, values, _| {
-            let which = Which::of_word(values.text(1).unwrap_or("unnamed"));
-            let order = Order::of_word(values.word(2).copied().unwrap_or_default());
-            let start = values.number(3).map_or(1, |start| start.round() as u32);
-            let pattern = values.text(0).unwrap_or_default();
-            match which.and_then(|which| app.session.name_rooms(pattern, &which, order, start)) {
-                Ok(()) => Ran::Done,
-                Err(reason) => Ran::Refused(reason),
-            }
-        },
-        Some(|app, _| app.panels.bulk = Some(Bulk::naming(app))),
+            optional("ORDER", one_of::<Order>(), "rows (without) or columns, from the top left"),
+            optional("START", number("", 0.0, 1e6), "the first number, 1 without"),
+            |app, pattern, which, order, start, _| {
+                let which = Which::of_word(which.as_deref().unwrap_or("unnamed"));
+                let order = order.unwrap_or(Order::Rows);
+                let start = start.map_or(1, |start| start.round() as u32);
+                match which.and_then(|which| app.session.name_rooms(&pattern, &which, order, start)) {
+                    Ok(()) => Ran::Done,
+                    Err(reason) => Ran::Refused(reason),
+                }
+            },
+        ),
+        Some(|app, _| app.open_dialog(crate::app::panels::bulk::ID)),
     )
     .keys(&[ctrl(Key::F2)])
     .menu(Menu::Room, 1),
-    choose(
-        "tool-number",
-        "Name along a line",
-        "Drag a line through rooms: they are named in the order in which it comes to them",
-        has_rooms,
-        |app| app.tools.is("number"),
-        |app, _| app.tools.take_up("number"),
-    )
-    .menu(Menu::Room, 1),
+    tool(&tools::NUMBER, has_rooms).menu(Menu::Room, 1),
     with(
         "name-along",
         "Name rooms along a line",
         "Name the rooms that a line goes through, in the order in which it comes to them; asks for a pattern",
         has_rooms,
-        &[needed("POINTS", ArgumentKind::Points { least: 2 }, "the line's points, X,Y in metres with blanks between")],
-        |app, values, _| {
-            let which = Which::Along(values.points(0).unwrap_or_default().to_vec());
-            if app.session.rooms_of(&which).is_empty() {
-                return Ran::Refused("the line goes through no room".to_owned());
-            }
-            app.panels.bulk = Some(Bulk::naming_these(app, which));
-            Ran::Asks
-        },
+        &given1(
+            needed("POINTS", points(2), "the line's points, X,Y in metres with blanks between"),
+            |app, points, _| {
+                let which = Which::Along(points);
+                if app.session.rooms_of(&which).is_empty() {
+                    return Ran::Refused("the line goes through no room".to_owned());
+                }
+                let dialog = Bulk::naming_these(app, which);
+                app.dialogs.open(crate::app::panels::bulk::ID, Box::new(dialog));
+                Ran::Asks
+            },
+        ),
         None,
     ),
     with(
@@ -177,26 +158,29 @@ pub(super) const COMMANDS: &[Command] = &[
         "Give all rooms of a function, of a label, or selected, another function or label, after showing how many \
          they are",
         has_rooms,
-        &[
-            needed("ROOMS", ArgumentKind::Text, "selected, unnamed, all, 'function office' or 'label big'"),
-            needed("CHANGE", ArgumentKind::Text, "'function meeting room', 'label hall' or 'label by-function'"),
-        ],
-        |app, values, _| {
-            let which = Which::of_word(values.text(0).unwrap_or_default());
-            let change = Change::of_word(values.text(1).unwrap_or_default());
-            match which.and_then(|which| app.session.change_rooms(&which, &change?)) {
-                Ok(()) => Ran::Done,
-                Err(reason) => Ran::Refused(reason),
-            }
-        },
-        Some(|app, _| app.panels.bulk = Some(Bulk::changing(app))),
+        &given2(
+            needed("ROOMS", TEXT, "selected, unnamed, all, 'function office' or 'label big'"),
+            needed("CHANGE", TEXT, "'function meeting room', 'label hall' or 'label by-function'"),
+            |app, which, change, _| {
+                let which = Which::of_word(&which);
+                let change = Change::of_word(&change);
+                match which.and_then(|which| app.session.change_rooms(&which, &change?)) {
+                    Ok(()) => Ran::Done,
+                    Err(reason) => Ran::Refused(reason),
+                }
+            },
+        ),
+        Some(|app, _| {
+            let dialog = Bulk::changing(app);
+            app.dialogs.open(crate::app::panels::bulk::ID, Box::new(dialog));
+        }),
     )
     .menu(Menu::Room, 1),
     label(
         "label-small",
         "Small room",
         "Label the selected rooms, or the one under the pointer, as a small room",
-        |app, values, _| label_target(app, values, Some(Label::SmallRoom)),
+        &given1(TARGET, |app, room, _| label_target(app, room, Some(Label::SmallRoom))),
         |app| app.session.selected_label() == Some(Label::SmallRoom),
     )
     .keys(&[key(Key::S), key(Key::Num1)]),
@@ -204,7 +188,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "label-medium",
         "Medium room",
         "Label the selected rooms, or the one under the pointer, as a medium room",
-        |app, values, _| label_target(app, values, Some(Label::MediumRoom)),
+        &given1(TARGET, |app, room, _| label_target(app, room, Some(Label::MediumRoom))),
         |app| app.session.selected_label() == Some(Label::MediumRoom),
     )
     .keys(&[key(Key::M), key(Key::Num2)]),
@@ -212,7 +196,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "label-big",
         "Big room",
         "Label the selected rooms, or the one under the pointer, as a big room",
-        |app, values, _| label_target(app, values, Some(Label::BigRoom)),
+        &given1(TARGET, |app, room, _| label_target(app, room, Some(Label::BigRoom))),
         |app| app.session.selected_label() == Some(Label::BigRoom),
     )
     .keys(&[key(Key::B), key(Key::Num3)]),
@@ -220,7 +204,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "label-corridor",
         "Corridor",
         "Label the selected rooms, or the one under the pointer, as a corridor",
-        |app, values, _| label_target(app, values, Some(Label::Corridor)),
+        &given1(TARGET, |app, room, _| label_target(app, room, Some(Label::Corridor))),
         |app| app.session.selected_label() == Some(Label::Corridor),
     )
     .keys(&[key(Key::C), key(Key::Num4)]),
@@ -228,7 +212,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "label-hall",
         "Hall",
         "Label the selected rooms, or the one under the pointer, as a hall",
-        |app, values, _| label_target(app, values, Some(Label::Hall)),
+        &given1(TARGET, |app, room, _| label_target(app, room, Some(Label::Hall))),
         |app| app.session.selected_label() == Some(Label::Hall),
     )
     .keys(&[key(Key::H), key(Key::Num5)]),
@@ -237,8 +221,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Label by function",
         "Drop the rooms' own labels: the label scheme's answer for their functions counts",
         has_own_label,
-        &[TARGET],
-        |app, values, _| label_target(app, values, None),
+        &given1(TARGET, |app, room, _| label_target(app, room, None)),
         None,
     )
     .when_complete(has_rooms)

@@ -8,11 +8,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Pick a room",
         "Pick a room, as a click on it does: the view stays where it is",
         has_rooms,
-        &[ROOM],
-        |app, values, _| {
-            app.session.pick(values.room(0).copied().map(ElementId::Room));
+        &given1(ROOM, |app, room, _| {
+            app.session.pick(Some(ElementId::Room(room)));
             Ran::Done
-        },
+        }),
         None,
     ),
     with(
@@ -20,15 +19,14 @@ pub(super) const COMMANDS: &[Command] = &[
         "Select elements",
         "Select rooms, walls, openings and corners, as clicks and boxes do",
         has_plan,
-        &[
-            needed("ELEMENTS", ArgumentKind::Elements, "ids with blanks between"),
-            optional("MODE", ArgumentKind::Word(SelectMode::WORDS), "replace (without), add or toggle"),
-        ],
-        |app, values, _| {
-            let mode = SelectMode::of_word(values.word(1).copied().unwrap_or("replace"));
-            app.session.select(values.elements(0).unwrap_or_default().iter().copied(), mode);
-            Ran::Done
-        },
+        &given2(
+            needed("ELEMENTS", ELEMENTS, "ids with blanks between"),
+            optional("MODE", one_of::<SelectMode>(), "replace (without), add or toggle"),
+            |app, elements, mode, _| {
+                app.session.select(elements, mode.unwrap_or(SelectMode::Replace));
+                Ran::Done
+            },
+        ),
         None,
     ),
     with(
@@ -36,19 +34,18 @@ pub(super) const COMMANDS: &[Command] = &[
         "Pick an opening",
         "Pick an opening, as a click on it does",
         has_openings,
-        &[
-            needed("OPENING", ArgumentKind::Opening, "the opening's id"),
-            optional("SHOW", ArgumentKind::Switch, "on to bring it into sight; without, the view stays where it is"),
-        ],
-        |app, values, _| {
-            if let Some(picked) = values.opening(0).copied().map(ElementId::Opening) {
+        &given2(
+            needed("OPENING", OPENING, "the opening's id"),
+            optional("SHOW", ON_OR_OFF, "on to bring it into sight; without, the view stays where it is"),
+            |app, opening, is_shown, _| {
+                let picked = ElementId::Opening(opening);
                 app.session.pick(Some(picked));
-                if values.switch(1) == Some(&true) {
+                if is_shown == Some(true) {
                     app.canvas.reveal(picked);
                 }
-            }
-            Ran::Done
-        },
+                Ran::Done
+            },
+        ),
         None,
     ),
     with(
@@ -56,16 +53,15 @@ pub(super) const COMMANDS: &[Command] = &[
         "Pick towards",
         "Pick the next room in a direction, as an arrow key on the plan does",
         has_rooms,
-        &[needed("DIRECTION", ArgumentKind::Word(DIRECTIONS), "left, right, up or down")],
-        |app, values, _| {
-            app.session.pick_towards(match values.word(0) {
-                Some(&"left") => Vector::new(-1.0, 0.0),
-                Some(&"right") => Vector::new(1.0, 0.0),
-                Some(&"up") => Vector::new(0.0, 1.0),
-                _ => Vector::new(0.0, -1.0),
+        &given1(needed("DIRECTION", one_of::<Direction>(), "left, right, up or down"), |app, direction, _| {
+            app.session.pick_towards(match direction {
+                Direction::Left => Vector::new(-1.0, 0.0),
+                Direction::Right => Vector::new(1.0, 0.0),
+                Direction::Up => Vector::new(0.0, 1.0),
+                Direction::Down => Vector::new(0.0, -1.0),
             });
             Ran::Done
-        },
+        }),
         None,
     ),
     with(
@@ -73,13 +69,11 @@ pub(super) const COMMANDS: &[Command] = &[
         "Zoom to a place",
         "Show a rectangle of the plan as large as fits",
         has_plan,
-        &[X, Y, WIDTH, HEIGHT],
-        |app, values, _| {
-            let number = |index: usize| values.number(index).copied().unwrap_or_default();
-            let corner = Point::new(number(0), number(1));
-            app.canvas.zoom_to(Bounds::of([corner, corner + Vector::new(number(2), number(3))]));
+        &given4(X, Y, WIDTH, HEIGHT, |app, x, y, width, height, _| {
+            let corner = Point::new(x, y);
+            app.canvas.zoom_to(Bounds::of([corner, corner + Vector::new(width, height)]));
             Ran::Done
-        },
+        }),
         None,
     ),
     with(
@@ -87,12 +81,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Set the view",
         "Show the plan about a point, a metre so many pixels long",
         has_plan,
-        &[X, Y, SCALE],
-        |app, values, _| {
-            let number = |index: usize| values.number(index).copied().unwrap_or_default();
-            app.canvas.look_at(Point::new(number(0), number(1)), number(2));
+        &given3(X, Y, SCALE, |app, x, y, scale, _| {
+            app.canvas.look_at(Point::new(x, y), scale);
             Ran::Done
-        },
+        }),
         None,
     ),
     with(
@@ -100,16 +92,15 @@ pub(super) const COMMANDS: &[Command] = &[
         "Dismiss a message",
         "Take a message out of the bar above the plan",
         has_messages,
-        &[optional("NUMBER", ArgumentKind::Count, "which one, the oldest being 1; without, the newest")],
-        |app, values, _| {
+        &given1(optional("NUMBER", COUNT, "which one, the oldest being 1; without, the newest"), |app, number, _| {
             let newest = app.session.messages.len();
-            let number = values.count(0).copied().unwrap_or(newest);
+            let number = number.unwrap_or(newest);
             if number > newest {
                 return Ran::Refused(format!("there are {newest} messages"));
             }
             app.session.messages.remove(number - 1);
             Ran::Done
-        },
+        }),
         None,
     ),
     with(
@@ -117,14 +108,13 @@ pub(super) const COMMANDS: &[Command] = &[
         "Answer the question",
         "Press a button of the question that is asked",
         is_asked,
-        &[
-            needed("ANSWER", ArgumentKind::Answer, "the button: save, discard, replace, elsewhere, delete or cancel"),
-            optional("PATH", ArgumentKind::NewPlanFile, "the file to save in, where a dialog would ask for it"),
-        ],
-        |app, values, _| {
-            let word = values.word(0).copied().unwrap_or("cancel");
-            if app.session.answer(word, values.path(1).map(Path::to_owned)) { Ran::Done } else { Ran::Asks }
-        },
+        &given2(
+            needed("ANSWER", ANSWER, "the button: save, discard, replace, elsewhere, delete or cancel"),
+            optional("PATH", NEW_PLAN_FILE, "the file to save in, where a dialog would ask for it"),
+            |app, word, path, _| {
+                if app.session.answer(word, path) { Ran::Done } else { Ran::Asks }
+            },
+        ),
         None,
     ),
 ];

@@ -5,15 +5,9 @@ use crate::edit::EditError;
 use crate::edit::guides::{add_guide, clear_guides, move_guide, remove_guide};
 use crate::plan::{GuideAxis, Plan};
 
-const AXES: &[(&str, &str)] = &[("horizontal", "Horizontal"), ("vertical", "Vertical")];
+const AXIS: Arg<GuideAxis> = needed("WAY", one_of::<GuideAxis>(), "horizontal or vertical");
 
-const AXIS: Argument = needed("WAY", ArgumentKind::Word(AXES), "horizontal or vertical");
-
-const POSITION: Argument = needed(
-    "POSITION",
-    ArgumentKind::Length { least_m: -FAR_M, most_m: FAR_M },
-    "y of a horizontal guide, x of a vertical one",
-);
+const POSITION: Arg<f64> = needed("POSITION", length(-FAR_M, FAR_M), "y of a horizontal guide, x of a vertical one");
 
 fn has_ghost(app: &App) -> Availability {
     has_plan(app)?;
@@ -26,17 +20,10 @@ fn has_guides(app: &App) -> Availability {
 }
 
 impl App {
-    /// Changes guides as a command says: its way, its place, and where it is to be.
-    fn change_guides(
-        &mut self,
-        title: &str,
-        values: &Values,
-        change: impl FnOnce(&Plan, GuideAxis, f64, f64) -> Result<Plan, EditError>,
-    ) -> Ran {
-        let axis = values.word(0).and_then(|word| word.parse().ok()).unwrap_or(GuideAxis::Horizontal);
-        let number = |index: usize| values.number(index).copied().unwrap_or_default();
+    /// Changes guides, and shows them.
+    fn change_guides(&mut self, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) -> Ran {
         let Some(plan) = self.plan() else { return Ran::Done };
-        match change(plan, axis, number(1), number(2)) {
+        match change(plan) {
             Ok(plan) => {
                 self.session.layers.guides = true;
                 self.session.edit(title, |_| Ok(plan));
@@ -194,25 +181,23 @@ pub(super) const COMMANDS: &[Command] = &[
         "Show a storey below…",
         "Draw another plan faintly under this one: the storey below, say",
         has_plan,
-        &[
-            needed("PATH", ArgumentKind::PlanFile, "a file with a plan"),
+        &given2(
+            needed("PATH", PLAN_FILE, "a file with a plan"),
             optional(
                 "STOREY",
-                ArgumentKind::Count,
+                COUNT,
                 "which plan of the file, from 1; without, the first, of the open file the one before",
             ),
-        ],
-        |app, values, _| {
-            if let Some(path) = values.path(0) {
-                app.session.read_ghost(path.to_owned(), values.count(1).map(|storey| storey - 1));
-            }
-            Ran::Done
-        },
+            |app, path, storey, _| {
+                app.session.read_ghost(path, storey.map(|storey| storey - 1));
+                Ran::Done
+            },
+        ),
         Some(|app, _| {
             let choices = app.session.ghost_choices();
             let asking = crate::app::commands::find("ghost").map(|command| Palette::asking(command, Vec::new()));
-            app.panels.palette =
-                asking.map(|palette| if choices.is_empty() { palette } else { palette.with_choices(choices) });
+            let asking = asking.map(|palette| if choices.is_empty() { palette } else { palette.with_choices(choices) });
+            asking.into_iter().for_each(|palette| app.open_palette(palette));
         }),
     )
     .menu(Menu::View, 3),
@@ -235,8 +220,9 @@ pub(super) const COMMANDS: &[Command] = &[
         "Add a guide…",
         "Add a line to draw along; or drag one out of a ruler",
         has_plan,
-        &[AXIS, POSITION],
-        |app, values, _| app.change_guides("Add guide", values, |plan, axis, at_m, _| add_guide(plan, axis, at_m)),
+        &given2(AXIS, POSITION, |app, axis, at_m, _| {
+            app.change_guides("Add guide", |plan| add_guide(plan, axis, at_m))
+        }),
         None,
     )
     .menu(Menu::View, 3),
@@ -245,8 +231,12 @@ pub(super) const COMMANDS: &[Command] = &[
         "Move a guide",
         "Move a guide line; or drag its mark along a ruler",
         has_guides,
-        &[AXIS, POSITION, needed("TO", ArgumentKind::Length { least_m: -FAR_M, most_m: FAR_M }, "where it is to be")],
-        |app, values, _| app.change_guides("Move guide", values, move_guide),
+        &given3(
+            AXIS,
+            POSITION,
+            needed("TO", length(-FAR_M, FAR_M), "where it is to be"),
+            |app, axis, from_m, to_m, _| app.change_guides("Move guide", |plan| move_guide(plan, axis, from_m, to_m)),
+        ),
         None,
     ),
     with(
@@ -254,10 +244,9 @@ pub(super) const COMMANDS: &[Command] = &[
         "Remove a guide",
         "Take a guide line away; or drag its mark off the ruler, or double-click the mark",
         has_guides,
-        &[AXIS, POSITION],
-        |app, values, _| {
-            app.change_guides("Remove guide", values, |plan, axis, at_m, _| remove_guide(plan, axis, at_m))
-        },
+        &given2(AXIS, POSITION, |app, axis, at_m, _| {
+            app.change_guides("Remove guide", |plan| remove_guide(plan, axis, at_m))
+        }),
         None,
     ),
     command("clear-guides", "Clear guides", "Take all guide lines away", has_guides, |app, _| {
@@ -269,14 +258,12 @@ pub(super) const COMMANDS: &[Command] = &[
         "Grid spacing…",
         "Set how far the grid's lines are apart, or leave it to the zoom",
         always,
-        &[needed("SPACING", ArgumentKind::Text, "a length, or 'auto'")],
-        |app, values, _| {
-            let text = values.text(0).unwrap_or_default();
+        &given1(needed("SPACING", TEXT, "a length, or 'auto'"), |app, text, _| {
             if text == AUTO {
                 app.set_grid_m(None);
                 return Ran::DoneWith(vec![AUTO.to_owned()]);
             }
-            match app.units().parse_length(text).map(trim_m) {
+            match app.units().parse_length(&text).map(trim_m) {
                 Ok(grid_m) if GRID_RANGE_M.contains(&grid_m) => {
                     app.set_grid_m(Some(grid_m));
                     Ran::DoneWith(vec![format!("{grid_m}m")])
@@ -287,11 +274,11 @@ pub(super) const COMMANDS: &[Command] = &[
                 }
                 Err(error) => Ran::Refused(error.to_string()),
             }
-        },
+        }),
         Some(|app, _| {
             let now = app.session.settings.grid_m().map_or(AUTO.to_owned(), |grid_m| app.units().exact_length(grid_m));
             let asking = crate::app::commands::find("grid-spacing").map(|command| Palette::asking(command, Vec::new()));
-            app.panels.palette = asking.map(|palette| palette.with_text(&now));
+            asking.into_iter().for_each(|palette| app.open_palette(palette.with_text(&now)));
         }),
     )
     .menu(Menu::View, 3),

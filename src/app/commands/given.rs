@@ -1,0 +1,235 @@
+//! Arguments with a type: what an argument is called, what it can be, how it is read and what a command gets
+//! are said in one place, so that a wrong place or a wrong kind does not compile.
+
+use std::marker::PhantomData;
+use std::path::PathBuf;
+
+use egui::Context;
+
+use super::{Argument, ArgumentKind, Command, Ran, find};
+use crate::app::look::keys::Keys;
+use crate::app::state::App;
+use crate::app::value::{Value, Values, Worded};
+use crate::classify::Method;
+use crate::geometry::Point;
+use crate::labels::Typology;
+use crate::plan::{ElementId, OpeningId, RoomId};
+use crate::predict::ModelSet;
+
+/// What a command can get of a value.
+pub(super) trait OfValue: Sized + 'static {
+    /// `None` where it is a value of another kind.
+    fn of(value: &Value) -> Option<Self>;
+}
+
+/// What a command gets of a value of one kind.
+macro_rules! of_value {
+    ($($type:ty: $variant:ident;)*) => {$(
+        impl OfValue for $type {
+            fn of(value: &Value) -> Option<Self> {
+                match value {
+                    Value::$variant(value) => Some(value.clone()),
+                    _ => None,
+                }
+            }
+        }
+    )*};
+}
+
+of_value! {
+    PathBuf: Path;
+    String: Text;
+    f64: Number;
+    usize: Count;
+    RoomId: Room;
+    OpeningId: Opening;
+    Vec<ElementId>: Elements;
+    Vec<Point>: Points;
+    Option<Typology>: Typology;
+    ModelSet: ModelSet;
+    Method: Method;
+    bool: Switch;
+    &'static str: Word;
+    Keys: Keys;
+}
+
+/// The first of some points.
+impl OfValue for Point {
+    fn of(value: &Value) -> Option<Self> {
+        match value {
+            Value::Points(points) => points.first().copied(),
+            _ => None,
+        }
+    }
+}
+
+impl OfValue for &'static Command {
+    fn of(value: &Value) -> Option<Self> {
+        match value {
+            Value::Command(id) => find(id),
+            _ => None,
+        }
+    }
+}
+
+/// The index of a plan that comes with the program.
+pub(super) struct Sample(pub usize);
+
+impl OfValue for Sample {
+    fn of(value: &Value) -> Option<Self> {
+        match value {
+            Value::Sample(index) => Some(Self(*index)),
+            _ => None,
+        }
+    }
+}
+
+impl<T: Worded> OfValue for T {
+    fn of(value: &Value) -> Option<Self> {
+        match value {
+            Value::Word(word) => T::of_its_word(word),
+            _ => None,
+        }
+    }
+}
+
+/// What an argument can be, and what a command gets of it.
+pub(super) struct Kind<T> {
+    kind: ArgumentKind,
+    of: PhantomData<fn() -> T>,
+}
+
+const fn kind<T>(kind: ArgumentKind) -> Kind<T> {
+    Kind { kind, of: PhantomData }
+}
+
+pub(super) const PLAN_FILE: Kind<PathBuf> = kind(ArgumentKind::PlanFile);
+pub(super) const NEW_PLAN_FILE: Kind<PathBuf> = kind(ArgumentKind::NewPlanFile);
+pub(super) const PICTURE_FILE: Kind<PathBuf> = kind(ArgumentKind::PictureFile);
+pub(super) const TEXT: Kind<String> = kind(ArgumentKind::Text);
+pub(super) const FUNCTION: Kind<String> = kind(ArgumentKind::Function);
+pub(super) const COUNT: Kind<usize> = kind(ArgumentKind::Count);
+pub(super) const A_ROOM: Kind<RoomId> = kind(ArgumentKind::Room);
+pub(super) const OPENING: Kind<OpeningId> = kind(ArgumentKind::Opening);
+pub(super) const ELEMENTS: Kind<Vec<ElementId>> = kind(ArgumentKind::Elements);
+pub(super) const POINT: Kind<Point> = kind(ArgumentKind::Points { least: 1 });
+pub(super) const TYPOLOGY: Kind<Option<Typology>> = kind(ArgumentKind::Typology);
+pub(super) const MODEL_SET: Kind<ModelSet> = kind(ArgumentKind::ModelSet);
+pub(super) const METHOD: Kind<Method> = kind(ArgumentKind::Method);
+pub(super) const SAMPLE: Kind<Sample> = kind(ArgumentKind::Sample);
+pub(super) const ON_OR_OFF: Kind<bool> = kind(ArgumentKind::Switch);
+pub(super) const ANSWER: Kind<&'static str> = kind(ArgumentKind::Answer);
+pub(super) const A_COMMAND: Kind<&'static Command> = kind(ArgumentKind::Command);
+pub(super) const KEYS: Kind<Keys> = kind(ArgumentKind::Keys);
+
+/// A number: what it counts with a blank before (' of degrees'), and its range.
+pub(super) const fn number(unit: &'static str, least: f64, most: f64) -> Kind<f64> {
+    kind(ArgumentKind::Number { unit, least, most })
+}
+
+/// A number of metres.
+pub(super) const fn metres(least_m: f64, most_m: f64) -> Kind<f64> {
+    number(" of metres", least_m, most_m)
+}
+
+/// A length in the units that are set, or with its own.
+pub(super) const fn length(least_m: f64, most_m: f64) -> Kind<f64> {
+    kind(ArgumentKind::Length { least_m, most_m })
+}
+
+/// At least so many points.
+pub(super) const fn points(least: usize) -> Kind<Vec<Point>> {
+    kind(ArgumentKind::Points { least })
+}
+
+/// One of several things, each with a word.
+pub(super) const fn one_of<T: Worded>() -> Kind<T> {
+    assert!(T::WORDS.len() == T::ALL.len(), "a word for each");
+    kind(ArgumentKind::Word(T::WORDS))
+}
+
+/// How an argument is got out of a value, or out of none.
+type Get<T> = fn(Option<&Value>) -> Option<T>;
+
+/// Something a command takes, and what it gets.
+pub(super) struct Arg<T> {
+    argument: Argument,
+    get: Get<T>,
+}
+
+/// Something that must be there.
+pub(super) const fn needed<T: OfValue>(name: &'static str, kind: Kind<T>, help: &'static str) -> Arg<T> {
+    Arg { argument: Argument { name, kind: kind.kind, is_optional: false, help }, get: |value| T::of(value?) }
+}
+
+/// Something that may be left out.
+pub(super) const fn optional<T: OfValue>(name: &'static str, kind: Kind<T>, help: &'static str) -> Arg<Option<T>> {
+    Arg {
+        argument: Argument { name, kind: kind.kind, is_optional: true, help },
+        get: |value| match value {
+            None => Some(None),
+            Some(value) => T::of(value).map(Some),
+        },
+    }
+}
+
+impl<T> Arg<T> {
+    pub(super) const fn argument(&self) -> Argument {
+        self.argument
+    }
+}
+
+/// What a command does with its arguments.
+pub(super) trait Run: Sync {
+    fn run(&self, app: &mut App, values: &Values, context: &Context) -> Ran;
+}
+
+/// Arguments, how each is got, and what is done with them.
+pub(super) struct Given<const N: usize, G, F> {
+    pub arguments: [Argument; N],
+    get: G,
+    run: F,
+}
+
+/// Values were checked against the arguments before: this is not seen.
+const MISFIT: &str = "an argument is of another kind than the command takes";
+
+macro_rules! given {
+    ($($name:ident $n:literal: $($a:ident $T:ident),*;)*) => {$(
+        pub(super) const fn $name<$($T),*>(
+            $($a: Arg<$T>,)*
+            run: fn(&mut App, $($T,)* &Context) -> Ran,
+        ) -> Given<$n, ($(Get<$T>,)*), fn(&mut App, $($T,)* &Context) -> Ran> {
+            Given { arguments: [$($a.argument),*], get: ($($a.get,)*), run }
+        }
+
+        impl<$($T),*> Run for Given<$n, ($(Get<$T>,)*), fn(&mut App, $($T,)* &Context) -> Ran> {
+            fn run(&self, app: &mut App, values: &Values, context: &Context) -> Ran {
+                let ($($a,)*) = self.get;
+                let mut values = values.0.iter();
+                let ($(Some($a),)*) = ($($a(values.next()),)*) else { return Ran::Refused(MISFIT.to_owned()) };
+                (self.run)(app, $($a,)* context)
+            }
+        }
+    )*};
+}
+
+given! {
+    given1 1: a A;
+    given2 2: a A, b B;
+    given3 3: a A, b B, c C;
+    given4 4: a A, b B, c C, d D;
+    given5 5: a A, b B, c C, d D, e E;
+    given6 6: a A, b B, c C, d D, e E, f F;
+}
+
+/// What takes no arguments.
+pub(super) const fn given0(run: fn(&mut App, &Context) -> Ran) -> Given<0, (), fn(&mut App, &Context) -> Ran> {
+    Given { arguments: [], get: (), run }
+}
+
+impl Run for Given<0, (), fn(&mut App, &Context) -> Ran> {
+    fn run(&self, app: &mut App, _: &Values, context: &Context) -> Ran {
+        (self.run)(app, context)
+    }
+}

@@ -1,0 +1,307 @@
+//! What the commands that select and change things do, where that is more than a line.
+
+use super::*;
+
+/// Over which line things are mirrored.
+#[derive(Clone, Copy)]
+pub(super) enum Mirror {
+    LeftRight,
+    UpDown,
+}
+
+impl Worded for Mirror {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("left-right", "Left and right"), ("up-down", "Up and down")];
+    const ALL: &'static [Self] = &[Self::LeftRight, Self::UpDown];
+}
+
+/// Which way things are put at equal distances.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Way {
+    Across,
+    Up,
+}
+
+impl Worded for Way {
+    const WORDS: &'static [(&'static str, &'static str)] = &[("across", "Side by side"), ("up", "Above each other")];
+    const ALL: &'static [Self] = &[Self::Across, Self::Up];
+}
+
+/// A label that is looked for, or none.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted(pub Option<Label>);
+
+impl Worded for Wanted {
+    const WORDS: &'static [(&'static str, &'static str)] = &[
+        ("small", "Small room"),
+        ("medium", "Medium room"),
+        ("big", "Big room"),
+        ("corridor", "Corridor"),
+        ("hall", "Hall"),
+        ("none", "No label"),
+    ];
+    const ALL: &'static [Self] = &[
+        Self(Some(Label::SmallRoom)),
+        Self(Some(Label::MediumRoom)),
+        Self(Some(Label::BigRoom)),
+        Self(Some(Label::Corridor)),
+        Self(Some(Label::Hall)),
+        Self(None),
+    ];
+}
+
+pub(super) const NO_GAPS: &str = "there is no gap of 30 to 150 cm between collinear walls";
+
+/// Moves what is selected.
+pub(super) fn moved(app: &mut App, title: &str, transform: Transform) -> Ran {
+    let selected = app.session.selection.elements().clone();
+    edited(app, title, |plan| {
+        let next = edit::move_elements(plan, &selected, transform)?;
+        // What comes to lie on something else shares its corners.
+        edit::settle(&next, &edit::corners_of(plan, &selected)?)
+    })
+}
+
+/// Copies what is selected and selects the copies.
+pub(super) fn copied(app: &mut App, array: Array) -> Ran {
+    let selected = app.session.selection.elements().clone();
+    let mut made = BTreeSet::new();
+    let ran = edited(app, "Array", |plan| {
+        let (next, copies) = edit::array(plan, &selected, array)?;
+        made = copies;
+        Ok(next)
+    });
+    select_made(app, &made);
+    ran
+}
+
+/// Selects what was made, but for corners.
+pub(super) fn select_made(app: &mut App, made: &BTreeSet<ElementId>) {
+    let made: Vec<ElementId> =
+        made.iter().copied().filter(|element| !matches!(element, ElementId::Corner(_))).collect();
+    if !made.is_empty() {
+        app.session.select(made, SelectMode::Replace);
+    }
+}
+
+pub(super) fn has_copied(app: &App) -> Availability {
+    has_plan(app)?;
+    when(app.session.copied.is_some(), "nothing was copied yet")
+}
+
+pub(super) fn has_opening(app: &App) -> Availability {
+    has_picked(app)?;
+    when(app.session.selection.openings().next().is_some(), "select a door or another opening first")
+}
+
+pub(super) fn is_labelled(status: RoomStatus, wanted: Option<Label>) -> bool {
+    match status {
+        RoomStatus::Labelled(label) => wanted == Some(label),
+        RoomStatus::Unlabelled => wanted.is_none(),
+        RoomStatus::NotClassified => false,
+    }
+}
+
+/// Selects what was looked for.
+pub(super) fn select_found(app: &mut App, found: Vec<ElementId>, mode: Option<SelectMode>) -> Ran {
+    if found.is_empty() {
+        return Ran::Refused("there is no such room".to_owned());
+    }
+    app.session.status = format!("Found {}", crate::base::wording::count(found.len(), "room"));
+    app.session.select(found, mode.unwrap_or(SelectMode::Replace));
+    Ran::Done
+}
+
+pub(super) fn has_drawing(app: &App) -> Availability {
+    has_plan(app)?;
+    when(app.plan().is_some_and(|plan| !plan.is_empty()), "nothing is drawn yet")
+}
+
+/// Corners are selected by hand only: they are part of everything else.
+pub(super) fn is_selectable(app: &App, element: ElementId) -> bool {
+    !matches!(element, ElementId::Corner(_)) && !app.session.layers.is_locked(element)
+}
+
+impl App {
+    /// What lies in a box, or also what it touches.
+    pub(super) fn elements_in(&self, bounds: Bounds, touches: bool) -> Vec<ElementId> {
+        let Some(plan) = self.plan() else { return Vec::new() };
+        let is_in = |points: &[Point]| !points.is_empty() && points.iter().all(|&point| bounds.contains(point));
+        let is_met = |points: &[Point], closed: bool| {
+            let closing = points.last().zip(points.first()).filter(|_| closed);
+            let pairs = points.windows(2).map(|pair| (&pair[0], &pair[1])).chain(closing);
+            pairs.into_iter().any(|(a, b)| bounds.meets(Segment::new(*a, *b)))
+        };
+        let mut found = Vec::new();
+        for (id, room) in plan.rooms() {
+            let points = plan.ring_points(&room.outer);
+            let is_around = || polygon::locate_in_ring(&points, bounds.center()) == polygon::Location::Inside;
+            if is_in(&points) || (touches && (is_met(&points, true) || is_around())) {
+                found.push(ElementId::Room(id));
+            }
+        }
+        let walls = plan.walls().filter_map(|(id, wall)| Some((ElementId::Wall(id), plan.wall_segment(wall)?)));
+        let openings =
+            plan.openings().filter_map(|(id, opening)| Some((ElementId::Opening(id), plan.opening_segment(opening)?)));
+        for (element, segment) in walls.chain(openings) {
+            let ends = [segment.a, segment.b];
+            if is_in(&ends) || (touches && is_met(&ends, false)) {
+                found.push(element);
+            }
+        }
+        found.retain(|&element| is_selectable(self, element));
+        found
+    }
+
+    /// Says why something was refused, where the command cannot.
+    pub(super) fn report(&mut self, act: impl FnOnce(&mut Self) -> Ran) {
+        if let Ran::Refused(reason) = act(self) {
+            self.session.status = reason;
+        }
+    }
+
+    /// The point that an argument names, or the middle of what is selected.
+    pub(super) fn centre_of_selection(&self, named: Option<Point>) -> Point {
+        named.unwrap_or_else(|| {
+            let document = self.session.document.as_ref();
+            let bounds = self.session.selection.iter().filter_map(|element| document?.bounds_of(element));
+            bounds.reduce(Bounds::union).map_or(Point::default(), Bounds::center)
+        })
+    }
+
+    /// Keeps what is selected, here and in the system's clipboard.
+    pub(super) fn copy_selected(&mut self, context: &Context) -> Ran {
+        let Some(plan) = self.plan() else { return Ran::Done };
+        match edit::fragment(plan, self.session.selection.elements()) {
+            Ok(fragment) => {
+                let text = String::from_utf8_lossy(&crate::formats::plan_json::to_bytes(&fragment)).into_owned();
+                context.copy_text(text);
+                self.session.status = format!("Copied {} elements", self.session.selection.len());
+                self.session.copied = Some(fragment);
+                Ran::Done
+            }
+            Err(error) => Ran::Refused(error.to_string()),
+        }
+    }
+
+    /// Takes over what the system's clipboard holds, where that is part of a plan.
+    pub(crate) fn take_pasted(&mut self, text: &str) {
+        if let Ok(plan) = crate::formats::plan_json::from_bytes(text.as_bytes())
+            && !plan.is_empty()
+        {
+            self.session.copied = Some(plan);
+        }
+    }
+
+    pub(super) fn paste_at(&mut self, at: Point) -> Ran {
+        let Some(fragment) = self.session.copied.clone() else { return Ran::Done };
+        let by = at - fragment.bounds().center();
+        let mut made = BTreeSet::new();
+        let ran = edited(self, "Paste", |plan| {
+            let (next, elements) = edit::insert(plan, &fragment, Transform::translation(by))?;
+            made = elements;
+            Ok(next)
+        });
+        select_made(self, &made);
+        ran
+    }
+
+    /// Shows which corners would be joined, and asks.
+    pub(super) fn ask_to_weld(&mut self, tolerance_m: f64) -> Ran {
+        let Some(plan) = self.plan() else { return Ran::Done };
+        match edit::weld(plan, tolerance_m) {
+            Err(error) => Ran::Refused(error.to_string()),
+            Ok(weld) if weld.is_empty() => {
+                Ran::Refused(format!("no corners are within {}", self.units().length(tolerance_m)))
+            }
+            Ok(weld) => {
+                let place = |id| plan.position(id).unwrap_or_default();
+                let mut marks: Vec<Segment> =
+                    weld.merged.iter().map(|&(from, to)| Segment::new(place(from), place(to))).collect();
+                marks.extend(weld.onto_edges.iter().map(|&(corner, _)| Segment::new(place(corner), place(corner))));
+                let count = crate::base::wording::count;
+                let (corners, edges) = (count(weld.merged.len(), "corner"), count(weld.onto_edges.len(), "edge"));
+                let text = format!(
+                    "{corners} would become another within {}, and {edges} would be split at a corner: marked on the plan.",
+                    self.units().length(tolerance_m)
+                );
+                let answer = ("weld", "Weld");
+                self.session.ask(Question::change("Weld these corners?", text, answer, "Weld", weld.plan, marks));
+                Ran::Asks
+            }
+        }
+    }
+
+    /// Shows the gaps in walls, and asks.
+    pub(super) fn ask_to_bridge(&mut self) -> Ran {
+        let Some(plan) = self.plan() else { return Ran::Done };
+        let gaps = topology::gaps(plan);
+        if gaps.is_empty() {
+            return Ran::Refused(NO_GAPS.to_owned());
+        }
+        match edit::bridge_gaps(plan, &gaps, OpeningKind::Door) {
+            Err(error) => Ran::Refused(error.to_string()),
+            Ok((next, _)) => {
+                let gaps_said = crate::base::wording::count(gaps.len(), "gap");
+                let (title, answer) = ("Put doors into these gaps?", ("bridge", "Put doors in"));
+                let text = format!("{gaps_said} between collinear walls, 30 to 150 cm wide: marked on the plan.");
+                let marks = gaps.into_iter().map(|gap| gap.segment).collect();
+                self.session.ask(Question::change(title, text, answer, "Bridge gaps", next, marks));
+                Ran::Asks
+            }
+        }
+    }
+
+    /// Draws walls beside what is selected.
+    pub(super) fn offset_selected(&mut self, distance_m: f64, named: Option<Point>) -> Ran {
+        let towards = named.or(self.session.pointed.at).unwrap_or_default();
+        let walls: Vec<_> = self.session.selection.walls().collect();
+        let room = self.session.selection.rooms().next();
+        let thickness_m = self.tools.options.thickness_m;
+        edited(self, "Offset", |plan| match (walls.is_empty(), room) {
+            (false, _) => Ok(edit::offset_walls(plan, &walls, distance_m, towards)?.plan),
+            (true, Some(room)) => {
+                let points = plan.room(room).map(|room| plan.ring_points(&room.outer)).unwrap_or_default();
+                let is_inside = polygon::locate_in_ring(&points, towards) != polygon::Location::Outside;
+                Ok(edit::offset_room(plan, room, distance_m, is_inside, thickness_m)?.plan)
+            }
+            (true, None) => Err(EditError("select walls or a room first".to_owned())),
+        })
+    }
+
+    /// Changes the selected openings; the change is told how each is drawn.
+    pub(super) fn change_openings(
+        &mut self,
+        title: &str,
+        change: impl Fn(&Plan, OpeningId, Swing) -> Result<Plan, EditError>,
+    ) -> Ran {
+        let derived = self.session.document.as_ref().and_then(Document::derived).cloned();
+        let drawn = |id: OpeningId| derived.as_ref().and_then(|derived| derived.drawing.swing_of(id));
+        let openings: Vec<(OpeningId, Swing)> = self
+            .session
+            .selection
+            .openings()
+            .map(|id| (id, drawn(id).unwrap_or(Swing { hinge_at_start: true, side: LeafSide::Left })))
+            .collect();
+        edited(self, title, |plan| {
+            openings.iter().try_fold(plan.clone(), |plan, &(id, swing)| change(&plan, id, swing))
+        })
+    }
+
+    /// Deletes what is selected; asks first where more would go with it.
+    pub(super) fn delete_selected(&mut self) -> Ran {
+        let Some(plan) = self.plan() else { return Ran::Done };
+        let selected: Vec<ElementId> = self.session.selection.iter().collect();
+        let gone = edit::removed_with(plan, &selected);
+        // Corners that nothing uses any more are no loss.
+        let is_loss = |element: &ElementId| {
+            !self.session.selection.contains(*element) && !matches!(element, ElementId::Corner(_))
+        };
+        if gone.iter().any(is_loss) {
+            self.session.ask(Question::delete(selected, gone));
+            return Ran::Asks;
+        }
+        self.session.delete(&selected);
+        Ran::Done
+    }
+}

@@ -1,0 +1,47 @@
+//! Working out what follows from the open plan: at once where that is quick, by a job where it is not.
+
+use std::sync::Arc;
+
+use super::Session;
+use crate::app::session::document::Derived;
+use crate::app::session::jobs::Kind;
+
+/// A plan with more elements is analysed off the frame's path; below, that takes a few milliseconds.
+const LARGE_PLAN_ELEMENTS: usize = 2000;
+
+impl Session {
+    /// Works out what follows from the plan as it is now, unless that is known or being done.
+    pub(crate) fn derive(&mut self) {
+        let Some(document) = &mut self.document else { return };
+        document.predict_by(&self.predictor);
+        let plan = document.plan().clone();
+        self.selection.keep_what_is_in(&plan);
+        if !document.needs_deriving() {
+            return;
+        }
+        let schemes = self.schemes.clone();
+        let predictor = Some((self.predictor.clone(), self.models.clone()));
+        if plan.rooms().len() + plan.openings().len() + plan.walls().len() <= LARGE_PLAN_ELEMENTS {
+            let derived = Arc::new(Derived::new(&plan, &schemes, predictor));
+            document.set_derived(plan, derived);
+            return;
+        }
+        let number = document.number;
+        let broken_for = plan.clone();
+        let kind = Kind::new("analyse the plan").newest_of("analysis").if_broken(move |session| {
+            let document = session.document.as_mut().filter(|document| document.number == number);
+            if let Some(document) = document {
+                document.could_not_be_derived(&broken_for);
+            }
+        });
+        let wanted = self.jobs.start_wanted(kind, move |work| {
+            let derived = Derived::by_steps(&plan, &schemes, predictor, work).map(Arc::new);
+            move |session: &mut Session, _: &_| {
+                if let Some((document, derived)) = session.document.as_mut().zip(derived.ok()) {
+                    document.set_derived(plan, derived);
+                }
+            }
+        });
+        document.await_derived(wanted);
+    }
+}

@@ -1,0 +1,105 @@
+//! Words for what is in a plan, as commands are called with them, and choices among such words.
+
+use crate::app::session::origin::bundled;
+use crate::features::RoomStatus;
+use crate::formats;
+use crate::geometry::{COORDINATE_LIMIT_M, Point};
+use crate::plan::{ElementId, Plan, Room, RoomId};
+
+/// One of the things an argument can be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice {
+    /// As it is written in a call.
+    pub word: String,
+    /// As it is shown.
+    pub title: String,
+    /// What tells it from others of the same title; may be empty.
+    pub detail: String,
+    /// At the end: how often there is such a thing; may be empty.
+    pub trail: String,
+    /// What a room is labelled, or a function means: for a swatch.
+    pub status: Option<RoomStatus>,
+}
+
+/// Of rooms that have the same name not more are told.
+const MOST_TOLD: usize = 3;
+
+/// The word for a plan without a typology.
+pub(crate) const UNKNOWN: &str = "unknown";
+
+pub(crate) const fn switch_word(is_on: bool) -> &'static str {
+    if is_on { "on" } else { "off" }
+}
+
+/// The word for a plan that comes with the program.
+pub(crate) fn sample_word(index: usize) -> &'static str {
+    bundled().get(index).map_or("", |(name, _)| formats::file_stem(name))
+}
+
+/// The room that a word means. `Err(Some(…))` says why a word that names several rooms means none.
+pub(crate) fn room(plan: &Plan, word: &str) -> Result<RoomId, Option<String>> {
+    if let Ok(id) = word.parse::<RoomId>()
+        && plan.room(id).is_some()
+    {
+        return Ok(id);
+    }
+    if word.is_empty() {
+        return Err(None);
+    }
+    let named = |is_it: &dyn Fn(&Room) -> bool| -> Vec<RoomId> {
+        plan.rooms().filter(|(_, room)| is_it(room)).map(|(id, _)| id).collect()
+    };
+    let exact = named(&|room| room.name == word);
+    let lower = word.to_lowercase();
+    let found = if exact.is_empty() { named(&|room| room.name.to_lowercase() == lower) } else { exact };
+    match found.as_slice() {
+        [] => Err(None),
+        [one] => Ok(*one),
+        several => {
+            let ids: Vec<String> = several.iter().take(MOST_TOLD).map(RoomId::to_string).collect();
+            let more = if several.len() > MOST_TOLD { ", …" } else { "" };
+            Err(Some(format!("an id, for {} rooms have this name: {}{more}", several.len(), ids.join(", "))))
+        }
+    }
+}
+
+/// The element that a word means.
+pub(crate) fn element(plan: &Plan, word: &str) -> Option<ElementId> {
+    let id = match word.chars().next()? {
+        'c' => word.parse().ok().map(ElementId::Corner),
+        'w' => word.parse().ok().map(ElementId::Wall),
+        'o' => word.parse().ok().map(ElementId::Opening),
+        _ => None,
+    };
+    id.or_else(|| room(plan, word).ok().map(ElementId::Room)).filter(|&element| plan.has(element))
+}
+
+/// The word for some elements.
+pub(crate) fn elements_word(elements: impl IntoIterator<Item = ElementId>) -> String {
+    let words: Vec<String> = elements.into_iter().map(|element| element.to_string()).collect();
+    words.join(" ")
+}
+
+/// The point that a word means.
+pub(crate) fn point(word: &str) -> Option<Point> {
+    let (x, y) = word.split_once(',')?;
+    let point = Point::new(x.parse().ok()?, y.parse().ok()?);
+    (point.is_finite() && point.x.abs() <= COORDINATE_LIMIT_M && point.y.abs() <= COORDINATE_LIMIT_M).then_some(point)
+}
+
+/// The word for some points, on the 0.1 mm grid.
+pub(crate) fn points_word(points: &[Point]) -> String {
+    let words: Vec<String> = points.iter().map(|point| point.trimmed()).map(|p| format!("{},{}", p.x, p.y)).collect();
+    words.join(" ")
+}
+
+/// The word for a room: its name, where that means no other room, or its id.
+pub(crate) fn room_word(plan: &Plan, id: RoomId) -> String {
+    let name = plan.room(id).map_or("", |room| room.name.as_str());
+    if room(plan, name) == Ok(id) && is_own_word(name) { name.to_owned() } else { id.to_string() }
+}
+
+/// Whether a name is read as a name, and whole.
+pub(crate) fn is_own_word(name: &str) -> bool {
+    name.trim() == name && name.parse::<RoomId>().is_err()
+}

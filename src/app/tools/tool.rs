@@ -1,0 +1,166 @@
+//! What a tool is: a state machine, and its entry in the list of tools.
+
+use egui::{CursorIcon, Key, KeyboardShortcut};
+
+use super::Call;
+use super::input::{Anchor, DrawOptions, Input, Scope};
+use super::path::Path;
+use super::typing::Typing;
+use crate::app::look::icons::Icon;
+use crate::app::paint::preview::Preview;
+use crate::geometry::Point;
+
+/// A tool, and all that the window shows of it: its command, its place in the strip, its bar of options.
+pub(crate) struct Entry {
+    /// Its word: the id of the command that takes it up.
+    pub id: &'static str,
+    /// As in a menu.
+    pub title: &'static str,
+    /// A sentence for tooltips and the manual.
+    pub help: &'static str,
+    /// The shortcuts that its command comes with.
+    pub keys: &'static [KeyboardShortcut],
+    /// Its icon, and the group in which it stands in the strip and in the menu; `None` for a tool that
+    /// another menu has a place for.
+    pub strip: Option<(Icon, Group)>,
+    /// What it can be told, in the order of its bar.
+    pub options: &'static [ToolOption],
+    pub make: fn() -> Box<dyn Tool>,
+}
+
+/// The groups of the strip, in their order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Group {
+    Select,
+    Draw,
+    Divide,
+    Openings,
+    Measure,
+}
+
+/// Something a tool can be told: a command sets it.
+pub(crate) enum ToolOption {
+    /// On or off.
+    Switch {
+        /// The command's id.
+        command: &'static str,
+        /// As it is called in the bar.
+        name: &'static str,
+    },
+    /// A length in metres.
+    Length {
+        command: &'static str,
+        name: &'static str,
+        least_m: f64,
+        most_m: f64,
+        now_m: fn(&DrawOptions) -> f64,
+        /// Whether it matters as things are.
+        is_shown: fn(&DrawOptions) -> bool,
+    },
+}
+
+pub(super) const SNAPPING: ToolOption = ToolOption::Switch { command: "snapping", name: "Snap" };
+pub(super) const GRID: ToolOption = ToolOption::Switch { command: "snap-to-grid", name: "Grid" };
+pub(super) const RIGHT_ANGLES: ToolOption = ToolOption::Switch { command: "right-angles", name: "Right angles" };
+pub(super) const WITH_WALLS: ToolOption = ToolOption::Switch { command: "walls-with-rooms", name: "With walls" };
+pub(super) const OVER_ROOMS: ToolOption = ToolOption::Switch { command: "over-rooms", name: "Over rooms" };
+
+/// How thick walls are.
+pub(super) const THICKNESS: ToolOption = thickness(|_| true);
+
+/// How thick the walls around rooms are, where they are drawn.
+pub(super) const THICKNESS_WITH_ROOMS: ToolOption = thickness(|options| options.walls_with_rooms);
+
+const fn thickness(is_shown: fn(&DrawOptions) -> bool) -> ToolOption {
+    ToolOption::Length {
+        command: "wall-thickness",
+        name: "Thickness",
+        least_m: 0.0,
+        most_m: 10.0,
+        now_m: |options| options.thickness_m,
+        is_shown,
+    }
+}
+
+/// How wide openings are.
+pub(super) const WIDTH: ToolOption = ToolOption::Length {
+    command: "opening-width",
+    name: "Width",
+    least_m: 0.1,
+    most_m: 100.0,
+    now_m: |options| options.opening_width_m,
+    is_shown: |_| true,
+};
+
+/// What undo does to a tool at work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum TakenBack {
+    /// Nothing: the plan's last step is undone.
+    Nothing,
+    /// A corner that is not part of the plan yet.
+    Corner,
+    /// A corner that is: the plan's last step is undone as well.
+    CornerAndStep,
+}
+
+/// A state machine.
+pub(crate) trait Tool {
+    /// What a person does, and the commands that follow.
+    fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call>;
+
+    /// What can be done now, for the status line.
+    fn hint(&self, scope: &Scope<'_>) -> String;
+
+    /// What is in the making.
+    fn preview(&self, scope: &Scope<'_>, preview: &mut Preview);
+
+    fn cursor(&self, _scope: &Scope<'_>) -> CursorIcon {
+        CursorIcon::Crosshair
+    }
+
+    /// The corners in the making, where it draws one after the other: what follows is then as they say.
+    fn path(&self) -> Option<&Path> {
+        None
+    }
+
+    fn path_mut(&mut self) -> Option<&mut Path> {
+        None
+    }
+
+    /// Whether something is begun that Escape drops.
+    fn is_busy(&self) -> bool {
+        self.path().is_some_and(|path| !path.is_empty())
+    }
+
+    /// Whether places snap.
+    fn snaps(&self) -> bool {
+        true
+    }
+
+    fn anchor(&self) -> Option<Anchor> {
+        self.path()?.anchor()
+    }
+
+    /// Points in the making that attract like corners.
+    fn points(&self) -> Vec<Point> {
+        Vec::new()
+    }
+
+    /// What can be typed now.
+    fn typing(&self) -> Option<Typing> {
+        self.path().filter(|path| !path.is_empty()).map(|_| Typing::Length)
+    }
+
+    /// Letters that it takes while it is busy.
+    fn keys(&self) -> &'static [Key] {
+        &[]
+    }
+
+    /// The plan did not take what it called for last.
+    fn was_refused(&mut self) {}
+
+    fn take_back(&mut self) -> TakenBack {
+        let was_there = self.path_mut().is_some_and(|path| path.take_back().0);
+        if was_there { TakenBack::Corner } else { TakenBack::Nothing }
+    }
+}

@@ -1,0 +1,176 @@
+//! What commands take, as values: what tools, the canvas and panels hand over, and what scripts, the palette
+//! and recordings write as words.
+
+use std::path::PathBuf;
+
+use crate::app::look::keys::Keys;
+pub(crate) use crate::app::session::words::{
+    UNKNOWN, element, elements_word, is_own_word, point, points_word, room, room_word, sample_word, switch_word,
+};
+use crate::app::session::{bulk::Order, selection::SelectMode};
+use crate::classify::Method;
+use crate::edit::{Alignment, DrawingMoves, storey::Keep};
+use crate::geometry::Point;
+use crate::labels::Typology;
+use crate::plan::{ElementId, GuideAxis, OpeningId, OpeningKind, RoomId};
+use crate::predict::ModelSet;
+
+/// An argument that was read.
+#[derive(Clone, Debug)]
+pub(crate) enum Value {
+    Path(PathBuf),
+    Text(String),
+    Number(f64),
+    Count(usize),
+    Room(RoomId),
+    Opening(OpeningId),
+    Elements(Vec<ElementId>),
+    Points(Vec<Point>),
+    Typology(Option<Typology>),
+    ModelSet(ModelSet),
+    Method(Method),
+    /// Its index.
+    Sample(usize),
+    Switch(bool),
+    Word(&'static str),
+    /// A command's id.
+    Command(&'static str),
+    Keys(Keys),
+}
+
+/// The arguments of a call, read. Those left out are missing at the end.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Values(pub(crate) Vec<Value>);
+
+/// A command to run: its id, and its arguments in the order in which it takes them.
+#[derive(Clone, Debug)]
+pub(crate) struct Call {
+    pub id: &'static str,
+    pub values: Vec<Value>,
+}
+
+impl Call {
+    pub(crate) fn new(id: &'static str, values: impl IntoIterator<Item = Value>) -> Self {
+        Self { id, values: values.into_iter().collect() }
+    }
+}
+
+impl Value {
+    /// Points on the 0.1 mm grid, as their words have them.
+    pub(crate) fn points(points: &[Point]) -> Self {
+        Self::Points(points.iter().map(|point| point.trimmed()).collect())
+    }
+
+    /// One point on the 0.1 mm grid.
+    pub(crate) fn point(point: Point) -> Self {
+        Self::points(&[point])
+    }
+
+    /// One of several things that have words.
+    pub(crate) fn word<T: Worded + PartialEq>(thing: T) -> Self {
+        let index = T::ALL.iter().position(|one| *one == thing);
+        Self::Word(index.and_then(|index| T::WORDS.get(index)).map_or("", |(word, _)| word))
+    }
+}
+
+/// One of several things, each with a word.
+pub(crate) trait Worded: Copy + 'static {
+    /// Each with its word and its title, in the order in which they are offered.
+    const WORDS: &'static [(&'static str, &'static str)];
+    /// The things, in the same order.
+    const ALL: &'static [Self];
+
+    /// The thing that a word means.
+    fn of_its_word(word: &str) -> Option<Self> {
+        let index = Self::WORDS.iter().position(|(own, _)| *own == word)?;
+        Self::ALL.get(index).copied()
+    }
+}
+
+impl Worded for OpeningKind {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("door", "Door"), ("double-door", "Double door"), ("passage", "Passage"), ("window", "Window")];
+    const ALL: &'static [Self] = &[Self::Door, Self::DoubleDoor, Self::Passage, Self::Window];
+}
+
+impl Worded for SelectMode {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("replace", "Instead of what is selected"), ("add", "Besides"), ("toggle", "Take out what is in")];
+    const ALL: &'static [Self] = &[Self::Replace, Self::Add, Self::Toggle];
+}
+
+impl Worded for GuideAxis {
+    const WORDS: &'static [(&'static str, &'static str)] = &[("horizontal", "Horizontal"), ("vertical", "Vertical")];
+    const ALL: &'static [Self] = &[Self::Horizontal, Self::Vertical];
+}
+
+impl Worded for Keep {
+    const WORDS: &'static [(&'static str, &'static str)] = Keep::WORDS;
+    const ALL: &'static [Self] = &[Self::Functions, Self::All, Self::Outlines];
+}
+
+impl Worded for DrawingMoves {
+    const WORDS: &'static [(&'static str, &'static str)] = DrawingMoves::WORDS;
+    const ALL: &'static [Self] = &[Self::Along, Self::Stays];
+}
+
+impl Worded for Order {
+    const WORDS: &'static [(&'static str, &'static str)] = Order::WORDS;
+    const ALL: &'static [Self] = &[Self::Rows, Self::Columns];
+}
+
+impl Worded for Alignment {
+    const WORDS: &'static [(&'static str, &'static str)] = &[
+        ("left", "Left sides"),
+        ("right", "Right sides"),
+        ("top", "Upper sides"),
+        ("bottom", "Lower sides"),
+        ("centre", "Middles, on an upright line"),
+        ("middle", "Middles, on a level line"),
+    ];
+    const ALL: &'static [Self] = &[Self::Left, Self::Right, Self::Top, Self::Bottom, Self::Center, Self::Middle];
+}
+
+/// What a new room takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Space {
+    /// All within its boundary.
+    Exact,
+    /// What no room covers of it.
+    Free,
+}
+
+impl Worded for Space {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("exact", "This boundary"), ("free", "What no room covers of it")];
+    const ALL: &'static [Self] = &[Self::Exact, Self::Free];
+}
+
+/// What a box selects.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Boxed {
+    /// What lies within it.
+    Inside,
+    /// Also what it touches.
+    Touching,
+}
+
+impl Worded for Boxed {
+    const WORDS: &'static [(&'static str, &'static str)] = &[("inside", "Inside"), ("touching", "Touching")];
+    const ALL: &'static [Self] = &[Self::Inside, Self::Touching];
+}
+
+/// A direction on the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Direction {
+    Left,
+    Right,
+    Up,
+    Down,
+}
+
+impl Worded for Direction {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("left", "Left"), ("right", "Right"), ("up", "Up"), ("down", "Down")];
+    const ALL: &'static [Self] = &[Self::Left, Self::Right, Self::Up, Self::Down];
+}
