@@ -16,6 +16,7 @@ use crate::app::session::file_dialogs::Dialogs;
 use crate::app::session::jobs::Mode;
 use crate::app::session::messages::Severity;
 use crate::app::session::origin::Origin;
+use crate::app::session::settings::Settings;
 use crate::app::session::wishes::Wish;
 use crate::app::state::App;
 use crate::app::tools::Toolbox;
@@ -26,7 +27,7 @@ impl App {
     pub(crate) fn new(context: &Context, mode: Mode, dialogs: Dialogs, motion: theme::Motion) -> Self {
         theme::install(context, motion);
         Self {
-            session: Session::new(mode, dialogs),
+            session: Session { settings: Settings::new(commands::keyed()), ..Session::new(mode, dialogs) },
             canvas: Canvas::default(),
             tools: Toolbox::default(),
             theme: ThemeChoice::default(),

@@ -291,8 +291,9 @@ impl Sheet {
     fn line(&self, app: &App, ui: &mut Ui, command: &'static Command) -> Option<Act> {
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), LINE), Sense::hover());
         let is_changing = self.changing == Some(command.id);
-        let is_changed = app.session.settings.is_changed(command);
-        let texts: Vec<String> = app.session.settings.keys_of(command).iter().map(|keys| keys.text(ui.ctx())).collect();
+        let is_changed = app.session.settings.is_changed(command.id);
+        let texts: Vec<String> =
+            app.session.settings.keys_of(command.id).iter().map(|keys| keys.text(ui.ctx())).collect();
         let mut act = None;
         let shown = if is_changing { "Press keys…".to_owned() } else { texts.first().cloned().unwrap_or_default() };
         let chip = self.chip(ui, rect, command, &shown, &texts.join(" or "), is_changing);
