@@ -7,7 +7,6 @@ use egui::{
 };
 
 use crate::app::commands::{self, COMMANDS, Command, CommandError, Menu};
-use crate::app::dialogs::{After, Dialog, Entry};
 use crate::app::look::{
     icons::Icon,
     keys::Keys,
@@ -19,6 +18,7 @@ use crate::app::look::{
     },
 };
 use crate::app::state::App;
+use crate::app::state::{After, Dialog, Entry};
 
 /// The sheet while it is open.
 #[derive(Default)]
