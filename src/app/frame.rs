@@ -4,7 +4,6 @@ use crate::app::canvas::Canvas;
 use crate::app::commands;
 use crate::app::commands::CommandError;
 use crate::app::commands::sample_word;
-use crate::app::dialogs::OpenDialogs;
 use crate::app::look::theme;
 use crate::app::look::theme::ThemeChoice;
 use crate::app::panels;
@@ -16,8 +15,10 @@ use crate::app::session::file_dialogs::Dialogs;
 use crate::app::session::jobs::Mode;
 use crate::app::session::messages::Severity;
 use crate::app::session::origin::Origin;
+use crate::app::session::settings::Settings;
 use crate::app::session::wishes::Wish;
 use crate::app::state::App;
+use crate::app::state::OpenDialogs;
 use crate::app::tools::Toolbox;
 use crate::store::pictures;
 use egui::Ui;
@@ -26,7 +27,7 @@ impl App {
     pub(crate) fn new(context: &Context, mode: Mode, dialogs: Dialogs, motion: theme::Motion) -> Self {
         theme::install(context, motion);
         Self {
-            session: Session::new(mode, dialogs),
+            session: Session { settings: Settings::new(commands::keyed()), ..Session::new(mode, dialogs) },
             canvas: Canvas::default(),
             tools: Toolbox::default(),
             theme: ThemeChoice::default(),

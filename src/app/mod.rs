@@ -8,7 +8,6 @@
 
 mod canvas;
 pub mod commands;
-mod dialogs;
 mod frame;
 mod look;
 mod native;

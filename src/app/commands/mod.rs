@@ -18,6 +18,7 @@ pub use crate::app::session::words::Choice;
 pub use argument::{Argument, ArgumentKind};
 pub use manual::{keys_of, manual};
 pub use run::CommandError;
+pub(super) use run::keyed;
 pub use table::COMMANDS;
 
 pub(super) use crate::app::look::keys::take_pressed;

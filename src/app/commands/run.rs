@@ -4,13 +4,17 @@ use crate::app::session::executed::Executed;
 use crate::base::wording::{or_list, similar};
 use std::fmt;
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
 use egui::Context;
 
 use super::{Action, COMMANDS, Command, Ran, find};
 use crate::app::look::keys::Keys;
 use crate::app::panels::palette::Palette;
-use crate::app::session::{messages::Severity, settings::Settings};
+use crate::app::session::{
+    messages::Severity,
+    settings::{Keyed, Settings},
+};
 use crate::app::state::App;
 use crate::app::value::{Call, Value, Values, switch_word};
 use crate::base::units::Units;
@@ -218,10 +222,21 @@ impl App {
 
 // Shortcuts.
 
+/// The commands with the shortcuts they come with, as settings need them.
+pub(crate) fn keyed() -> &'static [Keyed] {
+    static KEYED: OnceLock<Vec<Keyed>> = OnceLock::new();
+    let keyed = |command: &Command| Keyed {
+        id: command.id,
+        title: command.title,
+        shipped: command.shortcuts.iter().map(|&shortcut| shortcut.into()).collect(),
+    };
+    KEYED.get_or_init(|| COMMANDS.iter().map(keyed).collect())
+}
+
 impl App {
     /// Keeps settings in a file from now on, and takes over what it holds.
     pub fn use_settings(&mut self, file: PathBuf) {
-        let (settings, problems) = Settings::read(file);
+        let (settings, problems) = Settings::read(file, keyed());
         self.session.settings = settings;
         for problem in problems {
             self.session.add_message(problem);
@@ -230,18 +245,18 @@ impl App {
 
     /// The first shortcut of a command as people read it ('Ctrl+Shift+S', '+'); empty without one.
     pub fn keys_text(&self, command: &Command, context: &Context) -> String {
-        self.session.settings.keys_of(command).first().map(|keys| keys.text(context)).unwrap_or_default()
+        self.session.settings.keys_of(command.id).first().map(|keys| keys.text(context)).unwrap_or_default()
     }
 
     pub(super) fn set_shortcut(&mut self, command: &'static Command, keys: Option<Keys>) -> Ran {
-        match self.session.settings.set_keys(command, keys) {
+        match self.session.settings.set_keys(command.id, keys) {
             Ok(()) => self.keep_settings(),
             Err(refused) => Ran::Refused(refused.reason(&keys.map(|keys| keys.to_string()).unwrap_or_default())),
         }
     }
 
     pub(super) fn reset_shortcut(&mut self, command: &'static Command) -> Ran {
-        match self.session.settings.reset_keys(command) {
+        match self.session.settings.reset_keys(command.id) {
             Ok(()) => self.keep_settings(),
             Err((keys, refused)) => Ran::Refused(refused.reason(&keys.to_string())),
         }

@@ -148,7 +148,7 @@ pub(crate) fn take_pressed(input: &mut InputState, settings: &Settings, is_typin
         let Event::Key { key, pressed: true, modifiers, .. } = event else { return true };
         let hit = COMMANDS.iter().find(|command| {
             let is_it = |keys: &Keys| keys.is_pressed(*key, *modifiers) && !(is_typing && keys.belongs_to_text());
-            settings.keys_of(command).iter().any(is_it)
+            settings.keys_of(command.id).iter().any(is_it)
         });
         pressed.extend(hit);
         hit.is_none()

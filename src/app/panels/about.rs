@@ -2,12 +2,12 @@
 
 use egui::{Id, Modal, Ui};
 
-use crate::app::dialogs::{After, Dialog, Entry};
 use crate::app::look::{
     theme,
     widgets::{caption, dialog_frame, right, strong, text_button},
 };
 use crate::app::state::App;
+use crate::app::state::{After, Dialog, Entry};
 
 pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(About), is_of_plan: false };
 

@@ -5,7 +5,6 @@ use egui::{
 };
 
 use crate::app::commands::Choice;
-use crate::app::dialogs::{After, Dialog, Entry};
 use crate::app::look::{
     theme,
     widgets::{
@@ -15,6 +14,7 @@ use crate::app::look::{
 };
 use crate::app::session::bulk::{Change, Names, Order, Which};
 use crate::app::state::App;
+use crate::app::state::{After, Dialog, Entry};
 use crate::base::wording::{count, sentence};
 use crate::draw::Palette;
 use crate::edit::naming::{PARTS, PatternError};

@@ -7,13 +7,13 @@ use std::sync::Arc;
 use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
 use super::plan_picture::{MarkKind, PlanPicture, legend};
-use crate::app::dialogs::{After, Dialog, Entry};
 use crate::app::look::{
     theme,
     widgets::{caption, colours, dialog_frame, right, section, strong, text_button},
 };
 use crate::app::session::document::Derived;
 use crate::app::state::App;
+use crate::app::state::{After, Dialog, Entry};
 use crate::plan::{ChangeKind, Difference, ElementId, Plan, titles::title_of};
 
 /// More lines than these are not read; how many there are is said.

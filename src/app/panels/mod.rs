@@ -26,9 +26,9 @@ pub(super) mod welcome;
 use crate::app::session::fields::FieldKind;
 use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, UiBuilder};
 
-use crate::app::dialogs::Entry;
 use crate::app::look::theme;
 use crate::app::state::App;
+use crate::app::state::Entry;
 
 /// The dialogs there are; a later one lies above an earlier one.
 pub(crate) const DIALOGS: &[Entry] =

@@ -2,13 +2,13 @@
 
 use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
-use crate::app::dialogs::{After, Dialog, Entry};
 use crate::app::look::{
     theme,
     widgets::{caption, colours, dialog_frame, right, strong, text_button},
 };
 use crate::app::session::origin::notes_in_words;
 use crate::app::state::App;
+use crate::app::state::{After, Dialog, Entry};
 use crate::formats::NoteKind;
 
 pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(Notes), is_of_plan: true };

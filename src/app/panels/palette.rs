@@ -11,7 +11,6 @@ use egui::{
 
 use self::lines::{argument_lines, command_lines, row};
 use crate::app::commands::{Argument, COMMANDS, Choice, Command};
-use crate::app::dialogs::{After, Dialog, Entry};
 use crate::app::look::{
     icons::Icon,
     search::{Hit, Search},
@@ -19,6 +18,7 @@ use crate::app::look::{
     widgets::{ICON, ROW, colours, hairline_in, put_line, swatch},
 };
 use crate::app::state::App;
+use crate::app::state::{After, Dialog, Entry};
 use crate::base::wording::sentence;
 
 /// Width of the palette, in points.

@@ -7,13 +7,13 @@ use std::time::SystemTime;
 use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
 use super::plan_picture::{MarkKind, PlanPicture, legend};
-use crate::app::dialogs::{After, Dialog, Entry};
 use crate::app::look::{
     theme,
     widgets::{caption, colours, dialog_frame, right, strong, text_button},
 };
 use crate::app::session::recovery::Offered;
 use crate::app::state::App;
+use crate::app::state::{After, Dialog, Entry};
 use crate::base::wording::count;
 
 /// Size of a picture, in points.

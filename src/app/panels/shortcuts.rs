@@ -7,7 +7,6 @@ use egui::{
 };
 
 use crate::app::commands::{self, COMMANDS, Command, CommandError, Menu};
-use crate::app::dialogs::{After, Dialog, Entry};
 use crate::app::look::{
     icons::Icon,
     keys::Keys,
@@ -19,6 +18,7 @@ use crate::app::look::{
     },
 };
 use crate::app::state::App;
+use crate::app::state::{After, Dialog, Entry};
 
 /// The sheet while it is open.
 #[derive(Default)]
@@ -291,8 +291,9 @@ impl Sheet {
     fn line(&self, app: &App, ui: &mut Ui, command: &'static Command) -> Option<Act> {
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), LINE), Sense::hover());
         let is_changing = self.changing == Some(command.id);
-        let is_changed = app.session.settings.is_changed(command);
-        let texts: Vec<String> = app.session.settings.keys_of(command).iter().map(|keys| keys.text(ui.ctx())).collect();
+        let is_changed = app.session.settings.is_changed(command.id);
+        let texts: Vec<String> =
+            app.session.settings.keys_of(command.id).iter().map(|keys| keys.text(ui.ctx())).collect();
         let mut act = None;
         let shown = if is_changing { "Press keys…".to_owned() } else { texts.first().cloned().unwrap_or_default() };
         let chip = self.chip(ui, rect, command, &shown, &texts.join(" or "), is_changing);

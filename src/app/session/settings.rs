@@ -9,7 +9,6 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Map, Value, json};
 
-use crate::app::commands::{self, COMMANDS, Command};
 use crate::app::look::keys::Keys;
 use crate::app::session::messages::{Message, Severity};
 use crate::base::units::Units;
@@ -27,17 +26,20 @@ pub(crate) const GRID_RANGE_M: std::ops::RangeInclusive<f64> = 0.001..=1000.0;
 /// No settings file is larger.
 const MOST_BYTES: u64 = 1 << 20;
 
-/// The shortcuts commands come with, by place in the table.
-fn shipped() -> &'static [Vec<Keys>] {
-    static SHIPPED: std::sync::OnceLock<Vec<Vec<Keys>>> = std::sync::OnceLock::new();
-    SHIPPED.get_or_init(|| {
-        COMMANDS.iter().map(|command| command.shortcuts.iter().map(|&shortcut| shortcut.into()).collect()).collect()
-    })
+/// A command, as far as its shortcuts go.
+#[derive(Clone, Debug)]
+pub(crate) struct Keyed {
+    pub id: &'static str,
+    pub title: &'static str,
+    /// The shortcuts it comes with.
+    pub shipped: Vec<Keys>,
 }
 
 /// What a person has set.
 #[derive(Debug, Default)]
 pub(crate) struct Settings {
+    /// The commands there are.
+    commands: &'static [Keyed],
     /// Where it is kept; `None` for not at all.
     file: Option<PathBuf>,
     /// All that the file holds.
@@ -52,7 +54,7 @@ pub(crate) struct Settings {
 /// Why a command does not get a shortcut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Refused {
-    /// Another command has the keys.
+    /// A command of this title has the keys.
     Taken(&'static str),
     /// Nobody may choose the keys, and why.
     Reserved(&'static str),
@@ -62,10 +64,7 @@ impl Refused {
     /// The reason in a sentence.
     pub(crate) fn reason(self, keys: &str) -> String {
         match self {
-            Self::Taken(by) => {
-                let title = commands::find(by).map_or(by, |command| command.title);
-                format!("{keys} is the shortcut of '{}'", title.trim_end_matches('…'))
-            }
+            Self::Taken(title) => format!("{keys} is the shortcut of '{}'", title.trim_end_matches('…')),
             Self::Reserved(why) => format!("{keys} cannot be a shortcut: {why}"),
         }
     }
@@ -85,8 +84,13 @@ pub(crate) fn file() -> Option<PathBuf> {
 }
 
 impl Settings {
+    /// Settings as the program comes with them, kept nowhere.
+    pub(crate) fn new(commands: &'static [Keyed]) -> Self {
+        Self { commands, ..Self::default() }
+    }
+
     /// Reads the settings that a file keeps, or starts a new one; and what is to be said about it.
-    pub(crate) fn read(file: PathBuf) -> (Self, Vec<Message>) {
+    pub(crate) fn read(file: PathBuf, commands: &'static [Keyed]) -> (Self, Vec<Message>) {
         let mut problems = Vec::new();
         let text = match read_text(&file) {
             Ok(text) => text,
@@ -94,7 +98,7 @@ impl Settings {
                 // Neither read nor ever written.
                 let text = format!("Your settings cannot be read: {what}");
                 let detail = format!("What you change lasts until the window is closed.\n{}", file.display());
-                return (Self::default(), vec![warning(text, detail)]);
+                return (Self::new(commands), vec![warning(text, detail)]);
             }
         };
         let kept = match text.as_deref().map(serde_json::from_str::<Map<String, Value>>) {
@@ -105,7 +109,7 @@ impl Settings {
                     "They are left as they are; what you change lasts until the window is closed.\n{}",
                     file.display()
                 );
-                return (Self::default(), vec![warning(text, detail)]);
+                return (Self::new(commands), vec![warning(text, detail)]);
             }
             Some(Ok(kept)) => kept,
             Some(Err(error)) => {
@@ -114,12 +118,12 @@ impl Settings {
                 return match set_aside(&file) {
                     Ok(aside) => {
                         problems.push(warning(text, format!("{at}\nThe damaged file is kept as {}.", aside.display())));
-                        (Self { file: Some(file), ..Self::default() }, problems)
+                        (Self { file: Some(file), ..Self::new(commands) }, problems)
                     }
                     Err(error) => {
                         let detail =
                             format!("{at}\nIt cannot be moved aside ({error}), so nothing you change is kept.");
-                        (Self::default(), vec![warning(text, detail)])
+                        (Self::new(commands), vec![warning(text, detail)])
                     }
                 };
             }
@@ -128,7 +132,7 @@ impl Settings {
         let units = kept.get("units").and_then(Value::as_str).and_then(Units::from_name).unwrap_or_default();
         let is_grid = |grid_m: &f64| GRID_RANGE_M.contains(grid_m);
         let grid_m = kept.get("grid_m").and_then(Value::as_f64).filter(is_grid);
-        let mut settings = Self { file: Some(file), kept, changed: BTreeMap::new(), units, grid_m };
+        let mut settings = Self { commands, file: Some(file), kept, changed: BTreeMap::new(), units, grid_m };
         problems.extend(settings.read_shortcuts());
         (settings, problems)
     }
@@ -139,7 +143,7 @@ impl Settings {
         let mut wrong = Vec::new();
         for (id, value) in &kept {
             // A command of another version.
-            let Some(command) = commands::find(id) else { continue };
+            let Some(command) = self.find(id) else { continue };
             let keys: Option<Vec<Keys>> =
                 value.as_array().and_then(|list| list.iter().map(|keys| keys.as_str()?.parse().ok()).collect());
             match keys {
@@ -150,8 +154,7 @@ impl Settings {
         // With all changes in place, so that two commands may have changed keys. One that is dropped
         // gets back the keys it comes with, which another may have.
         while let Some((id, reason)) = self.changed.iter().find_map(|(id, keys)| {
-            let command = commands::find(id)?;
-            let (keys, refused) = keys.iter().find_map(|&keys| Some((keys, self.why_refused(command, keys)?)))?;
+            let (keys, refused) = keys.iter().find_map(|&keys| Some((keys, self.why_refused(id, keys)?)))?;
             Some((*id, refused.reason(&keys.to_string())))
         }) {
             wrong.push(format!("{id}: {reason}"));
@@ -187,18 +190,21 @@ impl Settings {
     }
 
     /// The shortcuts of a command, the first of which is shown.
-    pub(crate) fn keys_of(&self, command: &Command) -> &[Keys] {
-        self.changed.get(command.id).map_or_else(|| self.shipped_keys(command), Vec::as_slice)
+    pub(crate) fn keys_of(&self, id: &str) -> &[Keys] {
+        self.changed.get(id).map_or_else(|| self.shipped_keys(id), Vec::as_slice)
     }
 
-    fn shipped_keys(&self, command: &Command) -> &'static [Keys] {
-        let index = COMMANDS.iter().position(|other| other.id == command.id);
-        index.and_then(|index| shipped().get(index)).map_or(&[], Vec::as_slice)
+    fn find(&self, id: &str) -> Option<&'static Keyed> {
+        self.commands.iter().find(|command| command.id == id)
+    }
+
+    fn shipped_keys(&self, id: &str) -> &'static [Keys] {
+        self.find(id).map_or(&[], |command| command.shipped.as_slice())
     }
 
     /// Whether a command's shortcuts are not those it comes with.
-    pub(crate) fn is_changed(&self, command: &Command) -> bool {
-        self.changed.contains_key(command.id)
+    pub(crate) fn is_changed(&self, id: &str) -> bool {
+        self.changed.contains_key(id)
     }
 
     /// Whether any shortcut is changed.
@@ -207,23 +213,23 @@ impl Settings {
     }
 
     /// Why a command cannot have a shortcut; `None` when it can.
-    fn why_refused(&self, command: &Command, keys: Keys) -> Option<Refused> {
-        let other = COMMANDS.iter().find(|other| other.id != command.id && self.keys_of(other).contains(&keys));
-        let reserved = keys.why_reserved().filter(|_| !self.shipped_keys(command).contains(&keys));
-        reserved.map(Refused::Reserved).or(other.map(|other| Refused::Taken(other.id)))
+    fn why_refused(&self, id: &str, keys: Keys) -> Option<Refused> {
+        let other = self.commands.iter().find(|other| other.id != id && self.keys_of(other.id).contains(&keys));
+        let reserved = keys.why_reserved().filter(|_| !self.shipped_keys(id).contains(&keys));
+        reserved.map(Refused::Reserved).or(other.map(|other| Refused::Taken(other.title)))
     }
 
     /// Gives a command a shortcut in place of those it has; `None` takes them away.
     ///
     /// # Errors
     /// When another command has the keys, or nobody may.
-    pub(crate) fn set_keys(&mut self, command: &'static Command, keys: Option<Keys>) -> Result<(), Refused> {
-        if let Some(refused) = keys.and_then(|keys| self.why_refused(command, keys)) {
+    pub(crate) fn set_keys(&mut self, id: &'static str, keys: Option<Keys>) -> Result<(), Refused> {
+        if let Some(refused) = keys.and_then(|keys| self.why_refused(id, keys)) {
             return Err(refused);
         }
         let keys: Vec<Keys> = keys.into_iter().collect();
-        if self.keys_of(command) != keys {
-            self.changed.insert(command.id, keys);
+        if self.keys_of(id) != keys {
+            self.changed.insert(id, keys);
         }
         Ok(())
     }
@@ -232,13 +238,13 @@ impl Settings {
     ///
     /// # Errors
     /// When another command has them by now; the keys and the command.
-    pub(crate) fn reset_keys(&mut self, command: &'static Command) -> Result<(), (Keys, Refused)> {
-        for &keys in self.shipped_keys(command) {
-            if let Some(refused) = self.why_refused(command, keys) {
+    pub(crate) fn reset_keys(&mut self, id: &str) -> Result<(), (Keys, Refused)> {
+        for &keys in self.shipped_keys(id) {
+            if let Some(refused) = self.why_refused(id, keys) {
                 return Err((keys, refused));
             }
         }
-        self.changed.remove(command.id);
+        self.changed.remove(id);
         Ok(())
     }
 
@@ -254,7 +260,7 @@ impl Settings {
     pub(crate) fn write(&mut self) -> Result<(), Message> {
         let mut shortcuts = self.kept.get("shortcuts").and_then(Value::as_object).cloned().unwrap_or_default();
         // Those of commands that this version does not know stay.
-        shortcuts.retain(|id, _| commands::find(id).is_none());
+        shortcuts.retain(|id, _| self.find(id).is_none());
         for (id, keys) in &self.changed {
             let keys: Vec<String> = keys.iter().map(Keys::to_string).collect();
             shortcuts.insert((*id).to_owned(), json!(keys));

@@ -1,0 +1,180 @@
+//! Keeping work safe: the journal of the open plan, and what stays in sight while something is not kept.
+
+use std::path::PathBuf;
+use std::time::SystemTime;
+
+use egui::Context;
+
+use super::Session;
+use crate::app::session::{
+    document::Document,
+    messages::{Message, Remedy, Severity},
+    origin::{Origin, file_name},
+    recovery::Offered,
+    watch::{Content, Theirs, Watch},
+    wishes::Wish,
+    words::sample_word,
+};
+use crate::store::{Journal, JournalFailure, JournalStart, Predecessor, SaveError};
+
+/// What keeps work safe.
+#[derive(Default)]
+pub(crate) struct Safety {
+    /// Where journals are kept; none without.
+    pub(super) folder: Option<PathBuf>,
+    /// That of the open plan, while it has changes that are in no file.
+    journal: Option<Journal>,
+    /// Why the journal is not being written.
+    journal_failure: Option<JournalFailure>,
+    /// Why the plan could not be saved when that was last tried.
+    save_failure: Option<SaveError>,
+    /// What can be recovered, the newest first.
+    pub leftovers: Vec<Offered>,
+    /// What somebody else made of the plan's file.
+    pub theirs: Option<Theirs>,
+    pub(super) watch: Watch,
+    /// Tells the time where that may be shown.
+    pub clock: Option<fn() -> SystemTime>,
+}
+
+fn start_of(document: &Document) -> JournalStart {
+    match &document.origin {
+        Origin::File { path, storey } => JournalStart {
+            file: Some(std::path::absolute(path).unwrap_or_else(|_| path.clone())),
+            storey: *storey,
+            sample: None,
+            stamp: document.stamp,
+        },
+        Origin::Bundled(index) => {
+            JournalStart { sample: Some(sample_word(*index).to_owned()), ..JournalStart::default() }
+        }
+        Origin::Untitled => JournalStart::default(),
+    }
+}
+
+impl Session {
+    /// Tells from now on how old things are.
+    pub(crate) fn use_clock(&mut self, clock: fn() -> SystemTime) {
+        self.safety.clock = Some(clock);
+    }
+
+    /// Brings the journal up to date with the open plan.
+    pub(crate) fn keep_journal(&mut self, context: &Context) {
+        if self.quitting {
+            return;
+        }
+        let Some(document) = &self.document else { return };
+        if self.safety.journal.is_none() && document.is_changed() {
+            self.begin_journal(None, context);
+        }
+        let (Some(document), Some(journal)) = (&self.document, &mut self.safety.journal) else { return };
+        journal.note(&document.history);
+        if self.jobs.is_inline() {
+            // What it says is asked below.
+            let _ = journal.wait();
+        }
+        self.safety.journal_failure = journal.failure();
+    }
+
+    pub(super) fn begin_journal(&mut self, replaces: Option<Predecessor>, context: &Context) {
+        let (Some(folder), Some(document)) = (&self.safety.folder, &self.document) else { return };
+        let base = document.saved().cloned().unwrap_or_default();
+        let context = context.clone();
+        let on_change = move || context.request_repaint();
+        self.safety.journal = Some(Journal::begin(folder, start_of(document), base, replaces, on_change));
+    }
+
+    /// Takes note that the plan's file holds something else now: the journal goes on from there.
+    pub(super) fn journal_from_file(&mut self, context: &Context) {
+        self.safety.journal_failure = None;
+        let Some(journal) = self.safety.journal.take() else { return };
+        if self.has_unsaved_changes() {
+            self.begin_journal(Some(Predecessor::Journal(journal)), context);
+            self.keep_journal(context);
+        } else {
+            journal.remove();
+        }
+    }
+
+    /// Ends the journal of a plan that is closed: its changes are saved, or given up.
+    pub(crate) fn end_journal(&mut self) {
+        if let Some(journal) = self.safety.journal.take() {
+            journal.remove();
+        }
+        let Safety { folder, leftovers, clock, .. } = std::mem::take(&mut self.safety);
+        self.safety = Safety { folder, leftovers, clock, ..Safety::default() };
+    }
+
+    // Saving.
+
+    pub(crate) fn begins_to_save(&mut self) {
+        self.safety.watch.saves += 1;
+    }
+
+    /// Takes note that the open plan stands in its file.
+    pub(crate) fn is_saved(&mut self, context: &Context) {
+        self.safety.save_failure = None;
+        self.safety.theirs = None;
+        self.safety.watch.seen = None;
+        self.wishes.push(Wish::CloseDifferences);
+        self.journal_from_file(context);
+    }
+
+    pub(crate) fn is_not_saved(&mut self, error: SaveError) {
+        self.safety.save_failure = Some(error);
+    }
+
+    /// Why the changes are not being kept safe.
+    pub(crate) fn journal_failure(&self) -> Option<&JournalFailure> {
+        self.safety.journal_failure.as_ref()
+    }
+
+    /// What stays above the canvas as long as it is so.
+    pub(crate) fn bars(&self) -> Vec<Message> {
+        let mut bars = Vec::new();
+        let mut bar = |severity, text: String, detail: String, remedies: &[Remedy]| {
+            bars.push(Message { severity, text, detail, remedies: remedies.to_vec(), stays: true });
+        };
+        if let Some(theirs) = &self.safety.theirs
+            && let Some(document) = &self.document
+        {
+            let file = document.origin.title();
+            let by_somebody = format!("{file} was changed by somebody else");
+            match &theirs.content {
+                Content::Plan(..) => {
+                    let differ = theirs.differs.as_ref().map(|(_, differ)| differ.as_str()).unwrap_or_default();
+                    let detail = match document.is_changed() {
+                        true => format!("Your own changes are in no file yet. Between the two: {differ}."),
+                        false => format!("What you see is what it held before. Between the two: {differ}."),
+                    };
+                    let remedies = [Remedy::ShowDifferences, Remedy::LoadTheirs, Remedy::KeepMine];
+                    bar(Severity::Warning, by_somebody, detail, &remedies);
+                }
+                Content::Broken(what) => {
+                    let text = format!("{by_somebody} and cannot be read any more");
+                    let detail = format!("What you see is what it held before. {what}.");
+                    bar(Severity::Warning, text, detail, &[Remedy::KeepMine, Remedy::SaveElsewhere]);
+                }
+                Content::Gone => {
+                    let detail = "What you see may be the only copy. Save it to keep it.".to_owned();
+                    bar(Severity::Warning, format!("{file} is gone"), detail, &[Remedy::Save, Remedy::SaveElsewhere]);
+                }
+            }
+        }
+        if let Some(JournalFailure { folder, what }) = &self.safety.journal_failure {
+            let detail = format!(
+                "If the program or the machine stops now, what you changed is lost: the journal cannot be written. Save \
+                 the plan, and free some space.\n{}",
+                self.shown_path(folder)
+            );
+            let text = format!("Your changes are not kept safe: {what}");
+            bar(Severity::Error, text, detail, &[Remedy::Save, Remedy::SaveElsewhere]);
+        }
+        if let Some(SaveError { path, what, hint }) = &self.safety.save_failure {
+            let text = format!("{} is not saved: {what}", file_name(path));
+            let detail = format!("Your changes are still here; {hint}.\n{}", self.shown_path(path));
+            bar(Severity::Error, text, detail, &[Remedy::SaveElsewhere, Remedy::Save]);
+        }
+        bars
+    }
+}
