@@ -22,15 +22,6 @@ impl Keep {
         ("all", "Names, functions and labels"),
         ("outlines", "Walls and outlines only"),
     ];
-
-    /// What a word means.
-    pub fn of_word(word: &str) -> Self {
-        match word {
-            "all" => Self::All,
-            "outlines" => Self::Outlines,
-            _ => Self::Functions,
-        }
-    }
 }
 
 /// A plan of another storey of the same building with the same walls, rooms, openings and guides. The

@@ -273,7 +273,7 @@ impl Canvas {
             modifiers,
             lines: &lines,
             points: &points,
-            options: options,
+            options,
             grid_m,
             is_seen: self.pointed.at.is_some(),
         };
@@ -283,7 +283,7 @@ impl Canvas {
             derived: shown,
             gaps: document.derived().map_or(&[], |derived| derived.gaps.as_slice()),
             selection: &session.selection,
-            options: options,
+            options,
             layers: &session.layers,
             copied: session.copied.as_ref(),
             units: session.units(),

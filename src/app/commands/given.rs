@@ -233,3 +233,38 @@ impl Run for Given<0, (), fn(&mut App, &Context) -> Ran> {
         (self.run)(app, context)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::app::session::{bulk::Order, selection::SelectMode};
+    use crate::app::value::{Boxed, Direction, Space, Value, Worded};
+    use crate::edit::{Alignment, DrawingMoves, storey::Keep};
+    use crate::plan::{GuideAxis, OpeningKind};
+
+    fn assert_has_words<T: Worded + PartialEq + std::fmt::Debug>() {
+        assert_eq!(T::WORDS.len(), T::ALL.len());
+        for (&thing, (word, _)) in T::ALL.iter().zip(T::WORDS) {
+            assert_eq!(T::of_its_word(word), Some(thing));
+            assert!(matches!(Value::word(thing), Value::Word(own) if own == *word), "{word}");
+        }
+        assert_eq!(T::of_its_word("trapdoor"), None);
+    }
+
+    #[test]
+    fn every_word_means_one_thing() {
+        assert_has_words::<OpeningKind>();
+        assert_has_words::<SelectMode>();
+        assert_has_words::<GuideAxis>();
+        assert_has_words::<Keep>();
+        assert_has_words::<DrawingMoves>();
+        assert_has_words::<Order>();
+        assert_has_words::<Alignment>();
+        assert_has_words::<Space>();
+        assert_has_words::<Boxed>();
+        assert_has_words::<Direction>();
+        // As they are called everywhere else.
+        for axis in GuideAxis::ALL {
+            assert_eq!(GuideAxis::of_its_word(axis.name()), Some(axis));
+        }
+    }
+}

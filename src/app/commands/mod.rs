@@ -194,6 +194,7 @@ mod tests {
     use std::collections::BTreeMap;
 
     use super::*;
+    use crate::app::tools::ToolOption;
 
     #[test]
     fn no_shortcut_and_no_id_is_used_twice() {
@@ -205,6 +206,23 @@ mod tests {
                 let keys = shortcut.format(&egui::ModifierNames::NAMES, false);
                 let before = by_key.insert(keys.clone(), command.id);
                 assert_eq!(before, None, "{keys} is the shortcut of {} too", command.id);
+            }
+        }
+    }
+
+    #[test]
+    fn every_tool_has_its_command_and_those_of_its_options() {
+        for tool in crate::app::tools::TOOLS {
+            assert!(find(tool.id).is_some_and(|command| command.title == tool.title), "{}", tool.id);
+            for option in tool.options {
+                let (id, kind) = match option {
+                    ToolOption::Switch { command, .. } => (*command, ArgumentKind::Switch),
+                    ToolOption::Length { command, least_m, most_m, .. } => {
+                        (*command, ArgumentKind::Number { unit: " of metres", least: *least_m, most: *most_m })
+                    }
+                };
+                let command = find(id).unwrap_or_else(|| panic!("{} asks for {id}", tool.id));
+                assert_eq!(command.arguments.iter().map(|argument| argument.kind).collect::<Vec<_>>(), [kind], "{id}");
             }
         }
     }

@@ -20,30 +20,6 @@ pub enum SelectMode {
     Toggle,
 }
 
-impl SelectMode {
-    /// Words for commands, with titles.
-    pub const WORDS: &'static [(&'static str, &'static str)] =
-        &[("replace", "Instead of what is selected"), ("add", "Besides"), ("toggle", "Take out what is in")];
-
-    /// The mode a word means.
-    pub fn of_word(word: &str) -> Self {
-        match word {
-            "add" => Self::Add,
-            "toggle" => Self::Toggle,
-            _ => Self::Replace,
-        }
-    }
-
-    /// Its word.
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Replace => "replace",
-            Self::Add => "add",
-            Self::Toggle => "toggle",
-        }
-    }
-}
-
 impl Selection {
     /// Exactly these elements.
     pub fn of(elements: impl IntoIterator<Item = ElementId>) -> Self {
