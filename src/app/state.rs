@@ -227,3 +227,14 @@ impl App {
         }
     }
 }
+
+/// What dialogs are called, by those that open them and those that show them.
+pub(crate) mod dialogs {
+    pub(crate) const RECOVERY: &str = "recovery";
+    pub(crate) const DIFFERENCES: &str = "differences";
+    pub(crate) const NOTES: &str = "import-notes";
+    pub(crate) const PALETTE: &str = "commands";
+    pub(crate) const SHORTCUTS: &str = "shortcuts";
+    pub(crate) const ABOUT: &str = "about";
+    pub(crate) const BULK: &str = "many-rooms";
+}

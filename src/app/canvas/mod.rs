@@ -197,7 +197,7 @@ impl Canvas {
         if let Some(derived) = shown {
             self.painter.paint(&painter, rect, derived, &style, &view);
         }
-        self.ghost.paint(&painter, rect, session.shown_ghost(), &style, &view);
+        self.ghost.paint(&painter, rect, session.shown_ghost().map(|ghost| &ghost.derived), &style, &view);
         match fresh {
             // Never a stale label as a fresh one.
             None => self.paint_pending(&painter, rect, &view, document, session, &style),

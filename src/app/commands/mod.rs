@@ -6,6 +6,7 @@
 mod argument;
 mod given;
 mod manual;
+mod pressed;
 mod run;
 mod table;
 mod tools;
@@ -21,9 +22,9 @@ pub use run::CommandError;
 pub(super) use run::keyed;
 pub use table::COMMANDS;
 
-pub(super) use crate::app::look::keys::take_pressed;
 pub(super) use crate::app::value::{elements_word, room_word, sample_word};
 use given::Run;
+pub(crate) use pressed::take_pressed;
 
 use crate::app::look::icons::Icon;
 use crate::app::state::App;

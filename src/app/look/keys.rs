@@ -4,10 +4,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use egui::{Context, Event, InputState, Key, KeyboardShortcut, Modifiers};
-
-use crate::app::commands::{COMMANDS, Command};
-use crate::app::session::settings::Settings;
+use egui::{Context, Key, KeyboardShortcut, Modifiers};
 
 /// Keys that are pressed together: what a command's shortcut is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,13 +68,13 @@ impl Keys {
         }
     }
 
-    fn is_pressed(self, key: Key, modifiers: Modifiers) -> bool {
+    pub(crate) fn is_pressed(self, key: Key, modifiers: Modifiers) -> bool {
         // Ctrl and Cmd are told twice on some systems.
         Self::new(modifiers, key) == self && (modifiers.command || !modifiers.ctrl)
     }
 
     /// Whether a text field uses these keys itself.
-    fn belongs_to_text(self) -> bool {
+    pub(crate) fn belongs_to_text(self) -> bool {
         let is_function_key = self.key >= Key::F1 && self.key <= Key::F35;
         let is_plain = !self.modifiers.command && !is_function_key;
         let is_of_clipboard = matches!(self.key, Key::A | Key::C | Key::V | Key::X);
@@ -138,22 +135,6 @@ impl FromStr for Keys {
         let named = |name: &str| Key::from_name(name).or_else(|| Key::from_name(&name.to_uppercase()));
         named(rest).map(|key| Self::new(modifiers, key)).ok_or(NoKeys)
     }
-}
-
-/// Takes the shortcuts pressed since the last frame out of the input and gives their commands.
-/// `is_typing`: a text field has the keyboard, which then keeps what it needs itself.
-pub(crate) fn take_pressed(input: &mut InputState, settings: &Settings, is_typing: bool) -> Vec<&'static Command> {
-    let mut pressed = Vec::new();
-    input.events.retain(|event| {
-        let Event::Key { key, pressed: true, modifiers, .. } = event else { return true };
-        let hit = COMMANDS.iter().find(|command| {
-            let is_it = |keys: &Keys| keys.is_pressed(*key, *modifiers) && !(is_typing && keys.belongs_to_text());
-            settings.keys_of(command.id).iter().any(is_it)
-        });
-        pressed.extend(hit);
-        hit.is_none()
-    });
-    pressed
 }
 
 #[cfg(test)]

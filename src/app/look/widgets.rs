@@ -411,16 +411,6 @@ pub(crate) fn text_button(ui: &mut Ui, text: &str, is_main: bool) -> Response {
     response
 }
 
-/// The colour of a message's mark, and of its ground.
-pub(crate) fn severity_colours(ui: &Ui, severity: crate::app::session::messages::Severity) -> (Icon, Color32, Color32) {
-    let colours = colours(ui);
-    match severity {
-        crate::app::session::messages::Severity::Info => (Icon::Info, colours.accent, colours.info_soft),
-        crate::app::session::messages::Severity::Warning => (Icon::Warning, colours.warning, colours.warning_soft),
-        crate::app::session::messages::Severity::Error => (Icon::Warning, colours.error, colours.error_soft),
-    }
-}
-
 /// The frame of a dialog.
 pub(crate) fn dialog_frame(ui: &Ui) -> egui::Frame {
     egui::Frame::window(ui.style()).inner_margin(egui::Margin::same(22))

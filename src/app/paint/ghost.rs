@@ -1,11 +1,13 @@
 //! The storey below, faint.
 
+use std::sync::Arc;
+
 use egui::{Painter, Rect};
 
 use crate::app::paint::scene_painter::ScenePainter;
-use crate::app::session::ghost::Ghost;
 use crate::draw::{Fill, Layers, Style, View};
 use crate::geometry::Bounds;
+use crate::pipeline::Derived;
 
 /// How strongly the storey below is drawn, from 0 to 1: over the rooms, whose fills would hide it, and yet
 /// behind them to the eye.
@@ -25,17 +27,24 @@ impl GhostPainter {
     }
 
     /// Paints it in the style of the plan above: its walls and openings, faint.
-    pub(crate) fn paint(&mut self, painter: &Painter, rect: Rect, ghost: Option<&Ghost>, style: &Style, view: &View) {
-        let bounds = ghost.map(|ghost| ghost.derived.drawing.bounds());
+    pub(crate) fn paint(
+        &mut self,
+        painter: &Painter,
+        rect: Rect,
+        below: Option<&Arc<Derived>>,
+        style: &Style,
+        view: &View,
+    ) {
+        let bounds = below.map(|below| below.drawing.bounds());
         if std::mem::replace(&mut self.bounds, bounds) != bounds {
             // The view may go by it.
             painter.ctx().request_repaint();
         }
-        let Some(ghost) = ghost else { return };
+        let Some(below) = below else { return };
         let layers = Layers { grid: false, rooms: false, graph: false, names: false, areas: false, ..style.layers };
         let style = Style { fill: Fill::None, layers, ..style.clone() };
         let mut faint = painter.clone();
         faint.multiply_opacity(OPACITY);
-        self.painter.paint(&faint, rect, &ghost.derived, &style, view);
+        self.painter.paint(&faint, rect, below, &style, view);
     }
 }

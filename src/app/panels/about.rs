@@ -1,5 +1,6 @@
 //! What Enfilade is.
 
+use crate::app::state::dialogs;
 use egui::{Id, Modal, Ui};
 
 use crate::app::look::{
@@ -11,7 +12,7 @@ use crate::app::state::{After, Dialog, Entry};
 
 pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(About), is_of_plan: false };
 
-pub(crate) const ID: &str = "about";
+pub(crate) const ID: &str = dialogs::ABOUT;
 
 struct About;
 

@@ -1,5 +1,6 @@
 //! Naming and changing many rooms: what would become of which is seen before it happens.
 
+use crate::app::state::dialogs;
 use egui::{
     Align2, ComboBox, FontId, Id, Key, Modal, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2,
 };
@@ -99,7 +100,7 @@ impl Bulk {
 
 pub(super) const ENTRY: Entry = Entry { id: ID, make: |app| Box::new(Bulk::naming(app)), is_of_plan: true };
 
-pub(crate) const ID: &str = "many-rooms";
+pub(crate) const ID: &str = dialogs::BULK;
 
 impl Dialog for Bulk {
     fn show(&mut self, app: &mut App, ui: &mut Ui) -> After {

@@ -1,6 +1,7 @@
 //! How the open plan and its file, which somebody else changed, differ: both drawn side by side, with what
 //! each side changed since they were the same.
 
+use crate::app::state::dialogs;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -93,7 +94,7 @@ fn counted(lines: Vec<(MarkKind, String)>) -> Vec<(MarkKind, String)> {
 
 pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(Differences::default()), is_of_plan: true };
 
-pub(crate) const ID: &str = "differences";
+pub(crate) const ID: &str = dialogs::DIFFERENCES;
 
 #[derive(Default)]
 struct Differences {

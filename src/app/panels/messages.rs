@@ -1,12 +1,12 @@
 //! The bars above the canvas: messages that stay until they are dismissed, and some that stay as long
 //! as what they say is so.
 
-use egui::{Frame, Label, Margin, Rect, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
+use egui::{Color32, Frame, Label, Margin, Rect, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
 
 use crate::app::look::{
     icons::Icon,
     theme,
-    widgets::{ICON, ROW, colours, icon_button, link, severity_colours, strong, text_button},
+    widgets::{ICON, ROW, colours, icon_button, link, strong, text_button},
 };
 use crate::app::session::messages::{Message, Remedy, Severity};
 use crate::app::state::App;
@@ -113,4 +113,14 @@ fn bar(ui: &mut Ui, message: &Message) -> Option<Act> {
     let said = ui.interact(rect, ui.scope_id().with("said"), Sense::hover());
     said.widget_info(|| WidgetInfo::labeled(role, true, format!("{} {}", message.text, message.detail)));
     act
+}
+
+/// The colour of a message's mark, and of its ground.
+fn severity_colours(ui: &Ui, severity: Severity) -> (Icon, Color32, Color32) {
+    let colours = colours(ui);
+    match severity {
+        Severity::Info => (Icon::Info, colours.accent, colours.info_soft),
+        Severity::Warning => (Icon::Warning, colours.warning, colours.warning_soft),
+        Severity::Error => (Icon::Warning, colours.error, colours.error_soft),
+    }
 }

@@ -1,5 +1,6 @@
 //! What an import mended or left out.
 
+use crate::app::state::dialogs;
 use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
 use crate::app::look::{
@@ -13,7 +14,7 @@ use crate::formats::NoteKind;
 
 pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(Notes), is_of_plan: true };
 
-pub(crate) const ID: &str = "import-notes";
+pub(crate) const ID: &str = dialogs::NOTES;
 
 struct Notes;
 

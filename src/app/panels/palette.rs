@@ -2,6 +2,7 @@
 
 mod lines;
 
+use crate::app::state::dialogs;
 use egui::text::{CCursor, CCursorRange, LayoutJob, TextFormat};
 use egui::text_edit::TextEditState;
 use egui::{
@@ -150,7 +151,7 @@ enum Act {
 
 pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(Palette::default()), is_of_plan: false };
 
-pub(crate) const ID: &str = "commands";
+pub(crate) const ID: &str = dialogs::PALETTE;
 
 impl App {
     /// Opens the list of commands, or what it asks for, in place of one that is open.

@@ -1,5 +1,6 @@
 //! What programs that were killed left behind: a picture of each, and what to do with it.
 
+use crate::app::state::dialogs;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::time::SystemTime;
@@ -28,7 +29,7 @@ enum Act {
 
 pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(Recovery::default()), is_of_plan: false };
 
-pub(crate) const ID: &str = "recovery";
+pub(crate) const ID: &str = dialogs::RECOVERY;
 
 #[derive(Default)]
 struct Recovery {

@@ -1,5 +1,6 @@
 //! The sheet of shortcuts: all of them by menu, and a way to change each.
 
+use crate::app::state::dialogs;
 use egui::epaint::StrokeKind;
 use egui::{
     Color32, Event, EventFilter, FontId, Id, Key, Modal, Rect, Response, RichText, Role, ScrollArea, Sense, Stroke,
@@ -77,7 +78,7 @@ const COLUMNS: [&[&[Menu]]; 3] = [
 
 pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(Sheet::default()), is_of_plan: false };
 
-pub(crate) const ID: &str = "shortcuts";
+pub(crate) const ID: &str = dialogs::SHORTCUTS;
 
 impl Dialog for Sheet {
     fn show(&mut self, app: &mut App, ui: &mut Ui) -> After {

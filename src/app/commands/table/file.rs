@@ -1,6 +1,7 @@
 //! Opening, saving, closing.
 
 use super::*;
+use crate::app::state::dialogs;
 use crate::edit::storey::Keep;
 
 pub(super) const COMMANDS: &[Command] = &[
@@ -89,8 +90,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Recover unsaved work",
         "Show what was not saved when Enfilade was ended, with pictures",
         has_leftovers,
-        |app| app.dialogs.is_open(crate::app::panels::recovery::ID),
-        |app, is_on| app.set_dialog(crate::app::panels::recovery::ID, is_on),
+        |app| app.dialogs.is_open(dialogs::RECOVERY),
+        |app, is_on| app.set_dialog(dialogs::RECOVERY, is_on),
     )
     .menu(Menu::File, 2),
     with(
@@ -118,8 +119,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Differences to the file",
         "Show how the plan and its file, which somebody else changed, differ",
         has_their_plan,
-        |app| app.dialogs.is_open(crate::app::panels::differences::ID),
-        |app, is_on| app.set_dialog(crate::app::panels::differences::ID, is_on),
+        |app| app.dialogs.is_open(dialogs::DIFFERENCES),
+        |app, is_on| app.set_dialog(dialogs::DIFFERENCES, is_on),
     )
     .menu(Menu::File, 2),
     command(
@@ -143,8 +144,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Import notes",
         "Show what was mended or left out when the plan was opened",
         has_notes,
-        |app| app.dialogs.is_open(crate::app::panels::notes::ID),
-        |app, is_on| app.set_dialog(crate::app::panels::notes::ID, is_on),
+        |app| app.dialogs.is_open(dialogs::NOTES),
+        |app, is_on| app.set_dialog(dialogs::NOTES, is_on),
     )
     .menu(Menu::File, 2),
     command("previous-plan", "Previous plan", "Open the plan above in the list", has_several_plans, |app, _| {

@@ -1,6 +1,7 @@
 //! Commands, shortcuts, recording.
 
 use super::*;
+use crate::app::state::dialogs;
 
 pub(super) const COMMANDS: &[Command] = &[
     with(
@@ -9,7 +10,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Find a command by its name and do it",
         always,
         &given0(|app, _| {
-            app.open_dialog(crate::app::panels::palette::ID);
+            app.open_dialog(dialogs::PALETTE);
             Ran::Asks
         }),
         None,
@@ -22,7 +23,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Show the shortcuts of all commands, and change them",
         always,
         &given0(|app, _| {
-            app.open_dialog(crate::app::panels::shortcuts::ID);
+            app.open_dialog(dialogs::SHORTCUTS);
             Ran::Asks
         }),
         None,
@@ -83,7 +84,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Show the version, the licence and the paper",
         always,
         &given0(|app, _| {
-            app.open_dialog(crate::app::panels::about::ID);
+            app.open_dialog(dialogs::ABOUT);
             Ran::Asks
         }),
         None,

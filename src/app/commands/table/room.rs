@@ -4,6 +4,7 @@ use super::*;
 use crate::app::panels::bulk::Bulk;
 use crate::app::session::bulk::{Change, Order, Which};
 use crate::app::session::labelling::Target;
+use crate::app::state::dialogs;
 
 const TARGET: Arg<Option<RoomId>> = optional(
     "ROOM",
@@ -128,7 +129,7 @@ pub(super) const COMMANDS: &[Command] = &[
                 }
             },
         ),
-        Some(|app, _| app.open_dialog(crate::app::panels::bulk::ID)),
+        Some(|app, _| app.open_dialog(dialogs::BULK)),
     )
     .keys(&[ctrl(Key::F2)])
     .menu(Menu::Room, 1),
@@ -146,7 +147,7 @@ pub(super) const COMMANDS: &[Command] = &[
                     return Ran::Refused("the line goes through no room".to_owned());
                 }
                 let dialog = Bulk::naming_these(app, which);
-                app.dialogs.open(crate::app::panels::bulk::ID, Box::new(dialog));
+                app.dialogs.open(dialogs::BULK, Box::new(dialog));
                 Ran::Asks
             },
         ),
@@ -172,7 +173,7 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         Some(|app, _| {
             let dialog = Bulk::changing(app);
-            app.dialogs.open(crate::app::panels::bulk::ID, Box::new(dialog));
+            app.dialogs.open(dialogs::BULK, Box::new(dialog));
         }),
     )
     .menu(Menu::Room, 1),

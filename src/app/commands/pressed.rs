@@ -1,0 +1,23 @@
+//! Which commands the keys that were pressed mean.
+
+use egui::{Event, InputState};
+
+use super::{COMMANDS, Command};
+use crate::app::look::keys::Keys;
+use crate::app::session::settings::Settings;
+
+/// Takes the shortcuts pressed since the last frame out of the input and gives their commands.
+/// `is_typing`: a text field has the keyboard, which then keeps what it needs itself.
+pub(crate) fn take_pressed(input: &mut InputState, settings: &Settings, is_typing: bool) -> Vec<&'static Command> {
+    let mut pressed = Vec::new();
+    input.events.retain(|event| {
+        let Event::Key { key, pressed: true, modifiers, .. } = event else { return true };
+        let hit = COMMANDS.iter().find(|command| {
+            let is_it = |keys: &Keys| keys.is_pressed(*key, *modifiers) && !(is_typing && keys.belongs_to_text());
+            settings.keys_of(command.id).iter().any(is_it)
+        });
+        pressed.extend(hit);
+        hit.is_none()
+    });
+    pressed
+}
