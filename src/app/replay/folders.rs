@@ -3,7 +3,7 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use super::stage::Fault;
+use super::fault::Fault;
 use super::words::written;
 use crate::formats;
 use crate::store::save_bytes_fast;

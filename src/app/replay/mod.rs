@@ -5,6 +5,8 @@
 //! the same input events, a clock of its own, dialogs answered beforehand. [`find_scripts`] finds
 //! scripts, [`replay`] runs one, [`guide`] describes the language from the table of verbs.
 
+mod act;
+mod fault;
 mod folders;
 mod guide;
 mod place;
@@ -16,8 +18,6 @@ mod snapshot;
 mod stage;
 mod verbs;
 mod words;
-
-pub(super) use record::Recorder;
 
 pub use guide::guide;
 pub use run::{Failure, FindError, ReplayOptions, Report, ScriptFile, find_scripts, replay, replay_telling};

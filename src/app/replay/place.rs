@@ -2,7 +2,8 @@
 
 use egui::{Pos2, pos2};
 
-use super::stage::{Fault, Stage};
+use super::fault::Fault;
+use super::stage::Stage;
 use super::words::{Words, in_quotes};
 use crate::app::replay::words::told;
 use crate::geometry::Point;

@@ -31,6 +31,11 @@ use crate::geometry::Point;
 use crate::plan::{ElementId, Plan};
 use crate::store::{SaveError, save_bytes};
 
+/// The recorder that the window keeps, which knows it only as something.
+fn recorder_in(kept: &mut Option<Box<dyn Any>>) -> Option<&mut Recorder> {
+    kept.as_mut()?.downcast_mut()
+}
+
 /// What the recorder hears, through the session, which cannot read it.
 enum News {
     /// Where to save a recording; then goes on.
@@ -337,7 +342,7 @@ impl App {
         if let Some((centre, px_per_m)) = self.canvas.free_view() {
             recorder.view = Some(View { x_m: centre.x, y_m: centre.y, px_per_m });
         }
-        self.recorder = Some(recorder);
+        self.recorder = Some(Box::new(recorder));
         self.session.is_recording = true;
         self.round_view();
         self.watch_commands(true);
@@ -378,7 +383,7 @@ impl App {
         if std::mem::take(&mut self.wants_recording) {
             self.start_recording(context);
         }
-        let Some(recorder) = &mut self.recorder else { return };
+        let Some(recorder) = recorder_in(&mut self.recorder) else { return };
         let frame = Frame::of(context);
         if frame != recorder.frame {
             let lines = frame.lines(recorder.frame);
@@ -390,11 +395,11 @@ impl App {
             recorder.lines.extend(lines);
         }
         self.write_executed();
-        let is_moving = self.recorder.as_mut().is_some_and(|recorder| std::mem::take(&mut recorder.is_moving));
+        let is_moving = recorder_in(&mut self.recorder).is_some_and(|recorder| std::mem::take(&mut recorder.is_moving));
         if !is_moving {
             self.round_view();
         }
-        let start = self.recorder.as_ref().and_then(|recorder| recorder.start);
+        let start = recorder_in(&mut self.recorder).and_then(|recorder| recorder.start);
         let before_start = self.session.document.as_ref().zip(start).and_then(|(document, (number, position))| {
             let is_before = document.number == number && document.history.position() < position;
             is_before.then(|| document.history.steps().get(position).map(|step| step.plan.clone()))
@@ -405,10 +410,11 @@ impl App {
                 "The recording ends before this step",
                 "What is undone now was done before the recording began.",
             );
-            if let Some(recorder) = &mut self.recorder {
+            if let Some(recorder) = recorder_in(&mut self.recorder) {
                 recorder.lines.pop();
             }
-            let recording = self.recorder.take().map(|recorder| recorder.recording(plan_before.as_ref()));
+            let recording = recorder_in(&mut self.recorder).map(|recorder| recorder.recording(plan_before.as_ref()));
+            self.recorder = None;
             self.session.is_recording = false;
             self.watch_commands(false);
             self.ask_where_to_save_recording(recording, None);
@@ -419,7 +425,7 @@ impl App {
     pub(crate) fn write_executed(&mut self) {
         // Without a recorder they are kept for whoever watches them.
         let executed = if self.recorder.is_some() { self.take_executed() } else { return };
-        let Some(recorder) = &mut self.recorder else { return };
+        let Some(recorder) = recorder_in(&mut self.recorder) else { return };
         for executed in &executed {
             if executed.id != "view" {
                 // What follows was done from this very view.
@@ -431,7 +437,7 @@ impl App {
 
     /// Writes down the view that is seen, rounded, and shows it as it is written.
     fn round_view(&mut self) {
-        let Some(recorder) = &mut self.recorder else { return };
+        let Some(recorder) = recorder_in(&mut self.recorder) else { return };
         if let Some(view) = recorder.view.take() {
             let view = view.rounded();
             self.canvas.set_view(Point::new(view.x_m, view.y_m), view.px_per_m);
@@ -445,7 +451,7 @@ impl App {
         self.session.commit_field();
         self.write_executed();
         self.round_view();
-        let recording = self.recorder.as_ref().map(|recorder| recorder.recording(self.plan()));
+        let recording = recorder_in(&mut self.recorder).map(|recorder| recorder.recording(self.session.plan()));
         self.ask_where_to_save_recording(recording, then);
     }
 

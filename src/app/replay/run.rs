@@ -3,9 +3,10 @@
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use super::fault::Fault;
 use super::folders::Folders;
 use super::script::{LARGEST_BYTES, Script};
-use super::stage::{Fault, Stage};
+use super::stage::Stage;
 use crate::formats;
 use crate::plan::Plan;
 

@@ -1,8 +1,8 @@
 //! A script's text as steps.
 
+use super::act::Act;
 use std::fmt;
 
-use super::stage::{Fault, Stage};
 use super::verbs::{self, VERBS};
 use super::words::{self, Words};
 use crate::app::commands::{self, COMMANDS};
@@ -18,9 +18,6 @@ pub(super) struct Step {
     pub line: usize,
     pub act: Act,
 }
-
-/// What a step does.
-pub(super) type Act = Box<dyn Fn(&mut Stage<'_>) -> Result<(), Fault> + Send + Sync>;
 
 /// What cannot be understood in a script.
 #[derive(Clone, Debug, PartialEq, Eq)]

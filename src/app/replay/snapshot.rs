@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use egui::Rect;
 
-use super::stage::{Fault, Stage, count};
+use super::fault::Fault;
+use super::stage::{Stage, count};
 use crate::app::offscreen::OffscreenOptions;
 use crate::picture::Picture;
 use crate::store::save_bytes_fast;

@@ -1,5 +1,6 @@
 //! A script at work: the window it drives, the folders it lives in, and what went wrong.
 
+use super::fault::Fault;
 use std::path::PathBuf;
 
 use egui::Pos2;
@@ -9,39 +10,6 @@ use super::words::{did_you_mean, in_quotes};
 use crate::app::offscreen::{Offscreen, OffscreenOptions, controls::Control};
 use crate::geometry::Point;
 use crate::plan::{Plan, RoomId};
-
-/// Why a step did not do what it says.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Fault {
-    /// What was expected and what was found.
-    pub what: String,
-    /// What to do about it; may be empty.
-    pub hint: String,
-    /// What was written to look at.
-    pub files: Vec<PathBuf>,
-    /// Whether the steps that follow still mean something.
-    pub goes_on: bool,
-}
-
-impl Fault {
-    /// One after which the script cannot go on.
-    pub(super) fn new(what: impl Into<String>) -> Self {
-        Self { what: what.into(), hint: String::new(), files: Vec::new(), goes_on: false }
-    }
-
-    /// One of something that was only looked at.
-    pub(super) fn unmet(what: impl Into<String>) -> Self {
-        Self { goes_on: true, ..Self::new(what) }
-    }
-
-    pub(super) fn hint(self, hint: impl Into<String>) -> Self {
-        Self { hint: hint.into(), ..self }
-    }
-
-    pub(super) fn files(self, files: Vec<PathBuf>) -> Self {
-        Self { files, ..self }
-    }
-}
 
 /// No window has more physical pixels a side: a picture of it takes 256 MiB.
 const MOST_PX_A_SIDE: f32 = 8192.0;

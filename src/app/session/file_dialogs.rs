@@ -1,6 +1,6 @@
 //! Dialogs that ask for a file: the system's, or answers given beforehand where there is no screen.
 
-use crate::app::session::tracing::PictureUse;
+use crate::app::session::picture_change::PictureUse;
 use std::any::Any;
 use std::collections::VecDeque;
 use std::path::PathBuf;

@@ -3,7 +3,7 @@
 use super::wishes::Wish;
 use crate::app::session::Session;
 use crate::app::session::origin::file_name;
-use crate::app::session::tracing::PictureUse;
+use crate::app::session::picture_change::PictureUse;
 use crate::app::session::tracing::plan_in_folder;
 use std::path::{Path, PathBuf};
 

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use super::Session;
 use crate::app::session::document::{Expected, Opened};
 use crate::app::session::origin::file_name;
-use crate::app::session::tracing::PictureChange;
+use crate::app::session::picture_change::PictureChange;
 use crate::base::wording::count;
 use crate::edit::DrawingMoves;
 use crate::geometry::Segment;

@@ -2,6 +2,7 @@
 
 use super::wishes::Wish;
 use crate::app::session::Session;
+use crate::app::session::picture_change::{PictureChange, PictureUse};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -14,45 +15,10 @@ use crate::app::session::{
     origin::file_name,
     questions::Question,
 };
-use crate::edit::{self, DrawingMoves, EditError};
+use crate::edit::{self, DrawingMoves};
 use crate::geometry::{Point, Vector};
-use crate::plan::{Backdrop, Measurement, OpeningId, Plan};
+use crate::plan::{Backdrop, OpeningId, Plan};
 use crate::store::pictures::{self, LoadedPicture, PictureError};
-
-/// What a picture is read for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum PictureUse {
-    /// To lie under the plan, in place of one that does.
-    Add,
-    /// To be the one that the plan asks for.
-    Relink,
-}
-
-/// A change of the picture that the drawing may follow.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum PictureChange {
-    /// The lengths its scale follows from.
-    Measurements(Vec<Measurement>),
-    /// A turn about a point of the plan, counter-clockwise.
-    Turn { about: Point, angle_rad: f64 },
-}
-
-impl PictureChange {
-    /// What it is called in the history.
-    const fn title(&self) -> &'static str {
-        match self {
-            Self::Measurements(_) => "Set scale",
-            Self::Turn { .. } => "Turn picture",
-        }
-    }
-
-    fn apply(&self, plan: &Plan, drawing: DrawingMoves) -> Result<Plan, EditError> {
-        match self {
-            Self::Measurements(measurements) => edit::set_measurements(plan, measurements.clone(), drawing),
-            Self::Turn { about, angle_rad } => edit::turn_picture(plan, *about, *angle_rad, drawing),
-        }
-    }
-}
 
 impl Session {
     // Reading.

@@ -1,7 +1,7 @@
 //! The picture under the plan, to trace over.
 
 use super::*;
-use crate::app::session::tracing::PictureUse;
+use crate::app::session::picture_change::PictureUse;
 use crate::edit::DrawingMoves;
 use crate::plan::{DEFAULT_DOOR_WIDTH_M, ElementId};
 

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::{Group, Verb};
-use crate::app::replay::script::Act;
-use crate::app::replay::stage::Fault;
+use crate::app::replay::act::Act;
+use crate::app::replay::fault::Fault;
 use crate::app::replay::words::{Words, written};
 use crate::formats;
 use crate::store::save_bytes_fast;

@@ -3,7 +3,7 @@
 use egui::{Key, Modifiers};
 
 use super::{Group, Verb};
-use crate::app::replay::script::Act;
+use crate::app::replay::act::Act;
 use crate::app::replay::words::{Words, did_you_mean, told};
 
 pub(super) const GROUP: Group = Group {

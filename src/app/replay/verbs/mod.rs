@@ -7,8 +7,9 @@ mod keyboard;
 mod pointer;
 mod window;
 
-use super::script::Act;
-use super::stage::{self, Fault};
+use super::act::Act;
+use super::fault::Fault;
+use super::stage::{self};
 use super::words::Words;
 use crate::app::commands::{ArgumentKind, Command};
 

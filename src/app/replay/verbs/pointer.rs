@@ -3,9 +3,10 @@
 use egui::{Event, Modifiers, PointerButton, Pos2, vec2};
 
 use super::{Group, Verb};
+use crate::app::replay::act::Act;
+use crate::app::replay::fault::Fault;
 use crate::app::replay::place::Place;
-use crate::app::replay::script::Act;
-use crate::app::replay::stage::{Fault, Stage};
+use crate::app::replay::stage::Stage;
 use crate::app::replay::verbs::keyboard::modifiers_of;
 use crate::app::replay::words::{Words, written};
 

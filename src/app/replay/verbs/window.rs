@@ -2,7 +2,7 @@
 
 use super::{Group, Verb};
 use crate::app::offscreen::OffscreenOptions;
-use crate::app::replay::stage::Fault;
+use crate::app::replay::fault::Fault;
 use crate::app::replay::words::{Words, number, written};
 
 pub(super) const GROUP: Group = Group {
