@@ -1,5 +1,9 @@
 //! The library and its subcommands, with no window: one module a subject, its files beside it.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]
+#![allow(clippy::print_stdout, reason = "a test says what it skips and measures")]
+
 mod backdrop;
 mod bundled_plans;
 mod check;

@@ -36,6 +36,7 @@ pub trait Learner: Sync {
     fn train(&self, table: &Table, seed: u64, work: &Work<'_>) -> Result<Trained<Arc<dyn Model>>, Cancelled>;
 
     /// The model that [`Model::to_json`] wrote; `None` if these data do not make a sound one.
+    #[expect(clippy::wrong_self_convention, reason = "the learner reads a model of its own, the pair of `to_json`")]
     fn from_json(&self, model: Value) -> Option<Arc<dyn Model>>;
 }
 

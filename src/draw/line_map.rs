@@ -35,7 +35,7 @@ impl LineMapDrawing<'_> {
         let view = View::fitting(bounds, side(width), side(height), MARGIN_PX);
         let free = self.free.iter().filter_map(|shape| {
             let (outer, holes) = shape.split_first()?;
-            let holes = holes.iter().map(|hole| areas::points(hole)).collect();
+            let holes = holes.iter().map(areas::points).collect();
             Some(Item::Polygon { outer: areas::points(outer), holes, colour: palette.paper })
         });
         let obstacles = self.segments.iter().map(|segment| Item::Line {

@@ -59,7 +59,7 @@ impl PoseGraph {
             }
             let after = self.cost();
             // Not-a-number is no improvement either.
-            if !(after <= cost) {
+            if after.is_nan() || cost.is_nan() || after > cost {
                 self.poses = before;
                 damping *= 10.0;
                 if damping > 1e6 {
@@ -290,17 +290,15 @@ mod tests {
         let (blocks, pull) = graph.normal_equations();
         let order = elimination_order(pull.len(), &graph.edges);
         let solution = solve(&blocks, &pull, 0.0, &order).unwrap();
-        for pose in 1..pull.len() {
+        for (pose, &pulled) in pull.iter().enumerate().skip(1) {
             let mut left = Vector3::zeros();
-            for other in 0..pull.len() {
+            for (other, &part) in solution.iter().enumerate() {
                 left += match blocks.get(&(pose, other)) {
-                    Some(block) => block * solution[other],
-                    None => {
-                        blocks.get(&(other, pose)).map_or(Vector3::zeros(), |block| block.transpose() * solution[other])
-                    }
+                    Some(block) => block * part,
+                    None => blocks.get(&(other, pose)).map_or(Vector3::zeros(), |block| block.transpose() * part),
                 };
             }
-            assert!((left - pull[pose]).amax() < 1e-5 * (1.0 + pull[pose].amax()), "{pose}");
+            assert!((left - pulled).amax() < 1e-5 * (1.0 + pulled.amax()), "{pose}");
         }
     }
 }

@@ -131,8 +131,8 @@ fn furthest_off(points: &[Point], part: std::ops::Range<usize>, options: &SplitO
     let (first, last) = (points[part.start], points[part.end - 1]);
     let chord = (last - first).unit()?;
     let mut worst = (1.0, None);
-    for at in part.start + 1..part.end - 1 {
-        let off = (points[at] - first).cross(chord).abs() / tolerance_m(points[at], options);
+    for (at, &point) in points.iter().enumerate().take(part.end - 1).skip(part.start + 1) {
+        let off = (point - first).cross(chord).abs() / tolerance_m(point, options);
         if off > worst.0 {
             worst = (off, Some(at));
         }

@@ -392,7 +392,7 @@ fn a_typology_of_ones_own_needs_two_files() {
     let classify = |arguments: &[&str]| {
         let all =
             [&["classify", text_of(&plan), "--scheme", text_of(&scheme), "--models", text_of(&models)], arguments];
-        let (code, out, err) = enfilade(&all.concat());
+        let (code, out, err) = enfilade(all.concat());
         (code, format!("{}{err}", out.lines().next().unwrap_or_default()))
     };
     let (code, said) = classify(&["--algorithm", "tree"]);

@@ -19,6 +19,9 @@ pub(crate) type Outcome = Box<dyn FnOnce(&mut Session, &Context) + Send>;
 
 type Job = Box<dyn FnOnce(&Work<'_>) -> Outcome + Send>;
 
+/// What its owner does when a job broke.
+type Broken = Box<dyn FnOnce(&mut Session) + Send>;
+
 /// Where jobs run.
 pub(crate) enum Mode {
     /// On threads; the context is asked for a frame when one ends.
@@ -38,7 +41,7 @@ pub(crate) struct Kind {
     /// A later job of the same key replaces it.
     key: Option<&'static str>,
     must_end: bool,
-    broken: Option<Box<dyn FnOnce(&mut Session) + Send>>,
+    broken: Option<Broken>,
 }
 
 impl Kind {
