@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use super::{COMMANDS, Command, find};
 use crate::app::look::keys::NoKeys;
 use crate::app::session::origin::bundled;
+use crate::app::session::questions::Question;
 use crate::app::session::words::Choice;
 use crate::app::state::App;
 use crate::app::value::{
@@ -215,12 +216,7 @@ impl ArgumentKind {
                 _ => Err(self.expected()),
             },
             Self::Answer => {
-                let answers = app
-                    .session
-                    .question
-                    .as_ref()
-                    .map(crate::app::session::questions::Question::answers)
-                    .unwrap_or_default();
+                let answers = answers(app);
                 let found = answers.iter().find(|(word, _)| *word == text.trim());
                 found.map(|&(word, _)| Value::Word(word)).ok_or_else(|| with_choices(self.expected()))
             }
@@ -357,12 +353,7 @@ impl ArgumentKind {
             }
             Self::Switch => vec![plain("on", "On"), plain("off", "Off")],
             Self::Answer => {
-                let answers = app
-                    .session
-                    .question
-                    .as_ref()
-                    .map(crate::app::session::questions::Question::answers)
-                    .unwrap_or_default();
+                let answers = answers(app);
                 answers.iter().map(|(word, title)| plain(word, title)).collect()
             }
             Self::Word(words) => words.iter().map(|(word, title)| plain(word, title)).collect(),
@@ -422,4 +413,9 @@ fn opening_choices(app: &App) -> Vec<Choice> {
         }
     };
     plan.openings().map(choice).collect()
+}
+
+/// The answers to the question that is asked, each with what its button says; none where none is asked.
+fn answers(app: &App) -> Vec<(&'static str, &'static str)> {
+    app.session.question.as_ref().map(Question::answers).unwrap_or_default()
 }
