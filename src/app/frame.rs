@@ -31,7 +31,7 @@ impl App {
             canvas: Canvas::default(),
             tools: Toolbox::default(),
             theme: ThemeChoice::default(),
-            panels: Panels::default(),
+            panels: Panels::new(panels::SIDE_PANELS),
             dialogs: OpenDialogs::new(panels::DIALOGS),
             samples: Samples::default(),
             was_typing: false,

@@ -35,6 +35,8 @@ pub(crate) enum Value {
     Word(&'static str),
     /// A command's id.
     Command(&'static str),
+    /// The id of a panel at a side of the canvas.
+    SidePanel(&'static str),
     Keys(Keys),
 }
 

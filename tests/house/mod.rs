@@ -58,23 +58,6 @@ const MAY_TOUCH: &[(&str, &str, &str)] = &[
     ("formats/files.rs", "std::fs", "reads a plan's file or folder with a limit, for `store`, the window and `cli`"),
 ];
 
-/// Imports that run up today, the file and what it imports, and why. They only become fewer.
-const RUNS_UP: &[(&str, &str, &str)] = &[
-    (
-        "app/commands/run.rs",
-        "app/panels/palette.rs",
-        "a command that lacks an argument builds the palette that asks for it",
-    ),
-    ("app/commands/table/mod.rs", "app/panels/palette.rs", "so do commands that ask with choices of their own"),
-    ("app/commands/table/room.rs", "app/panels/bulk.rs", "commands fill in the form that names or changes many rooms"),
-];
-
-/// Files that import each other today, and why; written as the test tells them.
-const CIRCLES: &[(&str, &str)] = &[
-    ("app/commands/argument.rs", "an argument may be a command, so that reading one looks into the table that has it"),
-    ("app/commands/given.rs", "as above: typed arguments are arguments"),
-];
-
 struct House {
     /// By path below `src`, the text of each without its tests.
     files: BTreeMap<String, String>,
@@ -296,7 +279,6 @@ fn floor_of(file: &str) -> (usize, &'static str) {
 fn imports_run_down() {
     let house = House::read();
     let mut wrong = Vec::new();
-    let mut known = BTreeSet::new();
     for (file, from) in house.imports() {
         let (floor, room) = floor_of(file);
         for other in from {
@@ -304,18 +286,13 @@ fn imports_run_down() {
             if other_floor <= floor {
                 continue;
             }
-            match RUNS_UP.iter().find(|(lower, upper, _)| *lower == file && *upper == other) {
-                Some(exception) => drop(known.insert(exception)),
-                None => wrong.push(format!(
-                    "src/{file} imports from src/{other}, but `{other_room}` stands above `{room}`: hand in what is \
-                     needed, or move it down"
-                )),
-            }
+            wrong.push(format!(
+                "src/{file} imports from src/{other}, but `{other_room}` stands above `{room}`: hand in what is needed, \
+                 or move it down"
+            ));
         }
     }
     assert!(wrong.is_empty(), "imports run up:\n{}", wrong.join("\n"));
-    let stale: Vec<_> = RUNS_UP.iter().filter(|exception| !known.contains(exception)).collect();
-    assert!(stale.is_empty(), "no longer needed, take them out of RUNS_UP: {stale:?}");
 }
 
 #[test]
@@ -329,8 +306,6 @@ fn no_files_import_each_other_in_a_circle() {
         if let Some(parent) = house.file_of(&parent) {
             from.remove(&parent);
         }
-        // What runs up is told by the test above.
-        from.retain(|other| !RUNS_UP.iter().any(|(lower, upper, _)| lower == file && upper == other));
     }
     // What a file reaches, and whether that is itself.
     let mut circles = Vec::new();
@@ -348,9 +323,6 @@ fn no_files_import_each_other_in_a_circle() {
                     }
                     circle.reverse();
                     told.extend(circle.iter().copied());
-                    if circle.iter().any(|file| CIRCLES.iter().any(|(of, _)| of == file)) {
-                        continue;
-                    }
                     circles.push(format!("{} -> {start}", circle.join(" -> ")));
                 }
                 if !came_from.contains_key(next) && *next != start {
@@ -370,8 +342,8 @@ fn no_files_import_each_other_in_a_circle() {
 #[test]
 fn the_core_is_pure() {
     let house = House::read();
-    let mut wrong = Vec::new();
     let mut known = BTreeSet::new();
+    let mut wrong = Vec::new();
     for (file, text) in &house.files {
         let (_, room) = floor_of(file);
         if !CORE.contains(&room) {

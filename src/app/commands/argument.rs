@@ -5,12 +5,11 @@ use crate::classify::Method;
 use crate::predict::ModelSet;
 use std::path::PathBuf;
 
-use super::{COMMANDS, Command, find};
 use crate::app::look::keys::NoKeys;
-use crate::app::session::origin::bundled;
 use crate::app::session::questions::Question;
 use crate::app::session::words::Choice;
-use crate::app::state::App;
+use crate::app::session::{origin::bundled, settings::Keyed};
+use crate::app::state::{App, SidePanel};
 use crate::app::value::{
     UNKNOWN, Value, element, elements_word, is_own_word, point, points_word, room, room_word, sample_word, switch_word,
 };
@@ -78,6 +77,8 @@ pub enum ArgumentKind {
     Answer,
     /// A command of the menus: its id.
     Command,
+    /// A panel at a side of the canvas that has no command of its own: its id.
+    SidePanel,
     /// Keys that are pressed together: 'Ctrl+Shift+K'.
     Keys,
     /// One of some words, each with its title.
@@ -117,6 +118,7 @@ impl ArgumentKind {
             Self::Switch => "'on' or 'off'".to_owned(),
             Self::Answer => "a button of the question".to_owned(),
             Self::Command => "the id of a command that stands in a menu".to_owned(),
+            Self::SidePanel => "a panel beside the canvas that has no command of its own".to_owned(),
             Self::Keys => NoKeys.to_string(),
             Self::Word(words) => {
                 let words: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
@@ -221,8 +223,13 @@ impl ArgumentKind {
                 found.map(|&(word, _)| Value::Word(word)).ok_or_else(|| with_choices(self.expected()))
             }
             Self::Command => {
-                let command = find(text.trim()).filter(|command| command.menu.is_some());
+                let mut commands = app.session.settings.commands().iter();
+                let command = commands.find(|command| command.id == text.trim() && command.menu.is_some());
                 command.map(|command| Value::Command(command.id)).ok_or_else(|| with_choices(self.expected()))
+            }
+            Self::SidePanel => {
+                let panel = app.panels.others().find(|panel| panel.id == text.trim());
+                panel.map(|panel| Value::SidePanel(panel.id)).ok_or_else(|| with_choices(self.expected()))
             }
             Self::Keys => text.parse().map(Value::Keys).map_err(|error: NoKeys| error.to_string()),
             Self::Word(words) => {
@@ -268,6 +275,7 @@ impl ArgumentKind {
             | (Self::Switch, Value::Switch(_))
             | (Self::Answer, Value::Word(_))
             | (Self::Command, Value::Command(_))
+            | (Self::SidePanel, Value::SidePanel(_))
             | (Self::Keys, Value::Keys(_)) => true,
             _ => false,
         };
@@ -293,7 +301,7 @@ impl ArgumentKind {
             Value::Sample(index) => sample_word(*index).to_owned(),
             Value::Switch(is_on) => switch_word(*is_on).to_owned(),
             Value::Word(word) => (*word).to_owned(),
-            Value::Command(id) => (*id).to_owned(),
+            Value::Command(id) | Value::SidePanel(id) => (*id).to_owned(),
             Value::Keys(keys) => keys.to_string(),
         }
     }
@@ -345,11 +353,16 @@ impl ArgumentKind {
                 bundled().iter().map(choice).collect()
             }
             Self::Command => {
-                let choice = |command: &Command| {
-                    let menu = command.menu?.0.title();
-                    Some(Choice { detail: menu.to_owned(), ..plain(command.id, command.plain_title()) })
+                let choice = |command: &Keyed| {
+                    let title = command.title.trim_end_matches('…');
+                    Some(Choice { detail: command.menu?.to_owned(), ..plain(command.id, title) })
                 };
-                COMMANDS.iter().filter_map(choice).collect()
+                app.session.settings.commands().iter().filter_map(choice).collect()
+            }
+            Self::SidePanel => {
+                let choice =
+                    |panel: &SidePanel| Choice { detail: panel.help.to_owned(), ..plain(panel.id, panel.title) };
+                app.panels.others().map(choice).collect()
             }
             Self::Switch => vec![plain("on", "On"), plain("off", "Off")],
             Self::Answer => {

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use egui::Context;
 
-use super::{Argument, ArgumentKind, Command, Ran, find};
+use super::{Argument, ArgumentKind, Ran};
 use crate::app::look::keys::Keys;
 use crate::app::state::App;
 use crate::app::value::{Value, Values, Worded};
@@ -63,10 +63,25 @@ impl OfValue for Point {
     }
 }
 
-impl OfValue for &'static Command {
+/// A command's id.
+pub(super) struct CommandId(pub &'static str);
+
+impl OfValue for CommandId {
     fn of(value: &Value) -> Option<Self> {
         match value {
-            Value::Command(id) => find(id),
+            Value::Command(id) => Some(Self(id)),
+            _ => None,
+        }
+    }
+}
+
+/// The id of a panel at a side of the canvas.
+pub(super) struct SidePanelId(pub &'static str);
+
+impl OfValue for SidePanelId {
+    fn of(value: &Value) -> Option<Self> {
+        match value {
+            Value::SidePanel(id) => Some(Self(id)),
             _ => None,
         }
     }
@@ -119,7 +134,8 @@ pub(super) const METHOD: Kind<Method> = kind(ArgumentKind::Method);
 pub(super) const SAMPLE: Kind<Sample> = kind(ArgumentKind::Sample);
 pub(super) const ON_OR_OFF: Kind<bool> = kind(ArgumentKind::Switch);
 pub(super) const ANSWER: Kind<&'static str> = kind(ArgumentKind::Answer);
-pub(super) const A_COMMAND: Kind<&'static Command> = kind(ArgumentKind::Command);
+pub(super) const A_COMMAND: Kind<CommandId> = kind(ArgumentKind::Command);
+pub(super) const PANEL: Kind<SidePanelId> = kind(ArgumentKind::SidePanel);
 pub(super) const KEYS: Kind<Keys> = kind(ArgumentKind::Keys);
 
 /// A number: what it counts with a blank before (' of degrees'), and its range.

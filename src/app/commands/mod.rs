@@ -171,6 +171,22 @@ impl Command {
         Some((argument.kind.choices(app)?, argument.kind.current(app)?))
     }
 
+    /// What menus show in its place, one a row, each with whether it is on; `None` where they show the command.
+    pub(super) fn rows(&self, app: &App) -> Option<Vec<(Choice, bool)>> {
+        let with = |is_on: &dyn Fn(&str) -> bool, choices: Vec<Choice>| {
+            let ticked = choices.into_iter().map(|choice| {
+                let is_on = is_on(&choice.word);
+                (choice, is_on)
+            });
+            ticked.collect()
+        };
+        if let [Argument { kind: ArgumentKind::SidePanel, .. }, ..] = self.arguments {
+            return Some(with(&|word| app.panels.is_shown(word), ArgumentKind::SidePanel.choices(app)?));
+        }
+        let (choices, current) = self.settings(app)?;
+        Some(with(&|word| word == current, choices))
+    }
+
     /// How it is called: 'open PATH [STOREY]'. What stands in brackets may be left out.
     pub fn usage(&self) -> String {
         let mut usage = self.id.to_owned();

@@ -10,12 +10,11 @@ use egui::Context;
 
 use super::{Action, COMMANDS, Command, Ran, find};
 use crate::app::look::keys::Keys;
-use crate::app::panels::palette::Palette;
 use crate::app::session::{
     messages::Severity,
     settings::{Keyed, Settings},
 };
-use crate::app::state::App;
+use crate::app::state::{App, Asked};
 use crate::app::value::{Call, Value, Values, switch_word};
 use crate::base::units::Units;
 
@@ -196,7 +195,7 @@ impl App {
                 Ran::Refused(reason) => return Err(reason),
             },
             Action::With { ask: Some(ask), .. } => ask(self, context),
-            Action::With { ask: None, .. } => self.open_palette(Palette::asking(command, written)),
+            Action::With { ask: None, .. } => self.ask_for_argument(Asked { given: written, ..Asked::of(command.id) }),
         }
         Ok(())
     }
@@ -228,6 +227,7 @@ pub(crate) fn keyed() -> &'static [Keyed] {
     let keyed = |command: &Command| Keyed {
         id: command.id,
         title: command.title,
+        menu: command.menu.map(|(menu, _)| menu.title()),
         shipped: command.shortcuts.iter().map(|&shortcut| shortcut.into()).collect(),
     };
     KEYED.get_or_init(|| COMMANDS.iter().map(keyed).collect())
@@ -248,15 +248,15 @@ impl App {
         self.session.settings.keys_of(command.id).first().map(|keys| keys.text(context)).unwrap_or_default()
     }
 
-    pub(super) fn set_shortcut(&mut self, command: &'static Command, keys: Option<Keys>) -> Ran {
-        match self.session.settings.set_keys(command.id, keys) {
+    pub(super) fn set_shortcut(&mut self, id: &'static str, keys: Option<Keys>) -> Ran {
+        match self.session.settings.set_keys(id, keys) {
             Ok(()) => self.keep_settings(),
             Err(refused) => Ran::Refused(refused.reason(&keys.map(|keys| keys.to_string()).unwrap_or_default())),
         }
     }
 
-    pub(super) fn reset_shortcut(&mut self, command: &'static Command) -> Ran {
-        match self.session.settings.reset_keys(command.id) {
+    pub(super) fn reset_shortcut(&mut self, id: &'static str) -> Ran {
+        match self.session.settings.reset_keys(id) {
             Ok(()) => self.keep_settings(),
             Err((keys, refused)) => Ran::Refused(refused.reason(&keys.to_string())),
         }

@@ -10,7 +10,7 @@ use crate::app::look::{
 use crate::app::state::App;
 use crate::app::state::{After, Dialog, Entry};
 
-pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(About), is_of_plan: false };
+pub(super) const ENTRY: Entry = Entry { id: ID, make: |_, _| Box::new(About), is_of_plan: false };
 
 pub(crate) const ID: &str = dialogs::ABOUT;
 

@@ -15,7 +15,7 @@ use crate::app::look::{
 };
 use crate::app::session::bulk::{Change, Names, Order, Which};
 use crate::app::state::App;
-use crate::app::state::{After, Dialog, Entry};
+use crate::app::state::{After, Dialog, Entry, Purpose};
 use crate::base::wording::{count, sentence};
 use crate::draw::Palette;
 use crate::edit::naming::{PARTS, PatternError};
@@ -67,21 +67,29 @@ enum End {
 }
 
 impl Bulk {
+    fn new(app: &App, purpose: Purpose) -> Self {
+        match purpose {
+            Purpose::NameRooms(which) => Self::naming_these(app, which),
+            Purpose::ChangeRooms => Self::changing(app),
+            Purpose::Usual | Purpose::Argument(_) => Self::naming(app),
+        }
+    }
+
     /// To name the selected rooms; without any those that have no name, or all.
-    pub(crate) fn naming(app: &App) -> Self {
+    fn naming(app: &App) -> Self {
         let has = |which: &Which| !app.session.rooms_of(which).is_empty();
         let which = [Which::Selected, Which::Unnamed].into_iter().find(has).unwrap_or(Which::All);
         Self::naming_these(app, which)
     }
 
     /// To name rooms of a kind.
-    pub(crate) fn naming_these(app: &App, which: Which) -> Self {
+    fn naming_these(app: &App, which: Which) -> Self {
         let pattern = app.panels.pattern.clone().unwrap_or_else(|| "{function} {n}".to_owned());
         Self::Name(NameForm { pattern, start: "1".to_owned(), which, order: Order::Rows, along: None, is_shown: false })
     }
 
     /// To change the selected rooms; without any those of the function that most have.
-    pub(crate) fn changing(app: &App) -> Self {
+    fn changing(app: &App) -> Self {
         let from_function =
             app.session.function_choices().into_iter().next().map(|choice| choice.word).unwrap_or_default();
         let is_selected = !app.session.rooms_of(&Which::Selected).is_empty();
@@ -98,7 +106,8 @@ impl Bulk {
     }
 }
 
-pub(super) const ENTRY: Entry = Entry { id: ID, make: |app| Box::new(Bulk::naming(app)), is_of_plan: true };
+pub(super) const ENTRY: Entry =
+    Entry { id: ID, make: |app, purpose| Box::new(Bulk::new(app, purpose)), is_of_plan: true };
 
 pub(crate) const ID: &str = dialogs::BULK;
 

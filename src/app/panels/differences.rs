@@ -92,7 +92,7 @@ fn counted(lines: Vec<(MarkKind, String)>) -> Vec<(MarkKind, String)> {
     lines.chunk_by(|p, q| p == q).map(of_one).collect()
 }
 
-pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(Differences::default()), is_of_plan: true };
+pub(super) const ENTRY: Entry = Entry { id: ID, make: |_, _| Box::new(Differences::default()), is_of_plan: true };
 
 pub(crate) const ID: &str = dialogs::DIFFERENCES;
 

@@ -7,7 +7,7 @@ use crate::app::look::{
     widgets::{colours, focus_ring, put_line, section},
 };
 use crate::app::session::document::Document;
-use crate::app::state::App;
+use crate::app::state::{App, Height, Side, SidePanel, panels};
 
 /// Height of a step's row, in points.
 const ROW: f32 = 24.0;
@@ -21,7 +21,23 @@ enum Act {
     Jump(usize),
 }
 
-pub(super) fn show(app: &mut App, ui: &mut Ui) {
+/// Height in points below the inspector, and the least it can be made.
+const USUAL_HEIGHT: f32 = 240.0;
+const LEAST_HEIGHT: f32 = 90.0;
+
+pub(super) const PANEL: SidePanel = SidePanel {
+    id: panels::HISTORY,
+    title: "History",
+    help: "The steps that led to the plan",
+    side: Side::Right,
+    height: Height::Dragged { usual: USUAL_HEIGHT, least: LEAST_HEIGHT },
+    is_shown_at_first: false,
+    needs_plan: true,
+    has_own_command: true,
+    show,
+};
+
+fn show(app: &mut App, ui: &mut Ui) {
     let Some(document) = &app.session.document else { return };
     let margin = egui::Margin { left: 8, right: 8, top: 10, bottom: 8 };
     let act = egui::Frame::new().inner_margin(margin).show(ui, |ui| {

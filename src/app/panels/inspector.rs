@@ -12,7 +12,7 @@ use crate::app::look::{
 };
 use crate::app::session::document::{Derived, Document};
 use crate::app::session::fields::{Field, FieldKind};
-use crate::app::state::App;
+use crate::app::state::{App, Height, Side, SidePanel, panels};
 use crate::base::{
     units::Units,
     wording::{count, sentence},
@@ -49,7 +49,22 @@ impl Act {
     }
 }
 
-pub(super) fn show(app: &mut App, ui: &mut Ui) {
+/// So many points at least it keeps above the history.
+const LEAST_HEIGHT: f32 = 160.0;
+
+pub(super) const PANEL: SidePanel = SidePanel {
+    id: panels::INSPECTOR,
+    title: "Inspector",
+    help: "What is known of what is picked",
+    side: Side::Right,
+    height: Height::Rest { least: LEAST_HEIGHT },
+    is_shown_at_first: true,
+    needs_plan: true,
+    has_own_command: true,
+    show,
+};
+
+fn show(app: &mut App, ui: &mut Ui) {
     let mut act = None;
     let mut hovered = None;
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {

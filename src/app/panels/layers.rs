@@ -8,7 +8,7 @@ use crate::app::look::{
     widgets::{Lead, ROW, Row, Segment, caption, hairline, section, segmented},
 };
 use crate::app::session::document::Document;
-use crate::app::state::App;
+use crate::app::state::{App, Height, Side, SidePanel, panels};
 use crate::draw::{self, Fill, Palette};
 use crate::features::RoomStatus;
 use crate::labels::Label;
@@ -19,7 +19,22 @@ const LAYERS: (Menu, u8) = (Menu::View, 2);
 /// Layers that are listed only where the plan has them.
 const RARE: [&str; 2] = ["guides", "ghost-layer"];
 
-pub(super) fn show(app: &mut App, ui: &mut Ui) {
+/// Height in points before it was first shown.
+const USUAL_HEIGHT: f32 = 360.0;
+
+pub(super) const PANEL: SidePanel = SidePanel {
+    id: panels::LAYERS,
+    title: "Layers",
+    help: "What is shown of the plan, and what its colours mean",
+    side: Side::Left,
+    height: Height::Content { usual: USUAL_HEIGHT },
+    is_shown_at_first: true,
+    needs_plan: false,
+    has_own_command: true,
+    show,
+};
+
+fn show(app: &mut App, ui: &mut Ui) {
     hairline(ui);
     section(ui, "Fill");
     let fills = [

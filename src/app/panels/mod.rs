@@ -1,4 +1,4 @@
-//! The panels around the canvas, one file each.
+//! The panels around the canvas and the dialogs over it, one file each.
 
 pub(super) mod about;
 pub(super) mod bulk;
@@ -17,49 +17,24 @@ mod prediction;
 mod questions;
 pub(super) mod recovery;
 pub(super) mod shortcuts;
+mod sides;
 pub(super) mod status;
 mod tool_options;
 mod tool_strip;
 mod top_bar;
 pub(super) mod welcome;
 
-use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui, UiBuilder};
+use egui::{CentralPanel, Frame, Margin, Panel, Ui, UiBuilder};
 
 use crate::app::look::theme;
-use crate::app::state::App;
-use crate::app::state::Entry;
+use crate::app::state::{App, Entry, Side, SidePanel};
 
 /// The dialogs there are; a later one lies above an earlier one.
 pub(crate) const DIALOGS: &[Entry] =
     &[notes::ENTRY, differences::ENTRY, recovery::ENTRY, about::ENTRY, shortcuts::ENTRY, bulk::ENTRY, palette::ENTRY];
 
-/// So many points at least the list of plans keeps above the layers: its title and two plans.
-const LEAST_PLANS_HEIGHT: f32 = 110.0;
-
-/// Height in points of the history below the inspector, and the least it can be made.
-const HISTORY_HEIGHT: f32 = 240.0;
-const LEAST_HISTORY_HEIGHT: f32 = 90.0;
-
-/// So many points at least the inspector keeps above the history.
-const LEAST_INSPECTOR_HEIGHT: f32 = 160.0;
-
-/// The inspector, and the history below it.
-fn show_right(app: &mut App, ui: &mut Ui) {
-    match (app.panels.right, app.panels.history) {
-        (_, false) => inspector::show(app, ui),
-        (false, true) => history::show(app, ui),
-        (true, true) => {
-            let most = (ui.available_height() - LEAST_INSPECTOR_HEIGHT).max(LEAST_HISTORY_HEIGHT);
-            Panel::bottom("history")
-                .resizable(true)
-                .default_size(HISTORY_HEIGHT.min(most))
-                .size_range(LEAST_HISTORY_HEIGHT..=most)
-                .frame(Frame::new().fill(theme::colours(ui.visuals()).panel))
-                .show(ui, |ui| history::show(app, ui));
-            inspector::show(app, ui);
-        }
-    }
-}
+/// The panels at the sides there are, from the top.
+pub(crate) const SIDE_PANELS: &[SidePanel] = &[plans::PANEL, layers::PANEL, inspector::PANEL, history::PANEL];
 
 /// Shows the window.
 pub(crate) fn show(app: &mut App, ui: &mut Ui) {
@@ -74,41 +49,22 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
         .show(ui, |ui| ui.max_rect())
         .inner;
     (app.panels.left_rect, app.panels.right_rect) = (None, None);
-    if app.panels.left {
+    let left = sides::shown(app, Side::Left);
+    if !left.is_empty() {
         let shown = Panel::left("plans and layers")
             .default_size(236.0)
             .size_range(180.0..=440.0)
             .frame(frame(Margin::symmetric(8, 8)))
-            .show(ui, |ui| {
-                // As high as what is in it, which changes with the fill: a panel that sizes itself
-                // does not grow again. In a low window it scrolls, so that the plans keep some room.
-                let wanted = app.panels.layers_height;
-                let given = wanted.min(ui.available_height() - LEAST_PLANS_HEIGHT).max(LEAST_PLANS_HEIGHT);
-                let all = ui.available_rect_before_wrap();
-                let (above, below) = all.split_top_bottom_at_y(all.bottom() - given);
-                // From top to bottom, as the keyboard goes.
-                plans::show(app, &mut ui.new_child(UiBuilder::new().max_rect(above).id_salt("plans")));
-                let mut below = ui.new_child(UiBuilder::new().max_rect(below).id_salt("layers"));
-                let area = ScrollArea::vertical().id_salt("layers").auto_shrink(false);
-                let shown = area.show(&mut below, |ui| {
-                    let top = ui.cursor().top();
-                    layers::show(app, ui);
-                    ui.cursor().top() - top
-                });
-                if (shown.inner - wanted).abs() > 0.5 {
-                    app.panels.layers_height = shown.inner;
-                    ui.request_repaint();
-                }
-                ui.take_available_space();
-            });
+            .show(ui, |ui| sides::show(app, ui, &left));
         app.panels.left_rect = Some(shown.response.rect);
     }
-    if (app.panels.right || app.panels.history) && app.session.document.is_some() {
+    let right = sides::shown(app, Side::Right);
+    if !right.is_empty() {
         let shown = Panel::right("inspector")
             .default_size(300.0)
             .size_range(240.0..=520.0)
             .frame(frame(Margin::ZERO))
-            .show(ui, |ui| show_right(app, ui));
+            .show(ui, |ui| sides::show(app, ui, &right));
         app.panels.right_rect = Some(shown.response.rect);
     }
     if app.session.document.is_some() {

@@ -12,7 +12,7 @@ use crate::app::state::App;
 use crate::app::state::{After, Dialog, Entry};
 use crate::formats::NoteKind;
 
-pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(Notes), is_of_plan: true };
+pub(super) const ENTRY: Entry = Entry { id: ID, make: |_, _| Box::new(Notes), is_of_plan: true };
 
 pub(crate) const ID: &str = dialogs::NOTES;
 

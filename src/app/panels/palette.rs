@@ -11,7 +11,7 @@ use egui::{
 };
 
 use self::lines::{argument_lines, command_lines, row};
-use crate::app::commands::{Argument, COMMANDS, Choice, Command};
+use crate::app::commands::{Argument, COMMANDS, Choice, Command, find};
 use crate::app::look::{
     icons::Icon,
     search::{Hit, Search},
@@ -19,7 +19,7 @@ use crate::app::look::{
     widgets::{ICON, ROW, colours, hairline_in, put_line, swatch},
 };
 use crate::app::state::App;
-use crate::app::state::{After, Dialog, Entry};
+use crate::app::state::{After, Dialog, Entry, Purpose};
 use crate::base::wording::sentence;
 
 /// Width of the palette, in points.
@@ -85,30 +85,13 @@ impl Asking {
 }
 
 impl Palette {
-    /// Asks for what a command needs after some given arguments.
-    pub(crate) fn asking(command: &'static Command, given: Vec<String>) -> Self {
-        Self { asking: Some(Asking::new(command, given)), ..Self::default() }
-    }
-
-    /// Says what the command is about, with the arguments behind the one that is asked for.
-    pub(crate) fn about(mut self, about: &str, rest: Vec<String>) -> Self {
-        if let Some(asking) = &mut self.asking {
-            (asking.about, asking.rest) = (about.to_owned(), rest);
-        }
-        self
-    }
-
-    /// Offers these choices.
-    pub(crate) fn with_choices(mut self, choices: Vec<Choice>) -> Self {
-        if let Some(asking) = &mut self.asking {
-            asking.choices = Some(Some(choices));
-        }
-        self
-    }
-
-    /// Puts a text into the field, to be changed.
-    pub(crate) fn with_text(self, text: &str) -> Self {
-        Self { query: text.to_owned(), ..self }
+    /// The list of commands, or what is asked for.
+    fn new(purpose: Purpose) -> Self {
+        let Purpose::Argument(asked) = purpose else { return Self::default() };
+        let Some(command) = find(asked.command) else { return Self::default() };
+        let (rest, about, choices) = (asked.rest, asked.about, asked.choices.map(Some));
+        let asking = Asking { rest, about, choices, ..Asking::new(command, asked.given) };
+        Self { query: asked.text, asking: Some(asking), ..Self::default() }
     }
 }
 
@@ -149,16 +132,9 @@ enum Act {
     Close,
 }
 
-pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(Palette::default()), is_of_plan: false };
+pub(super) const ENTRY: Entry = Entry { id: ID, make: |_, purpose| Box::new(Palette::new(purpose)), is_of_plan: false };
 
 pub(crate) const ID: &str = dialogs::PALETTE;
-
-impl App {
-    /// Opens the list of commands, or what it asks for, in place of one that is open.
-    pub(crate) fn open_palette(&mut self, palette: Palette) {
-        self.dialogs.open(ID, Box::new(palette));
-    }
-}
 
 impl Dialog for Palette {
     fn show(&mut self, app: &mut App, ui: &mut Ui) -> After {

@@ -10,7 +10,7 @@ use crate::app::look::{
     widgets::{Lead, ROW, Row, icon_button, right, section},
 };
 use crate::app::session::origin::{Origin, bundled, file_name};
-use crate::app::state::App;
+use crate::app::state::{App, Height, Side, SidePanel, panels};
 
 /// A row of the list.
 enum Entry {
@@ -19,7 +19,22 @@ enum Entry {
     Storey { origin: Origin, text: String },
 }
 
-pub(super) fn show(app: &mut App, ui: &mut Ui) {
+/// So many points at least it keeps above the layers: its title and two plans.
+const LEAST_HEIGHT: f32 = 110.0;
+
+pub(super) const PANEL: SidePanel = SidePanel {
+    id: panels::PLANS,
+    title: "Plans",
+    help: "The plans of the folder, and those that come with the program",
+    side: Side::Left,
+    height: Height::Rest { least: LEAST_HEIGHT },
+    is_shown_at_first: true,
+    needs_plan: false,
+    has_own_command: true,
+    show,
+};
+
+fn show(app: &mut App, ui: &mut Ui) {
     let entries = entries(app);
     ui.horizontal(|ui| {
         section(ui, "Plans");

@@ -27,7 +27,7 @@ enum Act {
     Later,
 }
 
-pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(Recovery::default()), is_of_plan: false };
+pub(super) const ENTRY: Entry = Entry { id: ID, make: |_, _| Box::new(Recovery::default()), is_of_plan: false };
 
 pub(crate) const ID: &str = dialogs::RECOVERY;
 

@@ -76,7 +76,7 @@ const COLUMNS: [&[&[Menu]]; 3] = [
     ],
 ];
 
-pub(super) const ENTRY: Entry = Entry { id: ID, make: |_| Box::new(Sheet::default()), is_of_plan: false };
+pub(super) const ENTRY: Entry = Entry { id: ID, make: |_, _| Box::new(Sheet::default()), is_of_plan: false };
 
 pub(crate) const ID: &str = dialogs::SHORTCUTS;
 

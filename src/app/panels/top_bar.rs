@@ -5,7 +5,7 @@ use egui::{
     vec2,
 };
 
-use crate::app::commands::{COMMANDS, Choice, Command, Menu};
+use crate::app::commands::{COMMANDS, Command, Menu};
 use crate::app::look::theme;
 use crate::app::look::widgets::{Lead, ROW, Row, colours, focus_ring, icon_button, strong};
 use crate::app::state::App;
@@ -41,18 +41,15 @@ fn menu_entries(app: &mut App, ui: &mut Ui, menu: Menu) {
     let mut section = None;
     for command in COMMANDS.iter() {
         let Some((_, this)) = command.menu.filter(|(of, _)| *of == menu) else { continue };
+        let rows = command.rows(app);
+        if rows.as_ref().is_some_and(Vec::is_empty) {
+            continue;
+        }
         if section.is_some_and(|section| section != this) {
             ui.separator();
         }
         section = Some(this);
-        if let Some((choices, current)) = command.settings(app) {
-            let rows: Vec<(Choice, bool)> = choices
-                .into_iter()
-                .map(|choice| {
-                    let is_on = choice.word == current;
-                    (choice, is_on)
-                })
-                .collect();
+        if let Some(rows) = rows {
             for (choice, is_on) in rows {
                 let response = Row::new(Lead::Tick(is_on), &choice.title).button(ui, Role::MenuItem);
                 if response.on_hover_text(&choice.detail).clicked() {

@@ -31,6 +31,8 @@ const MOST_BYTES: u64 = 1 << 20;
 pub(crate) struct Keyed {
     pub id: &'static str,
     pub title: &'static str,
+    /// The menu it stands in; `None` for a verb of scripts only.
+    pub menu: Option<&'static str>,
     /// The shortcuts it comes with.
     pub shipped: Vec<Keys>,
 }
@@ -87,6 +89,11 @@ impl Settings {
     /// Settings as the program comes with them, kept nowhere.
     pub(crate) fn new(commands: &'static [Keyed]) -> Self {
         Self { commands, ..Self::default() }
+    }
+
+    /// The commands there are.
+    pub(crate) const fn commands(&self) -> &'static [Keyed] {
+        self.commands
     }
 
     /// Reads the settings that a file keeps, or starts a new one; and what is to be said about it.

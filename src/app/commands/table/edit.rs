@@ -29,7 +29,7 @@ pub(super) const COMMANDS: &[Command] = &[
                 Err(reason) => Ran::Refused(reason),
             }
         }),
-        Some(|app, _| app.panels.history = true),
+        Some(|app, _| app.panels.set_shown(panels::HISTORY, true)),
     )
     .menu(Menu::Edit, 0),
     command("clear-selection", "Clear selection", "Put the tool away, or select nothing", can_clear, |app, _| {
@@ -47,9 +47,8 @@ pub(super) const COMMANDS: &[Command] = &[
             Ran::Done
         }),
         Some(|app, _| {
-            let name = app.plan().map(|plan| plan.meta().name.clone()).unwrap_or_default();
-            let asking = crate::app::commands::find("rename-plan").map(|command| Palette::asking(command, Vec::new()));
-            asking.into_iter().for_each(|palette| app.open_palette(palette.with_text(&name)));
+            let text = app.plan().map(|plan| plan.meta().name.clone()).unwrap_or_default();
+            app.ask_for_argument(Asked { text, ..Asked::of("rename-plan") });
         }),
     )
     .menu(Menu::Edit, 2),

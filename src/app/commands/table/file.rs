@@ -1,7 +1,6 @@
 //! Opening, saving, closing.
 
 use super::*;
-use crate::app::state::dialogs;
 use crate::edit::storey::Keep;
 
 pub(super) const COMMANDS: &[Command] = &[

@@ -1,7 +1,6 @@
 //! Commands, shortcuts, recording.
 
 use super::*;
-use crate::app::state::dialogs;
 
 pub(super) const COMMANDS: &[Command] = &[
     with(
@@ -38,7 +37,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &given2(
             needed("COMMAND", A_COMMAND, "the command's id"),
             needed("KEYS", KEYS, "keys such as Ctrl+Shift+K, F5 or Plus"),
-            |app, command, keys, _| app.set_shortcut(command, Some(keys)),
+            |app, CommandId(id), keys, _| app.set_shortcut(id, Some(keys)),
         ),
         None,
     )
@@ -48,7 +47,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Remove a shortcut…",
         "Leave a command without keys",
         always,
-        &given1(needed("COMMAND", A_COMMAND, "the command's id"), |app, command, _| app.set_shortcut(command, None)),
+        &given1(needed("COMMAND", A_COMMAND, "the command's id"), |app, CommandId(id), _| app.set_shortcut(id, None)),
         None,
     ),
     with(
@@ -56,7 +55,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Reset a shortcut…",
         "Give a command the keys it comes with",
         has_changed_keys,
-        &given1(needed("COMMAND", A_COMMAND, "the command's id"), |app, command, _| app.reset_shortcut(command)),
+        &given1(needed("COMMAND", A_COMMAND, "the command's id"), |app, CommandId(id), _| app.reset_shortcut(id)),
         None,
     ),
     command(

@@ -19,11 +19,10 @@ use egui::{Context, Key, KeyboardShortcut, Modifiers};
 use super::given::*;
 use super::{Action, Argument, Availability, Command, Menu, Ran};
 use crate::app::look::{icons::Icon, theme::ThemeChoice};
-use crate::app::panels::palette::Palette;
 use crate::app::session::{fields::FieldKind, questions::Intent, selection::SelectMode, settings::GRID_RANGE_M};
-use crate::app::state::App;
+use crate::app::state::{App, Asked, Purpose, dialogs, panels};
 use crate::app::tools::{self, Entry, Group, TOOLS};
-use crate::app::value::{Boxed, Direction, Space, Worded};
+use crate::app::value::{Boxed, Direction, Space, Worded, switch_word};
 use crate::base::units::Units;
 use crate::draw::{Fill, LabelColours};
 use crate::edit::EditError;
@@ -255,6 +254,10 @@ fn has_unlabelled(app: &App) -> Availability {
     let has =
         app.predictions().is_some_and(|predictions| predictions.network.rooms.iter().any(|room| room.label.is_none()));
     when(has, "every room has a label")
+}
+
+fn has_other_panels(app: &App) -> Availability {
+    when(app.panels.others().next().is_some(), "every panel has a command of its own")
 }
 
 fn has_several_plans(app: &App) -> Availability {

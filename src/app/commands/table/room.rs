@@ -1,10 +1,8 @@
 //! The picked room: finding, naming, labelling.
 
 use super::*;
-use crate::app::panels::bulk::Bulk;
 use crate::app::session::bulk::{Change, Order, Which};
 use crate::app::session::labelling::Target;
-use crate::app::state::dialogs;
 
 const TARGET: Arg<Option<RoomId>> = optional(
     "ROOM",
@@ -85,9 +83,8 @@ pub(super) const COMMANDS: &[Command] = &[
         Some(|app, _| {
             let Some((plan, target)) = app.plan().zip(app.session.target(None)) else { return };
             let (title, rest) = (target.title(plan), target.word(plan));
-            let asking = crate::app::commands::find("set-function").map(|command| Palette::asking(command, Vec::new()));
-            let asking = asking.map(|palette| palette.about(&title, rest.into_iter().collect()));
-            asking.into_iter().for_each(|palette| app.open_palette(palette));
+            let rest = rest.into_iter().collect();
+            app.ask_for_argument(Asked { about: title, rest, ..Asked::of("set-function") });
         }),
     )
     .when_complete(has_rooms)
@@ -146,8 +143,7 @@ pub(super) const COMMANDS: &[Command] = &[
                 if app.session.rooms_of(&which).is_empty() {
                     return Ran::Refused("the line goes through no room".to_owned());
                 }
-                let dialog = Bulk::naming_these(app, which);
-                app.dialogs.open(dialogs::BULK, Box::new(dialog));
+                app.open_dialog_for(dialogs::BULK, Purpose::NameRooms(which));
                 Ran::Asks
             },
         ),
@@ -171,10 +167,7 @@ pub(super) const COMMANDS: &[Command] = &[
                 }
             },
         ),
-        Some(|app, _| {
-            let dialog = Bulk::changing(app);
-            app.dialogs.open(dialogs::BULK, Box::new(dialog));
-        }),
+        Some(|app, _| app.open_dialog_for(dialogs::BULK, Purpose::ChangeRooms)),
     )
     .menu(Menu::Room, 1),
     label(

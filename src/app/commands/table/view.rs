@@ -194,10 +194,8 @@ pub(super) const COMMANDS: &[Command] = &[
             },
         ),
         Some(|app, _| {
-            let choices = app.session.ghost_choices();
-            let asking = crate::app::commands::find("ghost").map(|command| Palette::asking(command, Vec::new()));
-            let asking = asking.map(|palette| if choices.is_empty() { palette } else { palette.with_choices(choices) });
-            asking.into_iter().for_each(|palette| app.open_palette(palette));
+            let choices = Some(app.session.ghost_choices()).filter(|choices| !choices.is_empty());
+            app.ask_for_argument(Asked { choices, ..Asked::of("ghost") });
         }),
     )
     .menu(Menu::View, 3),
@@ -277,8 +275,7 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         Some(|app, _| {
             let now = app.session.settings.grid_m().map_or(AUTO.to_owned(), |grid_m| app.units().exact_length(grid_m));
-            let asking = crate::app::commands::find("grid-spacing").map(|command| Palette::asking(command, Vec::new()));
-            asking.into_iter().for_each(|palette| app.open_palette(palette.with_text(&now)));
+            app.ask_for_argument(Asked { text: now, ..Asked::of("grid-spacing") });
         }),
     )
     .menu(Menu::View, 3),
@@ -305,8 +302,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Plans and layers",
         "Show the panel on the left",
         always,
-        |app| app.panels.left,
-        |app, is_on| app.panels.left = is_on,
+        |app| app.panels.is_shown(panels::PLANS),
+        |app, is_on| [panels::PLANS, panels::LAYERS].iter().for_each(|id| app.panels.set_shown(id, is_on)),
     )
     .keys(&[ctrl(Key::Num1)])
     .menu(Menu::View, 4)
@@ -316,8 +313,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Inspector",
         "Show the panel on the right",
         always,
-        |app| app.panels.right,
-        |app, is_on| app.panels.right = is_on,
+        |app| app.panels.is_shown(panels::INSPECTOR),
+        |app, is_on| app.panels.set_shown(panels::INSPECTOR, is_on),
     )
     .keys(&[ctrl(Key::Num2)])
     .menu(Menu::View, 4)
@@ -327,10 +324,27 @@ pub(super) const COMMANDS: &[Command] = &[
         "History",
         "Show the steps that led to the plan, and go to any of them",
         always,
-        |app| app.panels.history,
-        |app, is_on| app.panels.history = is_on,
+        |app| app.panels.is_shown(panels::HISTORY),
+        |app, is_on| app.panels.set_shown(panels::HISTORY, is_on),
     )
     .keys(&[ctrl(Key::Num3)])
+    .menu(Menu::View, 4),
+    with(
+        "panel",
+        "Panel…",
+        "Show or hide a panel beside the canvas",
+        has_other_panels,
+        &given2(
+            needed("PANEL", PANEL, "a panel that has no command of its own"),
+            optional("SWITCH", ON_OR_OFF, "on or off; without, the other of what it is"),
+            |app, SidePanelId(id), is_on, _| {
+                let is_on = is_on.unwrap_or(!app.panels.is_shown(id));
+                app.panels.set_shown(id, is_on);
+                Ran::DoneWith(vec![id.to_owned(), switch_word(is_on).to_owned()])
+            },
+        ),
+        None,
+    )
     .menu(Menu::View, 4),
     choose(
         "theme-system",

@@ -1,0 +1,73 @@
+//! The panels at the sides of the canvas, below each other.
+
+use egui::{Frame, Panel, Rect, ScrollArea, Ui, UiBuilder};
+
+use super::SIDE_PANELS;
+use crate::app::look::theme;
+use crate::app::state::{App, Height, Side, SidePanel};
+
+/// The panels of a side that are shown now, from the top.
+pub(super) fn shown(app: &App, side: Side) -> Vec<&'static SidePanel> {
+    let has_plan = app.session.document.is_some();
+    let is_shown =
+        |panel: &&SidePanel| panel.side == side && app.panels.is_shown(panel.id) && (has_plan || !panel.needs_plan);
+    SIDE_PANELS.iter().filter(is_shown).collect()
+}
+
+/// Shows panels below each other.
+pub(super) fn show(app: &mut App, ui: &mut Ui, panels: &[&'static SidePanel]) {
+    // One takes what the others leave.
+    let rest = panels.iter().position(|panel| matches!(panel.height, Height::Rest { .. })).unwrap_or(0);
+    let Some(&filling) = panels.get(rest) else { return };
+    let least = if let Height::Rest { least } = filling.height { least } else { 0.0 };
+    let others = panels.iter().enumerate().filter(|(index, _)| *index != rest).map(|(_, panel)| *panel);
+    for panel in others.clone().rev() {
+        if let Height::Dragged { usual, least: own_least } = panel.height {
+            let most = (ui.available_height() - least).max(own_least);
+            Panel::bottom(panel.id)
+                .resizable(true)
+                .default_size(usual.min(most))
+                .size_range(own_least..=most)
+                .frame(Frame::new().fill(theme::colours(ui.visuals()).panel))
+                .show(ui, |ui| (panel.show)(app, ui));
+        }
+    }
+    let contents: Vec<(&SidePanel, f32)> = others
+        .filter_map(|panel| match panel.height {
+            Height::Content { usual } => {
+                Some((panel, app.panels.content_heights.get(panel.id).copied().unwrap_or(usual)))
+            }
+            Height::Rest { .. } | Height::Dragged { .. } => None,
+        })
+        .collect();
+    if contents.is_empty() {
+        (filling.show)(app, ui);
+        return;
+    }
+    // As high as what is in them, which changes: a panel that sizes itself does not grow again. In a low window
+    // they scroll, so that the filling one keeps some room.
+    let mut above = ui.available_rect_before_wrap();
+    let mut places: Vec<(&SidePanel, f32, Rect)> = Vec::new();
+    for (panel, wanted) in contents.into_iter().rev() {
+        let given = wanted.min(above.height() - least).max(least);
+        let (rest, place) = above.split_top_bottom_at_y(above.bottom() - given);
+        places.push((panel, wanted, place));
+        above = rest;
+    }
+    // From top to bottom, as the keyboard goes.
+    (filling.show)(app, &mut ui.new_child(UiBuilder::new().max_rect(above).id_salt(filling.id)));
+    for (panel, wanted, place) in places.into_iter().rev() {
+        let mut below = ui.new_child(UiBuilder::new().max_rect(place).id_salt(panel.id));
+        let area = ScrollArea::vertical().id_salt(panel.id).auto_shrink(false);
+        let height = area.show(&mut below, |ui| {
+            let top = ui.cursor().top();
+            (panel.show)(app, ui);
+            ui.cursor().top() - top
+        });
+        if (height.inner - wanted).abs() > 0.5 {
+            app.panels.content_heights.insert(panel.id, height.inner);
+            ui.request_repaint();
+        }
+    }
+    ui.take_available_space();
+}

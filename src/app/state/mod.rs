@@ -1,0 +1,128 @@
+//! The window's state, apart from any display, and the dialogs that are open over it.
+
+use crate::app::canvas::Canvas;
+use crate::app::look::theme::ThemeChoice;
+use crate::app::session::Session;
+use crate::app::session::fields::FieldKind;
+use crate::app::session::messages::Message;
+use crate::app::session::samples::Samples;
+use crate::app::session::selection::Selection;
+use crate::app::tools::TakenBack;
+use crate::app::tools::Toolbox;
+use crate::base::units::Units;
+use crate::geometry::Segment;
+use crate::plan::ElementId;
+use crate::plan::Guide;
+use crate::plan::Plan;
+use crate::predict::Predictions;
+use egui::Context;
+use std::path::PathBuf;
+
+mod open_dialogs;
+mod side_panels;
+
+pub(crate) use open_dialogs::{After, Asked, Dialog, Entry, OpenDialogs, Purpose, dialogs};
+pub(crate) use side_panels::{Height, Panels, Side, SidePanel, ids as panels};
+
+/// The window's state, apart from any display.
+pub struct App {
+    pub(crate) session: Session,
+    pub(crate) canvas: Canvas,
+    pub(crate) tools: Toolbox,
+    pub(crate) theme: ThemeChoice,
+    pub(crate) panels: Panels,
+    pub(crate) dialogs: OpenDialogs,
+    pub(crate) samples: Samples,
+    /// Whether a text field had the keyboard when the last frame ended.
+    pub(crate) was_typing: bool,
+    pub(crate) is_close_sent: bool,
+    pub(crate) shown_title: String,
+    /// What is being recorded; only `replay` looks into it.
+    pub(crate) recorder: Option<Box<dyn std::any::Any>>,
+    /// A recording is to begin.
+    pub(crate) wants_recording: bool,
+}
+
+impl App {
+    /// The open plan.
+    pub fn plan(&self) -> Option<&Plan> {
+        self.session.plan()
+    }
+
+    /// What is selected.
+    pub fn selection(&self) -> &Selection {
+        self.session.selection()
+    }
+
+    /// The element that is selected, where it is exactly one.
+    pub fn picked(&self) -> Option<ElementId> {
+        self.session.picked()
+    }
+
+    /// What stands above the canvas: messages, the oldest first, then what stays as long as it is so.
+    pub fn messages(&self) -> Vec<Message> {
+        self.session.messages()
+    }
+
+    /// Whether the plan has changes that are in no file.
+    pub fn has_unsaved_changes(&self) -> bool {
+        self.session.has_unsaved_changes()
+    }
+
+    /// What is said of the rooms of the plan as it is now; `None` while that is being worked out.
+    pub fn predictions(&self) -> Option<&Predictions> {
+        self.session.predictions()
+    }
+
+    /// The plan of the storey below, while one is shown.
+    pub fn ghost_plan(&self) -> Option<&Plan> {
+        self.session.ghost_plan()
+    }
+
+    /// The lines of the storey below that attract.
+    pub fn ghost_segments(&self) -> &[Segment] {
+        self.session.ghost_segments()
+    }
+
+    /// The guide lines of the open plan that are shown: what snapping may go by.
+    pub fn guides(&self) -> &[Guide] {
+        self.session.guides()
+    }
+
+    /// In which units lengths and areas are shown and typed.
+    pub fn units(&self) -> Units {
+        self.session.units()
+    }
+
+    /// Keeps journals in a folder from now on, and offers what is left there.
+    pub fn use_journal(&mut self, folder: PathBuf) {
+        self.session.use_journal(folder);
+    }
+
+    /// Takes the last change back, or the last corner of what is being drawn. Gives whether the plan's
+    /// last step was undone.
+    pub(crate) fn undo(&mut self) -> bool {
+        if self.tools.take_back() == TakenBack::Corner {
+            return false;
+        }
+        self.session.undo();
+        true
+    }
+
+    /// Gives the keyboard to the inspector's field for a text of the picked room.
+    pub(crate) fn ask_for_field(&mut self, kind: FieldKind) {
+        self.panels.set_shown(panels::INSPECTOR, true);
+        self.panels.focus = Some(kind);
+    }
+
+    /// Where a point of the plan (in metres) is on the screen, in egui's points; `None` before the
+    /// first frame and without a plan.
+    pub fn screen_position(&self, x_m: f64, y_m: f64) -> Option<egui::Pos2> {
+        self.canvas.screen_position(crate::geometry::Point::new(x_m, y_m))
+    }
+
+    pub(crate) fn set_theme(&mut self, theme: ThemeChoice, context: &Context) {
+        self.theme = theme;
+        theme.apply(context);
+    }
+}
