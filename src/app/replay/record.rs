@@ -5,6 +5,8 @@
 //! and so does the plan it ends with, so that it can be replayed anywhere and says whether it went the
 //! same way.
 
+mod files;
+
 use crate::app::session::origin::file_name;
 use std::any::Any;
 use std::path::{Path, PathBuf};
@@ -30,6 +32,7 @@ use crate::formats::{self, plan_json};
 use crate::geometry::Point;
 use crate::plan::{ElementId, Plan};
 use crate::store::{SaveError, save_bytes};
+use files::Files;
 
 /// The recorder that the window keeps, which knows it only as something.
 fn recorder_in(kept: &mut Option<Box<dyn Any>>) -> Option<&mut Recorder> {
@@ -73,19 +76,6 @@ impl Line {
     }
 }
 
-/// The files that go with a recording: names in its folder, and what they hold.
-#[derive(Clone, Debug, Default)]
-struct Files(Vec<(String, Vec<u8>)>);
-
-/// What the system makes of the window.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Frame {
-    width: u32,
-    height: u32,
-    scale: f32,
-    is_dark: bool,
-}
-
 /// A view of the plan: what the command of this name takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct View {
@@ -110,6 +100,15 @@ const FOLDER: &str = "\0";
 
 /// Commands of the recorder's own, which no recording holds.
 const OWN: [&str; 1] = ["record-script"];
+
+/// What the system makes of the window.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Frame {
+    width: u32,
+    height: u32,
+    scale: f32,
+    is_dark: bool,
+}
 
 impl Frame {
     fn of(context: &Context) -> Self {
@@ -160,46 +159,6 @@ impl View {
     fn line(self) -> Line {
         let [x, y, scale] = [self.x_m, self.y_m, self.px_per_m].map(|number| number.to_string());
         Line::new(&["view", &x, &y, &scale])
-    }
-}
-
-impl Files {
-    /// Takes a file along; gives its path as the script writes it.
-    fn add(&mut self, name: &str, bytes: Vec<u8>) -> String {
-        let (stem, ending) = name.split_once('.').unwrap_or((name, "plan.json"));
-        let mut number = 1;
-        let mut free = name.to_owned();
-        while let Some((_, known)) = self.0.iter().find(|(known, _)| *known == free) {
-            if *known == bytes {
-                return format!("{FOLDER}/{free}");
-            }
-            number += 1;
-            free = format!("{stem}-{number}.{ending}");
-        }
-        let path = format!("{FOLDER}/{free}");
-        self.0.push((free, bytes));
-        path
-    }
-
-    /// Takes along the file at a path, and the pictures under its plans.
-    fn add_file(&mut self, path: &Path) -> Option<String> {
-        if path.is_dir() {
-            // A folder stands for its first plan.
-            return self.add_file(plan_list::plans_in(path).first().filter(|plan| plan.is_file())?);
-        }
-        let bytes = formats::read_bytes(path).ok()?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let plans = formats::read_file(path).map(|import| import.plans).unwrap_or_default();
-        // A picture that lies elsewhere is missed in the replay as it would be on another machine.
-        let beside = |picture: &str| inner(picture).map(|picture| picture.to_string_lossy().into_owned());
-        for picture in plans.iter().filter_map(Plan::backdrop).filter_map(|backdrop| beside(&backdrop.path)) {
-            if let Ok(bytes) = formats::read_bytes(&folder.join(&picture))
-                && !self.0.iter().any(|(known, _)| *known == picture)
-            {
-                self.0.push((picture, bytes));
-            }
-        }
-        Some(self.add(&file_name(path), bytes))
     }
 }
 

@@ -1,0 +1,145 @@
+//! What a person does at the window: pointer, wheel, keys, files that are dropped.
+
+use super::*;
+
+impl Offscreen {
+    /// Feeds an event of egui's.
+    pub fn event(&mut self, event: Event) {
+        self.frame(vec![event], Vec::new(), false);
+    }
+
+    /// Where the pointer is.
+    pub fn pointer(&self) -> Pos2 {
+        self.pointer
+    }
+
+    /// Holds modifier keys down, in place of those held before.
+    pub fn hold_modifiers(&mut self, modifiers: Modifiers) {
+        if self.modifiers != modifiers {
+            self.modifiers = modifiers;
+            self.event(Event::ModifiersChanged(modifiers));
+        }
+    }
+
+    /// The modifier keys held down.
+    pub fn modifiers(&self) -> Modifiers {
+        self.modifiers
+    }
+
+    /// Moves the pointer.
+    pub fn move_to(&mut self, at: Pos2) {
+        self.pointer = at;
+        self.event(Event::PointerMoved(at));
+    }
+
+    /// Presses or lets go of a button of the pointer.
+    pub fn button(&mut self, button: PointerButton, pressed: bool) {
+        self.event(Event::PointerButton { pos: self.pointer, button, pressed, modifiers: self.modifiers });
+    }
+
+    /// Clicks at a place.
+    pub fn click(&mut self, at: Pos2) {
+        self.clicks(PointerButton::Primary, at, 1);
+    }
+
+    /// Clicks at a place so often in quick succession.
+    pub fn clicks(&mut self, button: PointerButton, at: Pos2, count: usize) {
+        self.move_to(at);
+        for _ in 0..count {
+            self.button(button, true);
+            self.button(button, false);
+        }
+        // What is clicked next is no double click.
+        self.advance(CLICK_GAP_SECS);
+    }
+
+    /// Drags from a place to another.
+    pub fn drag(&mut self, button: PointerButton, from: Pos2, to: Pos2) {
+        self.drag_along(button, &[from, from + (to - from) / 2.0, to]);
+    }
+
+    /// Drags from the first of some places by way of the others to the last.
+    pub fn drag_along(&mut self, button: PointerButton, places: &[Pos2]) {
+        for (index, &place) in places.iter().enumerate() {
+            self.move_to(place);
+            if index == 0 {
+                self.button(button, true);
+            }
+        }
+        self.button(button, false);
+    }
+
+    /// Turns the wheel by lines, away from the person when positive.
+    pub fn wheel(&mut self, lines: f32) {
+        self.scroll(MouseWheelUnit::Line, vec2(0.0, lines));
+    }
+
+    /// Scrolls with two fingers on a touch pad, in logical pixels.
+    pub fn swipe(&mut self, by: Vec2) {
+        self.scroll(MouseWheelUnit::Point, by);
+    }
+
+    fn scroll(&mut self, unit: MouseWheelUnit, delta: Vec2) {
+        let modifiers = self.modifiers;
+        let source = MouseWheelSource::Unknown;
+        self.event(Event::MouseWheel { unit, delta, phase: TouchPhase::Move, source, modifiers });
+    }
+
+    /// Presses a key and lets it go, with modifiers beside those that are held down. Ctrl with C, X and
+    /// V are copy, cut and paste, as window systems have it.
+    pub fn key(&mut self, modifiers: Modifiers, key: Key) {
+        let held = self.modifiers;
+        let modifiers = held.plus(modifiers);
+        self.hold_modifiers(modifiers);
+        let clipboard_event = match key {
+            _ if !modifiers.matches_exact(Modifiers::COMMAND) => None,
+            Key::C => Some(Event::Copy),
+            Key::X => Some(Event::Cut),
+            Key::V => Some(Event::Paste(self.clipboard.clone())),
+            _ => None,
+        };
+        match clipboard_event {
+            Some(event) => self.event(event),
+            None => {
+                for pressed in [true, false] {
+                    self.event(Event::Key { key, physical_key: None, pressed, repeat: false, modifiers });
+                }
+            }
+        }
+        self.hold_modifiers(held);
+    }
+
+    /// Holds a key down or lets it go.
+    pub fn hold(&mut self, key: Key, pressed: bool) {
+        let modifiers = self.modifiers;
+        self.event(Event::Key { key, physical_key: None, pressed, repeat: false, modifiers });
+    }
+
+    /// Types a text.
+    pub fn text(&mut self, text: &str) {
+        self.event(Event::Text(text.to_owned()));
+    }
+
+    /// Holds a file over the window, or takes it away.
+    pub fn hover_file(&mut self, path: Option<&Path>) {
+        let hovered = path.map(|path| egui::HoveredFile { path: Some(path.to_owned()), ..Default::default() });
+        self.hovered_files = hovered.into_iter().collect();
+        self.frame(Vec::new(), Vec::new(), false);
+    }
+
+    /// Drops a file on the window.
+    pub fn drop_file(&mut self, path: &Path) {
+        self.hovered_files.clear();
+        self.frame(Vec::new(), vec![Arc::new(Dropped(path.to_owned()))], false);
+    }
+
+    /// Asks the window to close, as its title bar's button does.
+    pub fn ask_to_close(&mut self) {
+        self.frame(Vec::new(), Vec::new(), true);
+    }
+
+    /// Changes the size of the window, in logical pixels.
+    pub fn resize(&mut self, width: u32, height: u32) {
+        self.set_options(OffscreenOptions { width, height, ..self.options });
+    }
+}
