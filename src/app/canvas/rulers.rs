@@ -48,7 +48,7 @@ pub(crate) fn show(canvas: &mut Canvas, session: &Session, help: &str, ui: &mut 
     let all = ui.available_rect_before_wrap();
     let above = Rect::from_min_max(pos2(rect.left(), all.top()), pos2(rect.right(), rect.top()));
     let beside = Rect::from_min_max(pos2(all.left(), rect.top()), pos2(rect.left(), rect.bottom()));
-    // The ruler above measures x and gives birth to horizontal guides, as rulers do everywhere.
+    // The ruler above measures x; dragging out of it makes horizontal guides, as rulers do everywhere.
     for (axis, strip) in [(GuideAxis::Vertical, above), (GuideAxis::Horizontal, beside)] {
         let painter = ui.painter_at(strip);
         painter.rect_filled(strip, 0.0, colours.panel);

@@ -42,7 +42,7 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     let frame = |margin: Margin| Frame::new().fill(colours.panel).inner_margin(margin);
     app.canvas.hovered_in_panel = None;
     Panel::top("top bar").exact_size(44.0).frame(frame(Margin::symmetric(8, 0))).show(ui, |ui| top_bar::show(app, ui));
-    // Its place; what is in it comes last, as the keyboard goes.
+    // Only its place: its contents come last, in the order in which Tab goes.
     let status_rect = Panel::bottom("status line")
         .exact_size(30.0)
         .frame(frame(Margin::symmetric(12, 0)))

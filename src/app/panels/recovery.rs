@@ -1,4 +1,4 @@
-//! What programs that were killed left behind: a picture of each, and what to do with it.
+//! Unsaved work of a program that crashed: a picture of each plan, and what to do with it.
 
 use crate::app::state::dialogs;
 use std::collections::{BTreeMap, BTreeSet};

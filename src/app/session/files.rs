@@ -190,7 +190,7 @@ impl Session {
     /// Saves the plan in a file that a person has chosen; the ending is added where it is missing.
     pub(crate) fn save_in(&mut self, mut path: PathBuf, then: Option<Intent>) {
         if document::is_own_file(&path) {
-            // Who chose it has been asked whether to replace.
+            // The save dialog already asked whether to replace it.
             self.save_to(path, Expected::Anything, then);
             return;
         }
