@@ -180,10 +180,15 @@ impl RenderCommand {
                 }
             }
         });
-        Picture { bytes: self.picture(plan, traced, schemes, asked, style, ending), warning }
+        let picture = self.picture(plan, traced, schemes, asked, style, ending);
+        let (bytes, remark) = match picture {
+            Ok((bytes, remark)) => (Ok(bytes), remark),
+            Err(error) => (Err(error), None),
+        };
+        Picture { bytes, warning: warning.or(remark) }
     }
 
-    /// `traced`: the picture under the plan.
+    /// The picture, and what is to be said of it. `traced`: the picture under the plan.
     fn picture(
         &self,
         plan: &Plan,
@@ -192,7 +197,7 @@ impl RenderCommand {
         asked: &Asked,
         style: &Style,
         ending: &str,
-    ) -> Result<Vec<u8>, CliError> {
+    ) -> Result<(Vec<u8>, Option<String>), CliError> {
         let pipeline = Pipeline::new(plan, schemes);
         let furniture = Furniture { title: !self.bare, legend: !self.bare, scale: !self.bare };
         let asked = (style.fill == Fill::Prediction).then_some(asked);
@@ -207,8 +212,9 @@ impl RenderCommand {
             style.layers.rooms = style.fill != Fill::None;
         }
         let style = &style;
+        let remark = drawing.remark();
         let scene: Scene = sheet::page(&drawing, style, self.size, furniture);
-        Ok(if ending == "svg" { svg::svg(&scene).into_bytes() } else { png::png(&scene)? })
+        Ok((if ending == "svg" { svg::svg(&scene).into_bytes() } else { png::png(&scene)? }, remark))
     }
 }
 

@@ -9,7 +9,7 @@ use super::tile_grid::TileGrid;
 use super::tiles::{Contents, Tile, Tiles};
 use super::walls::{self, Faces, Walls};
 use super::{Fill, Grid, Rgba, Style, names};
-use crate::base::units::Units;
+use crate::base::{units::Units, wording::thousands};
 use crate::features::{Analysis, RoomStatus};
 use crate::geometry::{Bounds, Point, Segment, areas, polygon, raster};
 use crate::labels::{Label, function_title, normalised_function};
@@ -27,6 +27,7 @@ pub struct Drawing {
     pub(super) graph: Vec<GraphEdge>,
     pub(super) faces: Faces,
     picture: Option<PlacedPicture>,
+    tangled: usize,
     bounds: Bounds,
     /// Where a large plan is cut; `None` for one in one piece.
     tiles: Option<Tiles>,
@@ -133,6 +134,7 @@ impl Drawing {
             graph,
             faces,
             picture: None,
+            tangled: walls.tangled,
             bounds,
             tiles,
         }
@@ -165,6 +167,13 @@ impl Drawing {
         }
         self.picture = Some(picture);
         self
+    }
+
+    /// What is said of a drawing that was simplified: walls and boundaries that cross so often that they were not joined.
+    pub fn remark(&self) -> Option<String> {
+        let number = thousands(self.tangled as u64);
+        (self.tangled > 0)
+            .then(|| format!("{number} walls or rooms cross each other so often that they are drawn as lines"))
     }
 
     /// The box of all that is drawn of the plan, in metres.

@@ -23,6 +23,7 @@ pub mod scene;
 pub mod sheet;
 mod style;
 pub mod svg;
+mod tangle;
 mod tile_grid;
 mod tiles;
 mod walls;

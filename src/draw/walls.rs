@@ -2,7 +2,7 @@
 //! rooms of an import that came without walls get walls along their boundaries, so that the building
 //! reads as one.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -14,10 +14,11 @@ use rstar::primitives::{GeomWithData, Line};
 use rstar::{AABB, RTree};
 
 use super::elements::RoomDrawing;
+use super::tangle::tangled;
 use super::tile_grid::TileGrid;
 use crate::geometry::areas::{self, Ring, SHARPEST_RAD, Shapes, area_m2, cleaned, directed, grown, points, ring};
 use crate::geometry::{Bounds, Point, Segment, Vector, polygon};
-use crate::plan::{CornerId, Plan, THICKEST_WALL_M};
+use crate::plan::{CornerId, Plan, THICKEST_WALL_M, WallId};
 
 /// The walls of a plan before openings are cut.
 pub(super) struct Walls {
@@ -29,6 +30,8 @@ pub(super) struct Walls {
     pub boundaries: Vec<Segment>,
     /// The rooms, by index, that came without walls.
     pub unwalled: Vec<usize>,
+    /// So many walls and rooms' boundaries are a tangle, and drawn as lines.
+    pub tangled: usize,
 }
 
 /// Half the thickness in metres of the wall drawn along a boundary that came without walls: a light
@@ -47,7 +50,7 @@ const USUAL_ROOM_M: f64 = 3.0;
 impl Walls {
     /// The walls of a plan, cut where tiles meet.
     pub fn new(plan: &Plan, rooms: &[RoomDrawing], grid: Option<&TileGrid>) -> Self {
-        let index = WallIndex::new(plan);
+        let mut index = WallIndex::new(plan);
         let mut boundaries = Vec::new();
         let mut unwalled = Vec::new();
         for (i, room) in rooms.iter().enumerate() {
@@ -59,6 +62,10 @@ impl Walls {
                 boundaries.extend(open.pieces);
             }
         }
+        let unwalled_count = unwalled.len();
+        let mut tangle = tangled_rooms(rooms, &mut unwalled);
+        boundaries.extend(tangle.drain(..));
+        let tangled = unwalled_count - unwalled.len() + index.tangled.len();
         let mut rings = index.rings(plan);
         let derived = (!unwalled.is_empty()).then(|| Derived::new(rooms, &unwalled)).map(|derived| {
             boundaries.extend(derived.railings);
@@ -78,8 +85,20 @@ impl Walls {
                 vec![solid]
             }
         };
-        Self { solid, lines: index.lines, boundaries, unwalled }
+        Self { solid, lines: std::mem::take(&mut index.lines), boundaries, unwalled, tangled }
     }
+}
+
+/// Takes the rooms out of `unwalled` whose boundaries are a tangle; gives their boundaries.
+fn tangled_rooms(rooms: &[RoomDrawing], unwalled: &mut Vec<usize>) -> Vec<Segment> {
+    let edges_of = |room: usize| rooms[room].rings().flat_map(|ring| polygon::edges(ring));
+    let edges: Vec<(usize, Segment)> =
+        unwalled.iter().flat_map(|&room| edges_of(room).map(move |edge| (room, edge))).collect();
+    let is_tangled = tangled(&edges.iter().map(|(_, edge)| *edge).collect::<Vec<_>>());
+    let rooms: BTreeSet<usize> =
+        edges.iter().zip(&is_tangled).filter(|(_, is_tangled)| **is_tangled).map(|((room, _), _)| *room).collect();
+    unwalled.retain(|room| !rooms.contains(room));
+    rooms.into_iter().flat_map(edges_of).collect()
 }
 
 /// Counter-clockwise rings as polygons cut where tiles meet, tile by tile.
@@ -107,10 +126,28 @@ fn by_tile(rings: Vec<Ring>, grid: &TileGrid) -> Vec<Vec<Ring>> {
     let mut tiles: Vec<Vec<Ring>> = vec![Vec::new(); grid.count()];
     for ring in rings {
         for tile in grid.meeting(Bounds::of(ring.iter().map(|&[x, y]| Point::new(x, y)))) {
-            tiles[tile].push(ring.clone());
+            if !lies_beside(&ring, grid.bounds(tile)) {
+                tiles[tile].push(ring.clone());
+            }
         }
     }
     tiles
+}
+
+/// Whether a box is on the far side of an edge that has all of the ring on the other: a long slanting wall meets few of
+/// the tiles in its box.
+fn lies_beside(ring: &Ring, box_m: Bounds) -> bool {
+    const MOST_POINTS: usize = 8;
+    if ring.len() > MOST_POINTS {
+        return false;
+    }
+    let point = |&[x, y]: &[f64; 2]| Point::new(x, y);
+    let corners = [box_m.min, box_m.max, Point::new(box_m.min.x, box_m.max.y), Point::new(box_m.max.x, box_m.min.y)];
+    (0..ring.len()).any(|i| {
+        let (from, to) = (point(&ring[i]), point(&ring[(i + 1) % ring.len()]));
+        let side = |at: Point| (to - from).cross(at - from);
+        ring.iter().all(|at| side(point(at)) >= 0.0) && corners.iter().all(|&at| side(at) < 0.0)
+    })
 }
 
 /// Walls, tile by tile, less the given counter-clockwise rings.
@@ -125,7 +162,9 @@ pub(super) fn without(solid: Vec<Shapes>, cuts: Vec<Ring>, grid: Option<&TileGri
 /// The drawn walls by place.
 struct WallIndex {
     tree: RTree<GeomWithData<Line<[f64; 2]>, f64>>,
+    /// Walls without thickness, and those of a tangle.
     lines: Vec<Segment>,
+    tangled: BTreeSet<WallId>,
 }
 
 /// The pieces of a room's boundary that no wall covers.
@@ -138,15 +177,24 @@ impl WallIndex {
     fn new(plan: &Plan) -> Self {
         let mut lines = Vec::new();
         let mut entries = Vec::new();
-        for (_, wall) in plan.walls() {
-            let Some(segment) = plan.wall_segment(wall).filter(|segment| segment.length() > 0.0) else { continue };
-            if wall.thickness_m <= 0.0 {
+        let segments: Vec<(WallId, f64, Segment)> = plan
+            .walls()
+            .filter_map(|(id, wall)| {
+                let segment = plan.wall_segment(wall).filter(|segment| segment.length() > 0.0)?;
+                Some((id, wall.thickness_m, segment))
+            })
+            .collect();
+        let is_tangled = tangled(&segments.iter().map(|(_, _, segment)| *segment).collect::<Vec<_>>());
+        let tangled: BTreeSet<WallId> =
+            segments.iter().zip(&is_tangled).filter(|(_, is_tangled)| **is_tangled).map(|((id, ..), _)| *id).collect();
+        for (id, thickness_m, segment) in segments {
+            if thickness_m <= 0.0 || tangled.contains(&id) {
                 lines.push(segment);
             }
             let line = Line::new([segment.a.x, segment.a.y], [segment.b.x, segment.b.y]);
-            entries.push(GeomWithData::new(line, wall.thickness_m / 2.0));
+            entries.push(GeomWithData::new(line, thickness_m / 2.0));
         }
-        Self { tree: RTree::bulk_load(entries), lines }
+        Self { tree: RTree::bulk_load(entries), lines, tangled }
     }
 
     /// A rectangle for each wall, and at each corner the mitre that closes the joint on its outer
@@ -154,7 +202,7 @@ impl WallIndex {
     fn rings(&self, plan: &Plan) -> Vec<Ring> {
         let mut rings = Vec::new();
         let mut ends: BTreeMap<CornerId, Vec<(Vector, f64)>> = BTreeMap::new();
-        for (_, wall) in plan.walls() {
+        for (_, wall) in plan.walls().filter(|(id, _)| !self.tangled.contains(id)) {
             let Some(segment) = plan.wall_segment(wall) else { continue };
             let (Some(along), half) = (segment.vector().unit(), wall.thickness_m / 2.0) else { continue };
             if half <= 0.0 {
