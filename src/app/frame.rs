@@ -3,7 +3,6 @@
 use crate::app::canvas::Canvas;
 use crate::app::commands;
 use crate::app::commands::CommandError;
-use crate::app::commands::sample_word;
 use crate::app::look::theme;
 use crate::app::look::theme::ThemeChoice;
 use crate::app::panels;
@@ -20,6 +19,7 @@ use crate::app::state::App;
 use crate::app::state::OpenDialogs;
 use crate::app::state::Panels;
 use crate::app::tools::Toolbox;
+use crate::app::value::{Call, Value};
 use crate::store::pictures;
 use egui::Ui;
 use egui::{Context, ViewportCommand};
@@ -122,10 +122,7 @@ impl App {
                 Wish::OfferRecovery => self.set_dialog(panels::recovery::ID, true),
                 Wish::CloseRecovery => self.set_dialog(panels::recovery::ID, false),
                 Wish::CloseDifferences => self.set_dialog(panels::differences::ID, false),
-                Wish::Run(id, arguments) => {
-                    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
-                    self.act(id, &words, context);
-                }
+                Wish::Run(call) => self.act_on(call, context),
                 Wish::EndRecording(then) => self.stop_recording(Some(then)),
                 Wish::Recording(news) => self.hear_of_recording(news),
             }
@@ -139,21 +136,19 @@ impl App {
             let text = format!("{} files were dropped; the first is opened", dropped.len());
             self.session.say(Severity::Info, text, "Plans that lie in the same folder are in the list on the left.");
         }
-        let word = first.path().to_string_lossy().into_owned();
-        let is_picture = pictures::is_picture_name(first.path());
-        self.act(if is_picture { "picture" } else { "open" }, &[&word], context);
+        let id = if pictures::is_picture_name(first.path()) { "picture" } else { "open" };
+        self.act_on(Call::new(id, [Value::Path(first.path().to_owned())]), context);
     }
 
     /// Opens what a row of the list or a card stands for.
     pub(crate) fn open_listed(&mut self, origin: &Origin, context: &Context) {
-        match origin {
-            Origin::Bundled(index) => self.act("open-sample", &[sample_word(*index)], context),
-            Origin::Untitled => self.act("new-plan", &[], context),
-            Origin::File { path, storey: 0 } => self.act("open", &[&path.to_string_lossy()], context),
-            Origin::File { path, storey } => {
-                self.act("open", &[&path.to_string_lossy(), &(storey + 1).to_string()], context);
-            }
-        }
+        let call = match origin {
+            Origin::Bundled(index) => Call::new("open-sample", [Value::Sample(*index)]),
+            Origin::Untitled => Call::new("new-plan", []),
+            Origin::File { path, storey: 0 } => Call::new("open", [Value::Path(path.clone())]),
+            Origin::File { path, storey } => Call::new("open", [Value::Path(path.clone()), Value::Count(storey + 1)]),
+        };
+        self.act_on(call, context);
     }
 
     pub(crate) fn take_close_request(&mut self, context: &Context) {

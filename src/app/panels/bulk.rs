@@ -1,6 +1,7 @@
 //! Naming and changing many rooms: what would become of which is seen before it happens.
 
 use crate::app::state::dialogs;
+use crate::app::value::{Call, Value};
 use egui::{
     Align2, ComboBox, FontId, Id, Key, Modal, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2,
 };
@@ -62,8 +63,7 @@ pub(crate) struct ChangeForm {
 /// How a dialog ends.
 enum End {
     Cancel,
-    /// A command with its arguments.
-    Do(&'static str, Vec<String>),
+    Do(Call),
 }
 
 impl Bulk {
@@ -127,12 +127,11 @@ impl Dialog for Bulk {
         match response.inner.or(is_closed.then_some(End::Cancel)) {
             None => After::Stay,
             Some(End::Cancel) => After::Close,
-            Some(End::Do(id, arguments)) => {
+            Some(End::Do(call)) => {
                 if let Self::Name(form) = self {
                     app.panels.pattern = Some(form.pattern.clone());
                 }
-                let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-                app.act(id, &arguments, ui.ctx());
+                app.act_on(call, ui.ctx());
                 After::Close
             }
         }
@@ -205,8 +204,9 @@ impl NameForm {
             if !is_done {
                 return End::Cancel;
             }
-            let start = start.unwrap_or(1).to_string();
-            End::Do("name-rooms", vec![self.pattern.clone(), self.which.word(), self.order.word().to_owned(), start])
+            let start = Value::Number(f64::from(start.unwrap_or(1)));
+            let (pattern, which) = (Value::Text(self.pattern.clone()), Value::Text(self.which.word()));
+            End::Do(Call::new("name-rooms", [pattern, which, Value::word(self.order), start]))
         })
     }
 
@@ -294,7 +294,10 @@ impl ChangeForm {
         let is_done = foot(ui, &said, &format!("Change {}", count(number, "room")), can);
         let is_done = is_done.or((is_typed && enter(ui) && can).then_some(true));
         is_done.map(|is_done| match is_done {
-            true => End::Do("change-rooms", vec![self.which.word(), self.change.word()]),
+            true => {
+                let values = [Value::Text(self.which.word()), Value::Text(self.change.word())];
+                End::Do(Call::new("change-rooms", values))
+            }
             false => End::Cancel,
         })
     }

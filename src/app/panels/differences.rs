@@ -2,6 +2,7 @@
 //! each side changed since they were the same.
 
 use crate::app::state::dialogs;
+use crate::app::value::{Call, Value};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -161,19 +162,22 @@ impl Differences {
                     |kind: &MarkKind| shown.pictures.iter().any(|picture| picture.kinds().any(|used| used == *kind));
                 legend(ui, kinds.filter(used));
                 right(ui, |ui| {
-                    let close = text_button(ui, "Close", false).clicked().then_some(("differences", Some("off")));
+                    let close = text_button(ui, "Close", false).clicked().then(closed);
                     let hint = "Saving then replaces what somebody else put in the file";
                     let keep = text_button(ui, "Keep mine", false).on_hover_text(hint).clicked();
                     let hint = "A step that can be undone";
                     let load = text_button(ui, "Load the file", true).on_hover_text(hint).clicked();
-                    act = close.or(keep.then_some(("keep-mine", None))).or(load.then_some(("load-theirs", None)));
+                    act = close
+                        .or(keep.then(|| Call::new("keep-mine", [])))
+                        .or(load.then(|| Call::new("load-theirs", [])));
                 });
             });
             act
         });
-        match response.inner.or(response.should_close().then_some(("differences", Some("off")))) {
+        let is_closed = response.should_close();
+        match response.inner.or(is_closed.then(closed)) {
             None => {}
-            Some((id, argument)) => app.act(id, argument.as_slice(), ui.ctx()),
+            Some(call) => app.act_on(call, ui.ctx()),
         }
     }
 }
@@ -211,4 +215,9 @@ mod tests {
         assert_eq!(meta.in_words(&BTreeMap::new()), "what is known of the plan differs");
         assert_eq!(Difference::default().in_words(&BTreeMap::new()), "nothing differs");
     }
+}
+
+/// What closes the dialog: a command, so that it is recorded.
+fn closed() -> Call {
+    Call::new("differences", [Value::Switch(false)])
 }

@@ -8,6 +8,7 @@ use crate::app::look::{
 };
 use crate::app::session::document::Document;
 use crate::app::state::{App, Height, Side, SidePanel, panels};
+use crate::app::value::{Call, Value};
 
 /// Height of a step's row, in points.
 const ROW: f32 = 24.0;
@@ -49,7 +50,7 @@ fn show(app: &mut App, ui: &mut Ui) {
         steps(ui, document)
     });
     if let Some(Act::Jump(step)) = act.inner {
-        app.act("jump-to-step", &[&(step + 1).to_string()], ui.ctx());
+        app.act_on(Call::new("jump-to-step", [Value::Count(step + 1)]), ui.ctx());
     }
 }
 

@@ -10,6 +10,7 @@ use crate::app::look::{
 };
 use crate::app::session::messages::{Message, Remedy, Severity};
 use crate::app::state::App;
+use crate::app::value::{Call, Value};
 
 /// More messages are not shown at once; the newest ones are.
 const SHOWN: usize = 3;
@@ -22,32 +23,33 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         let act = ui.push_id(("message", index), |ui| bar(ui, &message)).inner;
         match act {
             None => {}
-            Some(Act::Dismiss) => app.act("dismiss-message", &[&(first + index + 1).to_string()], ui.ctx()),
+            Some(Act::Dismiss) => {
+                app.act_on(Call::new("dismiss-message", [Value::Count(first + index + 1)]), ui.ctx());
+            }
             Some(Act::Remedy(Remedy::KeepPicture)) => {
-                if let Some(path) = app.session.shown_picture_word() {
-                    app.act("relink-picture", &[&path], ui.ctx());
+                if let Some(path) = app.session.shown_picture_path() {
+                    app.act_on(Call::new("relink-picture", [Value::Path(path)]), ui.ctx());
                 }
             }
             Some(Act::Remedy(remedy)) => {
-                let (id, argument) = remedy.command();
                 // A dialog asks for what it takes.
-                app.act(id, argument.as_slice(), ui.ctx());
+                app.act_on(remedy.call(), ui.ctx());
             }
         }
     }
 }
 
 impl Remedy {
-    /// The command that it is, with its argument.
-    const fn command(self) -> (&'static str, Option<&'static str>) {
+    /// The command that it is.
+    fn call(self) -> Call {
         match self {
-            Self::ShowNotes => ("import-notes", Some("on")),
-            Self::ShowDifferences => ("differences", Some("on")),
-            Self::LoadTheirs => ("load-theirs", None),
-            Self::KeepMine => ("keep-mine", None),
-            Self::Save => ("save", None),
-            Self::SaveElsewhere => ("save-as", None),
-            Self::RelinkPicture | Self::KeepPicture => ("relink-picture", None),
+            Self::ShowNotes => Call::new("import-notes", [Value::Switch(true)]),
+            Self::ShowDifferences => Call::new("differences", [Value::Switch(true)]),
+            Self::LoadTheirs => Call::new("load-theirs", []),
+            Self::KeepMine => Call::new("keep-mine", []),
+            Self::Save => Call::new("save", []),
+            Self::SaveElsewhere => Call::new("save-as", []),
+            Self::RelinkPicture | Self::KeepPicture => Call::new("relink-picture", []),
         }
     }
 }

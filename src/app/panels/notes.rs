@@ -1,6 +1,7 @@
 //! What an import mended or left out.
 
 use crate::app::state::dialogs;
+use crate::app::value::{Call, Value};
 use egui::{Id, Label, Modal, RichText, ScrollArea, Ui, vec2};
 
 use crate::app::look::{
@@ -62,6 +63,6 @@ fn show(app: &mut App, ui: &Ui) {
         is_done
     });
     if response.inner || response.should_close() {
-        app.act("import-notes", &["off"], ui.ctx());
+        app.act_on(Call::new("import-notes", [Value::Switch(false)]), ui.ctx());
     }
 }

@@ -8,6 +8,7 @@ use crate::app::look::{
 };
 use crate::app::session::questions::CANCEL;
 use crate::app::state::App;
+use crate::app::value::{Call, Value};
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let Some(question) = &app.session.question else { return };
@@ -32,6 +33,6 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         answer.or(answers.first().filter(|_| enter).map(|(word, _)| *word))
     });
     if let Some(answer) = response.inner.or(response.should_close().then_some(CANCEL)) {
-        app.act("answer", &[answer], ui.ctx());
+        app.act_on(Call::new("answer", [Value::Word(answer)]), ui.ctx());
     }
 }

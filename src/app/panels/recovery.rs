@@ -1,6 +1,7 @@
 //! Unsaved work of a program that crashed: a picture of each plan, and what to do with it.
 
 use crate::app::state::dialogs;
+use crate::app::value::{Call, Value};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::time::SystemTime;
@@ -106,9 +107,11 @@ fn show(pictures: &mut BTreeMap<PathBuf, PlanPicture>, app: &mut App, ui: &Ui) {
     app.session.safety.leftovers = leftovers;
     match response.inner.or(response.should_close().then_some(Act::Later)) {
         None => {}
-        Some(Act::Recover(number)) => app.act("recover", &[&number.to_string()], ui.ctx()),
-        Some(Act::Discard(number)) => app.act("discard-recovered", &[&number.to_string()], ui.ctx()),
-        Some(Act::Later) => app.act("recovery", &["off"], ui.ctx()),
+        Some(Act::Recover(number)) => app.act_on(Call::new("recover", [Value::Count(number)]), ui.ctx()),
+        Some(Act::Discard(number)) => {
+            app.act_on(Call::new("discard-recovered", [Value::Count(number)]), ui.ctx());
+        }
+        Some(Act::Later) => app.act_on(Call::new("recovery", [Value::Switch(false)]), ui.ctx()),
     }
 }
 

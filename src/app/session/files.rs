@@ -20,6 +20,7 @@ use crate::app::session::{
     questions::{Intent, Question},
     selection::Selection,
 };
+use crate::app::value::{Call, Value};
 use crate::edit::storey::{Keep, copied};
 use crate::formats::FileError;
 use crate::plan::Plan;
@@ -219,13 +220,14 @@ impl Session {
             }
             return;
         };
+        let run = |id: &'static str| Wish::Run(Call::new(id, [Value::Path(path.clone())]));
         let word = path.to_string_lossy().into_owned();
         match purpose {
-            Purpose::Open => self.wishes.push(Wish::Run("open", vec![word])),
-            Purpose::Picture(PictureUse::Add) => self.wishes.push(Wish::Run("picture", vec![word])),
-            Purpose::Picture(PictureUse::Relink) => self.wishes.push(Wish::Run("relink-picture", vec![word])),
+            Purpose::Open => self.wishes.push(run("open")),
+            Purpose::Picture(PictureUse::Add) => self.wishes.push(run("picture")),
+            Purpose::Picture(PictureUse::Relink) => self.wishes.push(run("relink-picture")),
             Purpose::Recording(save) => self.wishes.push(Wish::Recording(save(path))),
-            Purpose::Save { then: None, answering: None } => self.wishes.push(Wish::Run("save-as", vec![word])),
+            Purpose::Save { then: None, answering: None } => self.wishes.push(run("save-as")),
             Purpose::Save { then, answering } => {
                 if let Some(answer) = answering {
                     self.note_executed("answer", vec![answer.to_owned(), word]);

@@ -151,8 +151,8 @@ impl Session {
     }
 
     /// Makes the picture that is shown the one that the plan asks for, as it is and where it is.
-    pub(crate) fn shown_picture_word(&self) -> Option<String> {
-        self.backdrop.shown_path().map(|path| path.to_string_lossy().into_owned())
+    pub(crate) fn shown_picture_path(&self) -> Option<PathBuf> {
+        self.backdrop.shown_path().map(ToOwned::to_owned)
     }
 
     // Changing.

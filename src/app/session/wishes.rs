@@ -3,6 +3,7 @@
 use std::any::Any;
 
 use crate::app::session::questions::Intent;
+use crate::app::value::Call;
 use crate::geometry::{Bounds, Point};
 use crate::plan::ElementId;
 
@@ -27,8 +28,7 @@ pub(crate) enum Wish {
     OfferRecovery,
     CloseRecovery,
     CloseDifferences,
-    /// Run a command with these arguments.
-    Run(&'static str, Vec<String>),
+    Run(Call),
     /// End the recording, then go on.
     EndRecording(Intent),
     /// Tell the recorder something that it alone knows how to read.
