@@ -59,3 +59,48 @@ fn wrong_calls_and_wrong_input_say_what_to_do() {
         assert!(err.contains(word), "{err:?} misses {word:?}");
     }
 }
+
+/// A plan file of walls `from` `to`, in metres, or of one room with these corners.
+fn written(folder: &Path, name: &str, corners: &[(f64, f64)], is_room: bool) -> PathBuf {
+    let id = |letter: char, index: usize| format!("{letter}{:012}", index + 1);
+    let listed: Vec<_> = corners
+        .iter()
+        .enumerate()
+        .map(|(index, (x, y))| serde_json::json!({ "id": id('c', index), "x": x, "y": y }))
+        .collect();
+    let all: Vec<String> = (0..corners.len()).map(|index| id('c', index)).collect();
+    let mut plan = serde_json::json!({ "format": "enfilade plan", "version": 1, "corners": listed });
+    if is_room {
+        plan["rooms"] = serde_json::json!([{ "id": id('r', 0), "name": "a", "outer": all }]);
+    } else {
+        let wall = |(index, ends): (usize, &[String])| serde_json::json!({ "id": id('w', index), "from": ends[0], "to": ends[1], "thickness": 0.1 });
+        plan["walls"] = all.chunks(2).enumerate().map(wall).collect();
+    }
+    let path = folder.join(name);
+    std::fs::write(&path, plan.to_string()).unwrap();
+    path
+}
+
+/// Joining 160,000 crossings takes minutes: they are drawn as lines, and that is said.
+#[test]
+fn walls_and_rooms_that_cross_out_of_all_proportion_are_drawn_as_lines() {
+    let folder = tempfile::tempdir().unwrap();
+    let spoke = |index: usize| {
+        let angle_rad = std::f64::consts::PI * index as f64 / 400.0;
+        let (x, y) = (200.0 * angle_rad.cos(), 200.0 * angle_rad.sin());
+        let to_grid = |value: f64| (value * 1e4).round() / 1e4;
+        [(to_grid(x), to_grid(y)), (to_grid(-x), to_grid(-y))]
+    };
+    let star: Vec<(f64, f64)> = (0..400).flat_map(spoke).collect();
+    let comb: Vec<(f64, f64)> =
+        (0..1000).map(|index| ((index * 7919 % 1009) as f64 / 10.0, (index * 104_729 % 1013) as f64 / 10.0)).collect();
+    for (name, corners, is_room, number) in [("star", star, false, "400"), ("comb", comb, true, "1")] {
+        let file = written(folder.path(), &format!("{name}.plan.json"), &corners, is_room);
+        let picture = folder.path().join(format!("{name}.png"));
+        let (code, _, err) = render(&[&file, Path::new("-o"), &picture, Path::new("--size"), Path::new("400x300")]);
+        assert_eq!(code, 0, "{err}");
+        assert!(err.contains(&format!("{number} walls or rooms cross each other")), "{name}: {err}");
+        let rgba = Picture::decode(&std::fs::read(&picture).unwrap()).rgba;
+        assert!(rgba.chunks(4).any(|pixel| pixel[0] < 200), "{name}: nothing is drawn");
+    }
+}
