@@ -1,5 +1,5 @@
-//! What any program needs: work that can be cancelled, random numbers, units, words, hashes. It knows
-//! nothing of plans.
+//! What any program needs: cancellable work, random numbers, units, wording, hashes. Knows nothing of
+//! plans.
 
 pub mod hash;
 pub mod natural_order;

@@ -1,7 +1,7 @@
-//! The order people expect of names with numbers: 'floor 9' before 'floor 10'.
+//! Natural sort order: 'floor 9' before 'floor 10'.
 
-/// A key by which texts sort as people sort them: runs of digits compare as numbers, letters without
-/// regard to their case; what is equal so far, as it is written.
+/// A natural sort key: runs of digits compare as numbers, letters ignore case; ties are broken by the
+/// text as written.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct NaturalKey {
     parts: Vec<Part>,
@@ -10,7 +10,7 @@ pub struct NaturalKey {
 
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Part {
-    /// How many digits, without zeros in front, and these: of any length.
+    /// A run of digits of any length: how many without leading zeros, then those digits.
     Number(usize, String),
     Word(String),
 }

@@ -1,26 +1,26 @@
-//! Numbers about numbers: means, medians, quantiles.
+//! Statistics: means, medians, quantiles.
 
-/// The mean; `None` of nothing.
+/// The mean; `None` if there are no numbers.
 pub fn mean(numbers: impl IntoIterator<Item = f64>) -> Option<f64> {
     let (count, sum) = numbers.into_iter().fold((0_u32, 0.0), |(count, sum), number| (count + 1, sum + number));
     (count > 0).then(|| sum / f64::from(count))
 }
 
-/// The middle value; of an even number, the lower of the two in the middle. `None` of nothing. The values
-/// change their order.
+/// The median; for an even count, the lower of the two middle values. `None` if empty. Reorders the
+/// values.
 pub fn lower_median(values: &mut [f64]) -> Option<f64> {
     let middle = values.len().checked_sub(1)? / 2;
     Some(*values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
-/// The middle value; of an even number, the upper of the two in the middle. `None` of nothing. The values
-/// change their order.
+/// The median; for an even count, the upper of the two middle values. `None` if empty. Reorders the
+/// values.
 pub fn upper_median(values: &mut [f64]) -> Option<f64> {
     let middle = values.len() / 2;
     if values.is_empty() { None } else { Some(*values.select_nth_unstable_by(middle, f64::total_cmp).1) }
 }
 
-/// The number below which this share of sorted numbers lies, between neighbours in proportion; 0 of none.
+/// The quantile at `share` (0..=1) of sorted numbers, linearly interpolated; 0 if empty.
 pub fn quantile(sorted: &[f64], share: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else { return 0.0 };
     let at = share * last as f64;

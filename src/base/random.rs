@@ -1,4 +1,4 @@
-//! A small random generator: the same numbers for the same seed on every machine and in every
+//! A small random number generator: the same seed gives the same numbers on every machine and in every
 //! version of the program, which no library promises for its default generator.
 
 /// xoshiro256++ (Blackman and Vigna 2019), seeded by `splitmix64` as its authors advise.
@@ -17,7 +17,7 @@ fn splitmix64(state: &mut u64) -> u64 {
 }
 
 impl Random {
-    /// The generator of a seed. Any seed will do, neighbouring ones included.
+    /// A generator from a seed. Any seed will do, consecutive ones included.
     pub fn new(seed: u64) -> Self {
         let mut state = seed;
         Self { state: std::array::from_fn(|_| splitmix64(&mut state)) }
@@ -33,17 +33,17 @@ impl Random {
         result
     }
 
-    /// A number in 0..1, with 53 random bits.
+    /// A uniform number in 0..1, with 53 random bits.
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// A number in `0..count`; 0 for a count of 0. Its bias is below count / 2^64.
+    /// A uniform number in `0..count`; 0 if `count` is 0. The bias is below count / 2^64.
     pub fn below(&mut self, count: usize) -> usize {
         ((u128::from(self.bits()) * count as u128) >> 64) as usize
     }
 
-    /// A deviate of the standard normal distribution: mean 0, standard deviation 1 (polar method,
+    /// A sample of the standard normal distribution: mean 0, standard deviation 1 (polar method,
     /// Marsaglia and Bray 1964).
     pub fn normal(&mut self) -> f64 {
         loop {
@@ -55,7 +55,7 @@ impl Random {
         }
     }
 
-    /// Puts a slice in random order (Fisher and Yates).
+    /// Shuffles a slice (Fisher and Yates).
     pub fn shuffle<T>(&mut self, items: &mut [T]) {
         for last in (1..items.len()).rev() {
             items.swap(last, self.below(last + 1));
@@ -63,7 +63,7 @@ impl Random {
     }
 }
 
-/// The seed of one part of a task (a fold, say), so that parts may run in any order.
+/// The seed for one part of a task (a fold, say), so that the parts can run in any order.
 pub fn seed_of_part(seed: u64, part: usize) -> u64 {
     let mut state = seed;
     let base = splitmix64(&mut state);

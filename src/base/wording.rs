@@ -1,24 +1,24 @@
-//! Words for people: counts, lists, cut texts, words that may have been meant.
+//! Wording for people: counts, lists, shortened texts, "did you mean" suggestions.
 
-/// A text with a capital letter.
+/// Capitalises the first letter.
 pub fn sentence(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
-/// A number of things, in words.
+/// A count with its noun, pluralised.
 pub fn count(number: usize, thing: &str) -> String {
     let plural = if number == 1 { "" } else { "s" };
     format!("{} {thing}{plural}", thousands(number as u64))
 }
 
-/// A number with its thousands apart.
+/// A number with its thousands separated.
 pub fn thousands(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {
         if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            // A thin space that does not break, as ISO 80000 has it.
+            // A narrow no-break space, as ISO 80000 recommends.
             text.push('\u{202f}');
         }
         text.push(digit);
@@ -26,9 +26,9 @@ pub fn thousands(number: u64) -> String {
     text
 }
 
-/// The words most like one that is wrong, the likest first.
+/// The known words most similar to a misspelt one, closest first.
 pub fn similar<'a>(wrong: &str, words: impl Iterator<Item = &'a str>, most: usize) -> Vec<&'a str> {
-    // Below, two words have hardly more in common than any two.
+    // Below this, two words have hardly more in common than any two.
     const LEAST: f64 = 0.75;
     let wrong = wrong.trim().to_lowercase();
     let mut found: Vec<(f64, &str)> = words
@@ -36,7 +36,7 @@ pub fn similar<'a>(wrong: &str, words: impl Iterator<Item = &'a str>, most: usiz
         .filter(|(likeness, _)| *likeness >= LEAST)
         .collect();
     found.sort_by(|p, q| q.0.total_cmp(&p.0).then(p.1.cmp(q.1)));
-    // Next to a good guess, poor ones only distract.
+    // Next to a good match, poor ones only distract.
     let best = found.first().map_or(1.0, |(likeness, _)| *likeness);
     found.retain(|(likeness, _)| *likeness >= best - 0.05);
     found.into_iter().take(most).map(|(_, word)| word).collect()
@@ -51,7 +51,7 @@ pub fn or_list(words: &[&str]) -> String {
     }
 }
 
-/// a, b or c: as [`or_list`], for words that need no quotes.
+/// a, b or c: like [`or_list`], for words that need no quotes.
 pub fn or_words(words: &[&str]) -> String {
     match words {
         [all @ .., last] if !all.is_empty() => format!("{} or {last}", all.join(", ")),
@@ -59,7 +59,7 @@ pub fn or_words(words: &[&str]) -> String {
     }
 }
 
-/// A text of at most so many characters, cut with an ellipsis.
+/// A text cut to at most this many characters, with an ellipsis.
 pub fn shortened(text: &str, most: usize) -> String {
     if text.chars().count() <= most {
         return text.to_owned();

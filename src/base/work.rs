@@ -1,10 +1,10 @@
-//! Work in independent parts, on any number of threads: the results do not depend on how many.
+//! Work split into independent parts, run on any number of threads with the same result.
 
 use std::num::NonZeroUsize;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// How work is done: on how many threads, watched by whom, until when.
+/// How to run work: on how many threads, and who watches and may cancel it.
 #[derive(Clone, Copy)]
 pub struct Work<'a> {
     threads: usize,
@@ -24,11 +24,11 @@ impl std::fmt::Display for Cancelled {
 
 impl std::error::Error for Cancelled {}
 
-/// What [`Work::quiet`] watches: never set.
+/// The flag of [`Work::quiet`]: never set.
 static NEVER: AtomicBool = AtomicBool::new(false);
 
 impl Work<'static> {
-    /// Work nobody watches, on as many threads as the machine has processors.
+    /// Unwatched work, on as many threads as the machine has processors.
     pub fn quiet() -> Self {
         let threads = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
         Self { threads, progress: &|_, _| {}, cancelled: &NEVER }
@@ -36,31 +36,31 @@ impl Work<'static> {
 }
 
 impl<'a> Work<'a> {
-    /// The same on this many threads; with 1 none is started.
+    /// The same with this many threads; 1 starts none.
     #[must_use]
     pub fn on_threads(self, threads: usize) -> Self {
         Self { threads: threads.max(1), ..self }
     }
 
-    /// On how many threads.
+    /// The number of threads.
     pub fn threads(&self) -> usize {
         self.threads
     }
 
-    /// Watched: `progress` is told how many parts are done of how many, from any thread and not
-    /// always in order; once `cancelled` is set no further part is begun.
+    /// With a watcher: `progress` is called with the parts done and their total, from any thread and not
+    /// always in order; once `cancelled` is set, no further part starts.
     #[must_use]
     pub fn watched(self, progress: &'a (dyn Fn(usize, usize) + Sync), cancelled: &'a AtomicBool) -> Self {
         Self { progress, cancelled, ..self }
     }
 
-    /// For what is itself a part: cancelled with the whole, on one thread, its progress not told.
+    /// For a part of other work: single-threaded, cancelled with the whole, without progress of its own.
     #[must_use]
     pub fn alone(self) -> Self {
         Self { threads: 1, progress: &|_, _| {}, ..self }
     }
 
-    /// Between two steps, and now and then in long work that is not made of parts: whether to go on.
+    /// Checks for cancellation: call between steps, and now and then in long work that has no parts.
     ///
     /// # Errors
     /// When the work is cancelled.
@@ -68,16 +68,16 @@ impl<'a> Work<'a> {
         if self.cancelled.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) }
     }
 
-    /// For work whose steps follow one another: tells how many of how many are done before the next.
+    /// For sequential steps: reports how many of `count` are done, before the next one.
     ///
     /// # Errors
-    /// When cancelled: the next step must not begin.
+    /// When cancelled: the next step must not start.
     pub fn step(&self, done: usize, count: usize) -> Result<(), Cancelled> {
         (self.progress)(done, count);
         if self.cancelled.load(Ordering::Relaxed) { Err(Cancelled) } else { Ok(()) }
     }
 
-    /// The results of `count` parts, in their order.
+    /// Runs `count` parts and returns their results in order.
     ///
     /// # Errors
     /// When cancelled before all parts were done.

@@ -12,24 +12,24 @@ use crate::plan::titles::{OpeningName, RoomName};
 use crate::plan::{Opening, OpeningId, Plan, RoomId, WallId};
 use crate::topology::RoomShape;
 
-/// What the checks look at: the plan, what follows from it, and what several checks need.
+/// What the checks look at: the plan, its analysis, and intermediate results shared by several checks.
 pub struct Context<'a> {
     pub plan: &'a Plan,
     pub analysis: &'a Analysis,
     pub schemes: &'a Schemes,
-    /// Shapes that differ by less than this, in metres, are drawn as the same.
+    /// Shapes that differ by less than this, in metres, count as drawn the same.
     pub drawing_tolerance_m: f64,
-    /// For each room, in the order of [`crate::topology::RoomShapes::all`], its rings' faults.
+    /// For each room, in the order of [`crate::topology::RoomShapes::all`], the faults of its rings.
     pub ring_faults: Vec<RingFaults>,
     /// Pairs of rooms that share more area than the drawing tolerance explains.
     pub overlaps: Vec<Overlap>,
-    /// The edges of all rooms but the hopeless ones.
+    /// The edges of all rooms except the hopeless ones.
     pub edges: RoomEdges,
-    /// The walls that have a length.
+    /// The walls with a length.
     pub walls: Walls,
-    /// The openings that have a length.
+    /// The openings with a length.
     pub openings: Vec<PlacedOpening<'a>>,
-    /// How many times too long the plan's lengths seem from the areas of its rooms, and of how many
+    /// How many times too long the plan's lengths seem, judging by its rooms' areas, and from how many
     /// rooms, see [`sizes::length_factor`].
     pub length_factor: Option<(f64, usize)>,
 }
@@ -41,16 +41,16 @@ pub struct Overlap {
     pub smaller: usize,
     pub larger: usize,
     pub region: Region,
-    /// Of the smaller room's area.
+    /// As a share of the smaller room's area.
     pub share: f64,
-    /// Of both rooms' area together.
+    /// As a share of the area of their union.
     pub share_of_union: f64,
 }
 
-/// Edges of all rooms, each directed so that its room lies on its left.
+/// Edges of all rooms, each directed so that its room is on its left.
 pub struct RoomEdges {
     pub index: SegmentIndex,
-    /// The room each belongs to, as index.
+    /// The index of the room each edge belongs to.
     pub rooms: Vec<usize>,
 }
 
@@ -73,15 +73,15 @@ impl PlacedOpening<'_> {
     }
 }
 
-/// The finest drawing tolerance in metres: what snapping to the millimetre and rounding leave, and
-/// less than any finish of a wall.
+/// The finest drawing tolerance in metres: more than snapping to the millimetre and rounding leave, less
+/// than any wall finish is thick.
 const FINEST_TOLERANCE_M: f64 = 0.01;
 
-/// A point that is placed on a raster lies up to half a step off both ways, two drawings of the
-/// same edge therefore up to √2 steps apart; rounded up.
+/// A point placed on a raster is up to half a step off in both directions, so two drawings of the same
+/// edge are up to √2 steps apart; rounded up.
 const STEPS_OF_RASTER: f64 = 1.5;
 
-/// No raster is taken for one beyond this step in metres: tolerances would swallow walls.
+/// The coarsest raster step in metres: with a larger one, tolerances would swallow walls.
 const COARSEST_RASTER_M: f64 = 0.25;
 
 impl<'a> Context<'a> {
@@ -119,7 +119,7 @@ impl<'a> Context<'a> {
         self.analysis.shapes.all()
     }
 
-    /// What is known of a room's label, by index.
+    /// The status of a room's label, by index.
     pub fn status(&self, room: usize) -> RoomStatus {
         self.analysis.rooms[room].status
     }
@@ -133,17 +133,17 @@ impl<'a> Context<'a> {
         )
     }
 
-    /// A room's name, by id; `None` when there is no such room.
+    /// A room's name, by id; `None` if there is no such room.
     pub fn name_of(&self, id: RoomId) -> Option<RoomName> {
         Some(RoomName::new(id, self.plan.room(id)?))
     }
 
-    /// Whether a room is one in the sense of the paper, by index: not a balcony or a shaft.
+    /// Whether a room, by index, is one in the paper's sense: not a balcony or a shaft.
     pub fn is_classified(&self, room: usize) -> bool {
         self.status(room) != RoomStatus::NotClassified
     }
 
-    /// Distance in metres from a segment's middle to a room; 0 inside, `None` beyond `reach_m`.
+    /// Distance in metres from a point to a room; 0 inside, `None` beyond `reach_m`.
     pub fn distance_to_room(&self, from: Point, room: usize, reach_m: f64) -> Option<f64> {
         if self.shapes()[room].locate(from) != polygon::Location::Outside {
             return Some(0.0);
@@ -158,15 +158,15 @@ impl<'a> Context<'a> {
     }
 }
 
-/// The step in metres of the raster on which the plan was digitised, when it was: the unit of its
-/// source, if all corners lie on multiples of it. Metres, feet and the like are no such step.
+/// The step in metres of the raster the plan was digitised on, if any: the unit of its source, provided
+/// all corners lie on multiples of it. Metres, feet and the like do not count.
 fn raster_step_m(plan: &Plan) -> Option<f64> {
     let step = plan.meta().scale.metres_per_unit?;
     if !(step > FINEST_TOLERANCE_M / STEPS_OF_RASTER && step <= COARSEST_RASTER_M) {
         return None;
     }
     let (_, first) = plan.corners().next()?;
-    // Rounding to the 0.1 mm grid moves both corners by half a step of it.
+    // Rounding to the 0.1 mm grid moves each corner by up to half a grid step.
     let on_raster = |length: f64| (length / step - (length / step).round()).abs() * step <= crate::geometry::GRID_M;
     let all_on_raster = plan.corners().all(|(_, corner)| {
         let from_first = corner.position - first.position;
@@ -209,7 +209,7 @@ fn walls(plan: &Plan) -> Walls {
 }
 
 /// The pairs of rooms that share a region thicker than `tolerance_m`, by index; at most
-/// [`FINDINGS_LIMIT`] of them.
+/// [`FINDINGS_LIMIT`].
 fn overlapping_pairs(analysis: &Analysis, faults: &[RingFaults], tolerance_m: f64) -> Vec<Overlap> {
     let shapes = analysis.shapes.all();
     let mut found = Vec::new();
@@ -227,7 +227,7 @@ fn overlapping_pairs(analysis: &Analysis, faults: &[RingFaults], tolerance_m: f6
             if region.depth_m <= tolerance_m || area_m2 <= 0.0 || other_area_m2 <= 0.0 {
                 continue;
             }
-            // Of equal rooms the first counts as the larger.
+            // Of equally large rooms the first counts as the larger.
             let (smaller, larger) = if area_m2 < other_area_m2 { (index, other) } else { (other, index) };
             let union_m2 = area_m2 + other_area_m2 - region.area_m2;
             found.push(Overlap {
@@ -252,10 +252,10 @@ fn intersection(one: Bounds, other: Bounds) -> Bounds {
     }
 }
 
-/// Boxes with an index to find them by place.
+/// A spatial index of boxes.
 pub type Boxes = rstar::RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>;
 
-/// An index of the boxes of rings.
+/// A spatial index of the bounding boxes of rings.
 pub fn ring_boxes(rings: &[Vec<Point>]) -> Boxes {
     let boxes = rings.iter().enumerate().filter(|(_, ring)| !ring.is_empty()).map(|(index, ring)| {
         let Bounds { min, max } = polygon::bounds(ring);

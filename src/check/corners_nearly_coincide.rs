@@ -7,8 +7,8 @@ use super::{Check, Context, FINDINGS_LIMIT, Kind, Place, Severity};
 use crate::geometry::Point;
 use crate::plan::{CornerId, ElementId};
 
-/// Two corners of different walls or rooms so near each other that they were meant to be one: moving
-/// one of them moves only a part of what meets there.
+/// Two corners of different walls or rooms so close that they were meant to be one: moving one of them
+/// moves only part of what meets there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CornersNearlyCoincide {
     pub corners: [CornerId; 2],
@@ -16,8 +16,8 @@ pub struct CornersNearlyCoincide {
     pub at: Point,
 }
 
-/// Corners nearer than this, in metres, are meant to be one: less than any finish of a wall is
-/// thick, more than rounding leaves.
+/// Corners closer than this, in metres, are meant to be one: less than any wall finish is thick, more
+/// than rounding leaves.
 const NEAR_M: f64 = 0.01;
 
 impl Check for CornersNearlyCoincide {
@@ -30,7 +30,7 @@ impl Check for CornersNearlyCoincide {
 
     fn find(context: &Context) -> Vec<Self> {
         let plan = context.plan;
-        // What each corner belongs to: a fine detail within one room is its own business.
+        // What each corner belongs to: fine details within one room are fine.
         let mut owners: BTreeMap<CornerId, BTreeSet<ElementId>> = BTreeMap::new();
         for (id, room) in plan.rooms() {
             for corner in room.rings().flat_map(|ring| ring.iter()) {

@@ -6,21 +6,21 @@ use crate::geometry::Point;
 use crate::plan::ElementId;
 use crate::plan::titles::RoomName;
 
-/// How bad a finding is.
+/// The severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
-    /// Nothing is wrong for certain; worth a look.
+    /// Not necessarily wrong; worth a look.
     Info,
-    /// Probably a mistake: what is computed from the plan still means something.
+    /// Probably a mistake, but what is computed from the plan still means something.
     Warning,
-    /// A mistake: something that is computed from the plan is wrong or missing.
+    /// A mistake: something computed from the plan is wrong or missing.
     Error,
 }
 
 impl Severity {
     pub const ALL: [Self; 3] = [Self::Error, Self::Warning, Self::Info];
 
-    /// The word for files and for people.
+    /// Its name in files and in the interface.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Info => "info",
@@ -41,7 +41,7 @@ impl fmt::Display for Severity {
 pub struct Kind {
     /// Its name for machines: that of its source file.
     pub name: &'static str,
-    /// Its name for people, to stand above several findings.
+    /// Its name for people, as a heading above several findings.
     pub title: &'static str,
     pub severity: Severity,
     /// What to do about it.
@@ -51,9 +51,9 @@ pub struct Kind {
 /// Where a finding is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Place<'a> {
-    /// The elements concerned, the ones to change first.
+    /// The elements involved, the ones to change first.
     pub elements: Vec<ElementId>,
-    /// The rooms concerned, by name.
+    /// The rooms involved, by name.
     pub rooms: Vec<&'a RoomName>,
     /// A point to look at, in metres.
     pub at: Option<Point>,
@@ -63,7 +63,7 @@ pub struct Place<'a> {
 pub trait Check: Sized {
     const KIND: Kind;
 
-    /// All findings of this kind; where there are more than [`super::FINDINGS_LIMIT`], at least as many.
+    /// All findings of this kind; if there are more than [`super::FINDINGS_LIMIT`], at least that many.
     fn find(context: &Context) -> Vec<Self>;
 
     /// Where it is.
@@ -72,24 +72,24 @@ pub trait Check: Sized {
     /// What was found, in words, without a full stop.
     fn what(&self) -> String;
 
-    /// The measured figures with their unit in the name.
+    /// The measured figures; names include the unit.
     fn figures(&self) -> Vec<(&'static str, f64)> {
         Vec::new()
     }
 
-    /// How large the fault is, to list the worst first, in a measure of the kind's own.
+    /// The size of the fault, for listing the worst first; the measure depends on the kind.
     fn size(&self) -> f64 {
         0.0
     }
 
-    /// How bad it is: as its kind, unless the figures say otherwise.
+    /// The severity: that of its kind, unless the figures say otherwise.
     fn severity(&self) -> Severity {
         Self::KIND.severity
     }
 }
 
-/// The order in which findings of a kind are listed: the worst first, then as one reads the drawing,
-/// from the top left, then by element.
+/// The order in which findings of a kind are listed: worst first, then in reading order from the top
+/// left, then by element.
 pub(super) fn worst_first<C: Check>(one: &C, other: &C) -> Ordering {
     let (place, other_place) = (one.place(), other.place());
     let reading = |place: &Place| place.at.map_or((f64::INFINITY, 0.0), |at| (-at.y, at.x));

@@ -8,10 +8,10 @@ use crate::plan::ElementId;
 use crate::plan::titles::RoomName;
 use crate::plan::titles::{first_of, printable};
 
-/// A function that the scheme of the plan's typology does not know: its rooms have no label.
+/// A function that the scheme of the plan's typology does not have: its rooms get no label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FunctionIsUnknown {
-    /// As it is written in the first of the rooms.
+    /// As written in the first of the rooms.
     pub function: String,
     pub typology: Typology,
     /// The rooms of this function without a label of their own, by id.

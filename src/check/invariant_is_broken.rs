@@ -1,8 +1,8 @@
 use super::{Check, Context, Kind, Place, Severity};
 use crate::plan::Violation;
 
-/// The plan breaks an invariant of the model (see [`crate::plan::Plan::violations`]): a damaged
-/// file, or a bug of ours.
+/// The plan breaks an invariant of the model (see [`crate::plan::Plan::violations`]): a damaged file, or
+/// a bug in Enfilade.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InvariantIsBroken {
     pub violation: Violation,

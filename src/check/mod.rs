@@ -1,8 +1,9 @@
-//! Everything that can be wrong with a plan: one file a check, named as its finding.
+//! Everything that can be wrong with a plan: one file per check, named after its finding.
 //!
-//! [`check`] is a pure function that returns all findings, typed, each with its place and what to do.
-//! A new check is a file, its `mod` line (which every tool can follow) and one line in the list below. What each says, and how often it fires on
-//! real plans, is in `docs/checks.md`.
+//! [`check`] is a pure function that returns all findings, typed, each with its place and what to do
+//! about it. To add a check, write a file, its `mod` line (outside the macro, where every tool can follow
+//! it) and one line in the list below. What each check says, and how often it fires on real plans, is in
+//! `docs/checks.md`.
 
 mod context;
 mod corners_nearly_coincide;
@@ -49,27 +50,27 @@ use crate::features::Analysis;
 use crate::labels::Schemes;
 use crate::plan::Plan;
 
-/// Declares the checks: one variant a check in [`Finding`].
+/// Declares the checks: one variant of [`Finding`] per check.
 macro_rules! checks {
     ($($module:ident :: $finding:ident),* $(,)?) => {
         $(pub use $module::$finding;)*
 
-        /// Something that is wrong with a plan, or worth a look.
+        /// Something wrong with a plan, or worth a look.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Finding {
             $(#[doc = concat!("See [`", stringify!($finding), "`].")] $finding($finding),)*
         }
 
         impl Finding {
-            /// Every kind of finding, in the order in which they are reported.
+            /// Every kind of finding, in the order they are reported.
             pub const KINDS: &[&Kind] = &[$(&$finding::KIND),*];
 
-            /// What kind of finding it is.
+            /// The kind of finding.
             pub fn kind(&self) -> &'static Kind {
                 match self { $(Self::$finding(_) => &$finding::KIND,)* }
             }
 
-            /// How bad it is.
+            /// The severity.
             pub fn severity(&self) -> Severity {
                 match self { $(Self::$finding(finding) => finding.severity(),)* }
             }
@@ -89,7 +90,7 @@ macro_rules! checks {
                 self.kind().remedy
             }
 
-            /// The measured figures with their unit in the name, for machines.
+            /// The measured figures, for machines; names include the unit.
             pub fn figures(&self) -> Vec<(&'static str, f64)> {
                 match self { $(Self::$finding(finding) => finding.figures(),)* }
             }
@@ -143,24 +144,24 @@ checks! {
     corners_nearly_coincide::CornersNearlyCoincide,
 }
 
-/// At most so many findings of a kind are returned for a plan, so that a damaged file (a thousand
-/// rooms in one place) costs neither memory nor patience. The real plans have at most a few dozen.
+/// The most findings of a kind returned for a plan, so that a damaged file (a thousand rooms in one
+/// place) costs neither memory nor patience. Real plans have at most a few dozen.
 pub const FINDINGS_LIMIT: usize = 1000;
 
-/// Everything that is wrong with a plan, or worth a look: errors first, then by kind in the order of
-/// [`Finding::KINDS`], then the worst of a kind first, then as one reads, from the top left. The same
-/// plan always gives the same findings.
+/// Everything wrong with a plan, or worth a look: errors first, then by kind in the order of
+/// [`Finding::KINDS`], then worst first, then in reading order from the top left. The same plan always
+/// gives the same findings.
 ///
-/// `analysis` is that of the plan under the same schemes.
+/// `analysis` must be that of the plan under the same schemes.
 pub fn check(plan: &Plan, analysis: &Analysis, schemes: &Schemes) -> Vec<Finding> {
     let mut found = find_all(&Context::new(plan, analysis, schemes));
-    // Stable: within a severity the order of the checks stays.
+    // Stable: keeps the order of the checks within a severity.
     found.sort_by_key(|finding| std::cmp::Reverse(finding.severity()));
     found
 }
 
 impl std::fmt::Display for Finding {
-    /// The sentence: what was found, where, and what to do.
+    /// One sentence: what was found, where, and what to do.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&self.what())?;
         if let Some(at) = self.place().at {

@@ -4,13 +4,13 @@ use crate::plan::titles::{OpeningName, RoomName};
 use crate::plan::{ElementId, Joint, THICKEST_WALL_M};
 use crate::topology::sides_by_geometry;
 
-/// An opening that is stated to lead to a room near it, but in whose place one steps into another.
+/// An opening stated to lead to a nearby room, but that by its position leads into another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpeningContradictsItsPlace {
     pub opening: OpeningName,
-    /// The room it is said to lead to.
+    /// The room it is stated to lead to.
     pub stated: RoomName,
-    /// The room that lies there instead.
+    /// The room that is there instead.
     pub found: RoomName,
     pub at: Point,
 }
@@ -28,8 +28,8 @@ impl Check for OpeningContradictsItsPlace {
         for placed in &context.openings {
             let Some(stated) = placed.opening.pinned.filter(|_| placed.opening.kind.is_passable()) else { continue };
             let seen = sides_by_geometry(context.plan, &context.analysis.shapes, placed.opening);
-            // Both sides are rooms, both ways, and one of them is common: what differs is no matter
-            // of how the opening is turned or of space that is not drawn.
+            // Both sides are rooms, stated and found, and one of them is the same: so the difference is
+            // not due to the opening's direction or to space that is not drawn.
             let rooms = |sides: [Joint; 2]| Some([sides[0].room()?, sides[1].room()?]);
             let (Some(stated), Some(seen)) = (rooms(stated), rooms(seen)) else { continue };
             let missing: Vec<_> = stated.into_iter().filter(|room| !seen.contains(room)).collect();

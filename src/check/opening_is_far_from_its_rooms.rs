@@ -3,17 +3,17 @@ use crate::geometry::Point;
 use crate::plan::titles::{OpeningName, RoomName};
 use crate::plan::{ElementId, THICKEST_WALL_M};
 
-/// An opening that is stated to lead to a room whose boundary is further away than a wall is thick.
+/// An opening stated to lead to a room whose boundary is further away than the thickest wall.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpeningIsFarFromItsRooms {
     pub opening: OpeningName,
     pub room: RoomName,
-    /// From the opening's middle to the room, in metres; `None` beyond [`LOOK_M`].
+    /// From the opening's middle to the room, in metres; `None` if beyond [`LOOK_M`].
     pub distance_m: Option<f64>,
     pub at: Point,
 }
 
-/// How far the room is looked for, in metres, to say how far it is.
+/// How far to look for the room, in metres, in order to state its distance.
 const LOOK_M: f64 = 10.0;
 
 impl Check for OpeningIsFarFromItsRooms {
@@ -30,7 +30,7 @@ impl Check for OpeningIsFarFromItsRooms {
             let at = placed.segment.midpoint();
             for joint in placed.opening.pinned.iter().flatten() {
                 let Some(index) = joint.room().and_then(|id| context.analysis.shapes.index_of(id)) else { continue };
-                // A room without a boundary that bounds something is nowhere: that is another finding.
+                // A room whose boundary encloses nothing is nowhere: that is another finding.
                 if context.shapes()[index].outer.is_empty()
                     || context.ring_faults[index].is_hopeless()
                     || context.distance_to_room(at, index, THICKEST_WALL_M).is_some()

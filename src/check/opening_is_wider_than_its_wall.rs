@@ -5,18 +5,18 @@ use crate::geometry::{Point, Segment};
 use crate::plan::titles::OpeningName;
 use crate::plan::{DEFAULT_DOOR_WIDTH_M, ElementId, THICKEST_WALL_M};
 
-/// An opening that reaches beyond the end of the wall it is in.
+/// An opening that extends past the end of its wall.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpeningIsWiderThanItsWall {
     pub opening: OpeningName,
     pub width_m: f64,
-    /// How far it reaches beyond, in metres.
+    /// How far it extends past the end, in metres.
     pub excess_m: f64,
     pub at: Point,
 }
 
-/// An opening may reach this far beyond its wall, in metres: into the thickness of the wall that
-/// crosses it, which rooms drawn on centre lines do not show.
+/// An opening may extend this far past its wall, in metres: into the thickness of a crossing wall, which
+/// rooms drawn to wall centre lines do not show.
 const TOLERATED_EXCESS_M: f64 = crate::plan::DEFAULT_WALL_THICKNESS_M;
 
 impl Check for OpeningIsWiderThanItsWall {
@@ -31,7 +31,7 @@ impl Check for OpeningIsWiderThanItsWall {
         let mut found = Vec::new();
         for placed in &context.openings {
             let width_m = placed.segment.length();
-            // The width of a door that is drawn as a point is ours, not the source's.
+            // A door drawn as a point has our default width, not the source's.
             if (width_m - DEFAULT_DOOR_WIDTH_M).abs() <= crate::geometry::GRID_M {
                 continue;
             }
@@ -64,8 +64,8 @@ impl Check for OpeningIsWiderThanItsWall {
     }
 }
 
-/// How far an end of an opening lies beyond the walls and sides of rooms that run along the opening,
-/// in metres; `None` where none runs along it at all (it stands free: another finding).
+/// How far an end of an opening is past the walls and room sides that run along the opening, in metres;
+/// `None` if nothing runs along it (it stands free: another finding).
 fn beyond_walls_m(edges: &SegmentIndex, walls: &SegmentIndex, opening: Segment, end: Point) -> Option<f64> {
     let direction = opening.vector().unit()?;
     let near = opening.bounds().inflated(THICKEST_WALL_M);

@@ -3,14 +3,14 @@ use crate::geometry::Point;
 use crate::plan::titles::{OpeningName, RoomName};
 use crate::plan::{ElementId, Joint};
 
-/// A door or passage with the same room on both sides: it counts as an opening of the room and leads
+/// A door or passage with the same room on both sides: it counts as an opening of the room but leads
 /// nowhere.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpeningJoinsARoomToItself {
     pub opening: OpeningName,
     pub room: RoomName,
     pub at: Option<Point>,
-    /// Whether that is stated, else it follows from geometry.
+    /// Whether this is stated; otherwise it follows from geometry.
     pub pinned: bool,
 }
 

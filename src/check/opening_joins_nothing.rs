@@ -8,7 +8,7 @@ use crate::plan::{ElementId, Joint, THICKEST_WALL_M};
 pub struct OpeningJoinsNothing {
     pub opening: OpeningName,
     pub at: Option<Point>,
-    /// Whether that is stated, else it follows from geometry.
+    /// Whether this is stated; otherwise it follows from geometry.
     pub pinned: bool,
 }
 

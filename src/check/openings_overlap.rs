@@ -5,24 +5,24 @@ use crate::geometry::{GRID_M, Point, Segment};
 use crate::plan::titles::OpeningName;
 use crate::plan::{DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, ElementId};
 
-/// Two openings in the same place: a doorway drawn twice counts twice in the features of its rooms.
+/// Two openings in the same place: a doorway drawn twice counts twice in its rooms' features.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OpeningsOverlap {
     pub openings: [OpeningName; 2],
-    /// Length in metres that both occupy.
+    /// Length of the overlap in metres.
     pub overlap_m: f64,
     pub at: Point,
 }
 
-/// Openings that share more than this of the narrower one stand in each other's way. Less is two
-/// neighbouring doors drawn a little wide.
+/// Openings that share more than this fraction of the narrower one overlap. Less means two neighbouring
+/// doors drawn a little too wide.
 const LEAST_SHARE: f64 = 0.5;
 
-/// A door of exactly the usual width may be one that its source draws as a point; the doors of two
-/// stalls beside each other are half as wide.
+/// The certain share of the default width: a door of exactly that width may be one its source draws as a
+/// point, and the doors of two adjacent stalls are half as wide.
 const LEAST_OF_USUAL_WIDTH: f64 = 0.5;
 
-/// What an opening occupies for certain.
+/// The part an opening occupies for certain.
 fn certain_part(segment: Segment) -> Segment {
     if (segment.length() - DEFAULT_DOOR_WIDTH_M).abs() > GRID_M {
         return segment;

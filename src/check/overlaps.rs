@@ -1,4 +1,4 @@
-//! What two areas have in common.
+//! The intersection and difference of two areas.
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay::Overlay;
@@ -8,7 +8,7 @@ use i_overlay::i_float::int::point::IntPoint;
 use crate::geometry::COORDINATE_LIMIT_M;
 use crate::geometry::{Bounds, Point, polygon};
 
-/// An area, as the thickness and place of its thickest piece and the area of all pieces.
+/// An area, summarised by the thickness and position of its thickest piece and the total area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Region {
     pub area_m2: f64,
@@ -18,8 +18,8 @@ pub struct Region {
     pub at: Point,
 }
 
-/// What two areas, given by their rings, share; `None` when nothing, or when it is too much to tell
-/// (see [`CROSSINGS_LIMIT`]). Neither area may cross itself beyond measure.
+/// The intersection of two areas, given by their rings; `None` if it is empty or too complex to compute
+/// (see [`CROSSINGS_LIMIT`]). Neither area may cross itself excessively.
 pub fn shared<'a>(
     one: impl IntoIterator<Item = &'a Vec<Point>>,
     other: impl IntoIterator<Item = &'a Vec<Point>>,
@@ -27,7 +27,7 @@ pub fn shared<'a>(
     overlay(one, other, OverlayRule::Intersect)
 }
 
-/// What of the first area lies outside the second; `None` as for [`shared`].
+/// The part of the first area outside the second; `None` as for [`shared`].
 pub fn outside<'a>(
     one: impl IntoIterator<Item = &'a Vec<Point>>,
     other: impl IntoIterator<Item = &'a Vec<Point>>,
@@ -35,12 +35,12 @@ pub fn outside<'a>(
     overlay(one, other, OverlayRule::Difference)
 }
 
-/// Steps of the grid on which areas are cut, a metre: a hundred to the 0.1 mm grid of corners, so
-/// that rounding the corners of what is cut out does not show.
+/// Grid steps per metre for clipping areas: a hundred to each step of the corners' 0.1 mm grid, so that
+/// rounding the corners of what is cut out does not show.
 const STEPS_PER_M: f64 = 1e6;
 
-/// Points further than this from each other, in metres, are no part of a plan, which reaches
-/// [`COORDINATE_LIMIT_M`] both ways.
+/// The furthest two points of a plan can be apart, in metres: a plan reaches [`COORDINATE_LIMIT_M`] in
+/// each direction.
 const FARTHEST_M: f64 = 2.0 * COORDINATE_LIMIT_M;
 
 fn overlay<'a>(
@@ -72,11 +72,11 @@ fn overlay<'a>(
     all
 }
 
-/// Two areas whose edges may cross more often than this are not cut: two combs of 50,000 teeth would
-/// make pieces beyond any memory. Rooms have a few hundred edges at most, so below 10^5 here.
+/// Areas whose edges may cross more often than this are not clipped: two combs of 50,000 teeth would give
+/// more pieces than fit in memory. Rooms have at most a few hundred edges, so stay below 10^5.
 const CROSSINGS_LIMIT: usize = 10_000_000;
 
-/// How often the edges of two areas cross at most: only those within both areas' boxes can.
+/// An upper bound on how often the edges of two areas cross: only edges within both bounding boxes can.
 fn crossings_bound(one: &[&Vec<Point>], other: &[&Vec<Point>]) -> usize {
     let bounds =
         |rings: &[&Vec<Point>]| rings.iter().fold(Bounds::EMPTY, |bounds, ring| bounds.union(polygon::bounds(ring)));
@@ -88,24 +88,24 @@ fn crossings_bound(one: &[&Vec<Point>], other: &[&Vec<Point>]) -> usize {
     within(one, bounds_other).saturating_mul(within(other, bounds_one))
 }
 
-/// Rings in steps of the grid from `origin`; `None` where a point is not within [`FARTHEST_M`] of
-/// it, which the invariants exclude.
+/// Rings in grid steps from `origin`; `None` if a point is not within [`FARTHEST_M`] of it, which the
+/// invariants rule out.
 fn on_grid(rings: &[&Vec<Point>], origin: Point) -> Option<Vec<Vec<IntPoint<i64>>>> {
     let step = |length_m: f64| (length_m.abs() <= FARTHEST_M).then(|| (length_m * STEPS_PER_M).round() as i64);
     let point = |point: &Point| Some(IntPoint::new(step(point.x - origin.x)?, step(point.y - origin.y)?));
     rings.iter().map(|ring| ring.iter().map(point).collect()).collect()
 }
 
-/// How thick a piece is, in metres: the shorter side of the rectangle with its area and perimeter.
-/// For a strip along several walls of a room that is the strip's width, where the width of its hull
-/// would be that of the room; for a compact piece that no rectangle matches, the square's side.
+/// The thickness of a piece in metres: the shorter side of the rectangle with its area and perimeter. For
+/// a strip along several walls of a room this is the strip's width, whereas the width of its hull would
+/// be the room's; for a compact piece that no rectangle matches, the square's side.
 pub fn thickness_m(area_m2: f64, perimeter_m: f64) -> f64 {
     let half = perimeter_m / 2.0;
     let discriminant = half * half - 4.0 * area_m2;
     if discriminant <= 0.0 {
         return area_m2.max(0.0).sqrt();
     }
-    // The smaller root of x² - half x + area, in the form that keeps its digits for thin strips.
+    // The smaller root of x² - half x + area, in the form that stays accurate for thin strips.
     2.0 * area_m2 / (half + discriminant.sqrt())
 }
 
@@ -127,7 +127,7 @@ mod tests {
 
     #[test]
     fn a_strip_round_a_corner_has_its_width_as_depth() {
-        // Two rooms, one shifted against the other's notch by 10 cm both ways.
+        // Two rooms, one offset from the other's notch by 10 cm in both directions.
         let angle = [(0.0, 0.0), (5.0, 0.0), (5.0, 0.1), (0.1, 0.1), (0.1, 4.0), (0.0, 4.0)];
         let angle: Vec<Point> = angle.map(|(x, y)| Point::new(x, y)).to_vec();
         let region = shared([&angle], [&rectangle(-1.0, -1.0, 9.0, 9.0)]).expect("they overlap");

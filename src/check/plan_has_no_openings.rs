@@ -1,12 +1,12 @@
 use super::{Check, Context, Kind, Place, Severity};
 
-/// A plan of several rooms without a door or passage: every room's features lack what connects it.
+/// A plan of several rooms without a door or passage: every room's features lack its connections.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanHasNoOpenings {
     pub rooms: usize,
 }
 
-/// Whether a plan is of this kind.
+/// Whether a plan has this finding.
 pub(super) fn has_no_openings(context: &Context) -> bool {
     context.shapes().len() > 1 && context.analysis.graph.connections().is_empty()
 }

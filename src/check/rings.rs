@@ -1,27 +1,26 @@
-//! What can be wrong with a single ring.
+//! Faults of a single ring.
 
 use super::FINDINGS_LIMIT;
 use crate::geometry::runs::without_notches;
 use crate::geometry::segments::{SegmentIndex, crossing};
 use crate::geometry::{Point, TOUCH_M, Vector, polygon};
 
-/// Two directions closer than this, in radians, are not told apart when deciding whether a boundary
-/// that touches itself also crosses itself: it is what a corner shifted by [`TOUCH_M`] turns an edge
-/// of 10 cm by.
+/// Directions closer than this, in radians, count as equal when deciding whether a boundary that touches
+/// itself also crosses itself: a corner shifted by [`TOUCH_M`] turns an edge of 10 cm by this much.
 const SAME_DIRECTION_RAD: f64 = 0.01;
 
 /// Where a ring crosses or touches itself.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RingFaults {
-    /// Where it passes over itself from one side to the other: what is inside is not what was meant.
+    /// Where it passes from one side of itself to the other: the inside is not what was meant.
     pub crossings: Vec<Point>,
-    /// Where it only touches itself or goes back along itself.
+    /// Where it only touches itself or doubles back.
     pub touches: Vec<Point>,
 }
 
 impl RingFaults {
-    /// Whether there are so many that the ring bounds nothing: it is not measured against others,
-    /// and not all of its faults are listed.
+    /// Whether there are so many faults that the ring is unusable: it is not compared with others, and
+    /// not all of its faults are listed.
     pub fn is_hopeless(&self) -> bool {
         self.crossings.len() + self.touches.len() >= FINDINGS_LIMIT
     }
@@ -37,7 +36,7 @@ pub fn ring_faults(ring: &[Point]) -> RingFaults {
         return faults;
     }
     let index = SegmentIndex::new(polygon::edges(&ring).collect());
-    // The two ways that lead away from a ring's corner, or from the inside of an edge, as directions.
+    // The two directions leading away from a corner of the ring, or from a point inside an edge.
     let arms_of_corner =
         |corner: usize| [ring[(corner + n - 1) % n] - ring[corner], ring[(corner + 1) % n] - ring[corner]];
     for i in 0..n {
@@ -54,7 +53,7 @@ pub fn ring_faults(ring: &[Point]) -> RingFaults {
                 None
             };
             if let Some(shared) = shared {
-                // Neighbours always meet at their shared corner; wrong is only one that goes back
+                // Neighbours always meet at their shared corner; it is a fault only if one doubles back
                 // along the other.
                 let (before, after) = (ring[(shared + n - 1) % n], ring[(shared + 1) % n]);
                 let [first, second] = if shared == j { [edge, other] } else { [other, edge] };
@@ -95,15 +94,15 @@ pub fn ring_faults(ring: &[Point]) -> RingFaults {
     faults
 }
 
-/// Adds a place unless it is there already: a corner belongs to two edges.
+/// Adds a place unless already noted: a corner belongs to two edges.
 fn note(places: &mut Vec<Point>, at: Point) {
     if places.iter().all(|place| place.distance(at) > 2.0 * TOUCH_M) {
         places.push(at);
     }
 }
 
-/// Whether, going round the common point, the arms of one way come between those of the other: the
-/// ways cross there. Not where arms run along each other, which cannot be told here.
+/// Whether, going around the common point, the arms of one path alternate with those of the other: then
+/// the paths cross there. Cannot tell when arms run along each other.
 fn interleave([p, q]: [Vector; 2], [r, s]: [Vector; 2]) -> bool {
     let turn = |to: Vector| {
         let turn = p.cross(to).atan2(p.dot(to));
@@ -145,9 +144,9 @@ mod tests {
     fn crossings_and_touches_are_told_apart() {
         // A bow tie, its middle not a corner.
         assert_eq!(faults(&[(0.0, 0.0), (4.0, 3.0), (4.0, 0.0), (0.0, 3.0)]), (1, 0));
-        // A bow tie whose middle is a corner of both ways.
+        // A bow tie whose middle is a corner of both strokes.
         assert_eq!(faults(&[(0.0, 0.0), (2.0, 1.5), (4.0, 3.0), (4.0, 0.0), (2.0, 1.5), (0.0, 3.0)]), (1, 0));
-        // A bow tie whose middle is a corner of one way.
+        // A bow tie whose middle is a corner of one stroke.
         assert_eq!(faults(&[(0.0, 0.0), (2.0, 1.5), (4.0, 3.0), (4.0, 0.0), (0.0, 3.0)]), (1, 0));
         // Two squares that touch at a corner.
         assert_eq!(

@@ -6,15 +6,15 @@ use crate::plan::ElementId;
 use crate::plan::titles::RoomName;
 use crate::plan::titles::{printable, with_article};
 
-/// A room whose area is far outside what its typology has for its label: the function may be wrong,
-/// or the boundary.
+/// A room whose area is far outside the usual range of its label in this typology: the function or the
+/// boundary may be wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomAreaIsUnusual {
     pub room: RoomName,
     pub label: Label,
     pub typology: Typology,
     pub area_m2: f64,
-    /// What is usual, in the measure of this plan: where all its rooms are large, large is usual.
+    /// The usual range, scaled to this plan: where all rooms are large, large is usual.
     pub usual_m2: [f64; 2],
     pub at: Point,
 }
@@ -29,14 +29,14 @@ impl Check for RoomAreaIsUnusual {
 
     fn find(context: &Context) -> Vec<Self> {
         let Some(typology) = context.plan.meta().typology.as_ref() else { return Vec::new() };
-        // A scale that is off is one finding, not one for every room.
+        // A wrong scale is one finding, not one per room.
         let length_factor = context.length_factor.map_or(1.0, |(factor, _)| factor);
         let area_factor = length_factor * length_factor;
         let mut found = Vec::new();
         for (index, shape) in context.shapes().iter().enumerate() {
             let area_m2 = shape.area_m2();
             let Some(label) = context.status(index).label() else { continue };
-            // The area of what encloses nothing or crosses itself is another finding.
+            // A boundary that encloses nothing or crosses itself is another finding.
             if area_m2 <= 0.0 || !context.ring_faults[index].crossings.is_empty() {
                 continue;
             }

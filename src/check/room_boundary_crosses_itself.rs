@@ -4,21 +4,21 @@ use crate::geometry::Point;
 use crate::plan::ElementId;
 use crate::plan::titles::RoomName;
 
-/// A room whose boundary passes over itself: what is inside, and so its area, is not what was meant.
+/// A room whose boundary crosses itself: the inside, and so its area, is not what was meant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomBoundaryCrossesItself {
     pub room: RoomName,
-    /// Where, in the order of the boundary; at least one.
+    /// Where, in order along the boundary; at least one.
     pub crossings: Vec<Point>,
-    /// By how much its area, computed as for any room, differs from what its boundary encloses, which
-    /// counts as nothing where it crosses itself beyond measure.
+    /// How far its area, computed as for any room, is from what its boundary encloses; the latter counts
+    /// as 0 where the boundary crosses itself excessively.
     pub area_error_m2: f64,
-    /// The same as a share of what its boundary encloses.
+    /// The same as a share of the area its boundary encloses.
     pub area_error: f64,
 }
 
-/// A crossing that changes the room's area by less than this share is a warning: a thousandth is how
-/// exactly areas are computed and compared.
+/// A crossing that changes the room's area by less than this share is a warning: areas are computed and
+/// compared to a thousandth.
 const TOLERATED_AREA_ERROR: f64 = 0.001;
 
 impl Check for RoomBoundaryCrossesItself {

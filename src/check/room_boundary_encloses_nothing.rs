@@ -3,8 +3,7 @@ use crate::geometry::{Point, polygon};
 use crate::plan::ElementId;
 use crate::plan::titles::RoomName;
 
-/// A room whose boundary is not a closed shape: fewer than three different corners, or all in one
-/// line.
+/// A room whose boundary is not a closed shape: fewer than three different corners, or all collinear.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomBoundaryEnclosesNothing {
     pub room: RoomName,
@@ -12,8 +11,8 @@ pub struct RoomBoundaryEnclosesNothing {
     pub at: Point,
 }
 
-/// Less than this is no room: a tenth of a metre squared is below the smallest duct that anyone
-/// draws (the smallest of 7,400 real rooms has 0.06 m²).
+/// Anything smaller is not a room: a square of 10 cm is below the smallest duct anyone draws (the
+/// smallest of 7,400 real rooms has 0.06 m²).
 const LEAST_AREA_M2: f64 = 0.01;
 
 impl Check for RoomBoundaryEnclosesNothing {
@@ -28,7 +27,7 @@ impl Check for RoomBoundaryEnclosesNothing {
         let shapes = context.shapes().iter().zip(&context.ring_faults).enumerate();
         shapes
             .filter(|(_, (shape, faults))| {
-                // The lobes of a bow tie cancel each other: that is another finding.
+                // The lobes of a bow tie cancel out: that is another finding.
                 !shape.outer.is_empty() && shape.area_m2() < LEAST_AREA_M2 && faults.crossings.is_empty()
             })
             .map(|(index, (shape, _))| Self {

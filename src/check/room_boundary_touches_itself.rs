@@ -3,12 +3,12 @@ use crate::geometry::Point;
 use crate::plan::ElementId;
 use crate::plan::titles::RoomName;
 
-/// A room whose boundary touches itself or goes back along itself (a spike): its area is right, its
-/// walls, and so its axes ratio, need not be.
+/// A room whose boundary touches itself or doubles back (a spike): its area is right, but its walls, and
+/// so its axes ratio, may not be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomBoundaryTouchesItself {
     pub room: RoomName,
-    /// Where, in the order of the boundary; at least one.
+    /// Where, in order along the boundary; at least one.
     pub touches: Vec<Point>,
 }
 
@@ -23,7 +23,7 @@ impl Check for RoomBoundaryTouchesItself {
     fn find(context: &Context) -> Vec<Self> {
         let faults = context.ring_faults.iter().enumerate();
         faults
-            // A crossing is worse, and mending it usually mends both.
+            // A crossing is worse, and fixing it usually fixes both.
             .filter(|(_, faults)| faults.crossings.is_empty() && !faults.touches.is_empty())
             .map(|(index, faults)| Self { room: context.name(index), touches: faults.touches.clone() })
             .collect()

@@ -5,7 +5,7 @@ use crate::labels::normalised_function;
 use crate::plan::ElementId;
 use crate::plan::titles::RoomName;
 
-/// A room with neither a function nor a label: it teaches nothing and cannot be scored.
+/// A room with neither a function nor a label: useless for training and scoring.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomHasNoFunction {
     pub room: RoomName,

@@ -4,7 +4,7 @@ use crate::geometry::Point;
 use crate::plan::ElementId;
 use crate::plan::titles::RoomName;
 
-/// A room that nothing leads to: no door, no passage. Balconies, shafts and the like need none.
+/// A room with no door or passage leading to it. Balconies, shafts and the like need none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomHasNoOpening {
     pub room: RoomName,
@@ -20,7 +20,7 @@ impl Check for RoomHasNoOpening {
     };
 
     fn find(context: &Context) -> Vec<Self> {
-        // One room alone is a drawing begun; a plan without any opening is one finding.
+        // A single room is a drawing just begun; a plan without any opening is one finding.
         if context.shapes().len() < 2 || has_no_openings(context) {
             return Vec::new();
         }

@@ -4,12 +4,12 @@ use crate::geometry::Point;
 use crate::plan::ElementId;
 use crate::plan::titles::RoomName;
 
-/// A hole of a room that lies outside the room's outer boundary or crosses it: the area taken off is
-/// not the room's.
+/// A hole that lies outside the room's outer boundary or crosses it: the area subtracted is not the
+/// room's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomHoleIsNotInside {
     pub room: RoomName,
-    /// How much of the hole lies outside.
+    /// How much of the hole is outside.
     pub area_outside_m2: f64,
     pub at: Point,
 }

@@ -7,7 +7,7 @@ use crate::geometry::{Bounds, Point, polygon};
 use crate::plan::ElementId;
 use crate::plan::titles::RoomName;
 
-/// Two holes of a room that overlap: their common area is taken off twice.
+/// Two holes of a room that overlap: their common area is subtracted twice.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomHolesOverlap {
     pub room: RoomName,

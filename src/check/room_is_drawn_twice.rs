@@ -4,21 +4,21 @@ use crate::geometry::Point;
 use crate::plan::ElementId;
 use crate::plan::titles::RoomName;
 
-/// Two rooms in the same place: nearly all of their area is common to both.
+/// Two rooms in the same place: they share nearly all of their area.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomIsDrawnTwice {
     pub rooms: [RoomName; 2],
     pub area_m2: f64,
-    /// Of the area of both together.
+    /// As a share of their union's area.
     pub share: f64,
     pub at: Point,
 }
 
-/// Rooms that have at least this much of their area in common are the same room: nine tenths leaves
-/// room for two people's drawings of it, and no room of a plan is so nearly another.
+/// Rooms that share at least this much of their area are the same room: nine tenths allows for two
+/// people's drawings of it, and no two different rooms overlap so much.
 const SAME_SHARE: f64 = 0.9;
 
-/// Whether an overlap is of this kind.
+/// Whether an overlap means this finding.
 pub(super) fn is_same(overlap: &Overlap) -> bool {
     overlap.share_of_union >= SAME_SHARE
 }

@@ -5,22 +5,22 @@ use crate::geometry::Point;
 use crate::plan::ElementId;
 use crate::plan::titles::RoomName;
 
-/// A room that lies in another one: the other's area counts what is not its own.
+/// A room inside another one: the other's area includes what is not its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomLiesInsideAnother {
     pub inner: RoomName,
     pub outer: RoomName,
     pub area_m2: f64,
-    /// Of the inner room's area.
+    /// As a share of the inner room's area.
     pub share: f64,
     pub at: Point,
 }
 
-/// A room of which this much lies in another lies inside it: the rest is a side drawn a little
-/// beyond.
+/// A room with this share of its area in another counts as inside it: the rest is a side drawn a little
+/// too far out.
 const INSIDE_SHARE: f64 = 0.9;
 
-/// Whether an overlap is of this kind.
+/// Whether an overlap means this finding.
 pub(super) fn is_inside(overlap: &Overlap) -> bool {
     overlap.share >= INSIDE_SHARE && !is_same(overlap)
 }

@@ -5,7 +5,7 @@ use crate::plan::ElementId;
 use crate::plan::titles::RoomName;
 use crate::plan::titles::{first_of, printable};
 
-/// Several rooms of the same function with the same name: a room's number stands for one room.
+/// Several rooms of the same function with the same name: a room's number should identify one room.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomNameRepeats {
     pub name: String,
@@ -25,7 +25,7 @@ impl Check for RoomNameRepeats {
         let mut by_name: BTreeMap<&str, Vec<RoomName>> = BTreeMap::new();
         for (id, room) in context.plan.rooms() {
             let name = room.name.trim();
-            // Names without a digit are words for a kind of room ('Office', 'WC'), not identities.
+            // Names without a digit describe a kind of room ('Office', 'WC') rather than identify one.
             if name.chars().any(char::is_numeric) {
                 by_name.entry(name).or_default().push(RoomName::new(id, room));
             }

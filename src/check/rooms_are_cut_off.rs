@@ -6,15 +6,14 @@ use crate::plan::titles::RoomName;
 use crate::plan::titles::first_of;
 use crate::plan::{ElementId, Joint};
 
-/// Rooms that are joined among themselves, but not to the outside, an entrance, stairs, or the rest
-/// of the storey.
+/// Rooms connected to each other, but not to the outside, an entrance, stairs, or the rest of the storey.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomsAreCutOff {
     /// The rooms, by id; at least two.
     pub rooms: Vec<RoomName>,
 }
 
-/// Functions of rooms through which one comes in from outside or from another storey: words of the
+/// Functions of rooms through which people arrive from outside or from another storey, as named in the
 /// bundled schemes. Many plans draw the entrance, but not its door.
 const WAYS_IN: [&str; 5] = ["elevator", "entrance", "stair", "staircase", "stairs"];
 
@@ -46,7 +45,7 @@ impl Check for RoomsAreCutOff {
             members.entry(parts.find(room)).or_default().push(room);
         }
         let is_reached = |rooms: &[usize]| rooms.iter().any(|&room| leads_out[room]);
-        // Where nothing leads out, the largest part counts as the storey.
+        // If nothing leads out, the largest part counts as the storey.
         let largest = if members.values().any(|rooms| is_reached(rooms)) {
             None
         } else {
@@ -84,7 +83,7 @@ impl Check for RoomsAreCutOff {
     }
 }
 
-/// Connected parts of a graph (union by the smaller index, path halving).
+/// Connected components of a graph (union by smaller index, path halving).
 struct Parts {
     parent: Vec<usize>,
 }

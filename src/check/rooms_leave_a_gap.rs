@@ -7,16 +7,15 @@ use crate::geometry::{Point, Segment};
 use crate::plan::titles::RoomName;
 use crate::plan::{ElementId, THICKEST_WALL_M};
 
-/// Two rooms whose sides face each other across a gap too wide to be how they were drawn and too
-/// thin to be a wall: they were meant to meet. Only in plans whose rooms meet on the whole, their
-/// sides drawn on the walls' centre lines: in one that draws its walls as what is left between
-/// rooms, a thin gap is a thin partition.
+/// Two rooms that face each other across a gap too wide to be deliberate and too thin to be a wall: they
+/// were meant to meet. Only in plans whose rooms mostly meet, their sides drawn on wall centre lines:
+/// where walls are drawn as the space left between rooms, a thin gap is a thin partition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomsLeaveAGap {
     pub rooms: [RoomName; 2],
-    /// Width of the gap where it is widest, in metres.
+    /// Maximum width of the gap in metres.
     pub width_m: f64,
-    /// Length along which they face each other, in metres.
+    /// Length over which they face each other, in metres.
     pub length_m: f64,
     pub at: Point,
 }
@@ -24,10 +23,10 @@ pub struct RoomsLeaveAGap {
 /// The thinnest wall in metres: a gypsum board partition of 50 mm with its skim coats.
 const THINNEST_WALL_M: f64 = 0.06;
 
-/// A gap shorter than this, in metres, is a corner cut off or a door's jamb.
+/// A gap shorter than this, in metres, is a chamfered corner or a door jamb.
 const LEAST_LENGTH_M: f64 = 0.3;
 
-/// Pieces of a side shorter than this, in metres, are left out: they have no direction to rely on.
+/// Pieces of a side shorter than this, in metres, are skipped: their direction is unreliable.
 const LEAST_PIECE_M: f64 = 0.05;
 
 impl Check for RoomsLeaveAGap {
@@ -40,7 +39,7 @@ impl Check for RoomsLeaveAGap {
 
     fn find(context: &Context) -> Vec<Self> {
         let tolerance_m = context.drawing_tolerance_m;
-        // By pair of rooms: the gap's length, its width where it is widest, and where that is.
+        // For each pair of rooms: the gap's length, its maximum width, and where that is.
         let mut pairs: BTreeMap<(usize, usize), (f64, f64, Point)> = BTreeMap::new();
         let (mut meeting_m, mut walled_m) = (0.0, 0.0);
         let edges = &context.edges;
@@ -70,7 +69,7 @@ impl Check for RoomsLeaveAGap {
                 }
             }
         }
-        // A plan whose rooms stand apart by their walls shows its thin partitions too.
+        // In a plan whose rooms are separated by their walls, thin partitions are drawn as gaps too.
         if walled_m > meeting_m {
             return Vec::new();
         }
@@ -110,13 +109,12 @@ impl Check for RoomsLeaveAGap {
 
 /// Two sides of rooms that face each other.
 struct Facing {
-    /// Length of the stretch along which they do, in metres.
+    /// Length of the stretch over which they face, in metres.
     length_m: f64,
-    /// How far apart they are where they are nearest and where they are farthest, in metres; below 0
-    /// where the rooms overlap.
+    /// Their smallest and largest distance in metres; below 0 if the rooms overlap.
     least_m: f64,
     most_m: f64,
-    /// Between the middles of both.
+    /// Halfway between their midpoints.
     at: Point,
 }
 
@@ -134,7 +132,7 @@ fn facing(edge: Segment, other: Segment) -> Option<Facing> {
     }
     let direction = edge.vector().unit()?;
     let outward = -direction.left();
-    // How far outward the other side lies at a distance along this one.
+    // The other side's outward distance at a position along this one.
     let apart_m = |along_m: f64| {
         let at = edge.a + direction * along_m;
         let across = other.vector();

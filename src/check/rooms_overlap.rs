@@ -5,20 +5,18 @@ use crate::geometry::Point;
 use crate::plan::titles::RoomName;
 use crate::plan::{DEFAULT_WALL_THICKNESS_M, ElementId};
 
-/// Two rooms that reach into each other deeper than a wall between them explains: their areas count
-/// the same floor.
+/// Two rooms that overlap more deeply than a wall between them explains: both count the same floor area.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomsOverlap {
     pub rooms: [RoomName; 2],
     pub area_m2: f64,
-    /// How far one reaches into the other, in metres.
+    /// Depth of the overlap in metres.
     pub depth_m: f64,
     pub at: Point,
 }
 
-/// Overlaps up to a partition's thickness are how rooms look that were traced one by one along a
-/// wall's two faces, or its near and its far face; they change an area by less than its scale is
-/// uncertain by.
+/// Overlaps up to a partition's thickness are normal for rooms traced one by one along a wall's two
+/// faces, or along its near or far face; they change an area by less than the uncertainty of its scale.
 const TOLERATED_DEPTH_M: f64 = DEFAULT_WALL_THICKNESS_M;
 
 impl Check for RoomsOverlap {

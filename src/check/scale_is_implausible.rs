@@ -5,25 +5,25 @@ use crate::plan::{DEFAULT_DOOR_WIDTH_M, OpeningKind, ScaleOrigin};
 /// Doors or rooms are so much larger or smaller than usual that the plan's scale is probably wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScaleIsImplausible {
-    /// How many times too long the plan's lengths seem, from all evidence.
+    /// How many times too long the plan's lengths seem, on all evidence.
     pub factor: f64,
-    /// Median width of its doors in metres, where the source gives widths.
+    /// Median width of its doors in metres, if the source gives widths.
     pub door_width_m: Option<f64>,
-    /// How many times too long its lengths seem from the areas of its rooms.
+    /// How many times too long its lengths seem, judging by its rooms' areas.
     pub rooms_factor: Option<f64>,
     pub origin: ScaleOrigin,
 }
 
-/// Lengths that seem so many times too long or too short are reported. Measured on the authors' 40
-/// schools beside the median area of their classrooms: buildings that differ move the estimate by up
-/// to 1.45 where classrooms have a usual size; beyond 1.5, classrooms have 24 m² or 130 to 200 m².
+/// Lengths that seem too long or too short by this factor are reported. Measured on the authors' 40
+/// schools against the median area of their classrooms: differences between buildings move the estimate
+/// by up to 1.45 where classrooms have a usual size; beyond 1.5, classrooms have 24 m² or 130 to 200 m².
 const IMPLAUSIBLE_FACTOR: f64 = 1.5;
 
-/// A scale so many times wrong is an error of unit (2.54 is an inch for a centimetre), whatever the
+/// A scale wrong by this factor is a unit error (2.54 is an inch for a centimetre), whatever the
 /// building.
 const CERTAIN_FACTOR: f64 = 2.5;
 
-/// Fewer doors than this say nothing of a scale: one may be a gate.
+/// Fewer doors than this say nothing about the scale: one may be a gate.
 const DOORS_FOR_SCALE: usize = 3;
 
 impl Check for ScaleIsImplausible {
@@ -42,7 +42,7 @@ impl Check for ScaleIsImplausible {
         if factors.is_empty() {
             return Vec::new();
         }
-        // The geometric mean: evidence that disagrees outweighs itself.
+        // The geometric mean: contradictory evidence cancels out.
         let factor = (factors.iter().map(|factor| factor.ln()).sum::<f64>() / factors.len() as f64).exp();
         if factor < IMPLAUSIBLE_FACTOR && factor > 1.0 / IMPLAUSIBLE_FACTOR {
             return Vec::new();
@@ -79,9 +79,9 @@ impl Check for ScaleIsImplausible {
     }
 }
 
-/// The median width of doors with one leaf, in metres, where the source gives widths. A door of
-/// exactly the usual width may have been given it by an import: where most are, they say nothing
-/// (and if they are real, nothing is wrong).
+/// The median width of single doors in metres, if the source gives widths. A door of exactly the default
+/// width may have been given it by an import: if most are, they say nothing (and if they are real,
+/// nothing is wrong).
 fn door_width_m(context: &Context) -> Option<f64> {
     let doors = context.openings.iter().filter(|placed| placed.opening.kind == OpeningKind::Door);
     let widths: Vec<f64> = doors.map(|placed| placed.segment.length()).collect();

@@ -1,11 +1,11 @@
-//! What sizes of rooms are usual, and what a plan's rooms say of its scale.
+//! Usual room sizes, and what a plan's room sizes say about its scale.
 
 use crate::base::numbers::lower_median;
 use crate::labels::{Label, Schemes, Typology};
 
-/// How many times smaller and larger than what is usual a room of a label may be. Beyond lies about
-/// one room in 200 of the real plans (the authors' schools and offices, the Japanese dwellings), in
-/// the measure of its own plan: big rooms go up to gymnasiums, halls down to porches.
+/// How many times smaller and larger than usual a room of a label may be. About one room in 200 of the
+/// real plans (the authors' schools and offices, the Japanese dwellings) is outside this range, after
+/// correcting for its plan's scale: big rooms include gymnasiums, halls include porches.
 pub const fn tolerated_factors(label: Label) -> (f64, f64) {
     match label {
         Label::SmallRoom => (8.0, 6.0),
@@ -16,14 +16,13 @@ pub const fn tolerated_factors(label: Label) -> (f64, f64) {
     }
 }
 
-/// Fewer rooms than this say nothing of a scale: the areas of rooms of one label deviate from their
-/// middle by a factor of about 2.2 (measured: deviation of the logarithm 0.8 in schools and
-/// offices), a median of five by a factor of about 1.5, the length by 1.25.
+/// Fewer rooms than this say nothing about the scale: the areas of rooms of one label deviate from their
+/// median by a factor of about 2.2 (measured: standard deviation of the logarithm 0.8 in schools and
+/// offices), so a median of five by about 1.5, and the length by 1.25.
 pub const ROOMS_FOR_SCALE: usize = 5;
 
-/// How many times too long the lengths of a plan seem from the areas of its rooms (their label and
-/// area in m²), and of how many rooms; `None` when there are too few. Corridors and halls take no
-/// part: theirs vary most.
+/// How many times too long the lengths of a plan seem, judging by its rooms (label and area in m²), and
+/// from how many rooms; `None` if there are too few. Corridors and halls are ignored: they vary most.
 pub fn length_factor(
     schemes: &Schemes,
     typology: Option<&Typology>,

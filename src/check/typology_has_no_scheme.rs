@@ -2,13 +2,13 @@ use super::{Check, Context, Kind, Place, Severity};
 use crate::labels::Typology;
 use crate::plan::titles::{printable, with_article};
 
-/// A plan of a typology for which there is no label scheme.
+/// A plan whose typology has no label scheme.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TypologyHasNoScheme {
     pub typology: Typology,
 }
 
-/// The plan's typology if there is no scheme for it.
+/// The plan's typology, if it has no scheme.
 pub(super) fn typology_without_scheme<'a>(context: &Context<'a>) -> Option<&'a Typology> {
     let typology = context.plan.meta().typology.as_ref()?;
     context.schemes.typologies().all(|known| known != typology).then_some(typology)

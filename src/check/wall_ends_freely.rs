@@ -4,16 +4,16 @@ use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::{Bounds, Point, Segment, TOUCH_M};
 use crate::plan::{CornerId, ElementId, WallId};
 
-/// A wall with an end that meets nothing: it encloses no room there.
+/// A wall with an end that meets nothing: no room is enclosed there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WallEndsFreely {
     pub wall: WallId,
-    /// The ends that meet nothing, with their places; one or both.
+    /// The ends that meet nothing and their positions; one or both.
     pub ends: Vec<(CornerId, Point)>,
 }
 
-/// A wall that stands free at both ends and is at most this many times as long as it is thick is a
-/// column, a pier or a chimney: drawn so on purpose. A fireplace is 1.5 m by 0.6 m.
+/// A wall free at both ends and at most this many times as long as it is thick is a column, a pier or a
+/// chimney, drawn that way on purpose. A fireplace is 1.5 m by 0.6 m.
 const PIER_RATIO: f64 = 3.0;
 
 impl Check for WallEndsFreely {

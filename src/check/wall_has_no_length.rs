@@ -2,7 +2,7 @@ use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::Point;
 use crate::plan::{ElementId, WallId};
 
-/// A wall whose two corners lie in the same place.
+/// A wall whose two corners coincide.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WallHasNoLength {
     pub wall: WallId,

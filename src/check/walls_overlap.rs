@@ -3,7 +3,7 @@ use crate::geometry::segments::{are_parallel, common_stretch};
 use crate::geometry::{Point, Segment};
 use crate::plan::{ElementId, WallId};
 
-/// Two walls that run in the same place: one is drawn twice, or over the other's end.
+/// Two walls in the same place: one is drawn twice, or extends over the end of the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WallsOverlap {
     pub walls: [WallId; 2],
@@ -11,14 +11,13 @@ pub struct WallsOverlap {
     pub at: Point,
 }
 
-/// Walls whose centre lines are nearer than this, in metres, stand in the same place.
+/// Walls whose centre lines are closer than this, in metres, are in the same place.
 const APART_M: f64 = 0.01;
 
-/// Walls that overlap by less than this, in metres, meet a little inexactly.
+/// Walls that overlap by less than this, in metres, just meet inexactly.
 const LEAST_OVERLAP_M: f64 = 0.05;
 
-/// Walls turned against each other by more than this, in radians, meet rather than overlap: 1 cm in
-/// a metre.
+/// Walls at a larger angle than this, in radians, meet rather than overlap: 1 cm per metre.
 const PARALLEL_RAD: f64 = 0.01;
 
 impl Check for WallsOverlap {
@@ -66,7 +65,7 @@ impl Check for WallsOverlap {
     }
 }
 
-/// The length two walls share and the middle of it.
+/// The length of the overlap of two walls, and its midpoint.
 fn overlap(one: Segment, other: Segment) -> Option<(f64, Point)> {
     let (from, to) = common_stretch(one, other);
     if to - from < LEAST_OVERLAP_M || !are_parallel(one, other, PARALLEL_RAD) {

@@ -4,12 +4,12 @@ pub struct Rgba {
     pub r: u8,
     pub g: u8,
     pub b: u8,
-    /// 0 invisible to 255 opaque.
+    /// 0 (invisible) to 255 (opaque).
     pub a: u8,
 }
 
 impl Rgba {
-    /// An opaque colour written as in CSS: `0x1c2026` is `#1c2026`.
+    /// An opaque colour from its CSS digits: `0x1c2026` is `#1c2026`.
     pub const fn hex(rgb: u32) -> Self {
         Self { r: (rgb >> 16) as u8, g: (rgb >> 8) as u8, b: rgb as u8, a: 255 }
     }
@@ -30,7 +30,7 @@ impl Rgba {
         Self { r: mix(self.r, other.r), g: mix(self.g, other.g), b: mix(self.b, other.b), a: 255 }
     }
 
-    /// `#rrggbb`, without the alpha.
+    /// The CSS form `#rrggbb`, without the alpha.
     pub fn css(self) -> String {
         format!("#{:02x}{:02x}{:02x}", self.r, self.g, self.b)
     }

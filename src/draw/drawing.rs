@@ -16,7 +16,7 @@ use crate::labels::{Label, function_title, normalised_function};
 use crate::picture::PictureLevels;
 use crate::plan::{Backdrop, Joint, Meta, OpeningId, Plan, RoomId, Swing, Wall};
 
-/// A plan as shapes, before zoom and colours: made once a plan, asked for a [`Scene`] once a view.
+/// A plan as shapes, before zoom and colours: made once per plan, asked for a [`Scene`] once per view.
 pub struct Drawing {
     pub(super) meta: Meta,
     pub(super) rooms: Vec<RoomDrawing>,
@@ -29,25 +29,25 @@ pub struct Drawing {
     picture: Option<PlacedPicture>,
     tangled: usize,
     bounds: Bounds,
-    /// Where a large plan is cut; `None` for one in one piece.
+    /// How a large plan is cut into tiles; `None` if in one piece.
     tiles: Option<Tiles>,
 }
 
-/// Width in metres of the rim within a room whose known label is not the predicted one: clear of the
-/// walls, which hide part of it.
+/// Width in metres of the rim inside a room whose known label differs from the predicted one: wide enough
+/// to show beside the walls, which hide part of it.
 const RIM_M: f64 = 0.35;
 
-/// In a narrow room the rim is at most this share of its width.
+/// In a narrow room the rim takes at most this share of the width.
 const RIM_SHARE: f64 = 0.14;
 
 impl Drawing {
-    /// The shapes of a plan. `analysis` must be that of the same plan.
+    /// Draws a plan. `analysis` must be that of the same plan.
     pub fn new(plan: &Plan, analysis: &Analysis) -> Self {
         Self::cut(plan, analysis, None)
     }
 
-    /// The same cut into tiles where the plan is large, so that a window works only on what it shows:
-    /// see [`Drawing::tiles_in`]. As a whole it shows where its walls were cut.
+    /// The same, cut into tiles if the plan is large, so that a window works only on what it shows: see
+    /// [`Drawing::tiles_in`]. Drawn as a whole, the cuts through its walls show.
     pub fn in_tiles(plan: &Plan, analysis: &Analysis) -> Self {
         let elements = plan.rooms().len() + plan.walls().len() + plan.openings().len();
         Self::cut(plan, analysis, TileGrid::of(plan.bounds(), elements))
@@ -89,7 +89,7 @@ impl Drawing {
         }
         let cuts: Vec<_> = openings.iter().filter_map(|opening| opening.cut.clone()).collect();
         let solid = walls::without(walls.solid, cuts, grid.as_ref());
-        // From here on what is left of the walls bounds the rooms for their names.
+        // From here on, the remaining walls bound the space for room names.
         let faces = Faces::new(&solid, grid.as_ref());
         let (wall_tiles, walls_drawn): (Vec<usize>, Vec<WallDrawing>) = solid
             .iter()
@@ -109,7 +109,7 @@ impl Drawing {
         let tiles = grid.map(|grid| {
             let axis = |wall: &Wall| Some((plan.wall_segment(wall)?, wall.thickness_m));
             let mut axes: Vec<(Segment, f64)> = plan.walls().filter_map(|(_, wall)| axis(wall)).collect();
-            // Of rooms that came without walls, their boundaries.
+            // Boundaries of rooms that came without walls.
             let unwalled = walls.unwalled.iter().flat_map(|&room| rooms[room].rings());
             axes.extend(unwalled.flat_map(|ring| polygon::edges(ring)).map(|edge| (edge, 0.0)));
             let contents = Contents {
@@ -140,7 +140,7 @@ impl Drawing {
         }
     }
 
-    /// The same with what a classifier says of the rooms.
+    /// The same with a classifier's predictions for the rooms.
     #[must_use]
     pub fn with_predictions(mut self, labels: &BTreeMap<RoomId, Label>) -> Self {
         for room in &mut self.rooms {
@@ -154,8 +154,7 @@ impl Drawing {
         self
     }
 
-    /// The same with the picture it was traced over. Where nothing is drawn, the picture is all there is
-    /// to see.
+    /// The same with its backdrop. If nothing is drawn, the backdrop is all there is to see.
     #[must_use]
     pub fn with_picture(mut self, levels: Arc<PictureLevels>, backdrop: &Backdrop) -> Self {
         let [width, height] = levels.size_px().map(f64::from);
@@ -176,27 +175,27 @@ impl Drawing {
             .then(|| format!("{number} walls or rooms cross each other so often that they are drawn as lines"))
     }
 
-    /// The box of all that is drawn of the plan, in metres.
+    /// The bounding box of all that is drawn, in metres.
     pub fn bounds(&self) -> Bounds {
         self.bounds
     }
 
-    /// How a door's leaf is drawn; `None` for what has no leaf. Openings are sorted by id.
+    /// How a door's leaf is drawn; `None` for openings without a leaf. Openings are sorted by id.
     pub fn swing_of(&self, id: OpeningId) -> Option<Swing> {
         let index = self.openings.binary_search_by_key(&id, |opening| opening.id).ok()?;
         self.openings[index].swing()
     }
 
-    /// The scene in a view. Nothing is left out for lying outside the view but names: panning within
-    /// one zoom only moves the rest.
+    /// The scene in a view. Only names are culled outside the view: panning at the same zoom just moves
+    /// the rest.
     pub fn scene(&self, style: &Style, view: &View) -> Scene {
         let palette = style.palette();
         let groups = Layer::ALL.into_iter().flat_map(|layer| self.layer(layer, style, view)).collect();
         Scene { view: *view, background: palette.paper, groups }
     }
 
-    /// One layer of the scene; empty when the style leaves it out. [`Layer::Sheet`] is not the
-    /// plan's but the page's, see [`super::sheet`].
+    /// One layer of the scene; empty if the style omits it. [`Layer::Sheet`] belongs to the page, not the
+    /// plan, see [`super::sheet`].
     pub fn layer(&self, layer: Layer, style: &Style, view: &View) -> Vec<Group> {
         let layers = &style.layers;
         match layer {
@@ -223,7 +222,7 @@ impl Drawing {
         }
     }
 
-    /// Indices of the tiles that meet a part of the plan; of a plan in one piece, the one.
+    /// Indices of the tiles that meet a part of the plan; for a plan in one piece, the only tile.
     pub fn tiles_in(&self, seen: Bounds) -> Vec<usize> {
         match &self.tiles {
             None => vec![0],
@@ -236,20 +235,20 @@ impl Drawing {
         self.tiles.is_some()
     }
 
-    /// Rooms, walls and openings in a tile, as far as that takes time to draw.
+    /// The number of rooms, walls and openings in a tile, as a measure of drawing time.
     pub fn elements_in(&self, tile: usize) -> usize {
         self.tile(tile).map_or(0, |tile| {
             tile.rooms.iter().map(Vec::len).sum::<usize>() + tile.axes.len() + 2 * tile.openings.len()
         })
     }
 
-    /// How often the layer of rooms is painted: rooms of a level are painted in all tiles before those of
-    /// the next.
+    /// The number of passes in which rooms are painted: rooms of one level are painted in all tiles
+    /// before those of the next.
     pub fn levels(&self) -> usize {
         self.tiles.as_ref().map_or(1, |tiles| tiles.levels)
     }
 
-    /// Whether a piece of a wall's outline is where it was cut between tiles: no edge of what is drawn.
+    /// Whether a piece of a wall's outline is a cut between tiles rather than a real edge.
     pub fn is_cut(&self, a: Point, b: Point) -> bool {
         self.tiles.as_ref().is_some_and(|tiles| tiles.grid.is_cut(a, b))
     }
@@ -258,7 +257,7 @@ impl Drawing {
         self.tiles.as_ref().and_then(|tiles| tiles.all.get(tile))
     }
 
-    /// One layer of a tile, of rooms those of a level. `fills` are [`Drawing::fills`].
+    /// One layer of a tile; for rooms, those of one level. `fills` are [`Drawing::fills`].
     pub fn tile_layer(
         &self,
         tile: usize,
@@ -293,7 +292,7 @@ impl Drawing {
         }
     }
 
-    /// A tile seen from afar, where doors are a few pixels wide: a room is its fill, a wall its axis.
+    /// A tile seen from afar, where doors are a few pixels wide: rooms as fills, walls as axes.
     pub fn tile_from_afar(
         &self,
         tile: usize,
@@ -340,7 +339,7 @@ impl Drawing {
         }
     }
 
-    /// Indices of the rooms seen in a view that are large enough for the least text there is.
+    /// Indices of the rooms visible in a view that are large enough for the smallest text.
     pub fn rooms_to_name(&self, view: &View) -> Vec<usize> {
         let seen = view.bounds();
         let is_meant = |&index: &usize| {
@@ -356,14 +355,14 @@ impl Drawing {
         }
     }
 
-    /// The name of a room where it fits best; `None` where it fits nowhere. `fill` is the room's of
-    /// [`Drawing::fills`]. Of the view only the zoom matters.
+    /// The name of a room where it fits best; `None` if it fits nowhere. `fill` is the room's entry in
+    /// [`Drawing::fills`]. Only the view's zoom matters.
     pub fn name(&self, room: usize, fill: Rgba, style: &Style, view: &View) -> Option<Group> {
         let around = Around { rooms: &self.rooms, openings: &self.openings, faces: &self.faces };
         names::group(&around, room, fill, style, view)
     }
 
-    /// The colours of the rooms' fills.
+    /// The fill colours of the rooms.
     pub fn fills(&self, style: &Style) -> Vec<Rgba> {
         let palette = style.palette();
         let functions = match style.fill {
@@ -439,7 +438,7 @@ impl Drawing {
         for wall in walls.clone() {
             items.push(Item::Polygon { outer: wall.outer.clone(), holes: wall.holes.clone(), colour });
         }
-        // Walls that are too thin to see at this zoom get a rim.
+        // Walls too thin to see at this zoom get a rim.
         let rim_px = THINNEST_WALL_PX - TYPICAL_WALL_M * view.px_per_m;
         if rim_px > 0.0 {
             let width = Length::Px(rim_px);
@@ -461,7 +460,7 @@ impl Drawing {
         if items.is_empty() { Vec::new() } else { vec![Group::new(Layer::Walls, Frame::Plan, items)] }
     }
 
-    /// The stretches of a wall's outline between cuts, and whether it is the whole of it.
+    /// The stretches of a wall's outline between cuts, and whether it is uncut.
     fn uncut(&self, ring: &[Point]) -> Vec<(Vec<Point>, bool)> {
         let n = ring.len();
         let is_cut = |i: usize| self.is_cut(ring[i % n], ring[(i + 1) % n]);
@@ -525,7 +524,7 @@ impl Drawing {
         vec![Group::new(Layer::Graph, Frame::Plan, items)]
     }
 
-    /// The names of all rooms that are seen.
+    /// The names of all visible rooms.
     fn names(&self, style: &Style, view: &View) -> Vec<Group> {
         let floors = self.fills(style);
         let around = Around { rooms: &self.rooms, openings: &self.openings, faces: &self.faces };
@@ -533,17 +532,17 @@ impl Drawing {
         rooms.filter_map(|room| names::group(&around, room, floors[room], style, view)).collect()
     }
 
-    /// Number of rooms with each label, those without one, and those not classified.
+    /// The numbers of rooms with each label, without a label, and not classified.
     pub fn counts(&self) -> ([usize; 5], usize, usize) {
         Self::count(self.rooms.iter().map(|room| room.status))
     }
 
-    /// The same by what a classifier says.
+    /// The same by predicted label.
     pub fn predicted_counts(&self) -> ([usize; 5], usize, usize) {
         Self::count(self.rooms.iter().map(RoomDrawing::predicted_status))
     }
 
-    /// Number of rooms whose known label is not the predicted one.
+    /// The number of rooms whose known label differs from the predicted one.
     pub fn missed(&self) -> usize {
         self.rooms.iter().filter(|room| room.missed_label().is_some()).count()
     }
@@ -561,16 +560,16 @@ impl Drawing {
     }
 }
 
-/// How far an edge that leads outside goes on beyond its opening, in metres: past the wall.
+/// How far an edge to the outside extends past its opening, in metres: beyond the wall.
 const STUB_M: f64 = 0.9;
 
-/// No wall is drawn thinner than this, in pixels.
+/// The minimum drawn thickness of a wall, in pixels.
 const THINNEST_WALL_PX: f64 = 1.5;
 
-/// Thickness in metres of the thinner walls seen: a wall of it is as thick on the screen as drawn.
+/// A typical thin wall's thickness in metres: walls this thick are drawn true to scale.
 const TYPICAL_WALL_M: f64 = 0.1;
 
-/// The grid over a part of the plan.
+/// The grid over part of the plan.
 pub(super) fn grid(style: &Style, px_per_m: f64, seen: Bounds) -> Vec<Group> {
     let palette = style.palette();
     let Some(Grid { step_m, lines }) = style.grid(px_per_m) else { return Vec::new() };
@@ -591,7 +590,7 @@ pub(super) fn grid(style: &Style, px_per_m: f64, seen: Bounds) -> Vec<Group> {
     vec![Group::new(Layer::Grid, Frame::Plan, items)]
 }
 
-/// What a room is, in a line: 'Library: reading room, big room, 84.2 m²'.
+/// A room in one line: 'Library: reading room, big room, 84.2 m²'.
 fn room_title(room: &RoomDrawing) -> String {
     let label = match room.status {
         RoomStatus::Labelled(label) => label.name(),
@@ -608,9 +607,9 @@ fn room_title(room: &RoomDrawing) -> String {
     format!("{head}, {label}, {}", Units::Metric.area(room.area_m2))
 }
 
-/// The pieces of boundaries that are left beside openings that stand in no wall.
+/// The parts of boundaries that remain beside openings that are in no wall.
 fn without_openings(mut boundaries: Vec<Segment>, openings: &[OpeningDrawing]) -> Vec<Segment> {
-    // An opening given for a boundary lies on it but for rounding.
+    // An opening given for a boundary lies on it up to rounding.
     const ON_IT_M: f64 = 0.05;
     for opening in openings.iter().filter(|opening| opening.cut.is_none()) {
         let gap = opening.segment();
@@ -641,7 +640,7 @@ fn graph_edges(analysis: &Analysis, rooms: &[RoomDrawing], openings: &[OpeningDr
     let room = |joint: Joint| rooms.get(analysis.shapes.index_of(joint.room()?)?).filter(|room| !room.outer.is_empty());
     let mut edges = Vec::new();
     for connection in analysis.graph.connections() {
-        // They are in the order of their ids, as the plan's are.
+        // Both are sorted by id, like the plan's openings.
         let Ok(index) = openings.binary_search_by_key(&connection.opening, |opening| opening.id) else { continue };
         let opening = &openings[index];
         let (first, second) = match connection.sides.map(room) {

@@ -1,4 +1,4 @@
-//! What a drawing is made of, before zoom and colours.
+//! The parts of a drawing, before zoom and colours.
 
 use std::cmp::Ordering;
 
@@ -13,20 +13,20 @@ pub(super) struct RoomDrawing {
     pub name: String,
     pub function: String,
     pub status: RoomStatus,
-    /// What a classifier says it is, where one was asked.
+    /// The predicted label, if a classifier was run.
     pub predicted: Option<Label>,
-    /// The room without a rim along its boundary, as pieces with their holes: made for a room whose
-    /// known label is not the predicted one.
+    /// The room without the rim along its boundary, as pieces with their holes: only for a room whose
+    /// known label differs from the predicted one.
     pub within_rim: Vec<(Vec<Point>, Vec<Vec<Point>>)>,
     pub area_m2: f64,
     pub outer: Vec<Point>,
     pub holes: Vec<Vec<Point>>,
     pub bounds: Bounds,
-    /// The middle of the room where it is widest: where its name and its node go.
+    /// The middle of the room where it is widest: the place for its name and its graph node.
     pub centre: Point,
-    /// Indices of the rooms painted over it: smaller ones that reach into its box.
+    /// Indices of the rooms painted over it: smaller ones that overlap its bounding box.
     pub above: Vec<usize>,
-    /// Indices of the openings that reach into its box.
+    /// Indices of the openings that overlap its bounding box.
     pub openings: Vec<usize>,
 }
 
@@ -36,7 +36,7 @@ impl RoomDrawing {
         std::iter::once(&self.outer).chain(&self.holes)
     }
 
-    /// What it would be if the prediction were its label.
+    /// Its status if the prediction were its label.
     pub fn predicted_status(&self) -> RoomStatus {
         match (self.status, self.predicted) {
             (RoomStatus::NotClassified, _) => RoomStatus::NotClassified,
@@ -45,31 +45,31 @@ impl RoomDrawing {
         }
     }
 
-    /// The known label, where the prediction is another.
+    /// The known label, if the prediction differs.
     pub fn missed_label(&self) -> Option<Label> {
         self.status.label().filter(|known| self.predicted.is_some_and(|said| said != *known))
     }
 
-    /// Whether it is a lift, whose doors slide.
+    /// Whether it is a lift, which has sliding doors.
     pub fn is_lift(&self) -> bool {
         normalised_function(&self.function).split(' ').any(|word| matches!(word, "lift" | "elevator"))
     }
 
-    /// Whether it lies under the open sky, so that it is no part of the building's mass: by its
-    /// function, and only where the scheme leaves that blank.
+    /// Whether it is open to the sky and so not part of the building's mass: judged by its function, and
+    /// only if the scheme leaves that blank.
     pub fn is_open_air(&self) -> bool {
         self.status == RoomStatus::NotClassified
             && OPEN_AIR.iter().any(|word| normalised_function(&self.function).contains(word))
     }
 }
 
-/// Words in functions of what lies under the open sky.
+/// Words in the functions of open-air spaces.
 const OPEN_AIR: [&str; 12] = [
     "balcony", "terrace", "loggia", "veranda", "patio", "garden", "yard", "deck", "outdoor", "outside", "court",
     "porch",
 ];
 
-/// The order of painting: large rooms first, so that one that lies in or over another is seen.
+/// Painting order: large rooms first, so that one inside or over another is visible.
 pub(super) fn painting_order(rooms: &[RoomDrawing], one: usize, other: usize) -> Ordering {
     rooms[other].area_m2.total_cmp(&rooms[one].area_m2).then(one.cmp(&other))
 }
@@ -80,13 +80,13 @@ pub(super) struct WallDrawing {
     pub holes: Vec<Vec<Point>>,
 }
 
-/// A way from room to room, or out, through an opening.
+/// A connection from room to room, or to the outside, through an opening.
 pub(super) struct GraphEdge {
     pub from: Point,
     pub through: Point,
-    /// The other room's centre; without one it leads outside, this way.
+    /// The other room's centre; for the outside, the direction.
     pub to: Result<Point, crate::geometry::Vector>,
 }
 
-/// Radius of a graph's node in pixels.
+/// Radius of a graph node in pixels.
 pub(super) const NODE_RADIUS_PX: f64 = 5.0;

@@ -1,5 +1,5 @@
-//! The bundled font: Inter 3.19, SIL Open Font License 1.1 (`assets/fonts/Inter.OFL.txt`). Window and
-//! pictures use the same, so that text looks the same on every machine.
+//! The bundled font: Inter 3.19, SIL Open Font License 1.1 (`assets/fonts/Inter.OFL.txt`). The window and
+//! exported pictures use it, so that text looks the same on every machine.
 
 use std::sync::OnceLock;
 
@@ -13,17 +13,17 @@ pub const REGULAR: &[u8] = include_bytes!("../../assets/fonts/Inter-Regular.otf"
 /// The bytes of Inter SemiBold, for the window.
 pub const SEMIBOLD: &[u8] = include_bytes!("../../assets/fonts/Inter-SemiBold.otf");
 
-/// Height of capital letters, as a fraction of the font size (Inter's OS/2 table: 2048 of 2816).
+/// Height of capitals, as a fraction of the font size (Inter's OS/2 table: 2048 of 2816).
 pub const CAP_HEIGHT: f64 = 0.727;
 
 /// Depth of the longest descender below the baseline, as a fraction of the font size.
 pub const DESCENT: f64 = 0.21;
 
-/// From baseline to baseline, as a fraction of the font size: close, since lines in a room are few.
+/// Baseline to baseline, as a fraction of the font size: tight, since a room has few lines of text.
 pub const LINE_HEIGHT: f64 = 1.22;
 
-/// A step of a glyph's outline, in fractions of the font size, x to the right and y up from the
-/// baseline's origin.
+/// A step of a glyph's outline, in fractions of the font size, x to the right and y up from the origin on
+/// the baseline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
     Move(f32, f32),
@@ -37,17 +37,17 @@ pub enum Step {
 pub struct Font {
     face: Option<Face<'static>>,
     units_per_em: f32,
-    /// Advances of the ASCII characters: most of what is measured.
+    /// Advances of the ASCII characters, which are most of what is measured.
     ascii: [f32; 128],
 }
 
 impl Font {
-    /// The font of a weight.
+    /// The font with this weight.
     pub fn of(weight: Weight) -> &'static Self {
         static FONTS: OnceLock<[Font; 2]> = OnceLock::new();
         let fonts = FONTS.get_or_init(|| {
             [REGULAR, SEMIBOLD].map(|bytes| {
-                // The bundled bytes parse (tested); were they broken, text would be boxes.
+                // The bundled bytes parse (tested); if they were broken, text would be boxes.
                 let face = Face::parse(bytes, 0).ok();
                 let units_per_em = face.as_ref().map_or(1000.0, |face| f32::from(face.units_per_em()));
                 let mut font = Font { face, units_per_em, ascii: [0.0; 128] };
@@ -61,18 +61,18 @@ impl Font {
         }
     }
 
-    /// Whether the font can draw a character; what it cannot is drawn as a box.
+    /// Whether the font has a glyph for a character; others are drawn as boxes.
     pub fn has(&self, character: char) -> bool {
         self.glyph(character).is_some()
     }
 
-    /// Width of a text in pixels at a font size in pixels. No kerning, no ligatures: every painter
-    /// can then place the same text the same way.
+    /// Width of a text in pixels at a font size in pixels. No kerning, no ligatures: so every painter can
+    /// place a text the same way.
     pub fn width_px(&self, text: &str, size_px: f64) -> f64 {
         text.chars().map(|character| f64::from(self.advance(character))).sum::<f64>() * size_px
     }
 
-    /// How far the pen moves for a character, in fractions of the font size.
+    /// The advance width of a character, in fractions of the font size.
     pub fn advance(&self, character: char) -> f32 {
         self.ascii.get(character as usize).copied().unwrap_or_else(|| self.looked_up_advance(character))
     }
@@ -82,11 +82,11 @@ impl Font {
         advance.map_or(BOX_ADVANCE, |units| f32::from(units) / self.units_per_em)
     }
 
-    /// The outline of a character; a box for one the font does not have.
+    /// The outline of a character; a box if the font does not have it.
     pub fn outline(&self, character: char) -> Vec<Step> {
         let Some((face, glyph)) = self.face.as_ref().zip(self.glyph(character)) else { return missing_glyph() };
         let mut outline = Outline { steps: Vec::new(), scale: 1.0 / self.units_per_em };
-        // `None` for a glyph without an outline: a space.
+        // `None` for a glyph without an outline, such as a space.
         let _ = face.outline_glyph(glyph, &mut outline);
         outline.steps
     }
@@ -112,7 +112,7 @@ fn missing_glyph() -> Vec<Step> {
         Step::Line(right, top),
         Step::Line(left, top),
         Step::Close,
-        // The other way round, so that the non-zero rule leaves it empty.
+        // In the opposite direction, so that the non-zero rule leaves it empty.
         Step::Move(inner_left, inner_bottom),
         Step::Line(inner_left, inner_top),
         Step::Line(inner_right, inner_top),

@@ -1,4 +1,4 @@
-//! A robot's map as the paper draws it (Fig. 2): known free space white, unknown space grey, obstacles
+//! A robot's map drawn as in the paper (Fig. 2): known free space white, unknown space grey, obstacles
 //! black, the path red.
 
 use super::scene::{Frame, Group, Item, Layer, Length, Scene, View};
@@ -6,24 +6,24 @@ use super::{LabelColours, Palette, Theme};
 use crate::geometry::areas::{self, Shapes};
 use crate::geometry::{Bounds, Point, Segment};
 
-/// What is drawn, in the frame of the map.
+/// What to draw, in map coordinates.
 #[derive(Clone, Copy, Debug)]
 pub struct LineMapDrawing<'a> {
     /// Obstacles.
     pub segments: &'a [Segment],
-    /// Known free space; empty where it is not known.
+    /// Known free space; empty if unknown.
     pub free: &'a Shapes,
-    /// Where the robot went.
+    /// The robot's path.
     pub path: &'a [Point],
 }
 
-/// Free around the map, in pixels.
+/// Margin around the map, in pixels.
 const MARGIN_PX: f64 = 24.0;
 const LINE_PX: f64 = 1.6;
 const PATH_PX: f64 = 1.2;
 
 impl LineMapDrawing<'_> {
-    /// The scene, `longest_px` pixels on its longer side.
+    /// The scene, with its longer side `longest_px` pixels.
     pub fn scene(&self, theme: Theme, longest_px: f64) -> Scene {
         let palette = Palette::of(theme, LabelColours::Standard);
         let ends = self.segments.iter().flat_map(|segment| [segment.a, segment.b]);
@@ -52,7 +52,7 @@ impl LineMapDrawing<'_> {
             width: Length::Px(PATH_PX),
             dash: None,
         };
-        // Without free space all is paper: a map that is all grey says nothing.
+        // Without free space the background is paper: an all-grey map says nothing.
         let background = if self.free.is_empty() { palette.paper } else { palette.not_classified };
         let group = |layer, items| Group::new(layer, Frame::Plan, items);
         let groups = vec![

@@ -1,5 +1,5 @@
-//! A scene of shapes with units and colours, and its painters: PNG and SVG. The window paints the
-//! same scene.
+//! A scene of shapes with units and colours, and its painters: PNG and SVG. The window paints the same
+//! scene.
 //!
 //! ```text
 //! Plan + Analysis ─> Drawing (walls joined, openings cut, symbols; no zoom, no colours)
@@ -8,7 +8,7 @@
 //!                    Scene ─> PNG, SVG, the window
 //! ```
 //!
-//! A [`Drawing`] is made once a plan; a [`Scene`] once a view.
+//! A [`Drawing`] is made once per plan; a [`Scene`] once per view.
 
 mod colour;
 mod drawing;

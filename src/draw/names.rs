@@ -1,5 +1,5 @@
-//! Names and areas inside the rooms: as large as fits, wrapped, shortened, or left out, never over a
-//! wall or each other.
+//! Names and areas inside the rooms: as large as fits, wrapped, shortened, or omitted; never over a wall
+//! or each other.
 
 use super::elements::{NODE_RADIUS_PX, RoomDrawing};
 use super::font::{self, Font};
@@ -11,7 +11,7 @@ use crate::geometry::raster::Raster;
 use crate::geometry::{Point, Segment, Vector, polygon};
 use crate::labels::function_title;
 
-/// Sums over a raster, so that any box costs four look-ups.
+/// A summed-area table over a raster: the sum of any box takes four look-ups.
 struct Sums {
     width: usize,
     sums: Vec<u32>,
@@ -42,7 +42,7 @@ struct Block {
     lines: Vec<Line>,
     width_px: f64,
     height_px: f64,
-    /// Turned a quarter to the left.
+    /// Turned 90 degrees to the left.
     upright: bool,
 }
 
@@ -64,7 +64,7 @@ impl Block {
         Self { lines, width_px, height_px, upright }
     }
 
-    /// Width and height on the screen.
+    /// Width and height on screen.
     fn extent_px(&self) -> (f64, f64) {
         if self.upright { (self.height_px, self.width_px) } else { (self.width_px, self.height_px) }
     }
@@ -93,37 +93,37 @@ impl Block {
     }
 }
 
-/// Free space in pixels between text and what bounds it.
+/// Padding between text and what surrounds it, in pixels.
 const PADDING_PX: f64 = 3.0;
 
-/// The areas' font size, as a fraction of the names'.
+/// Font size of areas as a fraction of that of names.
 const AREA_SIZE: f64 = 0.88;
 
-/// What a name stands among: indices of rooms and openings mean these.
+/// A name's surroundings; indices of rooms and openings refer to these.
 pub(super) struct Around<'a> {
     pub rooms: &'a [RoomDrawing],
     pub openings: &'a [OpeningDrawing],
     pub faces: &'a Faces,
 }
 
-/// The name of a room on a floor of this colour; `None` where it fits nowhere.
+/// The name of a room with this floor colour; `None` if it fits nowhere.
 pub(super) fn group(around: &Around<'_>, room: usize, floor: Rgba, style: &Style, view: &View) -> Option<Group> {
     let items = place(around, room, style, view, floor)?;
     Some(Group { element: around.rooms[room].id.to_string(), ..Group::new(Layer::Names, Frame::Plan, items) })
 }
 
-/// Whether the least text there is fits into the box of a room.
+/// Whether the smallest text could fit into the bounding box of a room.
 pub(super) fn may_fit(room: &RoomDrawing, view: &View) -> bool {
     let (width_px, height_px) = (room.bounds.width() * view.px_per_m, room.bounds.height() * view.px_per_m);
     width_px.max(height_px) >= 2.0 * SMALLEST_TEXT_PX && width_px.min(height_px) >= SMALLEST_TEXT_PX
 }
 
-/// The text of a room where it fits best; `None` where it fits nowhere.
+/// The text of a room where it fits best; `None` if it fits nowhere.
 fn place(around: &Around<'_>, index: usize, style: &Style, view: &View, floor: Rgba) -> Option<Vec<Item>> {
     let room = &around.rooms[index];
     let space = Space::new(around, index, style, view);
     for blocks in blocks(room, style) {
-        // Off the doors' ways if it can be; else the letters stand clear of the arcs by a halo.
+        // Clear of door swings if possible; otherwise a halo keeps the letters clear of the arcs.
         for may_be_swept in [false, true] {
             for block in &blocks {
                 if let Some(at) = space.place(block, may_be_swept) {
@@ -140,8 +140,7 @@ fn place(around: &Around<'_>, index: usize, style: &Style, view: &View, floor: R
     None
 }
 
-/// What may be written in a room, the best first: with everything, with the name alone, with a part of
-/// the name.
+/// The texts to try in a room, best first: with everything, the name alone, part of the name.
 fn blocks(room: &RoomDrawing, style: &Style) -> [Vec<Block>; 3] {
     let name = if !style.layers.names {
         String::new()
@@ -174,7 +173,7 @@ fn blocks(room: &RoomDrawing, style: &Style) -> [Vec<Block>; 3] {
             blocks.push(Block::new(lines, upright));
         }
     };
-    // Tall and narrow: may read from bottom to top.
+    // Tall and narrow: the text may read from bottom to top.
     let is_tall = room.bounds.height() > 1.8 * room.bounds.width();
     let all = |with_area: bool| {
         let mut blocks = Vec::new();
@@ -196,7 +195,7 @@ fn blocks(room: &RoomDrawing, style: &Style) -> [Vec<Block>; 3] {
     [all(true), if name.is_empty() { Vec::new() } else { all(false) }, short]
 }
 
-/// A name in one line, and broken at its words into two and three lines of most even width.
+/// A name on one line, and broken between words into two and three lines of similar width.
 fn wrapped(name: &str) -> Vec<Vec<String>> {
     let words: Vec<&str> = name.split(' ').collect();
     let mut ways = vec![vec![name.to_owned()]];
@@ -215,7 +214,7 @@ fn wrapped(name: &str) -> Vec<Vec<String>> {
                 best = Some((widest, pieces.iter().map(|piece| piece.join(" ")).collect()));
             }
         };
-        // Names of rooms are short; of a long text the first words decide enough.
+        // Room names are short; of a long text the first words decide.
         let reach = words.len().min(12);
         for first in 1..reach {
             if lines == 2 {
@@ -230,7 +229,7 @@ fn wrapped(name: &str) -> Vec<Vec<String>> {
     ways
 }
 
-/// A name cut off with an ellipsis, longest first, at least four letters long: fewer say nothing.
+/// A name cut off with an ellipsis, longest first, with at least four letters: fewer mean nothing.
 fn shortened(name: &str) -> Vec<String> {
     let letters: Vec<char> = name.chars().collect();
     [12, 9, 7, 5, 4]
@@ -240,11 +239,11 @@ fn shortened(name: &str) -> Vec<String> {
         .collect()
 }
 
-/// Where text may stand in a room.
+/// The space available for text in a room.
 struct Space {
     raster: Raster,
     blocked: Sums,
-    /// Cells that doors swing over: better left free.
+    /// Cells under door swings: better left free.
     swept: Sums,
     px_per_m: f64,
     target: Point,
@@ -254,7 +253,7 @@ impl Space {
     fn new(around: &Around<'_>, index: usize, style: &Style, view: &View) -> Self {
         let room = &around.rooms[index];
         let rings: Vec<&[Point]> = room.rings().map(Vec::as_slice).collect();
-        // A third of the text's height: what is lost to the raster is less than a letter's stroke is high.
+        // A third of the text's height: so the raster wastes less than the height of a letter's stroke.
         let mut raster = Raster::new(room.bounds, (style.text_px * 0.3).max(1.5) / view.px_per_m);
         raster.keep_inside(&rings);
         for edge in rings.iter().flat_map(|ring| polygon::edges(ring)) {
@@ -265,13 +264,13 @@ impl Space {
                 raster.block_along(face);
             }
         }
-        // Rooms that lie in or over this one are drawn above it.
+        // Rooms inside or over this one are drawn above it.
         for &other in &room.above {
             let rings: Vec<&[Point]> = around.rooms[other].rings().map(Vec::as_slice).collect();
             raster.keep_outside(&rings);
         }
         if style.layers.graph {
-            // The node, as an octagon around it.
+            // The graph node, as an octagon around it.
             let r = (NODE_RADIUS_PX + 1.0) / view.px_per_m;
             let k = r * std::f64::consts::FRAC_1_SQRT_2;
             let node: Vec<Point> = [(r, 0.0), (k, k), (0.0, r), (-k, k), (-r, 0.0), (-k, -k), (0.0, -r), (k, -k)]
@@ -284,7 +283,7 @@ impl Space {
         if style.layers.openings {
             let openings = room.openings.iter().map(|&opening| &around.openings[opening]);
             for [hinge, shut, tip] in openings.flat_map(|opening| opening.sweeps()) {
-                // The quarter disc as the square it lies in, less the far corner.
+                // The quarter disc, as its bounding square less the far corner.
                 let far = shut + (tip - hinge) * 0.4;
                 let far_tip = tip + (shut - hinge) * 0.4;
                 let region = [hinge, shut, far, far_tip, tip];
@@ -320,7 +319,7 @@ impl Space {
                 if swept > 0.0 && !may_be_swept {
                     continue;
                 }
-                // A text wholly on a door's way may as well stand ten lines off.
+                // A text fully on a door swing costs as much as being ten lines away.
                 let cost = at.distance(self.target) * self.px_per_m + swept * 10.0 * height_px;
                 if best.is_none_or(|(least, _)| cost < least - 1e-9) {
                     best = Some((cost, at));
@@ -328,13 +327,13 @@ impl Space {
             }
         }
         let (_, at) = best?;
-        // Cells are coarse: where the very middle serves, it is taken.
+        // Cells are coarse: if the exact target fits, use it.
         let offset = self.target - at;
         let within = offset.x.abs() <= self.raster.cell && offset.y.abs() <= self.raster.cell;
         Some(if within && self.fits_at(self.target, columns, rows, may_be_swept) { self.target } else { at })
     }
 
-    /// Whether a box of so many cells, and one more for being off the raster, is free about a point.
+    /// Whether a box of this many cells, plus one for being off the raster, is free around a point.
     fn fits_at(&self, middle: Point, columns: usize, rows: usize, may_be_swept: bool) -> bool {
         let start = |place: f64, count: usize| place - count as f64 / 2.0;
         let (left, bottom) =

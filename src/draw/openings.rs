@@ -1,5 +1,5 @@
-//! Doors, passages and windows as an architect draws them: cut out of the wall they stand in, doors
-//! with their leaf and the arc it swings through.
+//! Doors, passages and windows as architects draw them: cut out of their wall, doors with the leaf and
+//! the arc of its swing.
 
 use std::collections::BTreeMap;
 
@@ -17,21 +17,22 @@ use crate::plan::{LeafSide, Opening, OpeningId, OpeningKind, Plan, Swing, THICKE
 pub(super) struct OpeningDrawing {
     pub id: OpeningId,
     kind: OpeningKind,
-    /// Its middle, on the axis of the wall it stands in.
+    /// Its middle, on the axis of its wall.
     pub centre: Point,
     /// Unit vector along the wall.
     along: Vector,
     half_width: f64,
-    /// Where the wall's faces lie from `centre` along the left-hand normal: right (negative), left.
+    /// Distances of the wall's faces from `centre` along the left-hand normal: right (negative), left.
     faces: (f64, f64),
-    /// The piece of wall taken out; `None` where it stands in no wall.
+    /// The piece cut out of the wall; `None` if it is in no wall.
     pub cut: Option<Vec<[f64; 2]>>,
-    /// The rooms on both sides, left first, as indices of the drawing's: whose floor shows in the cut.
+    /// The rooms on both sides, left first, as indices into the drawing's rooms: their floors show in the
+    /// cut.
     pub sides: [Option<usize>; 2],
     leaves: Vec<Leaf>,
 }
 
-/// A door's leaf, open at a right angle.
+/// A door's leaf, open at 90 degrees.
 #[derive(Clone, Copy)]
 struct Leaf {
     hinge: Point,
@@ -42,7 +43,7 @@ struct Leaf {
 }
 
 impl Leaf {
-    /// Points spread over the quarter disc the leaf swings through.
+    /// Points spread over the quarter disc of the leaf's swing.
     fn sweep(self) -> impl Iterator<Item = Point> {
         let (open, shut) = (self.tip - self.hinge, self.shut - self.hinge);
         [(0.9, 0.1), (0.66, 0.66), (0.1, 0.9), (0.5, 0.5), (0.25, 0.25), (0.55, 0.2), (0.2, 0.55)]
@@ -51,15 +52,15 @@ impl Leaf {
     }
 }
 
-/// A door of one leaf wider than this, in metres, slides: no leaf hangs so wide (a wheelchair needs
-/// 0.9, a hospital bed 1.2).
+/// A single door wider than this, in metres, slides: no hinged leaf is that wide (a wheelchair needs 0.9,
+/// a hospital bed 1.2).
 const WIDEST_LEAF_M: f64 = 1.3;
 
-/// How far from the line given for it an opening looks for the wall it stands in, in metres: imported
-/// doors lie on a room's boundary, up to a wall's thickness from the neighbour's.
+/// How far from its given line an opening looks for its wall, in metres: imported doors lie on a room's
+/// boundary, up to a wall's thickness from the neighbour's.
 const SEAT_REACH_M: f64 = 0.45;
 
-/// The wall's thickness drawn for an opening that stands in none, in metres.
+/// The wall thickness drawn for an opening in no wall, in metres.
 const NO_WALL_M: f64 = 0.1;
 
 impl OpeningDrawing {
@@ -77,16 +78,15 @@ impl OpeningDrawing {
         drawn
     }
 
-    /// The opening in the wall it stands in, moved along so far that it does not overhang the wall's
-    /// end.
+    /// The opening in its wall, shifted along it as needed not to overhang the wall's end.
     fn seated(plan: &Plan, id: OpeningId, opening: &Opening, faces: &Faces) -> Option<Self> {
         let segment = plan.opening_segment(opening)?;
         let along = segment.vector().unit()?;
         let normal = along.left();
         let mut half_width = segment.length() / 2.0;
         let mut middle = segment.midpoint();
-        // Looked for at three places: one may look along a wall that ends here. The thinnest is the
-        // wall; where it widens along the opening, the whole of it is taken.
+        // Probed at three places, since one may look along a wall that ends here. The thinnest result is
+        // the wall; where it widens along the opening, all of it is taken.
         let seen: Vec<(f64, f64)> = [0.0, -0.8, 0.8]
             .into_iter()
             .filter_map(|place| faces.wall_at(middle + along * (place * half_width), normal, SEAT_REACH_M))
@@ -100,15 +100,15 @@ impl OpeningDrawing {
         });
         let (right, left) = wall.unwrap_or((-NO_WALL_M / 2.0, NO_WALL_M / 2.0));
         if wall.is_some() {
-            // Just off both faces: from where to where no other wall stands in the way.
+            // Just off both faces: the stretch where no other wall is in the way.
             let open = [right - OFF_FACE_M, left + OFF_FACE_M]
                 .map(|offset| faces.open_at(middle + normal * offset, along, 4.0 * half_width));
             if let [Some(one), Some(other)] = open {
                 let (from, to) = (one.0.max(other.0), one.1.min(other.1));
-                // Where there is hardly any, as it was given: better seen than lost.
+                // If there is hardly any room, as given: better visible than lost.
                 if to - from > half_width {
                     half_width = half_width.min((to - from) / 2.0);
-                    // Not `clamp`: by rounding the bounds may have passed each other.
+                    // Not `clamp`: rounding may have made the bounds cross.
                     middle = middle + along * 0.0_f64.max(from + half_width).min(to - half_width);
                 }
             }
@@ -132,13 +132,13 @@ impl OpeningDrawing {
         })
     }
 
-    /// The room that begins just off a face: left for a positive side, else right.
+    /// The room just off a face: on the left for a positive side, else on the right.
     fn room_beside(&self, side: f64, analysis: &Analysis) -> Option<usize> {
         let offset = if side > 0.0 { self.faces.1 } else { self.faces.0 };
         analysis.shapes.at(self.centre + self.normal() * (offset + side * BESIDE_M)).first().copied()
     }
 
-    /// Hangs a door's leaves: as the plan says, else as an architect would.
+    /// Hangs a door's leaves: as the plan says, or else as an architect would.
     fn hang(&mut self, opening: &Opening, rooms: &[RoomDrawing], faces: &Faces, hung: &Hung) {
         let width = 2.0 * self.half_width;
         let leaf_count = match self.kind {
@@ -169,7 +169,7 @@ impl OpeningDrawing {
         self.leaves = best.map(|(_, leaves)| leaves).unwrap_or_default();
     }
 
-    /// The leaves when hung so.
+    /// The leaves when hung this way.
     fn leaves(&self, count: f64, hinge_at_start: bool, side: LeafSide) -> Vec<Leaf> {
         let (offset, sign) = match side {
             LeafSide::Left => (self.faces.1, 1.0),
@@ -190,24 +190,24 @@ impl OpeningDrawing {
         }
     }
 
-    /// An architect hinges a door so that the open leaf rests along the nearer wall: the cost is the
-    /// share of the way to the farther one.
+    /// The cost of a hinge position. An architect hinges a door so that the open leaf rests along the
+    /// nearer wall: the cost is 1 if it is hinged by the farther one.
     fn hinge_cost(&self, hinge_at_start: bool, side: LeafSide, faces: &Faces) -> f64 {
         let (offset, sign) = match side {
             LeafSide::Left => (self.faces.1, 1.0),
             LeafSide::Right => (self.faces.0, -1.0),
         };
-        // Half a door's width into the room, to look past what stands at the jamb.
+        // Half a door's width into the room, to see past what is at the jamb.
         let from = self.centre + self.normal() * (offset + sign * self.half_width.max(OFF_FACE_M));
-        // A wall further off is not one that a leaf rests along.
+        // A leaf does not rest along a wall further away than this.
         const FAR_M: f64 = 4.0;
         let (to_start, to_end) = (faces.free(from, -self.along, FAR_M), faces.free(from, self.along, FAR_M));
         let (near, far) = if hinge_at_start { (to_start, to_end) } else { (to_end, to_start) };
-        // Steps of 5 cm, so that rounding does not choose between equals.
+        // Steps of 5 cm, so that rounding does not break ties.
         f64::from(((near - far) * 20.0).round() > 0.0)
     }
 
-    /// How its first leaf is hung; `None` without one.
+    /// How its first leaf is hung; `None` if it has none.
     pub fn swing(&self) -> Option<Swing> {
         let leaf = self.leaves.first()?;
         let side = if (leaf.tip - leaf.hinge).dot(self.normal()) >= 0.0 { LeafSide::Left } else { LeafSide::Right };
@@ -219,13 +219,13 @@ impl OpeningDrawing {
         self.along.left()
     }
 
-    /// The box of all that is drawn of it.
+    /// The bounding box of all that is drawn of it.
     pub fn bounds(&self) -> Bounds {
         let Segment { a, b } = self.segment();
         Bounds::of([a, b].into_iter().chain(self.leaves.iter().map(|leaf| leaf.tip)))
     }
 
-    /// The regions leaves swing through: the hinge, the closed leaf's end, the open leaf's end of each.
+    /// The areas its leaves swing through: hinge, end of the closed leaf, end of the open leaf.
     pub fn sweeps(&self) -> impl Iterator<Item = [Point; 3]> + '_ {
         self.leaves.iter().map(|leaf| [leaf.hinge, leaf.shut, leaf.tip])
     }
@@ -247,12 +247,12 @@ impl OpeningDrawing {
         let line = |points: Vec<Point>, colour, width| Item::Line { points, closed: false, colour, width, dash: None };
         let (right, left) = self.faces;
         if self.cut.is_some() && self.kind == OpeningKind::Window {
-            // Whatever rooms reach into the wall: a window is glass, not floor.
+            // Whatever rooms extend into the wall: a window is glass, not floor.
             let outer = vec![at(-1.0, right), at(1.0, right), at(1.0, left), at(-1.0, left)];
             items.push(Item::Polygon { outer, holes: Vec::new(), colour: palette.paper.faded(style.fill_opacity) });
         } else if self.cut.is_some() && style.layers.rooms && style.fill_opacity >= 1.0 {
-            // The floor of either room reaches to the middle of the wall; of a single one, through. (Rooms
-            // may reach into the wall: translucent floors would show twice.)
+            // The floor of each room extends to the middle of the wall, or all the way through if there
+            // is only one. (Rooms may extend into the wall: translucent floors would show twice.)
             let [on_left, on_right] = self.sides.map(|side| side.map(|index| floors[index]));
             let halves = match (on_left, on_right) {
                 (Some(colour), Some(other)) if colour != other => {
@@ -265,7 +265,7 @@ impl OpeningDrawing {
                 let outer = vec![at(-1.0, from), at(1.0, from), at(1.0, to), at(-1.0, to)];
                 items.push(Item::Polygon { outer, holes: Vec::new(), colour });
             }
-            // The threshold of a door to the outside.
+            // The threshold of an outside door.
             for (side, face) in [(on_left, left), (on_right, right)] {
                 if side.is_none() && self.kind != OpeningKind::Passage {
                     items.push(line(vec![at(-1.0, face), at(1.0, face)], palette.boundary, fine));
@@ -300,7 +300,7 @@ impl OpeningDrawing {
                 }
             }
             OpeningKind::Door | OpeningKind::DoubleDoor if self.leaves.is_empty() => {
-                // Two panels that slide past each other, each a little more than half the width.
+                // Two panels that slide past each other, each slightly wider than half the opening.
                 let depth = ((left - right) * 0.3).min(0.05);
                 for (from, to, v) in [(-1.0, 0.06, depth / 2.0), (-0.06, 1.0, -depth / 2.0)] {
                     let width = Length::Px((depth * 0.8 * view.px_per_m).max(1.2));
@@ -349,32 +349,32 @@ impl OpeningDrawing {
     }
 }
 
-/// Thickness of a door's leaf in metres.
+/// Thickness of a door leaf in metres.
 const LEAF_M: f64 = 0.04;
 
-/// A leaf at least so thick in pixels is drawn hollow.
+/// A leaf at least this thick, in pixels, is drawn hollow.
 const THINNEST_HOLLOW_PX: f64 = 3.0;
 
-/// Below this radius in pixels a swing is a blot: only the leaf is drawn.
+/// Below this radius in pixels a swing would be a blot: only the leaf is drawn.
 const SMALLEST_SWING_PX: f64 = 5.0;
 
 /// Just off a wall's face, in metres.
 const OFF_FACE_M: f64 = 0.03;
 
-/// Off a wall's face as far as rooms that should meet it may stop short, in metres.
+/// Distance from a wall's face, in metres, to look for a room that should meet it but stops short.
 const BESIDE_M: f64 = 0.1;
 
-/// A cut reaches this far beyond the faces, in metres, to leave no skin.
+/// How far a cut extends beyond the faces, in metres, to leave no skin.
 const CUT_BEYOND_M: f64 = 0.01;
 
-/// The leaves hung so far, by place.
+/// The leaves hung so far, by position.
 #[derive(Default)]
 struct Hung {
     by_cell: BTreeMap<(i64, i64), Vec<Leaf>>,
 }
 
 impl Hung {
-    /// Wider than the widest leaf: what sweeps over a point hangs in its cell or one beside.
+    /// Wider than the widest leaf: a leaf that sweeps over a point hangs in its cell or an adjacent one.
     const CELL_M: f64 = 1.5;
 
     fn cell(point: Point) -> (i64, i64) {
@@ -387,7 +387,7 @@ impl Hung {
         }
     }
 
-    /// Whether a leaf swings over a point.
+    /// Whether any leaf swings over a point.
     fn is_swept(&self, point: Point) -> bool {
         let (column, row) = Self::cell(point);
         let near = (column - 1..=column + 1)
@@ -401,18 +401,18 @@ impl Hung {
     }
 }
 
-/// How bad it is that leaves open into `room`, away from `other`.
+/// The cost of leaves opening into `room`, away from `other`.
 fn swing_cost(leaves: &[Leaf], room: Option<&RoomDrawing>, other: Option<&RoomDrawing>, hung: &Hung) -> f64 {
     let Some(room) = room else {
-        // Out of the building: into the way of people outside.
+        // Out of the building, into the way of people outside.
         return 12.0;
     };
     let through = |room: &RoomDrawing| matches!(room.status, RoomStatus::Labelled(Label::Corridor | Label::Hall));
     let mut cost = match other {
-        // From outside or a balcony it opens into the building.
+        // From outside or a balcony, it opens into the building.
         None => 0.0,
         Some(other) if room.is_open_air() != other.is_open_air() => 8.0 * f64::from(room.is_open_air()),
-        // Not into a corridor, where it hits people; else into the smaller room.
+        // Not into a corridor, where it hits people; otherwise into the smaller room.
         Some(other) if through(room) != through(other) => 4.0 * f64::from(through(room)),
         Some(other) => 2.0 * f64::from(room.area_m2 > other.area_m2),
     };

@@ -1,4 +1,4 @@
-//! The one place that defines colours, for window, PNG and SVG alike.
+//! The single definition of all colours, for window, PNG and SVG.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use super::Rgba;
 use crate::features::RoomStatus;
 use crate::labels::{Label, normalised_function};
 
-/// Dark ink on light paper, or the other way round.
+/// Dark on light, or light on dark.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Theme {
     #[default]
@@ -17,7 +17,7 @@ pub enum Theme {
 impl Theme {
     pub const ALL: [Self; 2] = [Self::Light, Self::Dark];
 
-    /// The word for the command line and for people.
+    /// Its name on the command line and in the interface.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Light => "light",
@@ -26,22 +26,22 @@ impl Theme {
     }
 }
 
-/// Which five colours stand for the labels.
+/// The five colours used for the labels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum LabelColours {
-    /// The paper's (Fig. 1): corridor green, small room yellow, medium room brown, big room red;
-    /// hall blue is ours.
+    /// The paper's (Fig. 1): corridor green, small room yellow, medium room brown, big room red; we added
+    /// blue for the hall.
     #[default]
     Standard,
-    /// Told apart by people who do not see red, green or blue: after Okabe and Ito (2008), 'Color
-    /// universal design', with their lightness spread further.
+    /// Distinguishable with any kind of colour blindness: based on Okabe and Ito (2008), 'Color universal
+    /// design', with lightness spread further.
     ColourBlindSafe,
 }
 
 impl LabelColours {
     pub const ALL: [Self; 2] = [Self::Standard, Self::ColourBlindSafe];
 
-    /// The word for the command line and for people.
+    /// Its name on the command line and in the interface.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Standard => "standard",
@@ -54,21 +54,21 @@ impl LabelColours {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Palette {
     pub theme: Theme,
-    /// The ground.
+    /// The background.
     pub paper: Rgba,
     /// Names, title.
     pub ink: Rgba,
     /// Areas, legend, scale.
     pub ink_muted: Rgba,
-    /// Behind letters on uneven ground (over a backdrop).
+    /// Behind letters on a busy background (a backdrop).
     pub halo: Rgba,
-    /// The cut through walls (poché).
+    /// Walls cut by the plan (poché).
     pub wall: Rgba,
-    /// A room's boundary where no wall stands, railings, thresholds, a passage's lintel.
+    /// A room's boundary without a wall, railings, thresholds, a passage's lintel.
     pub boundary: Rgba,
     /// A door's leaf, a window's frame.
     pub leaf: Rgba,
-    /// The arc a door's leaf swings through.
+    /// The arc of a door's swing.
     pub swing: Rgba,
     /// A window's panes.
     pub glass: Rgba,
@@ -76,27 +76,27 @@ pub struct Palette {
     /// Every fifth or tenth line of the grid.
     pub grid_major: Rgba,
     pub graph_edge: Rgba,
-    /// A graph's node; its rim is `paper`.
+    /// A graph node; its rim is `paper`.
     pub graph_node: Rgba,
     /// A selected element.
     pub selection: Rgba,
     /// The element under the pointer.
     pub hover: Rgba,
-    /// The mark at what a point snaps to.
+    /// The marker of a snap target.
     pub snap: Rgba,
-    /// Findings of `check` that must be put right.
+    /// `check` findings that must be fixed.
     pub error: Rgba,
-    /// Findings to look at.
+    /// `check` findings worth a look.
     pub warning: Rgba,
-    /// Findings to know of.
+    /// `check` findings for information.
     pub info: Rgba,
     /// Fill of a room without a label.
     pub unlabelled: Rgba,
-    /// Fill of a room the scheme leaves blank.
+    /// Fill of a room that the scheme leaves blank.
     pub not_classified: Rgba,
-    /// Fills by label, in the order of [`Label::ALL`]; `ink` is legible on each.
+    /// Fills by label, in the order of [`Label::ALL`]; `ink` is legible on all of them.
     pub labels: [Rgba; 5],
-    /// The same hues, strong enough for dots, lines and small marks on `paper`.
+    /// The same hues, strong enough for dots, lines and small markers on `paper`.
     pub labels_strong: [Rgba; 5],
     functions: [Rgba; FUNCTION_COLOURS],
 }
@@ -116,12 +116,12 @@ impl Palette {
         self.labels[label.index()]
     }
 
-    /// Colour of dots and lines that stand for a label.
+    /// Colour of dots and lines for a label.
     pub const fn label_strong(&self, label: Label) -> Rgba {
         self.labels_strong[label.index()]
     }
 
-    /// Fill of a room by what is known of its label.
+    /// Fill of a room by the status of its label.
     pub const fn status(&self, status: RoomStatus) -> Rgba {
         match status {
             RoomStatus::Labelled(label) => self.label(label),
@@ -130,10 +130,10 @@ impl Palette {
         }
     }
 
-    /// Fills by function, keyed by [`normalised_function`]. A function's colour follows from its
-    /// name, so that it is the same in most plans; where two of one plan meet, the later in
-    /// alphabetical order takes the next free one. Only a plan with more than 24 functions
-    /// repeats colours. The empty function is left out.
+    /// Fills by function, keyed by [`normalised_function`]. A function's colour is derived from its name,
+    /// so that it is the same in most plans; if two in one plan collide, the alphabetically later one
+    /// takes the next free colour. Colours repeat only in plans with more than 24 functions. The empty
+    /// function is left out.
     pub fn functions<'a>(&self, functions: impl IntoIterator<Item = &'a str>) -> BTreeMap<String, Rgba> {
         let mut slots: BTreeMap<String, usize> = BTreeMap::new();
         for function in functions {
@@ -158,17 +158,16 @@ impl Palette {
 
 const FUNCTION_COLOURS: usize = 24;
 
-/// Fills of labels on paper. In Oklab (Ottosson 2020) the standard ones have lightness 0.80 to 0.94
-/// and chroma 0.05 to 0.08; the safe ones were searched for the largest smallest difference under
-/// simulated protanopia, deuteranopia and tritanopia (Machado et al. 2009). The tests below hold
-/// both to it.
+/// Fills of labels on paper. In Oklab (Ottosson 2020) the standard ones have lightness 0.80 to 0.94 and
+/// chroma 0.05 to 0.08; the safe ones were found by maximising the minimum difference under simulated
+/// protanopia, deuteranopia and tritanopia (Machado et al. 2009). The tests below enforce both.
 const LIGHT_LABELS: [Rgba; 5] =
     [Rgba::hex(0xfb_f1b6), Rgba::hex(0xde_c09e), Rgba::hex(0xf9_bbb4), Rgba::hex(0xc3_ebca), Rgba::hex(0xbb_dcf8)];
 const LIGHT_STRONG: [Rgba; 5] =
     [Rgba::hex(0xa1_8400), Rgba::hex(0x8f_5f30), Rgba::hex(0xd3_3a3c), Rgba::hex(0x2a_904b), Rgba::hex(0x0f_74c5)];
 const LIGHT_LABELS_SAFE: [Rgba; 5] =
     [Rgba::hex(0xf4_f2bb), Rgba::hex(0xfe_c766), Rgba::hex(0xdf_8661), Rgba::hex(0x68_c1aa), Rgba::hex(0xbc_e5ff)];
-/// Okabe and Ito's own, darkened where they would vanish on white.
+/// Okabe and Ito's own, darkened where they would be invisible on white.
 const LIGHT_STRONG_SAFE: [Rgba; 5] =
     [Rgba::hex(0xa8_9c00), Rgba::hex(0xe6_9f00), Rgba::hex(0xb8_4a00), Rgba::hex(0x00_7a59), Rgba::hex(0x38_9fdc)];
 const DARK_LABELS: [Rgba; 5] =
@@ -240,8 +239,8 @@ const DARK: Palette = Palette {
 
 const DARK_SAFE: Palette = Palette { labels: DARK_LABELS_SAFE, labels_strong: DARK_STRONG_SAFE, ..DARK };
 
-/// 24 hues of Oklab, 15 degrees apart and alternating in lightness (0.89 and 0.82, chroma 0.075),
-/// ordered so that neighbours in the table differ by seven steps.
+/// 24 Oklab hues, 15 degrees apart, alternating in lightness (0.89 and 0.82, chroma 0.075), ordered so
+/// that neighbours in the table are seven steps apart.
 const LIGHT_FUNCTIONS: [Rgba; FUNCTION_COLOURS] = table([
     0xff_c7cf, 0xc2_ca96, 0xa2_e7fd, 0xdc_b5dd, 0xfb_d3a5, 0x94_d3c1, 0xd0_d6ff, 0xee_b3ad, 0xca_e5b1, 0x98_cceb,
     0xfe_c8ea, 0xd9_c190, 0xa0_ebe6, 0xc7_bced, 0xff_cbb6, 0xa8_d1a9, 0xb6_dfff, 0xea_b2c6, 0xe6_dda3, 0x8d_d2da,
@@ -292,8 +291,8 @@ mod tests {
 
     #[test]
     fn marks_are_seen_on_paper() {
-        // 3: the same guidelines for graphical objects. Orange and yellow of the safe palette come
-        // second to being told apart.
+        // 3: the same guidelines, for graphical objects. In the safe palette, being distinguishable takes
+        // priority over this for orange and yellow.
         for palette in all() {
             for colour in [palette.wall, palette.swing, palette.graph_edge, palette.selection, palette.error] {
                 assert!(colour.contrast(palette.paper) >= 3.0, "{} of {:?}", colour.css(), palette.theme);
@@ -313,7 +312,7 @@ mod tests {
         [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]],
     ];
 
-    /// CIE L*a*b* (D65) of a colour as seen with a kind of vision.
+    /// CIE L*a*b* (D65) of a colour as seen with this kind of vision.
     fn lab(colour: Rgba, vision: &[[f64; 3]; 3]) -> [f64; 3] {
         let rgb = [colour.r, colour.g, colour.b].map(linear);
         let [r, g, b] =
@@ -338,7 +337,7 @@ mod tests {
 
     #[test]
     fn labels_are_told_apart_by_every_eye_in_the_safe_palette() {
-        // A difference of 2.3 is just noticeable (Mahy et al. 1994); 15 is seen across a picture.
+        // A difference of 2.3 is just noticeable (Mahy et al. 1994); 15 is obvious across a picture.
         for theme in Theme::ALL {
             let safe = Palette::of(theme, LabelColours::ColourBlindSafe);
             for vision in &VISION {

@@ -1,6 +1,6 @@
-//! A scene as pixels, by tiny-skia on the CPU. The same bytes on every x86-64 machine: no machine's
-//! sine or font rasteriser takes part, and tiny-skia uses the same vector instructions on all of them
-//! (SSE2, unless compiled for a newer processor).
+//! Renders a scene to pixels with tiny-skia on the CPU. The same bytes on every x86-64 machine: no
+//! platform sine function or font rasteriser is involved, and tiny-skia uses the same vector instructions
+//! on all of them (SSE2, unless compiled for a newer processor).
 
 use std::collections::HashMap;
 
@@ -16,10 +16,10 @@ use crate::geometry::polygon::edges;
 use crate::geometry::{Bounds, Point, Vector};
 use crate::picture::png::{PictureError, encode_pixmap};
 
-/// No picture has more pixels a side: 256 MiB of memory while painting.
+/// The largest side of a picture: 256 MiB of memory while painting.
 pub const LARGEST_SIDE_PX: u32 = 8192;
 
-/// The scene as a PNG file's bytes.
+/// Renders the scene to a PNG file.
 ///
 /// # Errors
 /// As [`paint`].
@@ -27,10 +27,10 @@ pub fn png(scene: &Scene) -> Result<Vec<u8>, PictureError> {
     encode_pixmap(&paint(scene)?)
 }
 
-/// The scene painted.
+/// Renders the scene to pixels.
 ///
 /// # Errors
-/// When its view has no pixels or more than [`LARGEST_SIDE_PX`] a side.
+/// When its view has no pixels, or more than [`LARGEST_SIDE_PX`] on a side.
 pub fn paint(scene: &Scene) -> Result<Pixmap, PictureError> {
     let view = &scene.view;
     let side = |px: f64| {
@@ -63,17 +63,17 @@ fn paint_of(rgba: Rgba) -> Paint<'static> {
     paint
 }
 
-/// The part of a picture that is seen, at the size that suits.
+/// The visible part of a picture, at a suitable size.
 struct SeenPart {
     pixels: Pixmap,
-    /// Where it begins, in pixels of the full picture.
+    /// Its upper left corner, in pixels of the full picture.
     from_px: Point,
-    /// Pixels of the full picture that one of these stands for, along a side.
+    /// Pixels of the full picture per pixel of this one, along a side.
     stride: f64,
 }
 
 impl SeenPart {
-    /// `place`: where a pixel of the full picture lies on the page.
+    /// `place` maps a pixel of the full picture to the page.
     fn of(picture: &PlacedPicture, place: impl Fn(f64, f64) -> Point, page: &Pixmap) -> Option<Self> {
         let start = place(0.0, 0.0);
         let (x_way, y_way) = (place(1.0, 0.0) - start, place(0.0, 1.0) - start);
@@ -84,14 +84,14 @@ impl SeenPart {
         let index = picture.levels.index_for(x_way.length());
         let level = picture.levels.all().get(index)?;
         let stride = (index as f64).exp2();
-        // The page's corners in the picture.
+        // The page's corners in picture coordinates.
         let (width, height) = (f64::from(page.width()), f64::from(page.height()));
         let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)].map(|(x, y)| {
             let from_start = Point::new(x, y) - start;
             Point::new(from_start.cross(y_way) / turn / stride, x_way.cross(from_start) / turn / stride)
         });
         let seen = Bounds::of(corners);
-        // A pixel more, for what lies between two.
+        // One pixel more, for interpolation.
         let range = |from: f64, to: f64, side: u32| {
             let from = (from.floor() - 1.0).clamp(0.0, f64::from(side)) as u32;
             let to = (to.ceil() + 1.0).clamp(0.0, f64::from(side)) as u32;
@@ -146,7 +146,7 @@ impl Painter {
         }
     }
 
-    /// Paints a picture, of which no more is made ready than is seen.
+    /// Paints a picture, preparing only the visible part.
     fn picture(&mut self, frame: Frame, picture: &PlacedPicture) {
         let Some(part) = SeenPart::of(picture, |x, y| self.at(frame, picture.at(x, y)), &self.pixmap) else { return };
         let SeenPart { pixels, from_px, stride } = part;
@@ -202,7 +202,7 @@ impl Painter {
         self.pixmap.stroke_path(path, &paint_of(colour), stroke, Transform::identity(), None);
     }
 
-    /// Whether a box in physical pixels, grown by `margin`, meets the picture.
+    /// Whether a box in physical pixels, grown by `margin`, overlaps the picture.
     fn is_seen(&self, bounds: Bounds, margin: f64) -> bool {
         let page = Bounds {
             min: Point::default(),
@@ -211,8 +211,8 @@ impl Painter {
         bounds.inflated(margin).intersects(page)
     }
 
-    /// Fills a polygon. One with level and upright sides only is put on whole pixels: crisp, without
-    /// seams between neighbours, and fast. Not so for walls, whose thickness would become uneven.
+    /// Fills a polygon. One with only horizontal and vertical sides is aligned to whole pixels: crisp,
+    /// without seams between neighbours, and fast. Not so walls, whose thickness would become uneven.
     fn polygon(&mut self, group: &Group, outer: &[Point], holes: &[Vec<Point>], colour: Rgba) {
         let rings: Vec<Vec<Point>> = std::iter::once(outer)
             .chain(holes.iter().map(Vec::as_slice))
@@ -301,7 +301,7 @@ impl Painter {
     }
 
     fn arc(&mut self, frame: Frame, centre: Point, from: Point, to: Point, colour: Rgba, width: Length) {
-        // Two pieces: each of at most a quarter of a turn, where one cubic is exact to 0.03 %.
+        // Two pieces of at most a quarter turn each, for which one cubic is accurate to 0.03 %.
         let points = super::scene::arc_points(centre, from, to, 1);
         let centre = self.at(frame, centre);
         let points: Vec<Point> = points.iter().map(|&point| self.at(frame, point)).collect();
@@ -317,8 +317,8 @@ impl Painter {
             if length <= 0.0 {
                 return;
             }
-            // Control points at 4/3 tan(angle/4) of the radius along the tangents; the tangent by half
-            // angles, square roots being the same on every machine.
+            // Control points at 4/3 tan(angle/4) of the radius along the tangents; the tangent comes from
+            // half-angle formulas, since square roots are the same on every machine.
             let half = ((1.0 + p.dot(q) / (length * length)) / 2.0).clamp(0.0, 1.0).sqrt();
             let reach = 4.0 / 3.0 * ((1.0 - half) / (1.0 + half)).sqrt() * turn.signum();
             let (c1, c2) = (pair[0] + p.left() * reach, pair[1] - q.left() * reach);
@@ -340,7 +340,7 @@ impl Painter {
             Anchor::Middle => width / 2.0,
             Anchor::End => width,
         };
-        // On whole pixels: letters of the same word look the same, and their feet stand on a pixel's rim.
+        // On whole pixels: a word looks the same everywhere, and its letters stand on a pixel's edge.
         let (start_x, start_y) = if text.upright { (anchor.x, anchor.y + back) } else { (anchor.x - back, anchor.y) };
         let (start_x, start_y) = (start_x.round(), start_y.round());
         let bounds = Bounds::of([Point::new(start_x, start_y)]);
@@ -353,7 +353,7 @@ impl Painter {
             pens.push((character, pen));
             pen += size * f64::from(font.advance(character));
         }
-        // All halos first: none covers the letter before it.
+        // All halos first, so that none covers the previous letter.
         let halo = text.halo.map(|halo| (halo, Some(size * HALO)));
         for (colour, halo_px) in halo.into_iter().chain([(text.colour, None)]) {
             for &(character, pen) in &pens {
@@ -376,38 +376,38 @@ impl Painter {
     }
 }
 
-/// Width of a halo as a fraction of the font size: a ring of half of it around the letters.
+/// Width of a halo's stroke as a fraction of the font size; half of it shows around the letters.
 const HALO: f64 = 0.28;
 
-/// Places within a pixel, along a line of text, at which a letter is kept rasterised: finer is not seen.
+/// Subpixel positions along a line of text for cached letters: finer is invisible.
 const PLACES: f64 = 4.0;
 
-/// What a rasterised letter looks like.
+/// What determines how a rasterised letter looks.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct GlyphKey {
     weight: Weight,
     character: char,
     size_bits: u64,
-    /// Place within a pixel along the line, of [`PLACES`].
+    /// Subpixel position along the line, of [`PLACES`].
     place: u8,
     upright: bool,
     is_halo: bool,
 }
 
-/// A letter's coverage.
+/// A letter's coverage mask.
 struct Glyph {
-    /// From the pen's pixel to the mask's upper left one.
+    /// From the pen's pixel to the upper left pixel of the mask.
     left: i64,
     top: i64,
     mask: Mask,
 }
 
 impl GlyphKey {
-    /// The letter as pixels; `None` for one that leaves none.
+    /// Rasterises the letter; `None` if it leaves no mark.
     fn rasterised(self, font: &Font, size: f64, halo_px: Option<f64>) -> Option<Glyph> {
         let shift = ((f64::from(self.place) + 0.5) / PLACES) as f32;
         let size = size as f32;
-        // Upright: along the line is up the screen, up from the baseline is to the left.
+        // Upright: along the line is up the screen, and up from the baseline is left.
         let at = |x: f32, y: f32| {
             let (along, up) = (shift + x * size, y * size);
             if self.upright { (-up, -along) } else { (along, -up) }
@@ -449,7 +449,7 @@ impl GlyphKey {
 }
 
 impl Glyph {
-    /// Lays a colour over the picture where the letter covers it, its pen's pixel at (`x`, `y`).
+    /// Blends a colour over the picture through the mask, with the pen's pixel at (`x`, `y`).
     fn blend(&self, pixmap: &mut Pixmap, x: i64, y: i64, colour: Rgba) {
         let (width, height) = (i64::from(pixmap.width()), i64::from(pixmap.height()));
         let (left, top) = (x + self.left, y + self.top);
@@ -464,7 +464,7 @@ impl Glyph {
                 if coverage == 0 || x < 0 || x >= width {
                     continue;
                 }
-                // Premultiplied 'source over' in whole numbers, rounded.
+                // Premultiplied 'source over' in integers, rounded.
                 let alpha = u32::from(coverage) * u32::from(colour.a);
                 let pixel = (y * width + x) as usize * 4;
                 let sources = [colour.r, colour.g, colour.b, 255];
@@ -477,14 +477,14 @@ impl Glyph {
     }
 }
 
-/// Full coverage by an opaque colour.
+/// Full coverage in an opaque colour.
 const OPAQUE: u32 = 255 * 255;
 
-/// A line counts as level or upright up to this difference of its ends, in pixels.
+/// A line counts as horizontal or vertical up to this difference of its ends, in pixels.
 const STRAIGHT_PX: f64 = 0.01;
 
-/// Moves a level or upright line of a width in physical pixels so that its sides fall on pixels' rims;
-/// says whether it is one.
+/// Moves a horizontal or vertical line with this width in physical pixels so that its sides fall on pixel
+/// edges; returns whether it is such a line.
 fn sharpen(a: &mut Point, b: &mut Point, width_px: f64) -> bool {
     let middle = |place: f64| if (width_px.round() as i64) % 2 == 1 { place.floor() + 0.5 } else { place.round() };
     if (a.x - b.x).abs() < STRAIGHT_PX {

@@ -1,5 +1,5 @@
-//! What is drawn: shapes with units and colours, in the order of painting. The painters ([`super::png`],
-//! [`super::svg`], the window) know no plans.
+//! What is drawn: shapes with units and colours, in painting order. The painters ([`super::png`],
+//! [`super::svg`], the window) know nothing of plans.
 
 use std::sync::Arc;
 
@@ -7,36 +7,36 @@ use super::Rgba;
 use crate::geometry::{Bounds, Point, Vector};
 use crate::picture::PictureLevels;
 
-/// Shapes in the order of painting, and the view they were laid out for.
+/// Shapes in painting order, and the view they were laid out for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     pub view: View,
-    /// Painted first, over everything; transparent for none.
+    /// Painted first, over the whole view; transparent for none.
     pub background: Rgba,
     pub groups: Vec<Group>,
 }
 
-/// What a plan is seen through: which part of it, how large.
+/// A view of a plan: which part, at what size.
 ///
-/// Pixels here are logical ones: those that text and line widths are measured in. Where the screen
-/// has `pixel_ratio` physical pixels to each, painters multiply.
+/// Pixels here are logical ones: the unit of text and line widths. Where the screen has `pixel_ratio`
+/// physical pixels to each, painters multiply.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     pub width_px: f64,
     pub height_px: f64,
-    /// Logical pixels a metre.
+    /// Logical pixels per metre.
     pub px_per_m: f64,
     /// The point of the plan in the middle of the view.
     pub centre: Point,
-    /// Physical pixels per logical one: 1, or 2 on a fine screen.
+    /// Physical pixels per logical one: 1, or 2 on a high-density screen.
     pub pixel_ratio: f64,
 }
 
 impl View {
-    /// The view that shows `bounds` as large as fits, centred, `margin_px` free on every side.
+    /// The view that shows `bounds` as large as possible, centred, with `margin_px` free on every side.
     pub fn fitting(bounds: Bounds, width_px: f64, height_px: f64, margin_px: f64) -> Self {
         let (free_width, free_height) = ((width_px - 2.0 * margin_px).max(1.0), (height_px - 2.0 * margin_px).max(1.0));
-        // An empty plan, or one without extent, is shown at 50 px a metre: a room fills a window.
+        // An empty plan, or one without extent, is shown at 50 px per metre: a room fills a window.
         let scale = (free_width / bounds.width()).min(free_height / bounds.height());
         let px_per_m = if scale.is_finite() && scale > 0.0 { scale } else { 50.0 };
         let centre = if bounds.is_empty() { Point::default() } else { bounds.center() };
@@ -51,7 +51,7 @@ impl View {
         )
     }
 
-    /// The point of the plan at a place of the view.
+    /// The point of the plan at a position in the view.
     pub fn plan_from_screen(&self, screen: Point) -> Point {
         Point::new(
             self.centre.x + (screen.x - self.width_px / 2.0) / self.px_per_m,
@@ -59,7 +59,7 @@ impl View {
         )
     }
 
-    /// The part of the plan that is seen.
+    /// The visible part of the plan.
     pub fn bounds(&self) -> Bounds {
         Bounds::of([
             self.plan_from_screen(Point::default()),
@@ -76,7 +76,7 @@ impl View {
     }
 }
 
-/// A length in the plan, which grows with zooming, or on the screen, which does not.
+/// A length in the plan, which scales with zoom, or on the screen, which does not.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Length {
     Metres(f64),
@@ -84,21 +84,21 @@ pub enum Length {
     Px(f64),
 }
 
-/// What a group of shapes is part of. In the order of painting.
+/// What a group of shapes belongs to. In painting order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Layer {
-    /// A picture that was traced over.
+    /// The backdrop.
     Picture,
     Grid,
-    /// Rooms' fills; one group a room.
+    /// Rooms' fills; one group per room.
     Rooms,
-    /// Boundaries between rooms where no wall stands.
+    /// Boundaries between rooms without a wall.
     Boundaries,
     Walls,
-    /// Doors, passages and windows; one group an opening.
+    /// Doors, passages and windows; one group per opening.
     Openings,
     Graph,
-    /// Names and areas; one group a room.
+    /// Names and areas; one group per room.
     Names,
     /// Title, legend, scale bar, north arrow.
     Sheet,
@@ -117,7 +117,7 @@ impl Layer {
         Self::Sheet,
     ];
 
-    /// The word for files and for people.
+    /// Its name in files and in the interface.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Picture => "picture",
@@ -133,12 +133,12 @@ impl Layer {
     }
 }
 
-/// Coordinates of a group's points.
+/// The coordinate system of a group's points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frame {
     /// Metres, y up.
     Plan,
-    /// Logical pixels from the upper left corner, y down. A length in metres means nothing there.
+    /// Logical pixels from the upper left corner, y down. Lengths in metres have no meaning here.
     Screen,
 }
 
@@ -147,9 +147,9 @@ pub enum Frame {
 pub struct Group {
     pub layer: Layer,
     pub frame: Frame,
-    /// The element it shows (`r…`, `o…`); empty when none.
+    /// The id of the element it shows (`r…`, `o…`); empty if none.
     pub element: String,
-    /// What it shows, in words, for tooltips and screen readers; empty when nothing.
+    /// A description for tooltips and screen readers; empty if none.
     pub title: String,
     pub items: Vec<Item>,
 }
@@ -170,7 +170,7 @@ pub enum Item {
         holes: Vec<Vec<Point>>,
         colour: Rgba,
     },
-    /// A line through points. Joins are mitred; ends are cut off square at the last point.
+    /// A line through points. Joins are mitred; ends are butt caps.
     Line {
         points: Vec<Point>,
         closed: bool,
@@ -198,13 +198,13 @@ pub enum Item {
     Picture(PlacedPicture),
 }
 
-/// A picture at its place.
+/// A picture with its placement.
 #[derive(Clone, Debug)]
 pub struct PlacedPicture {
     pub levels: Arc<PictureLevels>,
-    /// Where its upper left, upper right and lower left corners lie, in the group's frame.
+    /// Its upper left, upper right and lower left corners, in the group's frame.
     pub corners: [Point; 3],
-    /// 0 invisible to 1 opaque.
+    /// From 0, invisible, to 1, opaque.
     pub opacity: f64,
 }
 
@@ -215,14 +215,14 @@ impl PartialEq for PlacedPicture {
 }
 
 impl PlacedPicture {
-    /// The point of the frame at a place of the picture, in pixels of its full size.
+    /// The point of the frame at a position in the picture, in pixels of its full size.
     pub fn at(&self, x_px: f64, y_px: f64) -> Point {
         let [width, height] = self.levels.size_px().map(f64::from);
         let [start, right, below] = self.corners;
         start + (right - start) * (x_px / width) + (below - start) * (y_px / height)
     }
 
-    /// The box around it.
+    /// Its bounding box.
     pub fn bounds(&self) -> Bounds {
         let [start, right, below] = self.corners;
         Bounds::of([start, right, below, right + (below - start)])
@@ -236,27 +236,27 @@ pub struct Dash {
     pub gap: Length,
 }
 
-/// A line of text. Its baseline is put on a whole physical pixel by the painters.
+/// A line of text. Painters put its baseline on a whole physical pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Text {
-    /// A point in the group's frame; the text's anchor is `offset_px` from it.
+    /// A point in the group's frame; the text's anchor is at an offset of `offset_px` from it.
     pub at: Point,
-    /// From `at` to the anchor on the baseline, logical pixels, x right and y down, also in the
-    /// plan's frame.
+    /// From `at` to the anchor on the baseline, in logical pixels, x right and y down, in the plan's
+    /// frame too.
     pub offset_px: Vector,
     pub content: String,
     /// Font size in logical pixels.
     pub size_px: f64,
     pub weight: Weight,
     pub colour: Rgba,
-    /// Painted as an outline behind the letters where the ground is uneven.
+    /// The colour of an outline behind the letters, for busy backgrounds.
     pub halo: Option<Rgba>,
     pub anchor: Anchor,
-    /// Turned a quarter to the left about its anchor: reads from bottom to top.
+    /// Turned 90 degrees to the left about its anchor: reads from bottom to top.
     pub upright: bool,
 }
 
-/// Which point of a text's baseline its position is.
+/// Which point of a text's baseline the anchor is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Anchor {
     Start,
@@ -271,8 +271,8 @@ pub enum Weight {
     SemiBold,
 }
 
-/// Points along a circular arc of at most half a turn, both ends included, for painters without
-/// arcs: `1 + 2^halvings` of them. Halves chords, so that no machine's sine decides a pixel.
+/// `1 + 2^halvings` points along a circular arc of at most half a turn, both ends included, for painters
+/// without arcs. Halves chords, so that no platform's sine function decides a pixel.
 pub fn arc_points(centre: Point, from: Point, to: Point, halvings: u32) -> Vec<Point> {
     let radius = from.distance(centre);
     let mut points = vec![from, to];
@@ -281,7 +281,7 @@ pub fn arc_points(centre: Point, from: Point, to: Point, halvings: u32) -> Vec<P
         for pair in points.windows(2) {
             finer.push(pair[0]);
             let bisector = (pair[0] - centre) + (pair[1] - centre);
-            // Half a turn has no bisector: take the left-hand way.
+            // Half a turn has no bisector: go left.
             let direction = bisector.unit().or_else(|| (pair[0] - centre).left().unit());
             finer.push(direction.map_or(centre, |direction| centre + direction * radius));
         }

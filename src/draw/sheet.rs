@@ -11,13 +11,13 @@ use crate::labels::{Label, normalised_function};
 /// The size of a page in pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PageSize {
-    /// The longer side; the other follows from the plan.
+    /// The longer side; the other depends on the plan.
     Longest(f64),
     /// Width and height.
     Exact(f64, f64),
 }
 
-/// What stands on a page beside the plan.
+/// What a page shows beside the plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Furniture {
     pub title: bool,
@@ -38,13 +38,13 @@ const SMALLEST_PAGE_PX: f64 = 320.0;
 /// A page whose longer side is shorter than this, in pixels, shows no names.
 const SMALLEST_NAMED_PAGE_PX: f64 = 200.0;
 
-/// The font size of title block and legend in pixels: it grows with the page, so that a picture made
-/// larger shows the same, finer.
+/// The font size of title and legend in pixels: it grows with the page, so that a larger picture shows
+/// the same in more detail.
 fn sheet_text_px(longest_px: f64) -> f64 {
     (longest_px / 130.0).clamp(11.0, 64.0)
 }
 
-/// The font size of rooms' names in pixels: where the rooms are large on the page the names are, too.
+/// The font size of room names in pixels: larger where rooms are large on the page.
 fn name_text_px(drawing: &Drawing, px_per_m: f64, sheet_text_px: f64) -> f64 {
     let mut sides_px: Vec<f64> = drawing.rooms.iter().map(|room| room.area_m2.sqrt() * px_per_m).collect();
     sides_px.sort_by(f64::total_cmp);
@@ -53,7 +53,7 @@ fn name_text_px(drawing: &Drawing, px_per_m: f64, sheet_text_px: f64) -> f64 {
     (median_px / 16.0).clamp(sheet_text_px, 1.5 * sheet_text_px).round()
 }
 
-/// The scene of a plan on a page. The page decides the size of text itself, not the style.
+/// The scene of a plan on a page. Text sizes come from the page, not the style.
 pub fn page(drawing: &Drawing, style: &Style, size: PageSize, furniture: Furniture) -> Scene {
     let longest = match size {
         PageSize::Longest(longest) => longest,
@@ -80,12 +80,12 @@ pub fn page(drawing: &Drawing, style: &Style, size: PageSize, furniture: Furnitu
         PageSize::Longest(longest) => {
             let height = (longest - 2.0 * margin) * plan_height / plan_width + top + bottom(longest);
             if height <= longest {
-                // A long low building still gets a page of a pleasant shape.
+                // A long narrow building still gets a page of reasonable proportions.
                 (longest, height.max(longest * 0.3).round())
             } else {
                 let narrow = |width: f64| (longest - top - bottom(width)) * plan_width / plan_height + 2.0 * margin;
                 let width = narrow(longest);
-                // The bands below may need more rows on the narrower page: once more with those.
+                // The bands below may need more rows on the narrower page: repeat with those.
                 let width = narrow(width.clamp(longest * 0.5, longest));
                 (width.clamp(longest * 0.5, longest).round(), longest)
             }
@@ -95,12 +95,12 @@ pub fn page(drawing: &Drawing, style: &Style, size: PageSize, furniture: Furnitu
     let bottom = bottom(width);
     let free = Bounds { min: Point::new(margin, top), max: Point::new(width - margin, height - bottom) };
     let fitted = View::fitting(bounds, free.width().max(1.0), free.height().max(1.0), 0.0);
-    // The middle of the free part of the page shows the middle of the plan.
+    // The middle of the page's free part shows the middle of the plan.
     let shift = Point::new(width / 2.0, height / 2.0) - free.center();
     let centre = fitted.centre + Vector::new(shift.x, -shift.y) * (1.0 / fitted.px_per_m);
     let view = View { width_px: width, height_px: height, centre, ..fitted };
 
-    // On a thumbnail names would be scraps.
+    // On a thumbnail names would be unreadable.
     let layers = if longest < SMALLEST_NAMED_PAGE_PX {
         Layers { names: false, areas: false, ..style.layers }
     } else {
@@ -109,7 +109,7 @@ pub fn page(drawing: &Drawing, style: &Style, size: PageSize, furniture: Furnitu
     let style = &Style { text_px: name_text_px(drawing, view.px_per_m, text), layers, ..style.clone() };
     let mut scene = drawing.scene(style, &view);
     if style.layers.grid {
-        // Under the plan alone, a little beyond it.
+        // Under the plan only, and a little beyond it.
         let beyond = bounds.inflated(margin / 2.0 / view.px_per_m);
         scene.groups.retain(|group| group.layer != Layer::Grid);
         let first = scene.groups.iter().take_while(|group| group.layer < Layer::Grid).count();
@@ -151,7 +151,7 @@ fn text_item(at: Point, content: String, size_px: f64, weight: Weight, colour: R
     })
 }
 
-/// A text cut off with an ellipsis where it is wider than `width_px`.
+/// A text cut with an ellipsis if it is wider than `width_px`.
 fn fitted_text(text: &str, weight: Weight, size_px: f64, width_px: f64) -> String {
     let font = Font::of(weight);
     if font.width_px(text, size_px) <= width_px {
@@ -170,7 +170,7 @@ fn fitted_text(text: &str, weight: Weight, size_px: f64, width_px: f64) -> Strin
     kept + "…"
 }
 
-/// The title and what stands below it, with weight and size as a factor of the text's.
+/// The title and the lines below it, each with its weight and relative size.
 fn title_lines(drawing: &Drawing) -> Vec<(String, Weight, f64)> {
     let meta = &drawing.meta;
     let name = [&meta.name, &meta.building].into_iter().map(|text| text.trim()).find(|text| !text.is_empty());
@@ -202,7 +202,7 @@ struct Entry {
     text: String,
 }
 
-/// What the fills mean, with the number of rooms of each.
+/// The meanings of the fills, with the number of rooms of each.
 fn legend_entries(drawing: &Drawing, style: &Style) -> Vec<Entry> {
     let palette = style.palette();
     match style.fill {
@@ -232,7 +232,7 @@ fn legend_entries(drawing: &Drawing, style: &Style) -> Vec<Entry> {
                     drawing.rooms.iter().filter(|room| normalised_function(&room.function) == *function).count();
                 counts.push((function.clone(), count));
             }
-            // The most frequent first; equals stay in alphabetical order.
+            // Most frequent first; ties stay alphabetical.
             counts.sort_by_key(|&(_, count)| std::cmp::Reverse(count));
             counts
                 .into_iter()
@@ -245,29 +245,29 @@ fn legend_entries(drawing: &Drawing, style: &Style) -> Vec<Entry> {
     }
 }
 
-/// Height of a row of the legend, of the scale bar with its figures, width of the bar's place, as
-/// factors of the text's size.
+/// Height of a legend row, height of the scale bar with its figures, and width reserved for the bar, as
+/// factors of the text size.
 const ROW: f64 = 1.7;
 const SCALE_HEIGHT: f64 = 2.4;
 const SCALE_WIDTH: f64 = 15.0;
 
-/// No legend has more rows; what is left over is counted in a last entry.
+/// The most rows in a legend; the rest is counted in a last entry.
 const MOST_ROWS: usize = 4;
 
-/// Width of an entry: its swatch, its text, the space to the next.
+/// Width of an entry: swatch, text, and the gap to the next.
 fn entry_width(entry: &str, text: f64) -> f64 {
     1.9 * text + Font::of(Weight::Regular).width_px(entry, text) + 1.5 * text
 }
 
-/// Where scale and legend stand below the plan: beside each other, or on a narrow page the legend above
-/// the scale.
+/// The layout of scale and legend below the plan: side by side, or on a narrow page the legend above the
+/// scale.
 struct Band {
     height: f64,
-    /// Left end of the legend.
+    /// Left edge of the legend.
     left: f64,
-    /// The legend's last line stands so far above the foot of the page.
+    /// Height of the legend's last line above the foot of the page.
     lift: f64,
-    /// The legend's entries, as indices, by row.
+    /// Indices of the legend's entries, row by row.
     rows: Vec<Vec<usize>>,
 }
 
@@ -275,7 +275,7 @@ impl Band {
     fn new(entries: &[Entry], width: f64, margin: f64, text: f64, has_scale: bool) -> Self {
         let scale_width = if has_scale { (SCALE_WIDTH + 5.5) * text } else { 0.0 };
         let scale_height = if has_scale { SCALE_HEIGHT * text } else { 0.0 };
-        // Room for an entry or two, or not.
+        // Whether there is room for an entry or two.
         let is_stacked = has_scale && !entries.is_empty() && width - 2.0 * margin - scale_width < 22.0 * text;
         let left = if is_stacked { margin } else { margin + scale_width };
         let rows = legend_rows(entries, width - margin - left, text);
@@ -289,12 +289,12 @@ impl Band {
     }
 }
 
-/// The entries' indices by row.
+/// The entries' indices, row by row.
 fn legend_rows(entries: &[Entry], free: f64, text: f64) -> Vec<Vec<usize>> {
     let mut rows: Vec<Vec<usize>> = Vec::new();
     let mut used = f64::INFINITY;
     for (i, entry) in entries.iter().enumerate() {
-        // The space behind the last of a row may run over.
+        // The gap after the last entry of a row may run over.
         let needed = entry_width(&entry.text, text);
         if used + needed - 1.5 * text > free {
             if rows.len() == MOST_ROWS {
@@ -311,7 +311,7 @@ fn legend_rows(entries: &[Entry], free: f64, text: f64) -> Vec<Vec<usize>> {
     rows
 }
 
-/// The legend, flush right, or from the left where it stands above the scale.
+/// The legend: right-aligned, or left-aligned if above the scale.
 fn legend(palette: &Palette, entries: &[Entry], band: &Band, right: f64, foot: f64, text: f64) -> Vec<Item> {
     let rows = &band.rows;
     let shown: usize = rows.iter().map(Vec::len).sum();
@@ -361,10 +361,10 @@ fn legend(palette: &Palette, entries: &[Entry], band: &Band, right: f64, foot: f
     items
 }
 
-/// A round length in metres, 1, 2 or 5 times a power of ten, that is at most `longest_px` long.
+/// A round length in metres (1, 2 or 5 times a power of ten) that is at most `longest_px` long.
 pub fn scale_bar_m(px_per_m: f64, longest_px: f64) -> f64 {
     let longest_m = longest_px / px_per_m;
-    // From 1 cm to 500 km: any view there can be.
+    // From 1 cm to 500 km: covers any possible view.
     let mut best = 0.01;
     let mut decade = 0.01;
     for _ in 0..8 {
@@ -378,7 +378,7 @@ pub fn scale_bar_m(px_per_m: f64, longest_px: f64) -> f64 {
     best
 }
 
-/// A bar in four pieces, half of them filled, with figures above; `foot` is its lower left corner.
+/// A bar in four pieces, every other one filled, with figures above; `foot` is its lower left corner.
 fn scale_bar(palette: &Palette, view: &View, foot: Point, text: f64) -> Vec<Item> {
     let length_m = scale_bar_m(view.px_per_m, (SCALE_WIDTH - 2.5) * text);
     let length = length_m * view.px_per_m;
@@ -421,8 +421,7 @@ fn plain_number(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// An arrow to where the plan's y axis points, which plans take for north; `foot` is the middle of its
-/// lower end.
+/// An arrow along the plan's y axis, taken as north; `foot` is the middle of its lower end.
 fn north_arrow(palette: &Palette, foot: Point, text: f64) -> Vec<Item> {
     let height = 1.35 * text;
     let half = 0.42 * text;

@@ -7,32 +7,32 @@ pub struct Style {
     pub theme: Theme,
     pub label_colours: LabelColours,
     pub fill: Fill,
-    /// Opacity of the rooms' fills, 0 to 1: below 1 where a backdrop lies beneath.
+    /// Opacity of the rooms' fills, 0 to 1: below 1 over a backdrop.
     pub fill_opacity: f64,
-    /// Whether text gets a halo: where a backdrop lies beneath.
+    /// Whether text gets a halo: over a backdrop.
     pub halo: bool,
-    /// Font size of rooms' names in logical pixels where there is space; in tight rooms it shrinks,
-    /// never below [`SMALLEST_TEXT_PX`].
+    /// Font size of room names in logical pixels, if there is space; it shrinks in tight rooms, but never
+    /// below [`SMALLEST_TEXT_PX`].
     pub text_px: f64,
-    /// In which areas are written.
+    /// The units in which areas are shown.
     pub units: Units,
-    /// Distance of the grid's lines in metres; `None` chooses it by the zoom.
+    /// Spacing of the grid in metres; `None` chooses it by the zoom.
     pub grid_m: Option<f64>,
     pub layers: Layers,
 }
 
-/// No text is drawn smaller, in logical pixels: what does not fit at this size is left out.
+/// The smallest text, in logical pixels: what does not fit at this size is omitted.
 pub const SMALLEST_TEXT_PX: f64 = 9.0;
 
-/// Lines of the grid are at least so many pixels apart.
+/// Minimum spacing of grid lines, in pixels.
 const CLOSEST_GRID_PX: f64 = 12.0;
 
-/// The lines of the grid at a zoom.
+/// The grid lines at a zoom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
-    /// Distance of the lines in metres.
+    /// Spacing of the lines in metres.
     pub step_m: f64,
-    /// Each of so many is a stronger one.
+    /// Every this many lines, one is stronger.
     pub lines: i64,
 }
 
@@ -42,7 +42,8 @@ pub enum Fill {
     #[default]
     Label,
     Function,
-    /// The label that a classifier predicts; where a known label is another, its colour rims the room.
+    /// The label predicted by a classifier; if the known label differs, the room gets a rim in its
+    /// colour.
     Prediction,
     None,
 }
@@ -50,7 +51,7 @@ pub enum Fill {
 impl Fill {
     pub const ALL: [Self; 4] = [Self::Label, Self::Function, Self::Prediction, Self::None];
 
-    /// The word for the command line and for people.
+    /// Its name on the command line and in the interface.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Label => "label",
@@ -69,9 +70,9 @@ pub struct Layers {
     pub walls: bool,
     pub openings: bool,
     pub graph: bool,
-    /// Rooms' names, or their functions where they have none.
+    /// Room names, or functions for rooms without a name.
     pub names: bool,
-    /// Rooms' areas, below the names.
+    /// Room areas, below the names.
     pub areas: bool,
 }
 
@@ -102,8 +103,8 @@ impl Style {
         Palette::of(self.theme, self.label_colours)
     }
 
-    /// The grid's lines at a zoom; `None` where they would be too close. Of a set distance, where that is
-    /// too close, every tenth line.
+    /// The grid lines at a zoom; `None` if they would be too close. If a fixed spacing is too close,
+    /// every tenth line.
     pub fn grid(&self, px_per_m: f64) -> Option<Grid> {
         let step = |step_m: f64, lines: i64| Grid { step_m, lines };
         let steps = match (self.grid_m, self.units) {

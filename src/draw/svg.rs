@@ -1,5 +1,5 @@
-//! A scene as SVG: real text, one group a room and an opening with its id and a title, numbers no
-//! longer than they need be. The same bytes for the same scene.
+//! Renders a scene to SVG: real text, one group with id and title per room and opening, numbers as short
+//! as possible. The same scene always gives the same bytes.
 
 use crate::picture::png::encode_level;
 use std::fmt::Write as _;
@@ -10,10 +10,10 @@ use super::Rgba;
 use super::scene::{Anchor, Dash, Frame, Group, Item, Layer, Length, PlacedPicture, Scene, Text, View, Weight};
 use crate::geometry::Point;
 
-/// The fonts to look for: the bundled one, then what is metrically near.
+/// The font fallbacks: the bundled one, then metrically similar ones.
 const FONTS: &str = "Inter,'Helvetica Neue',Helvetica,Arial,sans-serif";
 
-/// The scene as an SVG document.
+/// Renders the scene to an SVG document.
 pub fn svg(scene: &Scene) -> String {
     let view = &scene.view;
     let (width, height) = (number(view.width_px), number(view.height_px));
@@ -42,7 +42,7 @@ pub fn svg(scene: &Scene) -> String {
 fn write_group(out: &mut String, view: &View, group: &Group) {
     let named = !group.element.is_empty();
     if named {
-        // A room has a group in two layers: the name's says whose it is.
+        // A room has groups in two layers: that of the name refers to the room.
         let attribute = if group.layer == Layer::Names { "data-room" } else { "id" };
         let _ = write!(out, "<g {attribute}=\"{}\">", escaped(&group.element));
         if !group.title.is_empty() {
@@ -115,7 +115,7 @@ fn write_item(out: &mut String, view: &View, frame: Frame, item: &Item) {
     };
 }
 
-/// A picture, within the file: twice as fine as the page shows it, so that zooming in pays.
+/// A picture, embedded: at twice the page's resolution, so that zooming in shows more detail.
 fn write_picture(
     out: &mut String,
     view: &View,
@@ -135,7 +135,7 @@ fn write_picture(
         "<image width=\"{}\" height=\"{}\" transform=\"matrix({} {} {} {} {} {})\"{} href=\"data:image/png;base64,{}\"/>",
         level.width_px,
         level.height_px,
-        // A matrix needs more digits than a place: it is multiplied by thousands of pixels.
+        // A matrix needs more digits than a position: it is multiplied by thousands of pixels.
         fine_number(x_way.x),
         fine_number(x_way.y),
         fine_number(y_way.x),
@@ -177,7 +177,7 @@ fn write_text(out: &mut String, at: Point, text: &Text) -> std::fmt::Result {
     )
 }
 
-/// `M` and the points, spaces between; each number to a hundredth of a pixel.
+/// `M` and the points, separated by spaces, each number to a hundredth of a pixel.
 fn push_points(data: &mut String, points: impl Iterator<Item = Point>) {
     for (i, point) in points.enumerate() {
         data.push_str(match i {
@@ -226,7 +226,7 @@ fn fine_number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// Text for XML 1.0: markup escaped, characters it does not allow replaced.
+/// Text for XML 1.0: markup escaped, disallowed characters replaced.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for character in text.chars() {

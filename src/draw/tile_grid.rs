@@ -1,4 +1,4 @@
-//! The squares that a large plan is cut into.
+//! The grid of tiles a large plan is cut into.
 
 use crate::geometry::{Bounds, Point, Vector};
 
@@ -11,25 +11,25 @@ pub(super) struct TileGrid {
     rows: usize,
 }
 
-/// A plan with fewer rooms, walls and openings is a single tile.
+/// A plan with fewer rooms, walls and openings than this is a single tile.
 const LEAST_ELEMENTS: usize = 6000;
 
-/// Rooms, walls and openings in a tile, about.
+/// Rooms, walls and openings per tile, roughly.
 const ELEMENTS_A_TILE: f64 = 160.0;
 
-/// No more tiles than this side by side.
+/// The most tiles in a row or column.
 const MOST_IN_LINE: f64 = 128.0;
 
-/// Tiles start this far outside of the plan and no wall is likely to stand on a border: coordinates of
-/// plans are round numbers, these are not.
+/// How far outside the plan the tiles start, chosen so that a wall is unlikely to lie on a border:
+/// coordinates of plans are round numbers, these are not.
 const OFF_GRID_M: Vector = Vector { x: 0.137_035_99, y: 0.160_217_66 };
 
-/// Points closer than this to a border, in metres, are on it: the raster of the polygon library is finer
-/// in any building.
+/// Points closer than this to a border, in metres, are on it: the polygon library's raster is finer than
+/// this for any building.
 const ON_BORDER_M: f64 = 1e-4;
 
 impl TileGrid {
-    /// The tiles of a plan of this extent; `None` where it is too small to be cut.
+    /// The tiles of a plan with these bounds; `None` if it is too small to be cut.
     pub fn of(bounds: Bounds, elements: usize) -> Option<Self> {
         if elements < LEAST_ELEMENTS || bounds.is_empty() {
             return None;
@@ -54,21 +54,21 @@ impl TileGrid {
         (((y - self.origin.y) / self.side_m).floor().max(0.0) as usize).min(self.rows - 1)
     }
 
-    /// The tile a point is in; what lies outside belongs to the nearest.
+    /// The tile containing a point; outside points belong to the nearest tile.
     pub fn at(&self, point: Point) -> usize {
         self.row(point.y) * self.columns + self.column(point.x)
     }
 
-    /// The tiles a box meets.
+    /// The tiles that meet a box.
     pub fn meeting(&self, bounds: Bounds) -> impl Iterator<Item = usize> + '_ {
         let (left, right) = (self.column(bounds.min.x), self.column(bounds.max.x));
         let end = if bounds.is_empty() { 0 } else { self.row(bounds.max.y) + 1 };
         (self.row(bounds.min.y)..end).flat_map(move |row| (left..=right).map(move |column| row * self.columns + column))
     }
 
-    /// The square itself. Those at the rim reach as far as anything is drawn.
+    /// The square itself. Outer tiles extend as far as anything is drawn.
     pub fn bounds(&self, tile: usize) -> Bounds {
-        // A hundred kilometres, the whole drawing area.
+        // 100 km: the whole drawing area.
         const FAR_M: f64 = 1e5;
         let (column, row) = (tile % self.columns, tile / self.columns);
         let low = |index: usize, start: f64| start + index as f64 * self.side_m;
@@ -83,7 +83,7 @@ impl TileGrid {
         }
     }
 
-    /// Whether a piece of a polygon's boundary is where the polygon was cut.
+    /// Whether a piece of a polygon's boundary is a cut between tiles.
     pub fn is_cut(&self, a: Point, b: Point) -> bool {
         let on = |p: f64, q: f64, start: f64| {
             let border = start + ((p - start) / self.side_m).round() * self.side_m;

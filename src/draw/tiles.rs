@@ -9,24 +9,24 @@ use crate::geometry::{Bounds, Segment};
 pub(super) struct Tiles {
     pub grid: TileGrid,
     pub all: Vec<Tile>,
-    /// One more than the highest level of a room.
+    /// The number of room levels: one more than the highest.
     pub levels: usize,
 }
 
-/// What is drawn in a tile: indices into the drawing's lists. Rooms, openings and ways belong to the tile
-/// they have their middle in, walls are cut.
+/// What is drawn in a tile: indices into the drawing's lists. Rooms, openings and connections belong to
+/// the tile of their middle; walls are cut.
 pub(super) struct Tile {
-    /// The box of all that is in it, which may be larger than the tile.
+    /// The bounding box of its contents, which may be larger than the tile.
     pub bounds: Bounds,
-    /// Rooms in the order of painting, by level: those of a level are painted in all tiles before those
-    /// of the next.
+    /// Rooms in painting order, by level: those of one level are painted in all tiles before those of the
+    /// next.
     pub rooms: Vec<Vec<usize>>,
     pub walls: Vec<usize>,
     pub wall_lines: Vec<usize>,
     pub boundaries: Vec<usize>,
     pub openings: Vec<usize>,
     pub graph: Vec<usize>,
-    /// The drawn walls' axes with their thickness in metres, for a view from afar.
+    /// The axes of the drawn walls and their thickness in metres, for a view from afar.
     pub axes: Vec<(Segment, f64)>,
 }
 
@@ -45,7 +45,7 @@ impl Tile {
     }
 }
 
-/// What is put into tiles.
+/// The contents to distribute over tiles.
 pub(super) struct Contents<'a> {
     pub rooms: &'a [RoomDrawing],
     /// Pieces of wall, each with its tile.
@@ -65,7 +65,7 @@ impl Tiles {
         let home: Vec<usize> = rooms.iter().map(|room| grid.at(room.bounds.center())).collect();
         let mut order: Vec<usize> = (0..rooms.len()).filter(|&room| !rooms[room].outer.is_empty()).collect();
         order.sort_by(|&p, &q| painting_order(rooms, p, q));
-        // A room over one of another tile is painted when that tile's is.
+        // A room over one of another tile must be painted after it, at a higher level.
         let mut level = vec![0; rooms.len()];
         for &room in &order {
             for &above in &rooms[room].above {

@@ -1,6 +1,5 @@
-//! The cut through the walls: the area an architect fills black. Drawn walls are joined with mitres;
-//! rooms of an import that came without walls get walls along their boundaries, so that the building
-//! reads as one.
+//! The walls in section: the area an architect fills black. Drawn walls are joined with mitres; imported
+//! rooms without walls get walls along their boundaries, so that the building reads as a whole.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,42 +19,42 @@ use crate::geometry::areas::{self, Ring, SHARPEST_RAD, Shapes, area_m2, cleaned,
 use crate::geometry::{Bounds, Point, Segment, Vector, polygon};
 use crate::plan::{CornerId, Plan, THICKEST_WALL_M, WallId};
 
-/// The walls of a plan before openings are cut.
+/// The walls of a plan before openings are cut out.
 pub(super) struct Walls {
     /// Tile by tile; without tiles, all in one.
     pub solid: Vec<Shapes>,
     /// Walls without thickness.
     pub lines: Vec<Segment>,
-    /// Where rooms end and no wall stands.
+    /// Boundaries of rooms without a wall.
     pub boundaries: Vec<Segment>,
-    /// The rooms, by index, that came without walls.
+    /// Indices of the rooms that came without walls.
     pub unwalled: Vec<usize>,
     /// So many walls and rooms' boundaries are a tangle, and drawn as lines.
     pub tangled: usize,
 }
 
-/// Half the thickness in metres of the wall drawn along a boundary that came without walls: a light
-/// partition of 0.1 m, so that where rooms meet on the wall's centre line little of them is covered.
+/// Half the thickness in metres of the wall drawn along a boundary that came without walls: that of a
+/// light partition, 0.1 m, which covers little of rooms that meet on the wall's centre line.
 const HALF_PARTITION_M: f64 = 0.05;
 
-/// How far the outermost wall of an import reaches beyond its rooms, in metres, where rooms meet on
+/// How far the outermost wall of an import extends beyond its rooms, in metres: where rooms meet on
 /// centre lines, and where they are drawn to the walls' faces.
 const OUTER_WALL_M: [f64; 2] = [0.10, 0.25];
 
-/// Sides of a room of usual size in metres: imports whose median room is far from it have a doubtful
-/// scale (`data`: the median classroom of a school ranges from 24 to 255 m²), and their walls
-/// are drawn as much thicker or thinner as the rooms are larger or smaller, within limits.
+/// The side of a room of usual size in metres. Imports whose median room is far from it have a doubtful
+/// scale (in the paper's data the median classroom of a school ranges from 24 to 255 m²), so their walls
+/// are drawn thicker or thinner in proportion, within limits.
 const USUAL_ROOM_M: f64 = 3.0;
 
 impl Walls {
-    /// The walls of a plan, cut where tiles meet.
+    /// The walls of a plan, cut at tile borders.
     pub fn new(plan: &Plan, rooms: &[RoomDrawing], grid: Option<&TileGrid>) -> Self {
         let mut index = WallIndex::new(plan);
         let mut boundaries = Vec::new();
         let mut unwalled = Vec::new();
         for (i, room) in rooms.iter().enumerate() {
             let open = index.uncovered(room);
-            // Touched by no wall anywhere: it came without walls.
+            // Not touched by any wall: the room came without walls.
             if open.whole && !room.outer.is_empty() {
                 unwalled.push(i);
             } else {
@@ -101,7 +100,7 @@ fn tangled_rooms(rooms: &[RoomDrawing], unwalled: &mut Vec<usize>) -> Vec<Segmen
     rooms.into_iter().flat_map(edges_of).collect()
 }
 
-/// Counter-clockwise rings as polygons cut where tiles meet, tile by tile.
+/// Counter-clockwise rings as polygons cut at tile borders, tile by tile.
 fn in_tiles(rings: Vec<Ring>, grid: &TileGrid) -> Vec<Shapes> {
     by_tile(rings, grid)
         .into_iter()
@@ -110,7 +109,7 @@ fn in_tiles(rings: Vec<Ring>, grid: &TileGrid) -> Vec<Shapes> {
             if rings.is_empty() {
                 return Shapes::new();
             }
-            // No larger than what is cut: the polygon library works on a raster over everything it is given.
+            // No larger than what is cut: the polygon library's raster spans everything it is given.
             let around = rings.iter().flatten().fold(Bounds::EMPTY, |box_m, &[x, y]| box_m.with(Point::new(x, y)));
             let (tile, around) = (grid.bounds(tile), around.inflated(1.0));
             let (left, right) = (tile.min.x.max(around.min.x), tile.max.x.min(around.max.x));
@@ -121,7 +120,8 @@ fn in_tiles(rings: Vec<Ring>, grid: &TileGrid) -> Vec<Shapes> {
         .collect()
 }
 
-/// Rings by the tiles their boxes meet: what winds around no point of a tile's matters not there.
+/// Rings by the tiles their bounding boxes meet: a ring that winds around no point of a tile does not
+/// matter there.
 fn by_tile(rings: Vec<Ring>, grid: &TileGrid) -> Vec<Vec<Ring>> {
     let mut tiles: Vec<Vec<Ring>> = vec![Vec::new(); grid.count()];
     for ring in rings {
@@ -150,7 +150,7 @@ fn lies_beside(ring: &Ring, box_m: Bounds) -> bool {
     })
 }
 
-/// Walls, tile by tile, less the given counter-clockwise rings.
+/// Walls, tile by tile, minus the given counter-clockwise rings.
 pub(super) fn without(solid: Vec<Shapes>, cuts: Vec<Ring>, grid: Option<&TileGrid>) -> Vec<Shapes> {
     let cuts = match grid {
         None => vec![cuts],
@@ -159,7 +159,7 @@ pub(super) fn without(solid: Vec<Shapes>, cuts: Vec<Ring>, grid: Option<&TileGri
     solid.into_iter().zip(cuts).map(|(shapes, cuts)| areas::without(shapes, &cuts)).collect()
 }
 
-/// The drawn walls by place.
+/// A spatial index of the drawn walls.
 struct WallIndex {
     tree: RTree<GeomWithData<Line<[f64; 2]>, f64>>,
     /// Walls without thickness, and those of a tangle.
@@ -167,7 +167,7 @@ struct WallIndex {
     tangled: BTreeSet<WallId>,
 }
 
-/// The pieces of a room's boundary that no wall covers.
+/// The parts of a room's boundary not covered by walls.
 struct Uncovered {
     pieces: Vec<Segment>,
     whole: bool,
@@ -197,8 +197,8 @@ impl WallIndex {
         Self { tree: RTree::bulk_load(entries), lines, tangled }
     }
 
-    /// A rectangle for each wall, and at each corner the mitre that closes the joint on its outer
-    /// side. Together, by the non-zero rule, they are the walls.
+    /// A rectangle for each wall, and at each corner the mitre that closes the joint on its outer side.
+    /// Together, under the non-zero rule, they are the walls.
     fn rings(&self, plan: &Plan) -> Vec<Ring> {
         let mut rings = Vec::new();
         let mut ends: BTreeMap<CornerId, Vec<(Vector, f64)>> = BTreeMap::new();
@@ -223,14 +223,14 @@ impl WallIndex {
         rings
     }
 
-    /// The pieces of a room's boundary that lie on no wall.
+    /// The parts of a room's boundary that lie on no wall.
     fn uncovered(&self, room: &RoomDrawing) -> Uncovered {
         let mut uncovered = Uncovered { pieces: Vec::new(), whole: true };
         for edge in room.rings().flat_map(|ring| polygon::edges(ring)) {
             let length = edge.length();
             let Some(along) = edge.vector().unit() else { continue };
             let mut covered: Vec<(f64, f64)> = Vec::new();
-            // Within a wall's thickness, and at most the thickest plausible wall's half away.
+            // Within a wall's thickness, and at most half the thickest plausible wall away.
             let bounds = edge.bounds().inflated(THICKEST_WALL_M);
             let near = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
             for wall in self.tree.locate_in_envelope_intersecting(near) {
@@ -258,15 +258,15 @@ impl WallIndex {
 /// A boundary counts as lying on a wall up to this distance from its faces, in metres.
 const COVER_TOLERANCE_M: f64 = 0.02;
 
-/// Pieces of a boundary shorter than this are what is left between walls that nearly meet.
+/// Shorter pieces of a boundary are remnants between walls that nearly meet.
 const SHORTEST_BOUNDARY_M: f64 = 0.05;
 
-/// The stretch of `edge`, as distances from its start, that lies within `reach` of the axis of a
-/// wall, its ends included.
+/// The stretch of `edge`, as distances from its start, within `reach` of the axis of a wall, ends
+/// included.
 fn stretch_within(edge: Segment, along: Vector, length: f64, axis: Segment, reach: f64) -> Option<(f64, f64)> {
     let axis_along = axis.vector().unit()?;
     let offset = edge.a - axis.a;
-    // Both the distance from the axis and the place along it are linear in the place on the edge.
+    // Both the distance from the axis and the position along it are linear in the position on the edge.
     let (from, to) = linear_within(axis_along.cross(offset), axis_along.cross(along), -reach, reach, length)?;
     let (place, rate) = (axis_along.dot(offset), axis_along.dot(along));
     let (first, last) = linear_within(place, rate, -reach, axis.length() + reach, length)?;
@@ -290,8 +290,8 @@ fn rectangle(segment: Segment, half: f64) -> Ring {
     ring(&[segment.a - left, segment.b - left, segment.b + left, segment.a + left])
 }
 
-/// What closes the joint between two walls that leave `at` along `a` and `b`, `b` next
-/// counter-clockwise after `a`: nothing unless the angle between them is more than half a turn.
+/// The piece that closes the joint between two walls leaving `at` along `a` and `b`, where `b` is next
+/// counter-clockwise after `a`; `None` unless the angle between them is more than half a turn.
 fn mitre(at: Point, (a, half_a): (Vector, f64), (b, half_b): (Vector, f64)) -> Option<Ring> {
     // Left of a, right of b: the faces on the far side of the joint.
     let (face_a, face_b) = (at + a.left() * half_a, at - b.left() * half_b);
@@ -299,7 +299,7 @@ fn mitre(at: Point, (a, half_a): (Vector, f64), (b, half_b): (Vector, f64)) -> O
     if turn >= -1e-9 {
         return None;
     }
-    // Where the two faces' lines meet.
+    // Where the lines of the two faces meet.
     let tip = face_a + a * ((face_b - face_a).cross(b) / turn);
     let corner = if at.distance(tip) <= MITRE_LIMIT * half_a.max(half_b) {
         ring(&[at, face_a, tip, face_b])
@@ -309,10 +309,10 @@ fn mitre(at: Point, (a, half_a): (Vector, f64), (b, half_b): (Vector, f64)) -> O
     Some(corner)
 }
 
-/// A joint sharper than this many half thicknesses is cut off, as in SVG's `stroke-miterlimit`.
+/// A joint sharper than this many half thicknesses is cut off, as with SVG's `stroke-miterlimit`.
 const MITRE_LIMIT: f64 = 4.0;
 
-/// Walls made up for rooms that came without any.
+/// Walls generated for rooms that came without any.
 struct Derived {
     solid: Shapes,
     railings: Vec<Segment>,
@@ -339,7 +339,7 @@ impl Derived {
         let scale = (median_m2.sqrt() / USUAL_ROOM_M).clamp(0.5, 1.5);
 
         let rooms_area = cleaned(&indoors.simplify_shape(FillRule::NonZero));
-        // Closing (grown, then shrunk by the same) fills what is narrower than the thickest wall:
+        // Morphological closing (grow, then shrink back) fills gaps narrower than the thickest wall:
         // between rooms, and between them and balconies.
         let reach = THICKEST_DRAWN_M / 2.0 * scale.min(1.0);
         let closed = |shapes: &Shapes| grown(&grown(shapes, reach), -reach);
@@ -354,16 +354,16 @@ impl Derived {
                 FillRule::NonZero,
             )
         };
-        // Rooms drawn to the faces of walls leave much of the building to walls; rooms that meet on
-        // centre lines leave none.
+        // Rooms drawn to the walls' faces leave gaps throughout the building; rooms that meet on centre
+        // lines leave none.
         let (gaps_m2, length_m) = (area_m2(&gaps), indoors.iter().map(|ring| polygon::perimeter(&points(ring))).sum());
         let to_faces = gaps_m2 > SHARE_OF_FACES_M * f64::max(length_m, 1.0);
         let outer = OUTER_WALL_M[usize::from(to_faces)] * scale;
         let shell = grown(&building, outer).overlay(&building, OverlayRule::Difference, FillRule::NonZero);
         let partitions = indoors
             .stroke(StrokeStyle::new(2.0 * HALF_PARTITION_M * scale).line_join(LineJoin::Miter(SHARPEST_RAD)), true);
-        // Where neighbours were drawn over each other by less than a wall, the wall is: what is covered
-        // twice but not once, less what is wide (a room drawn within another).
+        // Where neighbours overlap by less than a wall, there is a wall: the area covered twice, minus
+        // wide parts (a room drawn inside another).
         let overlaps =
             rooms_area.overlay(&indoors.simplify_shape(FillRule::EvenOdd), OverlayRule::Difference, FillRule::NonZero);
         let wide = grown(&grown(&cleaned(&overlaps), -reach), reach);
@@ -380,26 +380,25 @@ impl Derived {
     }
 }
 
-/// Gaps between rooms of an import up to this width in metres are drawn as walls: a little more than
-/// [`crate::plan::THICKEST_WALL_M`], for the masonry of old buildings with both its plasters.
+/// Gaps between imported rooms up to this width in metres are drawn as walls: a little more than
+/// [`crate::plan::THICKEST_WALL_M`], for the masonry of old buildings with plaster on both sides.
 const THICKEST_DRAWN_M: f64 = 0.75;
 
-/// A made-up piece of wall of less than this, in m², that stands alone is a remnant between rooms drawn
-/// askew.
+/// A smaller isolated piece of generated wall, in m², is a remnant between rooms drawn askew.
 const SMALLEST_PIECE_M2: f64 = 0.2;
 
-/// Gaps between rooms amount to this many metres of thickness along all boundaries when rooms are
-/// drawn to the walls' faces: each side of a wall of 0.1 m has half of it, and part of the boundaries
-/// is on the outside.
+/// Gaps between rooms amount to this thickness in metres along all boundaries when rooms are drawn to the
+/// walls' faces: each side of a wall of 0.1 m gets half of it, and part of the boundaries is on the
+/// outside.
 const SHARE_OF_FACES_M: f64 = 0.03;
 
-/// The faces of solid walls by place, to look along rays.
+/// A spatial index of the faces of solid walls, for ray casting.
 pub(super) struct Faces {
     tree: RTree<Line<[f64; 2]>>,
 }
 
 impl Faces {
-    /// The faces of walls, tile by tile; where a tile cuts a wall is none.
+    /// The faces of walls, tile by tile, without the cuts between tiles.
     pub fn new(solid: &[Shapes], grid: Option<&TileGrid>) -> Self {
         let mut lines = Vec::new();
         for ring in solid.iter().flatten().flatten() {
@@ -414,9 +413,9 @@ impl Faces {
         Self { tree: RTree::bulk_load(lines) }
     }
 
-    /// Where the line through `origin` along the unit vector `direction` meets faces within
-    /// `-back..=ahead` metres: distances in order, and whether it enters a wall there (else it leaves
-    /// one).
+    /// Where the line through `origin` along the unit vector `direction` crosses faces within
+    /// `-back..=ahead` metres: distances in order, and whether it enters a wall there (otherwise it
+    /// leaves one).
     fn crossings(&self, origin: Point, direction: Vector, back: f64, ahead: f64) -> Vec<(f64, bool)> {
         let bounds = Segment::new(origin - direction * back, origin + direction * ahead).bounds();
         let near = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
@@ -424,14 +423,14 @@ impl Faces {
         for line in self.tree.locate_in_envelope_intersecting(near) {
             let (a, b) = (Point::new(line.from[0], line.from[1]), Point::new(line.to[0], line.to[1]));
             let (side_a, side_b) = (direction.cross(a - origin), direction.cross(b - origin));
-            // Half open, so that a line through a shared end crosses once.
+            // Half-open, so that a line through a shared end crosses once.
             if (side_a > 0.0) == (side_b > 0.0) {
                 continue;
             }
             let at = a.lerp(b, side_a / (side_a - side_b));
             let distance = (at - origin).dot(direction);
             if (-back..=ahead).contains(&distance) {
-                // A wall lies to the left of its faces.
+                // A wall is to the left of its faces.
                 found.push((distance, side_a > side_b));
             }
         }
@@ -439,8 +438,8 @@ impl Faces {
         found
     }
 
-    /// The wall that stands at or nearest to `origin` along the unit vector `direction`, within
-    /// `reach` metres of it: from where to where.
+    /// The extent of the wall at or nearest to `origin` along the unit vector `direction`, within `reach`
+    /// metres.
     pub fn wall_at(&self, origin: Point, direction: Vector, reach: f64) -> Option<(f64, f64)> {
         let far = reach + THICKEST_WALL_M;
         let crossings = self.crossings(origin, direction, far, far);
@@ -458,14 +457,14 @@ impl Faces {
         best.map(|(_, wall)| wall)
     }
 
-    /// How far one sees from `origin`, which is in the open, along the unit vector `direction`, at
+    /// The free distance from `origin`, which is not in a wall, along the unit vector `direction`, at
     /// most `reach` metres.
     pub fn free(&self, origin: Point, direction: Vector, reach: f64) -> f64 {
         self.crossings(origin, direction, 0.0, reach).first().map_or(reach, |&(distance, _)| distance)
     }
 
-    /// The stretch without walls at or nearest to `origin` along the unit vector `direction`, looked for
-    /// within `reach` metres both ways; `None` where all is wall.
+    /// The stretch without walls at or nearest to `origin` along the unit vector `direction`, within
+    /// `reach` metres both ways; `None` if all is wall.
     pub fn open_at(&self, origin: Point, direction: Vector, reach: f64) -> Option<(f64, f64)> {
         let crossings = self.crossings(origin, direction, reach, reach);
         let mut stretches = Vec::new();

@@ -1,4 +1,4 @@
-//! Edits of whichever rooms lie at a place.
+//! Edits of the rooms at a given place.
 
 use crate::edit::{EditError, split_room};
 use crate::geometry::{
@@ -8,11 +8,11 @@ use crate::geometry::{
 use crate::plan::{Plan, RoomId};
 use crate::topology::{RoomShape, RoomShapes};
 
-/// Divides every room that a path crosses from boundary to boundary, without walls; see [`split_room`].
-/// Gives the plan and the new rooms.
+/// Splits every room that a path crosses from boundary to boundary, without adding walls; see
+/// [`split_room`]. Returns the plan and the new rooms.
 ///
 /// # Errors
-/// When it crosses none.
+/// When it crosses no room.
 pub fn split_rooms(plan: &Plan, path: &[Point]) -> Result<(Plan, Vec<RoomId>), EditError> {
     let shapes = RoomShapes::new(plan);
     let near = shapes.near(Bounds::of(path.iter().copied()));
@@ -36,17 +36,16 @@ pub struct Across {
     pub room: RoomId,
     /// From boundary to boundary, in metres.
     pub line: Segment,
-    /// The areas of the two parts in m², the left of the line first; `None` when it ends at a hole and
-    /// divides nothing.
+    /// The areas of the two parts in m², the one left of the line first; `None` if the line ends at a
+    /// hole and splits nothing.
     pub areas_m2: Option<[f64; 2]>,
 }
 
-/// The line straight across a room that a person means who points at its boundary, or into it: at right
-/// angles to the piece of boundary nearest to `pointer`, through the point `through` that the place
-/// snapped to, from boundary to boundary.
+/// The line straight across a room for a pointer at or inside its boundary: perpendicular to the piece of
+/// boundary nearest to `pointer`, through the snapped point `through`, from boundary to boundary.
 ///
-/// The room is the smallest one around the pointer; where there is none, the one whose boundary is
-/// nearest, within `reach_m`.
+/// The room is the smallest one around the pointer or, if there is none, the one with the nearest
+/// boundary within `reach_m`.
 pub fn straight_across(shapes: &RoomShapes, pointer: Point, through: Point, reach_m: f64) -> Option<Across> {
     let edges = |shape: &RoomShape| -> Vec<Segment> {
         let all = shape.rings().flat_map(|ring| polygon::edges(ring)).filter(|edge| edge.length() > TOUCH_M);
@@ -63,7 +62,7 @@ pub fn straight_across(shapes: &RoomShapes, pointer: Point, through: Point, reac
     let shape = around.or_else(near)?;
     let nearest = edges(shape).into_iter().min_by(|p, q| p.distance(pointer).total_cmp(&q.distance(pointer)))?;
     let way = nearest.vector().left().unit()?;
-    // From outside the room through all of it; of its stretches inside, the one at the pointer.
+    // A line from outside through the whole room; of its stretches inside, take the one at the pointer.
     let bounds = shape.bounds.union(Bounds::of([through]));
     let reach_m = bounds.width() + bounds.height() + 1.0;
     let origin = through + way * -reach_m;
@@ -78,10 +77,10 @@ pub fn straight_across(shapes: &RoomShapes, pointer: Point, through: Point, reac
     Some(Across { room: shape.id, line, areas_m2: areas_of_parts(shape, line) })
 }
 
-/// The areas of the parts of a room left and right of a line between two places on its outer ring.
+/// The areas of the parts of a room left and right of a line between two points of its outer ring.
 fn areas_of_parts(shape: &RoomShape, line: Segment) -> Option<[f64; 2]> {
     let ring = &shape.outer;
-    // The edge that an end lies on, from the start of the ring.
+    // The edge an end lies on, counted from the start of the ring.
     let edge_at = |point: Point| {
         let near = polygon::edges(ring).enumerate().map(|(i, edge)| (edge.distance(point), i));
         near.min_by(|p, q| p.0.total_cmp(&q.0)).filter(|(distance_m, _)| *distance_m <= TOUCH_M).map(|(_, i)| i)
@@ -101,7 +100,7 @@ fn areas_of_parts(shape: &RoomShape, line: Segment) -> Option<[f64; 2]> {
         });
         polygon::signed_area(&part).abs() - holes.map(|hole| polygon::signed_area(hole).abs()).sum::<f64>()
     });
-    // On a ring that runs clockwise the first part lies on the right.
+    // On a clockwise ring the first part is on the right.
     Some(if polygon::signed_area(ring) < 0.0 { [areas[1], areas[0]] } else { areas })
 }
 

@@ -1,4 +1,4 @@
-//! Closing gaps between walls in line with walls and openings.
+//! Closing gaps in walls with walls and openings.
 
 use std::collections::BTreeSet;
 
@@ -9,12 +9,12 @@ use crate::edit::{self, EditError, fail};
 use crate::plan::{CornerId, Opening, OpeningId, OpeningKind, Plan};
 use crate::topology::Gap;
 
-/// Closes gaps with walls, each as thick as the thicker of the two beside it, and puts an opening of the
-/// gap's width into each; gives the openings in the order of the gaps. Rooms are divided as by
+/// Closes gaps with walls, each as thick as the thicker of its two neighbours, and puts an opening of the
+/// gap's width into each; returns the openings in the order of the gaps. Rooms are split as by
 /// [`crate::edit::draw_walls`].
 ///
 /// # Errors
-/// When no gap is given, one is no longer there, or a wall cannot be drawn.
+/// When no gap is given, a gap no longer exists, or a wall cannot be drawn.
 pub fn bridge_gaps(plan: &Plan, gaps: &[Gap], kind: OpeningKind) -> Result<(Plan, Vec<OpeningId>), EditError> {
     if gaps.is_empty() {
         return fail("no gap between walls in line is 0.30 to 1.50 m wide");
@@ -39,7 +39,7 @@ pub fn bridge_gaps(plan: &Plan, gaps: &[Gap], kind: OpeningKind) -> Result<(Plan
     let (mut next, _) = divide_rooms(&next, &edges, None)?;
     let mut openings = Vec::new();
     for (gap, chain) in gaps.iter().zip(&chains) {
-        // Something may cross the gap: the opening goes on the piece under its middle.
+        // Something may cross the gap: the opening goes on the piece below its middle.
         let Some(place) = nearest_part(&next, chain, gap.segment.midpoint(), gap.width_m) else {
             return fail("a wall stands in the gap already");
         };

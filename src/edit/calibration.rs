@@ -1,7 +1,7 @@
-//! Placing a picture under the plan: its scale from lengths measured on it, straightening, moving.
+//! Placing the backdrop: its scale from lengths measured on it, straightening, moving.
 //!
-//! A measurement is kept in pixels of the picture, so that it holds however the picture is moved,
-//! turned or scaled, and more can be added at any time.
+//! Measurements are kept in pixels of the picture, so that they stay valid when it is moved, rotated or
+//! scaled, and more can be added at any time.
 
 use std::sync::Arc;
 
@@ -9,14 +9,14 @@ use crate::edit::{EditError, checked_position, fail, set_backdrop, set_meta};
 use crate::geometry::{Point, Vector, trim_m};
 use crate::plan::{Backdrop, Measurement, Place, Plan, Scale, ScaleOrigin};
 
-/// Size of a pixel in metres under a picture whose scale nobody has measured: a hundred pixels a
-/// metre, about what a scan of a 1:100 drawing at 250 dots an inch has.
+/// Size of a pixel in metres for a backdrop without a measured scale: a hundred pixels per metre, about
+/// what a scan of a 1:100 drawing at 250 dpi has.
 pub const UNMEASURED_METRES_PER_PIXEL: f64 = 0.01;
 
-/// A picture so small or so large is no plan: pixels from a nanometre to a kilometre.
+/// Plausible pixel sizes of a plan: from a nanometre to a kilometre.
 const METRES_PER_PIXEL: std::ops::RangeInclusive<f64> = 1e-9..=1e3;
 
-/// Points closer than this, in pixels of the picture, measure nothing: a click is no more exact.
+/// The shortest distance, in pixels of the picture, that can be measured: a click is no more precise.
 const SHORTEST_PX: f64 = 2.0;
 
 impl Measurement {
@@ -27,7 +27,7 @@ impl Measurement {
 }
 
 impl Backdrop {
-    /// A picture at its first place: its upper left corner at the origin, unturned, its scale unknown.
+    /// A new backdrop: its upper left corner at the origin, not rotated, of unknown scale.
     pub fn new(path: impl Into<String>, content_hash: impl Into<String>) -> Self {
         Self {
             path: path.into(),
@@ -42,25 +42,24 @@ impl Backdrop {
         }
     }
 
-    /// Where a point of the picture lies in the plan. `pixel`: from the picture's upper left corner,
+    /// The plan position of a point of the picture. `pixel` counts from the picture's upper left corner,
     /// x to the right and y down.
     pub fn plan_from_picture(&self, pixel: Point) -> Point {
         self.origin + (Vector::new(pixel.x, -pixel.y) * self.metres_per_pixel).rotated(self.rotation_rad)
     }
 
-    /// The point of the picture that lies at a point of the plan, in pixels as in
-    /// [`Backdrop::plan_from_picture`].
+    /// The picture position of a point of the plan, in pixels as in [`Backdrop::plan_from_picture`].
     pub fn picture_from_plan(&self, point: Point) -> Point {
         let turned = (point - self.origin).rotated(-self.rotation_rad) * (1.0 / self.metres_per_pixel);
         Point::new(turned.x, -turned.y)
     }
 
-    /// A length between two points of the plan as a measurement of the picture.
+    /// A length between two points of the plan, as a measurement of the picture.
     ///
     /// # Errors
-    /// When the points are too close, or the length is none.
+    /// When the points are too close, or the length is not a valid length.
     pub fn measurement(&self, from: Point, to: Point, length_m: f64) -> Result<Measurement, EditError> {
-        // A hundredth of a pixel is finer than any click, and keeps files short.
+        // A hundredth of a pixel is finer than any click, and keeps files small.
         let rounded = |point: Point| Point::new((point.x * 100.0).round() / 100.0, (point.y * 100.0).round() / 100.0);
         let [from, to] = [from, to].map(|point| rounded(self.picture_from_plan(point)));
         let measurement = Measurement { from, to, length_m };
@@ -73,7 +72,7 @@ impl Backdrop {
         Ok(measurement)
     }
 
-    /// Whether anybody has measured its scale.
+    /// Whether its scale has been measured.
     pub fn is_measured(&self) -> bool {
         !self.measurements.is_empty()
     }
@@ -83,20 +82,20 @@ impl Backdrop {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Calibration {
     pub metres_per_pixel: f64,
-    /// By how much each length on the picture, at this scale, exceeds the stated one, as a share of
-    /// the stated one; in the measurements' order.
+    /// By how much each length at this scale exceeds the stated one, as a share of the stated one; in the
+    /// order of the measurements.
     pub residuals: Vec<f64>,
-    /// Index of the measurement that fits worst; `None` for fewer than two.
+    /// Index of the measurement that fits worst; `None` if there are fewer than two.
     pub worst: Option<usize>,
 }
 
 impl Calibration {
-    /// The best scale for some measurements; `None` for none.
+    /// The best scale for the measurements; `None` if there are none.
     ///
-    /// What is uncertain is where the points were clicked, by as many pixels for a long length as for
-    /// a short one, and not the length that is written on the drawing. So the scale `k` in pixels per
-    /// metre minimises the sum of `(p - k L)²` over the lengths `L` and their pixels `p`:
-    /// `k = Σ p L / Σ L²` (linear regression through the origin). Long lengths count more.
+    /// The uncertain part is where the points were clicked, by as many pixels for a long length as for a
+    /// short one, not the length written on the drawing. So the scale `k` in pixels per metre minimises
+    /// the sum of `(p - k L)²` over the lengths `L` and their pixels `p`: `k = Σ p L / Σ L²` (linear
+    /// regression through the origin). Long lengths count more.
     pub fn of(measurements: &[Measurement]) -> Option<Self> {
         let products: f64 = measurements.iter().map(|one| one.length_px() * one.length_m).sum();
         let squares: f64 = measurements.iter().map(|one| one.length_m * one.length_m).sum();
@@ -110,7 +109,7 @@ impl Calibration {
         Some(Self { metres_per_pixel, worst: worst.filter(|_| residuals.len() > 1), residuals })
     }
 
-    /// The root of the mean square of the residuals.
+    /// The root mean square of the residuals.
     pub fn spread(&self) -> f64 {
         let squares: f64 = self.residuals.iter().map(|residual| residual * residual).sum();
         (squares / self.residuals.len().max(1) as f64).sqrt()
@@ -128,12 +127,12 @@ impl Calibration {
     }
 }
 
-/// What becomes of the drawing when the picture under it changes its size or turns.
+/// What happens to the drawing when the backdrop is scaled or rotated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DrawingMoves {
-    /// It was traced on the picture: it stays on the same lines of it.
+    /// It was traced from the picture: it follows it.
     Along,
-    /// It is right as it is.
+    /// It is right as it is and stays.
     Stays,
 }
 
@@ -141,7 +140,7 @@ impl DrawingMoves {
     /// Words for commands, with titles.
     pub const WORDS: &'static [(&'static str, &'static str)] = &[("along", "With the picture"), ("stays", "Stays")];
 
-    /// The meaning of a word.
+    /// Parses a word.
     pub fn of_word(word: &str) -> Self {
         if word == "stays" { Self::Stays } else { Self::Along }
     }
@@ -152,10 +151,10 @@ fn backdrop_of(plan: &Plan) -> Result<&Backdrop, EditError> {
 }
 
 /// Replaces the list of measurements and sets the scale that fits them best. The picture's upper left
-/// corner stays where it is. Without measurements the scale stays as it is.
+/// corner stays in place. Without measurements the scale is unchanged.
 ///
 /// # Errors
-/// When there is no picture, no plausible scale fits, or the drawing would leave the drawing area.
+/// When there is no backdrop, no plausible scale fits, or the drawing would leave the drawing area.
 pub fn set_measurements(plan: &Plan, measurements: Vec<Measurement>, drawing: DrawingMoves) -> Result<Plan, EditError> {
     let backdrop = backdrop_of(plan)?;
     if measurements.is_empty() {
@@ -179,8 +178,8 @@ pub fn set_measurements(plan: &Plan, measurements: Vec<Measurement>, drawing: Dr
     Ok(set_backdrop(&set_meta(&next, meta), Some(backdrop)))
 }
 
-/// The turn in radians, counter-clockwise and at most an eighth, that brings a direction onto the
-/// nearest axis; `None` for no direction.
+/// The rotation in radians, counter-clockwise and at most 45 degrees, that brings a direction onto the
+/// nearest axis; `None` for a zero vector.
 pub fn straightening_rad(direction: Vector) -> Option<f64> {
     use std::f64::consts::FRAC_PI_2;
     direction.unit()?;
@@ -188,10 +187,10 @@ pub fn straightening_rad(direction: Vector) -> Option<f64> {
     Some((angle_rad / FRAC_PI_2).round() * FRAC_PI_2 - angle_rad)
 }
 
-/// Turns the picture about a point of the plan, counter-clockwise.
+/// Rotates the backdrop counter-clockwise about a point of the plan.
 ///
 /// # Errors
-/// When there is no picture, or the drawing would leave the drawing area.
+/// When there is no backdrop, or the drawing would leave the drawing area.
 pub fn turn_picture(plan: &Plan, about: Point, angle_rad: f64, drawing: DrawingMoves) -> Result<Plan, EditError> {
     let backdrop = backdrop_of(plan)?;
     let next = match drawing {
@@ -203,24 +202,24 @@ pub fn turn_picture(plan: &Plan, about: Point, angle_rad: f64, drawing: DrawingM
     Ok(set_backdrop(&next, Some(Backdrop { origin, rotation_rad, ..backdrop.clone() })))
 }
 
-/// An angle between minus and plus half a turn; one that is hardly any is none.
+/// Normalises an angle to plus or minus half a turn; a negligible one becomes 0.
 fn normalised_rad(angle_rad: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
     let angle_rad = angle_rad - TAU * (angle_rad / TAU).round();
     if angle_rad.abs() < 1e-12 { 0.0 } else { angle_rad.clamp(-PI, PI) }
 }
 
-/// Moves the picture; the drawing stays.
+/// Moves the backdrop; the drawing stays.
 ///
 /// # Errors
-/// When there is no picture, or it would leave the drawing area.
+/// When there is no backdrop, or it would leave the drawing area.
 pub fn move_picture(plan: &Plan, by: Vector) -> Result<Plan, EditError> {
     let backdrop = backdrop_of(plan)?;
     let origin = checked_position(backdrop.origin + by)?;
     Ok(set_backdrop(plan, Some(Backdrop { origin, ..backdrop.clone() })))
 }
 
-/// All that is drawn, scaled and turned about a point; the picture stays.
+/// Scales and rotates all that is drawn about a point; the backdrop stays.
 ///
 /// # Errors
 /// When something would leave the drawing area or lose its length.
@@ -249,7 +248,7 @@ fn transformed(plan: &Plan, about: Point, factor: f64, angle_rad: f64) -> Result
             Arc::make_mut(target).place = place;
         }
     }
-    // A drawing that is made a thousand times smaller may collapse on the 0.1 mm grid.
+    // A drawing made a thousand times smaller may collapse on the 0.1 mm grid.
     match next.violations().first() {
         Some(violation) if plan.violations().is_empty() => {
             fail(format!("the drawing would become too small: {violation}"))
@@ -272,7 +271,7 @@ mod tests {
         assert_eq!(Calibration::of(&[]), None);
         let one = Calibration::of(&[measurement(500.0, 10.0)]).expect("a length");
         assert!((one.metres_per_pixel - 0.02).abs() < 1e-15 && one.residuals[0].abs() < 1e-12 && one.worst.is_none());
-        // The same error of four pixels: the long length decides.
+        // The same error of four pixels: the long length dominates.
         let two = Calibration::of(&[measurement(1004.0, 10.0), measurement(96.0, 1.0)]).expect("lengths");
         let k = (1004.0 * 10.0 + 96.0) / 101.0;
         assert!((two.metres_per_pixel - 1.0 / k).abs() < 1e-15);
@@ -331,7 +330,7 @@ mod tests {
         assert!(matches!(opening.place, Place::Hosted { at_m: 4.0, width_m: 1.6, .. }));
         let stays = set_measurements(&plan, vec![measured], DrawingMoves::Stays).expect("it scales");
         assert_eq!(stays.bounds(), plan.bounds());
-        // Turning: along with the picture, it is on the same lines again.
+        // Rotating with the picture keeps it on the same lines.
         let turned = turn_picture(&along, Point::new(1.0, 1.0), 0.3, DrawingMoves::Along).expect("it turns");
         for (before, after) in on_picture(&plan).into_iter().zip(on_picture(&turned)) {
             assert!(before.distance(after) < 0.01, "{before:?} {after:?}");

@@ -12,12 +12,12 @@ use crate::plan::{
     CornerId, ElementId, Joint, Opening, OpeningId, Place, Plan, Room, RoomId, WallId, ordered, ring_edges,
 };
 
-/// Elements of a plan as a plan of their own: for the clipboard, and to insert elsewhere. Openings on
-/// the edges of chosen walls and rooms come along; an opening chosen without its wall becomes a free
-/// one. Openings stay pinned where both sides come along or are outside.
+/// Extracts elements of a plan as a plan of their own: for the clipboard, or to insert elsewhere.
+/// Openings on the edges of selected walls and rooms are included; an opening selected without its wall
+/// becomes a free one. Openings stay pinned if both sides are included or outside.
 ///
 /// # Errors
-/// When an element does not exist, or none is chosen.
+/// When an element does not exist, or none is selected.
 pub fn fragment(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<Plan, EditError> {
     let mut part = Plan::default();
     for id in corners_of(plan, elements)? {
@@ -57,15 +57,15 @@ pub fn fragment(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<Plan, Edi
     Ok(part)
 }
 
-/// Inserts a fragment of a plan, transformed, and gives its elements in the new plan. Corners are
-/// shared with what is there and edges split as by drawing; a wall that stands already gets no second
-/// one. A free opening that falls on an edge goes on it. An identity is kept where it is not taken.
+/// Inserts a fragment of a plan, transformed, and returns its elements in the new plan. Corners are
+/// shared with existing ones and edges split as when drawing; a wall that already exists is not doubled.
+/// A free opening that falls on an edge is attached to it. Ids are kept where not taken.
 ///
 /// # Errors
-/// When something falls outside the drawing area, or a room or a wall would get too small to be one.
+/// When something falls outside the drawing area, or a room or wall would become too small.
 pub fn insert(plan: &Plan, fragment: &Plan, transform: Transform) -> Result<(Plan, BTreeSet<ElementId>), EditError> {
     let place = |id: CornerId| fragment.position(id).map(|point| transform.point(point));
-    // Each edge is laid once, from its smaller corner to its larger.
+    // Each edge is overlaid once, from its smaller corner to its larger.
     let edges: BTreeSet<[CornerId; 2]> =
         crate::edit::overlay::plan_edges(fragment).map(|(a, b)| ordered(a, b)).collect();
     let mut paths: Vec<Vec<Point>> =
@@ -159,7 +159,7 @@ pub fn insert(plan: &Plan, fragment: &Plan, transform: Transform) -> Result<(Pla
     Ok((next, placed))
 }
 
-/// Where an opening of a fragment goes in the plan that has its edges.
+/// Where an opening of a fragment goes in the plan that now has its edges.
 fn opening_place(
     fragment: &Plan,
     next: &Plan,
@@ -185,7 +185,7 @@ fn opening_place(
     if let Some((from, to)) = on_edge
         && let (Some(start), Some(end)) = (next.position(from), next.position(to))
     {
-        // In the opening's own direction, so that its swing stays.
+        // In the opening's own direction, to keep its swing.
         let (from, to) = if (end - start).dot(b - a) >= 0.0 { (from, to) } else { (to, from) };
         if let Some(place) = nearest_part(next, &[from, to], a.midpoint(b), width_m) {
             return Ok(place);
@@ -197,7 +197,7 @@ fn opening_place(
 /// Copies elements within a plan: [`fragment`], then [`insert`].
 ///
 /// # Errors
-/// As these.
+/// As for these two.
 pub fn copy_elements(
     plan: &Plan,
     elements: &BTreeSet<ElementId>,
@@ -206,22 +206,23 @@ pub fn copy_elements(
     insert(plan, &fragment(plan, elements)?, transform)
 }
 
-/// How copies are arranged.
+/// The arrangement of copies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Array {
-    /// In columns and rows, the original among them.
+    /// In columns and rows, including the original.
     Grid { columns: usize, rows: usize, column_step: Vector, row_step: Vector },
-    /// Around a point, so many with the original, each turned counter-clockwise from the one before.
+    /// Around a point: `count` elements including the original, each rotated counter-clockwise from the
+    /// previous one.
     Polar { about: Point, count: usize, step_rad: f64 },
 }
 
-/// More copies than this at once are a slip of the finger.
+/// More copies than this at once must be a mistake.
 const COPIES_LIMIT: usize = 10_000;
 
-/// Copies elements into an array and gives all copies, without the originals.
+/// Copies elements into an array and returns all copies, without the originals.
 ///
 /// # Errors
-/// As [`copy_elements`], and when there would be no copy or more than 10,000.
+/// As [`copy_elements`], and when there would be no copies or more than 10,000.
 pub fn array(
     plan: &Plan,
     elements: &BTreeSet<ElementId>,
@@ -249,7 +250,7 @@ pub fn array(
         next = with_copy;
         copies.extend(placed);
     }
-    // Splitting may have removed nothing, but walls of the original can be among those met again.
+    // Splitting removes nothing, but walls of the original may be among those met again.
     copies.retain(|element| !elements.contains(element));
     let exists = |id: &OpeningId| next.opening(*id).is_some();
     copies.retain(|element| if let ElementId::Opening(id) = element { exists(id) } else { true });

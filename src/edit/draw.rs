@@ -1,4 +1,4 @@
-//! The edits that draw walls and rooms, and divide rooms by what is drawn across them.
+//! Drawing walls and rooms, and splitting rooms by what is drawn across them.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -12,32 +12,31 @@ use crate::geometry::{Bounds, Point, Segment, TOUCH_M};
 use crate::plan::{CornerId, Joint, OpeningId, Place, Plan, Positions, Room, RoomId, WallId, ordered, ring_edges};
 use crate::topology::plan_faces::{EdgeFaces, is_sliver};
 
-/// What drawing gives.
+/// The result of drawing.
 #[derive(Clone, Debug)]
 pub struct Drawn {
     pub plan: Plan,
     /// The new walls, along the path.
     pub walls: Vec<WallId>,
-    /// The rooms that were divided and the new ones made of their parts, by id.
+    /// The rooms that were split and the new ones made of their parts, by id.
     pub rooms: Vec<RoomId>,
 }
 
-/// Draws a chain of walls along a path, closed when it ends where it starts.
+/// Draws a chain of walls along a path, closed if it ends where it starts.
 ///
-/// The path shares corners with what is there, see [the editing rules](crate::edit): it goes
-/// through corners it meets, and what it crosses or touches is split. Stretches on which a wall
-/// stands already get no second one.
+/// The path shares corners with existing elements, see [the editing rules](crate::edit): it goes through
+/// corners it meets, and splits what it crosses or touches. Stretches that already have a wall do not get
+/// a second one.
 ///
-/// A room that the walls cross from boundary to boundary, alone or with walls that end freely in it, is
-/// divided. Of its parts the largest stays the room: it keeps identity,
-/// name, function, label and note. Each other part becomes a new room of the same function, without
-/// a name and without a label of its own. Walls that end freely within a room do not divide it, nor
-/// do walls that would cut off a sliver (see [`crate::topology::SLIVER_WIDTH_M`]). An opening pinned to the
-/// room is pinned to the part it is at.
+/// A room that the walls cross from boundary to boundary, alone or together with walls that end freely in
+/// it, is split. The largest part remains the room: it keeps identity, name, function, label and note.
+/// Each other part becomes a new room of the same function, without a name or a label of its own. Walls
+/// that end freely inside a room do not split it, nor do walls that would cut off a sliver (see
+/// [`crate::topology::SLIVER_WIDTH_M`]). An opening pinned to the room is pinned to the part it touches.
 ///
 /// # Errors
-/// When the path has no length, a point lies outside the drawing area, the thickness is not within
-/// 0..=10 m, or walls stand all along it and nothing changes.
+/// When the path has no length, a point lies outside the drawing area, the thickness is not within 0..=10
+/// m, or there are already walls all along the path and nothing changes.
 pub fn draw_walls(plan: &Plan, path: &[Point], thickness_m: f64) -> Result<Drawn, EditError> {
     let Laid { plan: laid, chains } = lay(plan, &[path.to_vec()])?;
     let chain = chains.into_iter().next().unwrap_or_default();
@@ -52,13 +51,13 @@ pub fn draw_walls(plan: &Plan, path: &[Point], thickness_m: f64) -> Result<Drawn
     Ok(Drawn { plan: next, walls, rooms })
 }
 
-/// Draws a room with this boundary, without the first point repeated. Its corners are shared as
-/// those of [`draw_walls`]; with a thickness in metres, walls are added along it where none stands
-/// yet. Rooms that it overlaps stay as they are.
+/// Draws a room with this boundary; the first point is not repeated. Corners are shared as in
+/// [`draw_walls`]; with a thickness in metres, walls are added along it where there are none. Rooms it
+/// overlaps are unchanged.
 ///
 /// # Errors
-/// When the boundary crosses or touches itself, encloses nothing, lies outside the drawing area, or
-/// a room has it already.
+/// When the boundary crosses or touches itself, encloses nothing, lies outside the drawing area, or is
+/// already that of a room.
 pub fn draw_room(plan: &Plan, outer: &[Point], wall_thickness_m: Option<f64>) -> Result<(Plan, RoomId), EditError> {
     let (laid, ring) = lay_ring(plan, outer)?;
     let same: BTreeSet<CornerId> = ring.iter().copied().collect();
@@ -73,8 +72,8 @@ pub fn draw_room(plan: &Plan, outer: &[Point], wall_thickness_m: Option<f64>) ->
     }
 }
 
-/// Divides a room along a path, without walls; which part stays the room is said at [`draw_walls`].
-/// Gives the new rooms.
+/// Splits a room along a path, without adding walls; for which part remains the room, see [`draw_walls`].
+/// Returns the new rooms.
 ///
 /// # Errors
 /// When the room does not exist, or the path does not cross it from boundary to boundary.
@@ -90,12 +89,12 @@ pub fn split_room(plan: &Plan, room: RoomId, path: &[Point]) -> Result<(Plan, Ve
     Ok((without_leftovers(plan, &next, added(plan, &chain)), rooms))
 }
 
-/// Cuts an area out of a room: a courtyard or a shaft becomes a hole, at the boundary a notch. What
-/// falls apart is divided as by [`draw_walls`].
+/// Cuts an area out of a room: a courtyard or a shaft becomes a hole, or a notch at the boundary. If the
+/// room falls apart, it is split as by [`draw_walls`].
 ///
 /// # Errors
-/// When the room does not exist, the boundary crosses itself or encloses nothing, it lies outside the
-/// room, or nothing of the room would be left.
+/// When the room does not exist, the boundary crosses itself or encloses nothing, the area lies outside
+/// the room, or nothing of the room would be left.
 pub fn cut_out(plan: &Plan, room: RoomId, outer: &[Point]) -> Result<Plan, EditError> {
     edit::require_room(plan, room)?;
     let (laid, ring) = lay_ring(plan, outer)?;
@@ -126,12 +125,12 @@ pub fn cut_out(plan: &Plan, room: RoomId, outer: &[Point]) -> Result<Plan, EditE
     Ok(without_leftovers(plan, &next, added(plan, &ring).chain(boundary)))
 }
 
-/// A room as it is called in a message.
+/// A room's name in messages.
 pub(crate) fn named(room: &Room) -> String {
     if room.name.is_empty() { "a room".to_owned() } else { format!("the room '{}'", room.name) }
 }
 
-/// Lays the boundary of a room and gives its corners.
+/// Overlays the boundary of a room and returns its corners.
 ///
 /// # Errors
 /// When it crosses or touches itself, or encloses nothing.
@@ -143,7 +142,7 @@ pub(crate) fn lay_ring(plan: &Plan, outer: &[Point]) -> Result<(Plan, Vec<Corner
     if ring.len() > 1 && ring.first() == ring.last() {
         ring.pop();
     }
-    // Laid paths share a corner wherever they meet.
+    // Overlaid paths share a corner wherever they meet.
     if ring.len() > 3 && ring.iter().collect::<BTreeSet<_>>().len() < ring.len() {
         return fail("the boundary crosses or touches itself");
     }
@@ -169,7 +168,8 @@ pub(crate) fn room_edges(room: &Room) -> BTreeSet<[CornerId; 2]> {
     room.rings().flat_map(|ring| ring_edges(ring)).map(|(a, b)| ordered(a, b)).collect()
 }
 
-/// Adds walls of a thickness in metres along chains of corners where none stands yet, and gives them.
+/// Adds walls with a thickness in metres along chains of corners where there are none yet, and returns
+/// them.
 pub(crate) fn add_walls(plan: &Plan, chains: &[(&[CornerId], f64)]) -> Result<(Plan, Vec<WallId>), EditError> {
     let mut missing: BTreeSet<[CornerId; 2]> = chains.iter().flat_map(|(chain, _)| edges_of(chain)).collect();
     for (_, wall) in plan.walls() {
@@ -189,7 +189,7 @@ pub(crate) fn add_walls(plan: &Plan, chains: &[(&[CornerId], f64)]) -> Result<(P
     Ok((next, walls))
 }
 
-/// The inside of a room, to ask which points lie in it.
+/// The interior of a room, for testing whether points lie in it.
 pub(crate) struct Inside {
     outer: Vec<Point>,
     holes: Vec<Vec<Point>>,
@@ -208,8 +208,8 @@ impl Inside {
     }
 }
 
-/// Divides the rooms that new edges cross (`only` that one, if given), and gives those divided and
-/// the new ones, by id.
+/// Splits the rooms that new edges cross (or only the given one), and returns the rooms split and the new
+/// ones, by id.
 pub(crate) fn divide_rooms(
     plan: &Plan,
     new_edges: &BTreeSet<[CornerId; 2]>,
@@ -222,7 +222,7 @@ pub(crate) fn divide_rooms(
     let crossed: Vec<RoomId> = plan
         .rooms()
         .filter(|(id, room)| {
-            // The box first: most rooms of a large plan are far away.
+            // Bounding boxes first: most rooms of a large plan are far away.
             only.is_none_or(|only| only == *id) && {
                 let bounds = Bounds::of(room.outer.iter().filter_map(|&corner| positions.get(corner)));
                 bounds.intersects(around) && middles.iter().any(|&middle| bounds.contains(middle))
@@ -247,8 +247,8 @@ pub(crate) fn divide_rooms(
     Ok((next, touched))
 }
 
-/// The new edges and the walls of a plan by place: a path may cross many rooms, and each looks only
-/// at what is near it.
+/// A spatial index of the new edges and the walls of a plan: a path may cross many rooms, and each looks
+/// only at what is near it.
 struct NearEdges<'a> {
     new_edges: &'a BTreeSet<[CornerId; 2]>,
     edges: Vec<[CornerId; 2]>,
@@ -268,7 +268,7 @@ impl<'a> NearEdges<'a> {
     }
 }
 
-/// Divides a room along new edges and the walls that end freely in it; `None` when it stays whole.
+/// Splits a room along new edges and the walls that end freely in it; `None` if it stays whole.
 fn divide_room(plan: &Plan, id: RoomId, near: &NearEdges) -> Result<Option<(Plan, Vec<RoomId>)>, EditError> {
     let Some(room) = plan.room(id) else { return Ok(None) };
     let inside = Inside::new(plan, room);
@@ -285,7 +285,7 @@ fn divide_room(plan: &Plan, id: RoomId, near: &NearEdges) -> Result<Option<(Plan
     let in_room = |faces: &EdgeFaces| -> Vec<usize> {
         (0..faces.count()).filter(|&i| inside.holds(faces.interior_point(i))).collect()
     };
-    // Walls that divide the room already do not count: it spans them, and goes on doing so.
+    // Walls that already divide the room do not count: it spans them, and continues to.
     let parts_before = loop {
         let faces = EdgeFaces::new(plan, before.iter().copied())?;
         let parts = in_room(&faces);
@@ -306,7 +306,7 @@ fn divide_room(plan: &Plan, id: RoomId, near: &NearEdges) -> Result<Option<(Plan
         if parts.len() <= parts_before.max(1) {
             return Ok(None);
         }
-        // A sliver is joined with what lies beyond the new edges around it.
+        // A sliver is joined with what lies across the new edges around it.
         let sliver = parts.iter().copied().find(|&i| {
             let (outer, holes) = faces.positions(i);
             is_sliver(&outer, &holes) && faces.edges_around(i).iter().any(|edge| new_within.contains(edge))
@@ -318,15 +318,15 @@ fn divide_room(plan: &Plan, id: RoomId, near: &NearEdges) -> Result<Option<(Plan
     }
 }
 
-/// Gives a room the largest of its parts (faces) and makes new rooms of the others; the new rooms, in
-/// the order of the parts.
+/// Gives a room the largest of its parts (faces) and makes new rooms of the others; returns the new rooms
+/// in the order of the parts.
 fn replace_by_parts(id: RoomId, faces: &EdgeFaces, parts: &[usize]) -> Result<(Plan, Vec<RoomId>), EditError> {
     let area = |i: usize| {
         let (outer, holes) = faces.positions(i);
         polygon::area(&outer, &holes)
     };
     let mut parts = parts.to_vec();
-    // Stable: among equals the order of the faces decides.
+    // Stable: ties stay in the order of the faces.
     parts.sort_by(|&p, &q| area(q).total_cmp(&area(p)));
     let (mut next, boundaries) = faces.boundaries(&parts)?;
     let function = next.room(id).map(|room| room.function.clone()).unwrap_or_default();
@@ -347,7 +347,7 @@ fn replace_by_parts(id: RoomId, faces: &EdgeFaces, parts: &[usize]) -> Result<(P
     Ok((pinned_to_parts(&next, id, &new_rooms), new_rooms))
 }
 
-/// Pins the openings that are pinned to a divided room to the part they are at.
+/// Pins openings that were pinned to a split room to the part they touch.
 fn pinned_to_parts(plan: &Plan, id: RoomId, new_rooms: &[RoomId]) -> Plan {
     let pinned: Vec<OpeningId> = plan
         .openings()
@@ -381,8 +381,8 @@ fn pinned_to_parts(plan: &Plan, id: RoomId, new_rooms: &[RoomId]) -> Plan {
     next
 }
 
-/// `after` without the openings whose edge was one of a wall or a room in `before` and is none any
-/// more, and without those of the given corners that nothing uses.
+/// `after` without the openings whose edge belonged to a wall or room in `before` and no longer does, and
+/// without those of the given corners that are unused.
 pub(crate) fn without_leftovers(before: &Plan, after: &Plan, corners: impl IntoIterator<Item = CornerId>) -> Plan {
     let mut unused: BTreeSet<CornerId> = corners.into_iter().collect();
     let mut hosts: BTreeMap<[CornerId; 2], Vec<OpeningId>> = BTreeMap::new();
@@ -400,7 +400,7 @@ pub(crate) fn without_leftovers(before: &Plan, after: &Plan, corners: impl IntoI
     let mut next = after.clone();
     if !lost.is_empty() {
         let had_edge = |id: &OpeningId| {
-            // An opening that splitting moved is known by its edge before.
+            // An opening moved by splitting is identified by its former edge.
             let Some(Place::Hosted { from, to, .. }) = before.opening(*id).map(|opening| opening.place) else {
                 return true;
             };
@@ -427,7 +427,7 @@ pub(crate) fn without_leftovers(before: &Plan, after: &Plan, corners: impl IntoI
     next
 }
 
-/// Those of some corners that a plan does not have: what an edit added.
+/// The given corners that are not in a plan: those an edit added.
 pub(crate) fn added<'a>(before: &'a Plan, corners: &'a [CornerId]) -> impl Iterator<Item = CornerId> + 'a {
     corners.iter().copied().filter(|&id| before.corner(id).is_none())
 }

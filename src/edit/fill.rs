@@ -1,4 +1,4 @@
-//! Rooms from walls: the edits that fill the faces which walls and boundaries enclose.
+//! Making rooms from walls: filling the faces enclosed by walls and boundaries.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ impl From<ArrangementError> for EditError {
     }
 }
 
-/// What an edit that fills faces gives.
+/// The result of filling faces.
 #[derive(Clone, Debug)]
 pub struct Filled {
     pub plan: Plan,
@@ -24,7 +24,7 @@ pub struct Filled {
     pub rooms: Vec<RoomId>,
 }
 
-/// The rings around a face as corners.
+/// The rings around a face, as corners.
 #[derive(Clone, Debug)]
 pub(crate) struct Boundary {
     pub outer: Arc<[CornerId]>,
@@ -34,13 +34,13 @@ pub(crate) struct Boundary {
 impl PlanFaces<'_> {
     /// Makes a room of each of the faces with these indices in [`PlanFaces::all`].
     ///
-    /// The room's corners are those that walls and boundaries have there, and new ones where these
-    /// cross. A wall or a boundary that runs through a corner without having it is split there, so
-    /// that the corner is shared; its openings keep their places. The first part of a split wall
-    /// keeps the wall's identity.
+    /// The room uses the corners that walls and boundaries have there, and new ones where these cross. A
+    /// wall or boundary that passes through such a corner without having it is split there, so that the
+    /// corner is shared; its openings stay in place. The first part of a split wall keeps the wall's
+    /// identity.
     ///
     /// # Errors
-    /// When an index is beyond the last face.
+    /// When an index is out of range.
     pub fn fill(&self, indices: &[usize]) -> Result<Filled, EditError> {
         let indices: BTreeSet<usize> = indices.iter().copied().collect();
         if let Some(beyond) = indices.iter().find(|&&index| index >= self.faces.len()) {
@@ -59,9 +59,9 @@ impl PlanFaces<'_> {
 }
 
 impl EdgeFaces<'_> {
-    /// The rings around faces as corners, in the order of the indices, in a plan that has all of these
-    /// corners: where edges cross there are new ones, and whatever has one of the edges is split at
-    /// the corners that the rings have on it.
+    /// The rings around faces as corners, in the order of the indices, and a plan that has all of these
+    /// corners: with new ones where edges cross, and everything on these edges split at the rings'
+    /// corners.
     pub fn boundaries(&self, indices: &[usize]) -> Result<(Plan, Vec<Boundary>), EditError> {
         let chosen = || indices.iter().map(|&index| &self.faces[index]);
         let mut corners = self.corners_at_nodes();
@@ -98,10 +98,10 @@ impl EdgeFaces<'_> {
     }
 }
 
-/// Fills the face around a point with a room. Walls and the boundaries of rooms enclose it.
+/// Fills the face around a point with a room. It may be enclosed by walls and room boundaries.
 ///
 /// # Errors
-/// When nothing encloses the point, or a room is there already.
+/// When nothing encloses the point, or there is already a room.
 pub fn fill_at(plan: &Plan, point: Point) -> Result<Filled, EditError> {
     let faces = PlanFaces::new(plan)?;
     let Some(index) = faces.at(point) else {
@@ -117,8 +117,8 @@ pub fn fill_at(plan: &Plan, point: Point) -> Result<Filled, EditError> {
     faces.fill(&[index])
 }
 
-/// Fills every face that walls alone enclose, where no room is yet and that is no sliver. What lies
-/// between drawn rooms without walls stays empty: it may be the thickness of a wall.
+/// Fills every face enclosed by walls alone, unless it has a room or is a sliver. The space between rooms
+/// drawn without walls stays empty: it may be the thickness of a wall.
 ///
 /// # Errors
 /// When the walls meet more often than [`crate::geometry::arrangement::PASSINGS_LIMIT`].

@@ -1,4 +1,4 @@
-//! Drawing a room where no room is yet.
+//! Drawing a room in the space not covered by rooms.
 
 use std::collections::BTreeSet;
 
@@ -20,27 +20,27 @@ use crate::topology::RoomShape;
 use crate::topology::RoomShapes;
 use crate::topology::plan_faces::{EdgeFaces, is_sliver};
 
-/// What is left between drawn rooms is no part of a new one where it is no wider than this, in
-/// metres: neighbours in real drawings leave gaps of some centimetres up to the thickness of an inner
-/// wall (`data`: rooms are drawn one by one).
+/// Space between rooms that is at most this wide, in metres, is not made part of a new room: in real
+/// drawings neighbours leave gaps from a few centimetres to the thickness of an inner wall (in the
+/// paper's data, rooms are drawn one by one).
 pub const GAP_BETWEEN_ROOMS_M: f64 = 0.3;
 
-/// Draws a room with what of an area no room covers yet; holes are left where rooms lie inside it.
+/// Draws a room in the part of an area that no room covers yet; rooms inside it leave holes.
 ///
-/// Of several pieces the largest becomes the room. Arms that reach between or along existing rooms
-/// and are no wider than `gap_m` (see [`GAP_BETWEEN_ROOMS_M`]) are cut off; slivers are dropped.
-/// Edges along rooms are shared with them. Walls as for [`super::draw_room`].
+/// Of several pieces the largest becomes the room. Arms at most `gap_m` wide (see
+/// [`GAP_BETWEEN_ROOMS_M`]) that extend between or along existing rooms are cut off; slivers are dropped.
+/// Edges along rooms are shared with them. Walls as in [`super::draw_room`].
 ///
 /// # Errors
-/// When the boundary crosses itself or encloses nothing, lies outside the drawing area, or rooms
-/// cover all of it.
+/// When the boundary crosses itself or encloses nothing, lies outside the drawing area, or is fully
+/// covered by rooms.
 pub fn draw_room_in_free_space(
     plan: &Plan,
     outer: &[Point],
     wall_thickness_m: Option<f64>,
     gap_m: f64,
 ) -> Result<(Plan, RoomId), EditError> {
-    // Alone on an empty plan: whether it is a boundary at all.
+    // Alone on an empty plan: checks whether it is a valid boundary.
     let (alone, ring) = lay_ring(&Plan::default(), outer)?;
     let outer = alone.ring_points(&ring);
     let shapes = RoomShapes::new(plan);
@@ -62,15 +62,15 @@ pub fn draw_room_in_free_space(
     Ok((without_leftovers(plan, &next, added(plan, &corners)), id))
 }
 
-/// An area laid into a plan.
+/// An area overlaid on a plan.
 pub(crate) struct LaidArea {
     pub plan: Plan,
     pub boundary: Boundary,
-    /// All corners that its rings came through, used or not.
+    /// All corners that its rings pass through, used or not.
     pub corners: Vec<CornerId>,
 }
 
-/// Lays the boundary of an area with holes into a plan, see [`lay`].
+/// Overlays the boundary of an area with holes on a plan, see [`lay`].
 ///
 /// # Errors
 /// When it lies outside the drawing area, or encloses nothing.
@@ -79,7 +79,7 @@ pub(crate) fn lay_area(plan: &Plan, outer: &[Point], holes: &[Vec<Point>]) -> Re
     let paths: Vec<Vec<Point>> = rings.map(|ring| ring.iter().chain(ring.first()).copied().collect()).collect();
     let Laid { plan: laid, chains } = lay(plan, &paths)?;
     let edges = chains.iter().flat_map(|chain| chain.windows(2)).map(|pair| ordered(pair[0], pair[1]));
-    // Rounding may pinch a narrow place: the largest face of what is left is the area.
+    // Rounding may pinch a narrow place: the largest remaining face is the area.
     let faces = EdgeFaces::new(&laid, edges.collect::<BTreeSet<_>>())?;
     let area = |i: usize| {
         let (outer, holes) = faces.positions(i);
@@ -101,7 +101,7 @@ pub(crate) fn oriented(room: &RoomShape) -> impl Iterator<Item = areas::Ring> + 
 
 /// The pieces of an area that no room covers, without narrow arms along rooms; on the grid.
 fn free_pieces(outer: &[Point], rooms: &[&RoomShape], gap_m: f64) -> Vec<(Vec<Point>, Vec<Vec<Point>>)> {
-    // As if the area lay at the origin: the same comes out wherever it lies, to the last digit.
+    // As if the area were at the origin: so the result is the same wherever it lies, to the last digit.
     let origin = polygon::bounds(outer).min;
     let here = |ring: &[Point]| -> Vec<Point> {
         ring.iter().map(|&point| (Point::default() + (point - origin)).trimmed()).collect()
@@ -116,7 +116,7 @@ fn free_pieces(outer: &[Point], rooms: &[&RoomShape], gap_m: f64) -> Vec<(Vec<Po
         .collect()
 }
 
-/// What [`free_pieces`] gives, of rooms as rings, the outer one first.
+/// The result of [`free_pieces`], for rooms given as rings, outer ring first.
 fn free_shapes(outer: &[Point], rooms: &[Vec<Vec<Point>>], gap_m: f64) -> Shapes {
     let covered: Vec<areas::Ring> = rooms
         .iter()
@@ -132,31 +132,32 @@ fn free_shapes(outer: &[Point], rooms: &[Vec<Vec<Point>>], gap_m: f64) -> Shapes
         return free;
     }
     let edges = SegmentIndex::new(rooms.iter().flatten().flat_map(|ring| polygon::edges(ring)).collect());
-    // What was opened has the same edges up to rounding, which leaves threads along them; they would
-    // join narrow parts that lie apart.
+    // The opened shape has the same edges up to rounding, which leaves threads along them; these would
+    // join separate narrow parts.
     let narrow = areas::opened(&free.overlay(&wide, OverlayRule::Difference, FillRule::NonZero), THREAD_M / 2.0);
     let arms: Shapes = narrow.into_iter().filter(|part| is_along(part, &edges)).collect();
     if arms.is_empty() {
         return free;
     }
-    // A little more than the arms, so that no thread joins what lies beyond; of the wide part nothing.
+    // Slightly more than the arms, so that no thread joins what lies beyond them, but none of the wide
+    // part.
     let cut = areas::grown(&arms, THREAD_M / 2.0).overlay(&wide, OverlayRule::Difference, FillRule::NonZero);
     let left = free.overlay(&cut, OverlayRule::Difference, FillRule::NonZero);
     areas::cleaned(&left).simplify_shape(FillRule::NonZero)
 }
 
-/// Added to the gap: drawn lengths are multiples of the grid, so that rounding never decides whether a
-/// strip exactly as wide as the gap is narrow.
+/// Added to the gap: drawn lengths are multiples of the grid, so rounding never decides whether a strip
+/// exactly as wide as the gap is narrow.
 const BETWEEN_GRID_M: f64 = 4.5 * GRID_M;
 
-/// What is narrower is no part of an area but left by rounding; below [`TOUCH_M`], between two lengths
+/// Anything narrower is a rounding artefact, not part of an area; below [`TOUCH_M`], between two lengths
 /// on the grid.
 const THREAD_M: f64 = 8.5 * GRID_M;
 
-/// A narrow part is an arm along rooms when more than this share of its boundary is theirs: both
-/// sides of a gap between two rooms are, about half of a strip beside one room; the tip of a sharp
-/// corner that the person drew in the open is not. No simple fraction: a strip that ends in the open
-/// has the share L / (2 L + 2 W), which would be just that for some W on the grid.
+/// A narrow part is an arm along rooms if more than this share of its boundary is theirs: true for both
+/// sides of a gap between two rooms, and about half of a strip beside one room, but not for the tip of a
+/// sharp corner drawn in the open. Not a simple fraction: a strip that ends in the open has the share L /
+/// (2 L + 2 W), which would equal one for some W on the grid.
 const ARM_SHARE: f64 = 0.2937;
 
 /// Whether an area is an arm along the edges of rooms.
@@ -167,7 +168,7 @@ fn is_along(area: &[areas::Ring], edges: &SegmentIndex) -> bool {
     along_m > ARM_SHARE * perimeter_m
 }
 
-/// The length in metres on which an edge runs within [`TOUCH_M`] of others, however these are cut.
+/// The length in metres over which an edge runs within [`TOUCH_M`] of others, however these are split.
 fn length_along(edge: Segment, others: &SegmentIndex) -> f64 {
     let near = others.near(edge.bounds().inflated(TOUCH_M)).map(|index| others.get(index));
     let mut parts: Vec<(f64, f64)> = near.filter_map(|other| part_along(edge, other)).collect();
@@ -180,7 +181,7 @@ fn length_along(edge: Segment, others: &SegmentIndex) -> f64 {
     share * edge.length()
 }
 
-/// From where to where an edge runs within [`TOUCH_M`] of another, as fractions.
+/// The stretch over which an edge runs within [`TOUCH_M`] of another, as fractions.
 fn part_along(edge: Segment, other: Segment) -> Option<(f64, f64)> {
     let along = other.vector().unit()?;
     let seen = |point: Point| Point::new((point - other.a).dot(along), (point - other.a).dot(along.left()));

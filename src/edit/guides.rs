@@ -5,10 +5,10 @@ use crate::geometry::{COORDINATE_LIMIT_M, trim_m};
 use crate::plan::guides::MOST_GUIDES;
 use crate::plan::{Guide, GuideAxis, Plan};
 
-/// Adds a guide line; where there is one already, nothing changes.
+/// Adds a guide line; if it already exists, nothing changes.
 ///
 /// # Errors
-/// When it lies outside the drawing area, or there are [`MOST_GUIDES`].
+/// When it lies outside the drawing area, or there are already [`MOST_GUIDES`].
 pub fn add_guide(plan: &Plan, axis: GuideAxis, at_m: f64) -> Result<Plan, EditError> {
     if !(at_m.is_finite() && at_m.abs() <= COORDINATE_LIMIT_M) {
         return Err(EditError(format!("{at_m} m lies outside the drawing area of ±{COORDINATE_LIMIT_M} m")));
@@ -19,10 +19,10 @@ pub fn add_guide(plan: &Plan, axis: GuideAxis, at_m: f64) -> Result<Plan, EditEr
     Ok(plan.with_guides(plan.guides.iter().cloned().chain([Guide::new(axis, at_m)])))
 }
 
-/// Takes a guide line away.
+/// Removes a guide line.
 ///
 /// # Errors
-/// When there is none at the place.
+/// When there is none at this position.
 pub fn remove_guide(plan: &Plan, axis: GuideAxis, at_m: f64) -> Result<Plan, EditError> {
     let kept: Vec<Guide> = plan.guides.iter().filter(|guide| !guide.is_at(axis, at_m)).cloned().collect();
     if kept.len() == plan.guides.len() {
@@ -31,20 +31,20 @@ pub fn remove_guide(plan: &Plan, axis: GuideAxis, at_m: f64) -> Result<Plan, Edi
     Ok(plan.with_guides(kept))
 }
 
-/// Moves a guide line along its normal; what a file says of it beside goes along.
+/// Moves a guide line along its normal; its unknown fields from a file move with it.
 ///
 /// # Errors
 /// As [`remove_guide`] and [`add_guide`].
 pub fn move_guide(plan: &Plan, axis: GuideAxis, from_m: f64, to_m: f64) -> Result<Plan, EditError> {
     let moved = plan.guides.iter().find(|guide| guide.is_at(axis, from_m)).cloned();
     let without = remove_guide(plan, axis, from_m)?;
-    // Checks the place.
+    // Checks the position.
     add_guide(&without, axis, to_m)?;
     let moved = moved.map(|guide| Guide { at_m: trim_m(to_m), ..guide });
     Ok(without.with_guides(without.guides.iter().cloned().chain(moved)))
 }
 
-/// Takes all guide lines away.
+/// Removes all guide lines.
 pub fn clear_guides(plan: &Plan) -> Plan {
     plan.with_guides([])
 }

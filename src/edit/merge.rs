@@ -1,4 +1,4 @@
-//! Making one room of several.
+//! Merging rooms.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -19,13 +19,13 @@ use crate::plan::{CornerId, ElementId, Joint, OpeningId, Plan, Room, RoomId, THI
 use crate::topology::plan_faces::is_sliver;
 use crate::topology::{RoomShape, RoomShapes, sides_by_geometry};
 
-/// Makes one room of several that touch along an edge or across no more than the thickest wall
-/// ([`THICKEST_WALL_M`]); the gap between them becomes part of it. The largest stays: it keeps its
-/// identity, name, function, label and note; what the others were called is gone.
+/// Merges rooms that touch along an edge or across at most the thickest wall ([`THICKEST_WALL_M`]); the
+/// gap between them becomes part of the result. The largest room remains: it keeps its identity, name,
+/// function, label and note; those of the others are lost.
 ///
-/// The walls between the rooms are removed, with the openings on them and all openings that join two
-/// of the rooms. Walls that stood inside one of the rooms stay. Openings pinned to one of the rooms
-/// are pinned to the one that stays.
+/// The walls between the rooms are removed, with the openings on them and all openings that join two of
+/// the rooms. Walls inside one of the rooms stay. Openings pinned to one of the rooms are pinned to the
+/// remaining one.
 ///
 /// # Errors
 /// When there are fewer than two, one does not exist or has no boundary, or they do not all touch.
@@ -60,7 +60,7 @@ pub fn merge_rooms(plan: &Plan, rooms: &[RoomId]) -> Result<Plan, EditError> {
         return fail(format!("the rooms must touch, or lie no further apart than {THICKEST_WALL_M} m"));
     };
     let LaidArea { plan: laid, boundary, mut corners } = lay_area(plan, &outer, &holes)?;
-    // What goes: openings between the rooms, then walls between them with what hangs on these.
+    // To remove: openings between the rooms, then walls between them and the openings on these.
     let joins_merged = |side: &Joint| side.room().is_some_and(|room| merged.contains(&room));
     let between: BTreeSet<OpeningId> = plan
         .openings()
@@ -95,7 +95,7 @@ pub fn merge_rooms(plan: &Plan, rooms: &[RoomId]) -> Result<Plan, EditError> {
     Ok(without_leftovers(plan, &repinned(&next, &merged, largest.id), corners))
 }
 
-/// Pins what was pinned to merged rooms to the one that stays.
+/// Pins what was pinned to merged rooms to the remaining one.
 fn repinned(plan: &Plan, merged: &BTreeSet<RoomId>, stays: RoomId) -> Plan {
     let is_gone = |joint: &Joint| joint.room().is_some_and(|room| room != stays && merged.contains(&room));
     let pinned = plan.openings().filter(|(_, opening)| opening.pinned.iter().flatten().any(is_gone));
@@ -110,11 +110,11 @@ fn repinned(plan: &Plan, merged: &BTreeSet<RoomId>, stays: RoomId) -> Plan {
     next
 }
 
-/// The union of rooms with the gaps between them, less what other rooms cover of the gaps.
+/// The union of rooms and the gaps between them, minus what other rooms cover of the gaps.
 fn union(rooms: &[&RoomShape], others: &[Ring]) -> Shapes {
     let rings: Vec<Ring> = rooms.iter().flat_map(|room| oriented(room)).collect();
     let rooms_alone: Shapes = rings.simplify_shape(FillRule::NonZero);
-    // Closing (grown, then shrunk by the same) fills what is narrower than twice the distance.
+    // Morphological closing (grow, then shrink back) fills gaps narrower than twice the distance.
     let reach_m = THICKEST_WALL_M / 2.0 + TOUCH_M;
     let closed = areas::grown(&areas::grown(&areas::cleaned(&rooms_alone), reach_m), -reach_m);
     let added = areas::without(closed.overlay(&rooms_alone, OverlayRule::Difference, FillRule::NonZero), others);
@@ -122,7 +122,7 @@ fn union(rooms: &[&RoomShape], others: &[Ring]) -> Shapes {
         .iter()
         .map(|room| SegmentIndex::new(room.rings().flat_map(|ring| polygon::edges(ring)).collect()))
         .collect();
-    // Of what was filled, that which touches two rooms lies between them; other is a niche of one.
+    // Filled parts that touch two rooms lie between them; others are niches of one room.
     let touches = |outer: &[Point], edges: &SegmentIndex| {
         polygon::edges(outer).any(|edge| {
             let middle = edge.midpoint();
@@ -138,7 +138,7 @@ fn union(rooms: &[&RoomShape], others: &[Ring]) -> Shapes {
             all.extend(holes.iter().map(|hole| areas::directed(hole, false)));
         }
     }
-    // Hairlines between pieces that rounding keeps apart are closed within the touching distance.
+    // Closes hairlines that rounding leaves between pieces, within the touching distance.
     let joined: Shapes = all.simplify_shape(FillRule::NonZero);
     areas::grown(&areas::grown(&joined, TOUCH_M), -TOUCH_M)
 }

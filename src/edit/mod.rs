@@ -1,5 +1,5 @@
-//! Edits: functions from plan to plan. Each returns a plan that keeps the invariants, or an error
-//! that says what stood in the way; the plan given is never changed.
+//! Edits: functions from plan to plan. Each returns a plan that keeps the invariants, or an error that
+//! says what is in the way; the given plan is never changed.
 
 mod across;
 mod bridge;
@@ -50,7 +50,7 @@ pub use openings::{
 };
 pub use weld::{Weld, settle, weld};
 
-/// Why an edit could not be done, in words for the status line.
+/// Why an edit failed, worded for the status line.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EditError(pub String);
 
@@ -74,18 +74,17 @@ pub(crate) fn checked_position(point: Point) -> Result<Point, EditError> {
     fail(format!("({}, {}) lies outside the drawing area of ±{COORDINATE_LIMIT_M} m", point.x, point.y))
 }
 
-/// Replaces what is known of the plan as a whole.
+/// Replaces the plan's metadata.
 pub fn set_meta(plan: &Plan, meta: Meta) -> Plan {
     Plan { meta: Arc::new(meta), ..plan.clone() }
 }
 
-/// Sets, replaces or removes the picture under the plan.
+/// Sets, replaces or removes the backdrop.
 pub fn set_backdrop(plan: &Plan, backdrop: Option<Backdrop>) -> Plan {
     Plan { backdrop: backdrop.map(Arc::new), ..plan.clone() }
 }
 
-/// Adds a corner at a point (on the 0.1 mm grid). Whoever snaps to an existing corner uses that one
-/// instead.
+/// Adds a corner at a point (on the 0.1 mm grid). To snap to an existing corner, use that one instead.
 ///
 /// # Errors
 /// When the point lies outside the drawing area.
@@ -97,12 +96,12 @@ pub fn add_corner(plan: &Plan, point: Point) -> Result<(Plan, CornerId), EditErr
     Ok((next, id))
 }
 
-/// Moves corners, and with them every wall, room and hosted opening that uses them. An opening keeps
-/// its distance from the first corner of its edge as far as the edge reaches.
+/// Moves corners, and with them every wall, room and hosted opening that uses them. An opening keeps its
+/// distance from the first corner of its edge, as far as the edge allows.
 ///
 /// # Errors
-/// When a corner does not exist, a target lies outside the drawing area, or an edge that hosts an
-/// opening would lose its length.
+/// When a corner does not exist, a target lies outside the drawing area, or an edge hosting an opening
+/// would lose its length.
 pub fn move_corners(plan: &Plan, targets: &[(CornerId, Point)]) -> Result<Plan, EditError> {
     let mut next = plan.clone();
     let mut moved = BTreeSet::new();
@@ -152,7 +151,7 @@ pub fn add_wall(plan: &Plan, from: CornerId, to: CornerId, thickness_m: f64) -> 
 /// Adds a room.
 ///
 /// # Errors
-/// When a ring has fewer than three corners, names one twice in a row, or one that does not exist.
+/// When a ring has fewer than three corners, repeats one twice in a row, or uses one that does not exist.
 pub fn add_room(plan: &Plan, room: Room) -> Result<(Plan, RoomId), EditError> {
     for ring in room.rings() {
         require_corners(plan, ring)?;
@@ -172,8 +171,8 @@ pub fn add_room(plan: &Plan, room: Room) -> Result<(Plan, RoomId), EditError> {
 /// Adds an opening.
 ///
 /// # Errors
-/// When its edge does not exist or has no length, its middle lies beyond the edge, it has no width,
-/// or it is pinned to a room that does not exist.
+/// When its edge does not exist or has no length, its middle is not on the edge, it has no width, or it
+/// is pinned to a room that does not exist.
 pub fn add_opening(plan: &Plan, opening: Opening) -> Result<(Plan, OpeningId), EditError> {
     let opening = opening.trimmed();
     match opening.place {
@@ -209,9 +208,9 @@ pub fn add_opening(plan: &Plan, opening: Opening) -> Result<(Plan, OpeningId), E
     Ok((next, id))
 }
 
-/// What removing elements would remove with them: the walls, rooms and openings that use a removed
-/// corner, the openings whose edge no wall or room has any more, and the corners nothing uses.
-/// Sorted, the given elements included.
+/// What removing elements would also remove: the walls, rooms and openings that use a removed corner, the
+/// openings whose edge belongs to no wall or room any more, and unused corners. Sorted; includes the
+/// given elements.
 pub fn removed_with(plan: &Plan, elements: &[ElementId]) -> BTreeSet<ElementId> {
     let mut gone: BTreeSet<ElementId> = elements.iter().copied().collect();
     let corner_gone = |gone: &BTreeSet<ElementId>, corner: &CornerId| gone.contains(&ElementId::Corner(*corner));
@@ -225,7 +224,7 @@ pub fn removed_with(plan: &Plan, elements: &[ElementId]) -> BTreeSet<ElementId> 
             gone.insert(ElementId::Room(id));
         }
     }
-    // Edges and corners that something still uses.
+    // Edges and corners that are still used.
     let mut edges: BTreeSet<[CornerId; 2]> = BTreeSet::new();
     let mut used: BTreeSet<CornerId> = BTreeSet::new();
     for (id, wall) in plan.walls() {
@@ -242,8 +241,8 @@ pub fn removed_with(plan: &Plan, elements: &[ElementId]) -> BTreeSet<ElementId> 
             }
         }
     }
-    // Only what loses its support goes: a free-standing corner or an opening whose edge never was
-    // an edge of anything stays unless it is named.
+    // Only what loses its support is removed: a free-standing corner, or an opening whose edge never
+    // belonged to anything, stays unless it is given.
     let mut edges_before: BTreeSet<[CornerId; 2]> = edges.clone();
     let mut losing: BTreeSet<CornerId> = BTreeSet::new();
     for element in &gone {
@@ -278,8 +277,8 @@ pub fn removed_with(plan: &Plan, elements: &[ElementId]) -> BTreeSet<ElementId> 
     gone
 }
 
-/// Removes elements and what depends on them, see [`removed_with`]. An opening pinned to a removed
-/// room leads to the outside on that side.
+/// Removes elements and what depends on them, see [`removed_with`]. An opening pinned to a removed room
+/// then leads outside on that side.
 ///
 /// # Errors
 /// When an element does not exist.
@@ -348,7 +347,7 @@ pub fn change_room(plan: &Plan, id: RoomId, change: impl FnOnce(&mut Room)) -> R
     Ok(next)
 }
 
-/// Sets what a room is for; empty text makes it unknown.
+/// Sets what a room is for; empty text means unknown.
 ///
 /// # Errors
 /// When the room does not exist.
@@ -356,7 +355,7 @@ pub fn set_function(plan: &Plan, id: RoomId, function: &str) -> Result<Plan, Edi
     change_room(plan, id, |room| room.function = function.trim().to_owned())
 }
 
-/// Gives a room a label of its own, or takes it away.
+/// Gives a room a label of its own, or removes it.
 ///
 /// # Errors
 /// When the room does not exist.
@@ -364,7 +363,7 @@ pub fn set_label(plan: &Plan, id: RoomId, label: Option<RoomLabel>) -> Result<Pl
     change_room(plan, id, |room| room.label = label)
 }
 
-/// Names a room.
+/// Sets a room's name.
 ///
 /// # Errors
 /// When the room does not exist.

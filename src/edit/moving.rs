@@ -1,4 +1,4 @@
-//! Moving, turning, mirroring, scaling and ordering what is there.
+//! Moving, rotating, mirroring, scaling and arranging elements.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -7,15 +7,15 @@ use crate::edit::{EditError, checked_position, fail, move_corners, require_corne
 use crate::geometry::{Bounds, Point, Segment, TOUCH_M, Transform, Vector, polygon, trim_m};
 use crate::plan::{CornerId, ElementId, OpeningId, Place, Plan, RoomId, WallId, ring_edges};
 
-/// Moves elements: each corner they use once, and with it everything that shares it; free openings
-/// too. An opening chosen without its wall slides along it.
+/// Moves elements: each corner they use once, and with it everything that shares it; also free openings.
+/// An opening selected without its wall slides along it.
 ///
-/// Mirrored doors keep opening into the room they open to. Scaling takes the positions and widths of
-/// the openings on scaled edges along, and the thickness of chosen walls.
+/// Mirrored doors still open into the same room. Scaling applies to the positions and widths of openings
+/// on scaled edges, and to the thickness of selected walls.
 ///
 /// # Errors
-/// When an element does not exist, a target lies outside the drawing area, or an edge that hosts an
-/// opening would lose its length.
+/// When an element does not exist, a target lies outside the drawing area, or an edge hosting an opening
+/// would lose its length.
 pub fn move_elements(plan: &Plan, elements: &BTreeSet<ElementId>, transform: Transform) -> Result<Plan, EditError> {
     let corners = corners_of(plan, elements)?;
     let targets: Vec<(CornerId, Point)> =
@@ -71,7 +71,7 @@ pub fn move_elements(plan: &Plan, elements: &BTreeSet<ElementId>, transform: Tra
     Ok(next)
 }
 
-/// A mirrored door opens to the other side of its segment, which has both its ends where they were.
+/// A mirrored door opens to the other side of its segment, whose ends keep their order.
 pub(crate) fn mirror_swing(opening: &mut crate::plan::Opening, transform: Transform) {
     if transform.mirrors()
         && let Some(swing) = &mut opening.swing
@@ -80,7 +80,7 @@ pub(crate) fn mirror_swing(opening: &mut crate::plan::Opening, transform: Transf
     }
 }
 
-/// The corners that elements use; those of a hosted opening are its wall's, not its own.
+/// The corners that elements use; those of a hosted opening belong to its wall.
 ///
 /// # Errors
 /// When an element does not exist.
@@ -110,7 +110,7 @@ pub fn corners_of(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<BTreeSe
     Ok(corners)
 }
 
-/// Gives walls a thickness in metres.
+/// Sets the thickness of walls in metres.
 ///
 /// # Errors
 /// When a wall does not exist, or the thickness is not within 0..=10 m.
@@ -126,10 +126,10 @@ pub fn set_thickness(plan: &Plan, walls: &[WallId], thickness_m: f64) -> Result<
     Ok(next)
 }
 
-/// Which sides or middles of elements come onto one line.
+/// Which sides or middles of elements are aligned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Alignment {
-    /// Left sides, at the leftmost of them.
+    /// Left sides, at the leftmost.
     Left,
     /// Right sides, at the rightmost.
     Right,
@@ -137,16 +137,17 @@ pub enum Alignment {
     Top,
     /// Lower sides, at the lowest.
     Bottom,
-    /// Middles onto one upright line, that of the box around all.
+    /// Middles on a vertical line, that of the box around all.
     Center,
-    /// Middles onto one level line, that of the box around all.
+    /// Middles on a horizontal line, that of the box around all.
     Middle,
 }
 
-/// Aligns elements. What shares corners moves as one; a corner chosen alone is aligned by itself.
+/// Aligns elements. Elements that share corners move as one; a corner selected alone is aligned by
+/// itself.
 ///
 /// # Errors
-/// When an element does not exist, or fewer than two things can be aligned.
+/// When an element does not exist, or there are fewer than two things to align.
 pub fn align(plan: &Plan, elements: &BTreeSet<ElementId>, alignment: Alignment) -> Result<Plan, EditError> {
     let groups = groups(plan, elements)?;
     if groups.len() < 2 {
@@ -165,11 +166,11 @@ pub fn align(plan: &Plan, elements: &BTreeSet<ElementId>, alignment: Alignment) 
     moved(plan, moves)
 }
 
-/// Spaces elements so that their middles stand at equal distances, between the outermost two, which
-/// stay: along x, or along y when `is_upright`. What shares corners moves as one.
+/// Spaces elements so that their middles are equidistant between the outermost two, which stay: along x,
+/// or along y if `is_upright`. Elements that share corners move as one.
 ///
 /// # Errors
-/// When an element does not exist, or fewer than three things can be spaced.
+/// When an element does not exist, or there are fewer than three things to space.
 pub fn distribute(plan: &Plan, elements: &BTreeSet<ElementId>, is_upright: bool) -> Result<Plan, EditError> {
     let mut groups = groups(plan, elements)?;
     if groups.len() < 3 {
@@ -201,7 +202,7 @@ fn moved<'a>(plan: &Plan, moves: impl Iterator<Item = (&'a Group, Vector)>) -> R
 }
 
 /// Groups elements by the corners they share, in the order of their first elements. Hosted openings
-/// follow their walls and make no group.
+/// follow their walls and form no group.
 fn groups(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<Vec<Group>, EditError> {
     let mut groups: Vec<Option<(Group, BTreeSet<CornerId>)>> = Vec::new();
     let mut group_of: BTreeMap<CornerId, usize> = BTreeMap::new();
@@ -234,21 +235,20 @@ fn groups(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<Vec<Group>, Edi
     Ok(groups)
 }
 
-/// A drawing whose main direction strays from the axes by no more than this (1 degree) is meant to lie
-/// along them.
+/// A drawing whose main direction is within this angle (1 degree) of the axes is meant to be aligned with
+/// them.
 const UPRIGHT_RAD: f64 = std::f64::consts::PI / 180.0;
 
-/// Makes nearly right angles right, in rooms or (`None`) in the whole plan, walls included.
+/// Makes nearly right angles exact, in rooms or (`None`) in the whole plan, walls included.
 ///
-/// The main direction is the one from which, or from whose perpendicular, the greatest length of edges
-/// strays by no more than `max_angle_rad`, and the mean of these; the axes of the drawing where it is
-/// within a degree of them. An edge that strays from it or from its perpendicular by at most `max_angle_rad` becomes
-/// parallel to it: its ends get the same coordinate across. Corners linked that way get the mean of
-/// their coordinates, which moves them least (in the sum of squares). Corners are shared before and
-/// after; edges at other angles stay between theirs.
+/// The main direction is the one that the greatest length of edges follows, or is perpendicular to,
+/// within `max_angle_rad`, averaged over these; or the axes of the drawing if within a degree of them. An
+/// edge within `max_angle_rad` of it or its perpendicular becomes parallel to it: its ends get the same
+/// coordinate across. Corners linked that way get the mean of their coordinates, which moves them least
+/// (in the sum of squares). Shared corners stay shared; edges at other angles keep their corners.
 ///
 /// # Errors
-/// When a room does not exist, nothing has edges, an edge would lose its length, or a room would turn
+/// When a room does not exist, there are no edges, an edge would lose its length, or a room would turn
 /// inside out.
 pub fn square_up(plan: &Plan, rooms: Option<&BTreeSet<RoomId>>, max_angle_rad: f64) -> Result<Plan, EditError> {
     let mut edges: Vec<(CornerId, CornerId)> = Vec::new();
@@ -301,11 +301,10 @@ pub fn square_up(plan: &Plan, rooms: Option<&BTreeSet<RoomId>>, max_angle_rad: f
     Ok(next)
 }
 
-/// The direction that most edges share up to quarter turns, in radians, in -π/4..=π/4; see
-/// [`square_up`].
+/// The direction most edges share, up to quarter turns, in radians in -π/4..=π/4; see [`square_up`].
 fn main_direction(edges: impl Iterator<Item = Segment>, max_angle_rad: f64) -> Option<f64> {
     const QUARTER_RAD: f64 = std::f64::consts::FRAC_PI_2;
-    /// A quarter of a degree each: a fraction of what a hand-drawn line strays by.
+    /// A quarter of a degree each: a fraction of the deviation of a hand-drawn line.
     const BINS: usize = 360;
     let stray = |angle_rad: f64, from_rad: f64| {
         (angle_rad - from_rad + QUARTER_RAD / 2.0).rem_euclid(QUARTER_RAD) - QUARTER_RAD / 2.0
@@ -333,8 +332,8 @@ fn main_direction(edges: impl Iterator<Item = Segment>, max_angle_rad: f64) -> O
     Some(if main_rad.abs() <= UPRIGHT_RAD { 0.0 } else { main_rad })
 }
 
-/// Refuses an edit that moved corners where an edge lost its length, or a room turned inside out or
-/// began to cross itself.
+/// Rejects an edit that moved corners if an edge lost its length, or a room turned inside out or began to
+/// cross itself.
 ///
 /// # Errors
 /// Says which of these.
@@ -369,7 +368,7 @@ pub(crate) fn check_shapes(
     Ok(())
 }
 
-/// Corners linked with each other, directly or through others.
+/// Corners linked with each other, directly or through others (union-find).
 #[derive(Default)]
 struct Links {
     parent: BTreeMap<CornerId, CornerId>,

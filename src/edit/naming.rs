@@ -1,4 +1,4 @@
-//! Names by a pattern, and choosing rooms by what they are: what many rooms are changed by at once.
+//! Bulk changes to rooms: names from a pattern, and selecting rooms by their properties.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -6,25 +6,25 @@ use std::fmt;
 use crate::labels::{Label, normalised_function};
 use crate::plan::{Meta, Plan, Room, RoomId};
 
-/// A pattern of names: `{function} {n}`.
+/// A name pattern, such as `{function} {n}`.
 ///
-/// | part | what it becomes |
+/// | part | replaced by |
 /// | --- | --- |
-/// | `{n}`, `{nn}`, `{nnn}` | the room's number, with zeros in front up to as many digits as letters |
-/// | `{function}` | what the room is for, with a capital letter; 'Room' where that is unknown |
-/// | `{label}`, `{letter}` | its label in words ('Big room'), or its letter ('B'); 'Room' or 'R' without one |
-/// | `{storey}`, `{building}` | as the plan has them |
+/// | `{n}`, `{nn}`, `{nnn}` | the room's number, zero-padded to as many digits as letters |
+/// | `{function}` | what the room is for, capitalised; 'Room' if unknown |
+/// | `{label}`, `{letter}` | its label in words ('Big room'), or its letter ('B'); 'Room' or 'R' if it has none |
+/// | `{storey}`, `{building}` | those of the plan |
 /// | `{{`, `}}` | a brace |
 ///
-/// Rooms whose names are otherwise the same are counted; so `{function} {n}` gives 'Office 1', 'Office 2',
-/// 'Kitchen 1', and `{storey}.{nn}` counts through all rooms.
+/// Rooms whose names are otherwise the same are numbered: `{function} {n}` gives 'Office 1', 'Office 2',
+/// 'Kitchen 1', and `{storey}.{nn}` numbers all rooms in sequence.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pattern(Vec<Part>);
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Part {
     Text(String),
-    /// At least so many digits.
+    /// Minimum number of digits.
     Number(usize),
     Function,
     Label,
@@ -33,7 +33,7 @@ enum Part {
     Building,
 }
 
-/// The parts of a pattern as they are written, each with what it becomes.
+/// The parts of a pattern as written, each with its meaning.
 pub const PARTS: [(&str, &str); 7] = [
     ("{n}", "the room's number"),
     ("{nn}", "the room's number with two digits"),
@@ -44,7 +44,7 @@ pub const PARTS: [(&str, &str); 7] = [
     ("{building}", "the plan's building"),
 ];
 
-/// Why a pattern gives no names.
+/// Why a pattern is invalid.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PatternError(String);
 
@@ -56,10 +56,10 @@ impl fmt::Display for PatternError {
 
 impl std::error::Error for PatternError {}
 
-/// Names are at most so many letters long: what stands in a room.
+/// The longest name, in letters: it has to fit in a room.
 const LONGEST_NAME: usize = 200;
 
-/// Numbers have at most so many digits.
+/// The most digits of a number.
 const MOST_DIGITS: usize = 6;
 
 impl std::str::FromStr for Pattern {
@@ -114,12 +114,12 @@ impl Part {
 }
 
 impl Pattern {
-    /// Whether it counts.
+    /// Whether it has a number.
     pub fn has_number(&self) -> bool {
         self.0.iter().any(|part| matches!(part, Part::Number(_)))
     }
 
-    /// What stands before, between and behind the numbers for a room.
+    /// The text before, between and after the numbers for a room.
     fn filled(&self, meta: &Meta, room: &Room, label: Option<Label>) -> Vec<Result<String, usize>> {
         let text = |part: &Part| match part {
             Part::Text(text) => Ok(text.clone()),
@@ -136,11 +136,11 @@ impl Pattern {
         self.0.iter().map(text).collect()
     }
 
-    /// The names that rooms get, in the order in which they are counted from `start` on. A name that a
-    /// room outside of these has is passed over where there is a number to go on with.
+    /// The names for rooms, numbered in order from `start`. A name already used by a room outside of
+    /// these is skipped if the pattern has a number.
     ///
     /// # Errors
-    /// When the pattern names the plan's storey or building and the plan has none, or a name would be too
+    /// When the pattern uses the plan's storey or building and the plan has none, or a name would be too
     /// long.
     pub fn names(
         &self,
@@ -175,7 +175,7 @@ impl Pattern {
                 parts.iter().map(part).collect::<String>().trim().to_owned()
             };
             let name = if self.has_number() {
-                // A letter that no name holds stands for the number.
+                // A letter that no name contains stands for the number.
                 let same: String = parts.iter().map(|part| part.as_deref().unwrap_or("\0")).collect();
                 let number = next.entry(same.to_lowercase()).or_insert(start);
                 while taken.contains(&with(*number).to_lowercase()) && *number < u32::MAX {
@@ -197,7 +197,7 @@ impl Pattern {
     }
 }
 
-/// A text with a capital letter.
+/// Capitalises the first letter.
 fn capital(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
@@ -243,7 +243,7 @@ mod tests {
     fn names_of_others_are_passed_over() {
         let (plan, rooms) = plan(&[("Office 2", "office"), ("", "office"), ("old", "office")]);
         assert_eq!(names("{function} {n}", &plan, &rooms[1..], 1).unwrap(), ["Office 1", "Office 3"]);
-        // Their own old names are free.
+        // The rooms' own old names are free to reuse.
         assert_eq!(names("{function} {n}", &plan, &rooms, 1).unwrap(), ["Office 1", "Office 2", "Office 3"]);
     }
 

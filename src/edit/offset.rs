@@ -8,13 +8,13 @@ use crate::geometry::path::parallel;
 use crate::geometry::{Point, Segment, polygon};
 use crate::plan::{CornerId, Plan, RoomId, WallId};
 
-/// Draws walls parallel to walls, at a distance in metres, on the side on which the point `towards`
-/// lies of the nearest of them. Walls that follow each other are mitred where they join, closed chains
-/// all round; where more than two meet, chains end. Each copy is as thick as its
-/// original, all of a chain as its first where a sharp corner is cut off.
+/// Draws walls parallel to the given ones, at a distance in metres, on the side of the nearest one where
+/// the point `towards` lies. Consecutive walls are mitred where they join, all the way round in closed
+/// chains; where more than two meet, chains end. Each copy is as thick as its original; if a sharp corner
+/// is cut off, all of a chain are as thick as its first.
 ///
 /// # Errors
-/// When a wall does not exist, the distance is not above 0 or too large for one of the walls.
+/// When a wall does not exist, or the distance is not above 0 or too large for one of the walls.
 pub fn offset_walls(plan: &Plan, walls: &[WallId], distance_m: f64, towards: Point) -> Result<Drawn, EditError> {
     check_distance(distance_m)?;
     let mut by_corner: BTreeMap<CornerId, Vec<WallId>> = BTreeMap::new();
@@ -39,11 +39,11 @@ pub fn offset_walls(plan: &Plan, walls: &[WallId], distance_m: f64, towards: Poi
     Ok(drawn)
 }
 
-/// Draws walls parallel to a room's outer boundary, at a distance in metres inside or outside of it.
+/// Draws walls parallel to a room's outer boundary, at a distance in metres inside or outside it.
 ///
 /// # Errors
-/// When the room does not exist or has no boundary, the distance is not above 0 or too large for one
-/// of its sides, or the thickness is not within 0..=10 m.
+/// When the room does not exist or has no boundary, the distance is not above 0 or too large for one of
+/// its sides, or the thickness is not within 0..=10 m.
 pub fn offset_room(
     plan: &Plan,
     room: RoomId,
@@ -69,8 +69,8 @@ fn check_distance(distance_m: f64) -> Result<(), EditError> {
     fail(format!("the distance of a parallel is above 0 m, not {distance_m} m"))
 }
 
-/// A corner to start the next chain at, and the first wall from there: an end or a branching if there
-/// is one, else any corner of a closed chain.
+/// The corner to start the next chain at, and the first wall from there: a dead end or a junction if
+/// there is one, else any corner of a closed chain.
 fn first_of_chain(
     plan: &Plan,
     left: &BTreeSet<WallId>,
@@ -95,7 +95,7 @@ struct Chain {
     walls: Vec<WallId>,
 }
 
-/// The walls that follow each other from a corner on, taken out of those left.
+/// The consecutive walls from a corner on, removed from those left.
 fn chain_from(
     plan: &Plan,
     (start, first): (CornerId, WallId),
@@ -115,7 +115,7 @@ fn chain_from(
     chain
 }
 
-/// Draws the parallel of a chain, wall by wall, so that each is as thick as its original.
+/// Draws the parallel of a chain wall by wall, each as thick as its original.
 fn draw_parallel(
     plan: &Plan,
     drawn: &mut Drawn,
@@ -143,7 +143,7 @@ fn draw_parallel(
     for (i, pair) in path.windows(2).enumerate() {
         let original = if is_mitred { chain.walls.get(i) } else { chain.walls.first() };
         let thickness_m = original.map_or(0.0, thickness_m);
-        // Where a wall stands already, none is needed.
+        // Where there is already a wall, none is needed.
         if let Ok(more) = draw_walls(&drawn.plan, pair, thickness_m) {
             drawn.plan = more.plan;
             drawn.walls.extend(more.walls);

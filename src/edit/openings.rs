@@ -13,17 +13,16 @@ use crate::plan::{
 };
 use crate::topology::{RoomShapes, sides_by_geometry};
 
-/// The opening that [`place_opening`] would add: to show it beforehand.
+/// The opening that [`place_opening`] would add: for a preview.
 ///
-/// It goes on the nearest wall, or where no wall is within `reach_m` on the nearest boundary of a
-/// room, its middle as near to `at` as its width allows: inside the edge where it fits. On a shorter
-/// edge it reaches over the collinear edges beside it, and is narrower than wanted only where these
-/// are too short as well. A door opens to the side of the point `swing_towards`, hinged at the end
-/// nearer to it.
+/// It goes on the nearest wall or, if no wall is within `reach_m`, on the nearest room boundary, its
+/// middle as close to `at` as its width allows: inside the edge if it fits. On a shorter edge it extends
+/// over the collinear edges beside it, and is made narrower only if these are too short as well. A door
+/// opens to the side of the point `swing_towards`, hinged at the end nearer to it.
 ///
 /// # Errors
-/// When nothing that could have an opening is within reach, others leave no place for it on its edge, or
-/// the width is not a width.
+/// When nothing that can host an opening is within reach, other openings leave no space on its edge, or
+/// the width is invalid.
 pub fn opening_at(
     plan: &Plan,
     kind: OpeningKind,
@@ -41,10 +40,10 @@ pub fn opening_at(
     opening_on(plan, kind, host, at, width_m, swing_towards)
 }
 
-/// The same on an edge that is known: for who has looked for it already.
+/// The same on a known edge: for callers that have already found it.
 ///
 /// # Errors
-/// When the edge has no length, others leave no place on it, or the width is not a width.
+/// When the edge has no length, other openings leave no space on it, or the width is invalid.
 pub fn opening_on(
     plan: &Plan,
     kind: OpeningKind,
@@ -80,7 +79,7 @@ pub fn place_opening(
     add_opening(plan, opening_at(plan, kind, at, width_m, reach_m, swing_towards)?)
 }
 
-/// Slides an opening along its wall, over all its collinear edges, as near to a point as it goes; a
+/// Slides an opening along its wall, over all its collinear edges, as close to a point as possible; a
 /// free one along its own line.
 ///
 /// # Errors
@@ -102,10 +101,10 @@ pub fn slide_opening(plan: &Plan, id: OpeningId, towards: Point) -> Result<Plan,
     with_opening(plan, id, |opening| opening.place = place)
 }
 
-/// Changes an opening's width, in metres; its middle stays where it is if the wall allows.
+/// Sets an opening's width in metres; its middle stays in place if the wall allows.
 ///
 /// # Errors
-/// When the opening does not exist, or the width is not a width.
+/// When the opening does not exist, or the width is invalid.
 pub fn resize_opening(plan: &Plan, id: OpeningId, width_m: f64) -> Result<Plan, EditError> {
     let opening = known(plan, id)?;
     let Some(middle) = plan.opening_segment(opening).map(Segment::midpoint) else {
@@ -122,7 +121,7 @@ pub fn resize_opening(plan: &Plan, id: OpeningId, width_m: f64) -> Result<Plan, 
     with_opening(plan, id, |opening| opening.place = place)
 }
 
-/// Says what an opening is; what is no door loses its swing.
+/// Sets an opening's kind; if it is no longer a door, it loses its swing.
 ///
 /// # Errors
 /// When the opening does not exist.
@@ -135,7 +134,7 @@ pub fn set_opening_kind(plan: &Plan, id: OpeningId, kind: OpeningKind) -> Result
     })
 }
 
-/// Says how a door's leaf opens; `None` leaves it to the drawing.
+/// Sets how a door's leaf opens; `None` leaves it to the drawing code.
 ///
 /// # Errors
 /// When the opening does not exist.
@@ -143,8 +142,8 @@ pub fn set_swing(plan: &Plan, id: OpeningId, swing: Option<Swing>) -> Result<Pla
     with_opening(plan, id, |opening| opening.swing = swing)
 }
 
-/// Hinges a door at its other end. `shown` is how the drawing shows it, for a door that leaves its
-/// swing to the drawing.
+/// Moves a door's hinge to its other end. `shown` is the swing as drawn, for a door whose swing is left
+/// to the drawing code.
 ///
 /// # Errors
 /// When the opening does not exist.
@@ -155,7 +154,7 @@ pub fn flip_hinge(plan: &Plan, id: OpeningId, shown: Swing) -> Result<Plan, Edit
     })
 }
 
-/// Lets a door open to its other side; `shown` as for [`flip_hinge`].
+/// Makes a door open to its other side; `shown` as for [`flip_hinge`].
 ///
 /// # Errors
 /// When the opening does not exist.
@@ -179,8 +178,8 @@ fn with_opening(plan: &Plan, id: OpeningId, change: impl FnOnce(&mut Opening)) -
     Ok(next)
 }
 
-/// Widths an opening may have, in metres: from the grid of lengths to what no building exceeds (the
-/// invariant's limit).
+/// Checks an opening's width in metres: from the grid step up to what no building exceeds (the limit of
+/// the invariants).
 fn check_width(width_m: f64) -> Result<(), EditError> {
     if trim_m(width_m) > 0.0 && width_m <= 1000.0 {
         return Ok(());
@@ -193,7 +192,7 @@ fn free(from: Point, to: Point) -> Result<Place, EditError> {
     if from == to { fail("an opening needs a width") } else { Ok(Place::Free { from, to }) }
 }
 
-/// The edge nearest to a point within `reach_m`; among equals the first.
+/// The edge nearest to a point within `reach_m`; the first, if equally near.
 fn nearest_edge(
     plan: &Plan,
     edges: impl Iterator<Item = (CornerId, CornerId)>,
@@ -209,7 +208,7 @@ fn nearest_edge(
     near.min_by(|p, q| p.0.total_cmp(&q.0)).map(|(_, edge)| edge)
 }
 
-/// An opening's place on an edge, its middle as near to a point as its width allows.
+/// An opening's place on an edge, its middle as close to a point as its width allows.
 fn fitted(plan: &Plan, (from, to): (CornerId, CornerId), at: Point, width_m: f64) -> Result<Place, EditError> {
     check_width(width_m)?;
     let edge = plan.position(from).zip(plan.position(to)).map(|(a, b)| Segment::new(a, b));
@@ -221,7 +220,7 @@ fn fitted(plan: &Plan, (from, to): (CornerId, CornerId), at: Point, width_m: f64
     let (at_m, width_m) = if width_m <= length_m {
         (wanted_m.clamp(width_m / 2.0, length_m - width_m / 2.0), width_m)
     } else {
-        // How far the collinear edges reach before and behind this one.
+        // How far the collinear edges extend before and after this one.
         let run = run_of(plan, from, to);
         let ends = run.iter().flat_map(|&(a, b)| [a, b]).filter_map(|corner| plan.position(corner));
         let (start_m, end_m) = ends
@@ -235,8 +234,8 @@ fn fitted(plan: &Plan, (from, to): (CornerId, CornerId), at: Point, width_m: f64
     Ok(Place::Hosted { from, to, at_m: trim_m(at_m), width_m: trim_m(width_m) })
 }
 
-/// A place on an edge, moved along it as little as need be to overlap no other opening of it; one that
-/// reaches over the edge's ends stays.
+/// A place on an edge, shifted along it as little as necessary not to overlap its other openings; one
+/// that extends past the edge's ends stays.
 fn beside_others(plan: &Plan, place: Place) -> Result<Place, EditError> {
     let Place::Hosted { from, to, at_m, width_m } = place else { return Ok(place) };
     let length_m = plan.position(from).zip(plan.position(to)).map_or(0.0, |(a, b)| a.distance(b));
@@ -254,14 +253,14 @@ fn beside_others(plan: &Plan, place: Place) -> Result<Place, EditError> {
         .collect();
     taken.sort_by(|p, q| p.0.total_cmp(&q.0));
     taken.push((length_m, length_m));
-    // Free stretches from one to the next, and the nearest place in one that is wide enough.
+    // The free stretches between openings, and the nearest position in one that is wide enough.
     let mut free_from_m = 0.0_f64;
     let mut nearest_m: Option<f64> = None;
     for (start_m, end_m) in taken {
         let (least_m, most_m) = (free_from_m + width_m / 2.0, start_m - width_m / 2.0);
         if most_m >= least_m - GRID_M / 2.0 {
             let here_m = at_m.clamp(least_m, most_m.max(least_m));
-            // Of two as near, the first: rounding does not decide.
+            // If two are equally near, the first: rounding must not decide.
             if nearest_m.is_none_or(|nearest_m| (here_m - at_m).abs() < (nearest_m - at_m).abs() - GRID_M / 2.0) {
                 nearest_m = Some(here_m);
             }
@@ -274,14 +273,14 @@ fn beside_others(plan: &Plan, place: Place) -> Result<Place, EditError> {
     }
 }
 
-/// The collinear edges of walls and boundaries that an edge is part of, in its direction, from the
-/// first to the last; what lies aside by no more than a notch counts as collinear.
+/// The collinear edges of walls and boundaries that an edge is part of, in its direction, from first to
+/// last; offsets up to a notch count as collinear.
 fn run_of(plan: &Plan, from: CornerId, to: CornerId) -> Vec<(CornerId, CornerId)> {
     let mut run = vec![(from, to)];
     let (Some(a), Some(b)) = (plan.position(from), plan.position(to)) else { return run };
     let Some(along) = (b - a).unit() else { return run };
     let aside = |point: Point| (point - a).dot(along.left()).abs();
-    // By the corner they start at, the nearest end first.
+    // By starting corner, the nearest end first.
     let mut onward: BTreeMap<CornerId, (f64, CornerId)> = BTreeMap::new();
     let mut backward: BTreeMap<CornerId, (f64, CornerId)> = BTreeMap::new();
     let mut note = |map_forward: bool, p: CornerId, q: CornerId, length_m: f64| {
@@ -316,7 +315,7 @@ fn run_of(plan: &Plan, from: CornerId, to: CornerId) -> Vec<(CornerId, CornerId)
     run
 }
 
-/// An opening that would be placed and what it would join.
+/// An opening to be placed and what it would join.
 #[derive(Clone, Debug)]
 pub struct OpeningPreview {
     pub opening: Opening,
@@ -325,7 +324,7 @@ pub struct OpeningPreview {
     pub sides: [Joint; 2],
 }
 
-/// What [`place_opening`] would add, with what it would join; `shapes` are those of the plan.
+/// What [`place_opening`] would add and what it would join; `shapes` are those of the plan.
 ///
 /// # Errors
 /// As [`opening_at`].

@@ -1,6 +1,6 @@
-//! Laying paths into a plan: what every edit that draws does first. A corner exists once, so a path
-//! goes through the corners it meets, splits the edges it touches, and shares a corner with every
-//! edge it crosses.
+//! Overlaying paths on a plan: the first step of every edit that draws. A corner exists once, so a path
+//! goes through the corners it meets, splits the edges it touches, and shares a corner with every edge it
+//! crosses.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,20 +13,20 @@ use crate::geometry::segments::{SegmentIndex, crossing};
 use crate::geometry::{Bounds, Point, Segment, TOUCH_M};
 use crate::plan::{CornerId, Plan, Positions, ordered, ring_edges};
 
-/// Paths laid into a plan.
+/// Paths overlaid on a plan.
 pub(crate) struct Laid {
-    /// The plan with the corners of the paths; nothing has their new edges yet.
+    /// The plan with the corners of the paths; nothing uses their new edges yet.
     pub plan: Plan,
-    /// For each path the corners it runs through, no two neighbours equal.
+    /// For each path the corners it runs through, without consecutive repeats.
     pub chains: Vec<Vec<CornerId>>,
 }
 
-/// Lays paths into a plan. A point closer than [`TOUCH_M`] to a corner is that corner; one as close
-/// to an edge is put on the edge, which is split there. Corners as close to a path become part of it,
-/// and where it crosses an edge or a path both get a corner. What is there never moves by more than
-/// the rounding to the grid.
+/// Overlays paths on a plan. A point closer than [`TOUCH_M`] to a corner becomes that corner; one that
+/// close to an edge is put on the edge, which is split there. Corners that close to a path become part of
+/// it, and where it crosses an edge or a path both get a corner. Existing elements never move by more
+/// than the rounding to the grid.
 ///
-/// Takes time linear in the number of edges of the plan, and a logarithm of it for each edge that the
+/// Takes time linear in the number of edges of the plan, plus logarithmic time for each edge that the
 /// paths have or meet.
 ///
 /// # Errors
@@ -46,7 +46,7 @@ pub(crate) fn lay(plan: &Plan, paths: &[Vec<Point>]) -> Result<Laid, EditError> 
         if lines.is_empty()
             && let Some(&only) = stops.first()
         {
-            // A path of one place: its corner is all there is of it.
+            // A path that stays in one place is just its corner.
             lines.push(ground.lines.len());
             ground.lines.push(vec![only]);
         }
@@ -88,23 +88,23 @@ pub(crate) fn lay(plan: &Plan, paths: &[Vec<Point>]) -> Result<Laid, EditError> 
     Ok(Laid { plan: next, chains })
 }
 
-/// A corner, there already or to be added.
+/// A corner, existing or to be added.
 struct Stop {
     id: Option<CornerId>,
     at: Point,
 }
 
-/// The part of a plan around paths, while they are laid.
+/// The part of a plan around paths while they are overlaid.
 struct Ground {
     stops: Vec<Stop>,
     stop_tree: RTree<GeomWithData<[f64; 2], usize>>,
     /// The edges of the plan, then the pieces of paths: each as the stops along it.
     lines: Vec<Vec<usize>>,
-    /// What lies between two neighbouring stops of a line.
+    /// The pieces of lines between two neighbouring stops.
     pieces: RTree<GeomWithData<Rectangle<[f64; 2]>, Piece>>,
 }
 
-/// A piece of a line, from a stop to the next.
+/// A piece of a line, from one stop to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Piece {
     line: usize,
@@ -112,14 +112,13 @@ struct Piece {
     to: usize,
 }
 
-/// A piece of a path that meets more things than this is refused: no drawing has so many on one
-/// line.
+/// The most things a piece of a path may meet: no drawing has so many on one line.
 const MEETINGS_LIMIT: usize = 20_000;
 
 impl Ground {
     /// The corners and edges of a plan near paths.
     fn around(plan: &Plan, paths: &[Vec<Point>]) -> Self {
-        // Pieces bend by up to the touching distance, more than once where corners stand close.
+        // Pieces bend by up to the touching distance, repeatedly where corners are close together.
         let reach_m = 10.0 * TOUCH_M;
         let pieces = paths.iter().flat_map(|path| {
             let last = path.last().map(|&last| Segment::new(last, last));
@@ -181,7 +180,7 @@ impl Ground {
         found
     }
 
-    /// The pieces whose boxes meet a box, by line.
+    /// The pieces whose bounding boxes meet a box, by line.
     fn pieces_in(&self, bounds: Bounds) -> Vec<Piece> {
         let mut found: Vec<Piece> =
             self.pieces.locate_in_envelope_intersecting(envelope(bounds)).map(|found| found.data).collect();
@@ -189,21 +188,21 @@ impl Ground {
         found
     }
 
-    /// The stop nearest to a point, if one is close enough to be the same place.
+    /// The stop nearest to a point, if close enough to count as the same place.
     fn stop_at(&self, point: Point) -> Option<usize> {
         let near = self.stops_in(Bounds::of([point]).inflated(TOUCH_M));
         let near = near.into_iter().map(|i| (self.at(i).distance(point), i));
         near.filter(|&(distance_m, _)| distance_m <= TOUCH_M).min_by(|p, q| p.0.total_cmp(&q.0)).map(|(_, i)| i)
     }
 
-    /// The pieces that come within the touching distance of a point, with that distance.
+    /// The pieces within the touching distance of a point, with that distance.
     fn pieces_at(&self, point: Point) -> Vec<(f64, Piece)> {
         let near = self.pieces_in(Bounds::of([point]).inflated(TOUCH_M));
         let near = near.into_iter().map(|piece| (self.segment(piece).distance(point), piece));
         near.filter(|&(distance_m, _)| distance_m <= TOUCH_M).collect()
     }
 
-    /// The stop for a point of a path: an existing one, else a new one, on an edge where one passes.
+    /// The stop for a point of a path: an existing one, or a new one, on an edge if one passes there.
     fn stop(&mut self, point: Point) -> usize {
         if let Some(stop) = self.stop_at(point) {
             return stop;
@@ -220,7 +219,7 @@ impl Ground {
         let stop = self.stops.len();
         self.stops.push(Stop { id: None, at });
         self.stop_tree.insert(GeomWithData::new([at.x, at.y], stop));
-        // A line that comes by twice is split once, where it comes closest.
+        // A line that passes twice is split once, where it comes closest.
         passing.sort_by(|p, q| p.1.line.cmp(&q.1.line).then(p.0.total_cmp(&q.0)));
         passing.dedup_by_key(|passing| passing.1.line);
         for (_, piece) in passing {
@@ -241,14 +240,14 @@ impl Ground {
         }
     }
 
-    /// Draws a line between two stops, through all it meets, and gives its index.
+    /// Draws a line between two stops, through all it meets, and returns its index.
     fn draw(&mut self, from: usize, to: usize) -> Result<usize, EditError> {
         let line = self.lines.len();
         self.lines.push(vec![from, to]);
         let whole = Piece { line, from, to };
         self.pieces.insert(boxed(self.segment(whole), whole));
         let mut k = 0;
-        // Crossings that give no new corner: the lines meet in one already, up to rounding.
+        // Crossings that give no new corner: the lines already meet in one, up to rounding.
         let mut settled: BTreeSet<[usize; 4]> = BTreeSet::new();
         while k + 1 < self.lines[line].len() {
             if self.lines[line].len() > MEETINGS_LIMIT {
@@ -264,8 +263,8 @@ impl Ground {
         Ok(line)
     }
 
-    /// The first stop that a piece passes close enough to go through it, and which its line does not
-    /// have yet.
+    /// The first stop close enough to a piece that the piece must go through it, but that its line does
+    /// not have yet.
     fn stop_between(&self, piece: Piece) -> Option<usize> {
         let segment = self.segment(piece);
         let candidates = self.stops_in(segment.bounds().inflated(TOUCH_M)).into_iter().filter(|&i| {
@@ -279,7 +278,7 @@ impl Ground {
         along.min_by(|p, q| p.0.total_cmp(&q.0)).map(|(_, i)| i)
     }
 
-    /// Finds a line that crosses a piece and gives both a stop there; whether anything changed.
+    /// Finds a line that crosses a piece and gives both a stop there; returns whether anything changed.
     fn cross_one(&mut self, piece: Piece, settled: &mut BTreeSet<[usize; 4]>) -> bool {
         let segment = self.segment(piece);
         for other in self.pieces_in(segment.bounds()) {
@@ -324,7 +323,7 @@ fn lies_beside(edge: Segment, piece: Segment, reach_m: f64) -> bool {
     a.min(b) > reach_m || a.max(b) < -reach_m
 }
 
-/// The edges of a plan: of its walls, then of its rooms; those that several have, several times.
+/// The edges of a plan: those of walls, then those of rooms. Shared edges are repeated.
 pub(crate) fn plan_edges(plan: &Plan) -> impl Iterator<Item = (CornerId, CornerId)> + '_ {
     let walls = plan.walls().map(|(_, wall)| (wall.from, wall.to));
     let rings = plan.rooms().flat_map(|(_, room)| room.rings()).flat_map(|ring| ring_edges(ring));

@@ -1,4 +1,4 @@
-//! Splitting edges at corners, with everything that has those edges.
+//! Splitting edges at corners, for everything that has those edges.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -7,11 +7,11 @@ use crate::edit::EditError;
 use crate::geometry::{Point, Segment, trim_m};
 use crate::plan::{CornerId, OpeningId, Place, Plan, RoomId, WallId, ordered, ring_edges};
 
-/// The corners to insert into edges: by the edge's corners, the smaller first, in the order from
-/// that to the larger.
+/// The corners to insert into edges: keyed by the edge's corners, smaller first, in order from that one
+/// to the larger.
 pub(crate) type Splits = BTreeMap<[CornerId; 2], Vec<CornerId>>;
 
-/// The corners from one end of an edge to the other, both included; `None` when it is not split.
+/// The corners from one end of an edge to the other, both included; `None` if it is not split.
 fn split_chain(splits: &Splits, from: CornerId, to: CornerId) -> Option<Vec<CornerId>> {
     let inner = splits.get(&ordered(from, to))?;
     let mut chain = vec![from];
@@ -24,8 +24,7 @@ fn split_chain(splits: &Splits, from: CornerId, to: CornerId) -> Option<Vec<Corn
     Some(chain)
 }
 
-/// Splits the walls and the boundaries that have these edges, and moves their openings to the right
-/// part.
+/// Splits the walls and boundaries that have these edges, and moves their openings to the right part.
 pub(crate) fn split_edges(plan: &Plan, splits: &Splits) -> Result<Plan, EditError> {
     let mut next = plan.clone();
     let walls: Vec<(WallId, Vec<CornerId>)> =
@@ -78,8 +77,8 @@ fn place_on_part(before: &Plan, after: &Plan, splits: &Splits, place: Place) -> 
     nearest_part(after, &chain, edge.a + edge.vector().unit()? * at_m, width_m)
 }
 
-/// The place of an opening with this middle on a chain of edges: on the part nearest to it; `None`
-/// where no part has a length.
+/// The place of an opening with this middle on a chain of edges: on the nearest part; `None` if no part
+/// has a length.
 pub(crate) fn nearest_part(plan: &Plan, chain: &[CornerId], middle: Point, width_m: f64) -> Option<Place> {
     let parts = chain.windows(2).filter_map(|pair| {
         let part = Segment::new(plan.position(pair[0])?, plan.position(pair[1])?);

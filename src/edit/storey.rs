@@ -1,15 +1,15 @@
-//! The next storey begins as a copy of the one below.
+//! Starting the next storey as a copy of the one below.
 
 use std::sync::Arc;
 
 use crate::plan::{Meta, Opening, Plan, Room};
 
-/// What of the rooms a copied storey keeps, beside where they are.
+/// What a copied storey keeps of the rooms besides their shapes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Keep {
     /// Names, functions, labels and notes.
     All,
-    /// Functions and labels: names are often numbers, which are others upstairs.
+    /// Functions and labels: names are often numbers, which differ from storey to storey.
     Functions,
     /// Nothing: rooms without names and functions.
     Outlines,
@@ -24,8 +24,8 @@ impl Keep {
     ];
 }
 
-/// A plan of another storey of the same building with the same walls, rooms, openings and guides. The
-/// picture under the plan, and what ties its elements to an imported file, stay behind.
+/// A plan of another storey of the same building with the same walls, rooms, openings and guides, but
+/// without the backdrop and links to an imported file.
 pub fn copied(plan: &Plan, storey: &str, keep: Keep) -> Plan {
     let mut next = plan.clone();
     let meta = plan.meta();

@@ -1,4 +1,4 @@
-//! Joining corners that nearly coincide.
+//! Merging corners that nearly coincide.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -13,12 +13,12 @@ use crate::geometry::segments::SegmentIndex;
 use crate::geometry::{Bounds, Point, Segment, TOUCH_M, polygon};
 use crate::plan::{CornerId, Place, Plan, Positions, RoomId, WallId, ordered};
 
-/// What welding does, to show before it is done.
+/// The result of welding, to show before applying it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Weld {
-    /// Corners that become another: each with the one it becomes, by id.
+    /// Corners to be replaced, each with its replacement, by id.
     pub merged: Vec<(CornerId, CornerId)>,
-    /// Corners that edges nearly pass through, each with the edge that is split there.
+    /// Corners that edges nearly pass through, each with the edge to split there.
     pub onto_edges: Vec<(CornerId, [CornerId; 2])>,
     /// The welded plan.
     pub plan: Plan,
@@ -31,13 +31,12 @@ impl Weld {
     }
 }
 
-/// Joins corners no further apart than a tolerance in metres, and then splits edges at corners that
-/// lie as close to them.
+/// Merges corners within a tolerance in metres of each other, then splits edges at corners within it.
 ///
-/// Of corners that join, the one with most edges stays where it is (among equals the first by id);
-/// others become it, but never by way of a third. Walls between joined corners go, and of two walls
-/// between the same corners the first by id stays. Boundaries lose the spikes that arise. A hosted
-/// opening keeps its place on what its edge becomes, or becomes a free one where that is gone.
+/// Of merged corners, the one with the most edges stays in place (the first by id, if tied); others are
+/// replaced by it, but never by way of a third. Walls between merged corners are removed, and of two
+/// walls between the same corners the first by id stays. Boundaries lose resulting spikes. A hosted
+/// opening keeps its place on what its edge becomes, or becomes free if the edge is gone.
 ///
 /// # Errors
 /// When the tolerance is not above 0, or a room would vanish or turn inside out.
@@ -45,9 +44,9 @@ pub fn weld(plan: &Plan, tolerance_m: f64) -> Result<Weld, EditError> {
     weld_some(plan, tolerance_m, None)
 }
 
-/// Welds what was moved to where it came to lie, within [`TOUCH_M`]: a moved corner that lies on
-/// another becomes that one, one that lies on an edge splits it, and so does a corner on which a moved
-/// edge lies. To be done when a drag ends, so that a corner exists once.
+/// Welds moved corners where they came to rest, within [`TOUCH_M`]: a moved corner on another becomes
+/// that one, one on an edge splits it, and a corner under a moved edge splits that edge. To be called
+/// when a drag ends, so that a corner exists once.
 ///
 /// # Errors
 /// As [`weld`].
@@ -55,7 +54,7 @@ pub fn settle(plan: &Plan, moved: &BTreeSet<CornerId>) -> Result<Plan, EditError
     weld_some(plan, TOUCH_M, Some(moved)).map(|weld| weld.plan)
 }
 
-/// Welds everything, or only where one of some corners takes part.
+/// Welds everything, or only where one of the given corners is involved.
 fn weld_some(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -> Result<Weld, EditError> {
     if !(tolerance_m > 0.0 && tolerance_m.is_finite()) {
         return fail(format!("a tolerance is above 0 m, not {tolerance_m} m"));
@@ -94,7 +93,7 @@ fn weld_some(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -
     Ok(Weld { merged, onto_edges, plan: next })
 }
 
-/// Which corner each corner that goes becomes; with `only`, those join others, not others them.
+/// For each corner to be replaced, its replacement; with `only`, those join others, not the reverse.
 fn joined(
     plan: &Plan,
     tolerance_m: f64,
@@ -130,7 +129,7 @@ fn joined(
     becomes
 }
 
-/// The plan with corners joined; its openings still name the old ones.
+/// The plan with corners merged; its openings still refer to the old ones.
 fn with_joined(plan: &Plan, becomes: &BTreeMap<CornerId, CornerId>) -> Plan {
     let now = |id: CornerId| becomes.get(&id).copied().unwrap_or(id);
     let mut next = plan.clone();
@@ -164,7 +163,7 @@ fn with_joined(plan: &Plan, becomes: &BTreeMap<CornerId, CornerId>) -> Plan {
     if becomes.is_empty() { next } else { without_repeated_walls(next, &becomes.values().copied().collect()) }
 }
 
-/// Of walls between the same two of some corners only the first by id.
+/// Of walls between the same two of the given corners, keeps only the first by id.
 fn without_repeated_walls(plan: Plan, between: &BTreeSet<CornerId>) -> Plan {
     let mut seen: BTreeSet<[CornerId; 2]> = BTreeSet::new();
     let repeated: Vec<WallId> = plan
@@ -180,8 +179,8 @@ fn without_repeated_walls(plan: Plan, between: &BTreeSet<CornerId>) -> Plan {
     next
 }
 
-/// The corners that edges pass within a tolerance, as splits and as a list; with `only`, where one of
-/// those is the corner or an end of the edge.
+/// The corners that edges pass within a tolerance, as splits and as a list; with `only`, those where the
+/// corner or an end of the edge is one of these.
 fn near_edges(
     edges: &[Edge],
     tolerance_m: f64,
@@ -221,12 +220,12 @@ fn near_edges(
     (splits, list)
 }
 
-/// An edge by its ends and where they lie, the lower id first.
+/// An edge by its ends and their positions, the lower id first.
 type Edge = [(CornerId, Point); 2];
 
-/// The box, larger by a tolerance, of some corners and all edges that end at one of them, and the edges
-/// whose boxes meet it, each once, by the ids of their ends: nothing else can lie on those. For `None`
-/// everything.
+/// The bounding box, grown by a tolerance, of the given corners and all edges that end at one of them,
+/// and the edges whose boxes meet it, each once, by the ids of their ends: nothing else can be affected.
+/// Everything, if `None`.
 fn concerned(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -> (Bounds, Vec<Edge>) {
     let positions = Positions::new(plan);
     let located = |(a, b): (CornerId, CornerId)| -> Option<Edge> {
@@ -250,8 +249,7 @@ fn concerned(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -
     (around, edges)
 }
 
-/// A ring without corners that follow themselves and without ways that go somewhere and straight
-/// back.
+/// A ring without consecutive repeats and without spikes that go somewhere and straight back.
 fn without_spikes(ring: &[CornerId]) -> Arc<[CornerId]> {
     let mut kept: Vec<CornerId> = Vec::with_capacity(ring.len());
     for &corner in ring {
@@ -267,7 +265,7 @@ fn without_spikes(ring: &[CornerId]) -> Arc<[CornerId]> {
             kept.truncate(kept.len() - 2);
         }
     }
-    // The same across the place where the ring begins.
+    // The same across the start of the ring.
     loop {
         let n = kept.len();
         if n > 1 && kept[0] == kept[n - 1] {
@@ -283,7 +281,7 @@ fn without_spikes(ring: &[CornerId]) -> Arc<[CornerId]> {
     }
 }
 
-/// Moves hosted openings to what became of their edges.
+/// Moves hosted openings to what their edges became.
 fn with_openings_in_place(before: &Plan, plan: Plan, becomes: &BTreeMap<CornerId, CornerId>) -> Plan {
     let now = |id: CornerId| becomes.get(&id).copied().unwrap_or(id);
     let mut next = plan;

@@ -5,20 +5,20 @@ use crate::labels::{Label, Meaning, Schemes};
 use crate::plan::{Joint, LabelOrigin, Plan, Room, RoomId};
 use crate::topology::{Graph, RoomShapes};
 
-/// What is known of a room's label.
+/// The status of a room's label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RoomStatus {
-    /// Given to the room itself, or by the scheme for its function.
+    /// By the room's own label, or by the scheme's for its function.
     Labelled(Label),
-    /// The scheme leaves its function blank (a balcony, a shaft): counts like the outside.
+    /// The scheme leaves its function blank (a balcony, a shaft): counts as the outside.
     NotClassified,
     /// It has no function, or one the scheme does not know; such functions are reported.
     Unlabelled,
 }
 
 impl RoomStatus {
-    /// The status of a room under the schemes and the plan's typology. A label given to the room
-    /// itself comes first; a prediction that nobody has accepted is no label.
+    /// The status of a room under the schemes and the plan's typology. The room's own label comes first;
+    /// a prediction that nobody has accepted does not count.
     pub fn of(plan: &Plan, schemes: &Schemes, room: &Room) -> Self {
         if let Some(given) = room.label.filter(|given| given.origin != LabelOrigin::Prediction) {
             return Self::Labelled(given.label);
@@ -38,44 +38,44 @@ impl RoomStatus {
     }
 }
 
-/// What follows from a plan for one room.
+/// The analysis of one room.
 #[derive(Clone, Debug)]
 pub struct RoomAnalysis {
     pub id: RoomId,
     pub status: RoomStatus,
-    /// The major and minor axis; `None` for a room that encloses no area.
+    /// The major and minor axes; `None` if the room encloses no area.
     pub axes: Option<Axes>,
-    /// `F_r`; `None` for a room that encloses no area.
+    /// `F_r`; `None` if the room encloses no area.
     pub features: Option<Features>,
-    /// The naive classifier's label from `<a, rt, d>`; `None` where there are no features, and for a
-    /// room that is not classified.
+    /// The naive classifier's label from `<a, rt, d>`; `None` for a room without features or one that is
+    /// not classified.
     pub temporary: Option<Label>,
 }
 
-/// What follows from a plan: shapes, graph, and each room's features. A pure function of the plan,
-/// the schemes and the way neighbours' labels are taken.
+/// The analysis of a plan: shapes, graph, and each room's features. A pure function of the plan, the
+/// schemes and the choice of neighbours' labels.
 #[derive(Debug)]
 pub struct Analysis {
     pub shapes: RoomShapes,
     pub graph: Graph,
-    /// By room id, in the order of [`RoomShapes::all`].
+    /// In the order of [`RoomShapes::all`], that is by room id.
     pub rooms: Vec<RoomAnalysis>,
 }
 
 impl Analysis {
-    /// What follows for one room.
+    /// The analysis of one room.
     pub fn room(&self, id: RoomId) -> Option<&RoomAnalysis> {
         self.shapes.index_of(id).map(|index| &self.rooms[index])
     }
 
-    /// For each opening of a room: what lies on its other side.
+    /// For each opening of a room, what is on its other side.
     pub fn neighbours(&self, id: RoomId) -> impl Iterator<Item = (crate::plan::OpeningId, Joint)> + '_ {
         let index = self.shapes.index_of(id).unwrap_or(usize::MAX);
         self.graph.of_room(index).map(move |connection| (connection.opening, other_side(connection.sides, id)))
     }
 }
 
-/// The side of a connection that is not `id`; `id` itself when both are.
+/// The side of a connection that is not `id`; `id` itself if both are.
 fn other_side(sides: [Joint; 2], id: RoomId) -> Joint {
     if sides[0] == Joint::Room(id) { sides[1] } else { sides[0] }
 }
@@ -116,7 +116,7 @@ pub fn analyse(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels) -> A
         let Some(features) = &mut room.features else { continue };
         for connection in graph.of_room(index) {
             let other = other_side(connection.sides, room.id);
-            // An opening between a room and itself leads nowhere new: it counts in d only.
+            // An opening from a room to itself leads nowhere new: it counts only in d.
             let label = other.room().filter(|&id| id != room.id).and_then(|id| seen[shapes.index_of(id)?]);
             if let Some(label) = label {
                 features.doors_to[label.index()] += 1;

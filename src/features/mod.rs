@@ -7,14 +7,14 @@ pub use analysis::{Analysis, RoomAnalysis, RoomStatus, analyse};
 
 use crate::labels::Label;
 
-/// `F_r`: what a classifier knows of a room.
+/// `F_r`: a classifier's input for a room.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Features {
-    /// `a`: area in m², holes taken off.
+    /// `a`: area in m², less holes.
     pub area_m2: f64,
     /// `rt = M / m`: the axes ratio.
     pub axes_ratio: f64,
-    /// `d`: number of openings, those to the outside or to unlabelled space included.
+    /// `d`: number of openings, including those to the outside or to unlabelled space.
     pub doors: u32,
     /// `l_s`: number of openings that lead to a room labelled s, in the order of [`Label::ALL`].
     pub doors_to: [u32; 5],
@@ -41,18 +41,18 @@ impl Features {
     }
 }
 
-/// Which labels of its neighbours a room's features count.
+/// Which labels of its neighbours count in a room's features.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum NeighbourLabels {
-    /// The true label where there is one, else the temporary label of the naive classifier: the
-    /// paper's way. Flatters a classifier, since in use the true labels are not known.
+    /// The true label if there is one, else the naive classifier's temporary label: the paper's way.
+    /// Flatters a classifier, since in use the true labels are not known.
     #[default]
     True,
-    /// The temporary label of the naive classifier for every neighbour.
+    /// The naive classifier's temporary label for every neighbour.
     Temporary,
-    /// The label that a classifier predicts for the neighbour, where none is known; predictions are
-    /// repeated until none changes. Needs a classifier: features alone are those of the first round,
-    /// the same as with [`NeighbourLabels::True`].
+    /// The known label or, if there is none, the one a classifier predicts; repeated until no prediction
+    /// changes. Needs a classifier: features alone are those of the first round, the same as with
+    /// [`NeighbourLabels::True`].
     Predicted,
 }
 
@@ -62,7 +62,7 @@ impl NeighbourLabels {
     /// Those that need no classifier.
     pub const WITHOUT_CLASSIFIER: [Self; 2] = [Self::True, Self::Temporary];
 
-    /// The word for files and for people.
+    /// Its name in files and in the interface.
     pub const fn name(self) -> &'static str {
         match self {
             Self::True => "true",

@@ -1,10 +1,10 @@
-//! The naive classifier on `<a, rt, d>`: the paper's hand-made rules that give an unlabelled
-//! neighbour a temporary label (section 3.2). The rules stand in the label schemes.
+//! The naive classifier on `<a, rt, d>`: the paper's hand-made rules that give an unlabelled neighbour a
+//! temporary label (section 3.2). The rules are in the label schemes.
 
 use crate::labels::{Label, TemporaryRule};
 
-/// The temporary label of a room from its area in m², axes ratio and number of openings: that of
-/// the first rule that holds, a big room where none does (which only not-a-number can bring about).
+/// The temporary label of a room from its area in m², axes ratio and number of openings: that of the
+/// first rule that holds, or a big room if none does (possible only with NaN).
 pub fn classify(rules: &[TemporaryRule], area_m2: f64, axes_ratio: f64, doors: u32) -> Label {
     rules.iter().find(|rule| rule.holds(area_m2, axes_ratio, doors)).map_or(Label::BigRoom, |rule| rule.label)
 }
@@ -14,7 +14,7 @@ mod tests {
     use super::*;
     use crate::labels::{Schemes, Typology};
 
-    /// The entries of D_H that the paper prints (section 3.2): label, a, d, rt.
+    /// The entries of D_H printed in the paper (section 3.2): label, a, d, rt.
     #[test]
     fn the_papers_entries() {
         let schemes = Schemes::bundled();

@@ -1,4 +1,4 @@
-//! Areas of several pieces with holes: their union, difference, and growing and shrinking them.
+//! Areas made of several pieces with holes: union, difference, offsetting.
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -9,16 +9,15 @@ use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
 
 use super::{Point, polygon};
 
-/// A ring as the polygon library takes it.
+/// A ring in the polygon library's format.
 pub type Ring = Vec<[f64; 2]>;
 /// Polygons, each an outer ring (counter-clockwise) and its holes (clockwise).
 pub type Shapes = Vec<Vec<Ring>>;
 
-/// Joints are mitred down to this angle in radians (30 degrees), else cut off.
+/// Joints are mitred down to this angle in radians (30 degrees); sharper ones are cut off.
 pub const SHARPEST_RAD: f64 = std::f64::consts::PI / 6.0;
 
-/// `shapes` less what lies within the given rings: counter-clockwise ones, and clockwise ones for holes
-/// in them.
+/// `shapes` minus the given rings: counter-clockwise ones are areas, clockwise ones holes in them.
 pub fn without(shapes: Shapes, cuts: &[Ring]) -> Shapes {
     if cuts.is_empty() || shapes.is_empty() {
         return shapes;
@@ -31,7 +30,7 @@ pub fn ring(points: &[Point]) -> Ring {
     directed(points, true)
 }
 
-/// Points as a ring of a direction.
+/// Points as a ring with the given orientation.
 pub fn directed(points: &[Point], counter_clockwise: bool) -> Ring {
     let ring = points.iter().map(|point| [point.x, point.y]);
     if (polygon::signed_area(points) >= 0.0) == counter_clockwise { ring.collect() } else { ring.rev().collect() }
@@ -42,17 +41,18 @@ pub fn points(ring: &Ring) -> Vec<Point> {
     ring.iter().map(|&[x, y]| Point::new(x, y)).collect()
 }
 
-/// Shapes grown (or shrunk, when negative) by a distance in metres.
+/// Offsets shapes by a distance in metres: outwards, or inwards when negative.
 pub fn grown(shapes: &Shapes, by_m: f64) -> Shapes {
     cleaned(&shapes.outline(&OutlineStyle::new(by_m).line_join(LineJoin::Miter(SHARPEST_RAD))))
 }
 
-/// Shapes without what is narrower than twice a distance in metres: shrunk, and grown by the same.
+/// Morphological opening: shapes without parts narrower than twice a distance in metres (shrunk, then
+/// grown back).
 pub fn opened(shapes: &Shapes, by_m: f64) -> Shapes {
     grown(&grown(&cleaned(shapes), -by_m), by_m)
 }
 
-/// A room's rings shrunk by a distance in metres: pieces with their holes, none when nothing is left.
+/// A room's rings inset by a distance in metres: pieces with their holes, none if nothing is left.
 pub fn shrunk(outer: &[Point], holes: &[Vec<Point>], by_m: f64) -> Vec<(Vec<Point>, Vec<Vec<Point>>)> {
     let ring = |ring: &Vec<Point>| -> Ring { ring.iter().map(|point| [point.x, point.y]).collect() };
     let shape: Vec<Ring> = std::iter::once(&outer.to_vec()).chain(holes).map(ring).collect();
@@ -60,7 +60,7 @@ pub fn shrunk(outer: &[Point], holes: &[Vec<Point>], by_m: f64) -> Vec<(Vec<Poin
     pieces(&grown(&shapes, -by_m))
 }
 
-/// The pieces of shapes as points: outer rings with their holes.
+/// The pieces of shapes as points: outer rings, each with its holes.
 pub fn pieces(shapes: &Shapes) -> Vec<(Vec<Point>, Vec<Vec<Point>>)> {
     let piece = |shape: &Vec<Ring>| {
         let (outer, holes) = shape.split_first()?;
@@ -69,8 +69,8 @@ pub fn pieces(shapes: &Shapes) -> Vec<(Vec<Point>, Vec<Vec<Point>>)> {
     shapes.iter().filter_map(piece).collect()
 }
 
-/// Shapes without what rounding leaves: points within a millimetre of the one before, rings of less than
-/// 10 cm². Grown again, such a splinter would become a spur as long as its mitre.
+/// Removes rounding slivers: points within a millimetre of the previous one, and rings under 10 cm².
+/// Grown again, such a sliver would become a spur as long as its mitre.
 pub fn cleaned(shapes: &Shapes) -> Shapes {
     let clean_ring = |ring: &Ring| {
         let mut kept = points(ring);

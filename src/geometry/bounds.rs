@@ -1,6 +1,6 @@
 use super::{Point, Segment};
 
-/// An axis-parallel box in metres. [`Bounds::EMPTY`] contains nothing and grows from its first point.
+/// An axis-aligned box in metres. [`Bounds::EMPTY`] contains nothing and grows from its first point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
     pub min: Point,
@@ -11,7 +11,7 @@ impl Bounds {
     pub const EMPTY: Self =
         Self { min: Point::new(f64::INFINITY, f64::INFINITY), max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY) };
 
-    /// The smallest box that holds all points.
+    /// The bounding box of points.
     pub fn of(points: impl IntoIterator<Item = Point>) -> Self {
         points.into_iter().fold(Self::EMPTY, Self::with)
     }
@@ -59,13 +59,13 @@ impl Bounds {
         point.x >= self.min.x && point.x <= self.max.x && point.y >= self.min.y && point.y <= self.max.y
     }
 
-    /// Whether a segment has a point in it.
+    /// Whether any point of a segment lies in it.
     pub fn meets(self, segment: Segment) -> bool {
         self.part_of(segment).is_some()
     }
 
-    /// From where to where a segment lies in it, as fractions in 0..=1; found by cutting the segment at
-    /// the four sides (Liang and Barsky 1984).
+    /// The part of a segment inside it, as fractions in 0..=1 from start to end; clipped at the four
+    /// sides (Liang and Barsky 1984).
     pub fn part_of(self, segment: Segment) -> Option<(f64, f64)> {
         let way = segment.vector();
         let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
@@ -89,7 +89,7 @@ impl Bounds {
         (enters <= leaves).then_some((enters, leaves))
     }
 
-    /// Whether the two boxes share at least a point.
+    /// Whether the two boxes share at least one point.
     pub fn intersects(self, other: Self) -> bool {
         self.min.x <= other.max.x && other.min.x <= self.max.x && self.min.y <= other.max.y && other.min.y <= self.max.y
     }

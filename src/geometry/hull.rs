@@ -2,8 +2,8 @@
 
 use super::{Point, Vector, polygon};
 
-/// The convex hull, counter-clockwise, without points inside its edges (Andrew's monotone chain, 1979,
-/// with exact orientation). Fewer than three points when all lie on one line.
+/// The convex hull, counter-clockwise, without points in the middle of edges (Andrew's monotone chain,
+/// 1979, with exact orientation). Fewer than three points when all are collinear.
 pub fn convex_hull(points: &[Point]) -> Vec<Point> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
@@ -31,8 +31,8 @@ fn chain(points: impl Iterator<Item = Point>) -> Vec<Point> {
     side
 }
 
-/// Length and width in metres (length the larger) of the rectangle of least area that holds the points,
-/// at any angle. It has an edge in common with the hull (Freeman and Shapira 1975).
+/// Length and width in metres (length is the larger) of the minimum-area rectangle around the points, at
+/// any angle. One of its sides lies along an edge of the hull (Freeman and Shapira 1975).
 pub fn smallest_rectangle(points: &[Point]) -> (f64, f64) {
     let hull = convex_hull(points);
     let mut best = (f64::INFINITY, f64::INFINITY);

@@ -27,18 +27,18 @@ pub use transform::Transform;
 /// to it print with at most four decimals, which makes saving twice give the same bytes.
 pub const GRID_M: f64 = 1e-4;
 
-/// Two things touch when they come this close, in metres: far above the rounding to the grid of
-/// [`GRID_M`], far below [`runs::NOTCH_M`], the finest detail of a boundary.
+/// Two things this close, in metres, touch: far above the rounding to the [`GRID_M`] grid, far below
+/// [`runs::NOTCH_M`], the finest detail of a boundary.
 pub const TOUCH_M: f64 = 0.001;
 
 /// Rounds a length or coordinate in metres to the grid of [`GRID_M`]; never returns negative zero.
 ///
-/// Not-a-number and infinities pass through: the reader of a file refuses them with their place.
+/// NaN and infinities pass through: file readers refuse them and say where they are.
 pub fn trim_m(value_m: f64) -> f64 {
     // `+ 0.0` turns -0.0 into 0.0, which would otherwise print differently.
     (value_m * 1e4).round() / 1e4 + 0.0
 }
 
-/// No coordinate lies further than this from the origin, in metres: 100 km is beyond any building,
-/// and far inside what `f64` holds to the 0.1 mm grid.
+/// No coordinate may be further than this from the origin, in metres: 100 km is larger than any building,
+/// and well within what an `f64` resolves to 0.1 mm.
 pub const COORDINATE_LIMIT_M: f64 = 100_000.0;

@@ -1,10 +1,10 @@
-//! Open and closed paths of straight pieces: arcs as such, and parallels.
+//! Open and closed paths of straight pieces: arcs as polylines, and parallels.
 
 use super::{Point, TOUCH_M, Vector, polygon};
 
-/// The arc from one point through another to a third as points of which no chord lies further than
-/// `tolerance_m` from it, both ends included; a straight piece where the three lie on one line or the
-/// tolerance takes in the whole arc.
+/// The arc from one point through another to a third as a polyline with both ends included, its chords at
+/// most `tolerance_m` from the arc. A straight piece if the three are collinear or the whole arc is
+/// within the tolerance.
 ///
 /// A chord over the angle a of a circle of radius r lies r (1 - cos(a / 2)) from its arc.
 pub fn arc(from: Point, through: Point, to: Point, tolerance_m: f64) -> Vec<Point> {
@@ -15,7 +15,7 @@ pub fn arc(from: Point, through: Point, to: Point, tolerance_m: f64) -> Vec<Poin
         if turn < 0.0 { turn + std::f64::consts::TAU } else { turn }
     };
     let (middle, end) = (angle_to(through), angle_to(to));
-    // Counter-clockwise when the middle comes first that way.
+    // Counter-clockwise if the middle point comes first that way.
     let sweep = if middle <= end { end } else { end - std::f64::consts::TAU };
     let step = 2.0 * (1.0 - (tolerance_m / radius_m).clamp(1e-6, 1.0)).acos();
     let count = (sweep.abs() / step).ceil().clamp(1.0, ARC_PIECES_LIMIT) as usize;
@@ -23,11 +23,11 @@ pub fn arc(from: Point, through: Point, to: Point, tolerance_m: f64) -> Vec<Poin
     std::iter::once(from).chain(inner).chain([to]).collect()
 }
 
-/// No arc has more pieces: a full circle of 100 m radius to a millimetre has 702.
+/// The most pieces in an arc: a full circle of 100 m radius to a millimetre has 702.
 const ARC_PIECES_LIMIT: f64 = 2_000.0;
 
-/// The circle through three points: centre and radius in metres. `None` when they lie on one line, or
-/// so nearly that the circle would be larger than any drawing.
+/// The circle through three points: centre and radius in metres. `None` when they are collinear, or so
+/// nearly that the circle would be larger than any drawing.
 pub fn circle(a: Point, b: Point, c: Point) -> Option<(Point, f64)> {
     let (u, v) = (b - a, c - a);
     let twice_area = 2.0 * u.cross(v);
@@ -39,11 +39,11 @@ pub fn circle(a: Point, b: Point, c: Point) -> Option<(Point, f64)> {
     Some((a + by, by.length()))
 }
 
-/// The parallel of a path at a distance in metres to its left (to its right when negative), mitred at
-/// its corners; `None` where a piece would turn round, the distance being too large for it.
+/// The parallel of a path, offset by a distance in metres to its left (right when negative) and mitred at
+/// its corners; `None` where a piece would reverse because the distance is too large.
 ///
-/// A corner whose pieces nearly turn back has no mitre of sense: beyond four times the distance
-/// (corners sharper than 29 degrees) it is cut off square.
+/// Corners that nearly turn back get no mitre: beyond four times the distance (corners sharper than 29
+/// degrees) they are cut off square.
 pub fn parallel(path: &[Point], is_closed: bool, distance_m: f64) -> Option<Vec<Point>> {
     let mut path = path.to_vec();
     path.dedup_by(|next, point| next.distance(*point) <= TOUCH_M);
@@ -58,7 +58,7 @@ pub fn parallel(path: &[Point], is_closed: bool, distance_m: f64) -> Option<Vec<
         return None;
     }
     let mut shifted = Vec::with_capacity(path.len());
-    // For each piece its two ends on the parallel.
+    // The two ends of each piece on the parallel.
     let mut ends: Vec<[Point; 2]> = directions.iter().map(|_| [Point::default(); 2]).collect();
     let count = directions.len();
     for (i, &at) in path.iter().enumerate() {
@@ -87,7 +87,7 @@ pub fn parallel(path: &[Point], is_closed: bool, distance_m: f64) -> Option<Vec<
     keeps_direction.then_some(shifted)
 }
 
-/// Where the parallels of two pieces meet: one point, or two where the corner is cut off.
+/// Where the parallels of two pieces meet: one point, or two if the corner is cut off.
 fn corner(at: Point, before: Vector, after: Vector, distance_m: f64) -> (Point, Point) {
     let normal = before.left() + after.left();
     // The mitre's length over the distance is 2 / |sum of the normals|, that is 1 / cos(turn / 2).
@@ -99,11 +99,11 @@ fn corner(at: Point, before: Vector, after: Vector, distance_m: f64) -> (Point, 
     (at + before.left() * distance_m, at + after.left() * distance_m)
 }
 
-/// A mitre reaches no further than this many times the distance, as in drawing programs.
+/// The longest mitre, as a multiple of the distance, as in drawing programs.
 const MITRE_LIMIT: f64 = 4.0;
 
-/// Whether a ring encloses an area and neither crosses nor touches itself; quadratic in its points,
-/// for rings of rooms.
+/// Whether a ring encloses an area and neither crosses nor touches itself. Quadratic in the number of
+/// points: meant for room boundaries.
 pub fn is_simple_ring(ring: &[Point]) -> bool {
     let edges: Vec<super::Segment> = polygon::edges(ring).collect();
     let n = edges.len();

@@ -1,4 +1,4 @@
-//! Rings and polygons as slices of points, without the first point repeated at the end.
+//! Rings and polygons as slices of points; the first point is not repeated at the end.
 
 use robust::{Coord, orient2d};
 
@@ -36,7 +36,7 @@ pub fn perimeter(ring: &[Point]) -> f64 {
     edges(ring).map(Segment::length).sum()
 }
 
-/// Centre of area of a ring; the mean of its points when it encloses nothing.
+/// The centroid of a ring's area; the mean of its points if it encloses nothing.
 pub fn centroid(ring: &[Point]) -> Point {
     let Some(&origin) = ring.first() else { return Point::default() };
     let (mut twice, mut x, mut y) = (0.0, 0.0, 0.0);
@@ -54,7 +54,7 @@ pub fn centroid(ring: &[Point]) -> Point {
     Point::new(origin.x + x / (3.0 * twice), origin.y + y / (3.0 * twice))
 }
 
-/// Where a point lies in relation to a polygon.
+/// Where a point lies relative to a polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Location {
     Inside,
@@ -62,7 +62,7 @@ pub enum Location {
     Outside,
 }
 
-/// Where `point` lies in relation to one ring, exactly (even-odd rule).
+/// Where `point` lies relative to a ring, exactly (even-odd rule).
 pub fn locate_in_ring(ring: &[Point], point: Point) -> Location {
     let mut inside = false;
     for Segment { a, b } in edges(ring) {
@@ -87,7 +87,7 @@ pub fn locate_in_ring(ring: &[Point], point: Point) -> Location {
     if inside { Location::Inside } else { Location::Outside }
 }
 
-/// Where `point` lies in relation to an outer ring with holes; the rim of a hole is boundary.
+/// Where `point` lies relative to an outer ring with holes; the rim of a hole is boundary.
 pub fn locate<R: AsRef<[Point]>>(outer: &[Point], holes: &[R], point: Point) -> Location {
     match locate_in_ring(outer, point) {
         Location::Inside => {}
@@ -103,19 +103,20 @@ pub fn locate<R: AsRef<[Point]>>(outer: &[Point], holes: &[R], point: Point) -> 
     Location::Inside
 }
 
-/// Whether a ring turns one way only, once around.
+/// Whether a ring turns only one way, once around.
 pub fn is_convex(ring: &[Point]) -> bool {
     let n = ring.len();
     let turns = || (0..n).map(|i| orientation(ring[i], ring[(i + 1) % n], ring[(i + 2) % n]));
     let one_way = turns().all(|turn| turn >= 0.0) || turns().all(|turn| turn <= 0.0);
-    // Once around it goes right once and left once; a star, drawn in one go, more often.
+    // Once around it switches to leftward once and to rightward once; a star drawn in one stroke, more
+    // often.
     let rightward: Vec<bool> =
         edges(ring).map(|edge| edge.b.x - edge.a.x).filter(|&x| x != 0.0).map(|x| x > 0.0).collect();
     let reversals = (0..rightward.len()).filter(|&i| rightward[i] != rightward[(i + 1) % rightward.len()]).count();
     one_way && reversals == 2
 }
 
-/// The smallest box that holds the ring.
+/// The bounding box of a ring.
 pub fn bounds(ring: &[Point]) -> Bounds {
     Bounds::of(ring.iter().copied())
 }

@@ -1,10 +1,10 @@
-//! Polygons on a raster: where in a polygon there is most room.
+//! Polygons on a raster: finding where a polygon has the most room.
 
 use super::{Bounds, Point, Segment, Vector, polygon};
 
-/// The middle of a polygon where it is widest: the middle of the largest inscribed circle, and where
-/// many are nearly as large (a corridor), the one nearest to the centre of area. On a raster of 40
-/// cells along the longer side, which is fine enough for a name. Of a convex polygon the centre of area.
+/// A label position: the centre of the largest inscribed circle or, where many are nearly as large (a
+/// corridor), the one nearest to the centroid. Computed on a raster of 40 cells along the longer side,
+/// fine enough for a name. For a convex polygon, the centroid.
 pub fn centre(outer: &[Point], holes: &[Vec<Point>]) -> Point {
     let bounds = polygon::bounds(outer);
     if bounds.is_empty() {
@@ -36,7 +36,7 @@ pub fn centre(outer: &[Point], holes: &[Vec<Point>]) -> Point {
         }
     }
     match best {
-        // The centre of area itself where it serves: a rectangle's middle is not on the raster.
+        // The centroid itself if it qualifies: a rectangle's middle is not on the raster.
         Some((distance, _))
             if distance <= cell && polygon::locate(outer, holes, middle) == polygon::Location::Inside =>
         {
@@ -47,7 +47,7 @@ pub fn centre(outer: &[Point], holes: &[Vec<Point>]) -> Point {
     }
 }
 
-/// Square cells over a box, each free or not, each with a price for standing there.
+/// Square cells over a box, each free or blocked, each with a cost of standing there.
 pub(crate) struct Raster {
     pub(crate) origin: Point,
     pub(crate) cell: f64,
@@ -56,13 +56,13 @@ pub(crate) struct Raster {
     pub(crate) blocked: Vec<bool>,
 }
 
-/// No raster has more cells: a room that fills the view many times over gets coarser ones.
+/// The most cells in a raster: a room that fills the view many times over gets coarser ones.
 const MOST_CELLS: f64 = 200_000.0;
 
 impl Raster {
     pub(crate) fn new(bounds: Bounds, cell: f64) -> Self {
         let cell = cell.max((bounds.width() * bounds.height() / MOST_CELLS).sqrt());
-        // Also for boxes that are long and thin.
+        // Limits boxes that are long and thin, too.
         let cell = cell.max(bounds.width().max(bounds.height()) / MOST_CELLS);
         let count = |length: f64| (length / cell).ceil().max(1.0) as usize;
         let (width, height) = (count(bounds.width()), count(bounds.height()));
@@ -81,13 +81,13 @@ impl Raster {
         (y - self.origin.y) / self.cell
     }
 
-    /// Calls `visit` with the runs of cells (row, columns) whose centres lie inside the rings by the
+    /// Calls `visit` with the runs of cells (row, columns) whose centres are inside the rings by the
     /// even-odd rule.
     pub(crate) fn inside(&self, rings: &[&[Point]], mut visit: impl FnMut(usize, std::ops::Range<usize>)) {
         let mut crossings: Vec<Vec<f64>> = vec![Vec::new(); self.height];
         for edge in rings.iter().flat_map(|ring| polygon::edges(ring)) {
             let (low, high) = if edge.a.y < edge.b.y { (edge.a, edge.b) } else { (edge.b, edge.a) };
-            // Rows whose middle lies in low.y..high.y.
+            // Rows whose centre lies in low.y..high.y.
             let first = (self.row(low.y) - 0.5).ceil().max(0.0) as usize;
             let end = ((self.row(high.y) - 0.5).ceil().max(0.0) as usize).min(self.height);
             for (row, crossings) in crossings.iter_mut().enumerate().take(end).skip(first) {
@@ -107,7 +107,7 @@ impl Raster {
         }
     }
 
-    /// Blocks every cell whose middle lies outside the rings.
+    /// Blocks every cell whose centre lies outside the rings.
     pub(crate) fn keep_inside(&mut self, rings: &[&[Point]]) {
         let mut blocked = vec![true; self.blocked.len()];
         self.inside(rings, |row, columns| {
@@ -118,7 +118,7 @@ impl Raster {
         }
     }
 
-    /// Blocks every cell whose middle lies inside the rings.
+    /// Blocks every cell whose centre lies inside the rings.
     pub(crate) fn keep_outside(&mut self, rings: &[&[Point]]) {
         let mut blocked = std::mem::take(&mut self.blocked);
         self.inside(rings, |row, columns| {
@@ -129,7 +129,7 @@ impl Raster {
 
     /// Blocks the cells a segment passes through.
     pub(crate) fn block_along(&mut self, segment: Segment) {
-        // Half a cell a step meets every cell but those whose tip is just touched.
+        // Steps of half a cell meet every cell except those barely touched at a corner.
         let steps = (segment.length() / (self.cell * 0.5)).ceil().clamp(1.0, 4.0 * MOST_CELLS) as usize;
         for i in 0..=steps {
             let point = segment.a.lerp(segment.b, i as f64 / steps as f64);
@@ -140,8 +140,8 @@ impl Raster {
         }
     }
 
-    /// For each cell a measure of how far the nearest blocked one is, in thirds of a cell: the chamfer
-    /// distance 3-4 (Borgefors 1986). The rim of the raster counts as blocked.
+    /// For each cell the distance to the nearest blocked one, in thirds of a cell: the 3-4 chamfer
+    /// distance (Borgefors 1986). The edge of the raster counts as blocked.
     pub(crate) fn depths(&self) -> Vec<u16> {
         let (width, height) = (self.width, self.height);
         let mut depth: Vec<u16> = self.blocked.iter().map(|&blocked| if blocked { 0 } else { u16::MAX / 2 }).collect();

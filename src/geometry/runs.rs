@@ -1,21 +1,21 @@
-//! Wall runs: maximal chains of collinear boundary pieces, what the paper calls a wall of a room,
-//! and the axes ratio that follows from them (paper, section 3.3).
+//! Wall runs: maximal chains of collinear boundary pieces (the paper's walls of a room), and the axes
+//! ratio derived from them (paper, section 3.3).
 
 use super::{Point, Vector, polygon};
 
-/// Two directions count as equal, and as perpendicular, up to this angle: the paper's threshold for
-/// collinear line segments (section 3.3).
+/// Directions within this angle count as parallel or perpendicular: the paper's threshold for collinear
+/// line segments (section 3.3).
 pub const ANGLE_TOLERANCE_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
-/// Boundary pieces shorter than this are noise of digitising (a notch of a fraction of a
-/// millimetre where two polygons were joined), not corners of a room. One centimetre is below the
-/// thickness of plaster and above any rounding seen in real files.
+/// Boundary pieces shorter than this are digitising noise (a notch of a fraction of a millimetre where
+/// two polygons were joined), not corners of a room. One centimetre is less than a layer of plaster and
+/// more than any rounding seen in real files.
 pub const NOTCH_M: f64 = 0.01;
 
 /// A wall of a room in the paper's sense.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Run {
-    /// Where the run starts, going round its ring.
+    /// Where the run starts, following its ring.
     pub start: Point,
     /// Where it ends.
     pub end: Point,
@@ -34,10 +34,9 @@ impl Run {
 
 /// The wall runs of a ring, in its order.
 ///
-/// Consecutive pieces join a run as long as each stays within [`ANGLE_TOLERANCE_RAD`] of the run's
-/// direction, which is that of its chord: so a circle drawn with many short pieces does not become
-/// one run. The walk starts behind the sharpest turn, which makes the result independent of where
-/// the ring happens to begin.
+/// A piece joins the run as long as it stays within [`ANGLE_TOLERANCE_RAD`] of the run's direction, which
+/// is that of its chord: so a circle drawn with many short pieces does not become one run. The walk
+/// starts after the sharpest turn, which makes the result independent of where the ring begins.
 pub fn runs(ring: &[Point]) -> Vec<Run> {
     let ring = without_notches(ring);
     let n = ring.len();
@@ -45,8 +44,8 @@ pub fn runs(ring: &[Point]) -> Vec<Run> {
         return Vec::new();
     }
     let piece = |i: usize| ring[(i + 1) % n] - ring[i % n];
-    // Turns that differ by rounding only must not decide: compare on a grid of a microradian, and
-    // among equals take the corner whose following piece is longest.
+    // Turns that differ only by rounding must not decide: compare on a grid of a microradian, and break
+    // ties by the longest following piece.
     let start = (0..n)
         .max_by_key(|&i| {
             let turn = turn_rad(piece(i + n - 1), piece(i));
@@ -72,7 +71,7 @@ fn turn_rad(from: Vector, to: Vector) -> f64 {
     from.cross(to).abs().atan2(from.dot(to))
 }
 
-/// The ring less the points that stand closer than [`NOTCH_M`] to the one kept before them.
+/// The ring without points closer than [`NOTCH_M`] to the last one kept.
 pub fn without_notches(ring: &[Point]) -> Vec<Point> {
     let mut kept: Vec<Point> = Vec::with_capacity(ring.len());
     for &point in ring {
@@ -86,30 +85,30 @@ pub fn without_notches(ring: &[Point]) -> Vec<Point> {
     kept
 }
 
-/// The major and the minor axis of a room and what they were taken from.
+/// The major and minor axes of a room and where they came from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axes {
     /// `M`: the longest wall run in metres.
     pub major_m: f64,
-    /// `m`: the longest wall run perpendicular to it, or the room's extent that way.
+    /// `m`: the longest wall run perpendicular to it, or the room's extent in that direction.
     pub minor_m: f64,
     /// Whether `m` is an extent, because no run is perpendicular to `M`.
     pub minor_is_extent: bool,
 }
 
 impl Axes {
-    /// `rt = M / m` (paper, section 3.2); at least a little above zero, may be below 1.
+    /// `rt = M / m` (paper, section 3.2); above zero, may be below 1.
     pub fn ratio(self) -> f64 {
         self.major_m / self.minor_m
     }
 }
 
-/// The axes of a room from its rings (outer first), as `design` defines them: `M` the longest wall
-/// run, `m` the longest run perpendicular to `M` within [`ANGLE_TOLERANCE_RAD`], else the extent of
-/// the outer ring perpendicular to `M`. `None` where the rings enclose no area.
+/// The axes of a room from its rings (outer first): `M` is the longest wall run, `m` the longest run
+/// perpendicular to `M` within [`ANGLE_TOLERANCE_RAD`], or else the extent of the outer ring
+/// perpendicular to `M`. `None` if the rings enclose no area.
 ///
-/// When several runs are equally long as `M` (a square with one clipped corner, say), the one that
-/// gives the longest `m` is taken, so that the result does not hang on the ring's first corner.
+/// When several runs tie for `M` (a square with one clipped corner, say), the one with the longest `m` is
+/// taken, so that the result does not depend on the ring's first corner.
 pub fn axes<R: AsRef<[Point]>>(outer: &[Point], holes: &[R]) -> Option<Axes> {
     if polygon::signed_area(outer).abs() < 1e-9 {
         return None;
@@ -122,7 +121,7 @@ pub fn axes<R: AsRef<[Point]>>(outer: &[Point], holes: &[R]) -> Option<Axes> {
     if longest <= 0.0 {
         return None;
     }
-    // Equal up to a millimetre: the 0.1 mm grid moves both ends of a turned wall a little.
+    // Equal to within a millimetre: the 0.1 mm grid moves both ends of a rotated wall a little.
     let candidates = all.iter().filter(|run| run.length_m() >= longest - 1e-3);
     candidates
         .map(|run| {

@@ -25,7 +25,7 @@ impl Segment {
         self.a.midpoint(self.b)
     }
 
-    /// Where along the segment the point nearest to `point` lies, as a fraction in 0..=1.
+    /// The position along the segment of its point nearest to `point`, as a fraction in 0..=1.
     pub fn nearest_fraction(self, point: Point) -> f64 {
         let along = self.vector();
         let squared = along.dot(along);

@@ -1,4 +1,4 @@
-//! Segments found by place, and how two of them lie to each other.
+//! A spatial index of segments, and relations between two segments.
 
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
@@ -6,7 +6,7 @@ use rstar::{AABB, RTree};
 use super::polygon::orientation;
 use super::{Bounds, Point, Segment};
 
-/// Segments with an index to find them by place.
+/// Segments with a spatial index.
 #[derive(Debug)]
 pub struct SegmentIndex {
     segments: Vec<Segment>,
@@ -30,14 +30,14 @@ impl SegmentIndex {
         &self.segments
     }
 
-    /// The segments whose boxes meet `bounds`; the same order for the same index.
+    /// The segments whose bounding boxes meet `bounds`, in an order fixed by the index.
     pub fn near(&self, bounds: Bounds) -> impl Iterator<Item = usize> + '_ {
         let envelope = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
         self.tree.locate_in_envelope_intersecting(envelope).map(|found| found.data)
     }
 }
 
-/// Where two segments cross each other inside, if they do; not where they touch.
+/// Where the interiors of two segments cross, if they do; touching does not count.
 pub fn crossing(p: Segment, q: Segment) -> Option<Point> {
     let opposite = |s: Segment, t: Segment| {
         let (u, v) = (orientation(s.a, s.b, t.a), orientation(s.a, s.b, t.b));
@@ -50,14 +50,14 @@ pub fn crossing(p: Segment, q: Segment) -> Option<Point> {
     (denominator != 0.0).then(|| p.a.lerp(p.b, (q.a - p.a).cross(q.vector()) / denominator))
 }
 
-/// Whether two segments run along each other, either way round, up to `tolerance_rad`.
+/// Whether two segments are parallel, in either direction, within `tolerance_rad`.
 pub fn are_parallel(p: Segment, q: Segment, tolerance_rad: f64) -> bool {
     let (u, v) = (p.vector(), q.vector());
     u.cross(v).abs() <= u.dot(v).abs() * tolerance_rad.tan()
 }
 
-/// The stretch of `p` beside which `q` runs, as distances in metres along `p`; empty (from ≥ to)
-/// where they do not run beside each other.
+/// The stretch of `p` that `q` runs alongside, as distances in metres along `p`; empty (from ≥ to) if
+/// there is none.
 pub fn common_stretch(p: Segment, q: Segment) -> (f64, f64) {
     let Some(direction) = p.vector().unit() else { return (0.0, 0.0) };
     let (u, v) = ((q.a - p.a).dot(direction), (q.b - p.a).dot(direction));

@@ -1,27 +1,26 @@
 use super::{Point, Vector};
 
-/// A map of the plane onto itself that keeps shapes: moves, turns, mirrors and scales, and what
-/// follows from doing several.
+/// A similarity transform of the plane: moves, turns, mirrors, uniform scalings, and their compositions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
-    /// Where the unit vectors along x and y go.
+    /// The images of the unit vectors along x and y.
     x: Vector,
     y: Vector,
-    /// Where the origin goes.
+    /// The image of the origin.
     origin: Point,
 }
 
 impl Transform {
-    /// Leaves everything where it is.
+    /// Leaves everything in place.
     pub const IDENTITY: Self =
         Self { x: Vector::new(1.0, 0.0), y: Vector::new(0.0, 1.0), origin: Point::new(0.0, 0.0) };
 
-    /// Moves by a difference in metres.
+    /// Moves by a vector in metres.
     pub fn translation(by: Vector) -> Self {
         Self { origin: Point::default() + by, ..Self::IDENTITY }
     }
 
-    /// Turns counter-clockwise about a point by an angle in radians; quarter turns are exact.
+    /// Rotates counter-clockwise about a point by an angle in radians; quarter turns are exact.
     pub fn rotation(about: Point, angle_rad: f64) -> Self {
         let quarters = angle_rad / std::f64::consts::FRAC_PI_2;
         let x = if (quarters - quarters.round()).abs() < 1e-12 {
@@ -33,52 +32,52 @@ impl Transform {
         Self { x, y: x.left(), origin: Point::default() }.about(about)
     }
 
-    /// Mirrors over the line through two points; `None` when they are one.
+    /// Mirrors across the line through two points; `None` if they coincide.
     pub fn reflection(a: Point, b: Point) -> Option<Self> {
         let along = (b - a).unit()?;
-        // The unit vectors mirrored over the direction: 2 (v . d) d - v.
+        // The unit vectors mirrored across the direction: 2 (v . d) d - v.
         let mirrored = |v: Vector| along * (2.0 * v.dot(along)) - v;
         let (x, y) = (mirrored(Vector::new(1.0, 0.0)), mirrored(Vector::new(0.0, 1.0)));
         Some(Self { x, y, origin: Point::default() }.about(a))
     }
 
-    /// Makes everything larger by a factor, seen from a point.
+    /// Scales by a factor about a point.
     pub fn scaling(about: Point, factor: f64) -> Self {
         Self { x: Vector::new(factor, 0.0), y: Vector::new(0.0, factor), origin: Point::default() }.about(about)
     }
 
-    /// This map of the plane with a point as its fixed point, of one that keeps the origin.
+    /// Turns a map that fixes the origin into one that fixes the given point instead.
     fn about(self, fixed: Point) -> Self {
         let back = self.vector(fixed - Point::default());
         Self { origin: fixed - back, ..self }
     }
 
-    /// This map, then another.
+    /// Applies this map, then another.
     pub fn then(self, next: Self) -> Self {
         Self { x: next.vector(self.x), y: next.vector(self.y), origin: next.point(self.origin) }
     }
 
-    /// Where a point goes.
+    /// Maps a point.
     pub fn point(self, point: Point) -> Point {
         self.origin + self.x * point.x + self.y * point.y
     }
 
-    /// What becomes of a difference.
+    /// Maps a vector.
     pub fn vector(self, vector: Vector) -> Vector {
         self.x * vector.x + self.y * vector.y
     }
 
-    /// Whether left becomes right.
+    /// Whether it swaps left and right.
     pub fn mirrors(self) -> bool {
         self.x.cross(self.y) < 0.0
     }
 
-    /// By how much lengths grow; 1 up to rounding for what does not scale.
+    /// The scale factor; 1 up to rounding for maps that keep lengths.
     pub fn factor(self) -> f64 {
         self.x.length()
     }
 
-    /// Whether lengths stay what they are, up to rounding.
+    /// Whether it keeps lengths, up to rounding.
     pub fn keeps_lengths(self) -> bool {
         (self.factor() - 1.0).abs() < 1e-9
     }

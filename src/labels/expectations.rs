@@ -1,4 +1,4 @@
-//! What is expected of rooms before anything is known of their functions: temporary labels, usual sizes.
+//! What to expect of rooms before their functions are known: temporary labels, usual sizes.
 
 use std::collections::BTreeMap;
 
@@ -6,23 +6,23 @@ use serde::Deserialize;
 
 use super::Label;
 
-/// A rule of the naive classifier (paper, section 3.2): when all conditions hold, the label is given.
+/// A rule of the naive classifier (paper, section 3.2): if all conditions hold, it gives the label.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TemporaryRule {
     pub label: Label,
-    /// Area in m² at least this.
+    /// Minimum area in m².
     pub area_at_least_m2: f64,
-    /// Area in m² below this; infinite for no bound.
+    /// Area in m² must be below this; infinite for no bound.
     pub area_below_m2: f64,
-    /// Axes ratio at least this.
+    /// Minimum axes ratio.
     pub axes_ratio_at_least: f64,
-    /// At least so many openings.
+    /// Minimum number of openings.
     pub doors_at_least: u32,
-    /// Why: where the thresholds come from.
+    /// Why: the source of the thresholds.
     pub reason: String,
 }
 
-/// A rule in a scheme file: what is left out holds for every room.
+/// A rule in a scheme file: conditions left out always hold.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct DiskRule {
@@ -55,7 +55,7 @@ impl DiskRule {
 }
 
 impl TemporaryRule {
-    /// Whether it holds for a room of this area in m², axes ratio and number of openings.
+    /// Whether it holds for a room with this area in m², axes ratio and number of openings.
     pub fn holds(&self, area_m2: f64, axes_ratio: f64, doors: u32) -> bool {
         area_m2 >= self.area_at_least_m2
             && area_m2 < self.area_below_m2
@@ -71,11 +71,11 @@ impl TemporaryRule {
     }
 }
 
-/// The rules of a file. The last one must take every room, or what remains from the bound of the one before
-/// it up.
+/// The rules of a file. The last one must match every room, or every room at least as large as the upper
+/// bound of the rule before it.
 pub(super) fn rules(disk: Vec<DiskRule>) -> Result<Vec<TemporaryRule>, String> {
     let rules: Vec<TemporaryRule> = disk.into_iter().map(DiskRule::live).collect::<Result<_, _>>()?;
-    // Rooms of any size, however shaped and without an opening: the ones that bounds on areas must cover.
+    // Rooms of any size, however shaped and without an opening: the area bounds must cover them.
     let mut reached = 0.0;
     for rule in rules.iter().filter(|rule| rule.axes_ratio_at_least <= 0.0 && rule.doors_at_least == 0) {
         if rule.area_at_least_m2 <= reached && rule.area_below_m2 > reached {
@@ -90,7 +90,7 @@ pub(super) fn rules(disk: Vec<DiskRule>) -> Result<Vec<TemporaryRule>, String> {
     }
 }
 
-/// The areas in m² between which the middle of the rooms of a label lies, from source to source.
+/// The range, over the sources, of the median area in m² of rooms with a label.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UsualArea {
     pub from_m2: f64,
@@ -98,7 +98,7 @@ pub struct UsualArea {
 }
 
 impl UsualArea {
-    /// How many times larger (above 1) or smaller (below 1) an area is than what is usual; 1 within.
+    /// How many times larger (above 1) or smaller (below 1) than usual an area is; 1 if within the range.
     pub fn factor(self, area_m2: f64) -> f64 {
         if area_m2 > self.to_m2 {
             area_m2 / self.to_m2
@@ -110,7 +110,7 @@ impl UsualArea {
     }
 }
 
-/// The usual areas of a file: `S = [10.0, 18.3]`.
+/// The usual areas in a file: `S = [10.0, 18.3]`.
 pub(super) fn usual_areas(disk: BTreeMap<String, [f64; 2]>) -> Result<BTreeMap<Label, UsualArea>, String> {
     let area = |(word, [from_m2, to_m2]): (String, [f64; 2])| {
         let label: Label = word.parse().map_err(|error: super::label::UnknownLabel| error.to_string())?;

@@ -25,7 +25,7 @@ impl Label {
         ["S", "M", "B", "C", "H"][self as usize]
     }
 
-    /// The name in words, as shown to people and written to files.
+    /// The name in words, in the interface and in files.
     pub const fn name(self) -> &'static str {
         ["small room", "medium room", "big room", "corridor", "hall"][self as usize]
     }
@@ -37,7 +37,7 @@ impl fmt::Display for Label {
     }
 }
 
-/// The text is neither a label's letter nor its name.
+/// A text that is neither a label's letter nor its name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownLabel(pub String);
 

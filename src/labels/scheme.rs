@@ -8,18 +8,18 @@ use super::expectations::{self, DiskRule};
 use super::{Label, TemporaryRule, Typology, UsualArea};
 use crate::base::wording::sentence;
 
-/// What a scheme says of a function.
+/// What a scheme says about a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meaning {
     /// Rooms of this function carry the label.
     Labelled(Label),
-    /// Kept, but not a room in the sense of the paper (a balcony, a shaft): counts like the outside.
+    /// Kept, but not a room in the paper's sense (a balcony, a shaft): counts as the outside.
     NotClassified,
 }
 
-/// The label schemes of any number of typologies: functions to labels.
+/// The label schemes of any number of typologies: they map functions to labels.
 ///
-/// A scheme file is TOML, one table a typology, functions grouped by label:
+/// A scheme file is TOML: one table per typology, functions grouped by label:
 ///
 /// ```toml
 /// version = 1
@@ -29,10 +29,10 @@ pub enum Meaning {
 /// not_classified = ["shaft"]
 /// ```
 ///
-/// Functions compare by [`normalised_function`]. A later file extends an earlier one and wins where
+/// Functions are compared by [`normalised_function`]. A later file extends an earlier one, and wins where
 /// both name a function.
 ///
-/// A table may also say what is expected of rooms, see [`TemporaryRule`] and [`UsualArea`]; without, a
+/// A table may also say what to expect of rooms, see [`TemporaryRule`] and [`UsualArea`]; without this, a
 /// neighbour's temporary label follows the rules of `[standard]`, and no size is unusual:
 ///
 /// ```toml
@@ -46,27 +46,27 @@ pub enum Meaning {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Schemes {
     by_typology: BTreeMap<Typology, Scheme>,
-    /// The rules where a typology is unknown or has none of its own.
+    /// The rules when the typology is unknown or has none of its own.
     standard: Vec<TemporaryRule>,
 }
 
-/// What is known of a typology.
+/// What is known about a typology.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Scheme {
     /// By [`normalised_function`].
     functions: BTreeMap<String, Meaning>,
-    /// The first that holds gives the label; none for those of [`Schemes::standard`].
+    /// The first that holds gives the label; if empty, those of [`Schemes::standard`] apply.
     temporary: Vec<TemporaryRule>,
     usual_areas: BTreeMap<Label, UsualArea>,
 }
 
-/// The table of a scheme file that is no typology, but what holds where none is known.
+/// The table of a scheme file that is not a typology: it applies when no typology is known.
 const STANDARD: &str = "standard";
 
-/// The schemes that come with the program: the name and text of each file.
+/// The schemes bundled with the program: name and text of each file.
 const BUNDLED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/schemes.rs"));
 
-/// A scheme file that cannot be used, in words that say what to do.
+/// Why a scheme file cannot be used; the message says what to do.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SchemeError(String);
 
@@ -78,7 +78,7 @@ impl fmt::Display for SchemeError {
 
 impl std::error::Error for SchemeError {}
 
-/// The newest version of the scheme file this program reads.
+/// The newest scheme file version this program reads.
 const VERSION: i64 = 1;
 
 #[derive(Deserialize)]
@@ -104,11 +104,11 @@ struct DiskScheme {
 }
 
 impl Schemes {
-    /// The schemes that come with the program.
+    /// The schemes bundled with the program.
     pub fn bundled() -> Self {
         static READ: OnceLock<Schemes> = OnceLock::new();
         let read = || {
-            // A broken bundled file is caught by the test below; at run time it would only be missing.
+            // A broken bundled file is caught by the test below; at run time it would just be missing.
             let extend = |schemes: Self, (_, text): &(&str, &str)| schemes.clone().extended_by(text).unwrap_or(schemes);
             BUNDLED.iter().fold(Self::default(), extend)
         };
@@ -118,8 +118,8 @@ impl Schemes {
     /// These schemes extended by the text of a scheme file.
     ///
     /// # Errors
-    /// When the text is not TOML, misses its version or has a newer one, uses an unknown key, names a
-    /// function under two labels of one typology, or expects what cannot be.
+    /// When the text is not TOML, has no version or a newer one, uses an unknown key, names a function
+    /// under two labels of one typology, or expects the impossible.
     pub fn extended_by(mut self, text: &str) -> Result<Self, SchemeError> {
         let mut table: toml::Table = toml::from_str(text)
             .map_err(|error| SchemeError(format!("not a label scheme: {}", error.to_string().trim())))?;
@@ -179,42 +179,42 @@ impl Schemes {
         Ok(self)
     }
 
-    /// The typologies that have a scheme, in alphabetical order.
+    /// The typologies that have a scheme, alphabetically.
     pub fn typologies(&self) -> impl Iterator<Item = &Typology> {
         self.by_typology.keys()
     }
 
-    /// The functions of a typology with their meaning, in alphabetical order, normalised.
+    /// The functions of a typology with their meaning, normalised, alphabetically.
     pub fn functions(&self, typology: &Typology) -> impl Iterator<Item = (&str, Meaning)> {
         let functions = self.by_typology.get(typology).map(|scheme| &scheme.functions);
         functions.into_iter().flatten().map(|(function, &meaning)| (function.as_str(), meaning))
     }
 
-    /// What the scheme of a typology says of a function; `None` when it does not know it, or when
-    /// the plan has no typology or one without a scheme. Never guessed.
+    /// What the scheme of a typology says about a function; `None` if it does not know it, or if the plan
+    /// has no typology or one without a scheme. Never guessed.
     pub fn meaning(&self, typology: Option<&Typology>, function: &str) -> Option<Meaning> {
         self.by_typology.get(typology?)?.functions.get(&normalised_function(function)).copied()
     }
 
-    /// The rules that give a room of a typology its temporary label: its own, else the standard ones.
+    /// The rules for temporary labels in a typology: its own, or else the standard ones.
     pub fn temporary_rules(&self, typology: Option<&Typology>) -> &[TemporaryRule] {
         let own = typology.and_then(|typology| self.by_typology.get(typology)).map(|scheme| &scheme.temporary);
         own.filter(|rules| !rules.is_empty()).unwrap_or(&self.standard)
     }
 
-    /// What area is usual for a label in a typology; `None` where nothing is known of it.
+    /// The usual area of a label in a typology; `None` if unknown.
     pub fn usual_area(&self, typology: Option<&Typology>, label: Label) -> Option<UsualArea> {
         self.by_typology.get(typology?)?.usual_areas.get(&label).copied()
     }
 }
 
-/// A function as written in a file, for people: 'LIVING_ROOM' and 'living room' become 'Living room'.
+/// A function as shown to people: 'LIVING_ROOM' and 'living room' become 'Living room'.
 pub fn function_title(function: &str) -> String {
     sentence(&normalised_function(function))
 }
 
-/// A function's name as schemes compare it: lower case, runs of spaces, underscores and hyphens
-/// one space. `LIVING_ROOM`, `living-room` and `Living room` are the same function.
+/// A function's name as schemes compare it: lower case, with runs of spaces, underscores and hyphens
+/// replaced by one space. `LIVING_ROOM`, `living-room` and `Living room` are the same function.
 pub fn normalised_function(function: &str) -> String {
     let lower = function.to_lowercase();
     let words: Vec<&str> =

@@ -1,13 +1,13 @@
 use std::fmt;
 use std::sync::Arc;
 
-/// What a building is for: `house`, `school`, `office`, or any other that a user adds with a label
-/// scheme. Kept in lower case, so that 'OFFICE' in a file and `office` in a scheme are the same.
+/// What a building is for: `house`, `school`, `office`, or another that a user adds with a label scheme.
+/// Kept in lower case, so that 'OFFICE' in a file and `office` in a scheme are the same.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Typology(Arc<str>);
 
 impl Typology {
-    /// A typology by its name; surrounding space is dropped. `None` for an empty name.
+    /// A typology by name, with surrounding space trimmed. `None` for an empty name.
     pub fn new(name: &str) -> Option<Self> {
         let name = name.trim();
         (!name.is_empty()).then(|| Self(name.to_lowercase().into()))
@@ -17,7 +17,7 @@ impl Typology {
         &self.0
     }
 
-    /// The name with a capital letter, for titles.
+    /// The name capitalised, for titles.
     pub fn title(&self) -> String {
         let mut letters = self.0.chars();
         letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()

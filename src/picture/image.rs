@@ -1,10 +1,10 @@
-//! Pictures of the window, as PNG files and compared with each other.
+//! Pictures of the window: saving them as PNG and comparing them.
 
 use std::io::{BufRead, Seek};
 
 use super::png::{Packing, PictureError, encode_rgba};
 
-/// A picture, rows from the top.
+/// A picture, rows from top to bottom.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Picture {
     pub width_px: u32,
@@ -13,14 +13,14 @@ pub struct Picture {
     pub rgba: Vec<u8>,
 }
 
-/// How two pictures of one size differ.
+/// How two pictures of the same size differ.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {
-    /// How many pixels are not the same.
+    /// The number of pixels that differ.
     pub pixels: usize,
     /// The largest difference of a channel, 1 to 255.
     pub largest: u8,
-    /// The first picture, faint, with what differs in red.
+    /// The first picture, faint, with the differing pixels in red.
     pub picture: Picture,
 }
 
@@ -34,7 +34,7 @@ impl Picture {
     /// Reads a PNG of at most `most_pixels`.
     ///
     /// # Errors
-    /// When it is none, or damaged, or larger, in words.
+    /// When it is not a PNG, is damaged, or is too large; the message says which.
     pub fn from_png(source: impl BufRead + Seek, most_pixels: usize) -> Result<Self, String> {
         let most_bytes = most_pixels.saturating_mul(4);
         let mut decoder = png::Decoder::new_with_limits(source, png::Limits { bytes: most_bytes });
@@ -66,7 +66,7 @@ impl Picture {
         Ok(Self { width_px, height_px, rgba })
     }
 
-    /// The bytes of a PNG, as small as they get: without alpha where all is opaque.
+    /// The bytes of a PNG, as small as possible: no alpha channel if all is opaque.
     ///
     /// # Errors
     /// When the picture has no pixels.
@@ -75,7 +75,7 @@ impl Picture {
         encode_rgba(self.width_px, self.height_px, &self.rgba, packing)
     }
 
-    /// The part between two corners, in pixels; the far sides are not part of it.
+    /// The rectangle between two corners, in pixels; the right and bottom edges are excluded.
     pub fn part(&self, from: [u32; 2], to: [u32; 2]) -> Self {
         let [left, top] = [from[0].min(self.width_px), from[1].min(self.height_px)];
         let [right, bottom] = [to[0].clamp(left, self.width_px), to[1].clamp(top, self.height_px)];
@@ -90,7 +90,7 @@ impl Picture {
         Self { width_px: right - left, height_px: bottom - top, rgba }
     }
 
-    /// How another picture differs from this one; `None` when it does not. Pictures of different sizes
+    /// How another picture differs from this one; `None` if it is identical. Pictures of different sizes
     /// differ in every pixel.
     pub fn difference(&self, other: &Self) -> Option<Difference> {
         if self == other {
@@ -107,14 +107,14 @@ impl Picture {
             .zip(other.rgba.chunks_exact(4))
             .flat_map(|(p, q)| {
                 if p == q {
-                    // A quarter of its strength on white.
+                    // At a quarter of its strength on white.
                     let faint = |level: u8| 191 + level / 4;
                     return [faint(p[0]), faint(p[1]), faint(p[2]), 255];
                 }
                 pixels += 1;
                 let by = p.iter().zip(q).map(|(p, q)| p.abs_diff(*q)).max().unwrap_or(0);
                 largest = largest.max(by);
-                // Small differences must be seen too.
+                // Small differences must show too.
                 let rest = 160 - (by / 2).min(160);
                 [255, rest, rest, 255]
             })

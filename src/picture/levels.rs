@@ -1,10 +1,10 @@
-//! A picture at several sizes, each half as large as the one before: zoomed out, a smaller one is
-//! shown, so that its lines stay sharp and few pixels are touched.
+//! Mipmaps: a picture at several sizes, each half the one before. Zoomed out, a smaller one is shown, so
+//! that its lines stay sharp and few pixels are touched.
 
-/// What a pixel holds, and in how many bytes.
+/// The pixel format, and its size in bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Samples {
-    /// One byte: black to white.
+    /// One byte, black to white.
     Grey,
     /// Red, green, blue.
     Rgb,
@@ -13,7 +13,7 @@ pub enum Samples {
 }
 
 impl Samples {
-    /// Bytes of a pixel.
+    /// Bytes per pixel.
     pub const fn bytes(self) -> usize {
         match self {
             Self::Grey => 1,
@@ -23,7 +23,7 @@ impl Samples {
     }
 }
 
-/// A picture at one size, rows from the top.
+/// A picture at one size, rows from top to bottom.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Level {
     pub width_px: u32,
@@ -39,7 +39,7 @@ impl std::fmt::Debug for Level {
 }
 
 impl Level {
-    /// The same picture in as few bytes as hold it: scans in colour are often grey, and opaque.
+    /// The same picture in the smallest format that holds it: colour scans are often grey and opaque.
     pub(crate) fn simplified(self) -> Self {
         let size = self.samples.bytes();
         let is_opaque = self.samples != Samples::Rgba || self.data.chunks_exact(4).all(|pixel| pixel[3] == 255);
@@ -56,7 +56,7 @@ impl Level {
         Self { samples: kept, data, ..self }
     }
 
-    /// Red, green, blue and alpha (straight) of a pixel; beyond the sides those of the nearest one.
+    /// Red, green, blue and alpha (straight) of a pixel; outside the picture, of the nearest one.
     pub fn pixel(&self, x: i64, y: i64) -> [u8; 4] {
         let x = x.clamp(0, i64::from(self.width_px) - 1) as usize;
         let y = y.clamp(0, i64::from(self.height_px) - 1) as usize;
@@ -69,7 +69,7 @@ impl Level {
         }
     }
 
-    /// Half as large: each pixel the mean of four. An odd last row or column counts for itself.
+    /// Half the size: each pixel is the mean of four. An odd last row or column counts for itself.
     fn halved(&self) -> Self {
         let size = self.samples.bytes();
         let (width, height) = (self.width_px as usize, self.height_px as usize);
@@ -85,7 +85,7 @@ impl Level {
                 let (left, right) = (2 * x * size, (2 * x + 1).min(width - 1) * size);
                 let four = [&upper[left..], &upper[right..], &lower[left..], &lower[right..]];
                 if self.samples == Samples::Rgba {
-                    // Colours count as much as they are seen.
+                    // Colours are weighted by their alpha.
                     let alpha: u32 = four.iter().map(|pixel| u32::from(pixel[3])).sum();
                     for channel in 0..3 {
                         let sum: u32 = four.iter().map(|pixel| u32::from(pixel[channel]) * u32::from(pixel[3])).sum();
@@ -104,15 +104,16 @@ impl Level {
     }
 }
 
-/// The smallest size of a picture has at most so many pixels a side.
+/// The largest side of the smallest level, in pixels.
 const SMALLEST_SIDE_PX: u32 = 256;
 
-/// A picture at its full size, then at half of it, and so on.
+/// A picture at full size, half size, and so on.
 #[derive(Clone, Debug)]
 pub struct PictureLevels(Vec<Level>);
 
 impl PictureLevels {
-    /// All sizes of a picture, which has at least a pixel. A third more memory than the picture.
+    /// All levels of a picture, which must have at least one pixel. Uses a third more memory than the
+    /// picture.
     pub fn new(full: Level) -> Self {
         let mut levels = vec![full];
         while let Some(last) = levels.last()
@@ -124,24 +125,24 @@ impl PictureLevels {
         Self(levels)
     }
 
-    /// The picture's own size in pixels.
+    /// The full size in pixels.
     pub fn size_px(&self) -> [u32; 2] {
         self.0.first().map_or([0, 0], |full| [full.width_px, full.height_px])
     }
 
-    /// All sizes, the full one first: a pixel of the size `n` stands for `2^n` by `2^n`.
+    /// All levels, the full one first: a pixel of level `n` covers `2^n` by `2^n` pixels.
     pub fn all(&self) -> &[Level] {
         &self.0
     }
 
-    /// Which size to show where a pixel of the picture is so many pixels of the screen: none of its
-    /// pixels is shrunk or stretched by more than the root of two, but where the picture has no more.
+    /// The level to show when a pixel of the picture covers this many screen pixels: its pixels are
+    /// scaled by at most the square root of two either way, unless the levels run out.
     pub fn index_for(&self, screen_px_per_pixel: f64) -> usize {
         let halvings = (-screen_px_per_pixel.max(1e-9).log2()).round().max(0.0);
         (halvings as usize).min(self.0.len().saturating_sub(1))
     }
 
-    /// Bytes that the pixels take.
+    /// Bytes used by the pixels.
     pub fn bytes(&self) -> usize {
         self.0.iter().map(|level| level.data.len()).sum()
     }
@@ -160,7 +161,7 @@ mod tests {
     fn sizes_halve_to_the_mean() {
         assert_eq!(level(2, Samples::Grey, &[0, 100, 100, 200]).halved(), level(1, Samples::Grey, &[100]));
         assert_eq!(level(3, Samples::Grey, &[0, 2, 9]).halved(), level(2, Samples::Grey, &[1, 9]));
-        // What is transparent lends no colour.
+        // Transparent pixels contribute no colour.
         let mixed = [200, 0, 0, 255, 0, 0, 0, 0];
         assert_eq!(level(2, Samples::Rgba, &mixed).halved(), level(1, Samples::Rgba, &[200, 0, 0, 128]));
         let levels = PictureLevels::new(level(1000, Samples::Grey, &vec![7; 1000 * 700]));

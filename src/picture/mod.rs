@@ -1,4 +1,4 @@
-//! Pictures as pixels: in memory, at several sizes, as PNG. It knows no plans and no files.
+//! Pictures as pixels: in memory, at several sizes, as PNG. Knows nothing of plans or files.
 
 mod image;
 mod levels;

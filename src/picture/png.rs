@@ -1,4 +1,4 @@
-//! PNG files: one encoder for all that Enfilade writes.
+//! The one PNG encoder, for all that Enfilade writes.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use tiny_skia::Pixmap;
 
 use super::{Level, Samples};
 
-/// A picture that cannot be painted, in words that say what to do.
+/// Why a picture cannot be painted; the message says what to do.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PictureError(pub(crate) String);
 
@@ -18,19 +18,19 @@ impl fmt::Display for PictureError {
 
 impl std::error::Error for PictureError {}
 
-/// How the bytes are packed; the pixels are the same.
+/// How the bytes are compressed; the pixels are the same.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Packing {
     pub compression: png::Compression,
     pub filter: Option<png::Filter>,
-    /// Whether the file says that its colours are sRGB.
+    /// Whether to mark the file as sRGB.
     pub is_srgb: bool,
 }
 
-/// Rows of samples from the top, 8 bits a channel, as a PNG file's bytes.
+/// Encodes rows of samples from the top, 8 bits a channel, as a PNG file.
 ///
 /// # Errors
-/// When there are no pixels, or `data` has not `width_px * height_px` samples.
+/// When there are no pixels, or `data` does not have `width_px * height_px` samples.
 pub fn encode(
     width_px: u32,
     height_px: u32,
@@ -60,8 +60,7 @@ pub fn encode(
     Ok(bytes)
 }
 
-/// Pixels of straight red, green, blue and alpha as a PNG file's bytes, without alpha where all is
-/// opaque.
+/// Encodes pixels of straight red, green, blue and alpha as a PNG file, without alpha if all are opaque.
 ///
 /// # Errors
 /// As [`encode`].
@@ -74,11 +73,11 @@ pub fn encode_rgba(width_px: u32, height_px: u32, rgba: &[u8], packing: Packing)
     }
 }
 
-/// A pixmap as a PNG file's bytes: 8 bits a channel, without alpha where all is opaque. Compressed for
+/// Encodes a pixmap as a PNG file: 8 bits a channel, without alpha if all is opaque. Compressed for
 /// speed: large areas of one colour shrink well anyway.
 ///
 /// # Errors
-/// When the encoder fails, which it does for no picture made here.
+/// When the encoder fails, which no picture made here causes.
 pub fn encode_pixmap(pixmap: &Pixmap) -> Result<Vec<u8>, PictureError> {
     let packing = Packing { compression: png::Compression::Fast, filter: Some(png::Filter::Up), is_srgb: true };
     let rgba: Vec<u8> = pixmap
@@ -92,7 +91,7 @@ pub fn encode_pixmap(pixmap: &Pixmap) -> Result<Vec<u8>, PictureError> {
     encode_rgba(pixmap.width(), pixmap.height(), &rgba, packing)
 }
 
-/// A picture at one size as a PNG file's bytes.
+/// Encodes one level of a picture as a PNG file.
 ///
 /// # Errors
 /// As [`encode`].

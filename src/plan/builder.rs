@@ -4,8 +4,8 @@ use std::sync::Arc;
 use super::{Backdrop, Corner, CornerId, Meta, Opening, OpeningId, Plan, Room, RoomId, Violation, Wall, WallId};
 use crate::geometry::{Point, trim_m};
 
-/// Builds a plan from many elements at once: for imports and generators. Equal points become one
-/// corner. Edits of an existing plan are in [`crate::edit`].
+/// Builds a plan from many elements at once, for imports and generators. Equal points become one corner.
+/// To edit an existing plan, see [`crate::edit`].
 #[derive(Debug, Default)]
 pub struct Builder {
     plan: Plan,
@@ -17,7 +17,7 @@ impl Builder {
         Self { plan: Plan { meta: Arc::new(meta), ..Plan::default() }, by_position: HashMap::new() }
     }
 
-    /// Replaces what is known of the plan as a whole.
+    /// Replaces the plan's metadata.
     pub fn set_meta(&mut self, meta: Meta) {
         self.plan.meta = Arc::new(meta);
     }
@@ -26,7 +26,7 @@ impl Builder {
         self.plan.backdrop = Some(Arc::new(backdrop));
     }
 
-    /// The corner at a point, trimmed to the grid: the one already there, else a new one.
+    /// The corner at a point, trimmed to the grid: the existing one, or a new one.
     pub fn corner(&mut self, point: Point) -> CornerId {
         let position = point.trimmed();
         let key = grid_key(position);
@@ -39,8 +39,8 @@ impl Builder {
         id
     }
 
-    /// The corners of a ring given as points, without the repeated last point and without points
-    /// that fall on their predecessor after trimming.
+    /// The corners of a ring of points, without a repeated last point and without points that coincide
+    /// with their predecessor after trimming.
     pub fn ring(&mut self, points: impl IntoIterator<Item = Point>) -> Arc<[CornerId]> {
         let mut ring: Vec<CornerId> = Vec::new();
         for point in points {
@@ -60,7 +60,7 @@ impl Builder {
         self.wall_as(None, Wall { from, to, thickness_m, extra: None })
     }
 
-    /// A wall; `id` is its identity where that is known and not taken.
+    /// A wall; `id` is its identity if known and not taken.
     pub fn wall_as(&mut self, id: Option<WallId>, mut wall: Wall) -> WallId {
         let known = id.filter(|id| !self.plan.walls.contains_key(id));
         let id = known.unwrap_or_else(|| new_wall_id(&self.plan, wall.from, wall.to));
@@ -69,9 +69,9 @@ impl Builder {
         id
     }
 
-    /// A room. `key` is its identity in the source (a UUID, 'R12') and becomes its
-    /// [`Room::source_id`]; a key that is a [`RoomId`]'s text is that identity itself; with an empty
-    /// key the identity comes from its boundary.
+    /// A room. `key` is its identity in the source (a UUID, 'R12') and becomes its [`Room::source_id`]; a
+    /// key that is the text of a [`RoomId`] is used as that id; with an empty key the id is derived from
+    /// the boundary.
     pub fn room(&mut self, key: &str, mut room: Room) -> RoomId {
         if !key.is_empty() && key.parse::<RoomId>().is_err() {
             room.source_id = key.to_owned();
@@ -81,7 +81,7 @@ impl Builder {
         id
     }
 
-    /// An opening; `key` as for [`Builder::room`].
+    /// An opening; `key` works as in [`Builder::room`].
     pub fn opening(&mut self, key: &str, opening: Opening) -> OpeningId {
         let mut opening = opening.trimmed();
         if !key.is_empty() && key.parse::<OpeningId>().is_err() {
@@ -100,14 +100,14 @@ impl Builder {
     /// The finished plan.
     ///
     /// # Errors
-    /// All violations of the invariants, when there are any: the importer passes them on.
+    /// All violations of the invariants, if any: the importer passes them on.
     pub fn finish(self) -> Result<Plan, Vec<Violation>> {
         let violations = self.plan.violations();
         if violations.is_empty() { Ok(self.plan) } else { Err(violations) }
     }
 }
 
-/// A position in units of the grid.
+/// A position in grid units.
 pub(super) fn grid_key(position: Point) -> (i64, i64) {
     ((position.x * 1e4).round() as i64, (position.y * 1e4).round() as i64)
 }

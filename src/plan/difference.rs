@@ -1,4 +1,4 @@
-//! What differs between two plans, by element.
+//! The difference between two plans, by element.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use crate::base::wording::count;
 
 use super::{CornerId, ElementId, OpeningId, Place, Plan, RoomId, WallId};
 
-/// What became of an element from one plan to another.
+/// What happened to an element from one plan to another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ChangeKind {
     Added,
@@ -19,7 +19,7 @@ pub enum ChangeKind {
 }
 
 impl ChangeKind {
-    /// The word for people.
+    /// Its name in the interface.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Added => "added",
@@ -29,21 +29,21 @@ impl ChangeKind {
     }
 }
 
-/// What differs between two plans, of which one came from the other or both from a third.
+/// The difference between two plans, one derived from the other or both from a third.
 ///
-/// Where they share structure, which edits of one another do, finding it costs what differs and not what
-/// they hold.
+/// Plans that share structure, such as edits of one another, are compared in time proportional to the
+/// difference, not to their size.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Difference {
-    /// The elements that are not the same in both.
+    /// The elements that differ.
     pub elements: BTreeMap<ElementId, ChangeKind>,
-    /// Whether what is known of the plan as a whole differs.
+    /// Whether the metadata differ.
     pub meta: bool,
-    /// Whether the picture under the plan differs.
+    /// Whether the backdrop differs.
     pub backdrop: bool,
     /// Whether the guide lines differ.
     pub guides: bool,
-    /// Whether fields differ that this version does not know.
+    /// Whether fields unknown to this version differ.
     pub extra: bool,
 }
 
@@ -61,7 +61,7 @@ fn collect<K: Ord + Copy, V: PartialEq>(
 }
 
 impl Difference {
-    /// How much differs, in words: '2 rooms, 1 wall and the picture'. `seen`: as [`Self::seen`] gives it.
+    /// A summary in words: '2 rooms, 1 wall and the picture'. `seen` comes from [`Self::seen`].
     pub fn in_words(&self, seen: &BTreeMap<ElementId, ChangeKind>) -> String {
         let number = |kind: &str| seen.keys().filter(|element| element.kind() == kind).count();
         let counts = ["room", "wall", "opening"].map(|kind| (number(kind), kind));
@@ -86,9 +86,9 @@ impl Difference {
         }
     }
 
-    /// What differs between two plans.
+    /// Compares two plans.
     pub fn between(before: &Plan, after: &Plan) -> Self {
-        // Named one by one: a new part of plans must say here how it differs.
+        // All fields by name: a new field of `Plan` must be compared here.
         let Plan { meta, corners, walls, rooms, openings, backdrop, guides, extra } = before;
         let mut elements = BTreeMap::new();
         collect::<CornerId, _>(corners, &after.corners, ElementId::Corner, &mut elements);
@@ -109,8 +109,8 @@ impl Difference {
         self.elements.is_empty() && !self.meta && !self.backdrop && !self.guides && !self.extra
     }
 
-    /// What a person sees of it: walls, rooms and openings, those included that are as they were but for a
-    /// corner of theirs that moved. Corners themselves are left out.
+    /// The changes a person sees: walls, rooms and openings, including those whose only change is a
+    /// corner that moved. Corners themselves are left out.
     pub fn seen(&self, before: &Plan, after: &Plan) -> BTreeMap<ElementId, ChangeKind> {
         let mut seen = self.elements.clone();
         seen.retain(|element, _| !matches!(element, ElementId::Corner(_)));
@@ -171,7 +171,7 @@ mod tests {
             ])
         );
         assert!(difference.meta && !difference.backdrop && !difference.extra);
-        // The room is another by its corner.
+        // The room changed through its corner.
         assert_eq!(
             difference.seen(&before, &after),
             BTreeMap::from([(ElementId::Wall(wall), ChangeKind::Added), (ElementId::Room(room), ChangeKind::Changed),])

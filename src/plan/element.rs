@@ -17,7 +17,7 @@ pub struct Corner {
 pub struct Wall {
     pub from: CornerId,
     pub to: CornerId,
-    /// In metres, at least 0 (a line), centred on the line between the corners.
+    /// In metres, 0 (a line) or more; centred on the line between the corners.
     pub thickness_m: f64,
     pub extra: Extra,
 }
@@ -25,21 +25,20 @@ pub struct Wall {
 /// An area bounded by corners. Its identity survives edits.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Room {
-    /// The outer boundary: at least three corners, the first not repeated; of either direction.
-    /// Empty for a room that a file names without giving its boundary.
+    /// The outer boundary: at least three corners in either direction, the first not repeated. Empty for
+    /// a room that a file names without a boundary.
     pub outer: Arc<[CornerId]>,
     /// Holes (courtyards, shafts, islands): rings inside the outer one.
     pub holes: Vec<Arc<[CornerId]>>,
-    /// What the room is for, as the source or the person wrote it; empty when unknown.
+    /// What the room is for, as the source or the user wrote it; empty when unknown.
     pub function: String,
-    /// A label given to this room itself; without one, the label scheme's answer for the function
-    /// counts.
+    /// A label given to this room itself; without one, the label scheme's label for the function applies.
     pub label: Option<RoomLabel>,
     /// What is written in the room ('1.23', 'Library'); empty when unnamed.
     pub name: String,
     pub note: String,
-    /// What the room is called in the file it was imported from (a UUID, 'R12'); empty when drawn
-    /// here. Lets a row of a dataset be found in its source.
+    /// The room's id in the file it was imported from (a UUID, 'R12'); empty when drawn here. Lets a row
+    /// of a dataset be traced back to its source.
     pub source_id: String,
     pub extra: Extra,
 }
@@ -72,14 +71,14 @@ pub enum LabelOrigin {
     Imported,
     /// A prediction that a person accepted.
     AcceptedPrediction,
-    /// A classifier's prediction that nobody has looked at: shown as such, never taken for the truth.
+    /// A classifier's prediction that nobody has reviewed: shown as such, never taken as ground truth.
     Prediction,
 }
 
 impl LabelOrigin {
     pub const ALL: [Self; 4] = [Self::Person, Self::Imported, Self::AcceptedPrediction, Self::Prediction];
 
-    /// The word for files and for people.
+    /// Its name in files and in the interface.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Person => "person",
@@ -97,7 +96,7 @@ pub enum OpeningKind {
     Door,
     /// A doorway with two leaves.
     DoubleDoor,
-    /// A free passage.
+    /// A passage without a door.
     Passage,
     /// A window: for drawing only, it joins nothing and does not count in `d`.
     Window,
@@ -106,7 +105,7 @@ pub enum OpeningKind {
 impl OpeningKind {
     pub const ALL: [Self; 4] = [Self::Door, Self::DoubleDoor, Self::Passage, Self::Window];
 
-    /// The word for files and for people.
+    /// Its name in files and in the interface.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Door => "door",
@@ -116,7 +115,7 @@ impl OpeningKind {
         }
     }
 
-    /// Whether one can walk through it: everything but a window.
+    /// Whether one can walk through it: true for all but windows.
     pub const fn is_passable(self) -> bool {
         !matches!(self, Self::Window)
     }
@@ -129,10 +128,9 @@ pub struct Opening {
     pub place: Place,
     /// How a door's leaf opens; `None` lets the drawing choose.
     pub swing: Option<Swing>,
-    /// The two sides it joins, where a file or a person states them; `None` when they follow from
-    /// geometry.
+    /// The two sides it joins, if a file or the user states them; `None` when they follow from geometry.
     pub pinned: Option<[Joint; 2]>,
-    /// As [`Room::source_id`].
+    /// Like [`Room::source_id`].
     pub source_id: String,
     pub extra: Extra,
 }
@@ -140,7 +138,7 @@ pub struct Opening {
 /// Where an opening is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Place {
-    /// On the edge between two corners, which is that of a wall or a room's boundary.
+    /// On the edge between two corners, part of a wall or a room's boundary.
     Hosted {
         from: CornerId,
         to: CornerId,
@@ -149,7 +147,7 @@ pub enum Place {
         /// Clear width in metres, above 0.
         width_m: f64,
     },
-    /// A segment of its own, where an import gives no host.
+    /// A segment of its own, when an import gives no host.
     Free { from: Point, to: Point },
 }
 
@@ -196,46 +194,46 @@ impl LeafSide {
     }
 }
 
-/// A picture under the plan, to trace over.
+/// A backdrop: a picture under the plan, to trace over.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Backdrop {
-    /// Path relative to the plan's file, with forward slashes; absolute while the plan has no file.
+    /// Path relative to the plan's file, with forward slashes; absolute while the plan is unsaved.
     pub path: String,
-    /// Hash of the picture's bytes (`sha256:` and 64 hexadecimal digits), to find it again after a
-    /// move; empty when unknown.
+    /// Hash of the picture's bytes (`sha256:` and 64 hexadecimal digits), to find it again after it
+    /// moves; empty when unknown.
     pub content_hash: String,
-    /// Which page of a document it is, from 1; 1 for pictures.
+    /// The page of the document, from 1; 1 for pictures.
     pub page: u32,
-    /// Where the picture's upper left corner lies in the plan.
+    /// The position of the picture's upper left corner in the plan.
     pub origin: Point,
     /// Size of a pixel in metres.
     pub metres_per_pixel: f64,
-    /// Counter-clockwise turn about `origin` in radians.
+    /// Counter-clockwise rotation about `origin` in radians.
     pub rotation_rad: f64,
-    /// 0 invisible to 1 opaque.
+    /// From 0, invisible, to 1, opaque.
     pub opacity: f64,
-    /// The lengths its scale was found from.
+    /// The measurements that gave its scale.
     pub measurements: Vec<Measurement>,
     pub extra: Extra,
 }
 
-/// A known length on the picture under the plan.
+/// A known length on the backdrop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measurement {
     /// Its ends in pixels from the picture's upper left corner, x to the right, y down.
     pub from: Point,
     pub to: Point,
-    /// How long it is in truth, in metres, above 0.
+    /// Its true length in metres, above 0.
     pub length_m: f64,
 }
 
 impl Opening {
-    /// An opening of a kind at a place; nothing pinned, its swing left to the drawing.
+    /// An opening of a kind at a place; nothing pinned, its swing left to the drawing code.
     pub const fn new(kind: OpeningKind, place: Place) -> Self {
         Self { kind, place, swing: None, pinned: None, source_id: String::new(), extra: None }
     }
 
-    /// The same opening with its lengths on the 0.1 mm grid.
+    /// The same opening with its lengths rounded to the 0.1 mm grid.
     pub fn trimmed(mut self) -> Self {
         self.place = match self.place {
             Place::Hosted { from, to, at_m, width_m } => {

@@ -1,5 +1,5 @@
-//! Guide lines: endless lines to draw along. They are part of the document, so that they are still there
-//! tomorrow, and no part of the building.
+//! Guide lines: infinite lines to draw along. They are saved with the document but are not part of the
+//! building.
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -21,7 +21,7 @@ pub enum GuideAxis {
 impl GuideAxis {
     pub const ALL: [Self; 2] = [Self::Horizontal, Self::Vertical];
 
-    /// The word for files and for people.
+    /// Its name in files and in the interface.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Horizontal => "horizontal",
@@ -29,7 +29,7 @@ impl GuideAxis {
         }
     }
 
-    /// The coordinate of a point that a guide through it is at.
+    /// The coordinate of a guide through this point.
     pub const fn coordinate(self, point: Point) -> f64 {
         match self {
             Self::Horizontal => point.y,
@@ -53,17 +53,17 @@ impl FromStr for GuideAxis {
     }
 }
 
-/// An endless line.
+/// An infinite line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Guide {
     pub axis: GuideAxis,
-    /// Its y where it is horizontal, its x where it is vertical, in metres on the 0.1 mm grid.
+    /// Its y if horizontal, its x if vertical, in metres on the 0.1 mm grid.
     pub at_m: f64,
     pub extra: Extra,
 }
 
 impl Guide {
-    /// A guide at a place, on the 0.1 mm grid.
+    /// A guide at a coordinate, rounded to the 0.1 mm grid.
     pub fn new(axis: GuideAxis, at_m: f64) -> Self {
         Self { axis, at_m: trim_m(at_m), extra: None }
     }
@@ -77,11 +77,10 @@ impl Guide {
     }
 }
 
-/// More guides than this hide the plan; no file brings more.
+/// The most guides: more would hide the plan. Files may not bring more.
 pub const MOST_GUIDES: usize = 1000;
 
-/// Guides in the order of files: horizontal ones first, each axis ascending; of two at one place the
-/// first.
+/// Guides in file order: horizontal ones first, each axis ascending; of duplicates, the first is kept.
 pub(crate) fn sorted(guides: impl IntoIterator<Item = Guide>) -> Arc<[Guide]> {
     let mut guides: Vec<Guide> = guides.into_iter().collect();
     guides.sort_by(Guide::order);
@@ -95,7 +94,7 @@ impl Plan {
         &self.guides
     }
 
-    /// The plan with other guides.
+    /// The plan with these guides instead.
     pub(crate) fn with_guides(&self, guides: impl IntoIterator<Item = Guide>) -> Self {
         Self { guides: sorted(guides), ..self.clone() }
     }

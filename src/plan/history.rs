@@ -3,13 +3,13 @@ use super::Plan;
 /// A plan and the edit that led to it.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// What was done, in the imperative ('Move corner'); the first step's is how the plan came.
+    /// What was done, in the imperative ('Move corner'); the first step says where the plan came from.
     pub title: String,
     pub plan: Plan,
 }
 
-/// Undo and redo as a list of plans: nothing is ever computed backwards. Plans share structure, so
-/// a step costs what changed.
+/// Undo and redo as a list of plans: nothing is ever computed backwards. Plans share structure, so a step
+/// costs only what changed.
 #[derive(Clone, Debug)]
 pub struct History {
     steps: Vec<Step>,
@@ -22,14 +22,14 @@ impl History {
         Self { steps: vec![Step { title: title.into(), plan }], current: 0 }
     }
 
-    /// A history of steps of which one is current; an index beyond the last means the last. `None` without
-    /// steps.
+    /// A history of steps, one of them current; an index past the end means the last. `None` if there are
+    /// no steps.
     pub fn of_steps(steps: Vec<Step>, current: usize) -> Option<Self> {
         let last = steps.len().checked_sub(1)?;
         Some(Self { steps, current: current.min(last) })
     }
 
-    /// The plan as it is now.
+    /// The current plan.
     pub fn plan(&self) -> &Plan {
         &self.steps[self.current].plan
     }
@@ -44,8 +44,7 @@ impl History {
         self.current
     }
 
-    /// Makes `plan` the current one. Undone steps are dropped; an edit that changed nothing leaves
-    /// no step.
+    /// Makes `plan` the current one and drops undone steps; an edit that changed nothing adds no step.
     pub fn push(&mut self, title: impl Into<String>, plan: Plan) {
         if plan == *self.plan() {
             return;
@@ -63,13 +62,13 @@ impl History {
         self.current + 1 < self.steps.len()
     }
 
-    /// Goes back one step and gives the title of the edit undone.
+    /// Goes back one step and returns the title of the edit undone.
     pub fn undo(&mut self) -> Option<&str> {
         self.current = self.current.checked_sub(1)?;
         Some(&self.steps[self.current + 1].title)
     }
 
-    /// Goes forward one step and gives the title of the edit redone.
+    /// Goes forward one step and returns the title of the edit redone.
     pub fn redo(&mut self) -> Option<&str> {
         if !self.can_redo() {
             return None;
@@ -78,15 +77,15 @@ impl History {
         Some(&self.steps[self.current].title)
     }
 
-    /// Replaces every plan by what it becomes: for what is no edit, such as the path of a picture that
-    /// starts at another folder from now on.
+    /// Applies a change to every plan: for changes that are not edits, such as a picture's path becoming
+    /// relative to another folder.
     pub fn rewrite(&mut self, change: impl Fn(&Plan) -> Plan) {
         for step in &mut self.steps {
             step.plan = change(&step.plan);
         }
     }
 
-    /// Jumps to a step; an index beyond the last goes to the last.
+    /// Jumps to a step; an index past the end goes to the last.
     pub fn jump_to(&mut self, position: usize) {
         self.current = position.min(self.steps.len() - 1);
     }

@@ -5,14 +5,14 @@ use std::str::FromStr;
 /// Digits of an id: Crockford's base 32, which has no i, l, o or u to misread.
 const DIGITS: &[u8; 32] = b"0123456789abcdefghjkmnpqrstvwxyz";
 
-/// Characters of an id behind its letter; 5 bits each.
+/// Characters of an id after its letter; 5 bits each.
 const LENGTH: usize = 12;
 
-/// Ids have 60 bits: two branches of a repository that each add 100,000 elements of a kind collide
-/// with a probability of about 10^-8.
+/// Ids have 60 bits: two branches of a repository that each add 100,000 elements of a kind collide with a
+/// probability of about 10^-8.
 const MASK: u64 = (1 << 60) - 1;
 
-/// A text that is no id.
+/// A text that is not an id.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct IdError {
     text: String,
@@ -32,7 +32,7 @@ impl fmt::Display for IdError {
 impl std::error::Error for IdError {}
 
 /// Mixes values into 60 bits, the same on every machine and in every version: FNV-1a over the bytes
-/// (Fowler, Noll, Vo), then the finalizer of splitmix64 (Steele, Lea, Flood 2014) to spread them.
+/// (Fowler, Noll, Vo), then the finaliser of splitmix64 (Steele, Lea, Flood 2014) to spread them.
 fn mix(letter: char, parts: &[u64], salt: u64) -> u64 {
     let values = [u64::from(letter), salt].into_iter().chain(parts.iter().copied());
     let mut hash = hash::fnv1a(hash::START, values.flat_map(u64::to_le_bytes));
@@ -45,15 +45,15 @@ macro_rules! id_type {
     ($(#[$doc:meta])* $name:ident, $letter:literal) => {
         $(#[$doc])*
         ///
-        /// An id is made from what the element was when it was created, not from a counter: two
-        /// branches of a repository that add different things give them different ids, so that
-        /// their files merge, and the same input gives the same ids. It then stays for life.
+        /// An id is derived from what the element was when created, not from a counter: two branches of a
+        /// repository that add different things give them different ids, so that their files merge, and
+        /// the same input gives the same ids. It then never changes.
         #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub struct $name(u64);
 
         impl $name {
-            /// A new id made from `parts` (coordinates' bits, other ids, hashed names), the first
-            /// of its series that is not `taken`.
+            /// A new id derived from `parts` (coordinates' bits, other ids, hashed names): the first of
+            /// its series that is not `taken`.
             pub fn derive(parts: &[u64], taken: impl Fn(Self) -> bool) -> Self {
                 let mut salt = 0;
                 loop {
@@ -65,8 +65,8 @@ macro_rules! id_type {
                 }
             }
 
-            /// What an import makes of a key in its source: a key that is an id of this kind is
-            /// that id (Enfilade wrote the file), any other ('R12') gives one made from it.
+            /// The id for a key in an import's source: the text of an id of this kind is that id
+            /// (Enfilade wrote the file); from any other ('R12') one is derived.
             pub fn of_key(key: &str) -> Self {
                 key.parse().unwrap_or_else(|_| Self::derive(&[name_bits(key)], |_| false))
             }
@@ -142,7 +142,7 @@ pub enum ElementId {
 }
 
 impl ElementId {
-    /// What it is, in a word: 'room'.
+    /// Its kind in a word: 'room'.
     pub const fn kind(self) -> &'static str {
         match self {
             Self::Corner(_) => "corner",
@@ -164,7 +164,7 @@ impl fmt::Display for ElementId {
     }
 }
 
-/// The bits of a name, to derive ids from: FNV-1a over its bytes.
+/// The bits of a name, for deriving ids: FNV-1a over its bytes.
 pub fn name_bits(name: &str) -> u64 {
     hash::fnv1a(hash::START, name.bytes())
 }

@@ -4,8 +4,8 @@ use super::{CornerId, ElementId, Joint, Place, Plan};
 use crate::geometry::COORDINATE_LIMIT_M;
 use crate::geometry::Point;
 
-/// An invariant of the model that a plan breaks: never a matter of taste (those are checks), always
-/// a bug of an edit or a damaged file.
+/// A broken invariant of the model: never a matter of taste (those are checks), always a bug in an edit
+/// or a damaged file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Violation {
     pub element: ElementId,
@@ -19,7 +19,7 @@ impl fmt::Display for Violation {
 }
 
 impl Plan {
-    /// Everything that breaks an invariant, by element; empty for every plan an edit may return:
+    /// All broken invariants, by element; empty for every plan an edit may return:
     ///
     /// - positions are finite, within [`COORDINATE_LIMIT_M`], and on the 0.1 mm grid;
     /// - a wall joins two different corners that exist, its thickness is within 0..=10 m;
@@ -89,7 +89,7 @@ impl Plan {
                     let position = |corner: CornerId| self.position(corner);
                     match (position(from), position(to)) {
                         (Some(a), Some(b)) if a != b => {
-                            // Half a grid step of slack: lengths off the axes are not on the grid.
+                            // Half a grid step of slack: lengths of oblique edges are not on the grid.
                             let length_m = a.distance(b) + crate::geometry::GRID_M;
                             // An edge across the drawing area is longer than a coordinate may be.
                             if !(crate::geometry::trim_m(at_m) == at_m && (0.0..=length_m).contains(&at_m)) {

@@ -1,14 +1,14 @@
 use super::Extra;
 use crate::labels::Typology;
 
-/// What is known of a plan as a whole. Empty text means unknown.
+/// Metadata of a plan. Empty text means unknown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Meta {
     /// The plan's name, as shown in lists and titles.
     pub name: String,
     /// The building this storey belongs to: the unit that cross-validation must never split.
     pub building: String,
-    /// Which storey of the building, as written on the drawing ('ground floor', '2').
+    /// The storey of the building, as written on the drawing ('ground floor', '2').
     pub storey: String,
     pub typology: Option<Typology>,
     pub scale: Scale,
@@ -16,18 +16,17 @@ pub struct Meta {
     pub source: String,
     /// The licence under which the source may be used.
     pub licence: String,
-    /// Fields of a newer file, kept.
+    /// Fields from a newer file version, kept for saving.
     pub extra: Extra,
 }
 
-/// How the plan came by its metres. Scale is a doubtful quantity in real plans, so its origin stays
-/// with it and is shown.
+/// How the plan got its scale. Scale is uncertain in real plans, so its origin is kept with it and shown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scale {
     pub origin: ScaleOrigin,
-    /// Metres that one unit of the source (a pixel, a drawing unit) stands for, where there was one.
+    /// Metres per unit of the source (a pixel, a drawing unit), if it had one.
     pub metres_per_unit: Option<f64>,
-    /// How it was found or healed, in words.
+    /// How it was found or repaired, in words.
     pub note: String,
 }
 
@@ -43,14 +42,14 @@ pub enum ScaleOrigin {
     Measured,
     /// Stated by the imported file.
     Imported,
-    /// Estimated from what is usual (door widths, sanitary rooms), by the source or by us.
+    /// Estimated from usual sizes (door widths, sanitary rooms), by the source or by Enfilade.
     Estimated,
 }
 
 impl ScaleOrigin {
     pub const ALL: [Self; 5] = [Self::Unknown, Self::Drawn, Self::Measured, Self::Imported, Self::Estimated];
 
-    /// The word for files and for people.
+    /// Its name in files and in the interface.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Unknown => "unknown",

@@ -38,15 +38,13 @@ use crate::geometry::{Bounds, Point, Segment};
 /// Fields of a file that this version does not know, kept so that saving does not lose them.
 pub type Extra = Option<Arc<serde_json::Map<String, serde_json::Value>>>;
 
-/// A door's width in metres where a file gives none: the paper's authors scale their plans by a
-/// door of 90 cm.
+/// Default width of a door in metres: the paper's authors scale their plans by a door of 90 cm.
 pub const DEFAULT_DOOR_WIDTH_M: f64 = 0.9;
 
-/// A wall's thickness in metres where nothing gives one: a masonry partition with plaster.
+/// Default thickness of a wall in metres: a masonry partition with plaster.
 pub const DEFAULT_WALL_THICKNESS_M: f64 = 0.12;
 
-/// The thickest plausible wall in metres (design, 'The plan model'): how far an opening looks for
-/// the rooms it joins.
+/// The thickest plausible wall in metres: how far an opening looks for the rooms it joins.
 pub const THICKEST_WALL_M: f64 = 0.6;
 
 /// One storey of one building. Clones share all structure.
@@ -108,7 +106,7 @@ impl Plan {
         self.openings.iter().map(|(&id, opening)| (id, opening.as_ref()))
     }
 
-    /// The identities of all elements, sorted.
+    /// The ids of all elements, sorted.
     pub fn elements(&self) -> impl Iterator<Item = ElementId> + '_ {
         let corners = self.corners.keys().copied().map(ElementId::Corner);
         let walls = self.walls.keys().copied().map(ElementId::Wall);
@@ -131,8 +129,8 @@ impl Plan {
         self.corner(id).map(|corner| corner.position)
     }
 
-    /// The points of a ring of corners; a corner that does not exist is left out, which the
-    /// invariants exclude.
+    /// The points of a ring of corners. Corners that do not exist are skipped; the invariants rule them
+    /// out.
     pub fn ring_points(&self, ring: &[CornerId]) -> Vec<Point> {
         ring.iter().filter_map(|&id| self.position(id)).collect()
     }
@@ -155,7 +153,7 @@ impl Plan {
         }
     }
 
-    /// The box of all corners and free openings; empty for an empty plan.
+    /// The bounding box of all corners and free openings; empty for an empty plan.
     pub fn bounds(&self) -> Bounds {
         let corners = Bounds::of(self.corners.values().map(|corner| corner.position));
         self.openings.values().fold(corners, |bounds, opening| match opening.place {
@@ -169,7 +167,7 @@ impl Plan {
         self.corners.is_empty() && self.rooms.is_empty() && self.openings.is_empty()
     }
 
-    /// Whether both are the same value in memory: a quick test that never says yes wrongly.
+    /// Whether both are the same value in memory: a quick test without false positives.
     pub fn is_same_value(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.meta, &other.meta)
             && self.corners.ptr_eq(&other.corners)

@@ -1,7 +1,7 @@
 use super::{CornerId, Plan};
 use crate::geometry::Point;
 
-/// Where the corners of a plan lie, for whoever looks up most of them: several times faster than the
+/// The positions of a plan's corners, for code that looks up most of them: several times faster than the
 /// plan's own map, and built in one pass.
 pub(crate) struct Positions {
     /// By id.
@@ -15,9 +15,9 @@ impl Positions {
 
     /// Where a corner lies, if it exists.
     ///
-    /// Ids are spread evenly over their 60 bits, so that an id's size tells about where it stands: the
-    /// search starts there and widens by doubling steps, so it is never slower than a binary search
-    /// by more than a constant, whatever the ids.
+    /// Ids are spread evenly over their 60 bits, so an id's value tells roughly where it is: the search
+    /// starts there and widens by doubling steps, so that it is never slower than a binary search by more
+    /// than a constant factor, whatever the ids.
     pub fn get(&self, id: CornerId) -> Option<Point> {
         let count = self.corners.len();
         let guess = ((u128::from(id.bits()) * count as u128) >> 60) as usize;

@@ -1,5 +1,5 @@
-//! What rooms and openings are called, wherever they are named: a title for people ([`room_title`]), a name
-//! with its id for reports ([`RoomName`]), a key of one plan for data sets ([`room_keys`]).
+//! The names of rooms and openings wherever they appear: a title for people ([`room_title`]), a name with
+//! its id for reports ([`RoomName`]), a unique key within a plan for datasets ([`room_keys`]).
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -9,15 +9,15 @@ use crate::base::wording::sentence;
 use crate::labels::function_title;
 use crate::plan::{ElementId, Opening, OpeningId, OpeningKind, Plan, Room, RoomId};
 
-/// Longer names are cut in reports: a line should fit a terminal.
+/// Longer names are cut in reports, so that a line fits a terminal.
 const LONGEST_NAME: usize = 40;
 
-/// Longer ids of a source (UUIDs, not words) are cut to [`SHORT_ID`] characters: enough to find them.
+/// Longer source ids (UUIDs, not words) are cut to [`SHORT_ID`] characters: enough to find them.
 const LONGEST_ID: usize = 13;
 
 const SHORT_ID: usize = 8;
 
-/// What an element of a plan is called.
+/// The title of an element.
 pub fn title_of(plan: &Plan, picked: ElementId) -> String {
     match picked {
         ElementId::Room(id) => plan.room(id).map_or_else(String::new, room_title),
@@ -27,7 +27,7 @@ pub fn title_of(plan: &Plan, picked: ElementId) -> String {
     }
 }
 
-/// A room's name; without one its function.
+/// A room's name or, without one, its function.
 pub fn room_title(room: &Room) -> String {
     if !room.name.is_empty() {
         room.name.clone()
@@ -38,8 +38,8 @@ pub fn room_title(room: &Room) -> String {
     }
 }
 
-/// What to call each room of a plan in a table: its name where no other room has the same, else what
-/// it is called in its source, else its id. Sorted so that 'Room 2' comes before 'Room 10'.
+/// A unique key for each room of a plan in a table: its name if no other room has it, else its source id,
+/// else its id. Sorted so that 'Room 2' comes before 'Room 10'.
 pub fn room_keys(plan: &Plan) -> Vec<(RoomId, String)> {
     let mut names: BTreeMap<&str, usize> = BTreeMap::new();
     for (_, room) in plan.rooms() {
@@ -62,8 +62,8 @@ pub fn room_keys(plan: &Plan) -> Vec<(RoomId, String)> {
     keys
 }
 
-/// A room as a report names it: its function and name, and its id to find it by, in its source where
-/// it has one.
+/// A room as named in reports: its function, its name, and the id to find it by (the source's, if it has
+/// one).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RoomName {
     pub id: RoomId,
@@ -86,7 +86,7 @@ impl fmt::Display for RoomName {
         if !name.is_empty() {
             write!(f, " '{name}'")?;
         }
-        // Some sources have no other id than the name.
+        // Some sources have no id other than the name.
         if self.source_id.is_empty() || self.source_id != self.name {
             write!(f, " {}", short_id(&self.source_id, &self.id))?;
         }
@@ -94,7 +94,7 @@ impl fmt::Display for RoomName {
     }
 }
 
-/// An opening as a report names it.
+/// An opening as named in reports.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OpeningName {
     pub id: OpeningId,
@@ -125,7 +125,8 @@ fn short_id(source_id: &str, id: &dyn fmt::Display) -> String {
     }
 }
 
-/// A text of a file as one short line: without what would move a terminal's cursor or hide.
+/// A text from a file as one short line, without characters that move a terminal's cursor or are
+/// invisible.
 pub fn printable(text: &str) -> String {
     let clean: String = text.trim().chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     if clean.chars().count() <= LONGEST_NAME {
@@ -136,7 +137,7 @@ pub fn printable(text: &str) -> String {
 
 /// The first few of a list, and how many more there are: 'a, b, c and 4 more'.
 pub fn first_of<T: fmt::Display>(names: &[T]) -> String {
-    /// More would not be read.
+    /// Nobody reads more.
     const SHOWN: usize = 3;
     let mut text = names.iter().take(SHOWN).map(T::to_string).collect::<Vec<_>>().join(", ");
     if names.len() > SHOWN {

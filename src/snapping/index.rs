@@ -5,25 +5,25 @@ use rstar::{AABB, PointDistance, RTree, RTreeObject};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::plan::{CornerId, Plan, WallId};
 
-/// An edge of walls and room boundaries: each pair of corners once.
+/// An edge of walls and room boundaries; each pair of corners occurs once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IndexedEdge {
     /// Its corners, the smaller first.
     pub corners: [CornerId; 2],
     /// From the smaller corner to the larger.
     pub segment: Segment,
-    /// The wall that stands on it.
+    /// The wall on it.
     pub wall: Option<WallId>,
-    /// The wall's thickness in metres; 0 where none stands.
+    /// The wall's thickness in metres; 0 if there is none.
     pub thickness_m: f64,
 }
 
-/// The corners and edges of a plan, to be found by place.
+/// A spatial index of a plan's corners and edges.
 #[derive(Debug, Default)]
 pub struct PlanIndex {
     corners: RTree<IndexedCorner>,
     edges: RTree<IndexedEdge>,
-    /// All corners by x, and by y.
+    /// All corners sorted by x, and by y.
     by_x: Vec<Point>,
     by_y: Vec<Point>,
 }
@@ -97,7 +97,7 @@ impl PlanIndex {
         Self { corners: RTree::bulk_load(corners), edges: RTree::bulk_load(edges), by_x, by_y }
     }
 
-    /// The corners within a radius, the nearest first.
+    /// The corners within a radius, nearest first.
     pub fn corners_near(&self, point: Point, radius_m: f64) -> Vec<(CornerId, Point)> {
         let mut found: Vec<(CornerId, Point)> = self
             .corners
@@ -108,7 +108,7 @@ impl PlanIndex {
         found
     }
 
-    /// The edges within a radius, the nearest first.
+    /// The edges within a radius, nearest first.
     pub fn edges_near(&self, point: Point, radius_m: f64) -> Vec<IndexedEdge> {
         let mut found: Vec<IndexedEdge> =
             self.edges.locate_within_distance([point.x, point.y], radius_m * radius_m).copied().collect();

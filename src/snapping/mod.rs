@@ -1,7 +1,7 @@
-//! Snapping: which exact point a person means who points near one.
+//! Snapping: which exact point is meant by pointing near it.
 //!
-//! The ranks are those of the design: corner, intersection, midpoint, perpendicular foot, wall,
-//! alignment with other corners, grid. Knows no screen: radii come in metres.
+//! Ranked as in the design: corner, intersection, midpoint, perpendicular foot, wall, alignment with
+//! other corners, grid. Independent of the screen: radii are in metres.
 
 mod index;
 
@@ -10,7 +10,7 @@ pub use index::{IndexedEdge, PlanIndex};
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::plan::CornerId;
 
-/// What a point was snapped to, the strongest first.
+/// What a point was snapped to, strongest first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SnapKind {
     Corner,
@@ -20,12 +20,12 @@ pub enum SnapKind {
     Wall,
     Alignment,
     Grid,
-    /// Nothing is near; at most the direction is a right angle to what was drawn before.
+    /// Nothing is near; at most constrained to a right angle with what was drawn before.
     Free,
 }
 
 impl SnapKind {
-    /// The word beside the mark.
+    /// The caption beside the marker.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Corner => "corner",
@@ -40,50 +40,50 @@ impl SnapKind {
     }
 }
 
-/// A point that may be meant.
+/// A candidate point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snap {
     pub point: Point,
     pub kind: SnapKind,
-    /// The corner, where it is one of the plan's.
+    /// The corner, if it is one of the plan's.
     pub corner: Option<CornerId>,
-    /// Lines that say why: from the corners it is in line with.
+    /// Lines that explain the snap: from the corners it aligns with.
     pub guides: Vec<Segment>,
 }
 
-/// What is asked.
+/// A snapping query.
 #[derive(Clone, Debug)]
 pub struct Query<'a> {
     pub pointer: Point,
-    /// How near something must be, in metres: a radius in pixels divided by the zoom.
+    /// The snap radius in metres: a radius in pixels divided by the zoom.
     pub radius_m: f64,
-    /// The part of the plan that is seen: corners elsewhere align with nothing.
+    /// The visible part of the plan: corners elsewhere are ignored for alignment.
     pub seen: Bounds,
-    /// Where the line that is being drawn starts.
+    /// The start of the line being drawn.
     pub from: Option<Point>,
-    /// The direction of the line drawn before, to which right angles are taken besides the axes.
+    /// The direction of the previous line: right angles to it count besides the axes.
     pub along: Option<Vector>,
-    /// Whether the line keeps to right angles.
+    /// Whether the line is constrained to right angles.
     pub right_angles: bool,
-    /// Whether corners, walls and alignments attract at all.
+    /// Whether to snap to corners, walls and alignments at all.
     pub objects: bool,
-    /// Spacing of the grid in metres; `None` when it does not attract.
+    /// Spacing of the grid in metres; `None` not to snap to it.
     pub grid_m: Option<f64>,
-    /// More points that attract as corners do: of what is being drawn, of the storey below.
+    /// More points to snap to like corners: of what is being drawn, of the storey below.
     pub points: &'a [Point],
-    /// More lines that attract as walls do: guide lines, walls of the storey below.
+    /// More lines to snap to like walls: guide lines, walls of the storey below.
     pub lines: &'a [Segment],
 }
 
-/// At most so many edges near the pointer are crossed with each other.
+/// The most edges near the pointer that are intersected with each other.
 const MOST_CROSSED: usize = 48;
 
-/// A right angle counts when it is within this of the axes' or the last line's: 1e-9 rad is beyond any
-/// drawing.
+/// Directions within this angle of the axes or the previous line count as the same: 1e-9 rad is below any
+/// drawing's precision.
 const SAME_DIRECTION: f64 = 1e-9;
 
-/// All points that may be meant, the likeliest first; never empty: the last is the pointer itself, or
-/// its place on the right angle.
+/// All candidate points, best first; never empty: the last is the pointer itself, or its position on the
+/// right-angle ray.
 pub fn candidates(index: &PlanIndex, query: &Query<'_>) -> Vec<Snap> {
     let ray = query.ray();
     let free = ray.map_or(query.pointer, |(from, way)| from + way * (query.pointer - from).dot(way));
@@ -110,7 +110,7 @@ pub fn candidates(index: &PlanIndex, query: &Query<'_>) -> Vec<Snap> {
 }
 
 impl Query<'_> {
-    /// The ray that keeps a right angle nearest to the pointer.
+    /// The right-angle ray nearest to the pointer.
     fn ray(&self) -> Option<(Point, Vector)> {
         let from = self.from.filter(|_| self.right_angles)?;
         let way = self.pointer - from;
@@ -125,7 +125,7 @@ impl Query<'_> {
     }
 }
 
-/// Adds a point that is near enough to the pointer, or to its place on the right angle.
+/// Adds a point if it is near enough to the pointer or to its position on the right-angle ray.
 fn push(found: &mut Vec<Snap>, query: &Query<'_>, free: Point, snap: Snap) {
     let distance_m = snap.point.distance(query.pointer).min(snap.point.distance(free));
     if distance_m <= query.radius_m && snap.point.is_finite() {
@@ -151,7 +151,7 @@ fn edges_near(index: &PlanIndex, query: &Query<'_>) -> Vec<Segment> {
     near
 }
 
-/// Crossings, midpoints, perpendicular feet and nearest points of the edges near the pointer.
+/// Intersections, midpoints, perpendicular feet and nearest points of the edges near the pointer.
 fn on_edges(near: &[Segment], query: &Query<'_>, ray: Option<(Point, Vector)>, found: &mut Vec<Snap>) {
     let mut add = |point: Point, kind: SnapKind, guides: Vec<Segment>| {
         push(found, query, query.pointer, Snap { point, kind, corner: None, guides });
@@ -163,7 +163,7 @@ fn on_edges(near: &[Segment], query: &Query<'_>, ray: Option<(Point, Vector)>, f
             }
         }
         if let Some((from, way)) = ray {
-            // Where the right angle meets the wall.
+            // Where the right-angle ray meets the wall.
             let reach_m = (query.pointer - from).length() + query.radius_m;
             if let Some(point) = crossing(edge, Segment::new(from, from + way * reach_m)) {
                 let kind = if is_perpendicular(edge, way) { SnapKind::Perpendicular } else { SnapKind::Intersection };
@@ -181,7 +181,7 @@ fn on_edges(near: &[Segment], query: &Query<'_>, ray: Option<(Point, Vector)>, f
     }
 }
 
-/// Whether a direction is at right angles to an edge.
+/// Whether a direction is perpendicular to an edge.
 fn is_perpendicular(edge: Segment, way: Vector) -> bool {
     match (edge.vector().unit(), way.unit()) {
         (Some(edge), Some(way)) => edge.dot(way).abs() < 1e-6,
@@ -189,7 +189,7 @@ fn is_perpendicular(edge: Segment, way: Vector) -> bool {
     }
 }
 
-/// Where two segments cross or touch; `None` for parallel ones.
+/// Where two segments cross or touch; `None` if they are parallel.
 fn crossing(p: Segment, q: Segment) -> Option<Point> {
     let (along, across) = (p.vector(), q.vector());
     let denominator = along.cross(across);
@@ -202,9 +202,9 @@ fn crossing(p: Segment, q: Segment) -> Option<Point> {
     (within(t) && within(u)).then(|| p.a + along * t)
 }
 
-/// Points in line with corners of the plan, horizontally or vertically.
+/// Points aligned with corners of the plan, horizontally or vertically.
 fn alignments(index: &PlanIndex, query: &Query<'_>, ray: Option<(Point, Vector)>, free: Point, found: &mut Vec<Snap>) {
-    // From the start of a line its own ray says as much.
+    // From the start of a line its own ray says the same.
     let is_start = |point: Point| query.from.is_some_and(|from| from.distance(point) < 1e-6);
     let choose = |points: Vec<Point>| {
         let all = points.into_iter().chain(query.points.iter().copied()).filter(|&point| !is_start(point));
@@ -213,7 +213,7 @@ fn alignments(index: &PlanIndex, query: &Query<'_>, ray: Option<(Point, Vector)>
     let nearest = |points: &[Point], off: &dyn Fn(Point) -> f64, aside: &dyn Fn(Point) -> f64| {
         let near = points.iter().copied().filter(|&point| off(point) <= query.radius_m);
         near.min_by(|&p, &q| {
-            // The least movement; of those about equal the nearest corner.
+            // The smallest movement; if about equal, the nearest corner.
             let step = query.radius_m / 4.0;
             let key = |point: Point| (off(point) / step).floor();
             key(p).total_cmp(&key(q)).then(aside(p).total_cmp(&aside(q)))
@@ -228,7 +228,7 @@ fn alignments(index: &PlanIndex, query: &Query<'_>, ray: Option<(Point, Vector)>
         push(found, query, free, Snap { point, kind: SnapKind::Alignment, corner: None, guides });
     };
     match ray {
-        // Along the ray, one alignment says where.
+        // Along the ray, one alignment is enough.
         Some((from, way)) => {
             if let Some(corner) = in_column
                 && way.x.abs() > 1e-6
@@ -250,7 +250,7 @@ fn alignments(index: &PlanIndex, query: &Query<'_>, ray: Option<(Point, Vector)>
     }
 }
 
-/// The nearest point of the grid: along a ray, a length that is a multiple of its spacing.
+/// The nearest grid point; along a ray, a length that is a multiple of the spacing.
 fn on_grid(query: &Query<'_>, ray: Option<(Point, Vector)>, free: Point, spacing_m: f64) -> Option<Point> {
     if spacing_m.is_nan() || spacing_m <= 0.0 {
         return None;
@@ -260,7 +260,7 @@ fn on_grid(query: &Query<'_>, ray: Option<(Point, Vector)>, free: Point, spacing
         Some((from, way)) => from + way * round((free - from).dot(way)),
         None => Point::new(round(query.pointer.x), round(query.pointer.y)),
     };
-    // A grid finer than the radius holds every point; a coarser one only those near its own.
+    // A grid finer than the radius always applies; a coarser one only near its points.
     (point.distance(free) <= query.radius_m.max(spacing_m)).then_some(point)
 }
 
@@ -312,14 +312,14 @@ mod tests {
     #[test]
     fn a_line_keeps_to_right_angles_and_meets_walls_there() {
         let from = |x, y, from| Query { from: Some(from), ..ask(x, y) };
-        // Along x from (1, 1), the pointer a little off: the y of the start.
+        // Along x from (1, 1), the pointer a little off: keeps the y of the start.
         let start = Point::new(1.0, 1.0);
         assert_eq!(first(&from(2.7, 1.15, start)), (SnapKind::Free, Point::new(2.7, 1.0)));
-        // Onto the wall at x = 4, at right angles.
+        // Onto the wall at x = 4, perpendicularly.
         assert_eq!(first(&from(3.9, 1.1, start)), (SnapKind::Perpendicular, Point::new(4.0, 1.0)));
         let free = Query { right_angles: false, ..from(2.7, 1.15, start) };
         assert_eq!(first(&free), (SnapKind::Free, Point::new(2.7, 1.15)));
-        // Right angles of a slanted line drawn before.
+        // Right angles to a slanted line drawn before.
         let slanted = Query { along: Some(Vector::new(1.0, 1.0)), ..from(-0.98, -1.0, Point::new(-2.0, -2.0)) };
         let (_, point) = first(&slanted);
         assert!((point.x - point.y).abs() < 1e-3, "{point:?}");

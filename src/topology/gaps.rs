@@ -11,11 +11,11 @@ use crate::geometry::segments::{SegmentIndex, crossing};
 use crate::geometry::{Bounds, Point, Segment, TOUCH_M, Vector};
 use crate::plan::{CornerId, DEFAULT_WALL_THICKNESS_M, Plan, WallId};
 
-/// How wide a gap in a wall is that is a doorway, in metres: 'more than 30 cm and less than 150 cm'
-/// (paper, section 3.3).
+/// The width in metres of a gap in a wall that counts as a doorway: 'more than 30 cm and less than 150
+/// cm' (paper, section 3.3).
 pub const DOORWAY_WIDTH_M: RangeInclusive<f64> = 0.30..=1.50;
 
-/// A gap between the free ends of two collinear walls that has the size of a doorway.
+/// A gap the size of a doorway between the free ends of two collinear walls.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gap {
     /// The walls' free ends, the smaller id first.
@@ -27,13 +27,13 @@ pub struct Gap {
     pub width_m: f64,
 }
 
-/// The gaps in walls that have the size of a doorway, by their ends.
+/// The doorway-sized gaps in walls, by their ends.
 ///
-/// Two walls are collinear when their directions, and the direction across the gap, differ by at most
-/// 10 degrees (paper, section 3.3), and the end of one lies aside from the line of the other by less
-/// than the thicker of them is thick (a wall without thickness counts as a usual partition). An end is
-/// free when one wall alone ends there. Each end has one gap at most, the narrowest. Where another wall
-/// crosses, or an opening stands already, is no gap.
+/// Two walls are collinear when their directions, and the direction across the gap, differ by at most 10
+/// degrees (paper, section 3.3), and the end of one is offset from the line of the other by less than the
+/// thickness of the thicker one (a wall without thickness counts as a default partition). An end is free
+/// when only one wall ends there. Each end has at most one gap, the narrowest. There is no gap where
+/// another wall crosses or an opening already exists.
 pub fn gaps(plan: &Plan) -> Vec<Gap> {
     let ends = free_ends(plan);
     let points = ends.iter().enumerate().map(|(i, end)| GeomWithData::new([end.at.x, end.at.y], i)).collect();
@@ -74,13 +74,13 @@ struct FreeEnd {
     at: Point,
     wall: WallId,
     thickness_m: f64,
-    /// Out of the wall, into the open.
+    /// Pointing out of the wall, into the open.
     outward: Vector,
 }
 
 /// The free ends of walls, by corner.
 fn free_ends(plan: &Plan) -> Vec<FreeEnd> {
-    // Sorted, for a map of all ends of a large plan takes longer.
+    // Sorted, since a map of all ends of a large plan takes longer.
     let mut walls_at: Vec<(CornerId, WallId)> =
         plan.walls().flat_map(|(id, wall)| [(wall.from, id), (wall.to, id)]).collect();
     walls_at.sort_unstable();
@@ -96,11 +96,11 @@ fn free_ends(plan: &Plan) -> Vec<FreeEnd> {
         .collect()
 }
 
-/// Whether two free ends look at each other across a gap of a doorway's width.
+/// Whether two free ends face each other across a gap of a doorway's width.
 fn fits(p: &FreeEnd, q: &FreeEnd) -> bool {
     let across = q.at - p.at;
     let width_m = across.length();
-    // Half a grid step of slack: a gap drawn as 1.5 m is one.
+    // A little slack: a gap drawn as 1.5 m counts.
     let in_range = width_m >= DOORWAY_WIDTH_M.start() - TOUCH_M && width_m <= DOORWAY_WIDTH_M.end() + TOUCH_M;
     let is_along = |direction: Vector, of: Vector| {
         direction.dot(of) > 0.0 && direction.cross(of).abs() <= direction.dot(of) * ANGLE_TOLERANCE_RAD.tan()
@@ -114,7 +114,7 @@ fn fits(p: &FreeEnd, q: &FreeEnd) -> bool {
         && aside_m < p.thickness_m.max(q.thickness_m)
 }
 
-/// The walls and openings of a plan near gaps, by place.
+/// A spatial index of the walls and openings of a plan near gaps.
 struct Obstacles {
     walls: Vec<WallId>,
     wall_index: SegmentIndex,
@@ -136,7 +136,7 @@ impl Obstacles {
         Self { walls, wall_index: SegmentIndex::new(segments), opening_index: SegmentIndex::new(openings) }
     }
 
-    /// Whether a wall other than those beside it crosses a gap, or an opening stands in it.
+    /// Whether a wall other than those beside it crosses a gap, or there is an opening in it.
     fn block(&self, gap: Segment, beside: [WallId; 2]) -> bool {
         let touches =
             |end: Point| gap.distance(end) <= TOUCH_M && end.distance(gap.a) > TOUCH_M && end.distance(gap.b) > TOUCH_M;

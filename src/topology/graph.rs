@@ -6,9 +6,9 @@ use crate::plan::{Joint, Opening, OpeningId, Plan, THICKEST_WALL_M};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Connection {
     pub opening: OpeningId,
-    /// Both sides; for one found by geometry, the left of its segment first.
+    /// Both sides; if derived from geometry, the left of its segment first.
     pub sides: [Joint; 2],
-    /// Whether a file or a person stated the sides; else they follow from geometry.
+    /// Whether a file or the user stated the sides; otherwise they follow from geometry.
     pub pinned: bool,
 }
 
@@ -23,8 +23,8 @@ impl Connection {
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
     connections: Vec<Connection>,
-    /// For each room, by its index in [`RoomShapes::all`], the indices of its connections, each
-    /// once.
+    /// For each room, by its index in [`RoomShapes::all`], the indices of its connections, without
+    /// repeats.
     of_room: Vec<Vec<usize>>,
 }
 
@@ -56,8 +56,8 @@ impl Graph {
         &self.connections
     }
 
-    /// The connections of a room given by its index in [`RoomShapes::all`]; one that joins the room
-    /// with itself appears once.
+    /// The connections of a room given by its index in [`RoomShapes::all`]; one that joins the room to
+    /// itself occurs once.
     pub fn of_room(&self, index: usize) -> impl ExactSizeIterator<Item = &Connection> + '_ {
         self.of_room
             .get(index)
@@ -68,8 +68,8 @@ impl Graph {
     }
 }
 
-/// The rooms an opening joins, found by looking from its middle along its normal, both ways, up to
-/// the thickest plausible wall.
+/// The rooms an opening joins, found by looking from its middle along its normal, in both directions, up
+/// to the thickest plausible wall.
 pub fn sides_by_geometry(plan: &Plan, shapes: &RoomShapes, opening: &Opening) -> [Joint; 2] {
     let Some(segment) = plan.opening_segment(opening) else { return [Joint::Outside; 2] };
     let Some(normal) = segment.vector().left().unit() else { return [Joint::Outside; 2] };
@@ -77,11 +77,11 @@ pub fn sides_by_geometry(plan: &Plan, shapes: &RoomShapes, opening: &Opening) ->
     [room_along(shapes, middle, normal), room_along(shapes, middle, -normal)]
 }
 
-/// The room first entered from `origin` along `direction`. Where several are entered at the same
-/// place (drawn rooms overlap by centimetres), the one the ray stays in longest: it lies on this
-/// side, the others reach over from behind.
+/// The room first entered from `origin` along `direction`. If several are entered at the same place
+/// (drawn rooms overlap by centimetres), the one the ray stays in longest: it is on this side, the others
+/// extend over from behind.
 fn room_along(shapes: &RoomShapes, origin: Point, direction: Vector) -> Joint {
-    // Look past the thickest wall, to tell a room from the overlap of one.
+    // Look past the thickest wall, to tell a room from a mere overlap.
     let reach_m = 2.0 * THICKEST_WALL_M;
     let mut best: Option<(f64, f64, usize)> = None;
     for index in shapes.near(Bounds::of([origin, origin + direction * reach_m])) {
@@ -104,8 +104,8 @@ fn room_along(shapes: &RoomShapes, origin: Point, direction: Vector) -> Joint {
     best.map_or(Joint::Outside, |(_, _, index)| Joint::Room(shapes.all()[index].id))
 }
 
-/// A stretch shorter than this is an overlap of two boundaries, not a room: imported rooms are drawn
-/// one by one and overlap by a few centimetres (`data` of the paper's authors).
+/// A shorter stretch is an overlap of two boundaries, not a room: imported rooms are drawn one by one and
+/// overlap by a few centimetres (data of the paper's authors).
 const SLIVER_M: f64 = 0.05;
 
 #[cfg(test)]
@@ -129,7 +129,7 @@ mod tests {
         Graph::new(&plan, &shapes).connections().iter().map(|connection| connection.sides).collect()
     }
 
-    /// Two rooms `gap_m` apart (negative: overlapping) with a door in the middle between them.
+    /// Two rooms `gap_m` apart (negative: overlapping) with a door midway between them.
     fn across(gap_m: f64) -> (Vec<[Joint; 2]>, [Joint; 2]) {
         let mut builder = Builder::new(Meta::default());
         let left = rectangle(&mut builder, "left", (0.0, 4.0), (0.0, 3.0));

@@ -1,5 +1,5 @@
-//! What follows from a plan by geometry: the shapes of its rooms, the graph of the rooms that openings
-//! join, gaps in walls, and the faces that walls enclose.
+//! What a plan's geometry implies: the shapes of its rooms, the graph of rooms joined by openings, gaps
+//! in walls, and the faces enclosed by walls.
 
 mod gaps;
 mod graph;

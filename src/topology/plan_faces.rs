@@ -1,4 +1,4 @@
-//! The faces that walls and boundaries of rooms enclose in a plan.
+//! The faces enclosed by walls and room boundaries in a plan.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,19 +10,19 @@ use crate::geometry::{Point, Segment};
 use crate::plan::{CornerId, Plan, RoomId, ordered, ring_edges};
 
 /// A face narrower than this on average (twice its area over its perimeter), in metres, is a sliver
-/// between lines that should be one, not a room. The smallest of 5,355 rooms in real dwellings are
-/// pipe shafts of 0.06 m², on average 0.12 m wide; lines that miss each other by a few millimetres
-/// leave slivers below 0.01 m.
+/// between lines that should coincide, not a room. The smallest of 5,355 rooms in real dwellings are pipe
+/// shafts of 0.06 m², on average 0.12 m wide; lines that miss each other by a few millimetres leave
+/// slivers below 0.01 m.
 pub const SLIVER_WIDTH_M: f64 = 0.05;
 
-/// A face that walls and boundaries of rooms enclose in a plan.
+/// A face enclosed by walls and room boundaries in a plan.
 #[derive(Clone, Debug)]
 pub struct PlanFace {
     /// The outer boundary in metres, counter-clockwise.
     pub outer: Vec<Point>,
-    /// The boundaries of what lies inside, clockwise.
+    /// The boundaries of what is inside, clockwise.
     pub holes: Vec<Vec<Point>>,
-    /// Whether walls alone enclose it; else boundaries of rooms without walls do so too.
+    /// Whether walls alone enclose it, without the help of room boundaries.
     pub by_walls: bool,
     /// The rooms that cover it.
     pub rooms: Vec<RoomId>,
@@ -46,8 +46,8 @@ pub(crate) fn is_sliver(outer: &[Point], holes: &[Vec<Point>]) -> bool {
     2.0 * polygon::area(outer, holes) < SLIVER_WIDTH_M * perimeter_m
 }
 
-/// All faces that the walls of a plan and the boundaries of its rooms enclose: to show what a click
-/// would fill, and to fill it.
+/// All faces enclosed by the walls of a plan and the boundaries of its rooms: to show what a click would
+/// fill, and to fill it.
 #[derive(Debug)]
 pub struct PlanFaces<'a> {
     pub(crate) edges: EdgeFaces<'a>,
@@ -94,8 +94,8 @@ impl<'a> PlanFaces<'a> {
         &self.faces
     }
 
-    /// Index in [`PlanFaces::all`] of the face around a point; `None` on a wall and where nothing
-    /// encloses it.
+    /// Index in [`PlanFaces::all`] of the face around a point; `None` on a wall or where nothing encloses
+    /// the point.
     pub fn at(&self, point: Point) -> Option<usize> {
         self.faces.iter().position(|face| {
             polygon::bounds(&face.outer).contains(point)
@@ -104,19 +104,19 @@ impl<'a> PlanFaces<'a> {
     }
 }
 
-/// The faces that edges between corners of a plan enclose.
+/// The faces enclosed by edges between corners of a plan.
 #[derive(Debug)]
 pub(crate) struct EdgeFaces<'a> {
     pub(crate) plan: &'a Plan,
     pub(crate) arrangement: Arrangement,
-    /// The edges by their corners, the smaller first, each once: in the order of the arrangement's
+    /// The edges by their corners, smaller first, without repeats: in the order of the arrangement's
     /// segments.
     pub(crate) edges: Vec<[CornerId; 2]>,
     pub(crate) faces: Vec<Face>,
 }
 
 impl<'a> EdgeFaces<'a> {
-    /// The faces between edges of a plan, which need not belong to anything yet; each edge with its
+    /// The faces between edges of a plan, which need not belong to anything yet; each edge has its
     /// smaller corner first.
     ///
     /// # Errors
@@ -134,7 +134,7 @@ impl<'a> EdgeFaces<'a> {
         Ok(Self { plan, arrangement, edges: known, faces })
     }
 
-    /// How many faces there are.
+    /// The number of faces.
     pub fn count(&self) -> usize {
         self.faces.len()
     }
@@ -149,7 +149,7 @@ impl<'a> EdgeFaces<'a> {
         self.faces[index].interior_point(&self.arrangement)
     }
 
-    /// The indices among the edges given of those that run along the boundary of a face.
+    /// The given edges that run along the boundary of a face.
     pub fn edges_around(&self, index: usize) -> Vec<[CornerId; 2]> {
         let links: BTreeSet<[NodeIndex; 2]> =
             self.faces[index].rings().flat_map(|ring| ring_edges(ring)).map(|(u, v)| link(u, v)).collect();
@@ -158,8 +158,8 @@ impl<'a> EdgeFaces<'a> {
         (0..self.edges.len()).filter(|&i| runs_along(i)).map(|i| self.edges[i]).collect()
     }
 
-    /// The plan's corner at each node, if it has one there: of several in one place one at the end
-    /// of an edge, and of those the smallest.
+    /// The plan's corner at each node, if any: of several in one place one at the end of an edge, and of
+    /// those the smallest.
     pub(crate) fn corners_at_nodes(&self) -> Vec<Option<CornerId>> {
         let nodes = self.arrangement.grid_points();
         let mut corners: Vec<Option<CornerId>> = vec![None; nodes.len()];
@@ -172,7 +172,7 @@ impl<'a> EdgeFaces<'a> {
             }
         };
         ends.for_each(|(id, position)| note(&mut corners, id, position));
-        // Only where edges cross without a corner of their own can another corner stand on a node.
+        // Only where edges cross without a corner of their own can another corner lie on a node.
         if corners.iter().any(Option::is_none) {
             self.plan.corners().for_each(|(id, corner)| note(&mut corners, id, corner.position));
         }

@@ -15,17 +15,17 @@ pub struct RoomShape {
 }
 
 impl RoomShape {
-    /// Area in m², holes taken off.
+    /// Area in m², less holes.
     pub fn area_m2(&self) -> f64 {
         polygon::area(&self.outer, &self.holes)
     }
 
-    /// The length in metres of all its rings, holes included.
+    /// The total length of all its rings in metres, holes included.
     pub fn perimeter_m(&self) -> f64 {
         self.rings().map(|ring| polygon::perimeter(ring)).sum()
     }
 
-    /// Where a point lies in relation to the room.
+    /// Where a point lies relative to the room.
     pub fn locate(&self, point: Point) -> Location {
         if self.bounds.contains(point) { polygon::locate(&self.outer, &self.holes, point) } else { Location::Outside }
     }
@@ -35,8 +35,8 @@ impl RoomShape {
         std::iter::once(&self.outer).chain(&self.holes)
     }
 
-    /// The stretches of the ray from `origin` along the unit vector `direction` that lie inside the
-    /// room, as distances in metres from 0 to `reach_m`, in order.
+    /// The stretches of the ray from `origin` along the unit vector `direction` inside the room, as
+    /// distances in metres from 0 to `reach_m`, in order.
     pub fn stretches(&self, origin: Point, direction: Vector, reach_m: f64) -> Vec<(f64, f64)> {
         let end = origin + direction * reach_m;
         if !self.bounds.intersects(Bounds::of([origin, end])) {
@@ -72,7 +72,7 @@ impl RoomShape {
     }
 }
 
-/// The shapes of all rooms of a plan, by id, with an index to find them by place.
+/// The shapes of all rooms of a plan, by id, with a spatial index.
 #[derive(Debug)]
 pub struct RoomShapes {
     shapes: Vec<RoomShape>,
@@ -127,7 +127,7 @@ impl RoomShapes {
         self.index_of(id).map(|index| &self.shapes[index])
     }
 
-    /// Indices of the rooms whose boxes meet `bounds`, ascending.
+    /// Indices of the rooms whose bounding boxes meet `bounds`, ascending.
     pub fn near(&self, bounds: Bounds) -> Vec<usize> {
         if bounds.is_empty() {
             return Vec::new();
@@ -139,7 +139,7 @@ impl RoomShapes {
         found
     }
 
-    /// The rooms that a line goes through, in the order in which it comes to them.
+    /// The rooms that a line passes through, in order along it.
     pub fn along(&self, line: &[Point]) -> Vec<RoomId> {
         let mut rooms: Vec<RoomId> = Vec::new();
         for pair in line.windows(2) {
@@ -163,7 +163,7 @@ impl RoomShapes {
         rooms
     }
 
-    /// Indices of the rooms that contain a point (their boundary included), the smallest first.
+    /// Indices of the rooms that contain a point (boundary included), smallest first.
     pub fn at(&self, point: Point) -> Vec<usize> {
         let mut found = self.near(Bounds::of([point]));
         found.retain(|&index| self.shapes[index].locate(point) != Location::Outside);

@@ -17,10 +17,10 @@ use std::fmt;
 
 pub use crate::base::units::typed::{METRES_PER_FOOT, METRES_PER_INCH, NotUnderstood, parse_angle_rad};
 
-/// A foot is so many eighths of an inch.
+/// Eighths of an inch in a foot.
 const EIGHTHS_PER_FOOT: u64 = 96;
 
-/// In which units lengths and areas are shown, and meant where a number is typed without one.
+/// The units lengths and areas are shown in, and the default for typed numbers without a unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Units {
     /// Metres and square metres.
@@ -39,7 +39,7 @@ impl fmt::Display for Units {
 impl Units {
     pub const ALL: [Self; 2] = [Self::Metric, Self::Imperial];
 
-    /// The word for files and for people.
+    /// Its name in files and in the interface.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Metric => "metric",
@@ -47,7 +47,7 @@ impl Units {
         }
     }
 
-    /// The units of a word.
+    /// The units with this name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|units| units.name() == name)
     }
@@ -60,7 +60,7 @@ impl Units {
         }
     }
 
-    /// Metres in the unit of numbers typed without one.
+    /// Metres in the default unit of typed numbers.
     const fn metres_per_unit(self) -> f64 {
         match self {
             Self::Metric => 1.0,
@@ -85,8 +85,7 @@ impl Units {
         }
     }
 
-    /// A length for a field in which it can be changed: typed again, it gives the same on the 0.1 mm
-    /// grid of the model.
+    /// A length for an editable field: parsed again, it gives the same length on the model's 0.1 mm grid.
     pub fn exact_length(self, length_m: f64) -> String {
         if !length_m.is_finite() {
             return "–".to_owned();
@@ -115,7 +114,7 @@ impl Units {
         }
     }
 
-    /// A length that somebody typed, in metres. Understood are:
+    /// Parses a typed length, in metres. Accepts:
     ///
     /// - a number with a decimal point or comma, in metres or in feet as these units are: `3.25`, `3,25`
     /// - a number with its unit, whatever these units are: `325 cm`, `3250mm`, `3.25m`, `10'`, `10 ft`,
@@ -125,13 +124,14 @@ impl Units {
     ///   lengths in the sum's end, factors in its products.
     ///
     /// # Errors
-    /// What is not understood, and what would be. Also for what is no length: `3m*2m`, `6m/2m`.
+    /// When the text is not understood, or is not a length (`3m*2m`, `6m/2m`); the error says what would
+    /// be.
     pub fn parse_length(self, text: &str) -> Result<f64, NotUnderstood> {
         typed::length_m(text, self.metres_per_unit())
     }
 
-    /// Lengths that read well, the 1-2-5 series of metres, or of inches and feet: the longest that is at
-    /// most `most_m`.
+    /// The longest round length that is at most `most_m`: from the 1-2-5 series of metres, or of inches
+    /// and feet.
     pub fn round_length_at_most(self, most_m: f64) -> f64 {
         let most_m = most_m.clamp(SHORTEST_ROUND_M, LONGEST_ROUND_M) * (1.0 + 1e-9);
         self.round_lengths(most_m).filter(|length| *length <= most_m).fold(0.0, f64::max)
@@ -144,7 +144,7 @@ impl Units {
     }
 
     /// The shortest round length of at least `least_m` that divides a round length evenly; the length
-    /// itself where none is shorter.
+    /// itself if no shorter one does.
     pub fn division(self, length_m: f64, least_m: f64) -> f64 {
         let divides = |part: &f64| {
             let times = length_m / part;
@@ -155,13 +155,13 @@ impl Units {
         parts.filter(divides).filter(|part| *part >= least_m * (1.0 - 1e-9)).fold(length_m, f64::min)
     }
 
-    /// Round lengths about a length, each at least once.
+    /// Round lengths around a length; some may repeat.
     fn round_lengths(self, about_m: f64) -> impl Iterator<Item = f64> {
         let unit_m = self.metres_per_unit();
         let decade = 10f64.powf((about_m / unit_m).log10().floor());
         let least_m = match self {
             Self::Metric => 0.0,
-            // Below a foot come parts of it.
+            // Below a foot, fractions of it.
             Self::Imperial => unit_m * (1.0 - 1e-9),
         };
         let series = [0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0]
@@ -192,7 +192,7 @@ impl Units {
         }
     }
 
-    /// A place on a ruler, without the unit that the ruler has: '2.5', `8' 6"`.
+    /// A position on a ruler, without its unit: '2.5', `8' 6"`.
     pub fn tick(self, place_m: f64) -> String {
         match self {
             Self::Metric => trimmed(place_m, 4),
@@ -204,18 +204,18 @@ impl Units {
     }
 }
 
-/// Round lengths are at least as long as an eighth of an inch, or nearly.
+/// The shortest round length: about an eighth of an inch.
 const SHORTEST_ROUND_M: f64 = 0.0032;
 
-/// Round lengths end here: beyond any drawing area.
+/// The longest round length: beyond any drawing area.
 const LONGEST_ROUND_M: f64 = 1e7;
 
-/// An angle: '45.5°', to a tenth of a degree, without a decimal where there is none.
+/// An angle: '45.5°', to a tenth of a degree; whole degrees have no decimal.
 pub fn angle(angle_rad: f64) -> String {
     format!("{}°", trimmed(angle_rad.to_degrees(), 1))
 }
 
-/// A number with so many decimals, never '-0'.
+/// A number with a fixed number of decimals, never '-0'.
 fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
@@ -224,7 +224,7 @@ fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
-/// A number with at most so many decimals, without zeros at its end.
+/// A number with at most this many decimals, trailing zeros removed.
 fn trimmed(value: f64, decimals: usize) -> String {
     let text = fixed(value, decimals);
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
@@ -243,7 +243,7 @@ fn inches_text(eighths: u64) -> String {
     }
 }
 
-/// A decimal fraction as near as a number can be: 0.1 * 10^-1 is not quite 0.01.
+/// The float nearest to a decimal fraction: 0.1 * 10^-1 is not quite 0.01.
 fn rounded_binary(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }
@@ -324,7 +324,7 @@ mod tests {
                     (true, Units::Metric) => (units.exact_length(length_m), 0.000_05),
                     (true, Units::Imperial) => (units.exact_length(length_m), METRES_PER_INCH / 2000.0),
                 };
-                // Also where numbers without a unit mean another.
+                // Also where the default unit is the other one.
                 for reader in Units::ALL {
                     let read = reader.parse_length(&text).unwrap();
                     prop_assert!((read - length_m).abs() <= half_m * (1.0 + 1e-9) + 1e-9, "{length_m} {text} {read}");

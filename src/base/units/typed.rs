@@ -1,4 +1,4 @@
-//! What somebody types for a length or an angle: numbers with units, and sums of them.
+//! Parses typed lengths and angles: numbers with units, and arithmetic on them.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ pub const METRES_PER_FOOT: f64 = 12.0 * METRES_PER_INCH;
 /// Metres in an inch, by its definition of 1959.
 pub const METRES_PER_INCH: f64 = 0.0254;
 
-/// Why a typed text is no length or angle, with what would be.
+/// Why a typed text is not a length or angle, and what would be.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NotUnderstood(String);
 
@@ -20,13 +20,13 @@ impl fmt::Display for NotUnderstood {
 
 impl std::error::Error for NotUnderstood {}
 
-/// A longer text is no length: nobody types so much.
+/// The longest text accepted: nobody types a longer length.
 const MOST_LETTERS: usize = 200;
 
-/// Parentheses and signs stand in each other at most so deep.
+/// How deep parentheses and signs may nest.
 const MOST_DEPTH: usize = 32;
 
-/// Nothing in a plan is longer, in metres, and no turn larger, in radians.
+/// Nothing in a plan is longer, in metres, or turned further, in radians.
 const MOST: f64 = 1e9;
 
 /// A unit: its spellings and its size.
@@ -41,20 +41,20 @@ const LENGTHS: &[Unit] = &[METRES, (&["cm"], 0.01), (&["mm"], 0.001), (&["dm"], 
 const ANGLES: &[Unit] =
     &[(&["°", "º", "deg", "degree", "degrees"], std::f64::consts::PI / 180.0), (&["rad", "radian", "radians"], 1.0)];
 
-/// What is typed: its units, and words for errors.
+/// What is being parsed: its units, and words for errors.
 struct Kind {
     units: &'static [Unit],
     /// The size of a number without a unit.
     unit: f64,
     /// 'a length'.
     name: &'static str,
-    /// What two of them multiplied are.
+    /// What the product of two of them is.
     square: &'static str,
-    /// What is understood.
+    /// Examples of valid input, for errors.
     examples: &'static str,
 }
 
-/// A typed length in metres; `unit_m` is the size of a number without a unit.
+/// Parses a length in metres; `unit_m` is the unit of a number without one.
 pub(super) fn length_m(text: &str, unit_m: f64) -> Result<f64, NotUnderstood> {
     let kind = Kind {
         units: LENGTHS,
@@ -66,11 +66,11 @@ pub(super) fn length_m(text: &str, unit_m: f64) -> Result<f64, NotUnderstood> {
     kind.read(text)
 }
 
-/// An angle that somebody typed, in radians: degrees (`45`, `45°`, `22,5 deg`), `0.5 rad`, and sums of
-/// them with + - * / and parentheses.
+/// Parses an angle in radians: degrees (`45`, `45°`, `22,5 deg`), `0.5 rad`, and sums of them with + - *
+/// / and parentheses.
 ///
 /// # Errors
-/// What is not understood, and what would be.
+/// When the text is not understood; the error says what would be.
 pub fn parse_angle_rad(text: &str) -> Result<f64, NotUnderstood> {
     let kind = Kind {
         units: ANGLES,
@@ -82,10 +82,10 @@ pub fn parse_angle_rad(text: &str) -> Result<f64, NotUnderstood> {
     kind.read(text)
 }
 
-/// A value on the way.
+/// An intermediate value.
 #[derive(Clone, Copy)]
 enum Value {
-    /// A number without a unit: a factor, or in the end a length.
+    /// Without a unit: a factor, or a length once all is read.
     Number(f64),
     /// With a unit, in metres or radians.
     Quantity(f64),
@@ -132,7 +132,7 @@ impl<'a> Reader<'a> {
         self.rest = self.rest.trim_start();
     }
 
-    /// Takes one of some characters behind blanks.
+    /// Skips spaces and consumes one of the wanted characters.
     fn take(&mut self, wanted: &[char]) -> Option<char> {
         let rest = self.rest.trim_start();
         let first = rest.chars().next().filter(|first| wanted.contains(first))?;
@@ -140,7 +140,7 @@ impl<'a> Reader<'a> {
         Some(first)
     }
 
-    /// What stands where something else should.
+    /// The error for what stands here.
     fn unexpected(&self) -> NotUnderstood {
         let rest = self.rest.trim_start();
         if rest.is_empty() {
@@ -220,7 +220,7 @@ impl<'a> Reader<'a> {
         Ok(value)
     }
 
-    /// A number with a unit or without, or feet and inches.
+    /// A number with or without a unit, or feet and inches.
     fn quantity(&mut self) -> Result<Value, NotUnderstood> {
         self.skip_blanks();
         let number = self.number()?;
@@ -229,7 +229,7 @@ impl<'a> Reader<'a> {
         if unit != FEET.0 {
             return Ok(Value::Quantity(feet_m));
         }
-        // Inches, behind a blank, nothing, or a hyphen without blanks about it.
+        // Inches, after a space, nothing, or a hyphen without spaces around it.
         let before = self.rest;
         self.rest = self.rest.strip_prefix('-').unwrap_or(self.rest);
         if self.rest.trim_start().starts_with(|c: char| c.is_ascii_digit() || c == '.')
@@ -240,7 +240,7 @@ impl<'a> Reader<'a> {
             match self.unit() {
                 Some((unit, size)) if unit == INCHES.0 => return Ok(Value::Quantity(feet_m + inches * size)),
                 None => return Ok(Value::Quantity(feet_m + inches * METRES_PER_INCH)),
-                // Two lengths side by side.
+                // Two lengths in a row.
                 Some(_) => {}
             }
         }
@@ -267,7 +267,7 @@ impl<'a> Reader<'a> {
             self.rest = rest;
             return Ok(value + part);
         }
-        // A fraction alone is one only with a unit behind it: 1/2", but 7/2 and 10'/2 divide.
+        // A fraction alone counts only with a unit after it: 1/2", but 7/2 and 10'/2 are divisions.
         if let Some((whole, rest)) = fraction_of(value, self.rest) {
             let mut ahead = Reader { kind: self.kind, rest, depth: 0 };
             if ahead.unit().is_some() {
@@ -278,7 +278,7 @@ impl<'a> Reader<'a> {
         Ok(value)
     }
 
-    /// A unit, behind blanks.
+    /// A unit, after optional spaces.
     fn unit(&mut self) -> Option<(&'static [&'static str], f64)> {
         let rest = self.rest.trim_start();
         let end = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
@@ -303,19 +303,19 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// `1/2` at the start of a text, and what follows.
+/// `1/2` at the start of a text, and the rest.
 fn fraction(text: &str) -> Option<(f64, &str)> {
     let (part, rest) = whole(text)?;
     fraction_of(part, rest)
 }
 
-/// `/2` behind a whole number, and what follows.
+/// `/2` after a whole number, and the rest.
 fn fraction_of(part: f64, rest: &str) -> Option<(f64, &str)> {
     let (of, rest) = whole(rest.strip_prefix('/')?)?;
     (of > 0.0 && !rest.starts_with(['.', ','])).then(|| (part / of, rest))
 }
 
-/// A whole number at the start of a text, and what follows.
+/// A whole number at the start of a text, and the rest.
 fn whole(text: &str) -> Option<(f64, &str)> {
     let end = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
     Some((text[..end].parse().ok()?, &text[end..]))

@@ -2,14 +2,14 @@ use std::fmt;
 
 use crate::geometry::COORDINATE_LIMIT_M;
 
-/// How many passings of pieces through nodes an arrangement may have. A storey with 100,000 walls
-/// has about a million; 10,000,000 take about half a gigabyte, which is where a hostile file (5,000
-/// lines that all cross) is refused.
+/// The most passings (of a piece through a node) an arrangement may have. A storey with 100,000 walls has
+/// about a million; 10,000,000 take about half a gigabyte: there a hostile file (5,000 lines that all
+/// cross) is refused.
 pub const PASSINGS_LIMIT: usize = 10_000_000;
 
-/// How many tests of two pieces, or of a piece and a pixel, an arrangement may take: about ten
-/// seconds on one core, fifty times what 100,000 walls need. Only input built for it gets there
-/// (tens of thousands of lines that leave one point within a narrow angle).
+/// The most tests (of two pieces, or of a piece and a pixel) an arrangement may take: about ten seconds
+/// on one core, fifty times what 100,000 walls need. Only input built for it gets there (tens of
+/// thousands of lines fanning out of one point within a narrow angle).
 pub const TESTS_LIMIT: u64 = 1_000_000_000;
 
 /// Why segments cannot be arranged.
@@ -18,8 +18,8 @@ pub enum ArrangementError {
     /// The segment with this index has an end that is not finite or lies beyond
     /// [`COORDINATE_LIMIT_M`].
     OutOfRange(usize),
-    /// The segments meet too often: more than [`PASSINGS_LIMIT`] times, or finding out would take
-    /// more than [`TESTS_LIMIT`] tests.
+    /// The segments meet too often: more than [`PASSINGS_LIMIT`] times, or it would take more than
+    /// [`TESTS_LIMIT`] tests to find out.
     TooDense,
 }
 

@@ -5,7 +5,7 @@ use crate::geometry::arrangement::grid::{GridPoint, cross, orientation};
 use crate::geometry::arrangement::{Arrangement, NodeIndex, grouped};
 use crate::geometry::{Point, polygon};
 
-/// An area that edges of an arrangement enclose and none divides.
+/// An area enclosed by edges of an arrangement and not divided by any.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Face {
     /// The outer boundary, counter-clockwise, from its smallest node. Simple: no node twice.
@@ -45,8 +45,8 @@ impl Face {
         let mut levels: Vec<f64> = outer.iter().chain(holes.iter().flatten()).map(|point| point.y).collect();
         levels.sort_by(f64::total_cmp);
         levels.dedup();
-        // The middle gap and the highest: one is enough for most faces, two serve those whose middle
-        // is a sliver.
+        // The middle gap and the highest: one is enough for most faces; a second helps where the middle
+        // one is a sliver.
         let gap = |i: usize| (levels[i] + levels[i + 1]) / 2.0;
         let gaps = levels.len().saturating_sub(1);
         let highest = (0..gaps).max_by(|&p, &q| (levels[p + 1] - levels[p]).total_cmp(&(levels[q + 1] - levels[q])));
@@ -135,7 +135,7 @@ enum Side {
     Island(Vec<Vec<NodeIndex>>),
 }
 
-/// No half-edge, no walk.
+/// Marks a half-edge or walk that does not exist.
 const NONE: u32 = u32::MAX;
 
 /// The edges that separate faces, each as two half-edges: edge `e` of `edges` from its smaller node
@@ -172,13 +172,13 @@ impl<'a> HalfEdges<'a> {
         let mut half_edges = Self { nodes, edges, starts, around, next: Vec::new() };
         for window in half_edges.starts.windows(2) {
             let around = &mut half_edges.around[window[0] as usize..window[1] as usize];
-            // Two may stand in any order: each is next to the other both ways round.
+            // Two can stand in any order: each is next to the other both ways round.
             if around.len() > 2 {
                 around.sort_unstable_by(|&p, &q| by_angle(nodes, half_edge(edges, p), half_edge(edges, q)));
             }
         }
         half_edges.link();
-        // A bridge has the same walk on both sides. Leaving out all of them leaves no new ones.
+        // A bridge has the same walk on both sides. Removing all bridges creates no new ones.
         let walks = half_edges.walks();
         let mut bridges = false;
         for (e, kept) in kept.iter_mut().enumerate() {
@@ -208,7 +208,8 @@ impl<'a> HalfEdges<'a> {
         for window in self.starts.windows(2) {
             let around = &self.around[window[0] as usize..window[1] as usize];
             let Some(&last) = around.last() else { continue };
-            // Coming in against h, the face on the left goes on with what is clockwise of h.
+            // Arriving along h's twin, the boundary of the face on the left continues with the next
+            // half-edge clockwise of h.
             let mut clockwise = last;
             for &h in around {
                 self.next[h as usize ^ 1] = clockwise;
@@ -246,9 +247,9 @@ impl<'a> HalfEdges<'a> {
         })
     }
 
-    /// For each island that lies in a face its walk and the face: a sweep over the nodes from left
-    /// to right that keeps the edges it cuts in order, and looks below the first node of each island
-    /// (de Berg and others, Computational Geometry, sections 2.1 and 2.3).
+    /// For each island inside a face, its walk and that face: a sweep over the nodes from left to right
+    /// keeps the edges it cuts in order, and looks below the first node of each island (de Berg and
+    /// others, Computational Geometry, sections 2.1 and 2.3).
     fn faces_around_islands(&self, walks: &Walks, bounds: &[Side]) -> Vec<(u32, u32)> {
         // The first node of each island's walk, which is the first of the whole island.
         let mut firsts: Vec<(NodeIndex, u32)> = Vec::new();
@@ -262,7 +263,7 @@ impl<'a> HalfEdges<'a> {
         firsts.sort_unstable();
         let mut firsts = firsts.into_iter().peekable();
         let mut found = Vec::new();
-        // The face around each walk, where it is known: of the islands met so far.
+        // The face around each walk, once known: for islands already met.
         let mut around: Vec<Option<u32>> = vec![None; bounds.len()];
         let mut cut: BTreeSet<CutEdge> = BTreeSet::new();
         let edge = |h: u32| {
@@ -279,7 +280,7 @@ impl<'a> HalfEdges<'a> {
                 let here = self.nodes[node as usize];
                 let below = cut.range(..CutEdge { left: here, right: here, edge: NONE }).next_back();
                 let face = below.and_then(|below| {
-                    // What lies above an edge lies to the left of its half-edge to the right.
+                    // What lies above an edge is to the left of its rightward half-edge.
                     let above = walks.of[2 * below.edge as usize];
                     match bounds[above as usize] {
                         Side::Face(face) => Some(face),
@@ -297,10 +298,10 @@ impl<'a> HalfEdges<'a> {
     }
 }
 
-/// Marks the edges that remain when ends that lead nowhere are cut back, again and again.
+/// Marks the edges that remain after pruning dead ends repeatedly.
 fn without_dangles(nodes: usize, edges: &[[NodeIndex; 2]]) -> Vec<bool> {
-    // For each node its number of edges and the exclusive or of their indices, which is the edge
-    // itself when one is left.
+    // For each node its number of edges and the XOR of their indices, which is the edge itself when only
+    // one is left.
     let mut incident = vec![(0_u32, 0_u32); nodes];
     for (&[u, v], e) in edges.iter().zip(0..) {
         for node in [u, v] {
@@ -325,13 +326,13 @@ fn without_dangles(nodes: usize, edges: &[[NodeIndex; 2]]) -> Vec<bool> {
     kept
 }
 
-/// The nodes from which and to which a half-edge leads.
+/// The nodes a half-edge leads from and to.
 fn half_edge(edges: &[[NodeIndex; 2]], h: u32) -> [NodeIndex; 2] {
     let [u, v] = edges[h as usize / 2];
     if h.is_multiple_of(2) { [u, v] } else { [v, u] }
 }
 
-/// Orders half-edges that leave the same node counter-clockwise, from straight down on.
+/// Orders half-edges leaving the same node counter-clockwise, starting from straight down.
 fn by_angle(nodes: &[GridPoint], [from, p]: [NodeIndex; 2], [_, q]: [NodeIndex; 2]) -> Ordering {
     // Nodes are numbered by x, then y: a half-edge to a larger one points right or straight up.
     let rightward = |to: NodeIndex| to > from;
@@ -341,7 +342,7 @@ fn by_angle(nodes: &[GridPoint], [from, p]: [NodeIndex; 2], [_, q]: [NodeIndex; 
     })
 }
 
-/// An edge that the sweep cuts, ordered from below; an edge without length stands for a point.
+/// An edge cut by the sweep, ordered from below; an edge without length stands for a point.
 #[derive(Clone, Copy, Debug)]
 struct CutEdge {
     left: GridPoint,
@@ -380,9 +381,9 @@ impl PartialEq for CutEdge {
 
 impl Eq for CutEdge {}
 
-/// Splits walks that come through a node more than once into simple rings.
+/// Splits walks that pass through a node more than once into simple rings.
 struct Splitter {
-    /// For each node its place on the path so far, or [`NONE`].
+    /// For each node its position on the path so far, or [`NONE`].
     place: Vec<u32>,
     path: Vec<NodeIndex>,
 }
@@ -392,8 +393,8 @@ impl Splitter {
         Self { place: vec![NONE; nodes], path: Vec::new() }
     }
 
-    /// The simple rings of a walk. Without bridges the edges of a walk fall into rings in one way
-    /// only: each is the part of the face's boundary in one block of the graph.
+    /// The simple rings of a walk. Without bridges the decomposition is unique: each ring is the part of
+    /// the face's boundary in one block of the graph.
     fn rings(&mut self, walk: impl Iterator<Item = NodeIndex>) -> Vec<Vec<NodeIndex>> {
         let mut rings = Vec::new();
         for node in walk {

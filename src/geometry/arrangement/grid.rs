@@ -1,8 +1,8 @@
-//! Points on the 0.1 mm grid as integers, and predicates on them that are exact.
+//! Points on the 0.1 mm grid as integers, with exact predicates.
 //!
-//! Coordinates stay within ±10⁹ steps ([`COORDINATE_LIMIT_M`]), so differences stay below 2·10⁹ and
-//! a cross product of two differences below 8·10¹⁸, which an `i64` holds. Only the place of a
-//! crossing needs more, and only when it falls close to the middle between two grid points.
+//! Coordinates stay within ±10⁹ steps ([`COORDINATE_LIMIT_M`]), so differences stay below 2·10⁹ and a
+//! cross product of two differences below 8·10¹⁸, which fits an `i64`. Only the position of a crossing
+//! needs more, and only when it falls close to halfway between two grid points.
 
 use crate::geometry::COORDINATE_LIMIT_M;
 use crate::geometry::Point;
@@ -10,7 +10,7 @@ use crate::geometry::Point;
 /// Grid steps in a metre: 1 / [`crate::geometry::GRID_M`].
 const STEPS_PER_M: f64 = 1e4;
 
-/// A point of the 0.1 mm grid, in steps of it. Ordered by x, then y.
+/// A point of the 0.1 mm grid, in grid steps. Ordered by x, then y.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) struct GridPoint {
     pub x: i32,
@@ -37,13 +37,13 @@ impl GridPoint {
         Point::new(f64::from(self.x) / STEPS_PER_M, f64::from(self.y) / STEPS_PER_M)
     }
 
-    /// The difference to another point.
+    /// The vector to another point.
     pub fn to(self, other: Self) -> (i64, i64) {
         (i64::from(other.x) - i64::from(self.x), i64::from(other.y) - i64::from(self.y))
     }
 }
 
-/// The cross product of two differences: positive when the second points to the left of the first.
+/// The cross product of two vectors: positive when the second points to the left of the first.
 pub(crate) const fn cross((ax, ay): (i64, i64), (bx, by): (i64, i64)) -> i64 {
     ax * by - ay * bx
 }
@@ -53,7 +53,7 @@ pub(crate) fn orientation(a: GridPoint, b: GridPoint, c: GridPoint) -> i64 {
     cross(a.to(b), a.to(c))
 }
 
-/// A piece of a line between two different grid points, `a` before `b` in their order.
+/// A straight piece between two different grid points, `a` before `b` in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Piece {
     pub a: GridPoint,
@@ -61,20 +61,20 @@ pub(crate) struct Piece {
 }
 
 impl Piece {
-    /// The difference from the first end to the second: its x is never negative.
+    /// The vector from the first end to the second: its x is never negative.
     pub fn vector(self) -> (i64, i64) {
         self.a.to(self.b)
     }
 
-    /// Whether the boxes of both share a point.
+    /// Whether the bounding boxes share a point.
     pub fn boxes_meet(self, other: Self) -> bool {
         let (low, high) = (self.a.y.min(self.b.y), self.a.y.max(self.b.y));
         let (other_low, other_high) = (other.a.y.min(other.b.y), other.a.y.max(other.b.y));
         self.a.x <= other.b.x && other.a.x <= self.b.x && low <= other_high && other_low <= high
     }
 
-    /// The grid point whose pixel holds the point where the two cross, if they cross inside both.
-    /// Ends that touch are no crossing: they are grid points already.
+    /// The grid point whose pixel holds the crossing, if the two cross in the interior of both. Touching
+    /// ends do not count: they are grid points already.
     pub fn crossing(self, other: Self) -> Option<GridPoint> {
         let along = self.vector();
         let other_along = other.vector();
@@ -92,11 +92,11 @@ impl Piece {
         Some(GridPoint::new(place(self.a.x, along.0), place(self.a.y, along.1)))
     }
 
-    /// Whether it meets the pixel of a grid point: the square of one step around it, with its left
-    /// and lower sides but without its right and upper ones, so that pixels tile the plane.
+    /// Whether it meets the pixel of a grid point: the unit square around it with its left and lower
+    /// sides but not its right and upper ones, so that pixels tile the plane.
     pub fn meets_pixel(self, centre: GridPoint) -> bool {
         let (low, high) = (self.a.y.min(self.b.y), self.a.y.max(self.b.y));
-        // The sides lie half a step off the grid, where no end can be.
+        // The sides are half a step off the grid, where no end can be.
         if centre.x < self.a.x || centre.x > self.b.x || centre.y < low || centre.y > high {
             return false;
         }
@@ -105,9 +105,8 @@ impl Piece {
         if middle.abs() > dx + dy.abs() {
             return false;
         }
-        // On which side of the line each corner of the square lies, doubled to stay whole. The right
-        // and upper sides are drawn in by an infinitesimal, which decides where the line runs
-        // through a corner.
+        // The side of the line each corner of the square is on, doubled to stay an integer. The right and
+        // upper sides are moved in by an infinitesimal, which decides for a line through a corner.
         let side = |doubled: i64, drawn_in: i64| if doubled == 0 { drawn_in.signum() } else { doubled.signum() };
         let sides = [
             side(2 * middle - dx + dy, 0),
@@ -119,7 +118,7 @@ impl Piece {
     }
 }
 
-/// Whether one is above and the other below zero.
+/// Whether one is positive and the other negative.
 const fn opposite(a: i64, b: i64) -> bool {
     (a < 0 && b > 0) || (a > 0 && b < 0)
 }
@@ -127,8 +126,8 @@ const fn opposite(a: i64, b: i64) -> bool {
 /// `factor * part / whole` rounded to the nearest integer, halves up.
 fn rounded_product(factor: i64, part: i64, whole: i64) -> i64 {
     let approximate = factor as f64 * (part as f64 / whole as f64);
-    // |factor| < 2^31 and |part / whole| < 1, so that the four roundings above err by less than
-    // 2^31 * 4 * 2^-53 < 10^-6: away from a half by more than that, the answer is certain.
+    // |factor| < 2^31 and |part / whole| < 1, so the four roundings above err by less than
+    // 2^31 * 4 * 2^-53 < 10^-6: further from a half than that, the answer is certain.
     let floor = (approximate + 0.5).floor();
     let beyond = approximate + 0.5 - floor;
     if (1e-5..=1.0 - 1e-5).contains(&beyond) {
@@ -136,7 +135,7 @@ fn rounded_product(factor: i64, part: i64, whole: i64) -> i64 {
     }
     let (numerator, denominator) = (2 * i128::from(factor) * i128::from(part), 2 * i128::from(whole));
     let (numerator, denominator) = if denominator < 0 { (-numerator, -denominator) } else { (numerator, denominator) };
-    // Below 2^31 in size, like the factor.
+    // Below 2^31 in magnitude, like the factor.
     (numerator + denominator / 2).div_euclid(denominator) as i64
 }
 
@@ -176,8 +175,8 @@ mod tests {
 
     #[test]
     fn pixels_tile_the_plane() {
-        // Through the corner shared by four pixels: in the upper right one alone, unless the line
-        // runs through the interior of others.
+        // Through the corner shared by four pixels: only the upper right one counts, unless the line runs
+        // through the interior of others.
         let rising = piece(0, 0, 3, 3);
         for (x, y, expected) in [(0, 0, true), (1, 1, true), (0, 1, false), (1, 0, false)] {
             assert_eq!(rising.meets_pixel(GridPoint::new(x, y)), expected, "{x} {y}");

@@ -1,5 +1,5 @@
-//! The arrangement of segments: where they meet, exactly, on the 0.1 mm grid, and the faces between
-//! them. It knows no plans.
+//! The arrangement of segments: where they meet, exactly, on the 0.1 mm grid, and the faces between them.
+//! It knows nothing of plans.
 
 mod error;
 mod faces;
@@ -19,14 +19,13 @@ pub use faces::{Face, faces};
 /// Index of a node of an [`Arrangement`].
 pub type NodeIndex = u32;
 
-/// Segments cut where they meet: nodes on the 0.1 mm grid and edges between them that share nodes or
-/// nothing.
+/// Segments cut where they meet: nodes on the 0.1 mm grid, and edges that share nodes or nothing.
 ///
-/// Segments may cross, touch, overlap, dangle, repeat, or have no length (those are left out). They
-/// are snap-rounded: every end and every crossing becomes the grid point nearest to it, and a segment
-/// that passes closer than half a grid step to such a point goes through it. All predicates are
-/// exact, so that the result is consistent however nearly the segments coincide, does not depend on
-/// their order or direction, and moves with them when all are moved by whole grid steps.
+/// Segments may cross, touch, overlap, dangle, repeat, or have no length (those are left out). They are
+/// snap-rounded: every end and every crossing moves to the nearest grid point, and a segment passing
+/// within half a grid step of such a point is routed through it. All predicates are exact, so the result
+/// is consistent however nearly the segments coincide, independent of their order and direction, and
+/// moves with them by whole grid steps.
 #[derive(Clone, Debug, Default)]
 pub struct Arrangement {
     /// By x, then y.
@@ -37,11 +36,11 @@ pub struct Arrangement {
     chain_starts: Vec<u32>,
     /// The nodes along each piece, from its first end to its second.
     chain_nodes: Vec<NodeIndex>,
-    /// The pieces that make up each segment given.
+    /// The pieces that make up each input segment.
     spans: Vec<Span>,
 }
 
-/// The pieces `first..end`, which follow each other on a line, as one segment.
+/// The pieces `first..end`, consecutive on a line, that form one segment.
 #[derive(Clone, Copy, Debug, Default)]
 struct Span {
     first: u32,
@@ -53,12 +52,12 @@ struct Span {
 impl Arrangement {
     /// Arranges segments, given in metres.
     ///
-    /// Takes O(n log n) time for n segments and crossings that lie as they do in plans, and stays
-    /// near that when all segments are long or lie on one line.
+    /// Takes O(n log n) time for n segments and crossings spread as in plans, and little more when all
+    /// segments are long or collinear.
     ///
     /// # Errors
     /// When a segment is not finite or lies outside the drawing area, or when the segments meet more
-    /// often than fits into memory.
+    /// often than memory allows.
     pub fn new(segments: &[Segment]) -> Result<Self, ArrangementError> {
         if segments.len() > PASSINGS_LIMIT {
             return Err(ArrangementError::TooDense);
@@ -71,8 +70,8 @@ impl Arrangement {
         drop((passings, rank));
         for (piece, window) in pieces.iter().zip(chain_starts.windows(2)) {
             let chain = &mut chain_nodes[window[0] as usize..window[1] as usize];
-            // A piece meets pixels in the order of x, and of y within a column. Nodes are numbered by
-            // x, then y, so that only a falling piece needs to look at the points.
+            // A piece meets pixels in order of x, and of y within a column. Nodes are numbered by x, then
+            // y, so only a falling piece needs to look at the points.
             if piece.a.y <= piece.b.y {
                 chain.sort_unstable();
             } else {
@@ -100,7 +99,7 @@ impl Arrangement {
         Ok(Self { nodes, edges, chain_starts, chain_nodes, spans })
     }
 
-    /// How many nodes there are: ends of segments and places where they cross.
+    /// The number of nodes: ends of segments and crossings.
     pub fn node_count(&self) -> usize {
         self.nodes.len()
     }
@@ -120,13 +119,13 @@ impl Arrangement {
         &self.edges
     }
 
-    /// The nodes that a segment passes through, from its first end to its second, by the segment's
-    /// index; none for a segment without length.
+    /// The nodes a segment passes through, from its first end to its second, by the segment's index; none
+    /// if it has no length.
     pub fn chain(&self, segment: usize) -> Vec<NodeIndex> {
         let Some(&Span { first, end, backward }) = self.spans.get(segment) else { return Vec::new() };
         let nodes = self.chain_starts[first as usize]..self.chain_starts[end as usize];
         let mut chain = self.chain_nodes[nodes.start as usize..nodes.end as usize].to_vec();
-        // Where one piece ends the next begins.
+        // Each piece starts where the previous one ends.
         chain.dedup();
         if backward {
             chain.reverse();
@@ -140,8 +139,8 @@ impl Arrangement {
     }
 }
 
-/// Groups pairs of a key below `keys` and a value by key: where each group starts (one more at the
-/// end), and the values.
+/// Groups (key, value) pairs by key, all keys below `keys`: where each group starts (plus one entry for
+/// the end), and the values.
 pub(crate) fn grouped(keys: usize, pairs: impl Iterator<Item = (u32, u32)> + Clone) -> (Vec<u32>, Vec<u32>) {
     let mut starts = vec![0_u32; keys + 1];
     for (key, _) in pairs.clone() {
@@ -160,7 +159,7 @@ pub(crate) fn grouped(keys: usize, pairs: impl Iterator<Item = (u32, u32)> + Clo
     (starts, values)
 }
 
-/// The points in their order, and for each point as given its place there.
+/// The points sorted, and for each input point its index there.
 fn sorted(points: &[GridPoint]) -> (Vec<GridPoint>, Vec<u32>) {
     // As one number each, which sorts twice as fast as two.
     let number = |value: i32| u64::from(value as u32 ^ 1 << 31);
@@ -174,9 +173,8 @@ fn sorted(points: &[GridPoint]) -> (Vec<GridPoint>, Vec<u32>) {
     (order.iter().map(|&(_, i)| points[i as usize]).collect(), rank)
 }
 
-/// Cuts segments that overlap on a line at each other's ends, so that every piece of a line is
-/// covered once: thousands of segments on one line would otherwise meet each other's nodes
-/// quadratically often.
+/// Cuts segments that overlap on a line at each other's ends, so that every part of the line is covered
+/// once: otherwise thousands of segments on one line would meet each other's nodes quadratically often.
 fn disjoint_pieces(segments: &[Segment]) -> Result<(Vec<Piece>, Vec<Span>), ArrangementError> {
     let mut whole: Vec<Piece> = Vec::with_capacity(segments.len());
     let mut given: Vec<u32> = Vec::with_capacity(segments.len());
@@ -191,13 +189,13 @@ fn disjoint_pieces(segments: &[Segment]) -> Result<(Vec<Piece>, Vec<Span>), Arra
             given.push(i as u32);
         }
     }
-    // Equal slopes have equal quotients, since division rounds correctly; few others have.
+    // Equal slopes have equal quotients, since division rounds correctly; few unequal ones do.
     let mut order: Vec<(u64, u32)> = whole
         .iter()
         .zip(0..)
         .map(|(piece, i)| {
             let (dx, dy) = piece.vector();
-            // Plus zero: a zero has one sign only.
+            // Adding zero turns -0.0 into 0.0.
             ((dy as f64 / dx as f64 + 0.0).to_bits(), i)
         })
         .collect();
@@ -212,7 +210,7 @@ fn disjoint_pieces(segments: &[Segment]) -> Result<(Vec<Piece>, Vec<Span>), Arra
         }
         let mut rest = &parallel[..];
         while let Some((&(_, first), _)) = rest.split_first() {
-            // A cluster: all that hang together on the line.
+            // A cluster: all that overlap or touch in a chain along the line.
             let line = whole[first as usize];
             let mut end = line.b;
             let mut size = 1;
@@ -248,9 +246,9 @@ fn disjoint_pieces(segments: &[Segment]) -> Result<(Vec<Piece>, Vec<Span>), Arra
     Ok((pieces, spans))
 }
 
-/// Orders pieces by direction, and parallel ones by the line they lie on: equal on the same line.
+/// Orders pieces by direction, and parallel ones by their line: equal when on the same line.
 fn by_line(first: Piece, second: Piece) -> Ordering {
     let along = first.vector();
-    // Directions all point right or straight up, so that their order by angle is total.
+    // Directions all point right or straight up, so their order by angle is total.
     cross(second.vector(), along).cmp(&0).then_with(|| cross(along, first.a.to(second.a)).cmp(&0))
 }

@@ -1,33 +1,31 @@
-//! Snap rounding (Hobby 1999): pieces of lines on the grid become chains of grid points that meet
-//! in grid points only.
+//! Snap rounding (Hobby 1999): line pieces become chains of grid points that meet only at grid points.
 //!
-//! Every end and every crossing makes the pixel around it hot, and a piece runs through the centres
-//! of all hot pixels it meets. Two chains then share whole edges, or nodes, or nothing: no edge
-//! passes through a node that is not its end (if the chain's edge from u to w passed through the
-//! centre of a hot pixel v, the piece itself would meet v, the pixels being translates of one convex
-//! set), and none crosses another. No chain strays further than a pixel from its piece.
+//! Every end and every crossing makes its pixel hot, and a piece is routed through the centres of all hot
+//! pixels it meets. Two chains then share whole edges, nodes, or nothing: no edge passes through a node
+//! other than its ends (if the chain's edge from u to w passed through the centre of a hot pixel v, the
+//! piece itself would meet v, the pixels being translates of one convex set), and no two edges cross. No
+//! chain strays further than a pixel from its piece.
 //!
-//! Hot pixels are found cell by cell: the plane is divided until a cell holds few pieces, or pieces
-//! that run side by side, and each cell settles the pixels within it alone, both which of them are
-//! hot and which pieces meet them. The work is near-linear in pieces and crossings, wherever they
-//! lie and however long they are.
+//! Hot pixels are found cell by cell: the plane is divided until a cell holds few pieces, or pieces that
+//! run side by side. Each cell then handles its pixels alone: which are hot, and which pieces meet them.
+//! The work is near-linear in pieces and crossings, wherever they lie and however long they are.
 
 use crate::geometry::arrangement::error::ArrangementError;
 use crate::geometry::arrangement::error::{PASSINGS_LIMIT, TESTS_LIMIT};
 use crate::geometry::arrangement::grid::{GridPoint, Piece};
 
-/// A cell with so few pieces is not divided further: testing all pairs costs less.
+/// A cell with this few pieces is not divided further: testing all pairs costs less.
 const FEW_PIECES: usize = 24;
 
-/// Pieces run side by side when, seen along their common direction, each overlaps no more than this
-/// many others on average: then a sweep across finds all pairs in about the time that sorting takes.
+/// Pieces run side by side when, seen along their common direction, each overlaps at most this many
+/// others on average: then a sweep across finds all pairs in about the time of a sort.
 const FEW_NEIGHBOURS: usize = 16;
 
-/// A division may put a piece in so many cells on average. More would divide faster and take more
+/// The most cells a division may put a piece in, on average. More would divide faster but take more
 /// memory at once.
 const CELLS_PER_PIECE: f64 = 16.0;
 
-/// Added around cells, in pixels: well above the rounding of an `f64` at 10^9 steps (about 10^-6), so
+/// Margin around cells, in pixels: well above the rounding of an `f64` at 10^9 steps (about 10^-6), so
 /// that no piece misses a cell it meets.
 const MARGIN: f64 = 0.01;
 
@@ -36,11 +34,11 @@ const MARGIN: f64 = 0.01;
 pub(crate) struct Snapped {
     /// The centres of the hot pixels, each once, in the order of the cells.
     pub nodes: Vec<GridPoint>,
-    /// Index of a piece and of a node it passes through, each pair once.
+    /// Pairs of a piece and a node it passes through, by index, each once.
     pub passings: Vec<(u32, u32)>,
 }
 
-/// What an arrangement may take.
+/// The resources an arrangement may use.
 #[derive(Clone, Copy, Debug)]
 struct Limits {
     passings: usize,
@@ -61,7 +59,7 @@ fn snap_within(pieces: &[Piece], limits: Limits) -> Result<Snapped, ArrangementE
     Ok(snapper.snapped)
 }
 
-/// A box of pixels: x from `x0` up to but without `x1`, y likewise.
+/// A box of pixels: x in `x0..x1`, y likewise.
 #[derive(Clone, Copy, Debug)]
 struct Cell {
     x0: i64,
@@ -92,8 +90,8 @@ impl Cell {
         self.y1 - self.y0
     }
 
-    /// The part of a piece within the cell's pixels and a little around them, as its two ends with x
-    /// ascending; `None` when it passes by.
+    /// The part of a piece within the cell's pixels and a small margin, as its two ends by ascending x;
+    /// `None` if it misses the cell.
     fn clip(self, piece: Piece) -> Option<[(f64, f64); 2]> {
         let (x0, x1) = (self.x0 as f64 - 0.5 - MARGIN, self.x1 as f64 - 0.5 + MARGIN);
         let (y0, y1) = (self.y0 as f64 - 0.5 - MARGIN, self.y1 as f64 - 0.5 + MARGIN);
@@ -115,15 +113,15 @@ impl Cell {
     }
 }
 
-/// How the pieces of a cell lie in it.
+/// How the pieces of a cell are laid out.
 struct Lie {
     /// Across their mean direction, as a unit vector.
     normal: (f64, f64),
-    /// Whether they seem to run side by side, judged by how much they cover of their extent along
-    /// the normal: clusters deceive it.
+    /// Whether they seem to run side by side, judged by how much of their extent along the normal they
+    /// cover: clusters can fool it.
     side_by_side: bool,
-    /// Into how many columns and rows to divide the cell; `None` where that leaves about as many
-    /// pieces in each part.
+    /// The number of columns and rows to divide the cell into; `None` if each part would still hold about
+    /// as many pieces.
     division: Option<(i64, i64)>,
 }
 
@@ -140,14 +138,14 @@ struct Snapper<'a> {
     limits: Limits,
     snapped: Snapped,
     tests: u64,
-    /// Scratch: the hot pixels of the cell at hand.
+    /// Scratch: the hot pixels of the current cell.
     hot: Vec<GridPoint>,
-    /// Scratch: the intervals of the cell at hand.
+    /// Scratch: the intervals of the current cell.
     swept: Vec<Swept>,
 }
 
 impl Snapper<'_> {
-    /// Settles the pixels of a cell, given all pieces that may meet one of them.
+    /// Snaps the pixels of a cell, given all pieces that may meet one of them.
     fn settle(&mut self, cell: Cell, here: &[u32]) -> Result<(), ArrangementError> {
         if here.len() <= FEW_PIECES {
             return self.test_all(cell, here);
@@ -213,8 +211,8 @@ impl Snapper<'_> {
         }
     }
 
-    /// Notes the pixel where two pieces cross in the cell. Drops repetitions before they fill the
-    /// memory: many pieces may cross in one pixel.
+    /// Records the pixel where two pieces cross in the cell. Removes duplicates before they fill memory:
+    /// many pieces may cross in one pixel.
     fn cross(&mut self, cell: Cell, first: Piece, second: Piece) -> Result<(), ArrangementError> {
         if first.boxes_meet(second)
             && let Some(point) = first.crossing(second)
@@ -233,11 +231,11 @@ impl Snapper<'_> {
         Ok(())
     }
 
-    /// Looks at how the pieces lie in a cell.
+    /// Examines how the pieces of a cell are laid out.
     fn lie(&self, cell: Cell, here: &[u32]) -> Lie {
         let (width, height) = (cell.width() as f64, cell.height() as f64);
-        // Lengths across the cell, and the mean axis: angles doubled, so that both directions of a
-        // line count as one.
+        // Lengths across the cell, and the mean axis: angles doubled, so that both directions of a line
+        // count as one.
         let (mut across_x, mut across_y, mut axis_x, mut axis_y) = (0.0, 0.0, 0.0, 0.0);
         for &index in here {
             let Some([(ax, ay), (bx, by)]) = cell.clip(self.pieces[index as usize]) else { continue };
@@ -273,7 +271,7 @@ impl Snapper<'_> {
         Lie { normal, side_by_side, division: (in_each <= 0.7).then_some((columns as i64, rows as i64)) }
     }
 
-    /// Sorts the intervals that the pieces cover along a direction.
+    /// Sorts the intervals the pieces cover along a direction.
     fn line_up(&mut self, cell: Cell, here: &[u32], direction: (f64, f64)) {
         self.swept.clear();
         for &index in here {
@@ -284,7 +282,7 @@ impl Snapper<'_> {
         self.swept.sort_unstable_by(|p, q| p.low.total_cmp(&q.low).then(p.piece.cmp(&q.piece)));
     }
 
-    /// How many pairs of intervals meet.
+    /// The number of pairs of intervals that meet.
     fn pairs_to_sweep(&self) -> usize {
         let swept = &self.swept;
         let up_to = |high: f64| swept.partition_point(|other| other.low <= high);
@@ -296,7 +294,7 @@ impl Snapper<'_> {
         let pieces = self.pieces;
         let swept = std::mem::take(&mut self.swept);
         self.ends(cell, here);
-        // A single pixel is hot or not: once it is, all is known.
+        // A single pixel is either hot or not: once hot, nothing is left to find.
         let one_pixel = cell.width() == 1 && cell.height() == 1;
         for (i, first) in swept.iter().enumerate() {
             if one_pixel && !self.hot.is_empty() {
@@ -338,7 +336,7 @@ impl Snapper<'_> {
         Ok(())
     }
 
-    /// Settles the cells of a division one after the other.
+    /// Handles the cells of a division one by one.
     fn divide(&mut self, cell: Cell, here: &[u32], columns: i64, rows: i64) -> Result<(), ArrangementError> {
         let step_x = (cell.width() + columns - 1) / columns;
         let step_y = (cell.height() + rows - 1) / rows;
@@ -354,7 +352,8 @@ impl Snapper<'_> {
             let (first, last) =
                 (column_at(ax - MARGIN).clamp(0, columns - 1), column_at(bx + MARGIN).clamp(0, columns - 1));
             let (low_y, high_y) = (ay.min(by), ay.max(by));
-            // From the true ends: those of the clipped piece are rounded, and a steep one magnifies it.
+            // From the true ends: those of the clipped piece are rounded, and a steep piece magnifies the
+            // error.
             let (dx, dy) = piece.vector();
             let slope = if dx > 0 { dy as f64 / dx as f64 } else { 0.0 };
             let height_at = |x: f64| (f64::from(piece.a.y) + slope * (x - f64::from(piece.a.x))).clamp(low_y, high_y);
@@ -412,7 +411,7 @@ fn dot((ax, ay): (f64, f64), (bx, by): (f64, f64)) -> f64 {
 mod tests {
     use crate::geometry::arrangement::snap_rounding::*;
 
-    /// Lines that all cross: `count` of them, at a distance of 1 m from each other.
+    /// A lattice of lines that all cross: `count` of them, 1 m apart.
     fn lattice(count: i32) -> Vec<Piece> {
         let end = count * 10_000;
         let point = GridPoint::new;
@@ -447,8 +446,8 @@ mod tests {
         let fan: Vec<Piece> = (0..2_000)
             .map(|i| Piece { a: GridPoint::new(0, 0), b: GridPoint::new(100_000, 100 * (i - 1_000)) })
             .collect();
-        // Near the point where all lines meet, each is tested with each: 2,000,000 pairs, and as many
-        // again for each one's pixels.
+        // Near the common point every pair of lines is tested: 2,000,000 pairs, and as many tests again
+        // for each line's pixels.
         let limits = Limits { tests: 8_000_000, ..limits };
         assert_eq!(snap_within(&fan, limits).unwrap().passings.len(), 4_000);
     }
