@@ -148,7 +148,7 @@ impl Drawing {
             room.within_rim = Vec::new();
             if room.missed_label().is_some() {
                 let narrow_m = room.bounds.width().min(room.bounds.height());
-                room.within_rim = areas::shrunk(&room.outer, &room.holes, RIM_M.min(narrow_m * RIM_SHARE));
+                room.within_rim = areas::inset(&room.outer, &room.holes, RIM_M.min(narrow_m * RIM_SHARE));
             }
         }
         self

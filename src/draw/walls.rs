@@ -15,7 +15,9 @@ use rstar::{AABB, RTree};
 use super::elements::RoomDrawing;
 use super::tangle::tangled;
 use super::tile_grid::TileGrid;
-use crate::geometry::areas::{self, Ring, SHARPEST_RAD, Shapes, area_m2, cleaned, directed, grown, points, ring};
+use crate::geometry::areas::{
+    self, Ring, SHARPEST_RAD, Shapes, area_m2, directed, offset, points, ring, without_slivers,
+};
 use crate::geometry::{Bounds, Point, Segment, Vector, polygon};
 use crate::plan::{CornerId, Plan, THICKEST_WALL_M, WallId};
 
@@ -338,17 +340,17 @@ impl Derived {
         let median_m2 = areas.get(areas.len() / 2).copied().unwrap_or(USUAL_ROOM_M * USUAL_ROOM_M);
         let scale = (median_m2.sqrt() / USUAL_ROOM_M).clamp(0.5, 1.5);
 
-        let rooms_area = cleaned(&indoors.simplify_shape(FillRule::NonZero));
+        let rooms_area = without_slivers(&indoors.simplify_shape(FillRule::NonZero));
         // Morphological closing (grow, then shrink back) fills gaps narrower than the thickest wall:
         // between rooms, and between them and balconies.
         let reach = THICKEST_DRAWN_M / 2.0 * scale.min(1.0);
-        let closed = |shapes: &Shapes| grown(&grown(shapes, reach), -reach);
+        let closed = |shapes: &Shapes| offset(&offset(shapes, reach), -reach);
         let building = closed(&rooms_area);
         let gaps = if outdoors.is_empty() {
             building.overlay(&rooms_area, OverlayRule::Difference, FillRule::NonZero)
         } else {
             let all: Vec<Ring> = indoors.iter().chain(&outdoors).cloned().collect();
-            closed(&cleaned(&all.simplify_shape(FillRule::NonZero))).overlay(
+            closed(&without_slivers(&all.simplify_shape(FillRule::NonZero))).overlay(
                 &all,
                 OverlayRule::Difference,
                 FillRule::NonZero,
@@ -359,14 +361,14 @@ impl Derived {
         let (gaps_m2, length_m) = (area_m2(&gaps), indoors.iter().map(|ring| polygon::perimeter(&points(ring))).sum());
         let to_faces = gaps_m2 > SHARE_OF_FACES_M * f64::max(length_m, 1.0);
         let outer = OUTER_WALL_M[usize::from(to_faces)] * scale;
-        let shell = grown(&building, outer).overlay(&building, OverlayRule::Difference, FillRule::NonZero);
+        let shell = offset(&building, outer).overlay(&building, OverlayRule::Difference, FillRule::NonZero);
         let partitions = indoors
             .stroke(StrokeStyle::new(2.0 * HALF_PARTITION_M * scale).line_join(LineJoin::Miter(SHARPEST_RAD)), true);
         // Where neighbours overlap by less than a wall, there is a wall: the area covered twice, minus
         // wide parts (a room drawn inside another).
         let overlaps =
             rooms_area.overlay(&indoors.simplify_shape(FillRule::EvenOdd), OverlayRule::Difference, FillRule::NonZero);
-        let wide = grown(&grown(&cleaned(&overlaps), -reach), reach);
+        let wide = offset(&offset(&without_slivers(&overlaps), -reach), reach);
         let overlaps = overlaps.overlay(&wide, OverlayRule::Difference, FillRule::NonZero);
         let all: Vec<Ring> = gaps.into_iter().chain(shell).chain(partitions).chain(overlaps).flatten().collect();
         let mut solid: Shapes = all.simplify_shape(FillRule::NonZero);

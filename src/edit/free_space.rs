@@ -126,7 +126,7 @@ fn free_shapes(outer: &[Point], rooms: &[Vec<Vec<Point>>], gap_m: f64) -> Shapes
     if rooms.is_empty() || gap_m <= 0.0 {
         return free;
     }
-    let wide = areas::opened(&free, (gap_m + BETWEEN_GRID_M) / 2.0);
+    let wide = areas::opening(&free, (gap_m + BETWEEN_GRID_M) / 2.0);
     if wide.is_empty() {
         // All of it is narrow: a shaft, drawn on purpose.
         return free;
@@ -134,16 +134,16 @@ fn free_shapes(outer: &[Point], rooms: &[Vec<Vec<Point>>], gap_m: f64) -> Shapes
     let edges = SegmentIndex::new(rooms.iter().flatten().flat_map(|ring| polygon::edges(ring)).collect());
     // The opened shape has the same edges up to rounding, which leaves threads along them; these would
     // join separate narrow parts.
-    let narrow = areas::opened(&free.overlay(&wide, OverlayRule::Difference, FillRule::NonZero), THREAD_M / 2.0);
+    let narrow = areas::opening(&free.overlay(&wide, OverlayRule::Difference, FillRule::NonZero), THREAD_M / 2.0);
     let arms: Shapes = narrow.into_iter().filter(|part| is_along(part, &edges)).collect();
     if arms.is_empty() {
         return free;
     }
     // Slightly more than the arms, so that no thread joins what lies beyond them, but none of the wide
     // part.
-    let cut = areas::grown(&arms, THREAD_M / 2.0).overlay(&wide, OverlayRule::Difference, FillRule::NonZero);
+    let cut = areas::offset(&arms, THREAD_M / 2.0).overlay(&wide, OverlayRule::Difference, FillRule::NonZero);
     let left = free.overlay(&cut, OverlayRule::Difference, FillRule::NonZero);
-    areas::cleaned(&left).simplify_shape(FillRule::NonZero)
+    areas::without_slivers(&left).simplify_shape(FillRule::NonZero)
 }
 
 /// Added to the gap: drawn lengths are multiples of the grid, so rounding never decides whether a strip

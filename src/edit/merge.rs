@@ -116,7 +116,7 @@ fn union(rooms: &[&RoomShape], others: &[Ring]) -> Shapes {
     let rooms_alone: Shapes = rings.simplify_shape(FillRule::NonZero);
     // Morphological closing (grow, then shrink back) fills gaps narrower than twice the distance.
     let reach_m = THICKEST_WALL_M / 2.0 + TOUCH_M;
-    let closed = areas::grown(&areas::grown(&areas::cleaned(&rooms_alone), reach_m), -reach_m);
+    let closed = areas::offset(&areas::offset(&areas::without_slivers(&rooms_alone), reach_m), -reach_m);
     let added = areas::without(closed.overlay(&rooms_alone, OverlayRule::Difference, FillRule::NonZero), others);
     let edges: Vec<SegmentIndex> = rooms
         .iter()
@@ -140,5 +140,5 @@ fn union(rooms: &[&RoomShape], others: &[Ring]) -> Shapes {
     }
     // Closes hairlines that rounding leaves between pieces, within the touching distance.
     let joined: Shapes = all.simplify_shape(FillRule::NonZero);
-    areas::grown(&areas::grown(&joined, TOUCH_M), -TOUCH_M)
+    areas::offset(&areas::offset(&joined, TOUCH_M), -TOUCH_M)
 }

@@ -42,22 +42,22 @@ pub fn points(ring: &Ring) -> Vec<Point> {
 }
 
 /// Offsets shapes by a distance in metres: outwards, or inwards when negative.
-pub fn grown(shapes: &Shapes, by_m: f64) -> Shapes {
-    cleaned(&shapes.outline(&OutlineStyle::new(by_m).line_join(LineJoin::Miter(SHARPEST_RAD))))
+pub fn offset(shapes: &Shapes, by_m: f64) -> Shapes {
+    without_slivers(&shapes.outline(&OutlineStyle::new(by_m).line_join(LineJoin::Miter(SHARPEST_RAD))))
 }
 
 /// Morphological opening: shapes without parts narrower than twice a distance in metres (shrunk, then
 /// grown back).
-pub fn opened(shapes: &Shapes, by_m: f64) -> Shapes {
-    grown(&grown(&cleaned(shapes), -by_m), by_m)
+pub fn opening(shapes: &Shapes, by_m: f64) -> Shapes {
+    offset(&offset(&without_slivers(shapes), -by_m), by_m)
 }
 
 /// A room's rings inset by a distance in metres: pieces with their holes, none if nothing is left.
-pub fn shrunk(outer: &[Point], holes: &[Vec<Point>], by_m: f64) -> Vec<(Vec<Point>, Vec<Vec<Point>>)> {
+pub fn inset(outer: &[Point], holes: &[Vec<Point>], by_m: f64) -> Vec<(Vec<Point>, Vec<Vec<Point>>)> {
     let ring = |ring: &Vec<Point>| -> Ring { ring.iter().map(|point| [point.x, point.y]).collect() };
     let shape: Vec<Ring> = std::iter::once(&outer.to_vec()).chain(holes).map(ring).collect();
     let shapes = shape.simplify_shape(FillRule::EvenOdd);
-    pieces(&grown(&shapes, -by_m))
+    pieces(&offset(&shapes, -by_m))
 }
 
 /// The pieces of shapes as points: outer rings, each with its holes.
@@ -71,7 +71,7 @@ pub fn pieces(shapes: &Shapes) -> Vec<(Vec<Point>, Vec<Vec<Point>>)> {
 
 /// Removes rounding slivers: points within a millimetre of the previous one, and rings under 10 cm².
 /// Grown again, such a sliver would become a spur as long as its mitre.
-pub fn cleaned(shapes: &Shapes) -> Shapes {
+pub fn without_slivers(shapes: &Shapes) -> Shapes {
     let clean_ring = |ring: &Ring| {
         let mut kept = points(ring);
         kept.dedup_by(|next, point| next.distance(*point) < 1e-3);

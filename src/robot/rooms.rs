@@ -189,7 +189,7 @@ fn between_two(
 /// Whether a piece is no room, by its area without what is narrow.
 fn is_too_small(piece: &[Ring], options: &RoomOptions) -> bool {
     area_m2(piece) < options.smallest_m2
-        || areas::area_m2(&areas::grown(&vec![piece.to_vec()], -2.0 * NARROW_M)) < options.smallest_m2 / 10.0
+        || areas::area_m2(&areas::offset(&vec![piece.to_vec()], -2.0 * NARROW_M)) < options.smallest_m2 / 10.0
 }
 
 fn piece_bounds(piece: &[Ring]) -> Bounds {
@@ -270,7 +270,7 @@ fn room(piece: &[Ring], points: Vec<usize>, options: &RoomOptions) -> Option<Fou
     let (outer, holes) = piece.split_first()?;
     let large = holes.iter().filter(|hole| polygon::signed_area(&areas::points(hole)).abs() > LARGEST_FURNITURE_M2);
     let kept: Shapes = vec![std::iter::once(outer).chain(large).cloned().collect()];
-    let opened = areas::opened(&kept, NARROW_M);
+    let opened = areas::opening(&kept, NARROW_M);
     let largest = areas::pieces(&opened)
         .into_iter()
         .max_by(|p, q| polygon::area(&p.0, &p.1).total_cmp(&polygon::area(&q.0, &q.1)))?;

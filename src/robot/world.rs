@@ -145,7 +145,7 @@ impl World {
     /// Where the middle of a disc of this radius in metres can be, piece by piece, the largest first.
     pub fn passable(&self, radius_m: f64) -> Vec<Shapes> {
         let mut pieces: Vec<Shapes> =
-            areas::grown(&self.free, -radius_m).into_iter().map(|shape| vec![shape]).collect();
+            areas::offset(&self.free, -radius_m).into_iter().map(|shape| vec![shape]).collect();
         pieces.sort_by(|p, q| areas::area_m2(q).total_cmp(&areas::area_m2(p)));
         pieces
     }
@@ -237,7 +237,7 @@ fn floors(shapes: &RoomShapes, solids: &[Ring]) -> Vec<WorldRoom> {
                     cuts.extend(rings(other).into_iter().take(1));
                 }
             }
-            let floor = areas::cleaned(&areas::without(area(shape), &cuts));
+            let floor = areas::without_slivers(&areas::without(area(shape), &cuts));
             WorldRoom { id: shape.id, area_m2: areas::area_m2(&floor), floor }
         })
         .collect()
@@ -301,7 +301,7 @@ fn doorway(opening: &WorldOpening, shapes: &RoomShapes, solids: &[Ring]) -> (Sha
         let shape = &shapes.all()[index];
         if !opening.sides.contains(&Joint::Room(shape.id)) && shape.locate(middle) == Location::Outside {
             let rings: Vec<Ring> = shape.rings().enumerate().map(|(i, r)| areas::directed(r, i == 0)).collect();
-            others.extend(areas::grown(&rings.simplify_shape(FillRule::NonZero), PARTITION_M / 2.0).concat());
+            others.extend(areas::offset(&rings.simplify_shape(FillRule::NonZero), PARTITION_M / 2.0).concat());
         }
     }
     let outlet = match (to_left, to_right) {
