@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::edit::draw::{add_walls, divide_rooms, edges_of};
-use crate::edit::overlay::{Laid, lay};
+use crate::edit::overlay::{Overlay, overlay_paths};
 use crate::edit::split::nearest_part;
 use crate::edit::{self, EditError, fail};
 use crate::plan::{CornerId, Opening, OpeningId, OpeningKind, Plan};
@@ -29,9 +29,9 @@ pub fn bridge_gaps(plan: &Plan, gaps: &[Gap], kind: OpeningKind) -> Result<(Plan
         paths.push(vec![a, b]);
         thicknesses_m.push(first.thickness_m.max(second.thickness_m));
     }
-    let Laid { plan: laid, chains } = lay(plan, &paths)?;
+    let Overlay { plan: overlaid, chains } = overlay_paths(plan, &paths)?;
     let along: Vec<(&[CornerId], f64)> = chains.iter().map(Vec::as_slice).zip(thicknesses_m).collect();
-    let (next, walls) = add_walls(&laid, &along)?;
+    let (next, walls) = add_walls(&overlaid, &along)?;
     if walls.len() < gaps.len() {
         return fail("a wall stands in the gap already");
     }

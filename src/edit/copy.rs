@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::edit::moving::{corners_of, mirror_swing};
-use crate::edit::overlay::{Laid, lay};
+use crate::edit::overlay::{Overlay, overlay_paths};
 use crate::edit::split::nearest_part;
 use crate::edit::{EditError, add_opening, add_room, add_wall, fail};
 use crate::geometry::{Point, Segment, TOUCH_M, Transform, Vector, trim_m};
@@ -74,7 +74,7 @@ pub fn insert(plan: &Plan, fragment: &Plan, transform: Transform) -> Result<(Pla
     let at_edges: BTreeSet<CornerId> = edges.iter().flatten().copied().collect();
     let loose: Vec<CornerId> = loose.difference(&at_edges).copied().collect();
     paths.extend(loose.iter().filter_map(|&id| Some(vec![place(id)?])));
-    let Laid { plan: mut next, chains } = lay(plan, &paths)?;
+    let Overlay { plan: mut next, chains } = overlay_paths(plan, &paths)?;
     let (edge_chains, loose_chains) = chains.split_at(edges.len());
     let mut placed: BTreeSet<ElementId> = loose_chains.iter().flatten().map(|&id| ElementId::Corner(id)).collect();
     let chain_of: BTreeMap<[CornerId; 2], &Vec<CornerId>> = edges.iter().copied().zip(edge_chains).collect();

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::edit::fill::Boundary;
-use crate::edit::overlay::{Laid, lay, plan_edges};
+use crate::edit::overlay::{Overlay, overlay_paths, plan_edges};
 use crate::edit::{self, EditError, fail};
 use crate::geometry::polygon::{self, Location};
 use crate::geometry::segments::SegmentIndex;
@@ -38,12 +38,12 @@ pub struct Drawn {
 /// When the path has no length, a point lies outside the drawing area, the thickness is not within 0..=10
 /// m, or there are already walls all along the path and nothing changes.
 pub fn draw_walls(plan: &Plan, path: &[Point], thickness_m: f64) -> Result<Drawn, EditError> {
-    let Laid { plan: laid, chains } = lay(plan, &[path.to_vec()])?;
+    let Overlay { plan: overlaid, chains } = overlay_paths(plan, &[path.to_vec()])?;
     let chain = chains.into_iter().next().unwrap_or_default();
     if chain.len() < 2 {
         return fail("a wall needs two different ends");
     }
-    let (next, walls) = add_walls(&laid, &[(&chain, thickness_m)])?;
+    let (next, walls) = add_walls(&overlaid, &[(&chain, thickness_m)])?;
     let (next, rooms) = divide_rooms(&next, &edges_of(&chain), None)?;
     if walls.is_empty() && rooms.is_empty() {
         return fail("a wall stands here already");
@@ -59,13 +59,13 @@ pub fn draw_walls(plan: &Plan, path: &[Point], thickness_m: f64) -> Result<Drawn
 /// When the boundary crosses or touches itself, encloses nothing, lies outside the drawing area, or is
 /// already that of a room.
 pub fn draw_room(plan: &Plan, outer: &[Point], wall_thickness_m: Option<f64>) -> Result<(Plan, RoomId), EditError> {
-    let (laid, ring) = lay_ring(plan, outer)?;
+    let (overlaid, ring) = overlay_ring(plan, outer)?;
     let same: BTreeSet<CornerId> = ring.iter().copied().collect();
     let is_same = |room: &Room| room.outer.len() == ring.len() && room.outer.iter().all(|corner| same.contains(corner));
-    if let Some((_, room)) = laid.rooms().find(|(_, room)| is_same(room)) {
+    if let Some((_, room)) = overlaid.rooms().find(|(_, room)| is_same(room)) {
         return fail(format!("{} has this boundary already", named(room)));
     }
-    let (next, id) = edit::add_room(&laid, Room { outer: ring.as_slice().into(), ..Room::default() })?;
+    let (next, id) = edit::add_room(&overlaid, Room { outer: ring.as_slice().into(), ..Room::default() })?;
     match wall_thickness_m {
         Some(thickness_m) => Ok((add_walls(&next, &[(&closed(&ring), thickness_m)])?.0, id)),
         None => Ok((next, id)),
@@ -79,9 +79,9 @@ pub fn draw_room(plan: &Plan, outer: &[Point], wall_thickness_m: Option<f64>) ->
 /// When the room does not exist, or the path does not cross it from boundary to boundary.
 pub fn split_room(plan: &Plan, room: RoomId, path: &[Point]) -> Result<(Plan, Vec<RoomId>), EditError> {
     edit::require_room(plan, room)?;
-    let Laid { plan: laid, chains } = lay(plan, &[path.to_vec()])?;
+    let Overlay { plan: overlaid, chains } = overlay_paths(plan, &[path.to_vec()])?;
     let chain = chains.into_iter().next().unwrap_or_default();
-    let (next, mut rooms) = divide_rooms(&laid, &edges_of(&chain), Some(room))?;
+    let (next, mut rooms) = divide_rooms(&overlaid, &edges_of(&chain), Some(room))?;
     rooms.retain(|&id| id != room);
     if rooms.is_empty() {
         return fail("the line must cross the room from boundary to boundary");
@@ -97,13 +97,13 @@ pub fn split_room(plan: &Plan, room: RoomId, path: &[Point]) -> Result<(Plan, Ve
 /// the room, or nothing of the room would be left.
 pub fn cut_out(plan: &Plan, room: RoomId, outer: &[Point]) -> Result<Plan, EditError> {
     edit::require_room(plan, room)?;
-    let (laid, ring) = lay_ring(plan, outer)?;
-    let Some(shape) = laid.room(room) else { return Ok(laid) };
-    let inside = Inside::new(&laid, shape);
-    let cut = laid.ring_points(&ring);
+    let (overlaid, ring) = overlay_ring(plan, outer)?;
+    let Some(shape) = overlaid.room(room) else { return Ok(overlaid) };
+    let inside = Inside::new(&overlaid, shape);
+    let cut = overlaid.ring_points(&ring);
     let mut edges = room_edges(shape);
     edges.extend(edges_of(&closed(&ring)));
-    let faces = EdgeFaces::new(&laid, edges)?;
+    let faces = EdgeFaces::new(&overlaid, edges)?;
     let in_room: Vec<usize> = (0..faces.count()).filter(|&i| inside.holds(faces.interior_point(i))).collect();
     let is_cut = |i: usize| polygon::locate_in_ring(&cut, faces.interior_point(i)) == Location::Inside;
     let left: Vec<usize> = in_room.iter().copied().filter(|&i| !is_cut(i)).collect();
@@ -134,10 +134,10 @@ pub(crate) fn named(room: &Room) -> String {
 ///
 /// # Errors
 /// When it crosses or touches itself, or encloses nothing.
-pub(crate) fn lay_ring(plan: &Plan, outer: &[Point]) -> Result<(Plan, Vec<CornerId>), EditError> {
+pub(crate) fn overlay_ring(plan: &Plan, outer: &[Point]) -> Result<(Plan, Vec<CornerId>), EditError> {
     let mut path = outer.to_vec();
     path.extend(outer.first());
-    let Laid { plan: laid, chains } = lay(plan, &[path])?;
+    let Overlay { plan: overlaid, chains } = overlay_paths(plan, &[path])?;
     let mut ring = chains.into_iter().next().unwrap_or_default();
     if ring.len() > 1 && ring.first() == ring.last() {
         ring.pop();
@@ -146,12 +146,12 @@ pub(crate) fn lay_ring(plan: &Plan, outer: &[Point]) -> Result<(Plan, Vec<Corner
     if ring.len() > 3 && ring.iter().collect::<BTreeSet<_>>().len() < ring.len() {
         return fail("the boundary crosses or touches itself");
     }
-    let points = laid.ring_points(&ring);
+    let points = overlaid.ring_points(&ring);
     // Twice the area over the perimeter is the mean width.
     if ring.len() < 3 || 2.0 * polygon::signed_area(&points).abs() < TOUCH_M * polygon::perimeter(&points) {
         return fail("the boundary encloses nothing");
     }
-    Ok((laid, ring))
+    Ok((overlaid, ring))
 }
 
 /// The corners of a ring with the first repeated at the end.

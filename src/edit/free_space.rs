@@ -7,9 +7,9 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::simplify::SimplifyShape as _;
 use i_overlay::float::single::SingleFloatOverlay as _;
 
-use crate::edit::draw::{add_walls, added, closed, lay_ring, without_leftovers};
+use crate::edit::draw::{add_walls, added, closed, overlay_ring, without_leftovers};
 use crate::edit::fill::Boundary;
-use crate::edit::overlay::{Laid, lay};
+use crate::edit::overlay::{Overlay, overlay_paths};
 use crate::edit::{self, EditError, fail};
 use crate::geometry::areas::{self, Shapes};
 use crate::geometry::polygon::{self, Location};
@@ -41,7 +41,7 @@ pub fn draw_room_in_free_space(
     gap_m: f64,
 ) -> Result<(Plan, RoomId), EditError> {
     // Alone on an empty plan: checks whether it is a valid boundary.
-    let (alone, ring) = lay_ring(&Plan::default(), outer)?;
+    let (alone, ring) = overlay_ring(&Plan::default(), outer)?;
     let outer = alone.ring_points(&ring);
     let shapes = RoomShapes::new(plan);
     let near: Vec<&RoomShape> =
@@ -52,7 +52,8 @@ pub fn draw_room_in_free_space(
         .filter(|(outer, holes)| !is_sliver(outer, holes))
         .max_by(|(p, in_p), (q, in_q)| polygon::area(p, in_p).total_cmp(&polygon::area(q, in_q)));
     let Some((outer, holes)) = largest else { return fail("rooms cover this place already") };
-    let LaidArea { plan: mut next, boundary: Boundary { outer, holes }, corners } = lay_area(plan, &outer, &holes)?;
+    let OverlayArea { plan: mut next, boundary: Boundary { outer, holes }, corners } =
+        overlay_area(plan, &outer, &holes)?;
     if let Some(thickness_m) = wall_thickness_m {
         for ring in std::iter::once(&outer).chain(&holes) {
             next = add_walls(&next, &[(&closed(ring), thickness_m)])?.0;
@@ -63,24 +64,24 @@ pub fn draw_room_in_free_space(
 }
 
 /// An area overlaid on a plan.
-pub(crate) struct LaidArea {
+pub(crate) struct OverlayArea {
     pub plan: Plan,
     pub boundary: Boundary,
     /// All corners that its rings pass through, used or not.
     pub corners: Vec<CornerId>,
 }
 
-/// Overlays the boundary of an area with holes on a plan, see [`lay`].
+/// Overlays the boundary of an area with holes on a plan, see [`overlay_paths`].
 ///
 /// # Errors
 /// When it lies outside the drawing area, or encloses nothing.
-pub(crate) fn lay_area(plan: &Plan, outer: &[Point], holes: &[Vec<Point>]) -> Result<LaidArea, EditError> {
+pub(crate) fn overlay_area(plan: &Plan, outer: &[Point], holes: &[Vec<Point>]) -> Result<OverlayArea, EditError> {
     let rings = std::iter::once(outer).chain(holes.iter().map(Vec::as_slice));
     let paths: Vec<Vec<Point>> = rings.map(|ring| ring.iter().chain(ring.first()).copied().collect()).collect();
-    let Laid { plan: laid, chains } = lay(plan, &paths)?;
+    let Overlay { plan: overlaid, chains } = overlay_paths(plan, &paths)?;
     let edges = chains.iter().flat_map(|chain| chain.windows(2)).map(|pair| ordered(pair[0], pair[1]));
     // Rounding may pinch a narrow place: the largest remaining face is the area.
-    let faces = EdgeFaces::new(&laid, edges.collect::<BTreeSet<_>>())?;
+    let faces = EdgeFaces::new(&overlaid, edges.collect::<BTreeSet<_>>())?;
     let area = |i: usize| {
         let (outer, holes) = faces.positions(i);
         polygon::area(&outer, &holes)
@@ -89,7 +90,7 @@ pub(crate) fn lay_area(plan: &Plan, outer: &[Point], holes: &[Vec<Point>]) -> Re
     let largest = (0..faces.count()).filter(inside).max_by(|&p, &q| area(p).total_cmp(&area(q)));
     let (plan, boundaries) = faces.boundaries(largest.as_slice())?;
     match boundaries.into_iter().next() {
-        Some(boundary) => Ok(LaidArea { plan, boundary, corners: chains.into_iter().flatten().collect() }),
+        Some(boundary) => Ok(OverlayArea { plan, boundary, corners: chains.into_iter().flatten().collect() }),
         None => fail("the boundary encloses nothing"),
     }
 }

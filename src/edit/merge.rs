@@ -9,7 +9,7 @@ use i_overlay::float::simplify::SimplifyShape as _;
 use i_overlay::float::single::SingleFloatOverlay as _;
 
 use crate::edit::draw::{Inside, without_leftovers};
-use crate::edit::free_space::{LaidArea, lay_area, oriented};
+use crate::edit::free_space::{OverlayArea, oriented, overlay_area};
 use crate::edit::{self, EditError, fail};
 use crate::geometry::areas::{self, Ring, Shapes};
 use crate::geometry::runs::NOTCH_M;
@@ -59,7 +59,7 @@ pub fn merge_rooms(plan: &Plan, rooms: &[RoomId]) -> Result<Plan, EditError> {
     let (Some((outer, holes)), None) = (pieces.next(), pieces.next()) else {
         return fail(format!("the rooms must touch, or lie no further apart than {THICKEST_WALL_M} m"));
     };
-    let LaidArea { plan: laid, boundary, mut corners } = lay_area(plan, &outer, &holes)?;
+    let OverlayArea { plan: overlaid, boundary, mut corners } = overlay_area(plan, &outer, &holes)?;
     // To remove: openings between the rooms, then walls between them and the openings on these.
     let joins_merged = |side: &Joint| side.room().is_some_and(|room| merged.contains(&room));
     let between: BTreeSet<OpeningId> = plan
@@ -72,7 +72,7 @@ pub fn merge_rooms(plan: &Plan, rooms: &[RoomId]) -> Result<Plan, EditError> {
         .collect();
     let was_inside: Vec<Inside> =
         parts.iter().filter_map(|part| Some(Inside::new(plan, plan.room(part.id)?))).collect();
-    let mut next = edit::change_room(&laid, largest.id, |room| {
+    let mut next = edit::change_room(&overlaid, largest.id, |room| {
         room.outer = boundary.outer;
         room.holes = boundary.holes;
     })?;

@@ -14,7 +14,7 @@ use crate::geometry::{Bounds, Point, Segment, TOUCH_M};
 use crate::plan::{CornerId, Plan, Positions, ordered, ring_edges};
 
 /// Paths overlaid on a plan.
-pub(crate) struct Laid {
+pub(crate) struct Overlay {
     /// The plan with the corners of the paths; nothing uses their new edges yet.
     pub plan: Plan,
     /// For each path the corners it runs through, without consecutive repeats.
@@ -31,7 +31,7 @@ pub(crate) struct Laid {
 ///
 /// # Errors
 /// When a point lies outside the drawing area.
-pub(crate) fn lay(plan: &Plan, paths: &[Vec<Point>]) -> Result<Laid, EditError> {
+pub(crate) fn overlay_paths(plan: &Plan, paths: &[Vec<Point>]) -> Result<Overlay, EditError> {
     let paths: Vec<Vec<Point>> =
         paths.iter().map(|path| path.iter().map(|&p| checked_position(p)).collect()).collect::<Result<_, _>>()?;
     let mut ground = Ground::around(plan, &paths);
@@ -85,7 +85,7 @@ pub(crate) fn lay(plan: &Plan, paths: &[Vec<Point>]) -> Result<Laid, EditError> 
             chain
         })
         .collect();
-    Ok(Laid { plan: next, chains })
+    Ok(Overlay { plan: next, chains })
 }
 
 /// A corner, existing or to be added.

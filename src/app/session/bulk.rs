@@ -151,13 +151,6 @@ pub(crate) enum Order {
 impl Order {
     pub(crate) const WORDS: &'static [(&'static str, &'static str)] =
         &[("rows", "Line by line"), ("columns", "Column by column")];
-
-    pub(crate) const fn word(self) -> &'static str {
-        match self {
-            Self::Rows => "rows",
-            Self::Columns => "columns",
-        }
-    }
 }
 
 /// Names that rooms would get.
