@@ -9,9 +9,9 @@ use crate::labels::{Label, Typology};
 /// Labelled rooms of many plans, to learn from and to test on.
 #[derive(Clone, Debug)]
 pub enum Collection {
-    /// Plans, from which features follow for any labels of neighbours.
+    /// Plans, from which features can be computed for any choice of neighbours' labels.
     Plans(Vec<RoomNetwork>),
-    /// Rows of a dataset file: features as somebody computed them, which rooms are neighbours unknown.
+    /// Rows of a dataset file: features already computed, neighbours unknown.
     Rows(Vec<Row>),
 }
 
@@ -23,10 +23,9 @@ pub struct RoomPlace {
 }
 
 impl Collection {
-    /// The labelled rooms, in the order of the plans. `None` for a way of taking neighbours' labels
-    /// that the collection cannot give: rows of a file are what they are, and count as
-    /// [`NeighbourLabels::True`]. With [`NeighbourLabels::Predicted`] the rows are those that
-    /// repetition starts from.
+    /// The labelled rooms, in the order of the plans. `None` for a choice of neighbours' labels that the
+    /// collection cannot provide: rows of a file are fixed, and count as [`NeighbourLabels::True`]. With
+    /// [`NeighbourLabels::Predicted`] the rows are those that repeated prediction starts from.
     pub fn rows(&self, neighbours: NeighbourLabels) -> Option<Vec<Row>> {
         match self {
             Self::Plans(networks) => Some(networks.iter().flat_map(|network| rows_of(network, neighbours)).collect()),
@@ -42,7 +41,7 @@ impl Collection {
         }
     }
 
-    /// Where each labelled room stands, in the order of [`Collection::rows`]; none for rows of a file.
+    /// The position of each labelled room, in the order of [`Collection::rows`]; none for rows of a file.
     pub fn places(&self) -> Vec<RoomPlace> {
         let mut places = Vec::new();
         for (index, network) in self.networks().iter().enumerate() {
@@ -52,7 +51,7 @@ impl Collection {
         places
     }
 
-    /// The ways of taking neighbours' labels that the collection can give.
+    /// The choices of neighbours' labels that the collection can provide.
     pub fn neighbour_modes(&self) -> &'static [NeighbourLabels] {
         match self {
             Self::Plans(_) => &NeighbourLabels::ALL,
@@ -80,7 +79,7 @@ impl Collection {
         typologies
     }
 
-    /// The part of one typology.
+    /// The part with one typology.
     #[must_use]
     pub fn of_typology(&self, typology: &Typology) -> Self {
         self.filtered(|of_part, _| of_part == Some(typology))

@@ -35,7 +35,7 @@ pub fn feature_cells(features: &Features) -> [String; 8] {
 /// Why a dataset file could not be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CsvError {
-    /// Line from 1; 0 when it is the whole file.
+    /// Line from 1; 0 for the file as a whole.
     pub line: u64,
     pub what: String,
 }

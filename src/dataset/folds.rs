@@ -10,10 +10,11 @@ use crate::labels::Label;
 /// How rows are assigned to folds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Grouping {
-    /// Room by room, as in the paper: rooms of one building stand on both sides, which flatters.
+    /// By room, as in the paper: rooms of one building are in both training and test sets, which
+    /// flatters.
     #[default]
     Room,
-    /// Building by building: the figure for a building never seen.
+    /// By building: the accuracy on a building never seen.
     Building,
 }
 
@@ -36,10 +37,10 @@ pub struct Folds {
     of_row: Vec<usize>,
 }
 
-/// Why rows cannot be assigned to so many folds.
+/// Why rows cannot be assigned to this many folds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FoldsError {
-    /// One fold leaves nothing to test on, or nothing to learn from.
+    /// A single fold leaves nothing to test on, or nothing to learn from.
     TooFewFolds(usize),
     /// There are fewer rooms, or fewer buildings, than folds.
     TooFewRows { folds: usize, have: usize, grouping: Grouping },
@@ -62,7 +63,7 @@ impl fmt::Display for FoldsError {
 impl std::error::Error for FoldsError {}
 
 impl Folds {
-    /// Deals rows to `count` folds. The same seed gives the same folds.
+    /// Assigns rows to `count` folds. The same seed gives the same folds.
     ///
     /// # Errors
     /// With fewer than 2 folds, or fewer rooms or buildings than folds.
@@ -77,8 +78,8 @@ impl Folds {
         }
     }
 
-    /// Deals rows to folds so that every fold has the same share of each label, up to one row, and
-    /// the same number of rows, up to one.
+    /// Assigns rows to folds so that every fold has the same share of each label and the same number of
+    /// rows, each to within one row.
     ///
     /// # Errors
     /// With fewer than 2 folds or fewer rows than folds.
@@ -87,7 +88,8 @@ impl Folds {
         let mut random = Random::new(seed);
         let mut order: Vec<usize> = (0..labels.len()).collect();
         random.shuffle(&mut order);
-        // A stable sort keeps the random order within a label; dealing goes on from one label to the next.
+        // A stable sort keeps the random order within a label; assignment continues from one label to the
+        // next.
         order.sort_by_key(|&row| labels[row]);
         let mut of_row = vec![0; labels.len()];
         for (turn, &row) in order.iter().enumerate() {
@@ -96,9 +98,9 @@ impl Folds {
         Ok(Self { count, of_row })
     }
 
-    /// Deals whole groups to folds, so that sizes and shares of labels are as even as the groups allow:
-    /// the largest groups first, each to the fold where it does least harm, then moves and swaps of
-    /// groups as long as they help.
+    /// Assigns whole groups to folds, so that sizes and label shares are as even as the groups allow:
+    /// largest groups first, each to the fold where it does the least harm, then moves and swaps of
+    /// groups while they help.
     ///
     /// # Errors
     /// With fewer than 2 folds or fewer groups than folds.
@@ -162,9 +164,9 @@ fn check(folds: usize, have: usize, grouping: Grouping) -> Result<(), FoldsError
 /// Numbers of rows by label.
 type Counts = [f64; 5];
 
-/// How uneven folds are: for each label, and for all rows together, the squares of the folds' shares
-/// summed. Least when all folds are equal. Labels count alike, however rare; the number of rows
-/// counts as much as the five labels together.
+/// The unevenness of folds: for each label, and for all rows together, the sum of squares of the folds'
+/// shares. Minimal when all folds are equal. Labels have equal weight, however rare; the number of rows
+/// weighs as much as the five labels together.
 struct Unevenness {
     /// 1 / number of rows with each label; 0 for a label that does not occur.
     weight: Counts,
@@ -178,7 +180,7 @@ impl Unevenness {
         shares + 5.0 * (fold.iter().sum::<f64>() * self.size_weight).powi(2)
     }
 
-    /// By how much a fold's unevenness changes when `put` joins it and `taken` leaves it.
+    /// The change in unevenness when `put` joins a fold and `taken` leaves it.
     fn change(&self, fold: &Counts, put: &Counts, taken: &Counts) -> f64 {
         let after: Counts = std::array::from_fn(|i| fold[i] + put[i] - taken[i]);
         self.of(&after) - self.of(fold)
@@ -187,14 +189,14 @@ impl Unevenness {
 
 const NOTHING: Counts = [0.0; 5];
 
-/// Passes over all groups when improving folds. Few are ever needed; the cap bounds the time.
+/// Passes over all groups when improving folds. A few are enough; the cap bounds the time.
 const PASSES: usize = 8;
 
-/// Swaps are tried only up to so many groups: beyond, moves alone even out everything that matters.
+/// The most groups for which swaps are tried: with more, moves alone even out everything that matters.
 const GROUPS_TO_SWAP: usize = 1000;
 
-/// The fold of each group: the most even of several attempts. Few groups are hard to spread evenly and quick
-/// to try again, many are easy.
+/// The fold of each group: the most even of several attempts. Few groups are hard to spread evenly but
+/// quick to retry; many are easy.
 fn assign_groups(groups: &[Counts], folds: usize, seed: u64) -> Vec<usize> {
     let mut total = NOTHING;
     for group in groups {
@@ -217,13 +219,13 @@ fn assign_groups(groups: &[Counts], folds: usize, seed: u64) -> Vec<usize> {
     best.1
 }
 
-/// Bounds the work of all attempts, in pairs of groups looked at a pass.
+/// Bounds the work of all attempts, in pairs of groups examined per pass.
 const ATTEMPTS_TIMES_PAIRS: usize = 50_000;
 
 /// More attempts have not been seen to help.
 const MOST_ATTEMPTS: usize = 30;
 
-/// One attempt at dealing groups: the rows of each fold by label, and the fold of each group.
+/// One attempt at assigning groups: the rows of each fold by label, and the fold of each group.
 fn deal_once(
     groups: &[Counts],
     folds: usize,
@@ -264,7 +266,7 @@ fn deal_once(
     (sums, of_group)
 }
 
-/// A change must help by more than rounding, or passes would not end.
+/// A change must help by more than rounding, or the passes might never end.
 const LEAST_GAIN: f64 = 1e-12;
 
 fn put(sums: &mut [Counts], fold: usize, group: &Counts, sign: f64) {
@@ -273,7 +275,7 @@ fn put(sums: &mut [Counts], fold: usize, group: &Counts, sign: f64) {
     }
 }
 
-/// Moves a group to the fold where it does least harm; whether that is another one.
+/// Moves a group to the fold where it does the least harm; returns whether it moved.
 fn move_group(
     unevenness: &Unevenness,
     groups: &[Counts],
@@ -298,7 +300,7 @@ fn move_group(
     true
 }
 
-/// Swaps two groups of different folds when that helps; whether it did.
+/// Swaps two groups of different folds if that helps; returns whether it did.
 fn swap_groups(
     unevenness: &Unevenness,
     groups: &[Counts],
@@ -367,7 +369,7 @@ mod tests {
         }
     }
 
-    /// Buildings of very different size, each with labels of its own taste.
+    /// Buildings of very different sizes, each with its own mix of labels.
     fn buildings(seed: u64) -> (Vec<Label>, Vec<usize>) {
         let mut random = Random::new(seed);
         let (mut labels, mut groups) = (Vec::new(), Vec::new());

@@ -48,7 +48,7 @@ pub struct LeftOut {
 }
 
 impl LeftOut {
-    /// Counts what another plan left out.
+    /// Adds the counts of another plan.
     pub fn add(&mut self, other: &Self) {
         self.not_classified += other.not_classified;
         self.without_function += other.without_function;
@@ -65,8 +65,8 @@ impl LeftOut {
     }
 }
 
-/// The labelled rooms of a plan as rows, in the order of [`room_keys`]; what is left out is counted
-/// in `left_out`.
+/// The labelled rooms of a plan as rows, in the order of [`room_keys`]; omissions are counted in
+/// `left_out`.
 pub fn rows(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels, left_out: &mut LeftOut) -> Vec<Row> {
     let network = RoomNetwork::new(plan, schemes);
     left_out.add(&network.left_out);

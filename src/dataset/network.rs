@@ -9,20 +9,20 @@ use crate::labels::{Label, Schemes, Typology};
 use crate::plan::{Meta, OpeningId, OpeningKind, Plan, RoomId};
 use crate::topology::RoomShape;
 
-/// The rooms of one plan as classifiers see them: what each is in itself, what is known of its
-/// label, and where each of its openings leads. Features follow from it for any labels of the
-/// neighbours, without going back to the plan's geometry.
+/// The rooms of one plan as classifiers see them: each room's own properties, its label if known, and
+/// where each of its openings leads. Features can be computed from it for any labels of the neighbours,
+/// without going back to the plan's geometry.
 #[derive(Clone, Debug)]
 pub struct RoomNetwork {
     /// Name of the plan.
     pub plan: String,
-    /// Its building; that of the plan alone where it names none.
+    /// Its building; if the plan names none, the plan alone.
     pub building: String,
     pub typology: Option<Typology>,
-    /// The rooms that are classified, in the order of [`room_keys`]: those with an area whose
-    /// function the scheme does not leave blank. All others count like the outside.
+    /// The rooms to classify, in the order of [`room_keys`]: those with an area whose function the scheme
+    /// does not leave blank. All others count as the outside.
     pub rooms: Vec<NetworkRoom>,
-    /// Why other rooms are not here, and which of these have no label.
+    /// Why other rooms are missing here, and which of the rooms here have no label.
     pub left_out: LeftOut,
 }
 
@@ -30,10 +30,10 @@ pub struct RoomNetwork {
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetworkRoom {
     pub id: RoomId,
-    /// What it is called in tables, see [`room_keys`].
+    /// Its key in tables, see [`room_keys`].
     pub key: String,
     pub function: String,
-    /// Its label, where one is known: given to it, or by the scheme for its function.
+    /// Its label, if known: its own, or the scheme's for its function.
     pub label: Option<Label>,
     /// The naive classifier's label.
     pub temporary: Label,
@@ -41,24 +41,24 @@ pub struct NetworkRoom {
     pub area_m2: f64,
     /// `rt`.
     pub axes_ratio: f64,
-    /// What else is known of its shape; the paper's features do not use it.
+    /// Other properties of its shape; the paper's features do not use them.
     pub form: Form,
     /// Every opening of the room, and where it leads.
     pub doors: Vec<NetworkDoor>,
 }
 
-/// Measures of a room's shape: the same after moving, turning and mirroring.
+/// Measures of a room's shape, invariant under moving, rotating and mirroring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Form {
     /// Length of the outer boundary and of the holes.
     pub perimeter_m: f64,
-    /// Number of walls ([`runs::runs`]) round the outside: 4 for a rectangle.
+    /// Number of walls ([`runs::runs`]) around the outside: 4 for a rectangle.
     pub walls: u32,
-    /// The longer side of the smallest rectangle around it, at any angle.
+    /// The longer side of the smallest enclosing rectangle, at any angle.
     pub length_m: f64,
     /// The shorter side.
     pub width_m: f64,
-    /// Area as a share of the convex hull's, 0..=1: below 1 where a corner points inwards.
+    /// Area as a share of the convex hull's, 0..=1: below 1 if a corner points inwards.
     pub convexity: f64,
 }
 
@@ -88,8 +88,8 @@ impl Form {
 pub struct NetworkDoor {
     pub opening: OpeningId,
     pub kind: OpeningKind,
-    /// The index in [`RoomNetwork::rooms`] of the room it leads to; `None` for the outside, a room
-    /// that is not classified, and the room itself.
+    /// The index in [`RoomNetwork::rooms`] of the room it leads to; `None` for the outside, a room that
+    /// is not classified, or the room itself.
     pub to: Option<usize>,
 }
 
@@ -99,7 +99,7 @@ impl RoomNetwork {
         Self::of(plan, &analyse(plan, schemes, NeighbourLabels::True))
     }
 
-    /// The network of a plan that has been analysed, whatever labels its neighbours counted.
+    /// The network of an analysed plan, whichever neighbours' labels the analysis used.
     pub fn of(plan: &Plan, analysis: &Analysis) -> Self {
         let typology = plan.meta().typology.as_ref();
         let mut left_out = LeftOut::default();
@@ -150,9 +150,8 @@ impl RoomNetwork {
         Self { plan: meta.name.clone(), building, typology: typology.cloned(), rooms, left_out }
     }
 
-    /// The network of a plan as it looks while nobody knows its typology: no label scheme says which
-    /// rooms are not classified, so all are here. Typology and labels are those that are known
-    /// nevertheless, to learn from.
+    /// The network of a plan as if its typology were unknown: no label scheme says which rooms are not
+    /// classified, so all are included. Typology and labels are the true ones, to learn from.
     pub fn without_typology(plan: &Plan, schemes: &Schemes) -> Self {
         let typology = plan.meta().typology.clone();
         let unknown = edit::set_meta(plan, Meta { typology: None, ..plan.meta().clone() });
@@ -168,7 +167,7 @@ impl RoomNetwork {
         self.rooms.iter().map(|room| room.label).collect()
     }
 
-    /// The labels that neighbours are taken to have, before any prediction. `known` holds a label for
+    /// The labels that neighbours are assumed to have before any prediction. `known` holds a label for
     /// each room whose label may be used; [`NeighbourLabels::Predicted`] starts like
     /// [`NeighbourLabels::True`].
     pub fn seen_labels(&self, known: &[Option<Label>], neighbours: NeighbourLabels) -> Vec<Label> {
@@ -179,7 +178,7 @@ impl RoomNetwork {
         self.rooms.iter().enumerate().map(|(index, room)| known(index).unwrap_or(room.temporary)).collect()
     }
 
-    /// `F_r` of a room when the rooms of the network carry the labels `seen`, one for each.
+    /// `F_r` of a room, given the labels `seen`, one per room of the network.
     pub fn features(&self, room: usize, seen: &[Label]) -> Features {
         let NetworkRoom { area_m2, axes_ratio, doors, .. } = &self.rooms[room];
         let mut doors_to = [0; 5];

@@ -1,11 +1,11 @@
-//! The data sets that classifiers learn from: one a typology, and one of all.
+//! The data sets that classifiers learn from: one per typology, and one of all.
 
 use crate::labels::Typology;
 
 /// The set whose classifiers learn from all typologies.
 pub const STANDARD: &str = "standard";
 
-/// The name of the set that a model learned from, as in its file's name: a typology, or `standard`.
+/// The name of the set a model learned from, as in its file's name: a typology, or `standard`.
 pub fn set_name(typology: Option<&Typology>) -> &str {
     typology.map_or(STANDARD, Typology::as_str)
 }

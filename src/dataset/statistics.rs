@@ -7,12 +7,12 @@ use crate::labels::Label;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moments {
     pub mean: f64,
-    /// Sample standard deviation (divided by n - 1); 0 for fewer than two values.
+    /// Sample standard deviation (n - 1 in the denominator); 0 for fewer than two values.
     pub deviation: f64,
 }
 
 impl Moments {
-    /// The moments of some values, by Welford's method (1962), which does not lose digits.
+    /// The moments of values, by Welford's method (1962), which is numerically stable.
     pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
         let (mut count, mut mean, mut squares) = (0.0, 0.0, 0.0);
         for value in values {

@@ -15,12 +15,12 @@ pub const FEATURES: usize = Features::NAMES.len();
 /// The values of `F_r` in the order of [`Features::NAMES`].
 pub type Values = [f64; FEATURES];
 
-/// Where a row comes from, so that an explanation can name it.
+/// The origin of a row, so that an explanation can name it.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct RoomSource {
     /// Name of the plan.
     pub plan: Arc<str>,
-    /// What the room is for; where that is not known, its name or id in its plan.
+    /// What the room is for; if unknown, its name or id in its plan.
     pub room: Arc<str>,
 }
 
@@ -30,7 +30,7 @@ impl fmt::Display for RoomSource {
     }
 }
 
-/// Features and labels of rooms, checked: at least one row, every feature finite and not negative.
+/// Features and labels of rooms, validated: at least one row, every feature finite and not negative.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     values: Vec<Values>,
@@ -43,7 +43,7 @@ pub struct Table {
 pub enum TableError {
     /// There is no row.
     Empty,
-    /// A feature is not a number, infinite or negative: the first such, and how many rows are so.
+    /// A feature is NaN, infinite or negative: the first such value, and how many rows have one.
     BadValue { source: RoomSource, feature: &'static str, value: String, rows: usize },
 }
 
@@ -86,7 +86,7 @@ impl Table {
         table.checked()
     }
 
-    /// A table from its columns, which must be equally long; what is longer is cut.
+    /// A table from its columns, which must be equally long; longer ones are truncated.
     ///
     /// # Errors
     /// As [`Table::from_rows`].
@@ -140,7 +140,7 @@ impl Table {
         &self.labels
     }
 
-    /// Where each row comes from.
+    /// The origin of each row.
     pub fn sources(&self) -> &[RoomSource] {
         &self.sources
     }
@@ -154,7 +154,7 @@ impl Table {
         counts
     }
 
-    /// The rows at these indices, in their order; `None` when there are none, or one does not exist.
+    /// The rows at these indices, in order; `None` if there are none, or one does not exist.
     pub fn subset(&self, rows: &[usize]) -> Option<Self> {
         if rows.is_empty() || rows.iter().any(|&row| row >= self.len()) {
             return None;
@@ -166,9 +166,8 @@ impl Table {
         })
     }
 
-    /// A fingerprint of features and labels in their order: FNV-1a, 64 bits. It tells data sets
-    /// apart and shows that a model was trained on the data it names; it does not guard against
-    /// forgery.
+    /// A fingerprint of features and labels in order: FNV-1a, 64 bits. It tells data sets apart and shows
+    /// which data a model was trained on; it does not guard against forgery.
     pub fn fingerprint(&self) -> u64 {
         let numbers = self.values.iter().flatten().flat_map(|value| value.to_bits().to_le_bytes());
         let labels = self.labels.iter().map(|&label| label.index() as u8);
