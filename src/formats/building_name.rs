@@ -1,19 +1,19 @@
-//! Which building and which storey a file's name tells of: storeys of one building must carry the
-//! same building name, since cross-validation never splits a building.
+//! Derives building and storey from a file's name: storeys of one building must have the same building
+//! name, since cross-validation never splits a building.
 
-/// What follows from the name of a storey's file or drawing.
+/// What the name of a storey's file or drawing says.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct StoreyName {
-    /// The name without what tells the storey; empty when nothing else is in the name.
+    /// The name without the storey; empty if there is nothing else in it.
     pub building: String,
-    /// The storey ('ground floor', '2'); empty when the name tells none.
+    /// The storey ('ground floor', '2'); empty if the name has none.
     pub storey: String,
 }
 
 /// Words for a storey.
 const FLOORS: [&str; 6] = ["floor", "level", "storey", "story", "piano", "etage"];
 
-/// Words that tell which storey, in front of one of [`FLOORS`] or alone.
+/// Words that say which storey, before one of [`FLOORS`] or alone.
 const WHICH: [&str; 20] = [
     "ground",
     "first",
@@ -37,15 +37,15 @@ const WHICH: [&str; 20] = [
     "cellar",
 ];
 
-/// Italian words that tell which storey, behind 'piano'.
+/// Italian words that say which storey, after 'piano'.
 const WHICH_PIANO: [&str; 7] = ["terra", "rialzato", "primo", "secondo", "terzo", "quarto", "interrato"];
 
-/// What a building's name keeps at least: 'ED21' is a name, not storey 21 of 'ED'.
+/// The fewest letters left of a building's name: 'ED21' is a name, not storey 21 of 'ED'.
 const LEAST_LETTERS: usize = 3;
 
 /// Splits the name of a storey into building and storey.
 ///
-/// Taken off the end of the name, at most once, is
+/// Removes from the end of the name, at most once,
 /// - a word for which storey with a word for storey, also without a space before or between
 ///   (`groundfloor`, `first floor`, `piano terra`), and a storey with its number (`floor 2`,
 ///   `2nd floor`, `level1`);
@@ -53,10 +53,10 @@ const LEAST_LETTERS: usize = 3;
 ///   letters and digits): a word for which storey alone (`LOWER`), `P0`, `F1`, `L2`, `2f`, `PT`;
 /// - a number of one or two digits, if the word it ends has no other digits.
 ///
-/// Nothing or at least three letters must be left; else the name stays whole. A trailing `updated` is no part of
-/// a name: the authors' collection has it. When in doubt the number is taken for a storey: two
-/// buildings taken for one cost a little data in cross-validation, one building taken for two makes
-/// its figures too good.
+/// At least three letters must be left, or none; otherwise the name stays whole. A trailing `updated` is
+/// not part of a name: it occurs in the authors' collection. When in doubt the number is taken as a
+/// storey: treating two buildings as one costs a little data in cross-validation, treating one as two
+/// makes its accuracy look too good.
 pub fn split(name: &str) -> StoreyName {
     let mut letters = squash(name);
     if letters.len() > "updated".len() && ends_with(&letters, "updated", true) {
@@ -76,9 +76,8 @@ pub fn split(name: &str) -> StoreyName {
     StoreyName { building: tidy(&name[..end]), storey }
 }
 
-/// What two spellings of one building's name have in common: case, spaces, punctuation and doubled
-/// letters left out, so that 'Rock Island' and 'rockisland', 'RomainRoland' and 'RomainRolland' are
-/// the same.
+/// A key shared by spellings of one building's name: without case, spaces, punctuation and doubled
+/// letters, so that 'Rock Island' and 'rockisland', 'RomainRoland' and 'RomainRolland' are the same.
 pub fn key(building: &str) -> String {
     let mut key = String::new();
     let mut after_gap = false;
@@ -104,11 +103,11 @@ pub fn key(building: &str) -> String {
 /// A letter or digit of a name.
 struct Letter {
     lower: char,
-    /// Where it ends in the name, in bytes.
+    /// Its end in the name, in bytes.
     end: usize,
     /// Whether a word starts here.
     starts_word: bool,
-    /// Whether something other than a letter or digit stands before it.
+    /// Whether a character other than a letter or digit precedes it.
     after_gap: bool,
 }
 
@@ -141,7 +140,7 @@ fn ends_with(letters: &[Letter], suffix: &str, as_word: bool) -> bool {
     }
 }
 
-/// The number of letters at the end that tell the storey, and the storey in words.
+/// How many letters at the end give the storey, and the storey in words.
 fn storey_at_end(letters: &[Letter]) -> Option<(usize, String)> {
     let digits = letters.iter().rev().take_while(|letter| letter.lower.is_ascii_digit()).count();
     let text = |range: &[Letter]| range.iter().map(|letter| letter.lower).collect::<String>();
@@ -189,7 +188,7 @@ fn storey_at_end(letters: &[Letter]) -> Option<(usize, String)> {
     Some((count, number))
 }
 
-/// How many digits at the end are a storey's number: one or two, in a word without other digits.
+/// How many digits at the end are a storey number: one or two, in a word without other digits.
 fn storey_digits(letters: &[Letter]) -> Option<usize> {
     let count = letters.iter().rev().take_while(|letter| letter.lower.is_ascii_digit()).count();
     if !(1..=2).contains(&count) {
@@ -207,7 +206,7 @@ fn storey_digits(letters: &[Letter]) -> Option<usize> {
     Some(count)
 }
 
-/// A name without underscores and without what is no letter or digit around it.
+/// A name with underscores replaced, and trimmed to letters and digits at both ends.
 fn tidy(name: &str) -> String {
     let name = name.replace('_', " ");
     let words: Vec<&str> = name.split_whitespace().collect();

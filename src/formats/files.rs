@@ -1,4 +1,4 @@
-//! Plan files and folders on the disk, read by whichever format they are of.
+//! Reading plan files and folders from disk, in any known format.
 
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -7,13 +7,13 @@ use super::options::{FormatOption, OptionError, Options};
 use super::registry::{self, Ambiguous, Files, Format, Found, Head, Import, Preview, Source, ending_of};
 use super::{FORMATS, FileError, Place, ReadError};
 
-/// So much of a file's beginning tells its format.
+/// How much of a file's beginning is used to detect its format.
 pub const HEAD_BYTES: usize = 4096;
 
 /// The largest file that is read: the largest real plan seen has half a megabyte.
 pub const FILE_LIMIT_BYTES: u64 = 256 << 20;
 
-/// Reads a plan file, or a folder that is one, of any known format.
+/// Reads a plan file, or a folder that is a plan, of any known format.
 ///
 /// # Errors
 /// When it cannot be opened, is larger than [`FILE_LIMIT_BYTES`], is of no known format, or its format's
@@ -30,20 +30,20 @@ pub fn read_from(path: &Path, bytes: &[u8]) -> Result<Import, FileError> {
     Reading::default().bytes(path, bytes)
 }
 
-/// How a person wants files to be read; by default as they are recognised, without options.
+/// How the user wants files to be read; by default the format is detected, without options.
 #[derive(Clone, Default)]
 pub struct Reading {
-    /// The format, whatever the files look like.
+    /// The format to use, whatever the files look like.
     pub from: Option<Found<'static>>,
     /// Options as `NAME=VALUE`; each goes to the formats that have it.
     pub options: Vec<String>,
 }
 
 impl Reading {
-    /// Whether the options are known, and have values that fit, in each format that may be read.
+    /// Checks that the options exist, and have valid values, in each format that may be read.
     ///
     /// # Errors
-    /// When one is not.
+    /// When one is not valid.
     pub fn check(&self) -> Result<(), OptionError> {
         let found: Vec<Found<'static>> = match self.from {
             Some(found) => vec![found],
@@ -62,7 +62,7 @@ impl Reading {
         self.open(path, |(_, importer), source, options| importer.read(source, options))
     }
 
-    /// What is in a file, or a folder that is a plan, and its format.
+    /// The contents of a file, or of a folder that is a plan, and its format.
     ///
     /// # Errors
     /// As [`read_file`].
@@ -117,10 +117,10 @@ impl Reading {
     }
 }
 
-/// The format of a file: by its beginning, and by its name where that tells no more.
+/// Detects the format of a file: by its beginning, or by its name if that is not enough.
 ///
 /// # Errors
-/// When it is of no known format, or may be of several.
+/// When no known format matches, or several do.
 pub fn find_format(path: &Path, bytes: &[u8]) -> Result<Found<'static>, FileError> {
     let file_name = file_name(path);
     let head = Head::File { name: &file_name, start: &bytes[..bytes.len().min(HEAD_BYTES)] };
@@ -138,13 +138,13 @@ pub fn find_format(path: &Path, bytes: &[u8]) -> Result<Found<'static>, FileErro
     }
 }
 
-/// The format that can be read and goes by a word of [`Format::id`].
+/// The readable format with this [`Format::id`].
 pub fn importer_named(id: &str) -> Option<Found<'static>> {
     let format = FORMATS.iter().find(|format| format.id == id)?;
     Some((format, format.importer?))
 }
 
-/// The formats that can be read, for hints: 'known are Enfilade plan (.plan.json), GeoJSON (.geojson)'.
+/// The readable formats, for hints: 'known are Enfilade plan (.plan.json), GeoJSON (.geojson)'.
 pub fn known_formats() -> String {
     let readable = FORMATS.iter().filter(|format| format.importer.is_some());
     let known: Vec<String> = readable
@@ -156,8 +156,8 @@ pub fn known_formats() -> String {
     format!("known are {}", known.join(", "))
 }
 
-/// The endings of all files that can be read, for the filter of a dialog; after `plan.json` comes `json`,
-/// since some systems look at the last part only.
+/// The extensions of all readable files, for a dialog's filter; `plan.json` is followed by `json`, since
+/// some systems look only at the last part.
 pub fn dialog_endings() -> Vec<&'static str> {
     let mut endings = Vec::new();
     for ending in FORMATS.iter().filter(|format| format.importer.is_some()).flat_map(|format| format.endings) {
@@ -171,7 +171,7 @@ pub fn dialog_endings() -> Vec<&'static str> {
     endings
 }
 
-/// What kind of other file this is, when no format recognises it and one is sure that it is no plan
+/// What kind of other file this is, if no format recognises it and one is certain that it is not a plan
 /// although its name ends like one, see [`registry::Recognition::Foreign`].
 pub fn foreign_kind(path: &Path, bytes: &[u8]) -> Option<String> {
     let file_name = file_name(path);
@@ -179,20 +179,20 @@ pub fn foreign_kind(path: &Path, bytes: &[u8]) -> Option<String> {
     registry::foreign_kind(FORMATS, &head)
 }
 
-/// The format of a folder that is a plan itself; `None` for a folder of plans.
+/// The format of a folder that is itself a plan; `None` for a folder of plans.
 pub fn folder_format(path: &Path) -> Option<Found<'static>> {
     let folder = DiskFolder::open(path).ok()?;
-    // Two that are sure of the same folder are reported when it is read.
+    // If two formats claim the same folder, that is reported when it is read.
     registry::find(FORMATS, &Head::Folder { files: folder.names() }).ok()?
 }
 
-/// A folder on the disk, without the folders in it.
+/// A folder on disk, without its subfolders.
 pub struct DiskFolder {
     path: PathBuf,
     names: Vec<String>,
 }
 
-/// More files than this in one folder are not looked at: no format has so many.
+/// The most files to list in a folder: no format has so many.
 const FILES_LIMIT: usize = 100_000;
 
 impl DiskFolder {
@@ -220,7 +220,7 @@ impl Files for DiskFolder {
             what,
             hint: hint.to_owned(),
         };
-        // Only what was listed: a name in a file cannot lead out of the folder.
+        // Only listed files: a name inside a file cannot lead out of the folder.
         if self.names.binary_search_by(|listed| listed.as_str().cmp(name)).is_err() {
             return Err(error("is not in the folder".to_owned(), "restore it from a copy"));
         }
@@ -228,7 +228,7 @@ impl Files for DiskFolder {
     }
 }
 
-/// The bytes of a file that is not too large.
+/// The bytes of a file, unless it is too large.
 ///
 /// # Errors
 /// When the file cannot be opened, or is larger than [`FILE_LIMIT_BYTES`].
@@ -236,7 +236,7 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
     let fail = |what: String| fail_file(path, what, "check the path");
     let file = std::fs::File::open(path).map_err(|error| fail(error.to_string()))?;
     let mut bytes = Vec::new();
-    // A pipe tells no size, and a file may grow while it is read.
+    // A pipe has no known size, and a file may grow while it is read.
     file.take(FILE_LIMIT_BYTES + 1).read_to_end(&mut bytes).map_err(|error| fail(error.to_string()))?;
     if bytes.len() as u64 > FILE_LIMIT_BYTES {
         let what = format!("is larger than the limit of {} MB", FILE_LIMIT_BYTES >> 20);
@@ -254,12 +254,12 @@ fn file_name(path: &Path) -> String {
     path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// Whether a file's name ends like that of a format that can be read: what a folder's import takes.
+/// Whether a file's name ends like that of a readable format: these are imported from a folder.
 pub fn is_plan_file_name(file_name: &str) -> bool {
     FORMATS.iter().any(|format| format.importer.is_some() && ending_of(file_name, format.endings).is_some())
 }
 
-/// A file's name without the ending of this format; the whole name where it has another.
+/// A file's name without this format's extension; the whole name if it has another.
 pub fn stem<'a>(file_name: &'a str, format: &Format) -> &'a str {
     match ending_of(file_name, format.endings) {
         Some(ending) => &file_name[..file_name.len() - ending.len() - 1],
@@ -267,7 +267,7 @@ pub fn stem<'a>(file_name: &'a str, format: &Format) -> &'a str {
     }
 }
 
-/// A file's name without the ending of a known format; the whole name where it has none.
+/// A file's name without the extension of a known format; the whole name if it has none.
 pub fn file_stem(file_name: &str) -> &str {
     FORMATS
         .iter()

@@ -80,19 +80,19 @@ impl Exporter for GeoJson {
     }
 }
 
-/// Reads a file's bytes; `stem` names a plan that has no name.
+/// Reads a file's bytes; `stem` is the name for a plan without one.
 ///
 /// # Errors
-/// When the bytes are no FeatureCollection in metres, or what they hold makes no valid plan.
+/// When the bytes are not a FeatureCollection in metres, or not a valid plan.
 pub fn from_bytes(bytes: &[u8], stem: &str) -> Result<Import, ReadError> {
     read::read(bytes, stem, false)
 }
 
-/// The complete bytes of a plan's file; labels that follow from functions are by `schemes`.
+/// The complete bytes of a plan's file; labels implied by functions come from `schemes`.
 pub fn to_bytes(plan: &Plan, schemes: &Schemes) -> Vec<u8> {
     write::write(plan, schemes, false)
 }
 
-/// The field of an element's or plan's [`crate::plan::Extra`] that keeps GeoJSON properties which
-/// Enfilade has no place for, so that writing GeoJSON again gives them back.
+/// The field of an element's or plan's [`crate::plan::Extra`] that keeps GeoJSON properties with no place
+/// in Enfilade, so that they are written again.
 const KEPT: &str = "geojson";

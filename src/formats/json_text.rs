@@ -1,4 +1,4 @@
-//! What the readers of JSON formats share: from bytes to text, and from an error to its place.
+//! Shared by the readers of JSON formats: decoding bytes, and locating errors.
 
 use std::fmt;
 
@@ -11,7 +11,7 @@ use super::{Place, ReadError};
 /// The text of a file that holds a JSON object. A byte order mark is dropped.
 ///
 /// # Errors
-/// As [`text::decode`], and when it starts like no object.
+/// As [`text::decode`], and when it does not start like an object.
 pub(super) fn decode(bytes: &[u8]) -> Result<&str, ReadError> {
     let text = text::decode(bytes)?;
     match text.trim_start().chars().next() {
@@ -45,13 +45,13 @@ pub(super) fn id_on_line(text: &str, line: usize) -> Option<&str> {
     (!id.is_empty() && id.len() <= 80 && !id.contains('\\')).then_some(id)
 }
 
-/// An error of the JSON reader: what is wrong, and what to do where that is plain.
+/// A JSON reader's error: what is wrong and, if obvious, what to do.
 pub(super) struct JsonFault {
     pub what: String,
     pub hint: Option<&'static str>,
 }
 
-/// Puts an error of `serde_json` in words; `text` is what it read.
+/// Words an error of `serde_json`; `text` is what it read.
 pub(super) fn json_fault(text: &str, error: &serde_json::Error) -> JsonFault {
     let line = error.line().checked_sub(1).and_then(|index| text.split('\n').nth(index)).unwrap_or_default();
     if ["<<<<<<<", "=======", ">>>>>>>"].iter().any(|mark| line.starts_with(mark)) {
@@ -66,7 +66,7 @@ pub(super) fn json_fault(text: &str, error: &serde_json::Error) -> JsonFault {
             hint: Some("the file is cut off: restore it from a copy or from version control"),
         };
     }
-    // `serde_json` appends the place, which our errors carry apart.
+    // `serde_json` appends the position, which our errors carry separately.
     let full = error.to_string();
     let place = format!(" at line {} column {}", error.line(), error.column());
     let message = full.strip_suffix(&place).unwrap_or(&full);
@@ -120,16 +120,16 @@ impl<'de> Deserialize<'de> for Number {
     }
 }
 
-/// Writes a JSON object with a member, or an element of a list, a line: small differences between two files
-/// stay small, and a line tells where an element stands. Neither the values nor the keys of our disk types can
-/// fail to be written.
+/// Writes a JSON object with one member, or one element of a list, per line: so small changes stay small
+/// differences, and a line locates an element. Neither the values nor the keys of our disk types can fail
+/// to be written.
 pub(super) struct ObjectLines {
     text: String,
     is_empty: bool,
 }
 
 impl ObjectLines {
-    /// `bytes`: about how long it will be.
+    /// `bytes` is the expected length.
     pub(super) fn new(bytes: usize) -> Self {
         let mut text = String::with_capacity(bytes);
         text.push('{');

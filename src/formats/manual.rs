@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::{FORMATS, Format, FormatOption, Holds};
 
-/// What stands above the tables of the page.
+/// The text above the tables of the page.
 const INTRODUCTION: &str = "\
 # Formats
 
@@ -16,7 +16,7 @@ holds, and by its name where that says no more. This page is written from the li
 | --- | --- | --- | --- | --- | --- |
 ";
 
-/// The page of the manual, Markdown.
+/// The page of the manual, as Markdown.
 pub fn page() -> String {
     let mut page = INTRODUCTION.to_owned();
     for format in FORMATS {

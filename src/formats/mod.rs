@@ -1,8 +1,8 @@
-//! Reading and writing plans in files. A format is one file here, and two lines in this one: its module, and
-//! its place in [`FORMATS`]. Everything else follows from that list: the filters of dialogs, `--help`, error
-//! texts and `docs/formats.md`.
+//! Reading and writing plans in files. A format is one file here and two lines in this one: its module,
+//! and its entry in [`FORMATS`]. Everything else follows from that list: the filters of dialogs,
+//! `--help`, error texts and `docs/formats.md`.
 //!
-//! A reader never guesses silently: what it mends or leaves out becomes a [`Note`] with its place.
+//! A reader never guesses silently: whatever it repairs or skips becomes a [`Note`] with its place.
 
 pub mod authors_xml;
 pub mod building_name;

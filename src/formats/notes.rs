@@ -1,9 +1,9 @@
-//! What readers say: what they mended or left out, and why a file cannot be read.
+//! Reports of readers: what they repaired or skipped, and why a file cannot be read.
 
 use std::fmt;
 use std::path::PathBuf;
 
-/// One thing that a reader mended or left out.
+/// One thing that a reader repaired or skipped.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Note {
     pub kind: NoteKind,
@@ -15,14 +15,14 @@ pub struct Note {
 /// What a reader did.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum NoteKind {
-    /// The thing is in the plan, mended.
+    /// It is in the plan, repaired.
     Healed,
-    /// The thing is not in the plan.
+    /// It is not in the plan.
     Skipped,
 }
 
 impl NoteKind {
-    /// Its word in reports.
+    /// Its name in reports.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Healed => "healed",
@@ -31,12 +31,12 @@ impl NoteKind {
     }
 }
 
-/// Where in a file something stands.
+/// A place in a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Place {
-    /// Line from 1, where the format has lines.
+    /// Line from 1, if the format has lines.
     pub line: Option<usize>,
-    /// The element ('space 3547daca-…'); empty when it is the whole file.
+    /// The element ('space 3547daca-…'); empty for the file as a whole.
     pub element: String,
 }
 

@@ -1,5 +1,5 @@
-//! What a person can set for a format: each option has a name, a type, a default and a line of help, and
-//! is read from `NAME=VALUE`. Help texts and the manual list them from here.
+//! The options of a format: each has a name, a type, a default and a line of help, and is read from
+//! `NAME=VALUE`. Help texts and the manual list them from here.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -69,7 +69,7 @@ impl FormatOption {
         }
     }
 
-    /// The value where nobody sets it, in words.
+    /// The default value, in words.
     pub fn default_in_words(self) -> String {
         match self {
             Self::Switch(option) => if option.default { "yes" } else { "no" }.to_owned(),
@@ -103,11 +103,11 @@ enum Value {
     Word(&'static str),
 }
 
-/// The options that are set; all others have their defaults.
+/// The options that were set; all others have their defaults.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options(BTreeMap<&'static str, Value>);
 
-/// An option is unknown, or its value is none.
+/// An unknown option or an invalid value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OptionError(String);
 
@@ -120,11 +120,11 @@ impl fmt::Display for OptionError {
 impl std::error::Error for OptionError {}
 
 impl Options {
-    /// Those of `pairs` (`NAME=VALUE`) that are among `known`; others are another format's, see
-    /// [`Options::check_names`]. The last of several wins.
+    /// Those of `pairs` (`NAME=VALUE`) that are among `known`; others belong to another format, see
+    /// [`Options::check_names`]. If one is repeated, the last wins.
     ///
     /// # Errors
-    /// When a pair has no '=', or a value does not fit.
+    /// When a pair has no '=', or a value is invalid.
     pub fn parse(known: &[FormatOption], pairs: &[String]) -> Result<Self, OptionError> {
         let mut options = Self::default();
         for pair in pairs {
@@ -136,10 +136,10 @@ impl Options {
         Ok(options)
     }
 
-    /// Whether each of `pairs` names one of `known`.
+    /// Checks that each of `pairs` names one of `known`.
     ///
     /// # Errors
-    /// When one does not, with the names there are.
+    /// When one does not; the error lists the names there are.
     pub fn check_names(known: &[FormatOption], pairs: &[String]) -> Result<(), OptionError> {
         for pair in pairs {
             let (name, _) = split(pair)?;
@@ -160,7 +160,7 @@ impl Options {
         }
     }
 
-    /// A number; `None` where neither a person nor the default gives one.
+    /// The value of a number; `None` if it is neither set nor has a default.
     pub fn number(&self, option: &Number) -> Option<f64> {
         match self.0.get(option.name) {
             Some(&Value::Number(number)) => Some(number),
@@ -168,7 +168,7 @@ impl Options {
         }
     }
 
-    /// A word of a choice.
+    /// The word of a choice.
     pub fn choice(&self, option: &Choice) -> &'static str {
         match self.0.get(option.name) {
             Some(&Value::Word(word)) => word,

@@ -1,8 +1,8 @@
-//! `*.plan.json`: Enfilade's own file, described for outsiders in `docs/plan-file.md`.
+//! `*.plan.json`: Enfilade's own format, described for outsiders in `docs/plan-file.md`.
 //!
-//! The disk form has types of its own, apart from the live ones. They are flat, so that every object
-//! keeps the fields it does not know. Writing a plan that was read gives the same bytes: elements are
-//! sorted by id, one object a line, lengths on the 0.1 mm grid.
+//! The disk form has types of its own, separate from the live ones. They are flat, so that every object
+//! keeps the fields it does not know. Writing a plan just read gives the same bytes: elements are sorted
+//! by id, one object per line, lengths on the 0.1 mm grid.
 
 mod change;
 
@@ -29,10 +29,10 @@ use crate::plan::{
 
 pub(crate) use change::{apply_change, change_to_bytes};
 
-/// The newest version of the file that this program reads, and the one it writes.
+/// The newest file version this program reads, and the one it writes.
 pub const VERSION: u64 = 1;
 
-/// The value of the member `format`, which tells the file from other JSON.
+/// The value of the member `format`, which distinguishes the file from other JSON.
 const MAGIC: &str = "enfilade plan";
 
 /// Enfilade's own plan file.
@@ -82,8 +82,8 @@ impl Exporter for PlanJson {
 /// Reads a plan. Lengths are rounded to the 0.1 mm grid.
 ///
 /// # Errors
-/// When the bytes are not a plan file of a known version, or what they hold breaks an invariant of
-/// the model: with the line and the element where it can be told.
+/// When the bytes are not a plan file of a known version, or their content breaks an invariant of the
+/// model; with the line and the element if known.
 pub fn from_bytes(bytes: &[u8]) -> Result<Plan, ReadError> {
     let text = decode(bytes)?;
     let head: DiskHead = serde_json::from_str(text).map_err(|error| refuse_json(text, &error))?;
@@ -134,7 +134,7 @@ pub fn to_bytes(plan: &Plan) -> Vec<u8> {
 
 // The disk form.
 
-/// A length in metres: rounded to the 0.1 mm grid, refused beyond ±100 km.
+/// A length in metres: rounded to the 0.1 mm grid, rejected beyond ±100 km.
 #[derive(Clone, Copy)]
 struct Metres(f64);
 
@@ -183,7 +183,7 @@ impl<'de, T: FromStr<Err: Display>> Deserialize<'de> for Text<T> {
     }
 }
 
-/// What is read first, to refuse other files and newer versions before anything else is understood.
+/// Read first, to reject other files and newer versions before parsing anything else.
 #[derive(Deserialize)]
 struct DiskHead {
     format: Option<Value>,
@@ -352,7 +352,7 @@ struct DiskOpening {
     extra: Map<String, Value>,
 }
 
-/// A disk form of an enum: its words are the format's, whatever the live type calls them one day.
+/// The disk form of an enum: its words belong to the format, even if the live type is renamed.
 macro_rules! disk_words {
     ($disk:ident for $live:ident { $($variant:ident = $word:literal),+ $(,)? }) => {
         #[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -398,7 +398,7 @@ impl DiskScaleOrigin {
     }
 }
 
-/// Which end of its segment carries a door's hinge.
+/// The end of its segment that has a door's hinge.
 #[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum DiskHinge {
@@ -563,7 +563,7 @@ impl DiskOpening {
 
 // From disk to live.
 
-/// The plan that a file describes.
+/// The plan described by a file.
 fn live(text: &str, disk: DiskPlan) -> Result<Plan, ReadError> {
     let mut plan = Plan {
         meta: Arc::new(disk.meta.live()),
@@ -616,7 +616,7 @@ fn live(text: &str, disk: DiskPlan) -> Result<Plan, ReadError> {
     }
 }
 
-/// What an opening's fields must be.
+/// The hint about an opening's fields.
 const PLACE_HINT: &str = "an opening has either \"on\", \"at\" and \"width\", or \"from\" and \"to\"";
 const SWING_HINT: &str = "\"hinge\" and \"opens\" come together";
 
@@ -668,7 +668,7 @@ impl DiskRoom {
             function: self.function,
             label: self.label.map(|label| RoomLabel {
                 label: label.0,
-                // A label that another program wrote without saying whose it is.
+                // A label that another program wrote without its origin.
                 origin: self.label_origin.map_or(LabelOrigin::Imported, LabelOrigin::from),
             }),
             name: self.name,
@@ -710,7 +710,7 @@ impl DiskOpening {
 
 // Errors.
 
-/// The kind of an element and its id, as people read it.
+/// The kind of an element and its id, for messages.
 fn element_name(id: &str) -> String {
     let kind = match id.as_bytes().first() {
         Some(b'c') => "corner",
@@ -722,14 +722,14 @@ fn element_name(id: &str) -> String {
     format!("{kind} {id}")
 }
 
-/// An error about an element of a file that is JSON; `nth` tells which of several with its id.
+/// An error about an element of a JSON file; `nth` selects among several with its id.
 fn refuse(text: &str, element: ElementId, nth: usize, what: &str, hint: &str) -> ReadError {
     let id = element.to_string();
     let place = Place { line: line_of_id(text, &id, nth), element: element_name(&id) };
     ReadError { place, what: what.to_owned(), hint: hint.to_owned() }
 }
 
-/// An error of the JSON reader: a syntax error, or a value of the wrong kind.
+/// Converts an error of the JSON reader: a syntax error, or a value of the wrong type.
 fn refuse_json(text: &str, error: &serde_json::Error) -> ReadError {
     let line = (error.line() > 0).then_some(error.line());
     let element = line.and_then(|line| id_on_line(text, line)).map(element_name).unwrap_or_default();

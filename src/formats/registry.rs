@@ -1,5 +1,5 @@
-//! The contract of a file format: how it is recognised, previewed, read and written, and what a person can
-//! set. [`super::FORMATS`] lists all; dialogs, help, errors and the manual are written from that list.
+//! The contract of a file format: how it is recognised, previewed, read and written, and its options.
+//! [`super::FORMATS`] lists all formats; dialogs, help, errors and the manual are built from that list.
 
 use std::collections::BTreeMap;
 
@@ -11,32 +11,32 @@ use crate::plan::Plan;
 
 /// A file format for plans.
 pub struct Format {
-    /// A word for the command line: `geojson`.
+    /// Its name on the command line: `geojson`.
     pub id: &'static str,
     /// Its name for people: 'Enfilade plan'.
     pub name: &'static str,
-    /// How its files end, without the leading dot, the one for new files first: `plan.json`. Empty for a
-    /// format that is a folder.
+    /// The extensions of its files without the leading dot, the one for new files first: `plan.json`.
+    /// Empty if the format is a folder.
     pub endings: &'static [&'static str],
-    /// A sentence on what it is for.
+    /// A sentence about its purpose.
     pub about: &'static str,
-    /// `None` where the format can only be written.
+    /// `None` if the format can only be written.
     pub importer: Option<&'static dyn Importer>,
-    /// `None` where the format can only be read.
+    /// `None` if the format can only be read.
     pub exporter: Option<&'static dyn Exporter>,
 }
 
 /// Reads a format.
 pub trait Importer: Sync {
-    /// What a person can set.
+    /// The options for reading.
     fn options(&self) -> &'static [FormatOption] {
         &[]
     }
 
-    /// Whether this is of the format, by its name and its beginning.
+    /// Whether a file or folder is of this format, judging by its name and beginning.
     fn recognises(&self, head: &Head<'_>) -> Recognition;
 
-    /// What is in it, without building plans where the format tells so much before.
+    /// A summary of the contents, without building plans if the format allows.
     ///
     /// # Errors
     /// When nothing usable can be read.
@@ -44,16 +44,16 @@ pub trait Importer: Sync {
         Ok(Preview::of(&self.read(source, options)?))
     }
 
-    /// Reads it all.
+    /// Reads everything.
     ///
     /// # Errors
-    /// When nothing usable can be read; what can be mended or left out becomes a note instead.
+    /// When nothing usable can be read; what can be repaired or skipped becomes a note instead.
     fn read(&self, source: &Source<'_>, options: &Options) -> Result<Import, ReadError>;
 }
 
 /// Writes a format.
 pub trait Exporter: Sync {
-    /// What a person can set.
+    /// The options for writing.
     fn options(&self) -> &'static [FormatOption] {
         &[]
     }
@@ -63,8 +63,8 @@ pub trait Exporter: Sync {
         Holds::OnePlan
     }
 
-    /// Writes plans: one at a time where the format [`Holds::OnePlan`], else all. A plan's `stem` is what
-    /// its files are to be named after.
+    /// Writes plans: one at a time if the format [`Holds::OnePlan`], else all at once. Files are named
+    /// after a plan's `stem`.
     fn write(&self, plans: &[NamedPlan<'_>], schemes: &Schemes, options: &Options) -> Export;
 }
 
@@ -77,7 +77,7 @@ pub enum Holds {
     ManyPlans,
 }
 
-/// What tells the format of a file or folder.
+/// What a format is recognised by.
 #[derive(Clone, Copy, Debug)]
 pub enum Head<'a> {
     /// A file's name and up to [`super::HEAD_BYTES`] of its beginning.
@@ -93,31 +93,31 @@ impl Head<'_> {
     }
 }
 
-/// Whether something is of a format.
+/// Whether a file or folder is of a format.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Recognition {
     /// It is not.
     No,
-    /// It is not, although its name suggests it, and what it is instead: 'XML with the root <svg>'. The
-    /// import of a folder passes it over.
+    /// It is not, although its name suggests it; the text says what it is: 'XML with the root <svg>'.
+    /// Skipped when importing a folder.
     Foreign(String),
-    /// Nothing speaks against it but nothing certain for it either: only the name, or it is damaged.
+    /// Possibly, but not certainly: only the name fits, or it is damaged.
     Perhaps,
-    /// It is; if it cannot be read it is broken.
+    /// It is; if it cannot be read, it is broken.
     Yes,
 }
 
-/// Where an importer reads from.
+/// The source an importer reads from.
 #[derive(Clone, Copy)]
 pub enum Source<'a> {
-    /// A file: its name without the ending, for plans without a name, and all its bytes.
+    /// A file: its name without the extension, for plans without a name, and all its bytes.
     File { stem: &'a str, bytes: &'a [u8] },
     /// A folder: its name, and its files.
     Folder { stem: &'a str, files: &'a dyn Files },
 }
 
 impl<'a> Source<'a> {
-    /// The name to give a plan that has none.
+    /// The name for a plan that has none.
     pub fn stem(&self) -> &'a str {
         match self {
             Self::File { stem, .. } | Self::Folder { stem, .. } => stem,
@@ -140,7 +140,7 @@ impl<'a> Source<'a> {
     }
 }
 
-/// The files of a folder, wherever they are.
+/// The files of a folder, wherever they are stored.
 pub trait Files {
     /// Their names, sorted.
     fn names(&self) -> &[String];
@@ -148,20 +148,20 @@ pub trait Files {
     /// The bytes of one.
     ///
     /// # Errors
-    /// When there is none of that name, or it cannot be read, or is too large.
+    /// When it does not exist, cannot be read, or is too large.
     fn read(&self, name: &str) -> Result<Vec<u8>, ReadError>;
 }
 
-/// What a source gave.
+/// The result of an import.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Import {
-    /// One plan a storey; at least one.
+    /// One plan per storey; at least one.
     pub plans: Vec<Plan>,
-    /// What was mended or left out, in the file's order.
+    /// What was repaired or skipped, in file order.
     pub notes: Vec<Note>,
 }
 
-/// What is in a file, before it is read.
+/// A summary of a file's contents, before it is read.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Preview {
     /// How many plans it holds.
@@ -169,9 +169,9 @@ pub struct Preview {
     pub rooms: usize,
     pub openings: usize,
     pub walls: usize,
-    /// Its parts by the format's own names (layers, kinds), with how many things are in each.
+    /// Its parts under the format's own names (layers, kinds), with the number of things in each.
     pub layers: BTreeMap<String, usize>,
-    /// The unit of its lengths, as the file states it; `None` where it does not.
+    /// The unit of its lengths, if the file states it.
     pub units: Option<String>,
     /// Width and height over everything drawn, in those units, or in metres after reading.
     pub size: Option<(f64, f64)>,
@@ -193,25 +193,25 @@ impl Preview {
     }
 }
 
-/// A plan to be written, and what to name its files after.
+/// A plan to be written, and the stem for its files.
 #[derive(Clone, Copy, Debug)]
 pub struct NamedPlan<'a> {
     pub stem: &'a str,
     pub plan: &'a Plan,
 }
 
-/// A file to be written, by its name within the folder of the export.
+/// A file to be written, named relative to the export's folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedBytes {
     pub name: String,
     pub bytes: Vec<u8>,
 }
 
-/// What an export gave.
+/// The result of an export.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Export {
     pub files: Vec<NamedBytes>,
-    /// What the format cannot keep, once for each kind of thing.
+    /// What the format cannot keep, one entry for each kind of thing.
     pub lost: Vec<Lost>,
 }
 
@@ -224,12 +224,12 @@ pub struct Lost {
     pub what: String,
 }
 
-/// Several formats may be meant, and nothing tells which.
+/// Several formats match equally well.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ambiguous(pub Vec<&'static str>);
 
-/// The importer for what starts like this: of the formats that are certain, else of those that may be, the
-/// ones whose endings fit first.
+/// The importer for a file or folder: among formats that are certain or, failing that, possible, those
+/// whose extension fits come first.
 ///
 /// # Errors
 /// When several formats are equally likely: their ids.
@@ -256,8 +256,8 @@ pub fn find<'f>(formats: &[&'f Format], head: &Head<'_>) -> Result<Option<Found<
 /// A format that can be read, and its reader.
 pub type Found<'f> = (&'f Format, &'f dyn Importer);
 
-/// What this is instead, where no format recognises it and one says that it is certainly something else,
-/// see [`Recognition::Foreign`].
+/// What this is instead, if no format recognises it and one says that it is certainly something else, see
+/// [`Recognition::Foreign`].
 pub fn foreign_kind(formats: &[&Format], head: &Head<'_>) -> Option<String> {
     let mut foreign = None;
     for importer in formats.iter().filter_map(|format| format.importer) {
@@ -270,7 +270,7 @@ pub fn foreign_kind(formats: &[&Format], head: &Head<'_>) -> Option<String> {
     foreign
 }
 
-/// Which of a format's endings a file's name has, upper or lower case.
+/// Which of a format's extensions a file's name has, ignoring case.
 pub fn ending_of(file_name: &str, endings: &[&'static str]) -> Option<&'static str> {
     let lower = file_name.to_lowercase();
     endings.iter().copied().find(|ending| lower.strip_suffix(ending).is_some_and(|rest| rest.ends_with('.')))

@@ -1,5 +1,5 @@
-//! From the bytes of the authors' XML to what it states, without judging it: the elements that mean
-//! something, each with the place where it stands.
+//! Parses the authors' XML into what it states, without judging it: the meaningful elements, each with
+//! its position in the file.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -12,24 +12,24 @@ use super::super::text::line_of;
 use super::super::{Place, ReadError};
 use crate::geometry::{Bounds, Point};
 
-/// No element lies deeper than this: the format needs 8.
+/// Maximum nesting depth: the format needs 8.
 const DEPTH_LIMIT: usize = 64;
 
-/// Corners of one room. The largest real one has 86; beyond this the file is no floor plan, and the
-/// search for openings' walls would take too long.
+/// Maximum corners of a room. The largest real one has 86; a file with more is no floor plan, and
+/// searching for openings' walls would take too long.
 const CORNER_LIMIT: usize = 10_000;
 
-/// Rooms, portals, and line segments of portals, of one file. The largest real file has 105 rooms and
-/// 268 portals.
+/// Maximum rooms, portals, and line segments of portals in a file. The largest real file has 105 rooms
+/// and 268 portals.
 const COUNT_LIMIT: usize = 100_000;
 
 /// Coordinates in pixels: no picture is wider than this.
 const PIXEL_LIMIT: f64 = 1_000_000.0;
 
-/// Names of unknown elements that are remembered to be reported.
+/// The most names of unknown elements to remember for the report.
 const UNKNOWN_LIMIT: usize = 50;
 
-/// A byte of the file, to tell the line of.
+/// A byte offset in the file, for finding the line.
 pub type Offset = usize;
 
 /// What a file states. Empty text where an element is missing.
@@ -38,14 +38,14 @@ pub struct Document {
     pub id: String,
     pub name: String,
     pub info: String,
-    /// Pixels that stand for [`Document::real`].
+    /// The length in pixels that [`Document::real`] corresponds to.
     pub represented: Option<Length>,
     pub real: Option<Length>,
-    /// Where the `<image_scale>` element stands, if there is one.
+    /// The position of the `<image_scale>` element, if any.
     pub image_scale: Option<Offset>,
     pub typology: String,
     pub floors: Vec<Floor>,
-    /// Elements that nothing here reads: how many, and where the first stands.
+    /// Elements that are not read: how many, and the position of the first.
     pub unknown: BTreeMap<String, (usize, Offset)>,
 }
 
@@ -61,7 +61,7 @@ pub struct Length {
 pub struct Floor {
     pub spaces: Vec<Space>,
     pub groups: Vec<Group>,
-    /// The box of all line segments that are walls, in pixels.
+    /// The bounding box of all line segments that are walls, in pixels.
     pub walls: Option<Bounds>,
 }
 
@@ -80,7 +80,7 @@ pub struct Space {
     pub portals: Vec<Portal>,
 }
 
-/// The place of an opening on a room's boundary.
+/// The position of an opening on a room's boundary.
 #[derive(Debug)]
 pub struct Segment {
     pub at: Offset,
@@ -104,7 +104,7 @@ pub struct Portal {
 }
 
 impl Portal {
-    /// The same for the statements of an opening in its two rooms, where the file is as the program writes it.
+    /// Equal for the statements of an opening in its two rooms, if the file is as the program writes it.
     pub fn key(&self) -> (&str, Vec<&str>) {
         let mut targets: Vec<&str> = self.targets.iter().map(String::as_str).collect();
         targets.sort_unstable();
@@ -125,7 +125,7 @@ pub struct Group {
 /// The name of the root element of a file that starts with `head`, if it is XML and the name is
 /// complete.
 pub fn root_name(head: &[u8]) -> Option<String> {
-    // In UTF-16 every other byte of ASCII is zero; UTF-8 text has none.
+    // In UTF-16 every other byte of ASCII is zero; UTF-8 text has no zeros.
     let head: Vec<u8> = head.iter().copied().filter(|&byte| byte != 0).collect();
     let head = String::from_utf8_lossy(&head);
     let mut rest = head.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}' || c == '\u{fffd}');
@@ -142,14 +142,14 @@ pub fn root_name(head: &[u8]) -> Option<String> {
     }
 }
 
-/// What to do about most broken files.
+/// The hint for most damaged files.
 pub const DAMAGED_HINT: &str = "correct it by hand, or restore it from a copy";
 
 /// Reads a file's text.
 ///
 /// # Errors
-/// When it is not well-formed XML with the root `<building>`, when a number is none, a list is
-/// longer than the limits above, or a room has no id: with line, element and a hint.
+/// When it is not well-formed XML with the root `<building>`, a number is invalid, a list exceeds the
+/// limits above, or a room has no id; the error has the line, the element and a hint.
 pub fn parse(text: &str) -> Result<Document, ReadError> {
     let mut parser = Parser {
         reader: Reader::from_str(text),
@@ -178,7 +178,7 @@ struct Parser<'a> {
     text: &'a str,
     /// Where each element that is open starts.
     open: Vec<Offset>,
-    /// The element for messages ('space 3547daca-…').
+    /// The current element, for messages ('space 3547daca-…').
     element: String,
     spaces: usize,
     portals: usize,
@@ -199,14 +199,14 @@ impl<'a> Parser<'a> {
         usize::try_from(self.reader.buffer_position()).unwrap_or(usize::MAX)
     }
 
-    /// The next piece that carries meaning; comments and instructions are passed over.
+    /// The next meaningful token; comments and instructions are skipped.
     fn next(&mut self) -> Result<Token<'a>> {
         loop {
             let at = self.position();
             let event = match self.reader.read_event() {
                 Ok(event) => event,
                 Err(quick_xml::Error::Syntax(error)) => {
-                    // Every one of them means that the file ends inside a tag or the like.
+                    // All of these mean that the file ends inside a tag or the like.
                     let at = usize::try_from(self.reader.error_position()).unwrap_or(at);
                     return self.fail(at, format!("is cut off: {error}"), "restore it from a complete copy");
                 }
@@ -280,7 +280,7 @@ impl<'a> Parser<'a> {
         Ok(Cow::Borrowed(plain))
     }
 
-    /// The next child of the element that was opened last; `None` behind the last one.
+    /// The next child of the element opened last; `None` after the last one.
     fn child(&mut self) -> Result<Option<(BytesStart<'a>, Offset)>> {
         loop {
             match self.next()? {
@@ -291,7 +291,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Passes over the rest of the element that was opened last.
+    /// Skips the rest of the element opened last.
     fn skip(&mut self) -> Result<()> {
         let depth = self.open.len();
         while self.open.len() >= depth {
@@ -300,7 +300,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// Passes over an element that nothing here reads, and remembers that.
+    /// Skips an unknown element and remembers it.
     fn skip_unknown(&mut self, start: &BytesStart<'a>, at: Offset) -> Result<()> {
         let name = start.name();
         let name: &str = name.as_ref();
@@ -312,7 +312,7 @@ impl<'a> Parser<'a> {
         self.skip()
     }
 
-    /// The text of the element that was opened last, without space around it.
+    /// The text of the element opened last, trimmed.
     fn text(&mut self) -> Result<String> {
         let mut text = String::new();
         loop {
@@ -549,7 +549,7 @@ impl<'a> Parser<'a> {
                         }
                     }
                 }
-                // Follow from the boundary, and are often wrong.
+                // These follow from the boundary, and are often wrong.
                 "centroid" | "bounding_box" | "features" => self.skip()?,
                 _ => self.skip_unknown(&child, at)?,
             }
@@ -576,7 +576,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// The line segments of a room's boundary, of which the portals are kept.
+    /// Reads the line segments of a room's boundary and keeps the portals.
     ///
     /// The first version of the program wrote a segment's class behind it, later ones inside.
     fn segments(&mut self, space: &mut Space, floor: &mut Floor) -> Result<()> {
@@ -606,7 +606,7 @@ impl<'a> Parser<'a> {
             match child.name().as_ref() {
                 "point" => segment.points = segment.points.with(self.point(&child, at)?),
                 "class" => segment.is_portal = self.text()? == "PORTAL",
-                // The portal says what it is; some versions write IMPLICIT here for every one.
+                // The portal states its kind; some versions write IMPLICIT here for every one.
                 "type" | "features" => self.skip()?,
                 _ => self.skip_unknown(&child, at)?,
             }
@@ -661,12 +661,12 @@ impl<'a> Parser<'a> {
     }
 }
 
-/// A line segment of which the class may still follow.
+/// A line segment whose class may still follow.
 struct RawSegment<'a> {
     start: BytesStart<'a>,
     at: Offset,
     is_portal: bool,
-    /// The box of its two points.
+    /// The bounding box of its two points.
     points: Bounds,
 }
 
@@ -676,7 +676,7 @@ fn tag_name(text: &str) -> &str {
     name.split(|c: char| c.is_whitespace() || c == '>' || c == '/').next().unwrap_or_default()
 }
 
-/// Whether ASCII text is the same in this encoding as in UTF-8.
+/// Whether ASCII text has the same bytes in this encoding as in UTF-8.
 fn is_ascii_compatible(encoding: &str) -> bool {
     let encoding = encoding.to_ascii_lowercase();
     ["ascii", "us-ascii", "latin1"].contains(&encoding.as_str())

@@ -1,5 +1,5 @@
-//! The XML of the paper's authors: one storey a file, drawn with their program 'floorplans'. What
-//! is healed and how is described for users in `docs/authors-xml.md`.
+//! The XML of the paper's authors: one storey per file, drawn with their program 'floorplans'. What is
+//! repaired and how is described for users in `docs/authors-xml.md`.
 
 mod document;
 mod openings;
@@ -24,17 +24,17 @@ use crate::plan::{
     Room, RoomId, THICKEST_WALL_M,
 };
 
-/// Notes of one file. More than that help nobody, and a hostile file must not fill the memory.
+/// Maximum notes per file. More help nobody, and a hostile file must not fill the memory.
 const NOTE_LIMIT: usize = 10_000;
 
-/// Edges that are looked at to place all openings. The largest real file needs 4,431.
+/// The most edges examined to place all openings. The largest real file needs 4,431.
 const EDGE_LIMIT: usize = 10_000_000;
 
-/// A corner that is there for a portal lies at most this far from it, in pixels: the program rounds
-/// both to whole pixels, and the two rooms may differ by one.
+/// A corner inserted for a portal lies at most this far from it, in pixels: the program rounds both to
+/// whole pixels, and the two rooms may differ by one.
 const PORTAL_CORNER_PX: f64 = 1.5;
 
-/// What `<Info>` says when nobody wrote anything ('insert information about the building').
+/// The placeholder in `<Info>` ('insert information about the building').
 const INFO_PLACEHOLDER: &str = "Inserire informazioni sull'edificio";
 
 /// The XML of the paper's authors.
@@ -83,7 +83,7 @@ impl Importer for AuthorsXml {
             bounds = bounds.union(Bounds::of(floor.spaces.iter().flat_map(|space| space.boundary.iter().copied())));
             for space in &floor.spaces {
                 *preview.layers.entry("space".to_owned()).or_default() += 1;
-                // Each is stated in both its rooms.
+                // Each opening is stated in both its rooms.
                 *preview.layers.entry("portal".to_owned()).or_default() += space.portals.len();
             }
             let places: BTreeSet<_> = floor.spaces.iter().flat_map(|space| &space.portals).map(Portal::key).collect();
@@ -117,7 +117,7 @@ fn read(bytes: &[u8], stem: &str, metres_per_pixel: Option<f64>) -> Result<Impor
 /// Notes with their lines.
 struct Notes<'a> {
     text: &'a str,
-    /// Where lines end; filled with the first note.
+    /// Positions of line ends; filled with the first note.
     line_ends: Vec<Offset>,
     notes: Vec<Note>,
     left_off: usize,
@@ -182,14 +182,14 @@ fn import(text: &str, document: &Document, stem: &str, metres_per_pixel: Option<
     Ok(Import { plans, notes: notes.finish() })
 }
 
-/// What is known of the building.
+/// The metadata of the building.
 fn meta_of(document: &Document, stem: &str, notes: &mut Notes<'_>) -> Meta {
-    // The path of a picture on another machine, of either kind of system.
+    // A picture's path on another machine, Windows or Unix.
     let name = document.name.rsplit(['/', '\\']).find(|part| !part.trim().is_empty()).unwrap_or_default().trim();
     let by_name = building_name::split(name);
     let by_stem = building_name::split(stem);
-    // The file's name tells storeys apart where the drawing's name does not ('plans' for both
-    // plans1 and plans2); the drawing's name has the nicer spelling.
+    // The file's name tells storeys apart if the drawing's name does not ('plans' for both plans1 and
+    // plans2); the drawing's name is spelt more nicely.
     let is_same = building_name::key(&by_name.building) == building_name::key(&by_stem.building);
     let (building, storey) = match () {
         () if by_stem.building.is_empty() && by_stem.storey.is_empty() => (by_name.building, by_name.storey),
@@ -247,19 +247,19 @@ fn extra_of(map: Map<String, Value>) -> Extra {
     (!map.is_empty()).then(|| std::sync::Arc::new(map))
 }
 
-/// One floor on its way to a plan.
+/// One floor being turned into a plan.
 struct Storey<'a, 'n> {
     floor: &'a Floor,
     metres_per_pixel: f64,
     notes: &'n mut Notes<'a>,
 }
 
-/// An opening, put together from the portals of both its rooms.
+/// An opening, assembled from the portals of both its rooms.
 struct Joined<'a> {
     /// Index of the room that states it first, and of its portal there.
     by: usize,
     portal: &'a Portal,
-    /// The rooms it joins, by index; `None` is the outside.
+    /// The indices of the rooms it joins; `None` is the outside.
     sides: [Option<usize>; 2],
     /// The portals that state it, one for each of its rooms unless the file is asymmetric.
     stated: Vec<(usize, &'a Portal)>,
@@ -323,7 +323,7 @@ impl<'a> Storey<'a, '_> {
         Ok(by_id)
     }
 
-    /// Refuses a file of which the openings would take minutes to place.
+    /// Rejects a file whose openings would take minutes to place.
     fn refuse_endless_work(&mut self, joined: &[Joined<'a>]) -> Result<(), ReadError> {
         let mut edges = 0;
         for opening in joined {
@@ -342,11 +342,11 @@ impl<'a> Storey<'a, '_> {
 
     /// The factor from portals' coordinates to those of the rooms.
     ///
-    /// One version of the program wrote boundaries at half the resolution of the line segments. The
-    /// boundaries are what the scale is for; where the portals lie is found by looking which factor
-    /// brings them to the boundaries.
+    /// One version of the program wrote boundaries at half the resolution of the line segments. The scale
+    /// refers to the boundaries; the portals' factor is found by testing which one brings them to the
+    /// boundaries.
     fn portal_factor(&mut self) -> f64 {
-        // Room for walls that reach a little beyond the rooms.
+        // Allows for walls that extend slightly beyond the rooms.
         const HALVED: std::ops::RangeInclusive<f64> = 1.8..=2.2;
         let rooms = Bounds::of(self.floor.spaces.iter().flat_map(|space| space.boundary.iter().copied()));
         let Some(walls) = self.floor.walls else { return 1.0 };
@@ -369,10 +369,11 @@ impl<'a> Storey<'a, '_> {
         if misfit(0.5) < misfit(1.0) { 0.5 } else { 1.0 }
     }
 
-    /// Puts portals of two rooms together to openings, in the order of the file.
+    /// Combines portals of two rooms into openings, in file order.
     fn joined(&mut self, by_id: &BTreeMap<&'a str, usize>) -> Vec<Joined<'a>> {
         let mut joined: Vec<Joined<'a>> = Vec::new();
-        // By line segment, sides, and, where there is no line segment, the how-manieth of the room.
+        // Keyed by line segment, sides and, where there is no line segment, a running number within the
+        // room.
         let mut index_of: BTreeMap<(&str, [Option<usize>; 2], usize), usize> = BTreeMap::new();
         for (by, space) in self.floor.spaces.iter().enumerate() {
             let mut nameless: BTreeMap<[Option<usize>; 2], usize> = BTreeMap::new();
@@ -401,10 +402,10 @@ impl<'a> Storey<'a, '_> {
         self.match_one_sided(joined)
     }
 
-    /// Puts together openings that both rooms state, but with different line segments; reports those
-    /// that only one room states.
+    /// Combines openings that both rooms state, but with different line segments; reports those that only
+    /// one room states.
     fn match_one_sided(&mut self, joined: Vec<Joined<'a>>) -> Vec<Joined<'a>> {
-        // By the sides and the room that states them.
+        // Keyed by the sides and the room that states them.
         let mut waiting: BTreeMap<([Option<usize>; 2], usize), VecDeque<usize>> = BTreeMap::new();
         let mut kept: Vec<Joined<'a>> = Vec::new();
         for opening in joined {
@@ -492,10 +493,10 @@ impl<'a> Storey<'a, '_> {
         self.notes.push(kind, Some(portal.at), element, what);
     }
 
-    /// Where the openings are, in the pixels of the boundaries; `None` where no line segment tells.
+    /// The positions of the openings, in pixels of the boundaries; `None` if there is no line segment.
     ///
-    /// The two rooms give points that differ by the wall's thickness, or, in another version of the
-    /// program, by a door's width along the wall: the middle is right for both.
+    /// The points given by the two rooms differ by the wall's thickness or, in another version of the
+    /// program, by a door's width along the wall: the midpoint is right for both.
     fn opening_points(&mut self, joined: &[Joined<'a>], portal_factor: f64) -> Vec<Option<Point>> {
         let mut in_room: BTreeMap<(usize, &str), Point> = BTreeMap::new();
         let mut anywhere: BTreeMap<&str, Point> = BTreeMap::new();
@@ -534,16 +535,16 @@ impl<'a> Storey<'a, '_> {
         points
     }
 
-    /// From pixels, y down, to metres, y up; the picture's upper left corner is the origin.
+    /// From pixels, y down, to metres, y up; the origin is the picture's upper left corner.
     fn metres(&self, point: Point) -> Point {
         Point::new(point.x * self.metres_per_pixel, -point.y * self.metres_per_pixel).trimmed()
     }
 
-    /// A room's boundary in metres; empty when it has fewer than three corners.
+    /// A room's boundary in metres; empty if it has fewer than three corners.
     ///
-    /// A corner that lies exactly between its neighbours and at a portal is there for the portal: in
-    /// the authors' program a door could only be a corner. It is left out, so that the opening lies
-    /// within one edge.
+    /// A corner exactly between its neighbours and at a portal exists only for the portal: in the
+    /// authors' program a door could only be at a corner. It is dropped, so that the opening lies within
+    /// one edge.
     fn boundary(&mut self, space: &Space, portals: &[Point]) -> Result<Vec<Point>, ReadError> {
         let mut ring: Vec<Point> = Vec::with_capacity(space.boundary.len());
         for &point in &space.boundary {
@@ -662,8 +663,8 @@ impl<'a> Storey<'a, '_> {
         builder.opening(&opening.portal.segment, element);
     }
 
-    /// What an opening is. A door beats a passage and two leaves beat one: the program starts with a
-    /// single door, so that these were chosen.
+    /// The kind of an opening. A door beats a passage and two leaves beat one: the program's default is a
+    /// single door, so anything else was chosen.
     fn kind(&mut self, opening: &Joined<'a>) -> OpeningKind {
         let kinds: Vec<OpeningKind> = opening
             .stated

@@ -1,17 +1,17 @@
-//! Where on its rooms' boundaries an opening lies, given one point.
+//! Finds where on its rooms' boundaries an opening lies, given one point.
 
 use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
 use crate::geometry::{Point, Segment, Vector, polygon};
 use crate::plan::{CornerId, DEFAULT_DOOR_WIDTH_M, Place, THICKEST_WALL_M};
 
-/// Edges that are tried for an opening, the nearest. Around a real one lie 2 to 8.
+/// The most edges tried for an opening, nearest first. A real one has 2 to 8 nearby.
 const NEAR_LIMIT: usize = 32;
 
 /// The outer boundary of a room that an opening joins.
 #[derive(Clone, Copy)]
 pub struct Ring<'a> {
     pub corners: &'a [CornerId],
-    /// Where the corners lie, in metres.
+    /// The positions of the corners, in metres.
     pub points: &'a [Point],
 }
 
@@ -30,7 +30,7 @@ impl Ring<'_> {
         self.edges().map(|edge| edge.distance(point)).fold(f64::INFINITY, f64::min)
     }
 
-    /// How far the boundary goes on straight behind an end of an edge, in metres, up to `most_m`.
+    /// How far the boundary continues straight past an end of an edge, in metres, up to `most_m`.
     fn straight_m(&self, index: usize, forward: bool, most_m: f64) -> f64 {
         let n = self.points.len();
         let direction = self.edge(index).vector();
@@ -46,24 +46,24 @@ impl Ring<'_> {
     }
 }
 
-/// Where an opening was put.
+/// The result of placing an opening.
 pub struct Placed {
     pub place: Place,
     /// Distance in metres from the point to the edge it was put on.
     pub off_m: f64,
 }
 
-/// The place of an opening of [`DEFAULT_DOOR_WIDTH_M`] whose middle is at a point, on an edge of the
-/// boundaries of the one or two rooms it joins; `None` when they have no edge.
+/// Places an opening of [`DEFAULT_DOOR_WIDTH_M`] with its middle at a point, on an edge of the boundaries
+/// of the one or two rooms it joins; `None` if they have no edge.
 ///
-/// The middle is the foot of the point on the edge. Where the opening would reach beyond the end of
-/// the straight wall it lies in, it moves along until it fits. Chosen is the edge with the least of:
-/// distance to the point, this movement, what the wall is too short by, and a metre when no edge of
-/// the other room runs alongside; among equals the longest.
+/// The middle is the foot of the perpendicular from the point to the edge. If the opening would extend
+/// past the end of its straight wall, it is shifted until it fits. The edge is chosen by the least sum
+/// of: distance to the point, this shift, the amount the wall is too short by, and a metre if no edge of
+/// the other room runs alongside; ties go to the longest.
 pub fn place(rings: &[Ring<'_>], point: Point) -> Option<Placed> {
     const HALF_M: f64 = DEFAULT_DOOR_WIDTH_M / 2.0;
     let nearest_m = rings.iter().map(|ring| ring.distance(point)).fold(f64::INFINITY, f64::min);
-    // Other edges near by may suit better; half a door is where the next wall's doors start.
+    // Other edges nearby may suit better; half a door away, the next wall's doors start.
     let mut near: Vec<(f64, usize, usize)> = Vec::new();
     for (which, ring) in rings.iter().enumerate() {
         let edges = ring.edges().enumerate().filter(|(_, edge)| edge.length() > 0.0);
@@ -91,7 +91,7 @@ pub fn place(rings: &[Ring<'_>], point: Point) -> Option<Placed> {
             other == which || ring.edges().any(|other| runs_alongside(other, edge, at_m, nearest_m + THICKEST_WALL_M))
         });
         let cost_m = off_m + (at_m - foot_m).abs() + lacking_m + if is_shared { 0.0 } else { 1.0 };
-        // Compared by the millimetre: equal up to rounding is equal.
+        // Compared to the millimetre, so that rounding does not decide.
         let millimetres = |length_m: f64| (length_m * 1000.0).round() as i64;
         let rank = (millimetres(cost_m), -millimetres(length_m));
         if best.as_ref().is_none_or(|(best, _)| rank < *best) {
@@ -103,9 +103,8 @@ pub fn place(rings: &[Ring<'_>], point: Point) -> Option<Placed> {
     best.map(|(_, placed)| placed)
 }
 
-/// Where an opening between rooms lies of which nothing is known but the rooms: the point of the
-/// larger room's boundary that is nearest to the middle of the smaller one; for one room the middle
-/// of its longest edge.
+/// The likely position of an opening when only its rooms are known: the point of the larger room's
+/// boundary nearest to the middle of the smaller one; for a single room, the middle of its longest edge.
 pub fn likely_point(rings: &[Ring<'_>]) -> Option<Point> {
     let area = |ring: &Ring<'_>| polygon::signed_area(ring.points).abs();
     match rings {
@@ -122,8 +121,8 @@ pub fn likely_point(rings: &[Ring<'_>]) -> Option<Point> {
     }
 }
 
-/// Whether an edge is parallel to the wall that an opening lies in, at most `most_m` away from it, and
-/// beside at least half of it.
+/// Whether an edge is parallel to an opening's wall, at most `most_m` away from it, and alongside at
+/// least half of it.
 fn runs_alongside(other: Segment, wall: Segment, at_m: f64, most_m: f64) -> bool {
     let Some(direction) = wall.vector().unit().filter(|_| is_parallel(wall.vector(), other.vector())) else {
         return false;

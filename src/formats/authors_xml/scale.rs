@@ -1,39 +1,38 @@
-//! How many metres a pixel is.
+//! Determines how many metres a pixel is.
 
 use super::document::{Document, Length, Offset};
 use crate::base::numbers::upper_median;
 use crate::geometry::polygon;
 use crate::plan::{Scale, ScaleOrigin};
 
-/// A plan's scale is plausible when its median room has an area in m² within this range. In 56
-/// of the authors' files the medians lie between 2 and 140 m², while a wrong unit is off by a factor
-/// of 10,000.
+/// The plausible range of the median room area in m². In 56 of the authors' files the medians are between
+/// 2 and 140 m², while a wrong unit is off by a factor of 10,000.
 const PLAUSIBLE_MEDIAN_M2: std::ops::RangeInclusive<f64> = 1.0..=1000.0;
 
-/// The length of the distance is plausible when it is that of a door, in metres: used where there
-/// are no rooms to judge by.
+/// The plausible range of the stated distance, a door's width, in metres: used if there are no rooms to
+/// judge by.
 const PLAUSIBLE_DOOR_M: std::ops::RangeInclusive<f64> = 0.3..=3.0;
 
-/// The area of a median room in m² where no scale is stated: that of 56 of the authors' files,
-/// rounded (median of the files' medians: 33).
+/// The assumed median room area in m² if no scale is stated: that of 56 of the authors' files, rounded
+/// (median of the files' medians: 33).
 const MEDIAN_ROOM_M2: f64 = 30.0;
 
-/// A pixel in metres where neither a scale nor a room is there to tell: a door of 18 pixels.
+/// Metres per pixel if there is neither a scale nor a room: a door of 18 pixels.
 const FALLBACK_M: f64 = 0.05;
 
 /// The units that a distance may be in, with their length in metres; the likeliest first.
 const UNITS: [(&str, f64); 5] = [("cm", 0.01), ("m", 1.0), ("mm", 0.001), ("in", 0.0254), ("ft", 0.3048)];
 
-/// A scale, and what was mended to get it.
+/// A scale, and what was repaired to get it.
 #[derive(Debug)]
 pub struct Found {
     pub scale: Scale,
     pub metres_per_pixel: f64,
-    /// What was mended, and where it stands.
+    /// What was repaired, and its position in the file.
     pub healings: Vec<(Option<Offset>, String)>,
 }
 
-/// The scale that a person tells, whatever the file states.
+/// The scale given by the user, whatever the file states.
 pub fn told(metres_per_pixel: f64) -> Found {
     let note = format!("told when importing: {metres_per_pixel} m per pixel");
     let scale = Scale { origin: ScaleOrigin::Measured, metres_per_unit: Some(metres_per_pixel), note };
@@ -42,9 +41,9 @@ pub fn told(metres_per_pixel: f64) -> Found {
 
 /// The scale of a document.
 ///
-/// `represented_distance` pixels stand for `real_distance`, the width of a door. Mended are: a unit
-/// that cannot be meant; a scale that is missing or no number; and the scale of files with an
-/// `<image_scale>`, which is twice too large.
+/// `represented_distance` pixels stand for `real_distance`, the width of a door. Repairs: an implausible
+/// unit; a scale that is missing or not a number; and the scale of files with an `<image_scale>`, which
+/// is twice too large.
 pub fn find(document: &Document) -> Found {
     let mut healings = Vec::new();
     let median_px2 = median_room_px2(document);
@@ -125,7 +124,7 @@ fn estimated(median_px2: Option<f64>, at: Option<Offset>, why: &str) -> Found {
     Found { scale, metres_per_pixel, healings: vec![(at, format!("{why}; {how}"))] }
 }
 
-/// The number of a length, with a point or a comma; `None` when it is none.
+/// The number of a length, with a decimal point or comma; `None` if it is not a number.
 fn number(length: &Length) -> Option<f64> {
     length.value.replace(',', ".").parse::<f64>().ok().filter(|value| value.is_finite())
 }

@@ -6,8 +6,8 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use crate::formats::json_text::Number;
 use crate::geometry::Point;
 
-/// The member `coordinates` of a geometry of any type, read without knowing the type: `type` may
-/// follow it.
+/// The `coordinates` of a geometry of any type, read without knowing the type, since `type` may come
+/// after it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Coordinates {
     Empty,
@@ -21,7 +21,7 @@ pub(super) enum Coordinates {
     Polygons(Vec<Vec<Vec<Position>>>),
 }
 
-/// A GeoJSON position; a height is read and dropped.
+/// A GeoJSON position; its height is read and dropped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Position(pub Point);
 
@@ -52,14 +52,14 @@ impl<'de> Deserialize<'de> for Position {
 
 const TOO_SHORT: &str = "a position has fewer than two numbers";
 
-/// The position that starts with `x`, which has been taken from `items`.
+/// The position that starts with `x`, already taken from `items`.
 fn finish_position<'de, A: SeqAccess<'de>>(x: f64, mut items: A) -> Result<Position, A::Error> {
     let y: Number = items.next_element()?.ok_or_else(|| A::Error::custom(TOO_SHORT))?;
     while items.next_element::<Number>()?.is_some() {}
     Ok(Position(Point::new(x, y.0)))
 }
 
-/// What stands in a list of coordinates: its first member tells what the others must be.
+/// A member of a list of coordinates: the first one determines what the others must be.
 enum Member {
     Number(f64),
     List(Coordinates),

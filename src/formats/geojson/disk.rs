@@ -9,7 +9,7 @@ use super::coordinates::{Coordinates, Position};
 use crate::formats::json_text::Number;
 use crate::formats::plan_json::{DiskHinge, DiskSide};
 
-/// The whole file; its features stay text, so that each knows the line it stands on.
+/// The whole file; its features stay text, so that each knows its line.
 #[derive(Deserialize)]
 pub(super) struct DiskCollection<'a> {
     #[serde(rename = "type")]
@@ -22,7 +22,7 @@ pub(super) struct DiskCollection<'a> {
     pub meta: DiskMeta,
 }
 
-/// What the file says of the plan as a whole.
+/// The metadata of the plan in the file.
 #[derive(Serialize, Deserialize)]
 pub(super) struct DiskMeta {
     #[serde(default, skip_serializing_if = "Words::is_empty")]
@@ -88,12 +88,12 @@ pub(super) struct DiskProperties {
     /// Feature ids of the rooms an opening joins; null is the outside.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rooms: Option<Vec<Option<Words>>>,
-    /// False where `rooms` follow from geometry and are for the reader's convenience.
+    /// False if `rooms` follow from geometry and are only for the reader's convenience.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pinned: Option<bool>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub host: Option<DiskHost>,
-    /// True where an opening has no host though it lies on an edge.
+    /// True if an opening has no host although it lies on an edge.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub free: Option<bool>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -118,7 +118,7 @@ pub(super) struct DiskHost {
     pub width_m: Number,
 }
 
-/// A text. Other programs write ids and names as numbers too; null is no text.
+/// A text. Other programs also write ids and names as numbers; null counts as empty.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Words(pub String);
 

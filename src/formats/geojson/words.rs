@@ -3,7 +3,7 @@
 use crate::labels::normalised_function;
 use crate::plan::OpeningKind;
 
-/// The origin of a label that follows from the room's function by the label scheme.
+/// The origin of a label that the scheme gives for the room's function.
 pub(super) const FROM_SCHEME: &str = "scheme";
 
 /// The word for an opening's kind.
@@ -16,8 +16,8 @@ pub(super) const fn opening_word(kind: OpeningKind) -> &'static str {
     }
 }
 
-/// What the words of the property `opening` mean. An opening to the outside that is a door or a
-/// window, not told apart (`exterior_opening`), is a window: it must not count in `d`.
+/// The meanings of the property `opening`. An opening to the outside that may be a door or a window
+/// (`exterior_opening`) counts as a window: it must not count in `d`.
 pub(super) fn opening_kind(word: &str) -> Option<OpeningKind> {
     match normalised_function(word).as_str() {
         "door" | "entrance door" | "sliding door" => Some(OpeningKind::Door),

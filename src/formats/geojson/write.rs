@@ -12,7 +12,7 @@ use crate::labels::Schemes;
 use crate::plan::{CornerId, Extra, Joint, Meta, Opening, OpeningId, Place, Plan, Room, RoomId, Wall, WallId};
 use crate::topology::{Graph, RoomShapes};
 
-/// Members that Enfilade writes itself: kept properties of these names are not written twice.
+/// Members that Enfilade itself writes: kept properties with these names are not written twice.
 const OWN: &[&str] = &[
     "type",
     "features",
@@ -43,7 +43,7 @@ const OWN: &[&str] = &[
     "source_id",
 ];
 
-/// The whole file: one feature a line; rooms, walls, openings, each by id.
+/// The whole file: one feature per line; rooms, walls, openings, each sorted by id.
 pub(super) fn write(plan: &Plan, schemes: &Schemes, rooms_only: bool) -> Vec<u8> {
     let mut file = ObjectLines::new(300 * (plan.rooms().len() + plan.openings().len() + plan.walls().len()));
     file.member("type", "FeatureCollection");
@@ -59,7 +59,7 @@ pub(super) fn write(plan: &Plan, schemes: &Schemes, rooms_only: bool) -> Vec<u8>
     let graph = Graph::new(plan, &shapes);
     let walls = plan.walls().map(|(id, wall)| wall_feature(plan, id, wall));
     let openings = plan.openings().map(|(id, opening)| {
-        // The graph leaves windows out; its connections are by opening, as the plan's are.
+        // The graph omits windows; its connections are sorted by opening, like the plan's openings.
         let found = graph.connections().binary_search_by_key(&id, |connection| connection.opening).ok();
         opening_feature(plan, id, opening, found.map(|index| graph.connections()[index].sides))
     });
@@ -67,7 +67,7 @@ pub(super) fn write(plan: &Plan, schemes: &Schemes, rooms_only: bool) -> Vec<u8>
     file.finish()
 }
 
-/// What the file does not keep, in words, each with how many there are.
+/// What the file does not keep, in words, each with a count.
 pub(super) fn lost(plan: &Plan, rooms_only: bool) -> Vec<String> {
     let count_others = |extra: &Extra| extra.iter().flat_map(|extra| extra.keys()).filter(|key| *key != KEPT).count();
     let fields = count_others(&plan.extra)
@@ -104,7 +104,7 @@ fn meta_of(plan: &Plan) -> DiskMeta {
     }
 }
 
-/// The properties that an import kept, without those that Enfilade writes itself.
+/// The properties kept from an import, without those Enfilade itself writes.
 fn kept(extra: &Extra) -> Map<String, Value> {
     let properties = extra.as_ref().and_then(|extra| extra.get(KEPT)).and_then(Value::as_object);
     properties
@@ -115,8 +115,8 @@ fn kept(extra: &Extra) -> Map<String, Value> {
         .collect()
 }
 
-/// The feature's id and its property `source_id`. The id is the source's own where reading it gives
-/// the same identity again; else it is ours.
+/// The feature's id and its property `source_id`. The id is the source's own if reading it gives the same
+/// identity again, else Enfilade's.
 fn names<T: Copy + PartialEq + ToString>(id: T, source_id: &str, of_key: fn(&str) -> T) -> (Words, Words) {
     if !source_id.is_empty() && of_key(source_id) == id {
         (source_id.into(), Words::default())
@@ -187,7 +187,7 @@ fn opening_feature(plan: &Plan, id: OpeningId, opening: &Opening, found: Option<
             DiskHost { from: Position(from), to: Position(to), at_m: Number(at_m), width_m: Number(width_m) }
         }),
     };
-    // The source's own word, while it still means the same.
+    // The source's own word, as long as it still means the same.
     let word = opening
         .extra
         .as_ref()

@@ -1,20 +1,20 @@
-//! What differs between two plans, in the disk form of the elements that differ: what the journal keeps of
-//! an edit.
+//! The difference between two plans, with the changed elements in their disk form: what the journal keeps
+//! of an edit.
 
 use super::super::json_text;
 use super::*;
 use crate::plan::{ChangeKind, Difference};
 
-/// The elements that are others now as they are now, the ids of those that are gone, and what else changed.
+/// The changed elements in their new state, the ids of removed ones, and what else changed.
 #[derive(Default, Serialize, Deserialize)]
 #[serde(expecting = "a change of a plan", deny_unknown_fields)]
 struct DiskChange {
     #[serde(skip_serializing_if = "Option::is_none")]
     meta: Option<DiskMeta>,
-    /// Of one element where it changed: the picture, or null for none.
+    /// At most one element: the new backdrop, or null for none. Empty if it did not change.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     backdrop: Vec<Option<DiskBackdrop>>,
-    /// All guide lines, where they changed.
+    /// All guide lines, if they changed.
     #[serde(skip_serializing_if = "Option::is_none")]
     guides: Option<Vec<DiskGuide>>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -31,7 +31,8 @@ struct DiskChange {
     extra: Option<Map<String, Value>>,
 }
 
-/// What leads from one plan to another, as JSON on one line. Its size and its cost are those of what differs.
+/// The change from one plan to another, as JSON on one line. Its size and cost depend only on the
+/// difference.
 pub(crate) fn change_to_bytes(before: &Plan, after: &Plan) -> Vec<u8> {
     let difference = Difference::between(before, after);
     let mut disk = DiskChange {
@@ -60,10 +61,10 @@ pub(crate) fn change_to_bytes(before: &Plan, after: &Plan) -> Vec<u8> {
     json_text::compact(&disk).into_bytes()
 }
 
-/// The plan that a change leads to. The invariants are not checked.
+/// Applies a change to a plan. The invariants are not checked.
 ///
 /// # Errors
-/// When the bytes are no change, in words.
+/// When the bytes are not a change; the error says why.
 pub(crate) fn apply_change(plan: &Plan, bytes: &[u8]) -> Result<Plan, String> {
     let disk: DiskChange = serde_json::from_slice(bytes).map_err(|error| error.to_string())?;
     let mut plan = plan.clone();
