@@ -24,7 +24,7 @@ impl Classifier {
         Ok(Self::from_parts(algorithm, model, temperature))
     }
 
-    /// A classifier of these parts. A temperature that is not a positive number counts as 1.
+    /// A classifier from its parts. A temperature that is not a positive number counts as 1.
     pub fn from_parts(algorithm: Algorithm, model: Arc<dyn Model>, temperature: f64) -> Self {
         let temperature = if temperature.is_finite() && temperature > 0.0 { temperature } else { 1.0 };
         Self { algorithm, model, temperature }
@@ -43,14 +43,14 @@ impl Classifier {
         self.temperature
     }
 
-    /// The distribution over the labels for a room. Whatever the values are, there is an answer.
+    /// The distribution over the labels for a room. Any values get an answer.
     pub fn predict(&self, values: &Values) -> Distribution {
         self.model.predict(values).at_temperature(self.temperature)
     }
 }
 
 impl Classifier {
-    /// The prediction for a room and what it rests on.
+    /// The prediction for a room and the reason for it.
     pub fn explain(&self, values: &Values) -> Explanation {
         let distribution = self.predict(values);
         let label = distribution.label();

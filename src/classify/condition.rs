@@ -1,4 +1,4 @@
-//! Conditions on one feature, as rules and paths down a tree are made of.
+//! Conditions on one feature: the building blocks of rules and of paths down a tree.
 
 use crate::dataset::table::Values;
 
@@ -15,7 +15,7 @@ pub struct Condition {
 pub enum Bound {
     AtMost(f64),
     AtLeast(f64),
-    /// More than this. Rules are written without; a path down a tree comes to it.
+    /// More than this. Rules do not use it; a path down a tree can end up with it.
     Over(f64),
 }
 

@@ -1,15 +1,15 @@
 use crate::labels::Label;
 
-/// Probabilities of the five labels: none negative, together 1.
+/// Probabilities of the five labels: none negative, summing to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Distribution([f64; 5]);
 
 impl Distribution {
-    /// Every label is as likely.
+    /// All labels equally likely.
     pub const UNIFORM: Self = Self([0.2; 5]);
 
-    /// The distribution in proportion to weights, in the order of [`Label::ALL`]. What is negative or
-    /// not finite counts as 0; without any weight it is uniform.
+    /// The distribution proportional to weights, in the order of [`Label::ALL`]. Negative and non-finite
+    /// weights count as 0; if all are 0 it is uniform.
     pub fn from_weights(weights: [f64; 5]) -> Self {
         let weights = weights.map(|weight| if weight.is_finite() { weight.max(0.0) } else { 0.0 });
         let sum: f64 = weights.iter().sum();
@@ -32,7 +32,7 @@ impl Distribution {
         self.0[label.index()]
     }
 
-    /// The most probable label; of equals, the first in the order of [`Label::ALL`].
+    /// The most probable label; if tied, the first in the order of [`Label::ALL`].
     pub fn label(&self) -> Label {
         let mut best = Label::ALL[0];
         for label in Label::ALL {
@@ -43,8 +43,8 @@ impl Distribution {
         best
     }
 
-    /// The distribution at a temperature: above 1 less sure of itself, below 1 surer. The order of the
-    /// labels stays. A temperature that is not a positive number changes nothing.
+    /// The distribution at a temperature: above 1 less certain, below 1 more certain. The order of the
+    /// labels does not change. A temperature that is not a positive number changes nothing.
     pub fn at_temperature(self, temperature: f64) -> Self {
         if temperature == 1.0 || !(temperature.is_finite() && temperature > 0.0) {
             return self;

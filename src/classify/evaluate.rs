@@ -4,26 +4,26 @@ use crate::base::work::{Cancelled, Work};
 use crate::dataset::folds::Folds;
 use crate::dataset::table::Table;
 
-/// A cross-validation to do.
+/// A cross-validation to run.
 #[derive(Clone, Copy, Debug)]
 pub struct Validation<'a> {
     pub table: &'a Table,
-    /// Folds of the table's rows, one for each.
+    /// Folds of the table's rows.
     pub folds: &'a Folds,
     pub algorithm: Algorithm,
     pub seed: u64,
 }
 
-/// What came of a cross-validation.
+/// The result of a cross-validation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Validated {
-    /// For each row of the table, the prediction by the classifier that did not learn from it.
+    /// For each row of the table, the prediction by the classifier that was not trained on it.
     pub predictions: Vec<Distribution>,
     pub scores: Scores,
 }
 
-/// Cross-validates: each fold is predicted by a classifier that learned from the others. The same
-/// seed gives the same result on any number of threads.
+/// Cross-validates: each fold is predicted by a classifier trained on the others. The same seed gives the
+/// same result on any number of threads.
 ///
 /// # Errors
 /// When the work is cancelled.
@@ -38,7 +38,7 @@ pub fn evaluate(
     validated.pop().ok_or(Cancelled)
 }
 
-/// Does several cross-validations at once, so that all threads are busy to the end. Progress counts
+/// Runs several cross-validations at once, so that all threads are busy to the end. Progress counts
 /// folds.
 ///
 /// # Errors
@@ -71,14 +71,14 @@ fn predict_fold(
     work: &Work<'_>,
 ) -> Result<Vec<(usize, Distribution)>, Cancelled> {
     let Validation { table, folds, algorithm, seed } = *validation;
-    // Every fold has a row, and there are at least two: there is always something to learn from.
+    // Every fold has a row, and there are at least two: there is always something to train on.
     let Some(training) = table.subset(&folds.training_rows(fold)) else { return Ok(Vec::new()) };
     let classifier = Classifier::train(algorithm, &training, seed_of_part(seed, fold), work)?;
     let predict = |row: usize| Some((row, classifier.predict(table.values().get(row)?)));
     Ok(folds.test_rows(fold).into_iter().filter_map(predict).collect())
 }
 
-/// The scores of a trained classifier on rooms it did not learn from: another data set, say.
+/// The scores of a trained classifier on rooms not in its training set: another data set, say.
 pub fn test(classifier: &Classifier, table: &Table) -> Validated {
     let predictions: Vec<Distribution> = table.values().iter().map(|values| classifier.predict(values)).collect();
     let scores = Scores::of(predictions.iter().zip(table.labels()).map(|(prediction, &truth)| (0, prediction, truth)));

@@ -1,4 +1,4 @@
-//! Why a room got its label: in data, and in words.
+//! Why a room got its label: as data, and in words.
 
 use std::fmt::Write as _;
 
@@ -11,14 +11,14 @@ use crate::labels::Label;
 /// A prediction with its reason.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Explanation {
-    /// The label given.
+    /// The predicted label.
     pub label: Label,
     /// Its probability, 0..=1.
     pub probability: f64,
     pub reason: Reason,
 }
 
-/// What a prediction rests on.
+/// The reason for a prediction.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reason {
     Rule(RuleReason),
@@ -32,23 +32,23 @@ pub enum Reason {
 pub struct RuleReason {
     /// Its number in the list, from 1.
     pub number: usize,
-    /// How many rules the list has.
+    /// The number of rules in the list.
     pub rules: usize,
-    /// What must hold; nothing for the last rule, which takes what no other covers.
+    /// Its conditions; none for the last rule, which takes what no other covers.
     pub conditions: Vec<Condition>,
-    /// Training rooms that it decides, and how many of them rightly.
+    /// Training rooms that it decides, and how many of them correctly.
     pub decides: u32,
     pub right: u32,
 }
 
-/// The way down the tree.
+/// The path down the tree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathReason {
     /// The questions from the root on.
     pub steps: Vec<Step>,
-    /// What the answers come to: the tightest bounds on each feature.
+    /// The answers combined: the tightest bounds on each feature.
     pub conditions: Vec<Condition>,
-    /// Training rooms in the leaf, and how many of them carry the label given.
+    /// Training rooms in the leaf, and how many of them have the predicted label.
     pub rooms: u32,
     pub right: u32,
 }
@@ -63,7 +63,7 @@ pub struct Step {
     pub yes: bool,
 }
 
-/// The rooms of the training set that are most alike.
+/// The most similar rooms of the training set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NeighboursReason {
     /// Nearest first.
@@ -76,18 +76,18 @@ pub struct NearRoom {
     pub source: RoomSource,
     pub label: Label,
     pub values: Values,
-    /// How far, in standard deviations.
+    /// The distance, in standard deviations.
     pub distance: f64,
 }
 
 /// The features that mattered.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FeaturesReason {
-    /// By how much each mattered, the most first.
+    /// How much each mattered, most first.
     pub effects: Vec<Effect>,
 }
 
-/// What a feature did: the prediction is made again with the feature at its typical value.
+/// The effect of a feature: the prediction is repeated with the feature at its typical value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effect {
     /// Index of the feature.
@@ -95,13 +95,13 @@ pub struct Effect {
     pub value: f64,
     /// The median over the training rooms.
     pub typical: f64,
-    /// The probability of the label given, if the feature had its typical value.
+    /// The probability of the predicted label if the feature had its typical value.
     pub probability_if_typical: f64,
-    /// The label that would then be given.
+    /// The label predicted in that case.
     pub label_if_typical: Label,
 }
 
-/// The bounds that conditions set to one feature.
+/// The bounds on one feature.
 #[derive(Clone, Copy, Default)]
 struct Bounds {
     /// At least this, or more than this.
@@ -121,7 +121,7 @@ impl Bounds {
         bounds
     }
 
-    /// As people say it: `area at most 6.2 m²`, `axes ratio from 1.4 to 2`, `at least 3 openings`.
+    /// In words: `area at most 6.2 m²`, `axes ratio from 1.4 to 2`, `at least 3 openings`.
     fn words(self, feature: usize) -> Option<String> {
         if feature >= 2 {
             return self.count_words(feature);
@@ -139,7 +139,7 @@ impl Bounds {
         Some(format!("{} {words}", in_words::NAMES[feature]))
     }
 
-    /// Counts are whole numbers: over 2 is at least 3.
+    /// Counts are integers: over 2 is at least 3.
     fn count_words(self, feature: usize) -> Option<String> {
         let least = self.low.map(|low| match low {
             Bound::Over(less) => less.floor() + 1.0,
@@ -164,7 +164,7 @@ impl Condition {
         joined(&[*self])
     }
 
-    /// The condition as the paper writes features: `a <= 6.2`.
+    /// The condition in the paper's notation: `a <= 6.2`.
     pub fn formula(&self) -> String {
         let name = Features::NAMES[self.feature];
         match self.bound {
@@ -175,7 +175,7 @@ impl Condition {
     }
 }
 
-/// Conditions as one phrase, the two bounds of a feature taken together.
+/// Conditions as one phrase, with the two bounds of a feature combined.
 fn joined(conditions: &[Condition]) -> String {
     let words: Vec<String> =
         (0..FEATURES).filter_map(|feature| Bounds::of(conditions, feature).words(feature)).collect();
@@ -186,10 +186,10 @@ fn joined(conditions: &[Condition]) -> String {
     }
 }
 
-/// Neighbours named in a sentence; more are in the data.
+/// The most neighbours named in a sentence; the data have all.
 const NAMED: usize = 3;
 
-/// A feature is named in a sentence when without it the probability would be lower by this.
+/// A feature is named in a sentence if the probability would be lower by this without it.
 const MATTERS: f64 = 0.05;
 
 impl Explanation {
@@ -267,13 +267,12 @@ impl NeighboursReason {
     }
 }
 
-/// Where a room is.
+/// The location of a room.
 fn place(source: &RoomSource) -> String {
     format!("{} in {}", readable(&source.room), source.plan)
 }
 
-/// What a room is called. Of an id that programs gave it (a UUID) the first part is as much as people
-/// read.
+/// A room's readable name. Of a generated id (a UUID), people read only the first part.
 pub(super) fn readable(room: &str) -> String {
     let parts: Vec<&str> = room.split('-').collect();
     let lengths = parts.iter().map(|part| part.len());

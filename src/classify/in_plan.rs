@@ -1,5 +1,5 @@
-//! Classifying all rooms of a plan at once: where neighbours' labels are not known, they are
-//! predicted too, and predictions are repeated until none changes.
+//! Classifying all rooms of a plan at once: unknown labels of neighbours are predicted too, and
+//! predictions repeated until none changes.
 
 use super::{Algorithm, Classifier, Distribution};
 use crate::base::random::seed_of_part;
@@ -10,24 +10,24 @@ use crate::dataset::{RoomNetwork, RoomPlace, Row};
 use crate::features::{Features, NeighbourLabels};
 use crate::labels::Label;
 
-/// Predictions are repeated at most so often. Real plans settle after two to five rounds; the few
-/// that do not go to and fro between two states, which no number of rounds would end.
+/// The most rounds of prediction. Real plans settle after two to five; the few that do not alternate
+/// between two states, which no number of rounds would end.
 pub const MOST_ROUNDS: usize = 20;
 
-/// What a classifier says of a plan's rooms, each list with one entry for each room of the network.
+/// The predictions for a plan's rooms, each list with one entry per room of the network.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InPlan {
     pub distributions: Vec<Distribution>,
-    /// The features the last predictions rest on.
+    /// The features the final predictions are based on.
     pub features: Vec<Features>,
-    /// How often all rooms were predicted; 1 unless predictions were repeated.
+    /// How many times all rooms were predicted; 1 unless predictions were repeated.
     pub rounds: usize,
     /// Whether the last round changed nothing.
     pub settled: bool,
 }
 
 /// Classifies the rooms of a plan. `known` holds, for each room of the network, the label that may be
-/// used where it is a neighbour (its own prediction never uses it); nothing where none is known.
+/// used when it is a neighbour (never for its own prediction), if known.
 pub fn classify(
     classifier: &Classifier,
     network: &RoomNetwork,
@@ -60,17 +60,16 @@ fn predict(classifier: &Classifier, network: &RoomNetwork, seen: &[Label]) -> In
     InPlan { distributions, features, rounds: 1, settled: false }
 }
 
-/// Folds by which training rooms get the predicted labels of their neighbours.
+/// Folds for giving training rooms the predicted labels of their neighbours.
 const INNER_FOLDS: usize = 3;
 
-/// Rows to train on for use with [`NeighbourLabels::Predicted`]: the neighbours of each training room
-/// carry the labels that a classifier gives them which learned neither from them nor, with
-/// [`Grouping::Building`], from anything in their building. That is what neighbours look like in use,
-/// mistakes included.
+/// Training rows for use with [`NeighbourLabels::Predicted`]: the neighbours of each training room carry
+/// the labels predicted by a classifier trained neither on them nor, with [`Grouping::Building`], on
+/// anything in their building. That is what neighbours look like in use, mistakes included.
 ///
-/// `rows` and `places` are all labelled rooms of the networks in one order, as a
-/// [`crate::dataset::Collection`] gives them; `training` are the indices of those that may be learned
-/// from. Gives the rows at these indices, in their order.
+/// `rows` and `places` are all labelled rooms of the networks in the same order, as a
+/// [`crate::dataset::Collection`] gives them; `training` are the indices of those that may be trained on.
+/// Returns the rows at these indices, in their order.
 ///
 /// # Errors
 /// When the work is cancelled.

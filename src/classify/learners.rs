@@ -43,12 +43,12 @@ impl Algorithm {
         LEARNERS[self.0]
     }
 
-    /// The word for files and the command line.
+    /// Its name in files and on the command line.
     pub fn name(self) -> &'static str {
         self.learner().id()
     }
 
-    /// The name for people.
+    /// Its name for people.
     pub fn title(self) -> &'static str {
         self.learner().title()
     }

@@ -5,7 +5,7 @@ use super::joint::Joint;
 use super::{Algorithm, Classifier};
 use crate::base::wording::or_words;
 
-/// A way to label the rooms of a plan: each by itself, by one of the learners, or all together.
+/// A way to label the rooms of a plan: one by one with one of the learners, or all together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Method {
     /// Each room by its own features `F_r`.
@@ -15,7 +15,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// All there are: the learners in their order, then the joint classifier.
+    /// All methods: the learners in their order, then the joint classifier.
     pub const ALL: [Self; Algorithm::ALL.len() + 1] = {
         let mut all = [Self::Joint; Algorithm::ALL.len() + 1];
         let mut index = 0;
@@ -26,7 +26,7 @@ impl Method {
         all
     };
 
-    /// The word for files and the command line.
+    /// Its name in files and on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Each(algorithm) => algorithm.name(),
@@ -42,7 +42,7 @@ impl Method {
         }
     }
 
-    /// The name where there is little room, as in menus.
+    /// A short name, as for menus.
     pub fn short_title(self) -> &'static str {
         match self {
             Self::Each(algorithm) => algorithm.learner().short_title(),
@@ -50,7 +50,7 @@ impl Method {
         }
     }
 
-    /// What it predicts by, as the end of the sentence 'Predict by …'.
+    /// What it predicts by: completes the sentence 'Predict by …'.
     pub fn help(self) -> &'static str {
         match self {
             Self::Each(algorithm) => algorithm.learner().help(),
@@ -103,7 +103,7 @@ impl From<Joint> for PlanClassifier {
     }
 }
 
-/// The text is no algorithm's name.
+/// A text that is not a method's name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownAlgorithm(pub String);
 

@@ -1,9 +1,9 @@
-//! `*.model.json`: a trained classifier with what one must know to trust it. Described for outsiders
+//! `*.model.json`: a trained classifier with the information needed to judge it. Described for outsiders
 //! in `docs/classifiers.md`.
 //!
-//! The disk form has types of its own, apart from the live ones; that of each learner's model is in the
-//! learner's file. One rule, node, room or hidden unit a line. The checksum is of the content, not of the layout: a file may be indented anew, but a number
-//! that was changed is noticed.
+//! The disk form has types of its own, separate from the live ones; that of each learner's model is in
+//! the learner's file. One rule, node, room or hidden unit per line. The checksum covers the content, not
+//! the layout: a file may be reformatted, but a changed number is noticed.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -20,29 +20,29 @@ use crate::dataset::table::Table;
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
 
-/// The newest version of the file that this program reads, and the one it writes.
+/// The newest file version this program reads, and the one it writes.
 pub const VERSION: u64 = 1;
 
-/// The value of the member `format`, which tells the file from other JSON.
+/// The value of the member `format`, which distinguishes the file from other JSON.
 const FORMAT: &str = "enfilade model";
 
-/// What one must know of a classifier to trust it.
+/// The information needed to judge a classifier.
 #[derive(Clone, Debug, PartialEq)]
 pub struct About {
     /// The typology of the buildings it learned from; `None` for a standard classifier, which learned
     /// from several.
     pub typology: Option<Typology>,
-    /// Which labels of their neighbours the training rooms' features count.
+    /// Which labels of neighbours the training rooms' features count.
     pub neighbours: NeighbourLabels,
     /// The command that trained it.
     pub command: String,
     /// The version of the program that trained it.
     pub program: String,
     pub seed: u64,
-    /// Under which terms the model may be used, and whose data it holds.
+    /// The terms under which the model may be used, and whose data it contains.
     pub licence: String,
     pub data: DataSummary,
-    /// What cross-validation on the same rooms gave.
+    /// The results of cross-validation on the same rooms.
     pub scores: Vec<ScoreSummary>,
 }
 
@@ -61,10 +61,10 @@ pub struct DataSummary {
 /// The scores of one cross-validation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ScoreSummary {
-    /// What was assigned to folds: `room` or `building`.
+    /// The unit assigned to folds: `room` or `building`.
     pub folds_by: String,
     pub seed: u64,
-    /// Share of rooms with the right label, 0..=1, and the deviation over the folds.
+    /// Share of rooms with the right label, 0..=1, and its standard deviation over the folds.
     pub accuracy: f64,
     pub accuracy_deviation: f64,
     pub log_loss: f64,
@@ -91,7 +91,7 @@ impl DataSummary {
 }
 
 impl ScoreSummary {
-    /// What a model file keeps of scores, to five decimals.
+    /// The part of the scores that a model file keeps, to five decimals.
     pub fn of(scores: &Scores, grouping: Grouping, seed: u64) -> Self {
         let rounded = |number: f64| (number * 1e5).round() / 1e5;
         Self {
@@ -107,10 +107,10 @@ impl ScoreSummary {
     }
 }
 
-/// Why a file is no model that can be used, and what to do about it.
+/// Why a file is not a usable model, and what to do about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ModelFileError {
-    /// The line, from 1, where it can be told.
+    /// The line, from 1, if known.
     pub line: Option<usize>,
     pub what: String,
     pub hint: String,
@@ -135,7 +135,7 @@ fn refuse(line: Option<usize>, what: impl Into<String>) -> ModelFileError {
 pub fn to_bytes(classifier: &PlanClassifier, about: &About) -> Vec<u8> {
     let (temperature, model) = match classifier {
         PlanClassifier::Each(classifier) => (classifier.temperature(), classifier.model().to_json()),
-        // It keeps its temperature itself.
+        // The joint classifier keeps its temperature itself.
         PlanClassifier::Joint(joint) => (1.0, joint.to_value()),
     };
     let disk = Disk {
@@ -146,7 +146,8 @@ pub fn to_bytes(classifier: &PlanClassifier, about: &About) -> Vec<u8> {
         temperature,
         model,
     };
-    // Serialising plain structs of numbers and texts cannot fail; if it did, the file would not read.
+    // Serialising plain structs of numbers and texts cannot fail; if it did, the file would be
+    // unreadable.
     let value = serde_json::to_value(disk).unwrap_or_default();
     let checksum = checksum(&value);
     let mut file = String::from("{");
@@ -159,8 +160,8 @@ pub fn to_bytes(classifier: &PlanClassifier, about: &About) -> Vec<u8> {
     file.into_bytes()
 }
 
-/// The members of `about` and of the model stand one a line, and so do the elements of a model's lists of
-/// objects or lists: rules, nodes, rooms, units.
+/// Writes the members of `about` and of the model one per line, and likewise the elements of a model's
+/// lists of objects or lists: rules, nodes, rooms, units.
 fn push_member(file: &mut String, key: &str, member: &Value) {
     match (key, member) {
         ("about", Value::Object(members)) => push_members(file, members, Value::to_string),
@@ -184,16 +185,15 @@ fn lines(open: &str, elements: impl Iterator<Item = String>, close: &str) -> Str
     if elements.is_empty() { format!("{open}{close}") } else { format!("{open}\n{}\n{close}", elements.join(",\n")) }
 }
 
-/// FNV-1a of the content without spaces, in hexadecimal digits.
+/// FNV-1a of the content without whitespace, in hexadecimal digits.
 fn checksum(value: &Value) -> String {
     format!("{:016x}", hash::fnv1a(hash::START, value.to_string().into_bytes()))
 }
 
 /// Reads a model.
 ///
-/// # Errors
-/// When the bytes are not a model file of a known version, were changed or cut, or do not make a
-/// classifier; with the line where it can be told.
+/// When the bytes are not a model file of a known version, were changed or truncated, or are not a valid
+/// classifier; with the line if known.
 pub fn from_bytes(bytes: &[u8]) -> Result<(PlanClassifier, About), ModelFileError> {
     let body = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if body.iter().all(u8::is_ascii_whitespace) {
@@ -242,7 +242,7 @@ struct Disk {
     algorithm: String,
     about: DiskAbout,
     temperature: f64,
-    /// What [`Model::to_json`] or [`Joint::to_value`] gives.
+    /// The output of [`Model::to_json`] or [`Joint::to_value`].
     model: Value,
 }
 

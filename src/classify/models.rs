@@ -1,4 +1,4 @@
-//! The models at hand, by name: those that come with the program, and the user's own.
+//! The available models, by name: those bundled with the program, and the user's own.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -14,12 +14,12 @@ use super::{Method, PlanClassifier};
 use crate::base::wording::or_words;
 use crate::dataset::sets::{STANDARD, set_name};
 
-/// A model and where it comes from.
+/// A model and its origin.
 #[derive(Clone, Debug)]
 pub struct StoredModel {
-    /// Its file's name without the ending: 'school-tree'.
+    /// Its file's name without the extension: 'school-tree'.
     pub name: String,
-    /// Its file; `None` for one that comes with the program.
+    /// Its file; `None` if it is bundled.
     pub path: Option<PathBuf>,
     pub classifier: PlanClassifier,
     pub about: About,
@@ -36,36 +36,35 @@ impl StoredModel {
     }
 }
 
-/// The models that come with the program, by name (a set and a method's word: 'school-tree'), and their
-/// files, packed by `build.rs`: a quarter of the texts' size. See `assets/models/NOTICE`.
+/// The bundled models by name (a set and a method: 'school-tree'), and their files, compressed by
+/// `build.rs` to a quarter of their size. See `assets/models/NOTICE`.
 const BUNDLED: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/models.rs"));
 
-/// Set and method of a bundled model, as its name says them.
+/// Set and method of a bundled model, from its name.
 fn parts_of(name: &str) -> Option<(&str, Method)> {
     let (set, method) = name.rsplit_once('-')?;
     Some((set, method.parse().ok()?))
 }
 
-/// The name of the model of a set and a method.
+/// The name of the model for a set and a method.
 fn name_of(set: &str, method: Method) -> String {
     format!("{set}-{}", method.name())
 }
 
-/// The models at hand. Cheap to clone.
+/// The available models. Cheap to clone.
 #[derive(Clone, Debug, Default)]
 pub struct Models {
-    /// By name.
+    /// Sorted by name.
     own: Arc<[Arc<StoredModel>]>,
 }
 
 impl Models {
-    /// Those that come with the program.
+    /// The bundled models.
     pub fn bundled() -> Self {
         Self::default()
     }
 
-    /// These and some of the user's own. One that has the name of another takes its place, be it a bundled
-    /// one.
+    /// Adds the user's own models. One with the name of another, bundled or not, replaces it.
     #[must_use]
     pub fn with(&self, own: impl IntoIterator<Item = StoredModel>) -> Self {
         let before = self.own.iter().map(|model| (model.name.clone(), model.clone()));
@@ -74,12 +73,12 @@ impl Models {
         Self { own: by_name.into_values().collect() }
     }
 
-    /// The user's own, by name.
+    /// The user's own models, by name.
     pub fn own(&self) -> &[Arc<StoredModel>] {
         &self.own
     }
 
-    /// The sets of which there are models: typologies in alphabetical order, then [`STANDARD`].
+    /// The sets that have models: typologies alphabetically, then [`STANDARD`].
     pub fn sets(&self) -> Vec<&str> {
         let bundled = BUNDLED.iter().filter_map(|(name, _)| Some(parts_of(name)?.0));
         let own = self.own.iter().map(|model| model.set());
@@ -89,7 +88,7 @@ impl Models {
         typologies
     }
 
-    /// The methods of which there is a model of a set.
+    /// The methods that have a model for a set.
     pub fn methods(&self, set: &str) -> Vec<Method> {
         let has = |method: &Method| {
             let is_bundled = || BUNDLED.iter().any(|(name, _)| parts_of(name) == Some((set, *method)));
@@ -98,8 +97,8 @@ impl Models {
         Method::ALL.into_iter().filter(has).collect()
     }
 
-    /// The user's own model of a set and a method: the one that has the name that a bundled one has, or where
-    /// none is bundled the first by name.
+    /// The user's own model for a set and a method: the one named like a bundled model or, if none is
+    /// bundled, the first by name.
     fn own_of(&self, set: &str, method: Method) -> Option<&Arc<StoredModel>> {
         let usual = name_of(set, method);
         let fits = |model: &&Arc<StoredModel>| model.set() == set && model.method() == method;
@@ -112,7 +111,7 @@ impl Models {
     /// The model of a set (a typology, or [`STANDARD`]) and a method.
     ///
     /// # Errors
-    /// When there is none.
+    /// When there is none, or a bundled one cannot be read.
     pub fn find(&self, set: &str, method: Method) -> Result<Arc<StoredModel>, ModelFileError> {
         if let Some(own) = self.own_of(set, method) {
             return Ok(own.clone());
@@ -130,19 +129,19 @@ impl Models {
         Err(ModelFileError { line: None, what, hint: format!("use {there_are}, or train one with '{command}'") })
     }
 
-    /// The model of a name, the user's own before a bundled one.
+    /// The model with a name, the user's own before a bundled one.
     ///
     /// # Errors
-    /// When a bundled model cannot be read, which the tests exclude.
+    /// When a bundled model cannot be read, which the tests rule out.
     pub fn named(&self, name: &str) -> Option<Result<Arc<StoredModel>, ModelFileError>> {
         let own = self.own.iter().find(|model| model.name == name);
         own.map(|model| Ok(model.clone())).or_else(|| bundled(name))
     }
 
-    /// All there are: the bundled ones by set and method, then the user's own.
+    /// All models: the bundled ones by set and method, then the user's own.
     ///
     /// # Errors
-    /// When a bundled model cannot be read, which the tests exclude.
+    /// When a bundled model cannot be read, which the tests rule out.
     pub fn all(&self) -> Result<Vec<Arc<StoredModel>>, ModelFileError> {
         let of_set = |set| Method::ALL.into_iter().filter_map(move |method| bundled(&name_of(set, method)));
         let bundled: Result<Vec<_>, _> = self.sets().into_iter().flat_map(of_set).collect();
@@ -150,16 +149,16 @@ impl Models {
     }
 }
 
-/// The bundled model of a name, read once.
+/// The bundled model with a name; read once.
 fn bundled(name: &str) -> Option<Result<Arc<StoredModel>, ModelFileError>> {
     static READ: Mutex<BTreeMap<&str, Arc<StoredModel>>> = Mutex::new(BTreeMap::new());
     let &(name, packed) = BUNDLED.iter().find(|(of, _)| *of == name)?;
-    // A poisoned map only lacks an entry.
+    // A poisoned map at worst lacks an entry.
     let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(model) = read.get(name) {
         return Some(Ok(model.clone()));
     }
-    // One that does not unpack is no model file either, and is refused as such.
+    // One that cannot be decompressed is rejected like any invalid model file.
     let text = decompress_to_vec_zlib(packed).unwrap_or_default();
     let model = model_file::from_bytes(&text).map(|(classifier, about)| {
         let model = Arc::new(StoredModel { name: name.to_owned(), path: None, classifier, about });
@@ -169,8 +168,7 @@ fn bundled(name: &str) -> Option<Result<Arc<StoredModel>, ModelFileError>> {
     Some(model)
 }
 
-/// What tells typologies apart, as it comes with the program; `None` if it does not read, which the tests
-/// exclude.
+/// The bundled model that tells typologies apart; `None` if it cannot be read, which the tests rule out.
 pub fn bundled_typologies() -> Option<&'static TypologyModel> {
     static READ: OnceLock<Option<TypologyModel>> = OnceLock::new();
     let read = || {
@@ -180,8 +178,8 @@ pub fn bundled_typologies() -> Option<&'static TypologyModel> {
     READ.get_or_init(read).as_ref()
 }
 
-/// What predicts the labels behind openings into unexplored space, of a set (a typology, or `standard`), as
-/// it comes with the program; `None` for a set without.
+/// The bundled model of a set (a typology, or `standard`) that predicts the labels behind openings into
+/// unexplored space; `None` if the set has none.
 pub fn bundled_unknown(set: &str) -> Option<&'static Unknown> {
     static READ: OnceLock<BTreeMap<String, Unknown>> = OnceLock::new();
     let read = || {

@@ -1,23 +1,23 @@
-//! The nearest of many points: a k-d tree (Bentley 1975; search with incremental distances after Arya
-//! and Mount 1993).
+//! Nearest-neighbour search: a k-d tree (Bentley 1975; search with incremental distances after Arya and
+//! Mount 1993).
 
 use crate::dataset::table::FEATURES;
 
 /// A standardised room.
 pub(super) type Point = [f32; FEATURES];
 
-/// How far two rooms are apart.
+/// The distance between two rooms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Metric {
     Euclidean,
-    /// The sum of the differences: one odd feature counts for less.
+    /// The sum of the differences: a single odd feature counts for less.
     Manhattan,
 }
 
 impl Metric {
     pub const ALL: [Self; 2] = [Self::Euclidean, Self::Manhattan];
 
-    /// The word for files and for people.
+    /// Its name in files and in the interface.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Euclidean => "euclidean",
@@ -25,12 +25,12 @@ impl Metric {
         }
     }
 
-    /// The metric of a word of [`Metric::name`].
+    /// The metric with this [`Metric::name`].
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|metric| metric.name() == name)
     }
 
-    /// What one feature adds to the sum that is compared.
+    /// The contribution of one feature to the sum that is compared.
     fn part(self, difference: f32) -> f32 {
         match self {
             Self::Euclidean => difference * difference,
@@ -47,28 +47,28 @@ impl Metric {
     }
 }
 
-/// Most points in a leaf: below, looking at all is faster than going down.
+/// The most points in a leaf: for fewer, testing all is faster than descending.
 const LEAF: usize = 16;
 
-/// Points arranged so that the nearest to any point are found without looking at all.
+/// Points in a k-d tree, so that the nearest are found without testing all.
 #[derive(Clone, Debug)]
 pub(super) struct KdTree {
     /// In the tree's order.
     points: Vec<Point>,
-    /// For each, its index among the points given.
+    /// The input index of each.
     origins: Vec<u32>,
     nodes: Vec<Node>,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    /// The smallest box that holds its points.
+    /// The bounding box of its points.
     low: Point,
     high: Point,
     /// Its points in the tree's order.
     from: u32,
     to: u32,
-    /// The second child; the first stands right behind its parent. 0 for a leaf.
+    /// The second child; the first comes right after its parent. 0 for a leaf.
     second: u32,
 }
 
@@ -88,15 +88,15 @@ impl KdTree {
         Self { points: order.iter().map(|&index| points[index as usize]).collect(), origins: order, nodes }
     }
 
-    /// The `k` nearest points, nearest first, fewer if there are not so many. The point at index
-    /// `without` is passed over. Of points equally far, which are taken depends on the tree alone.
+    /// The `k` nearest points, nearest first, or fewer if there are not that many. Skips the point at
+    /// index `without`. Which of several equally distant points are returned depends only on the tree.
     pub fn nearest(&self, query: &Point, k: usize, metric: Metric, without: Option<u32>, found: &mut Vec<Found>) {
         found.clear();
         if k == 0 || self.nodes.is_empty() {
             return;
         }
         let mut search = Search { tree: self, query, k, without, found };
-        // The metric is known to the compiler within each arm.
+        // Within each arm the compiler knows the metric.
         match metric {
             Metric::Euclidean => search.visit(0, |difference| Metric::Euclidean.part(difference)),
             Metric::Manhattan => search.visit(0, |difference| Metric::Manhattan.part(difference)),
@@ -107,7 +107,7 @@ impl KdTree {
     }
 }
 
-/// Appends the subtree of some points, which begin at `from` in the tree's order.
+/// Appends the subtree of the points that begin at `from` in the tree's order.
 fn divide(points: &[Point], order: &mut [u32], from: u32, nodes: &mut Vec<Node>) {
     let (mut low, mut high) = ([f32::INFINITY; FEATURES], [f32::NEG_INFINITY; FEATURES]);
     for &index in &*order {
@@ -119,7 +119,7 @@ fn divide(points: &[Point], order: &mut [u32], from: u32, nodes: &mut Vec<Node>)
     nodes.push(Node { low, high, from, to: from + order.len() as u32, second: 0 });
     let extent = |axis: usize| high[axis] - low[axis];
     let axis = (1..FEATURES).fold(0, |best, axis| if extent(axis) > extent(best) { axis } else { best });
-    // Points that are all the same cannot be told apart, however many.
+    // Identical points cannot be separated, however many.
     if order.len() <= LEAF || extent(axis) <= 0.0 {
         return;
     }
@@ -132,14 +132,14 @@ fn divide(points: &[Point], order: &mut [u32], from: u32, nodes: &mut Vec<Node>)
     divide(points, second, from + middle as u32, nodes);
 }
 
-/// A sum over the features, four side by side: what a vector register holds.
+/// A sum over the features, four at a time: one vector register.
 fn sum_of_parts(part: impl Fn(usize) -> f32) -> f32 {
     let four: [f32; FEATURES / 2] = std::array::from_fn(|i| part(i) + part(i + FEATURES / 2));
     (four[0] + four[1]) + (four[2] + four[3])
 }
 
-/// The larger of two numbers. Unlike `f32::max` it need not look for what is not a number, and is one
-/// instruction for four.
+/// The larger of two numbers. Unlike `f32::max` it does not check for NaN, and takes one instruction for
+/// four.
 fn larger(p: f32, q: f32) -> f32 {
     if p > q { p } else { q }
 }
@@ -153,7 +153,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Looks at a node whose box is near enough.
+    /// Visits a node whose box is near enough.
     fn visit<F: Fn(f32) -> f32 + Copy>(&mut self, index: usize, part: F) {
         let tree = self.tree;
         let node = &tree.nodes[index];
@@ -181,7 +181,7 @@ impl Search<'_> {
         }
     }
 
-    /// How near a point of the box of a node can be.
+    /// The distance to the nearest point of a node's box.
     fn to_box<F: Fn(f32) -> f32>(&self, index: usize, part: F) -> f32 {
         let node = &self.tree.nodes[index];
         sum_of_parts(|axis| {
@@ -190,7 +190,7 @@ impl Search<'_> {
         })
     }
 
-    /// What is at least so far is no longer of interest.
+    /// Points at least this far are of no interest.
     fn worst_wanted(&self) -> f32 {
         if self.found.len() < self.k { f32::INFINITY } else { self.found[self.k - 1].distance }
     }
@@ -202,7 +202,7 @@ impl Search<'_> {
         if self.found.len() < self.k {
             self.found.push(candidate);
         }
-        // From the end: for so short a list faster than searching and moving.
+        // From the end: for so short a list this is faster than searching and moving.
         let mut place = self.found.len() - 1;
         while place > 0 && self.found[place - 1].distance > candidate.distance {
             self.found[place] = self.found[place - 1];
@@ -219,7 +219,7 @@ mod tests {
 
     fn cloud(points: usize, seed: u64) -> Vec<Point> {
         let mut random = Random::new(seed);
-        // Coarse values make ties and repeated points common, as counts of openings do.
+        // Coarse values make ties and duplicates common, as with counts of openings.
         (0..points)
             .map(|_| std::array::from_fn(|axis| if axis < 2 { random.unit() as f32 } else { random.below(3) as f32 }))
             .collect()

@@ -1,12 +1,12 @@
-//! Numbers that people read: thresholds with few digits, features in words.
+//! Readable numbers: thresholds with few digits, features in words.
 
 use crate::dataset::table::FEATURES;
 
-/// The number with the fewest decimals in `low..high` (the upper end excluded), nearest to the middle.
-/// So a threshold between 12.331 and 12.452 reads 12.4, and one between 2 and 3 openings reads 2.
+/// The number with the fewest decimals in `low..high`, nearest to the middle: a threshold between 12.331
+/// and 12.452 becomes 12.4, and one between 2 and 3 openings becomes 2.
 pub(super) fn readable_between(low: f64, high: f64) -> f64 {
     let middle = low + (high - low) / 2.0;
-    // Beyond nine decimals of a square metre the two ends differ by rounding only.
+    // Beyond nine decimals of a square metre the two ends differ only by rounding.
     for decimals in 0..9 {
         let unit = 10f64.powi(-decimals);
         for step in [(middle / unit).round(), (middle / unit).floor()] {
@@ -20,7 +20,7 @@ pub(super) fn readable_between(low: f64, high: f64) -> f64 {
     low
 }
 
-/// Features and their values as parts of a sentence.
+/// Features and values as parts of a sentence.
 pub(super) mod in_words {
     use super::{FEATURES, value_in_words};
 
@@ -36,7 +36,7 @@ pub(super) mod in_words {
         "openings to halls",
     ];
 
-    /// So many openings: `no openings to halls`, `1 opening`, `3 openings`.
+    /// A number of openings: `no openings to halls`, `1 opening`, `3 openings`.
     pub(in crate::classify) fn of_count(feature: usize, count: f64) -> String {
         let name = NAMES[feature];
         if count == 0.0 {
@@ -79,7 +79,7 @@ fn rounded(value: f64) -> String {
     ((value * unit).round() / unit).to_string()
 }
 
-/// A probability as people say it: `88 %`, never `100 %` of what is not certain.
+/// A probability in percent: `88 %`, but never `100 %` unless certain.
 pub(super) fn percent(probability: f64) -> String {
     let percent = (probability * 100.0).round();
     if percent >= 100.0 && probability < 1.0 {
@@ -109,7 +109,7 @@ mod tests {
             assert!(low <= threshold && threshold < high);
             assert_eq!(threshold, expected);
         }
-        // Neighbouring floating-point numbers leave the lower one.
+        // Between neighbouring floating-point numbers only the lower one remains.
         assert_eq!(readable_between(1.0, 1.0 + f64::EPSILON), 1.0);
     }
 

@@ -1,19 +1,19 @@
-//! Features brought to one scale: what neighbours' distances and the perceptron work on.
+//! Feature scaling: what neighbours' distances and the perceptron work on.
 
 use crate::dataset::table::{FEATURES, Values};
 
-/// What is done to a feature before it is standardised.
+/// The transform applied to a feature before it is standardised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Transform {
-    /// As it is.
+    /// None.
     Identity,
-    /// ln(value + offset) per feature: a room of twice the area is as far from one of the same as
-    /// another of half of it, which is what sizes are like and what a doubtful scale asks for.
+    /// ln(value + offset) per feature: twice the area is as far away as half the area, which suits sizes
+    /// and is robust against a doubtful scale.
     Logarithm,
 }
 
 impl Transform {
-    /// The word for files.
+    /// Its name in files.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Identity => "identity",
@@ -21,7 +21,7 @@ impl Transform {
         }
     }
 
-    /// The transform of a word of [`Transform::name`].
+    /// The transform with this [`Transform::name`].
     pub fn from_name(name: &str) -> Option<Self> {
         [Self::Identity, Self::Logarithm].into_iter().find(|transform| transform.name() == name)
     }
@@ -29,13 +29,13 @@ impl Transform {
     fn apply(self, feature: usize, value: f64) -> f64 {
         match self {
             Self::Identity => value,
-            // A tenth of a square metre and of a ratio keep zero finite; counts start at one.
+            // A tenth of a square metre, or of a ratio, keeps zero finite; counts are offset by one.
             Self::Logarithm => (value + if feature < 2 { 0.1 } else { 1.0 }).ln(),
         }
     }
 }
 
-/// Transform, then mean 0 and deviation 1 over the training rooms.
+/// A transform followed by standardisation to mean 0 and deviation 1 over the training rooms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scale {
     pub transform: Transform,
@@ -45,8 +45,8 @@ pub struct Scale {
     pub deviations: Values,
 }
 
-/// Standardised values beyond this many deviations are cut: an area of a square kilometre must not
-/// drown everything else.
+/// Standardised values are clamped to this many deviations: an area of a square kilometre must not drown
+/// everything else.
 const FARTHEST: f64 = 10.0;
 
 impl Scale {
@@ -64,13 +64,13 @@ impl Scale {
         Self { transform, means, deviations }
     }
 
-    /// Whether the numbers can be worked with.
+    /// Whether all numbers are usable.
     pub fn is_sound(&self) -> bool {
         self.means.iter().all(|mean| mean.is_finite())
             && self.deviations.iter().all(|deviation| deviation.is_finite() && *deviation > 0.0)
     }
 
-    /// The standardised values of a room; 0 (the mean) for what is not a number.
+    /// The standardised values of a room; 0 (the mean) for NaN.
     pub fn apply(&self, values: &Values) -> [f32; FEATURES] {
         std::array::from_fn(|feature| {
             let value = self.transform.apply(feature, values[feature]);

@@ -4,7 +4,7 @@ use super::Distribution;
 use super::calibration::{brier, log_loss};
 use crate::labels::Label;
 
-/// Number of equal steps of the reliability diagram, 0 to 1.
+/// Number of equal bins of the reliability diagram, 0 to 1.
 const BINS: usize = 10;
 
 /// How predictions compare with the truth.
@@ -23,10 +23,10 @@ pub struct Scores {
     pub log_loss: f64,
     /// Mean of [`brier`].
     pub brier: f64,
-    /// Mean distance between the probability of the label given and the share that was right, over
+    /// Mean distance between the probability of the predicted label and the share that was right, over
     /// the bins of the reliability diagram, weighted by their rooms.
     pub calibration_error: f64,
-    /// The reliability diagram: bins of the probability of the label given. All bins, empty ones too.
+    /// The reliability diagram: bins of the probability of the predicted label, including empty ones.
     pub reliability: Vec<ReliabilityBin>,
 }
 
@@ -39,7 +39,7 @@ pub struct FoldScore {
 }
 
 impl FoldScore {
-    /// Share of rooms with the right label, 0..=1; 0 without rooms.
+    /// Share of rooms with the right label, 0..=1; 0 if there are no rooms.
     pub fn accuracy(&self) -> f64 {
         share(self.right as f64, self.rooms as f64)
     }
@@ -53,23 +53,22 @@ pub struct ReliabilityBin {
     /// ...to this.
     pub to: f64,
     pub rooms: usize,
-    /// Mean probability of the label given.
+    /// Mean probability of the predicted label.
     pub probability: f64,
     /// Share of rooms with the right label.
     pub right: f64,
 }
 
-/// How often rooms of each true label (row) were given each label (column), in the order of
-/// [`Label::ALL`].
+/// How often rooms of each true label (row) got each label (column), in the order of [`Label::ALL`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Confusion(pub [[usize; 5]; 5]);
 
-/// The rates of one label, in the words of the paper's Table 1, each 0..=1. Mind that the paper's FP is
-/// what others call the miss rate, and its FN what others call the false-positive rate: of the rooms
-/// with the label, TP got it and FP another; of the rooms without it, TN did not get it and FN did.
-/// (Four of the printed table's cells, C of houses and offices and S of schools and of all, do not
-/// follow from its matrices this way; the other sixteen do.)
+/// The rates of one label in the terms of the paper's Table 1, each 0..=1. Note that the paper's FP is
+/// usually called the miss rate, and its FN the false-positive rate: of the rooms with the label, TP got
+/// it and FP got another; of the rooms without it, TN did not get it and FN did. (Four cells of the
+/// printed table, C of houses and offices and S of schools and of all, do not follow from its matrices
+/// this way; the other sixteen do.)
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct TableRates {
     pub tp: f64,
@@ -79,7 +78,7 @@ pub struct TableRates {
     pub fn_: f64,
 }
 
-/// Numbers of rooms for one label in the usual words.
+/// Numbers of rooms for one label in the usual terms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct LabelCounts {
     pub true_positives: usize,
@@ -99,7 +98,7 @@ impl Confusion {
         (0..5).map(|label| self.0[label][label]).sum()
     }
 
-    /// Numbers for one label in the usual words.
+    /// Numbers for one label in the usual terms.
     pub fn counts(&self, label: Label) -> LabelCounts {
         let label = label.index();
         let true_positives = self.0[label][label];
@@ -113,8 +112,8 @@ impl Confusion {
         }
     }
 
-    /// Rates of one label in the words of the paper's Table 1; `None` for TP and FP to make sense
-    /// there must be rooms with the label, for TN and FN rooms without it: else both are 0.
+    /// Rates of one label in the terms of the paper's Table 1. TP and FP need rooms with the label, TN
+    /// and FN rooms without it: otherwise both are 0.
     pub fn table_rates(&self, label: Label) -> TableRates {
         let counts = self.counts(label);
         let with_label = (counts.true_positives + counts.false_negatives) as f64;
@@ -127,7 +126,7 @@ impl Confusion {
         }
     }
 
-    /// Each row as shares of its sum, as Table 1 prints them; a row without rooms is 0.
+    /// Each row as shares of its sum, as printed in Table 1; 0 for a row without rooms.
     pub fn row_shares(&self) -> [[f64; 5]; 5] {
         self.0.map(|row| {
             let sum: usize = row.iter().sum();
@@ -141,12 +140,12 @@ fn share(part: f64, whole: f64) -> f64 {
 }
 
 impl Scores {
-    /// The scores of predictions. Each item is the fold (0 up), the prediction and the truth.
+    /// Scores predictions. Each item is the fold (from 0), the prediction and the truth.
     pub fn of<'a>(predictions: impl IntoIterator<Item = (usize, &'a Distribution, Label)>) -> Self {
         let mut folds: Vec<FoldScore> = Vec::new();
         let mut confusion = Confusion::default();
         let (mut log_losses, mut briers) = (0.0, 0.0);
-        // For each bin the rooms, the right ones, and the sum of probabilities.
+        // For each bin: rooms, correct ones, and the sum of probabilities.
         let mut bins = [(0usize, 0usize, 0.0); BINS];
         for (fold, distribution, truth) in predictions {
             let given = distribution.label();
@@ -194,7 +193,7 @@ impl Scores {
     }
 }
 
-/// The sample standard deviation; 0 of fewer than two numbers.
+/// The sample standard deviation; 0 for fewer than two numbers.
 fn deviation(numbers: &[f64]) -> f64 {
     let n = numbers.len() as f64;
     if n < 2.0 {
@@ -226,7 +225,7 @@ mod tests {
         assert_eq!(scores.folds[0], FoldScore { rooms: 2, right: 1 });
         let expected = -(0.9f64.ln() * 2.0 + 0.7f64.ln() + 0.075f64.ln()) / 4.0;
         assert!((scores.log_loss - expected).abs() < 1e-12);
-        // At 0.9 all is right, at 0.7 half.
+        // At 0.9 all are right, at 0.7 half.
         assert!((scores.calibration_error - (0.1 + 0.2) / 2.0).abs() < 1e-12);
         let counts = scores.confusion.counts(small);
         assert_eq!((counts.true_positives, counts.false_positives), (2, 1));

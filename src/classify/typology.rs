@@ -1,11 +1,10 @@
-//! Which typology a plan is of, from the plan itself: the paper's future work. Described for readers in
+//! Infers the typology of a plan from the plan itself: the paper's future work. Described for readers in
 //! `docs/joint.md`.
 //!
-//! Eight measures of the plan as a whole ([`Measure`]) are compared with those of known plans by
-//! Fisher's linear discriminant (1936): each typology has a mean, all share one covariance, so measures
-//! that say the same are not counted twice. Where labels of rooms are known, how often each occurs
-//! counts too. Before any evidence every typology is as likely, however many plans of it there were to
-//! learn from.
+//! Eight measures of the whole plan ([`Measure`]) are compared with those of known plans by Fisher's
+//! linear discriminant (1936): each typology has a mean, and all share one covariance, so that correlated
+//! measures are not counted twice. If labels of rooms are known, their frequencies count too. Before any
+//! evidence all typologies are equally likely, however many training plans each had.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -18,20 +17,20 @@ use crate::dataset::RoomNetwork;
 use crate::labels::{Label, Typology};
 use crate::plan::OpeningKind;
 
-/// What is measured of a plan.
+/// A measure of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Measure {
     /// Number of rooms.
     Rooms,
     /// Median area of the rooms.
     MedianArea,
-    /// How different areas are: the standard deviation of their logarithms.
+    /// Variation of areas: the standard deviation of their logarithms.
     Spread,
     /// The largest room's area as a multiple of the median.
     Largest,
     /// Mean number of openings of a room.
     Openings,
-    /// Share of rooms that at most one other room is joined to.
+    /// Share of rooms connected to at most one other room.
     Ends,
     /// Share of rooms more than 2.7 times as long as wide.
     Long,
@@ -57,7 +56,7 @@ impl Measure {
         Self::Passages,
     ];
 
-    /// The word for files.
+    /// Its name in files.
     pub const fn name(self) -> &'static str {
         ["rooms", "median_area", "spread", "largest", "openings", "ends", "long", "passages"][self as usize]
     }
@@ -77,7 +76,7 @@ impl Measure {
     }
 }
 
-/// Areas and ratios below this count as this.
+/// Smaller areas and ratios are raised to this.
 const LEAST: f64 = 1e-6;
 
 /// The measures of a plan with at least one room; all finite.
@@ -118,7 +117,7 @@ struct Known {
     typology: Typology,
     plans: usize,
     mean: Measures,
-    /// Shares of labels among its labelled rooms, each above 0.
+    /// Label shares among its labelled rooms, each above 0.
     labels: [f64; 5],
 }
 
@@ -127,10 +126,10 @@ struct Known {
 pub struct TypologyModel {
     /// By typology, at least one.
     known: Vec<Known>,
-    /// The covariance that all share, shrunk, positive definite.
+    /// The shared covariance, shrunk, positive definite.
     covariance: Covariance,
     left_out: BTreeSet<Measure>,
-    /// The evidence is divided by this, which makes the posterior believable.
+    /// The evidence is divided by this, to calibrate the posterior.
     temperature: f64,
 }
 
@@ -146,25 +145,24 @@ impl fmt::Display for NoTypologies {
 
 impl std::error::Error for NoTypologies {}
 
-/// Share by which the covariance is drawn to its diagonal: with 16 plans of a kind, 28 numbers are not
-/// known well.
+/// Shrinkage of the covariance towards its diagonal: 16 plans of a kind do not determine 28 numbers well.
 const SHRINKAGE: f64 = 0.1;
 
 /// The least variance of a measure, so that one that never varied does not decide alone.
 const LEAST_VARIANCE: f64 = 1e-3;
 
-/// How alike labels are within a building, as the number of rooms of prior belief in Polya's urn: with
-/// it a plan's third bathroom says less than its first.
+/// How strongly labels within a building are correlated, as the number of rooms of prior belief in
+/// Pólya's urn: with it a plan's third bathroom says less than its first.
 const URN: f64 = 10.0;
 
-/// Folds by which the temperature is found.
+/// Folds for finding the temperature.
 const INNER_FOLDS: usize = 5;
 
 /// Temperatures tried.
 const TEMPERATURES: std::ops::RangeInclusive<u32> = 5..=40;
 
 impl TypologyModel {
-    /// Learns from the plans whose typology is known, best as they look without it:
+    /// Learns from the plans whose typology is known, best given as if it were not:
     /// [`RoomNetwork::without_typology`].
     ///
     /// # Errors
@@ -173,7 +171,7 @@ impl TypologyModel {
         Self::train_without(networks, &BTreeSet::new())
     }
 
-    /// The same without some measures, to see what is left without them.
+    /// The same without some measures, to see their effect.
     ///
     /// # Errors
     /// As [`TypologyModel::train`].
@@ -191,7 +189,7 @@ impl TypologyModel {
                 let Some(of_all) = model.known.iter().find(|it| Some(&it.typology) == network.typology.as_ref()) else {
                     continue;
                 };
-                // Every typology counts alike, however many plans it has.
+                // All typologies have equal weight, however many plans they have.
                 unseen.push((part_model.evidence(network, &[]), truth, 1.0 / of_all.plans as f64));
             }
         }
@@ -245,9 +243,9 @@ impl TypologyModel {
         Ok(Self { known, covariance, left_out: left_out.clone(), temperature: 1.0 })
     }
 
-    /// Probabilities of the typologies learned from, the most probable first. `known` holds the labels of
-    /// the network's rooms that are known without knowing the typology; a list that is too short knows no
-    /// more. Without rooms all are as likely.
+    /// Probabilities of the typologies, most probable first. `known` holds the labels of the network's
+    /// rooms that are known without knowing the typology; in a list that is too short, the remaining
+    /// rooms are unknown. Without rooms all are equally likely.
     pub fn posterior(&self, network: &RoomNetwork, known: &[Option<Label>]) -> Vec<(Typology, f64)> {
         let probabilities = softmax(&self.evidence(network, known), self.temperature);
         let mut posterior: Vec<(Typology, f64)> =
@@ -256,8 +254,8 @@ impl TypologyModel {
         posterior
     }
 
-    /// What speaks for the most probable typology against the next, in words, the strongest first:
-    /// `48 rooms (school 33, office 41)`. Nothing where there is but one typology, or no room.
+    /// The evidence for the most probable typology against the runner-up, in words, strongest first: `48
+    /// rooms (school 33, office 41)`. Empty if there is only one typology, or no room.
     pub fn reasons(&self, network: &RoomNetwork, known: &[Option<Label>]) -> Vec<String> {
         let posterior = self.posterior(network, known);
         let find = |rank: usize| {
@@ -296,13 +294,13 @@ impl TypologyModel {
         reasons.into_iter().map(|(_, words)| words).collect()
     }
 
-    /// The measures with those that are left out at zero.
+    /// The measures with the omitted ones set to zero.
     fn used(&self, measures: Measures) -> Measures {
         Measures::from_fn(|i, _| if self.left_out.contains(&Measure::ALL[i]) { 0.0 } else { measures[i] })
     }
 
-    /// Solves by the covariance; by its diagonal alone where it is not positive definite, which one that was
-    /// learned from ordinary plans always is.
+    /// The Cholesky factor of the covariance; of its diagonal alone if it is not positive definite, which
+    /// one learned from ordinary plans always is.
     fn solver(&self) -> Cholesky<f64, Const<MEASURES>> {
         let diagonal = || {
             let variances = self.covariance.diagonal().map(|variance| variance.max(LEAST_VARIANCE));
@@ -311,7 +309,7 @@ impl TypologyModel {
         Cholesky::new(self.covariance).unwrap_or_else(diagonal)
     }
 
-    /// The logarithm of the likelihood of what is seen under each typology, up to a constant.
+    /// The log likelihood of the observations under each typology, up to a constant.
     fn evidence(&self, network: &RoomNetwork, known: &[Option<Label>]) -> Vec<f64> {
         let counts = counts_of(known);
         let measured = measures(network);
@@ -352,10 +350,10 @@ impl TypologyModel {
         })
     }
 
-    /// The model of such data.
+    /// Reads the model from such data.
     ///
     /// # Errors
-    /// What is missing, or not what it should be.
+    /// When something is missing or invalid; the error says what.
     pub fn from_value(value: &Value) -> Result<Self, TypologyModelError> {
         let refuse = |what: &'static str| TypologyModelError(what);
         let list = |name: &str| value.get(name).and_then(Value::as_array);
@@ -411,10 +409,10 @@ impl TypologyModel {
     }
 }
 
-/// Evidence below this (in nats, of the undivided kind) is not worth a word.
+/// Evidence below this (in nats, before dividing by the temperature) is not worth mentioning.
 const SPEAKS: f64 = 0.1;
 
-/// Why data are no model of typologies.
+/// Why data are not a valid typology model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TypologyModelError(pub &'static str);
 
@@ -441,7 +439,7 @@ fn counts_of(known: &[Option<Label>]) -> [u32; 5] {
     counts
 }
 
-/// The logarithm of the probability of labels in some order, drawn from Polya's urn.
+/// The log probability of labels in some order, drawn from Pólya's urn.
 fn urn(counts: &[u32; 5], shares: &[f64; 5]) -> f64 {
     let mut drawn = 0;
     let mut sum = 0.0;
@@ -467,7 +465,7 @@ fn building_folds(networks: &[&RoomNetwork], folds: usize, seed: u64) -> Vec<usi
     networks.iter().map(|network| fold_of.get(&building(network)).copied().unwrap_or_default()).collect()
 }
 
-/// A plan's true typology and the posterior that a model gave it which did not know its building.
+/// A plan's true typology, and the posterior from a model that had not seen its building.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Inferred {
     pub building: String,
@@ -475,7 +473,7 @@ pub struct Inferred {
     pub posterior: Vec<(Typology, f64)>,
 }
 
-/// Cross-validates with folds that never split a building, no label of the plans tested being given. The
+/// Cross-validates with folds that never split a building, with no labels given for the test plans. The
 /// networks are those of [`RoomNetwork::without_typology`].
 pub fn cross_validate(
     networks: &[&RoomNetwork],

@@ -1,9 +1,9 @@
-//! What lies behind an opening into unexplored space: a distribution over the label of the room behind
-//! it, from the known side alone.
+//! Predicts what lies behind an opening into unexplored space: a distribution over the label of the room
+//! behind it, from the known side alone.
 //!
-//! Counts of what lay behind such openings, from the particular to the general: openings of this kind in
-//! rooms of this label with as many other openings; in rooms of this label; all. Each step is smoothed
-//! towards the next, so that what was rarely seen says little.
+//! Counts of what lay behind such openings, from the specific to the general: openings of this kind in
+//! rooms of this label with as many other openings; in rooms of this label; all. Each level is smoothed
+//! towards the next, so that rare cases say little.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,10 +14,10 @@ use crate::dataset::folds::{Folds, FoldsError};
 use crate::labels::Label;
 use crate::plan::OpeningKind;
 
-/// Other openings of a room are told apart up to so many; more count as this.
+/// The most other openings of a room told apart; more count as this.
 const OTHERS: usize = 4;
 
-/// How many openings seen weigh as much as the next more general counts.
+/// How many observed openings weigh as much as the next more general counts.
 const STRENGTH: f64 = 5.0;
 
 type Counts = [f64; 5];
@@ -29,23 +29,23 @@ pub struct Unknown {
     behind: [[[Counts; 2]; OTHERS + 1]; 5],
 }
 
-/// A score with what it is measured against.
+/// A score and its baseline.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnknownScores {
     pub scores: Scores,
-    /// The share that the label most often found behind openings gets right.
+    /// The share right when always predicting the label most often found behind openings.
     pub most_frequent: f64,
 }
 
-/// How predictions of what lies behind the openings of a plan compare with the truth.
+/// The score of predictions of what lies behind the openings of a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlanScore {
     pub building: String,
     /// Openings between labelled rooms, each from both sides.
     pub openings: usize,
-    /// Those rightly predicted.
+    /// Those predicted correctly.
     pub right: usize,
-    /// Those behind which lies the label most often found behind openings.
+    /// Those behind which is the label most often found behind openings.
     pub most_frequent: usize,
 }
 
@@ -90,8 +90,8 @@ fn openings(networks: &[&RoomNetwork]) -> Vec<Seen> {
 }
 
 impl Unknown {
-    /// Learns from openings between labelled rooms, each seen from both sides. Without any, every label is
-    /// as likely.
+    /// Learns from openings between labelled rooms, each seen from both sides. If there are none, all
+    /// labels are equally likely.
     pub fn train(networks: &[&RoomNetwork]) -> Self {
         Self::of(openings(networks).iter())
     }
@@ -106,9 +106,9 @@ impl Unknown {
         Self { behind }
     }
 
-    /// The distribution over the label of the room behind the opening with the index `door` of a room.
-    /// `known` holds the labels that are known of the network's rooms; where the room's own is not, all
-    /// labels of it count. `None` for an opening that does not exist.
+    /// The distribution over the label of the room behind opening `door` of a room. `known` holds the
+    /// known labels of the network's rooms; if the room's own is unknown, the counts of all labels are
+    /// used. `None` for an opening that does not exist.
     pub fn predict(
         &self,
         network: &RoomNetwork,
@@ -132,7 +132,7 @@ impl Unknown {
         Distribution::smoothed(of_label[place.others][place.passage], &belief, STRENGTH)
     }
 
-    /// Tests on plans that were not learned from, as [`Unknown::score`] does.
+    /// Tests on plans not in the training set, as [`Unknown::score`] does.
     pub fn test(&self, networks: &[&RoomNetwork]) -> Vec<PlanScore> {
         let anywhere = self.anywhere().label();
         let of_plan = |network: &&RoomNetwork| {
@@ -148,13 +148,13 @@ impl Unknown {
         networks.iter().map(of_plan).collect()
     }
 
-    /// The distribution behind an opening of which nothing is known.
+    /// The distribution behind an opening about which nothing is known.
     fn anywhere(&self) -> Distribution {
         self.distribution(Place { label: None, others: 0, passage: 0 })
     }
 
-    /// Cross-validates with folds that never split a building: behind every opening between labelled
-    /// rooms the room is taken to be unexplored, the other one known.
+    /// Cross-validates with folds that never split a building: for every opening between labelled rooms,
+    /// the room behind is taken to be unexplored and the other one known.
     ///
     /// # Errors
     /// When there are fewer buildings with such openings than folds.

@@ -1,10 +1,10 @@
-//! What the labels of the other rooms, known or predicted, say of a room.
+//! Evidence about a room from the labels of the other rooms, known or predicted.
 
 use super::view::{Group, View};
 use crate::classify::Distribution;
 use crate::labels::Label;
 
-/// The features of the second round, in their order, behind those of the first.
+/// The features of the second round, in order, after those of the first.
 pub const FEATURES: &[(Group, &str)] = &[
     (Group::Labels, "first opinion: small room"),
     (Group::Labels, "first opinion: medium room"),
@@ -38,21 +38,21 @@ pub const FEATURES: &[(Group, &str)] = &[
     (Group::Labels, "area against the plan's halls"),
 ];
 
-/// The other rooms of a plan must together believe this much in a label, in rooms, for it to have a mean
+/// The least total probability of a label over the other rooms of a plan, in rooms, for it to have a mean
 /// area there.
 const LEAST_WEIGHT: f64 = 0.05;
 
-/// What is believed of the rooms of a plan.
+/// The beliefs about the rooms of a plan.
 pub(super) struct Around<'a> {
     view: &'a View,
     first: &'a [Distribution],
-    /// The known label, else the first opinion.
+    /// The known label, else the first round's prediction.
     believed: Vec<[f64; 5]>,
     all: Sums,
 }
 
 impl<'a> Around<'a> {
-    /// From the first opinions and what is known of the rooms.
+    /// From the first round's predictions and the known labels.
     pub fn new(view: &'a View, first: &'a [Distribution], known: &[Option<Label>]) -> Self {
         let believed: Vec<[f64; 5]> = first
             .iter()
@@ -77,8 +77,8 @@ impl<'a> Around<'a> {
         sums
     }
 
-    /// The features of a room: a list as long as [`FEATURES`], all finite. Its own known label is not
-    /// among what it is told.
+    /// The features of a room: a list as long as [`FEATURES`], all finite. They do not use its own known
+    /// label.
     pub fn of_room(&self, room: usize) -> Vec<f32> {
         let area = self.view.log_area[room];
         let joined = self.sum(&self.view.joined[room]);
@@ -102,7 +102,7 @@ impl<'a> Around<'a> {
     }
 }
 
-/// Weights of labels over rooms, and logarithms of areas in proportion to them.
+/// Weights of labels over rooms, and logarithms of areas weighted by them.
 #[derive(Clone, Copy, Default)]
 struct Sums {
     rooms: f64,
@@ -119,7 +119,7 @@ impl Sums {
         }
     }
 
-    /// Nothing where there are no rooms.
+    /// All zero if there are no rooms.
     fn shares(&self) -> [f64; 5] {
         self.weights.map(|weight| if self.rooms > 0.5 { weight / self.rooms } else { 0.0 })
     }

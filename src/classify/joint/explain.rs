@@ -8,55 +8,55 @@ use crate::classify::numbers::percent;
 use crate::dataset::RoomNetwork;
 use crate::labels::Label;
 
-/// A prediction with what it rests on.
+/// A prediction and the reasons for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointExplanation {
-    /// The label given.
+    /// The predicted label.
     pub label: Label,
     /// Its probability, 0..=1.
     pub probability: f64,
-    /// What the first round said, which knows no label of other rooms.
+    /// The prediction of the first round, which knows no labels of other rooms.
     pub first: Distribution,
-    /// What each group of features did, the one that spoke most for the label first.
+    /// The effect of each group of features, strongest support for the label first.
     pub groups: Vec<GroupEffect>,
-    /// What each room it opens to did, the one that spoke most for the label first.
+    /// The effect of each room it opens to, strongest support for the label first.
     pub neighbours: Vec<NeighbourEffect>,
-    /// What is to be said of the room in words, by group.
+    /// Facts about the room in words, by group.
     facts: Vec<(Group, String)>,
 }
 
-/// What a group of features did: the second round is asked again with each of them at its median over
+/// The effect of a group of features: the second round is repeated with each of them at its median over
 /// the training rooms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroupEffect {
     pub group: Group,
-    /// The probability of the label given, if the group were typical.
+    /// The probability of the predicted label if the group were typical.
     pub probability_if_typical: f64,
 }
 
-/// What a neighbour's label, known or believed, did: the second round is asked again with nothing
-/// believed of that room.
+/// The effect of a neighbour's label, known or predicted: the second round is repeated with no belief
+/// about that room.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NeighbourEffect {
     /// Its index in the network.
     pub room: usize,
-    /// What it is called.
+    /// Its key.
     pub key: String,
     /// Its label: the known one, else the first round's.
     pub label: Label,
     pub is_known: bool,
-    /// The probability of the label given, if any label were as likely for the neighbour.
+    /// The probability of the predicted label if all labels were equally likely for the neighbour.
     pub probability_if_unknown: f64,
 }
 
-/// Effects below this are not worth a word.
+/// Effects below this are not worth mentioning.
 const MATTERS: f64 = 0.02;
 
-/// Groups, and neighbours, named in a sentence; all are in the data.
+/// The most groups, and neighbours, named in a sentence; the data have all.
 const NAMED: usize = 3;
 
 impl Joint {
-    /// Why a room gets its label; `None` for a room that the network does not have. `known` as in
+    /// Why a room gets its label; `None` for a room that is not in the network. `known` as in
     /// [`Joint::predict`].
     pub fn explain(&self, network: &RoomNetwork, known: &[Option<Label>], room: usize) -> Option<JointExplanation> {
         self.explain_from(&self.first_round(network), network, known, room)
@@ -75,7 +75,7 @@ impl Joint {
         let values = |first: &[Distribution], known: &[Option<Label>]| {
             looked.with_labels_around(room, &Around::new(&looked.view, first, known), &self.left_out)
         };
-        // What is left out for one neighbour is put back for the next.
+        // What is removed for one neighbour is restored for the next.
         let (mut without, mut unsure) = (known.to_vec(), first.clone());
         let told = values(first, known);
         let distribution = self.answer(&told);

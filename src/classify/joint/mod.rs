@@ -1,12 +1,12 @@
 //! The fifth classifier: all rooms of a plan together, each in relation to the others. Described for
-//! readers in `docs/joint.md`, with what it gains and what does not help.
+//! readers in `docs/joint.md`, with its gains and what did not help.
 //!
-//! Two rounds. In the first a forest of random trees looks at each room's size, form and openings in
-//! relation to the rest of its plan ([`view`]); it knows no label of any room. In the second another
-//! forest is told in addition what the first said of the rooms around, or what a person did
-//! ([`around`]), so that a plan's rooms are labelled in agreement. What the second forest learns from are
-//! opinions of forests that did not know the building, as in use; and in half of its examples some rooms
-//! are known, so that it learns what knowledge is worth.
+//! It has two rounds. In the first, a forest of random trees looks at each room's size, form and openings
+//! in relation to the rest of its plan ([`view`]); it knows no labels. In the second, another forest also
+//! sees what the first predicted for the surrounding rooms, or labels given by the user ([`around`]), so
+//! that the labels of a plan agree. The second forest is trained on predictions of forests that had not
+//! seen the building, as in use; and in half of its examples some rooms are known, so that it learns how
+//! much to trust known labels.
 
 mod around;
 mod explain;
@@ -32,7 +32,7 @@ use crate::dataset::folds::{Folds, FoldsError};
 use crate::dataset::{RoomNetwork, RoomPlace};
 use crate::labels::Label;
 
-/// Folds by which training rooms get first opinions of forests that did not learn from their building.
+/// Folds for first-round predictions of training rooms by forests not trained on their building.
 const INNER_FOLDS: usize = 4;
 
 /// The trained fifth classifier.
@@ -90,17 +90,17 @@ impl fmt::Display for JointValidationError {
 
 impl std::error::Error for JointValidationError {}
 
-/// What came of a cross-validation.
+/// The result of a cross-validation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointValidated {
-    /// Where each labelled room stands, in the order of the networks.
+    /// The positions of the labelled rooms, in the order of the networks.
     pub places: Vec<RoomPlace>,
-    /// For each of these the prediction by a classifier that knew nothing of its building.
+    /// For each of these, the prediction by a classifier that had not seen its building.
     pub predictions: Vec<Distribution>,
     pub scores: Scores,
 }
 
-/// The features of one plan's rooms, first round, and what the second needs to go on.
+/// The first-round features of one plan's rooms, and what the second round needs besides.
 #[derive(Clone, Debug)]
 struct Looked {
     view: View,
@@ -136,14 +136,14 @@ impl Looked {
     }
 }
 
-/// The first round over a plan: what both predictions and their explanations start from.
+/// The first round over a plan: the starting point of both predictions and their explanations.
 #[derive(Clone, Debug)]
 pub struct FirstRound {
     looked: Looked,
     opinions: Vec<Distribution>,
 }
 
-/// Sets the features of some groups to 0, so that no tree can ask about them.
+/// Sets the features of some groups to 0, so that no tree can split on them.
 fn blank(values: &mut [f32], features: &[(Group, &str)], groups: &BTreeSet<Group>) {
     for (value, (group, _)) in values.iter_mut().zip(features) {
         if groups.contains(group) {
@@ -169,7 +169,7 @@ impl Joint {
         Self::train_without(networks, &BTreeSet::new(), seed, work)
     }
 
-    /// The same without some groups of features, to measure what these are worth.
+    /// The same without some groups of features, to measure their worth.
     ///
     /// # Errors
     /// As [`Joint::train`].
@@ -187,15 +187,15 @@ impl Joint {
         let folds = inner_folds(networks, &places, seed);
         let count = folds.as_ref().map_or(0, Folds::count);
 
-        // The first round: a forest for each fold that did not see it, and one of all rooms.
+        // The first round: a forest for each fold that did not see it, and one trained on all rooms.
         let mut samples = Samples::default();
         for &place in &places {
             samples.push(&looked[place.network].features[place.room], label(networks, place));
         }
         let (of_folds, first) = grow(&samples, folds.as_ref(), 1, seed_of_part(seed, 1), work)?;
 
-        // Opinions on every room, of the forest that did not learn from it. A room without a label goes
-        // with the first of its plan that has one.
+        // Predictions for every room, by the forest not trained on it. A room without a label is in the
+        // fold of the first labelled room of its plan.
         let mut fold_of: Vec<Vec<usize>> = networks.iter().map(|network| vec![count; network.rooms.len()]).collect();
         if let Some(folds) = &folds {
             for (place, &fold) in places.iter().zip(folds.of_rows()).rev() {
@@ -210,7 +210,7 @@ impl Joint {
             rooms.map(|(values, &fold)| of_folds.get(fold).unwrap_or(&first).predict(values)).collect::<Vec<_>>()
         })?;
 
-        // The second round: every plan twice, with nothing known and with some rooms known.
+        // The second round: every plan twice, with no rooms known and with some known.
         let mut samples = Samples::default();
         let mut typical_of = Vec::new();
         for (network, looked) in looked.iter().enumerate() {
@@ -237,7 +237,7 @@ impl Joint {
         }
         let (of_folds, second) = grow(&samples, folds.as_ref(), 2, seed_of_part(seed, 3), work)?;
 
-        // Temperature from rooms whose building the forest did not see.
+        // Temperature from rooms whose building the forest had not seen.
         let unseen = places.iter().enumerate().filter_map(|(index, &place)| {
             let forest = of_folds.get(fold_of[place.network][place.room])?;
             let values: Vec<f32> = samples.columns.iter().map(|column| column[index]).collect();
@@ -248,20 +248,20 @@ impl Joint {
     }
 
     /// The distribution of every room of a network. `known` holds the labels that may be used, by room:
-    /// they are evidence for the other rooms, never for the room itself. A list that is too short knows
-    /// no more.
+    /// they are evidence for the other rooms, never for the room itself. In a list that is too short, the
+    /// remaining rooms are unknown.
     pub fn predict(&self, network: &RoomNetwork, known: &[Option<Label>]) -> Vec<Distribution> {
         self.predict_from(&self.first_round(network), known)
     }
 
-    /// The first round, which asks for no label.
+    /// The first round, which needs no labels.
     pub fn first_round(&self, network: &RoomNetwork) -> FirstRound {
         let looked = Looked::new(network, &self.left_out);
         let opinions = self.first_opinions(&looked);
         FirstRound { looked, opinions }
     }
 
-    /// As [`Joint::predict`], after the first round over the same network.
+    /// Like [`Joint::predict`], from a first round over the same network.
     pub fn predict_from(&self, round: &FirstRound, known: &[Option<Label>]) -> Vec<Distribution> {
         self.second_opinions(&round.looked, &round.opinions, known)
     }
@@ -275,13 +275,13 @@ impl Joint {
         features.iter().map(|values| self.answer(values)).collect()
     }
 
-    /// What the second forest says of a room.
+    /// The second forest's prediction for a room.
     fn answer(&self, values: &[f32]) -> Distribution {
         self.second.predict(values).at_temperature(self.temperature)
     }
 }
 
-/// Where the labelled rooms are, in the order of the networks.
+/// The positions of the labelled rooms, in the order of the networks.
 fn labelled(networks: &[&RoomNetwork]) -> Vec<RoomPlace> {
     let rooms = networks.iter().enumerate().flat_map(|(index, network)| {
         network.rooms.iter().enumerate().map(move |(room, of)| (RoomPlace { network: index, room }, of.label))
@@ -289,12 +289,12 @@ fn labelled(networks: &[&RoomNetwork]) -> Vec<RoomPlace> {
     rooms.filter(|(_, label)| label.is_some()).map(|(place, _)| place).collect()
 }
 
-/// The label of a room that [`labelled`] gave.
+/// The label of a room returned by [`labelled`].
 fn label(networks: &[&RoomNetwork], place: RoomPlace) -> Label {
     networks[place.network].rooms[place.room].label.unwrap_or(Label::SmallRoom)
 }
 
-/// Folds by building; by room where there is but one building; none for a single room.
+/// Folds by building; by room if there is only one building; `None` for a single room.
 fn inner_folds(networks: &[&RoomNetwork], places: &[RoomPlace], seed: u64) -> Option<Folds> {
     let labels: Vec<Label> = places.iter().map(|&place| label(networks, place)).collect();
     let buildings: Vec<&str> = places.iter().map(|place| networks[place.network].building.as_str()).collect();
@@ -304,8 +304,8 @@ fn inner_folds(networks: &[&RoomNetwork], places: &[RoomPlace], seed: u64) -> Op
         .ok()
 }
 
-/// A forest for each fold, of the samples of the others, and one of all. `times` is how often the rooms
-/// that were assigned to folds stand in the samples, one after the other.
+/// A forest for each fold, trained on the samples of the others, and one trained on all. `times` is how
+/// many copies of the rooms the samples contain, one after the other.
 fn grow(
     samples: &Samples,
     folds: Option<&Folds>,
@@ -338,8 +338,8 @@ fn median(numbers: &[f32]) -> f32 {
     sorted.get(sorted.len() / 2).copied().unwrap_or_default()
 }
 
-/// Cross-validates with folds that never split a building, nothing being known of the buildings
-/// predicted. The same seed gives the same result on any number of threads. Progress counts folds.
+/// Cross-validates with folds that never split a building and no known labels in the buildings predicted.
+/// The same seed gives the same result on any number of threads. Progress counts folds.
 ///
 /// # Errors
 /// When there are fewer buildings with labelled rooms than folds, or the work is cancelled.
@@ -352,8 +352,8 @@ pub fn cross_validate(
     cross_validate_without(networks, &BTreeSet::new(), folds, 0.0, seed, work)
 }
 
-/// The same without some groups of features, and with a share `known` (0..=1) of the rooms of each plan
-/// predicted being known, chosen at random: what a partly labelled building gains.
+/// The same without some groups of features, and with a random share `known` (0..=1) of the rooms of each
+/// predicted plan known: what a partly labelled building gains.
 ///
 /// # Errors
 /// As [`cross_validate`].
@@ -375,7 +375,7 @@ pub fn cross_validate_without(
             let tested: BTreeSet<usize> = folds.test_rows(fold).into_iter().map(|row| places[row].network).collect();
             let taught: Vec<&RoomNetwork> =
                 networks.iter().enumerate().filter(|(index, _)| !tested.contains(index)).map(|(_, &of)| of).collect();
-            // Threads are busy with the other folds.
+            // The other threads are busy with other folds.
             let joint = Joint::train_without(&taught, left_out, seed, &Work::quiet().on_threads(1)).ok();
             let mut random = Random::new(seed);
             let mut predict = |network: usize| {

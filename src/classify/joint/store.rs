@@ -8,10 +8,10 @@ use serde_json::{Value, json};
 use super::trees::{Forest, Node, Tree};
 use super::{Group, Joint, around, view};
 
-/// Why data are no joint classifier.
+/// Why data are not a valid joint classifier.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct JointModelError {
-    /// Which part, as members and indices: `second[12]`.
+    /// The invalid part, as members and indices: `second[12]`.
     pub at: String,
     pub what: &'static str,
 }
@@ -28,14 +28,14 @@ fn refuse<T>(at: impl Into<String>, what: &'static str) -> Result<T, JointModelE
     Err(JointModelError { at: at.into(), what })
 }
 
-/// Bounds on what a file can make the program hold: real forests have a hundredth of it.
+/// Limits on what a file can make the program allocate: real forests have a hundredth of it.
 const MOST_TREES: usize = 10_000;
 const MOST_NODES: usize = 50_000_000;
 
 impl Joint {
-    /// The classifier as data: the names of the features, their typical values, and each tree as a list of
-    /// numbers, its nodes from the root down, 'yes' before 'no'. A question is the feature's number and the
-    /// threshold; a leaf is -1 and the five counts of labels.
+    /// The classifier as data: the names of the features, their typical values, and each tree as a list
+    /// of numbers, its nodes from the root down, 'yes' before 'no'. A question is the feature's index and
+    /// the threshold; a leaf is -1 and the five counts of labels.
     pub fn to_value(&self) -> Value {
         json!({
             "features": names(),
@@ -47,10 +47,10 @@ impl Joint {
         })
     }
 
-    /// The classifier of such data.
+    /// Reads the classifier from such data.
     ///
     /// # Errors
-    /// When something is missing, or not what it should be; with the place.
+    /// When something is missing or invalid; the error says where.
     pub fn from_value(value: &Value) -> Result<Self, JointModelError> {
         let list = |name: &'static str| match value.get(name).and_then(Value::as_array) {
             Some(list) => Ok(list),
@@ -132,8 +132,8 @@ fn forest(name: &str, trees: &[Value], features: usize) -> Result<Forest, JointM
     Ok(Forest { trees: read })
 }
 
-/// A tree from its numbers. Questions that still wait for their second child are kept on a stack of our
-/// own, so that no depth is too deep.
+/// A tree from its numbers. Questions still waiting for their second child are on an explicit stack, so
+/// that no tree is too deep.
 fn tree(numbers: &[Value], features: usize) -> Result<Tree, &'static str> {
     const CUT: &str = "ends within a node, or holds what is no number";
     let mut numbers = numbers.iter();

@@ -1,14 +1,13 @@
-//! A forest of extremely randomised trees (Geurts, Ernst and Wehenkel 2006): every tree sees all
-//! samples, each of its questions is the best of a few drawn at random, and the trees' answers are
-//! averaged. With a few hundred rooms and many features this overfits less than choosing the best
-//! question of all.
+//! A forest of extremely randomised trees (Geurts, Ernst and Wehenkel 2006): every tree sees all samples,
+//! each of its questions is the best of a few drawn at random, and the trees' answers are averaged. With
+//! a few hundred rooms and many features this overfits less than choosing the best of all questions.
 
 use crate::base::random::{Random, seed_of_part};
 use crate::base::work::{Cancelled, Work};
 use crate::classify::Distribution;
 use crate::labels::Label;
 
-/// Trees of a forest: the usual number, at which the mean of their answers has settled.
+/// Trees per forest: a common number, at which the mean answer has converged.
 pub(super) const TREES: usize = 100;
 
 /// Fewest samples in a leaf.
@@ -17,7 +16,7 @@ const LEAST_IN_LEAF: usize = 3;
 /// Questions tried at a node, as a share of the features.
 const TRIED: f64 = 0.4;
 
-/// No path is longer: growing a tree recurses, and data made on purpose could make it deep.
+/// Maximum depth: growing a tree recurses, and contrived data could make it deep.
 const MOST_DEPTH: usize = 60;
 
 /// Samples to learn from, by column.
@@ -48,7 +47,7 @@ impl Samples {
     }
 }
 
-/// A node of a tree; the children of a question stand behind it.
+/// A node of a tree; the children of a question come after it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Node {
     /// Is the feature at most this? Yes leads to the next node, no to the one with the index `no`.
@@ -67,7 +66,7 @@ pub(super) struct Forest {
     pub trees: Vec<Tree>,
 }
 
-/// A forest to grow: from which samples, with which seed. `rows` may not be empty.
+/// A forest to grow, from these samples with this seed. `rows` must not be empty.
 pub(super) struct Job<'a> {
     pub samples: &'a Samples,
     pub rows: Vec<u32>,
@@ -128,7 +127,7 @@ impl Tree {
 struct Grower<'a> {
     samples: &'a Samples,
     random: Random,
-    /// All features; those at the front were drawn at the node in hand.
+    /// All features; those at the front were drawn for the current node.
     features: Vec<usize>,
     nodes: Vec<Node>,
 }
@@ -158,7 +157,7 @@ impl Grower<'_> {
         self.grow(right, depth + 1);
     }
 
-    /// The question that tells labels apart best, of one at random on each of some features.
+    /// The question that separates labels best: one random threshold is tried on each of some features.
     fn question(&mut self, rows: &[u32], counts: [u32; 5]) -> Option<(usize, f32)> {
         let wanted = (TRIED * self.features.len() as f64).ceil() as usize;
         let mut tried = 0;
@@ -199,7 +198,7 @@ impl Grower<'_> {
     }
 }
 
-/// A threshold with four significant digits, which is more than it means: shorter in the file.
+/// A threshold rounded to four significant digits, which is plenty: shorter in the file.
 fn short(number: f32) -> f32 {
     if number == 0.0 {
         return 0.0;
@@ -218,7 +217,7 @@ fn purity(counts: [u32; 5]) -> f64 {
 mod tests {
     use super::*;
 
-    /// Two labels told apart by the first of two features.
+    /// Two labels separated by the first of two features.
     fn samples() -> Samples {
         let mut samples = Samples::default();
         let mut random = Random::new(3);

@@ -7,10 +7,10 @@ use crate::base::numbers::{mean, quantile};
 use crate::dataset::RoomNetwork;
 use crate::plan::OpeningKind;
 
-/// Features that belong together: explained together, and left out together to see what they are worth.
+/// Related features: explained together, and left out together to measure their worth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Group {
-    /// Area, most of all in relation to the other rooms of the plan.
+    /// Area, mainly in relation to the other rooms of the plan.
     Size,
     /// Lengths, corners, how compact it is.
     Form,
@@ -113,32 +113,32 @@ pub const FEATURES: &[(Group, &str)] = &[
     (Group::Plan, "mean free passages"),
 ];
 
-/// Areas and ratios count as equal up to this, in logarithms: half a percent is less than the error of
+/// Logarithms of areas and ratios this close count as equal: half a percent is less than the error of
 /// tracing, and keeps rounding from deciding ranks.
 const EQUAL: f64 = 0.005;
 
-/// Rooms are alike in area, and in shape, up to this, in logarithms: 15 %.
+/// Rooms are alike in area, or in shape, if the logarithms differ by at most this: 15 %.
 pub(super) const ALIKE: f64 = 0.15;
 
-/// A room is small, or large, beside the plan's median from these on, in logarithms: half, and 1.65.
+/// A room is small, or large, beyond these logarithms of its ratio to the plan's median: half, and 1.65.
 const SMALL: f64 = -0.7;
 const LARGE: f64 = 0.5;
 
-/// What stands for infinitely small and large: logarithms stay within 20.
+/// Replaces infinitely small and large values: logarithms stay within 20.
 const LEAST: f64 = 1e-9;
 
-/// Up to so many rooms the graph is searched from every room, beyond from so many evenly spread ones:
-/// time stays in proportion to the plan.
+/// Up to this many rooms, the graph is searched from every room; beyond, from this many evenly spaced
+/// ones: time stays proportional to the plan.
 const MOST_SEARCHES: usize = 1000;
 
-/// Lists of a plan that features and labels around rooms follow from, one entry for each room.
+/// Per-room lists of a plan from which features and labels around rooms are computed.
 #[derive(Clone, Debug)]
 pub(super) struct View {
     /// Natural logarithm of the area in m².
     pub log_area: Vec<f64>,
-    /// The rooms that its openings lead to, each once, ascending.
+    /// The rooms its openings lead to, without repeats, ascending.
     pub joined: Vec<Vec<usize>>,
-    /// The other rooms that its best joined neighbour joins.
+    /// The other rooms joined by its best connected neighbour.
     pub siblings: Vec<Vec<usize>>,
 }
 
@@ -157,7 +157,7 @@ impl View {
             .collect();
         let siblings = (0..joined.len())
             .map(|room| {
-                // Equally joined neighbours of equal area lead to as many siblings: which is taken
+                // Equally connected neighbours of equal area lead to as many siblings: which is taken
                 // matters little, and the rooms' order decides.
                 let hub = joined[room]
                     .iter()
@@ -188,12 +188,12 @@ fn sorted(numbers: &[f64]) -> Vec<f64> {
     sorted
 }
 
-/// How many of sorted numbers are at most this, up to [`EQUAL`].
+/// How many of the sorted numbers are at most this, within [`EQUAL`].
 fn within(sorted: &[f64], low: f64, high: f64) -> usize {
     sorted.partition_point(|&number| number <= high).saturating_sub(sorted.partition_point(|&number| number < low))
 }
 
-/// For each number the share of the others that are smaller; equal ones count half.
+/// For each number the share of the others that are smaller; ties count half.
 fn ranks(numbers: &[f64]) -> Vec<f64> {
     let sorted = sorted(numbers);
     let others = (numbers.len().max(2) - 1) as f64;
@@ -207,19 +207,19 @@ fn ranks(numbers: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// What searches of the graph tell of each room.
+/// Results of searching the graph, for each room.
 #[derive(Clone, Copy, Default)]
 struct Search {
-    /// Share of the shortest ways between other rooms that lead through it (Freeman 1977).
+    /// Share of the shortest paths between other rooms that pass through it (Freeman 1977).
     betweenness: f64,
-    /// One over the mean number of steps to the rooms within reach.
+    /// One over the mean number of steps to the reachable rooms.
     closeness: f64,
     farthest: f64,
-    /// Share of all rooms within reach, itself included.
+    /// Share of all rooms that are reachable, itself included.
     reach: f64,
 }
 
-/// Searches the graph breadth first from every room; betweenness after Brandes (2001).
+/// Searches the graph breadth-first from every room; betweenness after Brandes (2001).
 fn search(joined: &[Vec<usize>]) -> Vec<Search> {
     let rooms = joined.len();
     let mut found = vec![Search::default(); rooms];
@@ -268,7 +268,7 @@ fn search(joined: &[Vec<usize>]) -> Vec<Search> {
         }
     }
     if stride > 1 {
-        // Rooms that were not searched from take what the last one before them found.
+        // Rooms that were not searched from take the result of the last one before them.
         for room in 0..rooms {
             let Search { closeness, farthest, reach, .. } = found[room / stride * stride];
             found[room] = Search { closeness, farthest, reach, ..found[room] };
@@ -277,7 +277,7 @@ fn search(joined: &[Vec<usize>]) -> Vec<Search> {
     found
 }
 
-/// For each room the steps to the nearest of these rooms; one more than any way is long where there is
+/// For each room the steps to the nearest target; one more than the longest possible path if there is
 /// none.
 fn steps_to(joined: &[Vec<usize>], targets: impl Iterator<Item = usize>) -> Vec<f64> {
     let mut steps = vec![None; joined.len()];
@@ -326,7 +326,7 @@ pub(super) fn features(network: &RoomNetwork, view: &View) -> Vec<Vec<f32>> {
     let to_hub = steps_to(joined, hubs);
     let of_area: Vec<f64> =
         log_area.iter().map(|&area| within(&areas, area - ALIKE, area + ALIKE) as f64 - 1.0).collect();
-    // Of equally common areas the mean, so that the rooms' order does not matter.
+    // The mean of equally common areas, so that the rooms' order does not matter.
     let most_common = most(of_area.iter().copied());
     let common = (0..rooms.len()).filter(|&room| of_area[room] == most_common).map(|room| log_area[room]);
     let common = mean(common).unwrap_or_default();
@@ -345,7 +345,7 @@ pub(super) fn features(network: &RoomNetwork, view: &View) -> Vec<Vec<f32>> {
         count(rooms.iter().map(|room| log(room.axes_ratio) > 1.0)) / all.max(1.0),
         mean(passages.iter().copied()).unwrap_or_default(),
     ];
-    // By rooms sorted by area, those alike in area stand together.
+    // Sorted by area, rooms alike in area are adjacent.
     let mut by_area: Vec<usize> = (0..rooms.len()).collect();
     by_area.sort_by(|&p, &q| log_area[p].total_cmp(&log_area[q]));
     let of_area_and_shape = |room: usize| {

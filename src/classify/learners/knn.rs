@@ -1,5 +1,5 @@
-//! k nearest neighbours: standardised features; scaling, metric, k and the weight of distance are
-//! chosen by leaving rooms out of the training set in turn.
+//! k nearest neighbours on standardised features; scaling, metric, k and distance weighting are chosen by
+//! leave-one-out on the training set.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -22,14 +22,15 @@ use crate::labels::Label;
 const NUMBERS: [usize; 8] = [1, 3, 5, 7, 9, 12, 16, 20];
 const MOST: usize = NUMBERS[NUMBERS.len() - 1];
 
-/// Rooms left out in turn to choose between settings: so many at random, or all if there are fewer.
+/// How many rooms, chosen at random, are left out in turn to choose settings; all if there are fewer.
 const LEFT_OUT: usize = 400;
 
-/// Laplace's correction in rooms: the labels' shares in training count as much as this many neighbours.
+/// Strength of Laplace's correction: the labels' shares in training count as much as this many
+/// neighbours.
 const PRIOR_ROOMS: f64 = 1.0;
 
-/// Weighted by distance, a neighbour counts 1 / (distance + this): two that are nearly the same room
-/// do not outvote everyone. In standard deviations.
+/// Weighted by distance, a neighbour counts 1 / (distance + this), so that two nearly identical rooms do
+/// not outvote everyone. In standard deviations.
 const CLOSEST: f64 = 0.05;
 
 /// The learner.
@@ -153,7 +154,7 @@ pub struct Neighbour {
 }
 
 impl Neighbours {
-    /// Chooses settings and keeps the rooms. The same seed gives the same choice.
+    /// Chooses settings and stores the rooms. The same seed gives the same choice.
     ///
     /// # Errors
     /// When the work is cancelled.
@@ -179,7 +180,7 @@ impl Neighbours {
                     let settings = Settings { transform, metric, k, by_distance };
                     let predictions: Vec<Distribution> =
                         neighbours.iter().map(|found| vote(found, table, &prior, &settings)).collect();
-                    // Of the proper scores the one that follows accuracy most closely.
+                    // The proper score that follows accuracy most closely.
                     let loss =
                         predictions.iter().zip(&left_out).map(|(p, &row)| brier(p, table.labels()[row])).sum::<f64>();
                     if best.as_ref().is_none_or(|best| loss < best.loss) {
@@ -198,7 +199,7 @@ impl Neighbours {
         Ok(Trained { model: Self::new(table.clone(), settings), temperature })
     }
 
-    /// These rooms, to be searched with these settings; `k` is brought within 1 and their number.
+    /// These rooms with these settings; `k` is clamped to 1 and their number.
     pub fn new(table: Table, settings: Settings) -> Self {
         let scale = Scale::of(table.values(), settings.transform);
         let tree = arranged(&table, &scale).1;
@@ -250,7 +251,7 @@ fn arranged(table: &Table, scale: &Scale) -> (Vec<Point>, KdTree) {
     (points, tree)
 }
 
-/// The votes of the first `k` of those found. Weights by distance are brought to the sum `k`.
+/// The votes of the first `k` found. Weights by distance are scaled to the sum `k`.
 fn vote(found: &[Found], table: &Table, prior: &Distribution, settings: &Settings) -> Distribution {
     let found = &found[..settings.k.min(found.len())];
     let mut votes = [0.0; 5];

@@ -1,9 +1,9 @@
-//! A multilayer perceptron: one hidden layer with leaky rectifiers, softmax and cross-entropy, trained
-//! with Adam (Kingma and Ba 2015), decoupled weight decay (Loshchilov and Hutter 2019) and early
-//! stopping on rooms kept apart.
+//! A multilayer perceptron: one hidden layer with leaky ReLU, softmax and cross-entropy, trained with
+//! Adam (Kingma and Ba 2015), decoupled weight decay (Loshchilov and Hutter 2019) and early stopping on
+//! held-out rooms.
 //!
-//! Arrays, not nalgebra's matrices: a batch of 32 rooms takes 4 µs with them, 12 µs as six products of
-//! `SMatrix`, which differ in the last bits besides.
+//! Arrays rather than nalgebra matrices: a batch of 32 rooms takes 4 µs, against 12 µs as six products of
+//! `SMatrix`, which also differ in the last bits.
 
 use std::sync::Arc;
 
@@ -22,36 +22,36 @@ use crate::dataset::folds::Folds;
 use crate::dataset::table::{FEATURES, Table, Values};
 use crate::labels::Label;
 
-/// Hidden units: more have not been seen to help, and it is a whole number of vector registers.
+/// Hidden units: more did not help, and 16 fills whole vector registers.
 pub const HIDDEN: usize = 16;
 
 const LABELS: usize = Label::ALL.len();
 
-/// One part in so many of the training rooms is kept apart to tell when to stop.
+/// One in this many training rooms is held out for early stopping.
 const KEPT_APART: usize = 8;
 
-/// With fewer rooms than this nothing is kept apart: too few would say too little.
+/// With fewer rooms than this none are held out: too few would tell too little.
 const LEAST_TO_KEEP_APART: usize = 40;
 
-/// Rooms a step.
+/// Batch size.
 const BATCH: usize = 32;
 
-/// Step size at the start; it falls to zero along a half cosine.
+/// Initial learning rate; it falls to zero along a half cosine.
 const STEP: f32 = 0.02;
 
-/// Share of the step by which each weight decays.
+/// Weight decay per step, as a share of the learning rate.
 const DECAY: f32 = 0.02;
 
-/// Rooms to look at in all, which sets the number of rounds over the training rooms...
+/// Total rooms to visit, which sets the number of epochs...
 const VISITS: usize = 120_000;
 
 /// ...within these bounds.
 const ROUNDS: std::ops::RangeInclusive<usize> = 16..=80;
 
-/// Training ends when so many rounds in a row bring nothing.
+/// Training stops after this many epochs without improvement.
 const PATIENCE: usize = 12;
 
-/// Slope of a hidden unit for negative sums: it never dies.
+/// Slope of a hidden unit for negative sums, so that it never dies.
 const LEAK: f32 = 0.1;
 
 /// The learner.
@@ -163,7 +163,7 @@ struct DiskUnit {
     to: [f64; LABELS],
 }
 
-/// The number that reads as this one and is written with the fewest digits.
+/// The value as the shortest decimal that reads back the same.
 fn short(number: f32) -> f64 {
     number.to_string().parse().unwrap_or(f64::from(number))
 }
@@ -187,11 +187,11 @@ pub struct Weights {
     pub output_bias: [f32; LABELS],
 }
 
-/// What a net makes of one room.
+/// The forward pass for one room.
 struct Pass {
-    /// What the hidden units give.
+    /// The outputs of the hidden units.
     given: [f32; HIDDEN],
-    /// Their slope.
+    /// Their slopes.
     slope: [f32; HIDDEN],
     probabilities: [f32; LABELS],
 }
@@ -200,14 +200,14 @@ impl Weights {
     const ZERO: Self =
         Self { hidden: [[0.0; HIDDEN]; FEATURES + 1], output: [[0.0; HIDDEN]; LABELS], output_bias: [0.0; LABELS] };
 
-    /// Small random weights, uniform with the deviation that keeps sums neither small nor large
-    /// (Glorot and Bengio 2010).
+    /// Small random weights, uniform with the deviation that keeps sums in range (Glorot and Bengio
+    /// 2010).
     fn random(random: &mut Random) -> Self {
         let mut uniform = |range: f64| ((2.0 * random.unit() - 1.0) * range) as f32;
         let mut weights = Self::ZERO;
         let range = (6.0 / (FEATURES + HIDDEN) as f64).sqrt();
         weights.hidden[..FEATURES].as_flattened_mut().iter_mut().for_each(|weight| *weight = uniform(range));
-        // Units bend at different places from the start.
+        // Units have different kinks from the start.
         weights.hidden[FEATURES].iter_mut().for_each(|bias| *bias = uniform(1.0));
         let range = (6.0 / (HIDDEN + LABELS) as f64).sqrt();
         weights.output.as_flattened_mut().iter_mut().for_each(|weight| *weight = uniform(range));
@@ -258,7 +258,7 @@ impl Weights {
     }
 }
 
-/// Four sums side by side, which is what a vector register holds.
+/// Four sums side by side: one vector register.
 fn dot(p: &[f32; HIDDEN], q: &[f32; HIDDEN]) -> f32 {
     let mut four = [0.0; 4];
     for (p, q) in p.chunks_exact(4).zip(q.chunks_exact(4)) {
@@ -280,13 +280,13 @@ fn softmax(scores: [f32; LABELS]) -> [f32; LABELS] {
 struct Optimiser {
     mean: Weights,
     square: Weights,
-    /// The powers of the two rates below, for the correction of the averages' start at zero.
+    /// The powers of the two rates below, for correcting the averages' start at zero.
     mean_power: f32,
     square_power: f32,
 }
 
-/// Rates at which Adam's averages forget, and the term that keeps it from dividing by zero; its
-/// authors' defaults.
+/// The decay rates of Adam's averages, and the term that prevents division by zero; its authors'
+/// defaults.
 const MEAN_RATE: f32 = 0.9;
 const SQUARE_RATE: f32 = 0.999;
 const EPSILON: f32 = 1e-8;
@@ -296,7 +296,7 @@ impl Optimiser {
         Self { mean: Weights::ZERO, square: Weights::ZERO, mean_power: 1.0, square_power: 1.0 }
     }
 
-    /// One step against the gradient of `rooms` rooms.
+    /// One step against the gradient over `rooms` rooms.
     fn step(&mut self, weights: &mut Weights, gradient: &Weights, rooms: usize, step: f32) {
         self.mean_power *= MEAN_RATE;
         self.square_power *= SQUARE_RATE;
@@ -325,8 +325,8 @@ impl Perceptron {
     /// When the work is cancelled.
     pub fn train(table: &Table, seed: u64, work: &Work<'_>) -> Result<Trained<Self>, Cancelled> {
         let mut random = Random::new(seed);
-        // Logarithms: what counts of an area is how many times it is another, all the more as the scale
-        // of real plans is doubtful.
+        // Logarithms: what matters about an area is its ratio to others, all the more as the scale of
+        // real plans is doubtful.
         let scale = Scale::of(table.values(), Transform::Logarithm);
         let inputs: Vec<[f32; FEATURES]> = table.values().iter().map(|values| scale.apply(values)).collect();
         let labels: Vec<usize> = table.labels().iter().map(|label| label.index()).collect();
@@ -368,7 +368,7 @@ impl Perceptron {
         Ok(Trained { model, temperature })
     }
 
-    /// A net of these parts; `None` if a number is not one.
+    /// A net from its parts; `None` if a number is not finite.
     pub fn from_parts(scale: Scale, weights: Weights, typical: Values) -> Option<Self> {
         let sound = scale.is_sound()
             && weights.parts().into_iter().flatten().all(|weight| weight.is_finite())
@@ -394,7 +394,7 @@ impl Perceptron {
     }
 }
 
-/// The median of each feature, the lower of the two middle ones.
+/// The median of each feature, the lower of the two middle values.
 fn medians(rows: &[Values]) -> Values {
     std::array::from_fn(|feature| {
         let mut values: Vec<f64> = rows.iter().map(|row| row[feature]).collect();

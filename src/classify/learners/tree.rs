@@ -1,5 +1,5 @@
 //! A decision tree after Quinlan's C4.5 (1993): gain ratio, numeric splits, pessimistic pruning with
-//! subtree raising, probabilities by Laplace.
+//! subtree raising, Laplace probabilities.
 
 use std::sync::Arc;
 
@@ -19,14 +19,14 @@ use crate::labels::Label;
 /// Fewest training rooms on a side of a split (C4.5's default).
 const LEAST_ROOMS: f64 = 2.0;
 
-/// How sure pruning wants to be: a leaf's errors are taken at the upper end of a one-sided confidence
-/// interval (C4.5's default).
+/// Confidence for pruning: a leaf's errors are taken at the upper end of a one-sided confidence interval
+/// (C4.5's default).
 const CONFIDENCE: f64 = 0.25;
 
 /// The normal quantile of 1 - [`CONFIDENCE`].
 const DEVIATIONS: f64 = 0.674_489_750_196_081_7;
 
-/// Longest path. Trees on real rooms stay below 30; the cap bounds recursion on contrived data.
+/// Maximum depth. Trees on real rooms stay below 30; the cap bounds recursion on contrived data.
 const DEEPEST: usize = 120;
 
 /// The learner.
@@ -51,7 +51,7 @@ impl Learner for C45 {
 
     fn train(&self, table: &Table, _: u64, work: &Work<'_>) -> Result<Trained<Arc<dyn Model>>, Cancelled> {
         work.goes_on()?;
-        // Laplace's correction alone makes it as believable as a temperature would: see the rules.
+        // Laplace's correction alone calibrates it as well as a temperature would: see the rules.
         Ok(Trained { model: Tree::train(table), temperature: 1.0 }.shared())
     }
 
@@ -133,7 +133,7 @@ impl DiskNode {
     }
 }
 
-/// The bounds that answers come to, in the order of the features; an answer no is 'over'.
+/// The combined bounds of the answers, in feature order; 'no' means 'over'.
 fn tightest(steps: &[Step]) -> Vec<Condition> {
     let mut conditions = Vec::new();
     for feature in 0..FEATURES {
@@ -156,14 +156,14 @@ pub type Counts = [u32; 5];
 /// A trained tree.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree {
-    /// The root first; children stand behind their parent.
+    /// The root first; children come after their parent.
     nodes: Vec<Node>,
 }
 
 /// A node of a tree: a question, or a leaf.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
-    /// Training rooms that come here.
+    /// Training rooms that reach it.
     pub counts: Counts,
     /// The question; `None` for a leaf.
     pub split: Option<Split>,
@@ -188,7 +188,7 @@ impl Split {
 }
 
 impl Tree {
-    /// Learns a tree. Deterministic: there is no chance in it.
+    /// Learns a tree. Deterministic: uses no random numbers.
     pub fn train(table: &Table) -> Self {
         let mut nodes = Grower::new(table).grow();
         collapse(&mut nodes);
@@ -197,7 +197,7 @@ impl Tree {
         Self { nodes: compacted(&nodes) }
     }
 
-    /// A tree of these nodes; `None` unless every path from the first ends in a leaf.
+    /// A tree from its nodes; `None` unless every path from the first ends in a leaf.
     pub fn from_nodes(nodes: Vec<Node>) -> Option<Self> {
         let fits = |(index, node): (usize, &Node)| {
             node.split.is_none_or(|split| {
@@ -214,7 +214,7 @@ impl Tree {
         sound.then_some(Self { nodes })
     }
 
-    /// All nodes, the root first, children behind their parent.
+    /// All nodes, the root first, children after their parent.
     pub fn nodes(&self) -> &[Node] {
         &self.nodes
     }
@@ -228,7 +228,7 @@ impl Tree {
         distribution(&node.counts)
     }
 
-    /// The nodes a room passes, the root first and its leaf last.
+    /// The nodes a room passes through, from the root to its leaf.
     pub fn path(&self, values: &Values) -> Vec<&Node> {
         let mut node = &self.nodes[0];
         let mut path = vec![node];
@@ -249,7 +249,7 @@ fn total(counts: &Counts) -> u32 {
     counts.iter().sum()
 }
 
-/// Rooms that do not carry the most frequent label.
+/// Rooms that do not have the most frequent label.
 fn errors(counts: &Counts) -> u32 {
     total(counts) - counts.iter().max().copied().unwrap_or_default()
 }
@@ -275,14 +275,14 @@ struct Open {
 struct Candidate {
     feature: usize,
     at_most: f64,
-    /// In bits, less the price of choosing among thresholds.
+    /// In bits, minus the cost of choosing among thresholds.
     gain: f64,
     gain_ratio: f64,
 }
 
 struct Grower {
-    /// For each feature the rooms by its value. A node's rooms stand together, in the same part of
-    /// every column.
+    /// For each feature the rooms sorted by its value. A node's rooms are contiguous, at the same range
+    /// in every column.
     columns: Vec<Vec<Entry>>,
     /// n log2 n for every number of rooms.
     n_log_n: Vec<f64>,
@@ -347,7 +347,7 @@ impl Grower {
         let average = candidates.iter().map(|candidate| candidate.gain).sum::<f64>() / candidates.len() as f64;
         let mut best: Option<Candidate> = None;
         for candidate in candidates {
-            // The thousandth of a bit is how C4.5 itself compares.
+            // C4.5 itself compares to a thousandth of a bit.
             if candidate.gain >= average - 1e-3
                 && candidate.gain_ratio > best.as_ref().map_or(0.0, |best| best.gain_ratio)
             {
@@ -399,7 +399,7 @@ impl Grower {
         Some(Candidate { feature, at_most, gain, gain_ratio: gain / split_bits })
     }
 
-    /// Puts the rooms of a node that answer yes before the others in every column, keeping order.
+    /// Moves the rooms of a node that answer yes before the others in every column, keeping order.
     fn partition(&mut self, from: usize, to: usize, split: &Candidate) -> usize {
         let mut middle = from;
         for entry in &self.columns[split.feature][from..to] {
@@ -428,9 +428,9 @@ impl Grower {
     }
 }
 
-/// Takes away splits that do not lower the number of training errors.
+/// Removes splits that do not reduce the number of training errors.
 fn collapse(nodes: &mut [Node]) {
-    // Children stand behind their parent: going backwards, a node's subtree is already done.
+    // Children come after their parent: going backwards, a node's subtree is already done.
     let mut subtree_errors: Vec<u32> = nodes.iter().map(|node| errors(&node.counts)).collect();
     for index in (0..nodes.len()).rev() {
         if let Some(split) = nodes[index].split {
@@ -444,8 +444,8 @@ fn collapse(nodes: &mut [Node]) {
     }
 }
 
-/// Errors to expect of a leaf on rooms it has not seen: its own plus those that the upper end of the
-/// confidence interval adds (C4.5, with the binomial's normal approximation).
+/// Expected errors of a leaf on unseen rooms: its own plus those added by the upper end of the confidence
+/// interval (C4.5, with the binomial's normal approximation).
 fn expected_errors(counts: &Counts) -> f64 {
     let (n, e) = (f64::from(total(counts)), f64::from(errors(counts)));
     if n == 0.0 {
@@ -468,13 +468,13 @@ fn added_errors(n: f64, e: f64) -> f64 {
     upper * n - e
 }
 
-/// How much worse a simpler tree may be expected to be and still be taken, in rooms (C4.5).
+/// How many more errors a simpler tree may be expected to make and still be preferred, in rooms (C4.5).
 const SLACK: f64 = 0.1;
 
-/// Prunes the subtree at `index`, which `rows` come to: replaces it by a leaf, or by its larger
-/// branch, where that is not expected to make more errors.
+/// Prunes the subtree at `index`, which `rows` reach: replaces it by a leaf, or by its larger branch, if
+/// that is not expected to make more errors.
 fn prune(nodes: &mut [Node], index: usize, rows: &mut [u32], table: &Table) {
-    // Raising a branch prunes it again with more rooms; each time the subtree gets smaller.
+    // Raising a branch prunes it again with more rooms; the subtree shrinks each time.
     while let Some(split) = nodes[index].split {
         let (yes_rows, no_rows) = parted(rows, &split, table);
         let larger = if yes_rows.len() >= no_rows.len() { split.yes } else { split.no };
@@ -495,7 +495,7 @@ fn prune(nodes: &mut [Node], index: usize, rows: &mut [u32], table: &Table) {
     }
 }
 
-/// Puts the rows that answer yes before the others, and gives both parts.
+/// Moves the rows that answer yes before the others, and returns both parts.
 fn parted<'a>(rows: &'a mut [u32], split: &Split, table: &Table) -> (&'a mut [u32], &'a mut [u32]) {
     let mut middle = 0;
     for at in 0..rows.len() {
@@ -514,7 +514,7 @@ fn expected_errors_below(nodes: &[Node], index: usize) -> f64 {
     }
 }
 
-/// Errors to expect of the subtree at `index` if `rows` came to it.
+/// Expected errors of the subtree at `index` if `rows` reached it.
 fn expected_errors_with(nodes: &[Node], index: usize, rows: &mut [u32], table: &Table) -> f64 {
     match nodes[index].split {
         Some(split) => {
@@ -533,7 +533,7 @@ fn counts_of(rows: &[u32], table: &Table) -> Counts {
     counts
 }
 
-/// Counts the rooms of the subtree at `index` anew. A split that no longer parts them goes.
+/// Recounts the rooms of the subtree at `index`. A split that no longer separates them is removed.
 fn recount(nodes: &mut [Node], index: usize, rows: &mut [u32], table: &Table) {
     nodes[index].counts = counts_of(rows, table);
     while let Some(split) = nodes[index].split {
@@ -551,11 +551,10 @@ fn recount(nodes: &mut [Node], index: usize, rows: &mut [u32], table: &Table) {
     }
 }
 
-/// The nodes that can be reached, in the order a person reads a tree: each node, all of its yes side,
-/// then its no side.
+/// The reachable nodes, in reading order: each node, all of its yes side, then its no side.
 fn compacted(nodes: &[Node]) -> Vec<Node> {
     let mut kept: Vec<Node> = Vec::new();
-    // Where the parent refers to this node: its index and whether as `yes`.
+    // The parent's reference to this node: its index and whether it is the `yes` child.
     let mut open: Vec<(usize, Option<(usize, bool)>)> = vec![(0, None)];
     while let Some((index, referrer)) = open.pop() {
         let place = kept.len();

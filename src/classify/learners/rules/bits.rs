@@ -1,5 +1,5 @@
-/// A set of rows, one bit each. Which rooms a list of rules covers, and how many of them rightly, is
-/// then a few operations on words.
+/// A set of rows, one bit each, so that counting which rooms a list of rules covers, and how many of them
+/// correctly, takes a few operations on words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Bits(Vec<u64>);
 
@@ -40,14 +40,15 @@ impl Bits {
         self.0.iter().zip(&other.0).zip(&third.0).map(|((p, q), r)| (p & q & r).count_ones()).sum()
     }
 
-    /// Takes away the rows of another set.
+    /// Removes the rows of another set.
     pub fn subtract(&mut self, other: &Self) {
         for (p, q) in self.0.iter_mut().zip(&other.0) {
             *p &= !q;
         }
     }
 
-    /// Takes away the rows of another set: how many went, and how many of these are in a third.
+    /// Removes the rows of another set; returns how many were removed, and how many of these are in a
+    /// third.
     pub fn take(&mut self, other: &Self, third: &Self) -> (u32, u32) {
         let (mut taken, mut in_third) = (0, 0);
         for ((p, q), r) in self.0.iter_mut().zip(&other.0).zip(&third.0) {

@@ -7,7 +7,7 @@ use crate::dataset::table::{FEATURES, Table};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct RankCondition {
     pub feature: usize,
-    /// Whether the rank must be at most the bound, else at least.
+    /// Whether the rank must be at most the bound; otherwise at least.
     pub at_most: bool,
     pub rank: u32,
 }
@@ -18,7 +18,7 @@ pub(super) struct Ranked {
     ranks: [Vec<u32>; FEATURES],
     /// For each feature the values that occur, ascending: rank to value.
     pub values: [Vec<f64>; FEATURES],
-    /// log2 of every number up to that of the rows, and one more.
+    /// log2 of every number up to the number of rows plus one.
     log2: Vec<f64>,
 }
 
@@ -58,20 +58,21 @@ impl Ranked {
     }
 }
 
-/// Fewest training rooms that a condition must cover rightly (Weka's default).
+/// The fewest training rooms a condition must cover correctly (Weka's default).
 const LEAST_RIGHT: u32 = 2;
 
-/// A gain must be better by more than rounding.
+/// A gain must exceed rounding error.
 const LEAST_GAIN: f64 = 1e-6;
 
-/// A number of rooms, and in the upper half that of those with the wanted label: both add up at once.
+/// A number of rooms and, in the upper half, the number of those with the wanted label: both add up at
+/// once.
 type Packed = u64;
 
 const ONE: Packed = 1;
 const ONE_WANTED: Packed = 1 << 32;
 
-/// A feature with at most so many values (numbers of openings) is counted in several banks in turn:
-/// the next row often has the same value, and the processor need not wait for the last sum.
+/// A feature with at most this many values (numbers of openings) is counted in several banks in turn: the
+/// next row often has the same value, and the processor need not wait for the last sum.
 const FEW_VALUES: usize = 32;
 const BANKS: usize = 4;
 
@@ -83,8 +84,8 @@ const fn wanted(packed: Packed) -> u32 {
     (packed >> 32) as u32
 }
 
-/// Adds conditions to a rule, each the one with the best gain on the rows that the rule still covers,
-/// until it covers no row with another label or nothing helps.
+/// Adds conditions to a rule, each the one with the best gain on the rows it still covers, until it
+/// covers no row with another label or nothing helps.
 pub(super) fn grow(ranked: &Ranked, label: &Bits, rows: Vec<u32>, rule: &mut Vec<RankCondition>) {
     let mut search = Search { ranked, label, rows, units: Vec::new(), bins: Vec::new(), order: Vec::new() };
     while let Some(condition) = search.best_condition() {
@@ -93,7 +94,7 @@ pub(super) fn grow(ranked: &Ranked, label: &Bits, rows: Vec<u32>, rule: &mut Vec
     }
 }
 
-/// The rows that a growing rule still covers, and room for counting.
+/// The rows that a growing rule still covers, and buffers for counting.
 struct Search<'a> {
     ranked: &'a Ranked,
     label: &'a Bits,
@@ -112,23 +113,23 @@ struct Best {
     right: u32,
     /// All rooms.
     all: Packed,
-    /// The bits by which the rooms' label is unsure before any condition, negative.
+    /// The uncertainty in bits of the rooms' label before any condition, negated.
     before: f64,
 }
 
 impl Best {
-    /// Looks at both conditions that part the rooms between two neighbouring values.
+    /// Considers both conditions that split the rooms between two neighbouring values.
     fn offer(&mut self, log2: &[f64], feature: usize, below: Packed, last: u32, next: u32) {
         let at_most = RankCondition { feature, at_most: true, rank: last };
         let at_least = RankCondition { feature, at_most: false, rank: next };
         for (packed, condition) in [(below, at_most), (self.all - below, at_least)] {
             let right = wanted(packed);
-            // No condition gains more than if all it covers were right.
+            // The gain cannot exceed that of covering only correct rooms.
             if f64::from(right) * -self.before <= self.gain {
                 continue;
             }
-            // FOIL's gain (Quinlan 1990): the rooms covered rightly times the bits by which the
-            // condition makes their label surer. The ones are Laplace's: small numbers prove little.
+            // FOIL's gain (Quinlan 1990): the rooms covered correctly times the bits of certainty the
+            // condition adds to their label. The ones are Laplace's: small numbers prove little.
             let bits = log2[right as usize + 1] - log2[rooms(packed) as usize + 1];
             let gain = f64::from(right) * (bits - self.before);
             if gain > self.gain + LEAST_GAIN {
@@ -162,7 +163,7 @@ impl Search<'_> {
                 last = Some(rank);
             };
             let units = self.rows.iter().map(|&row| ranks[row as usize]).zip(self.units.iter().copied());
-            // Counting by rank beats sorting unless most ranks would stay empty.
+            // Counting by rank beats sorting unless most ranks would be empty.
             if distinct <= FEW_VALUES {
                 let mut banks = [[0; FEW_VALUES]; BANKS];
                 for (index, (rank, unit)) in units.enumerate() {
@@ -199,17 +200,17 @@ impl Search<'_> {
     }
 }
 
-/// How pruning measures what is left of a rule.
+/// The criterion for pruning a rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Worth {
-    /// The share of the covered rows that are right: for a rule of its own.
+    /// The share of the covered rows that are correct: for a rule on its own.
     OfRule,
-    /// The share of all rows that are decided rightly, covered or not: for a rule within a set.
+    /// The share of all rows that are decided correctly, covered or not: for a rule within a set.
     OfSet,
 }
 
-/// Cuts conditions off a rule's end so that it does best on rows it was not grown on (incremental
-/// reduced-error pruning, Fürnkranz and Widmer 1994).
+/// Removes conditions from the end of a rule so that it does best on rows it was not grown on
+/// (incremental reduced-error pruning, Fürnkranz and Widmer 1994).
 pub(super) fn prune(ranked: &Ranked, label: &Bits, mut rows: Vec<u32>, rule: &mut Vec<RankCondition>, worth: Worth) {
     let total = rows.len() as f64;
     if rows.is_empty() {
@@ -217,7 +218,7 @@ pub(super) fn prune(ranked: &Ranked, label: &Bits, mut rows: Vec<u32>, rule: &mu
     }
     let count_right = |rows: &[u32]| rows.iter().filter(|&&row| label.contains(row)).count() as f64;
     let others = total - count_right(&rows);
-    // Without any condition; the ones and twos are Laplace's.
+    // Without conditions; the ones and twos are Laplace's.
     let mut best = ((count_right(&rows) + 1.0) / (total + 2.0), 0);
     for length in 1..=rule.len() {
         rows.retain(|&row| ranked.meets(row, &rule[length - 1]));

@@ -1,4 +1,4 @@
-//! The rules for one label against all labels that come later in the list.
+//! Learns the rules for one label against all labels later in the list.
 
 use super::bits::Bits;
 use super::grow::{RankCondition, Ranked, Worth, grow, prune};
@@ -7,31 +7,31 @@ use crate::base::random::Random;
 use crate::dataset::table::FEATURES;
 use crate::labels::Label;
 
-/// One part in so many of the rooms is kept for pruning, the others are for growing (Cohen 1995).
+/// One in this many rooms is kept for pruning, the others are for growing (Cohen 1995).
 const PARTS: usize = 3;
 
-/// Passes that replace or revise each rule in the light of the others (Cohen's RIPPER2).
+/// Passes that replace or revise each rule given the others (Cohen's RIPPER2).
 const OPTIMISATIONS: usize = 2;
 
 /// A rule in the making.
 #[derive(Clone)]
 pub(super) struct Draft {
     pub conditions: Vec<RankCondition>,
-    /// All training rooms it covers, those decided by earlier rules included.
+    /// All training rooms it covers, including those decided by earlier rules.
     pub covers: Bits,
 }
 
-/// What is to be learned.
+/// The learning task for one label.
 pub(super) struct Task<'a> {
     pub ranked: &'a Ranked,
     pub labels: &'a [Label],
-    /// The rooms with the label in question.
+    /// The rooms with this label.
     pub label: Bits,
-    /// The rooms left to decide.
+    /// The rooms still undecided.
     pub rooms: Bits,
-    /// The share of mistakes to expect among the rooms covered: the label's share of the rooms left.
+    /// The expected share of mistakes among the rooms covered: the label's share of the undecided rooms.
     pub share: f64,
-    /// Number of conditions one could write.
+    /// Number of possible conditions.
     pub possible_conditions: f64,
 }
 
@@ -45,13 +45,13 @@ impl Task<'_> {
         rules
     }
 
-    /// Bits for deciding nothing: every room with the label is missed.
+    /// Bits for an empty rule set: every room with the label is missed.
     fn bits_of_nothing(&self) -> f64 {
         let missed = f64::from(self.rooms.count_and(&self.label));
         mistake_bits(self.share, &Tally { covered: 0.0, wrong: 0.0, uncovered: f64::from(self.rooms.count()), missed })
     }
 
-    /// Grows and prunes one rule after the other, each on the rooms the former leave.
+    /// Grows and prunes rules one by one, each on the rooms the previous ones leave.
     fn build(&self, random: &mut Random) -> Vec<Draft> {
         let mut rules = Vec::new();
         let mut left = self.rooms.clone();
@@ -66,8 +66,8 @@ impl Task<'_> {
         rules
     }
 
-    /// Whether the last rule of a list may stay: then takes its rooms from those left, else takes the
-    /// rule away.
+    /// Whether the last rule of a list is worth keeping: if so its rooms are removed from those left,
+    /// otherwise the rule is removed.
     fn last_pays(&self, rules: &mut Vec<Draft>, left: &mut Bits, bits: &mut f64, least_bits: &mut f64) -> bool {
         let index = rules.len() - 1;
         *bits += self.relative_bits(rules, index);
@@ -83,8 +83,8 @@ impl Task<'_> {
     }
 
     /// One pass over the rules: each may be replaced by a new one, or by one that adds conditions to it,
-    /// both pruned for the good of the whole, whichever makes the whole shortest. What remains is
-    /// covered by further rules; then rules that do not pay go.
+    /// both pruned for the benefit of the whole set, whichever gives the shortest description. Further
+    /// rules cover what remains; then rules that do not pay are deleted.
     fn optimise(&self, mut rules: Vec<Draft>, random: &mut Random) -> Vec<Draft> {
         let mut left = self.rooms.clone();
         let mut bits = self.bits_of_nothing();
@@ -104,7 +104,7 @@ impl Task<'_> {
             }
             position += 1;
         }
-        // With no room of the label left, what follows can only do harm.
+        // With no room of the label left, later rules can only do harm.
         rules.truncate(position);
         self.delete_what_does_not_pay(&mut rules);
         rules
@@ -167,7 +167,7 @@ impl Task<'_> {
         (growing, pruning)
     }
 
-    /// How a rule does on rooms.
+    /// The tally of a rule on rooms.
     fn tally(&self, rooms: &Bits, rule: &Draft) -> Tally {
         let covered = f64::from(rooms.count_and(&rule.covers));
         let right = f64::from(rooms.count_and_and(&rule.covers, &self.label));
@@ -176,7 +176,7 @@ impl Task<'_> {
         Tally { covered, wrong: covered - right, uncovered: all - covered, missed: all_right - right }
     }
 
-    /// How each rule does on the rooms that the rules before it leave of `rooms`.
+    /// The tally of each rule on those of `rooms` that the rules before it leave.
     fn tallies<'r>(&self, rooms: &Bits, rules: impl Iterator<Item = &'r Draft>) -> Vec<Tally> {
         let mut left = rooms.clone();
         let (mut all, mut all_right) = (rooms.count(), rooms.count_and(&self.label));
@@ -195,7 +195,7 @@ impl Task<'_> {
             .collect()
     }
 
-    /// The tally of a list of rules as one.
+    /// The combined tally of a list of rules.
     fn sum(&self, tallies: &[Tally]) -> Tally {
         let covered: f64 = tallies.iter().map(|tally| tally.covered).sum();
         let wrong: f64 = tallies.iter().map(|tally| tally.wrong).sum();
@@ -208,7 +208,7 @@ impl Task<'_> {
         rule_bits(rule.conditions.len(), self.possible_conditions)
     }
 
-    /// Bits for the mistakes of rules, less what deleting those from `from` on would save.
+    /// Bits for the mistakes of rules, minus the saving from deleting those from `from` on.
     fn bits_if_later_may_go(&self, rules: &[&Draft], tallies: &[Tally], from: usize) -> f64 {
         let mut all = self.sum(tallies);
         let bits = mistake_bits(self.share, &all);
@@ -218,8 +218,8 @@ impl Task<'_> {
         bits - saved
     }
 
-    /// By how many bits a rule makes the whole longer (negative: shorter), when each later rule may be
-    /// deleted if that helps.
+    /// How many bits a rule adds to the whole (negative: saves), assuming each later rule is deleted if
+    /// that helps.
     fn relative_bits(&self, rules: &[Draft], index: usize) -> f64 {
         let with: Vec<&Draft> = rules.iter().collect();
         let bits_with = self.bits_if_later_may_go(&with, &self.tallies(&self.rooms, rules.iter()), index + 1);
@@ -241,7 +241,7 @@ impl Task<'_> {
     }
 }
 
-/// Number of conditions one could write: at most and at least, for every value of every feature.
+/// Number of possible conditions: at most and at least, for every value of every feature.
 pub(super) fn possible_conditions(ranked: &Ranked) -> f64 {
     (0..FEATURES).map(|feature| 2.0 * ranked.values[feature].len() as f64).sum()
 }

@@ -1,33 +1,33 @@
-//! Description length: how many bits a set of rules and its mistakes take to write down (Cohen 1995,
-//! section 3; Quinlan 1995). A rule that does not pay for itself goes.
+//! Description length: how many bits a set of rules and its mistakes take to encode (Cohen 1995, section
+//! 3; Quinlan 1995). A rule that does not pay for itself is dropped.
 
-/// How a rule, or a set of rules, does on the rooms that come to it.
+/// The performance of a rule, or a set of rules, on the rooms that reach it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Tally {
-    /// Rooms covered, and of these how many wrongly.
+    /// Rooms covered, and how many of these wrongly.
     pub covered: f64,
     pub wrong: f64,
-    /// Rooms not covered, and of these how many should be.
+    /// Rooms not covered, and how many of these should be.
     pub uncovered: f64,
     pub missed: f64,
 }
 
 impl Tally {
-    /// Rooms covered rightly.
+    /// Rooms covered correctly.
     pub fn right(&self) -> f64 {
         self.covered - self.wrong
     }
 }
 
-/// Cohen's factor for conditions that say the same thing twice.
+/// Cohen's factor for redundant conditions.
 const REDUNDANCY: f64 = 0.5;
 
-/// Rules are added as long as the total length stays within so many bits of the least seen (Cohen).
+/// Rules are added while the total length stays within this many bits of the minimum so far (Cohen).
 pub(super) const SURPLUS_BITS: f64 = 64.0;
 
-/// Bits to name which `k` of `t` things are meant when each is expected with probability `p`.
+/// Bits to identify a subset of `k` out of `t` things, each expected with probability `p`.
 fn subset_bits(t: f64, k: f64, p: f64) -> f64 {
-    // An expectation outside of 0..1 (more mistakes than rooms covered) counts as next to certain.
+    // An expectation outside 0..1 (more mistakes than rooms covered) counts as nearly certain.
     const TINY: f64 = 1e-9;
     let named = if k > 0.0 { -k * p.max(TINY).log2() } else { 0.0 };
     let unnamed = if t > k { -(t - k) * (1.0 - p).max(TINY).log2() } else { 0.0 };
@@ -40,7 +40,7 @@ pub(super) fn rule_bits(conditions: usize, possible: f64) -> f64 {
         return 0.0;
     }
     let k = conditions as f64;
-    // How many conditions there are: log2 k, and twice the log of that to say how long it is.
+    // The number of conditions: log2 k, and twice the log of that to say how long it is.
     let mut count_bits = k.log2();
     if k > 1.0 {
         count_bits += 2.0 * count_bits.log2();
@@ -48,7 +48,7 @@ pub(super) fn rule_bits(conditions: usize, possible: f64) -> f64 {
     REDUNDANCY * (count_bits + subset_bits(possible, k, k / possible))
 }
 
-/// Bits for the mistakes of a set of rules, when `share` of the mistakes are expected among the rooms
+/// Bits for the mistakes of a set of rules, with a `share` of the mistakes expected among the rooms
 /// covered.
 pub(super) fn mistake_bits(share: f64, tally: &Tally) -> f64 {
     let Tally { covered, wrong, uncovered, missed } = *tally;
@@ -62,8 +62,8 @@ pub(super) fn mistake_bits(share: f64, tally: &Tally) -> f64 {
     rooms_bits + subset_bits(covered, wrong, of_covered) + subset_bits(uncovered, missed, of_uncovered)
 }
 
-/// A set of rules may be shortened by deleting this rule: the bits saved, if any are, or if the rule
-/// is wrong as often as right. `all` becomes the tally without it.
+/// The bits saved by deleting this rule from a set, if any are saved, or if the rule is wrong at least as
+/// often as right. `all` becomes the tally without it.
 pub(super) fn saved_by_deleting(share: f64, all: &mut Tally, rule: &Tally, rule_bits: f64) -> Option<f64> {
     let without = Tally {
         covered: all.covered - rule.covered,
@@ -72,7 +72,7 @@ pub(super) fn saved_by_deleting(share: f64, all: &mut Tally, rule: &Tally, rule_
         missed: all.missed + rule.right(),
     };
     let saved = mistake_bits(share, all) + rule_bits - mistake_bits(share, &without);
-    // A rule that covers nothing divides nothing by nothing: it must go, too.
+    // A rule that covers nothing must be deleted, too.
     let useful = rule.wrong < 0.5 * rule.covered;
     if saved > 0.0 || !useful {
         *all = without;
@@ -91,7 +91,7 @@ mod tests {
         // Eight of sixteen at even odds: a bit each.
         assert_eq!(subset_bits(16.0, 8.0, 0.5), 16.0);
         assert_eq!(subset_bits(16.0, 0.0, 0.0), 0.0);
-        // One condition of 1024: ten bits and the little that the others cost, halved.
+        // One condition of 1024: ten bits and the small cost of the count, halved.
         let bits = rule_bits(1, 1024.0);
         assert!((bits - 0.5 * (10.0 + std::f64::consts::LOG2_E)).abs() < 0.01, "{bits}");
         assert_eq!(rule_bits(0, 1024.0), 0.0);

@@ -1,10 +1,9 @@
 //! Rule induction: RIPPER (Cohen 1995), in the form of Weka's JRip.
 //!
-//! Labels are learned from the rarest to the most frequent, each against those that come later; the
-//! last needs no rule. A rule is grown condition by condition with FOIL's gain, pruned on rooms kept
-//! apart, and stays if the description gets shorter by it; two passes then replace or revise each
-//! rule in the light of the others. Of a small table several lists are learned, and the one with the
-//! shortest description stays.
+//! Labels are learned from the rarest to the most frequent, each against the later ones; the last needs
+//! no rule. A rule is grown condition by condition with FOIL's gain, pruned on held-out rooms, and kept
+//! if it shortens the description; two passes then replace or revise each rule given the others. For a
+//! small table several lists are learned, and the one with the shortest description is kept.
 
 mod bits;
 mod grow;
@@ -31,12 +30,12 @@ use grow::{RankCondition, Ranked};
 use induce::{Task, possible_conditions};
 use length::rule_bits;
 
-/// Which rooms are kept apart for pruning is up to chance, and matters the more the fewer there are: in
-/// small tables several lists are learned, and the one with the shortest description stays. This
-/// bounds the work of all attempts...
+/// Which rooms are held out for pruning is random, and matters more the fewer there are: for small tables
+/// several lists are learned, and the one with the shortest description is kept. This bounds the work of
+/// all attempts...
 const ATTEMPTS_TIMES_ROOMS: usize = 5000;
 
-/// ...and this their number where rooms are few.
+/// ...and this their number for few rooms.
 const MOST_ATTEMPTS: usize = 12;
 
 /// The learner.
@@ -60,8 +59,8 @@ impl Learner for Ripper {
     }
 
     fn train(&self, table: &Table, seed: u64, work: &Work<'_>) -> Result<Trained<Arc<dyn Model>>, Cancelled> {
-        // Laplace's correction alone makes rules as believable as a temperature would: fitted on rooms kept
-        // apart it came out near 1 and changed the log loss in the third digit.
+        // Laplace's correction alone calibrates rules as well as a temperature would: fitted on held-out
+        // rooms it came out near 1 and changed the log loss in the third digit.
         Ok(Trained { model: RuleList::train(table, seed, work)?, temperature: 1.0 }.shared())
     }
 
@@ -112,7 +111,7 @@ struct DiskRules {
 #[derive(Serialize, Deserialize)]
 struct DiskRule {
     r#if: Vec<DiskCondition>,
-    /// For the reader; what counts is `rooms`.
+    /// For human readers; `rooms` is what counts.
     then: String,
     /// Training rooms of each label.
     rooms: [u32; 5],
@@ -132,7 +131,7 @@ impl DiskCondition {
         let feature = Features::NAMES[condition.feature].to_owned();
         match condition.bound {
             Bound::AtMost(bound) => Self { feature, at_most: Some(bound), at_least: None },
-            // Rules are not written with 'over'; the next number up says the same.
+            // Rules have no 'over'; the next number up is equivalent.
             Bound::Over(bound) => Self { feature, at_most: None, at_least: Some(bound.next_up()) },
             Bound::AtLeast(bound) => Self { feature, at_most: None, at_least: Some(bound) },
         }
@@ -154,7 +153,7 @@ pub struct RuleList {
     rules: Vec<Rule>,
 }
 
-/// If all conditions hold, then the label. The last rule of a list has no condition.
+/// A rule: if all conditions hold, then the label. The last rule of a list has no conditions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rule {
     pub conditions: Vec<Condition>,
@@ -173,7 +172,7 @@ impl Rule {
         Distribution::smoothed(self.counts.map(f64::from), &Distribution::UNIFORM, 5.0)
     }
 
-    /// The label it gives: that of most training rooms it decides.
+    /// The label it gives: the most common among the training rooms it decides.
     pub fn label(&self) -> Label {
         self.distribution().label()
     }
@@ -200,7 +199,7 @@ impl RuleList {
         Ok(best)
     }
 
-    /// Bits to write down the rules, and with them the labels of the training rooms.
+    /// Bits to encode the rules and, given these, the labels of the training rooms.
     fn bits(&self, possible_conditions: f64) -> f64 {
         let of_rule = |rule: &Rule| {
             let distribution = rule.distribution();
@@ -213,7 +212,7 @@ impl RuleList {
         self.rules.iter().map(of_rule).sum()
     }
 
-    /// One list, learned from one course of chance.
+    /// Learns one list with one sequence of random numbers.
     fn attempt(table: &Table, ranked: &Ranked, possible_conditions: f64, random: &mut Random) -> Self {
         let mut order: Vec<Label> = Label::ALL.to_vec();
         let counts = table.label_counts();
@@ -246,7 +245,7 @@ impl RuleList {
                 rule.counts[label.index()] += 1;
             }
         }
-        // A rule that later ones made idle says nothing. The last decides whatever is left.
+        // A rule made idle by later ones is useless. The last decides whatever is left.
         let last = rules.len() - 1;
         let mut index = 0;
         rules.retain(|rule| {
@@ -256,7 +255,7 @@ impl RuleList {
         Self { rules }
     }
 
-    /// A list of these rules; `None` unless the last has no condition, so that every room is decided.
+    /// A list from its rules; `None` unless the last has no conditions, so that every room is decided.
     pub fn from_rules(rules: Vec<Rule>) -> Option<Self> {
         let ends_well = rules.last().is_some_and(|rule| rule.conditions.is_empty());
         let sound = rules.iter().flat_map(|rule| &rule.conditions).all(|condition| {
@@ -278,15 +277,14 @@ impl RuleList {
         self.rules.iter().position(|rule| rule.covers(values)).unwrap_or(self.rules.len() - 1)
     }
 
-    /// The shares of the labels among the training rooms that the same rule decides, with Laplace's
-    /// correction.
+    /// The label shares among the training rooms decided by the same rule, with Laplace's correction.
     pub fn predict(&self, values: &Values) -> Distribution {
         self.rules[self.deciding(values)].distribution()
     }
 }
 
-/// Conditions with thresholds that people can read, in the order of the features; of several bounds
-/// the same way on one feature, the tightest.
+/// Conditions with readable thresholds, in feature order; of several bounds in the same direction on one
+/// feature, the tightest.
 fn readable(draft: &[RankCondition], ranked: &Ranked) -> Vec<Condition> {
     let mut conditions = Vec::new();
     for feature in 0..FEATURES {
