@@ -7,7 +7,7 @@ use crate::robot::Pose;
 use crate::robot::grid_map::GridMap;
 use crate::robot::map_server::{self, MapServerError, PictureReading};
 
-/// No larger picture is read: 256 MB, several times the most cells in 16 bits.
+/// The largest picture file read: 256 MB, several times the most cells in 16 bits.
 const LARGEST_PICTURE_BYTES: u64 = 256 << 20;
 
 /// Why a map cannot be read.
@@ -26,15 +26,15 @@ impl std::fmt::Display for MapFileError {
 
 impl std::error::Error for MapFileError {}
 
-/// Whether a file is the YAML file of a map, by its name.
+/// Whether a file is a map's YAML file, judging by its name.
 pub fn is_map_yaml(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("yaml") || ending.eq_ignore_ascii_case("yml"))
 }
 
-/// Reads a map of `map_server`, given its YAML file.
+/// Reads a `map_server` map, given its YAML file.
 ///
 /// # Errors
-/// When the file or the picture it names cannot be read or used, each with the file at fault.
+/// When the file or the picture it names cannot be read or used; the error names the file at fault.
 pub fn load_map(path: &Path) -> Result<GridMap, MapFileError> {
     let bytes = bytes_of(path, map_server::LARGEST_DESCRIPTION_BYTES as u64)?;
     let fail = |error: MapServerError| MapFileError { path: path.to_owned(), what: error.0 };
@@ -50,7 +50,7 @@ pub fn load_map(path: &Path) -> Result<GridMap, MapFileError> {
 /// Reads a plain picture as a map with its lower left corner at the origin.
 ///
 /// # Errors
-/// When the picture cannot be read or used, or the resolution is not possible.
+/// When the picture cannot be read or used, or the resolution is invalid.
 pub fn load_picture_as_map(path: &Path, resolution_m: f64, reading: PictureReading) -> Result<GridMap, MapFileError> {
     map_of(path, resolution_m, Pose::IDENTITY, reading)
 }

@@ -1,13 +1,13 @@
-//! The journal: every change of a plan that is in no file yet, on the disk as soon as it is made, so that a
-//! program that is killed loses nothing. `docs/recovery.md` describes it for outsiders.
+//! The journal: every unsaved change of a plan, written to disk as soon as it is made, so that nothing is
+//! lost if the program is killed. `docs/recovery.md` describes it for outsiders.
 //!
-//! A journal is a file of records that only grows. Each record carries its length and a checksum that goes
-//! on from the record before: what was being written when the program died is recognised and left out, and
-//! so is everything behind a damage. The first record holds the plan as its file has it, each further one
-//! what a step of the history changes. Writing happens on a thread of its own, in order; finding what
-//! changed costs what changed, not what the plan holds.
+//! A journal is an append-only file of records. Each record has its length and a checksum chained from
+//! the previous record: a record being written when the program died is recognised and skipped, and so is
+//! everything after any damage. The first record holds the plan as in its file, each further one what a
+//! step of the history changes. Writing happens in order on a separate thread; finding the change costs
+//! what changed, not the size of the plan.
 //!
-//! The writing program holds a lock on its journal. One whose lock is free is a leftover.
+//! The writing program holds a lock on its journal. A journal with a free lock is a leftover.
 
 use std::collections::VecDeque;
 use std::fs::{self, File, TryLockError};
@@ -25,12 +25,12 @@ use crate::base::hash;
 use crate::formats::plan_json;
 use crate::plan::{History, Plan, Step};
 
-/// The environment variable that names another folder for what must survive a crash; empty for none: no
-/// journals are kept.
+/// The environment variable for another folder for data that must survive a crash; if empty, no journals
+/// are kept.
 pub const STATE_VARIABLE: &str = "ENFILADE_STATE";
 
-/// The folder of journals: below the one the environment names, or the system's place; `None` where there
-/// is none, or none is wanted.
+/// The folder of journals: below the one in the environment variable, or in the system's location; `None`
+/// if there is none, or none is wanted.
 pub fn journal_folder() -> Option<PathBuf> {
     use etcetera::BaseStrategy as _;
     let state = match std::env::var_os(STATE_VARIABLE) {
@@ -43,57 +43,57 @@ pub fn journal_folder() -> Option<PathBuf> {
     Some(state.join("journal"))
 }
 
-/// The first line of a journal: its kind and its version.
+/// The first line of a journal: its format and version.
 const HEADER: &str = "enfilade journal 1\n";
 
-/// What the first line of every version starts with.
+/// What the first line starts with in every version.
 const KIND: &str = "enfilade journal ";
 
-/// The ending of journals' names.
+/// The extension of journals.
 const ENDING: &str = "journal";
 
-/// The ending of a journal that does not hold its plan yet.
+/// The extension of a journal that does not contain its plan yet.
 const UNFINISHED: &str = "new";
 
-/// A journal that has grown by more than this is begun anew, without the steps that led there.
+/// A journal that has grown by more than this is restarted, without the steps so far.
 const LONGEST_BYTES: u64 = 64 << 20;
 
-/// No journal is larger: a plan file of the largest size, and the changes up to [`LONGEST_BYTES`] with one
-/// last that may be as large as a plan.
+/// The largest journal: a plan file of the largest size, and changes up to [`LONGEST_BYTES`] plus a last
+/// one as large as a plan.
 const LARGEST_BYTES: u64 = 2 * crate::formats::FILE_LIMIT_BYTES + LONGEST_BYTES;
 
-/// A journal that could not be written is tried again so often.
+/// How often to retry a journal that could not be written.
 const RETRY: Duration = Duration::from_secs(2);
 
-/// What a journal's plan is.
+/// The origin of a journal's plan.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct JournalStart {
-    /// The plan's file; `None` for a plan that is in none.
+    /// The plan's file; `None` if it has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<PathBuf>,
-    /// Which plan of the file, from 0.
+    /// The index of the plan in the file.
     #[serde(default)]
     pub storey: usize,
-    /// The bundled plan it began as.
+    /// The bundled plan it started as.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sample: Option<String>,
-    /// What the file held.
+    /// The file's content at the time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stamp: Option<Stamp>,
 }
 
-/// What a record says; what it changes stands behind it.
+/// The header of a record; the change it describes follows.
 #[derive(Serialize, Deserialize)]
 #[serde(tag = "do", rename_all = "lowercase")]
 enum Head {
-    /// The plan as its file has it; the plan file follows.
+    /// The plan as in its file; the plan file follows.
     Start {
         #[serde(flatten)]
         start: JournalStart,
     },
-    /// A step of the history, which drops those that were undone; its change follows.
+    /// A step of the history, which drops undone ones; its change follows.
     Step { title: String },
-    /// Another step, counted from the start, is the current one: undone, redone.
+    /// Undo or redo: another step, counted from the start, becomes the current one.
     Jump { to: usize },
 }
 
@@ -102,39 +102,39 @@ enum Head {
 /// Why a journal is not being written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct JournalFailure {
-    /// The folder it should be in.
+    /// The folder where it should be.
     pub folder: PathBuf,
-    /// What the system says.
+    /// The system's error message.
     pub what: String,
 }
 
-/// The journal of an open plan, written on a thread of its own.
+/// The journal of an open plan, written on a separate thread.
 ///
-/// Dropping it leaves the file for recovery; [`Journal::remove`] ends it for good.
+/// Dropping it leaves the file for recovery; [`Journal::remove`] deletes it.
 pub struct Journal {
     sender: Option<Sender<Event>>,
     shared: Arc<Shared>,
     thread: Option<JoinHandle<()>>,
-    /// The steps of the journal, the plan it starts with first.
+    /// The steps of the journal, beginning with the original plan.
     steps: Vec<Plan>,
     /// Which of them is current.
     at: usize,
-    /// How many records were given to the thread.
+    /// The number of records sent to the thread.
     noted: u64,
 }
 
-/// The journal from which another goes on.
+/// The journal that another one continues.
 pub enum Predecessor {
-    /// A program left it behind.
+    /// Left behind by another program.
     Leftover(Leftover),
-    /// It was written until now.
+    /// Written until now by this one.
     Journal(Journal),
 }
 
 impl Predecessor {
     fn remove(self) {
         match self {
-            // If it cannot be removed, it is offered again: too much rather than too little.
+            // If it cannot be removed, it will be offered again: too much rather than too little.
             Self::Leftover(leftover) => drop(leftover.remove()),
             Self::Journal(journal) => journal.remove(),
         }
@@ -149,9 +149,9 @@ struct Shared {
 
 #[derive(Default)]
 struct State {
-    /// How many records are on the disk.
+    /// The number of records on disk.
     written: u64,
-    /// How many bytes the changes take.
+    /// The size of the changes in bytes.
     bytes: u64,
     failure: Option<JournalFailure>,
     is_ended: bool,
@@ -159,7 +159,7 @@ struct State {
 
 impl Shared {
     fn state(&self) -> MutexGuard<'_, State> {
-        // Whoever broke while holding it only read or wrote whole fields.
+        // A thread that panicked while holding it only read or wrote whole fields.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -178,7 +178,7 @@ enum Record {
     Jump {
         to: usize,
     },
-    /// A new file takes the place of this one: the plan it starts with, and the current one.
+    /// A new file replaces this one, with the original plan and the current one.
     Anew {
         base: Plan,
         current: Plan,
@@ -186,9 +186,9 @@ enum Record {
 }
 
 impl Journal {
-    /// Begins the journal of a plan that is `base` in its file. Once it is on the disk, the one that it
-    /// replaces is removed. `on_change` is called, on another thread, when writing begins to fail and when
-    /// it works again.
+    /// Starts the journal of a plan that is `base` in its file. Once on disk, the one it replaces is
+    /// removed. `on_change` is called, on another thread, when writing starts to fail and when it works
+    /// again.
     pub fn begin(
         folder: &Path,
         start: JournalStart,
@@ -212,7 +212,7 @@ impl Journal {
         Self { sender: Some(sender), shared, thread, steps, at: 0, noted: 0 }
     }
 
-    /// Notes what a history has come to; quick, and quicker still when nothing happened.
+    /// Records the current state of a history; fast, and faster still if nothing happened.
     pub fn note(&mut self, history: &History) {
         if self.is_current(history.plan()) {
             return;
@@ -262,22 +262,22 @@ impl Journal {
         }
     }
 
-    /// Waits until all that was noted is on the disk, or cannot be written.
+    /// Waits until everything recorded is on disk, or cannot be written.
     ///
     /// # Errors
-    /// Why it cannot be written.
+    /// When it cannot be written; the error says why.
     pub fn wait(&self) -> Result<(), JournalFailure> {
         let is_waiting = |state: &mut State| state.written < self.noted && state.failure.is_none() && !state.is_ended;
         let state = self.shared.changed.wait_while(self.shared.state(), is_waiting);
         state.unwrap_or_else(PoisonError::into_inner).failure.clone().map_or(Ok(()), Err)
     }
 
-    /// Why it is not being written; `None` while it is.
+    /// Why it is not being written; `None` if it is.
     pub fn failure(&self) -> Option<JournalFailure> {
         self.shared.state().failure.clone()
     }
 
-    /// Ends it and removes its file: what it keeps is saved, or given up.
+    /// Ends it and removes its file: its content has been saved or discarded.
     pub fn remove(self) {
         if let Some(sender) = &self.sender {
             let _ = sender.send(Event::Remove);
@@ -307,7 +307,7 @@ struct Writer {
 struct OpenFile {
     file: File,
     path: PathBuf,
-    /// So far its records are whole.
+    /// The length of its complete records.
     length: u64,
     checksum: u64,
 }
@@ -316,7 +316,7 @@ impl Writer {
     fn run(&mut self, receiver: &Receiver<Event>, on_change: &dyn Fn()) {
         let mut is_over = false;
         while !is_over {
-            // What waits for the disk is tried again without being asked.
+            // Pending writes are retried without being asked.
             let event = match self.queue.is_empty() {
                 true => receiver.recv().map_err(|_| RecvTimeoutError::Disconnected),
                 false => receiver.recv_timeout(RETRY),
@@ -358,7 +358,7 @@ impl Writer {
     fn remove(&mut self) {
         self.queue.clear();
         if let Some(open) = self.open.take() {
-            // If it cannot be removed, it is offered again: too much rather than too little.
+            // If it cannot be removed, it will be offered again: too much rather than too little.
             let _ = fs::remove_file(&open.path);
         }
         if let Some(replaced) = self.replaces.take() {
@@ -366,7 +366,7 @@ impl Writer {
         }
     }
 
-    /// Writes what waits, and flushes it to the disk.
+    /// Writes what is pending, and flushes it to disk.
     fn write(&mut self) -> io::Result<()> {
         let mut written = 0;
         let mut bytes = 0;
@@ -396,7 +396,7 @@ impl Writer {
         if let Some(open) = &self.open {
             open.file.sync_data()?;
         }
-        // The journal that this one goes on from has done its duty.
+        // The journal that this one continues is no longer needed.
         if let Some(replaced) = self.replaces.take() {
             replaced.remove();
         }
@@ -406,8 +406,8 @@ impl Writer {
         Ok(())
     }
 
-    /// A file of its own that holds the plan it starts with. Under its lasting name only once it is whole
-    /// and locked, so that nobody takes it for a leftover.
+    /// A new file containing the original plan. It gets its final name only once complete and locked, so
+    /// that nobody takes it for a leftover.
     fn created(&self) -> io::Result<OpenFile> {
         fs::create_dir_all(&self.folder)?;
         let temporary = tempfile::Builder::new()
@@ -415,7 +415,7 @@ impl Writer {
             .rand_bytes(12)
             .suffix(&format!(".{UNFINISHED}"))
             .tempfile_in(&self.folder)?;
-        // Where there are no locks, a running program's journal is offered to another: a copy too many.
+        // Without lock support, another program is offered a running one's journal: a copy too many.
         let _ = temporary.as_file().try_lock();
         let path = temporary.path().with_extension(ENDING);
         let mut bytes = HEADER.as_bytes().to_vec();
@@ -427,7 +427,7 @@ impl Writer {
         let file = temporary.persist(&path).map_err(|error| error.error)?;
         #[cfg(unix)]
         {
-            // As for saving: some file systems cannot, and the file is there all the same.
+            // As in saving: some file systems cannot do this, but the file is there all the same.
             let _ = File::open(&self.folder).and_then(|folder| folder.sync_all());
         }
         Ok(OpenFile { file, path, length: bytes.len() as u64, checksum })
@@ -435,13 +435,13 @@ impl Writer {
 }
 
 impl OpenFile {
-    /// Appends a record; gives its size. After an error the file is as before.
+    /// Appends a record; returns its size. After an error the file is as before.
     fn append(&mut self, payload: &[u8]) -> io::Result<u64> {
         let mut bytes = Vec::with_capacity(payload.len() + 32);
         let checksum = frame(&mut bytes, self.checksum, payload);
         let written = self.file.seek(io::SeekFrom::Start(self.length)).and_then(|_| self.file.write_all(&bytes));
         if let Err(error) = written {
-            // Half a record would be left out by whoever reads it; better still if it is gone.
+            // Readers skip half a record; better still if it is gone.
             let _ = self.file.set_len(self.length);
             return Err(error);
         }
@@ -466,7 +466,7 @@ impl Record {
 
 /// The line that a record starts with.
 fn head(head: &Head) -> Vec<u8> {
-    // A path that is no text is left out: the plan then comes back as one without a file.
+    // A path that is not valid text is dropped: the plan is then recovered without a file.
     let line =
         serde_json::to_vec(head).or_else(|_| serde_json::to_vec(&Head::Start { start: JournalStart::default() }));
     let mut line = line.unwrap_or_default();
@@ -474,12 +474,12 @@ fn head(head: &Head) -> Vec<u8> {
     line
 }
 
-/// Goes on with the checksum of a journal: over the one before, then over what is added.
+/// Continues the checksum of a journal: over the previous one, then over the new payload.
 fn chained(before: u64, payload: &[u8]) -> u64 {
     hash::fnv1a(hash::fnv1a(before, before.to_le_bytes()), payload.iter().copied())
 }
 
-/// Puts a record behind others: its length, its checksum, itself. Gives the checksum.
+/// Appends a record: its length, its checksum, itself. Returns the checksum.
 fn frame(bytes: &mut Vec<u8>, checksum: u64, payload: &[u8]) -> u64 {
     let checksum = chained(checksum, payload);
     bytes.extend_from_slice(format!("{} {checksum:016x}\n", payload.len()).as_bytes());
@@ -496,41 +496,41 @@ fn said(error: &io::Error) -> String {
 
 // Reading.
 
-/// A journal that a program left behind. While this exists, no other program is offered it.
+/// A journal left behind by a program. While this exists, no other program is offered it.
 #[derive(Debug)]
 pub struct Leftover {
     pub path: PathBuf,
     /// When it was last written.
     pub modified: Option<SystemTime>,
-    /// What it keeps, or why it cannot be read.
+    /// Its content, or why it cannot be read.
     pub content: Result<Recovered, String>,
     /// Holds the lock.
     _file: File,
 }
 
-/// What a journal keeps.
+/// The content of a journal.
 #[derive(Clone, Debug)]
 pub struct Recovered {
     pub start: JournalStart,
-    /// The plan as its file had it, the steps since, and which is current.
+    /// The plan as it was in its file, the steps since, and which is current.
     pub history: History,
-    /// Whether something behind the last whole record was left out: what was being written when the
-    /// program ended, or a damage.
+    /// Whether something after the last complete record was dropped: a record being written when the
+    /// program ended, or damage.
     pub is_cut: bool,
 }
 
 impl Recovered {
-    /// The plan as its file had it.
+    /// The plan as it was in its file.
     pub fn base(&self) -> &Plan {
         self.history.steps().first().map_or(self.history.plan(), |step| &step.plan)
     }
 }
 
 impl Leftover {
-    /// Removes it.
+    /// Removes its file.
     ///
     /// # Errors
-    /// When the file cannot be removed; it is offered again then.
+    /// When the file cannot be removed; it will then be offered again.
     pub fn remove(self) -> io::Result<()> {
         match fs::remove_file(&self.path) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
@@ -539,8 +539,8 @@ impl Leftover {
     }
 }
 
-/// The journals in a folder that no running program writes, the newest first. Those that keep nothing that
-/// is not in its file are removed.
+/// The journals in a folder that no running program is writing, newest first. Those without unsaved
+/// changes are removed.
 pub fn leftovers(folder: &Path) -> Vec<Leftover> {
     let mut paths: Vec<PathBuf> =
         fs::read_dir(folder).map(|entries| entries.flatten().map(|entry| entry.path()).collect()).unwrap_or_default();
@@ -551,7 +551,7 @@ pub fn leftovers(folder: &Path) -> Vec<Leftover> {
 }
 
 fn leftover(path: PathBuf) -> Option<Leftover> {
-    // One that was never finished holds nothing but what is in its file; its program may be about to.
+    // One that was never finished has no unsaved changes; its program may be about to finish it.
     const LONG_AGO: Duration = Duration::from_secs(24 * 60 * 60);
     let ending = path.extension()?.to_str()?;
     let modified = fs::metadata(&path).and_then(|metadata| metadata.modified()).ok();
@@ -565,7 +565,7 @@ fn leftover(path: PathBuf) -> Option<Leftover> {
     if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) {
         return None;
     }
-    // Its program may have removed it after the list was read.
+    // Its program may have removed it since the folder was listed.
     if !path.exists() {
         return None;
     }
@@ -639,16 +639,16 @@ pub fn read_journal(bytes: &[u8]) -> Result<Recovered, String> {
     Ok(Recovered { start, history, is_cut })
 }
 
-/// Takes the next record off; `None` when it is not whole.
+/// Takes the next record; `None` if it is incomplete.
 fn next_record<'a>(rest: &mut &'a [u8], checksum: &mut u64) -> Option<(Head, &'a [u8])> {
-    // A length of at most ten digits, a blank, a checksum of sixteen.
+    // A length of at most ten digits, a space, a checksum of sixteen.
     const LONGEST_LINE: usize = 10 + 1 + 16;
     let line_end = rest.iter().take(LONGEST_LINE + 1).position(|&byte| byte == b'\n')?;
     let line = std::str::from_utf8(&rest[..line_end]).ok()?;
     let (length, sum) = line.split_once(' ')?;
     let length: usize = length.parse().ok()?;
     let sum = u64::from_str_radix(sum, 16).ok()?;
-    // Written otherwise, as with a capital digit, it is damaged.
+    // In any other spelling, such as with a capital digit, it is damaged.
     if format!("{length} {sum:016x}") != line {
         return None;
     }

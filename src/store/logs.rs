@@ -6,7 +6,7 @@ use flate2::bufread::MultiGzDecoder;
 use crate::formats::{FileError, Place, ReadError};
 use crate::robot::carmen::{LONGEST_LINE, Log, LogError, LogReader};
 
-/// A log's text is never longer, in bytes: a packed file of a few kilobytes may hold gigabytes of
+/// The largest text of a log, in bytes: a compressed file of a few kilobytes can expand to gigabytes of
 /// nothing.
 const MOST_BYTES: u64 = 4 << 30;
 
@@ -14,11 +14,11 @@ const MOST_BYTES: u64 = 4 << 30;
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoadedLog {
     pub log: Log,
-    /// What broke off the reading, in words: a packed file that was cut.
+    /// Why reading stopped early, in words: a truncated compressed file.
     pub broken_off: Option<String>,
 }
 
-/// Loads a CARMEN log, plain or packed with gzip, whatever its name.
+/// Loads a CARMEN log, plain or gzipped, whatever its name.
 ///
 /// # Errors
 /// When the file cannot be opened, or nothing in it can be mapped.
@@ -31,12 +31,12 @@ pub fn load_log(path: &Path) -> Result<LoadedLog, FileError> {
     read_log(BufReader::new(file)).map_err(|error| fail(error.to_string(), ""))
 }
 
-/// Reads a CARMEN log, plain or packed with gzip.
+/// Reads a CARMEN log, plain or gzipped.
 ///
 /// # Errors
 /// When nothing in it can be mapped.
 pub fn read_log(mut bytes: impl BufRead) -> Result<LoadedLog, LogError> {
-    // What cannot be read at all shows again, and is told, at the first line.
+    // A read error shows up again, and is reported, at the first line.
     let is_packed = bytes.fill_buf().is_ok_and(|head| head.starts_with(&[0x1f, 0x8b]));
     if is_packed { read_lines(BufReader::new(MultiGzDecoder::new(bytes))) } else { read_lines(bytes) }
 }
@@ -68,12 +68,12 @@ fn read_lines(bytes: impl BufRead) -> Result<LoadedLog, LogError> {
 
 enum Line {
     Whole,
-    /// Beyond [`LONGEST_LINE`]; its rest was read over.
+    /// Longer than [`LONGEST_LINE`]; the rest was skipped.
     TooLong,
     End,
 }
 
-/// Reads a line into `line`, without its end, never keeping more than [`LONGEST_LINE`].
+/// Reads a line into `line`, without its line ending, never keeping more than [`LONGEST_LINE`].
 fn next_line(bytes: &mut impl BufRead, line: &mut Vec<u8>) -> std::io::Result<Line> {
     line.clear();
     bytes.by_ref().take(LONGEST_LINE as u64).read_until(b'\n', line)?;

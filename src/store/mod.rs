@@ -1,5 +1,5 @@
-//! Plans, models and label schemes on disk: loading, saving without ever losing what was there, and a journal of what is
-//! not saved yet.
+//! Plans, models and label schemes on disk: loading, saving without ever losing the previous file, and a
+//! journal of unsaved changes.
 
 mod bundled;
 mod grid_maps;

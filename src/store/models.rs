@@ -5,7 +5,7 @@ use etcetera::BaseStrategy as _;
 
 use crate::classify::model_file::{self};
 
-/// The ending of model files.
+/// The extension of model files.
 pub const MODEL_ENDING: &str = ".model.json";
 
 /// Why a model's file cannot be used.
@@ -26,7 +26,7 @@ impl std::error::Error for ModelError {}
 /// Reads a model file. At most [`LARGEST_BYTES`] are read.
 ///
 /// # Errors
-/// When the file cannot be read, is too large, or is no model that can be used.
+/// When the file cannot be read, is too large, or is not a usable model.
 pub fn load_model(path: &Path) -> Result<StoredModel, ModelError> {
     let fail = |what: String| ModelError { path: path.to_owned(), what };
     let size = std::fs::metadata(path).map_err(|error| fail(error.to_string()))?.len();
@@ -40,13 +40,13 @@ pub fn load_model(path: &Path) -> Result<StoredModel, ModelError> {
     Ok(StoredModel { name, path: Some(path.to_owned()), classifier, about })
 }
 
-/// A model of a million rooms that keeps them all has less.
+/// The maximum size: even a model that stores a million rooms is smaller.
 pub const LARGEST_BYTES: u64 = 1 << 28;
 
-/// The environment variable that names another folder of the user's models.
+/// The environment variable for another folder of the user's models.
 pub const MODELS_VARIABLE: &str = "ENFILADE_MODELS";
 
-/// The folder of the user's own models; `None` where the system tells of no home.
+/// The folder of the user's own models; `None` if the system has no home folder.
 pub fn models_folder() -> Option<PathBuf> {
     match std::env::var_os(MODELS_VARIABLE) {
         Some(folder) => Some(folder.into()),
@@ -54,8 +54,8 @@ pub fn models_folder() -> Option<PathBuf> {
     }
 }
 
-/// The models in a folder, by name, and those that cannot be used. A folder that does not exist holds
-/// none.
+/// The models in a folder, by name, and the errors of those that cannot be used. Empty if the folder does
+/// not exist.
 pub fn models_in(folder: &Path) -> (Vec<StoredModel>, Vec<ModelError>) {
     let mut files: Vec<PathBuf> = std::fs::read_dir(folder)
         .map(|entries| entries.flatten().map(|entry| entry.path()).collect())

@@ -6,8 +6,7 @@ use crate::plan::Plan;
 
 /// Loads a plan from its own file (`*.plan.json`), exactly as it was saved.
 ///
-/// Other formats are imported with [`formats::read_file`], which also names a plan after its file
-/// when it has no name.
+/// For other formats use [`formats::read_file`], which also names a plan without a name after its file.
 ///
 /// # Errors
 /// When the file cannot be read or is not a plan file of a known version.
@@ -16,17 +15,16 @@ pub fn load_plan(path: &Path) -> Result<Plan, FileError> {
     plan_json::from_bytes(&bytes).map_err(|error| FileError { path: path.to_owned(), error })
 }
 
-/// Saves a plan in its own format, see [`save_bytes`]. The bytes are read as a plan again before the
-/// old file is replaced.
+/// Saves a plan in Enfilade's own format, see [`save_bytes`]. The bytes are parsed again before the old
+/// file is replaced.
 ///
 /// # Errors
-/// As [`save_bytes`]; and when the plan breaks an invariant, so that the file could not be opened
-/// again.
+/// As [`save_bytes`]; also when the plan breaks an invariant, so that the file could not be opened again.
 pub fn save_plan(path: &Path, plan: &Plan) -> Result<(), SaveError> {
     save_bytes(path, &checked_bytes(path, plan)?)
 }
 
-/// The bytes of a plan's file that is to be at `path`, known to read back as the same plan.
+/// The bytes of a plan's file for `path`, verified to read back as the same plan.
 ///
 /// # Errors
 /// When the plan breaks an invariant, so that the file could not be opened again.

@@ -1,4 +1,4 @@
-//! The plan files of a folder: for the command line all below it, for the window those in it.
+//! The plan files of a folder: for the command line all below it, for the window those directly in it.
 
 use std::path::{Path, PathBuf};
 
@@ -6,18 +6,18 @@ use walkdir::WalkDir;
 
 use crate::formats;
 
-/// A file, or a folder that is a plan itself.
+/// A plan file, or a folder that is itself a plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FoundPlan {
     pub path: PathBuf,
-    /// Why nothing can be read there, where listing the folder shows it: it may not be entered, or links
-    /// lead in a circle.
+    /// Why it cannot be read, if listing the folder already shows it: no permission to enter, or links in
+    /// a circle.
     pub problem: Option<String>,
 }
 
-/// The files that end like a plan and the folders that are one, at most `depth` folders deep (1: those in the
-/// folder itself), sorted by path. What is hidden, and the folders that `is_left_out` names, are passed over.
-/// A link that leads nowhere is there if it is named like a plan: reading it says what is wrong.
+/// The files with a plan's extension and the folders that are plans, at most `depth` levels deep (1:
+/// directly in the folder), sorted by path. Hidden files, and folders for which `is_left_out` is true,
+/// are skipped. A broken link named like a plan is included: reading it says what is wrong.
 pub fn plans_below(
     folder: &Path,
     depth: usize,

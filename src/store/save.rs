@@ -3,7 +3,7 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
-/// Why a file was not saved, and what to do about it. What stood at the path before is untouched.
+/// Why a file was not saved, and what to do about it. The previous file at the path is untouched.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SaveError {
     pub path: PathBuf,
@@ -26,22 +26,22 @@ impl fmt::Display for SaveError {
 
 impl std::error::Error for SaveError {}
 
-/// Writes a file so that at every moment, power cuts included, the path holds either the old bytes
-/// or the new ones, complete: a temporary file beside it is written, flushed to the disk, read back
-/// and compared, given the old file's permissions, and renamed.
+/// Writes a file so that at every moment, power cuts included, the path holds either the old bytes or the
+/// new ones, complete: writes a temporary file beside it, flushes it to disk, reads it back and compares,
+/// copies the old file's permissions, and renames.
 ///
-/// A symbolic link is followed. What is neither a file nor a folder (a pipe, `/dev/stdout`) is
+/// Symbolic links are followed. Targets that are neither files nor folders (a pipe, `/dev/stdout`) are
 /// written to directly.
 ///
 /// # Errors
-/// When the folder is missing or may not be written, the disk is full, the old file is
-/// write-protected. The old file is then whole and no temporary file stays behind.
+/// When the folder is missing or not writable, the disk is full, or the old file is write-protected. The
+/// old file is then intact, and no temporary file is left behind.
 pub fn save_bytes(path: &Path, bytes: &[u8]) -> Result<(), SaveError> {
     save(path, bytes, Care::Flushed)
 }
 
-/// Writes a file like [`save_bytes`], but leaves it to the system when the bytes reach the disk: for
-/// exports of which the source still exists. A reader still never sees half a file.
+/// Writes a file like [`save_bytes`], but lets the system decide when the bytes reach the disk: for
+/// exports whose source still exists. Readers still never see half a file.
 ///
 /// # Errors
 /// As [`save_bytes`].
@@ -51,7 +51,7 @@ pub fn save_bytes_fast(path: &Path, bytes: &[u8]) -> Result<(), SaveError> {
 
 #[derive(Clone, Copy, PartialEq)]
 enum Care {
-    /// On the disk, read back and compared before the old file is replaced.
+    /// Flushed, read back and compared before the old file is replaced.
     Flushed,
     Fast,
 }
@@ -84,17 +84,17 @@ fn save(path: &Path, bytes: &[u8], care: Care) -> Result<(), SaveError> {
     replace(&target, old.as_ref(), bytes, care).map_err(|error| fail(&error))
 }
 
-/// Puts new bytes in the place of a regular file, or of none. Dropping the temporary file, as every
-/// error here does, removes it.
+/// Replaces a regular file, or creates one. Dropping the temporary file, as every error here does,
+/// removes it.
 fn replace(target: &Path, old: Option<&fs::Metadata>, bytes: &[u8], care: Care) -> io::Result<()> {
     let folder = folder_of(target);
     let mut builder = tempfile::Builder::new();
-    // Without the file's own name, which may be as long as the system allows.
+    // Without the file's own name, which may already be as long as the system allows.
     builder.prefix(".enfilade-").suffix(".tmp");
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt as _;
-        // What any new file gets, less the user's umask; the crate's own default is 0600.
+        // The mode of any new file, before the user's umask; the crate's own default is 0600.
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     let mut temporary = builder.tempfile_in(folder)?;
@@ -103,7 +103,7 @@ fn replace(target: &Path, old: Option<&fs::Metadata>, bytes: &[u8], care: Care) 
         #[cfg(unix)]
         {
             use std::os::unix::fs::MetadataExt as _;
-            // Whoever runs as root saves in another's file; all others may not give files away, and need not.
+            // Root may be saving another user's file; other users may not give files away, and need not.
             let _ = std::os::unix::fs::fchown(temporary.as_file(), Some(old.uid()), Some(old.gid()));
         }
         temporary.as_file().set_permissions(old.permissions())?;
@@ -119,14 +119,14 @@ fn replace(target: &Path, old: Option<&fs::Metadata>, bytes: &[u8], care: Care) 
     temporary.persist(target).map_err(|error| error.error)?;
     #[cfg(unix)]
     if care == Care::Flushed {
-        // The rename itself is on the disk once the folder is. Some file systems cannot flush a
-        // folder; the file is in place and whole all the same, so that this is no failure.
+        // The rename itself is on disk once the folder is flushed. Some file systems cannot flush a
+        // folder; the file is in place and complete all the same, so this is not a failure.
         let _ = File::open(folder).and_then(|folder| folder.sync_all());
     }
     Ok(())
 }
 
-/// The folder a file lies in.
+/// The folder containing a file.
 fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
@@ -134,7 +134,7 @@ fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// Where a path leads when symbolic links are followed, even if there is nothing yet.
+/// The target of a path after following symbolic links, even if it does not exist yet.
 fn followed(path: &Path) -> io::Result<PathBuf> {
     // The limit Linux sets for one path.
     const LINK_LIMIT: usize = 40;
@@ -142,14 +142,14 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
     for _ in 0..LINK_LIMIT {
         match fs::read_link(&target) {
             Ok(link) => target = folder_of(&target).join(link),
-            // Not a link, or nothing there.
+            // Not a link, or does not exist.
             Err(_) => return Ok(target),
         }
     }
     Err(io::Error::other("a chain of symbolic links that does not end"))
 }
 
-/// What the user can do about an error of the system.
+/// What the user can do about a system error.
 fn hint_for(error: &io::Error) -> &'static str {
     match error.kind() {
         io::ErrorKind::NotFound => "make the folder first, or save elsewhere",

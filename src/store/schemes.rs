@@ -4,13 +4,13 @@ use etcetera::BaseStrategy as _;
 
 use crate::labels::Schemes;
 
-/// The ending of label schemes.
+/// The extension of label schemes.
 pub const SCHEME_ENDING: &str = ".scheme.toml";
 
-/// A scheme has a few kilobytes; this is a file of another kind.
+/// The maximum size: a scheme has a few kilobytes, so anything larger is another kind of file.
 const LARGEST_BYTES: u64 = 1 << 24;
 
-/// The environment variable that names another folder of the user's label schemes.
+/// The environment variable for another folder of the user's label schemes.
 pub const SCHEMES_VARIABLE: &str = "ENFILADE_SCHEMES";
 
 /// Why a label scheme's file cannot be used.
@@ -28,7 +28,7 @@ impl std::fmt::Display for SchemeFileError {
 
 impl std::error::Error for SchemeFileError {}
 
-/// The folder of the user's own label schemes; `None` where the system tells of no home.
+/// The folder of the user's own label schemes; `None` if the system has no home folder.
 pub fn schemes_folder() -> Option<PathBuf> {
     match std::env::var_os(SCHEMES_VARIABLE) {
         Some(folder) => Some(folder.into()),
@@ -39,7 +39,7 @@ pub fn schemes_folder() -> Option<PathBuf> {
 /// Schemes extended by a file.
 ///
 /// # Errors
-/// When the file cannot be read, is too large, or is no label scheme.
+/// When the file cannot be read, is too large, or is not a label scheme.
 pub fn with_scheme_file(schemes: Schemes, path: &Path) -> Result<Schemes, SchemeFileError> {
     let fail = |what: String| SchemeFileError { path: path.to_owned(), what };
     let size = std::fs::metadata(path).map_err(|error| fail(error.to_string()))?.len();
@@ -50,8 +50,8 @@ pub fn with_scheme_file(schemes: Schemes, path: &Path) -> Result<Schemes, Scheme
     schemes.extended_by(&text).map_err(|error| fail(error.to_string()))
 }
 
-/// The bundled label schemes, extended by those in a folder in the order of their names; and the files there
-/// that cannot be used. A folder that does not exist holds none.
+/// The bundled label schemes, extended by those in a folder in order of their names; and the errors of
+/// files that cannot be used. A folder that does not exist adds none.
 pub fn schemes_in(folder: &Path) -> (Schemes, Vec<SchemeFileError>) {
     let entries = std::fs::read_dir(folder).map(|entries| entries.flatten().map(|entry| entry.path()).collect());
     let mut files: Vec<PathBuf> = entries.unwrap_or_default();

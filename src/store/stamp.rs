@@ -6,8 +6,8 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use crate::base::hash;
 use crate::formats;
 
-/// What a file held at some time, to notice that somebody else changed it: a hash of its bytes, the same in
-/// every version and on every machine.
+/// A file's content at some time, to notice changes by others: a hash of its bytes, the same in every
+/// version and on every machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stamp(u64);
 

@@ -1,4 +1,4 @@
-//! Looking for a picture that is not where its plan says.
+//! Looking for a picture that is not at its plan's path.
 
 use std::path::{Path, PathBuf};
 
@@ -7,25 +7,25 @@ use walkdir::WalkDir;
 use super::{content_hash, is_picture_name, read_picture_bytes};
 use crate::plan::Backdrop;
 
-/// Folders below the plan's are searched so deep.
+/// How deep to search below the plan's folder.
 const DEEPEST: usize = 4;
 
-/// So many files at most are looked at.
+/// The most files to examine.
 const MOST_FILES: usize = 5000;
 
-/// So many bytes at most are hashed: a second or two.
+/// The most bytes to hash: a second or two.
 const MOST_HASHED_BYTES: u64 = 1 << 30;
 
 /// A picture that may be the missing one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Found {
     pub path: PathBuf,
-    /// Whether its content is the same; else it only has the same name.
+    /// Whether its content is the same; otherwise only its name is.
     pub is_same: bool,
 }
 
-/// Looks for a missing picture in the plan's folder and the folders below: first for a file with the
-/// same content, wherever it is and whatever its name; then for one with the same name.
+/// Looks for a missing picture in the plan's folder and below: first for a file with the same content,
+/// whatever its place and name; then for one with the same name.
 pub fn find_picture(backdrop: &Backdrop, folder: &Path) -> Option<Found> {
     let name = Path::new(&backdrop.path).file_name()?.to_string_lossy().to_lowercase();
     let has_name = |path: &Path| path.file_name().is_some_and(|own| own.to_string_lossy().to_lowercase() == name);
@@ -35,7 +35,7 @@ pub fn find_picture(backdrop: &Backdrop, folder: &Path) -> Option<Found> {
         .filter(|entry| is_picture_name(entry.path()) || has_name(entry.path()))
         .map(|entry| (entry.path().to_owned(), entry.metadata().map_or(u64::MAX, |meta| meta.len())))
         .collect();
-    // Its name is the best guess, then what lies nearest to the plan.
+    // The same name first, then whatever is nearest to the plan.
     pictures.sort_by_key(|(path, _)| (!has_name(path), path.components().count()));
     let mut left_bytes = MOST_HASHED_BYTES;
     for (path, bytes) in pictures.iter().filter(|_| !backdrop.content_hash.is_empty()) {

@@ -1,4 +1,4 @@
-//! Pictures to trace over: reading and hashing them, and finding one that has moved.
+//! Backdrops: reading and hashing their files, and finding one that has moved.
 
 mod find;
 mod path;
@@ -18,26 +18,25 @@ pub use find::{Found, find_picture};
 pub use path::{relative_path, relocated, resolved_path};
 pub use pdf::DOTS_PER_INCH;
 
-/// Endings of the files that are read as pictures, in lower case.
+/// Extensions of the files read as pictures, in lower case.
 pub const PICTURE_ENDINGS: &[&str] = &["png", "jpg", "jpeg", "tif", "tiff", "webp", "bmp", "gif", "pdf"];
 
-/// No larger file is read: 512 MB. The largest sheet, A0 at 600 dots an inch, is smaller in any
-/// compressed form.
+/// The largest file read: 512 MB. The largest sheet, A0 at 600 dpi, is smaller in any compressed format.
 const LARGEST_FILE_BYTES: u64 = 512 << 20;
 
-/// No picture with more pixels is read: 16384 by 16384, A0 at 400 dots an inch.
+/// The most pixels read: 16384 by 16384, A0 at 400 dpi.
 const MOST_PIXELS: u64 = 1 << 28;
 
-/// No picture with a longer side is read.
+/// The longest side read.
 const LONGEST_SIDE_PX: u32 = 65_535;
 
-/// What a decoder may allocate: the most pixels in four bytes each.
+/// The memory limit of decoders: the most pixels at four bytes each.
 const DECODER_BYTES: u64 = MOST_PIXELS * 4;
 
 /// Why a picture cannot be shown, and what to do about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PictureError {
-    /// In the words that follow 'the picture': 'has too many pixels'.
+    /// Completes 'the picture …': 'has too many pixels'.
     pub what: String,
     pub hint: String,
 }
@@ -66,7 +65,7 @@ pub struct LoadedPicture {
     pub pages: u32,
 }
 
-/// The hash by which a picture is known again: `sha256:` and what `sha256sum` prints.
+/// The hash that identifies a picture: `sha256:` and the output of `sha256sum`.
 pub fn content_hash(bytes: &[u8]) -> String {
     use fmt::Write as _;
     Sha256::digest(bytes).iter().fold("sha256:".to_owned(), |mut text, byte| {
@@ -84,7 +83,7 @@ pub fn is_picture_name(path: &Path) -> bool {
 /// The bytes of a picture's file.
 ///
 /// # Errors
-/// When there is none, it may not be read, or it is larger than any picture.
+/// When it does not exist, may not be read, or is too large.
 pub fn read_picture_bytes(path: &Path) -> Result<Vec<u8>, PictureError> {
     let fail = |error: &std::io::Error| match error.kind() {
         std::io::ErrorKind::NotFound => PictureError::new("is not there", "find it, or link another"),
@@ -113,7 +112,7 @@ pub fn load_picture(path: &Path, page: u32) -> Result<LoadedPicture, PictureErro
     decode_picture(&read_picture_bytes(path)?, page)
 }
 
-/// Reads a picture from a file's bytes, as [`load_picture`].
+/// Reads a picture from a file's bytes, like [`load_picture`].
 ///
 /// # Errors
 /// As [`load_picture`].
@@ -126,7 +125,7 @@ pub fn decode_picture(bytes: &[u8], page: u32) -> Result<LoadedPicture, PictureE
     read.unwrap_or_else(|_| Err(PictureError::new("cannot be read", "save it anew, as PNG or JPEG")))
 }
 
-/// Refuses what would not fit into memory.
+/// Rejects sizes that would not fit into memory.
 fn check_size(width_px: u32, height_px: u32) -> Result<(), PictureError> {
     let is_too_large =
         u64::from(width_px) * u64::from(height_px) > MOST_PIXELS || width_px.max(height_px) > LONGEST_SIDE_PX;

@@ -1,14 +1,14 @@
-//! Where a picture lies, seen from its plan's folder.
+//! Paths of pictures relative to their plan's folder.
 
 use std::path::{Path, PathBuf};
 
 use crate::plan::Backdrop;
 
-/// The path of a picture as a plan in `folder` states it: relative with forward slashes; absolute
-/// where the plan has no folder yet, or where no way leads from one to the other (another drive).
+/// The path of a picture as stored in a plan in `folder`: relative with forward slashes; absolute if the
+/// plan has no folder yet, or there is no relative path (another drive).
 pub fn relative_path(picture: &Path, folder: Option<&Path>) -> String {
     let absolute = |path: &Path| {
-        // No folder at all is the one the program works in.
+        // An empty folder is the current one.
         let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
         std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
     };
@@ -19,7 +19,7 @@ pub fn relative_path(picture: &Path, folder: Option<&Path>) -> String {
     if cfg!(windows) { text.replace('\\', "/") } else { text.into_owned() }
 }
 
-/// The file that a plan in `folder` means by the path of its picture.
+/// The file that the picture path of a plan in `folder` refers to.
 pub fn resolved_path(path: &str, folder: Option<&Path>) -> PathBuf {
     // Joining an absolute path gives that path.
     folder.unwrap_or(Path::new("")).join(path)

@@ -8,20 +8,19 @@ use hayro::{PixmapSettings, RenderCache, RenderSettings, render};
 use super::{MOST_PIXELS, PictureError};
 use crate::picture::{Level, Samples};
 
-/// A page is drawn with so many dots to the inch of its paper, or a half, a quarter and so on of
-/// them where that would be too many pixels: a function of the page's size alone, so that what was
-/// traced stays on its lines.
+/// The resolution at which a page is rendered; half, a quarter and so on if that would be too many
+/// pixels. It depends only on the page's size, so that a tracing stays on its lines.
 pub const DOTS_PER_INCH: f64 = 300.0;
 
 /// PDF's unit of length: 72 to the inch (ISO 32000-1, 8.3.2.3).
 const POINTS_PER_INCH: f64 = 72.0;
 
-/// The painter counts pixels of a side in 16 bits; and no more pixels in all than this, a quarter of
-/// what other pictures may have, for it needs several times their memory.
+/// The renderer counts the pixels of a side in 16 bits; the total is limited to a quarter of that of
+/// other pictures, since it needs several times their memory.
 const MOST_PDF_PIXELS: f64 = (MOST_PIXELS / 4) as f64;
 const LONGEST_PDF_SIDE_PX: f64 = 32_767.0;
 
-/// Whether a file's bytes are a PDF's: some have bytes before the header.
+/// Whether a file's bytes are a PDF; some have bytes before the header.
 pub(super) fn is_pdf(bytes: &[u8]) -> bool {
     bytes[..bytes.len().min(1024)].windows(5).any(|window| window == b"%PDF-")
 }
