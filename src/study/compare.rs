@@ -1,4 +1,4 @@
-//! What measurements come to: scores, averages, tables, and classifiers beside each other.
+//! The evaluation of measurements: scores, averages, tables, and classifiers compared.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,11 +15,11 @@ use crate::dataset::{Moments, Row, Statistics};
 use crate::features::NeighbourLabels;
 use crate::labels::Label;
 
-/// Tasks with what came of them, sorted.
+/// Tasks with their outcomes, sorted.
 pub(super) struct Results(Vec<(Task, Outcome)>);
 
 impl Experiment<'_> {
-    /// Everything a study tells but how typologies are inferred.
+    /// Everything in a study except the inference of typologies.
     pub(super) fn gather(&self, results: &Results) -> Study {
         let conditions = self.conditions();
         let main = self.main_condition();
@@ -112,7 +112,7 @@ impl Experiment<'_> {
         Some(JointCell { set: name.clone(), best, comparison, scores })
     }
 
-    /// What is said of what lies behind openings beside the most frequent label.
+    /// Compares predictions of what lies behind openings with the most frequent label.
     fn compare_behind(&self, results: &Results, wanted: usize) -> Option<UnknownCell> {
         let mut openings: Vec<(&str, f64, f64)> = Vec::new();
         for (task, outcome) in &results.0 {

@@ -1,34 +1,33 @@
-//! Whether one way of classifying is better than another on the same rooms, beyond chance.
+//! Whether one classification method beats another on the same rooms, beyond chance.
 
 use serde::Serialize;
 
 use crate::base::random::Random;
 
-/// Two ways of classifying, compared on the same rooms. Rooms of one building resemble each other, so
-/// chance is judged by building: both the interval and the p-value take buildings, not rooms, as what
-/// could have come out otherwise.
+/// Two methods compared on the same rooms. Rooms of one building resemble each other, so chance is
+/// assessed by building: both the interval and the p-value resample buildings, not rooms.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Comparison {
     pub rooms: usize,
     pub buildings: usize,
-    /// Share of rooms right by the first way, 0..=1.
+    /// Share of rooms right by the first method, 0..=1.
     pub first: f64,
     /// Share of rooms right by the second.
     pub second: f64,
-    /// First less second.
+    /// First minus second.
     pub difference: f64,
     /// The 95 % interval of the difference: percentiles of a bootstrap over buildings (Efron 1979).
     pub low: f64,
     pub high: f64,
-    /// Two-sided p-value of a paired permutation test that flips the two ways building by building
-    /// (Fisher 1935): how often a difference as large comes about where there is none.
+    /// Two-sided p-value of a paired permutation test that swaps the two methods building by building
+    /// (Fisher 1935): how often a difference this large arises when there is none.
     pub p: f64,
 }
 
-/// Resamples of the bootstrap and flips of the permutation test: the p-value is good to about 0.002.
+/// Resamples of the bootstrap and of the permutation test: the p-value is accurate to about 0.002.
 const RESAMPLES: usize = 10_000;
 
-/// How right the two ways are in one building.
+/// How right the two methods are in one building.
 #[derive(Clone, Copy, Debug, Default)]
 struct Building {
     rooms: f64,
@@ -37,8 +36,8 @@ struct Building {
 }
 
 impl Comparison {
-    /// Compares two ways. For each room: its building, and how right each way is (0 wrong, 1 right,
-    /// between when several classifiers are averaged). `None` without rooms.
+    /// Compares two methods. For each room: its building, and how right each method is (0 wrong, 1 right,
+    /// in between when several classifiers are averaged). `None` if there are no rooms.
     pub fn of<'a>(rooms: impl IntoIterator<Item = (&'a str, f64, f64)>, seed: u64) -> Option<Self> {
         let mut by_name: std::collections::BTreeMap<&str, Building> = Default::default();
         let mut count = 0;
@@ -71,7 +70,8 @@ impl Comparison {
             .collect();
         resampled.sort_by(f64::total_cmp);
         let percentile = |share: f64| resampled[((RESAMPLES as f64 * share) as usize).min(RESAMPLES - 1)];
-        // A hair's breadth of tolerance: sums in another order must not decide whether a difference is as large.
+        // A tiny tolerance, so that summing in another order does not decide whether a difference is as
+        // large.
         let as_large = (difference.abs() - 1e-12) * all;
         let flipped = (0..RESAMPLES)
             .filter(|_| {
@@ -93,7 +93,8 @@ impl Comparison {
             difference,
             low: percentile(0.025),
             high: percentile(0.975),
-            // One is added to both: the difference observed is one of the flips (Davison and Hinkley 1997).
+            // One is added to both: the observed difference counts as a resample (Davison and Hinkley
+            // 1997).
             p: (flipped + 1) as f64 / (RESAMPLES + 1) as f64,
         })
     }
@@ -103,7 +104,8 @@ impl Comparison {
 mod tests {
     use super::*;
 
-    /// `buildings` of ten rooms, where the first way is right in `first` of ten and the second in `second`.
+    /// `buildings` of ten rooms, where the first method is right in `first` of ten and the second in
+    /// `second`.
     fn compare(buildings: &[(usize, usize)]) -> Comparison {
         let names: Vec<String> = (0..buildings.len()).map(|index| format!("b{index}")).collect();
         let right = |room: usize, of_ten: usize| f64::from(u8::from(room < of_ten));
@@ -118,7 +120,7 @@ mod tests {
     fn a_clear_difference_is_seen_and_none_is_not_made_up() {
         let clear = compare(&[(9, 5); 12]);
         assert!((clear.difference - 0.4).abs() < 1e-12 && clear.low > 0.39 && clear.high < 0.41, "{clear:?}");
-        // 12 buildings all one way: 2 of 2^12 flips are as large, 0.0005.
+        // 12 buildings all one way: 2 of 2^12 swaps are as large, 0.0005.
         assert!(clear.p < 0.002, "{clear:?}");
         let none = compare(&[(7, 5), (5, 7), (6, 6), (8, 6), (6, 8), (7, 7)]);
         assert!(none.difference.abs() < 1e-12 && none.low < 0.0 && none.high > 0.0 && none.p > 0.99, "{none:?}");

@@ -1,5 +1,5 @@
-//! The measurements of a study, each a task of its own: a fold predicted by classifiers that learned from
-//! the others, a foreign test, a point of a learning curve.
+//! The measurements of a study, each a separate task: a fold predicted by classifiers trained on the
+//! others, a foreign test, a point of a learning curve.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -25,21 +25,21 @@ const CURVE_FOLDS: usize = 5;
 /// Times each feature is shuffled in each fold.
 pub(super) const SHUFFLES: usize = 3;
 
-/// The data, prepared, and how each task is done on them.
+/// The prepared data, and how to perform each task on them.
 pub(super) struct Experiment<'a> {
     pub(super) collection: &'a Collection,
     pub(super) options: Options,
-    /// All labelled rooms, with the features that true neighbour labels give.
+    /// All labelled rooms, with features from true neighbour labels.
     pub(super) rows: Vec<Row>,
     pub(super) places: Vec<RoomPlace>,
-    /// The same with temporary neighbour labels; none for rows of a file. Features with predicted labels
-    /// depend on the classifier and are made where needed.
+    /// The same with temporary neighbour labels; empty for rows of a file. Features with predicted labels
+    /// depend on the classifier and are made when needed.
     pub(super) temporary: Vec<Row>,
     pub(super) sets: Vec<SetRows>,
     pub(super) notes: Vec<String>,
 }
 
-/// A set's rows, and how they are assigned to folds.
+/// A set's rows, and their folds.
 pub(super) struct SetRows {
     pub(super) name: String,
     /// `None` for the standard set.
@@ -76,10 +76,10 @@ pub(super) enum Task {
     Unknown { set: usize, fold: usize },
 }
 
-/// What came of a task.
+/// The outcome of a task.
 pub(super) enum Outcome {
-    /// Predictions of rows, and the rooms right after shuffling each feature (of [`SHUFFLES`] times the
-    /// rows).
+    /// Predictions of rows, and the rooms right after shuffling each feature (out of [`SHUFFLES`] times
+    /// the rows).
     Predicted(Vec<(usize, Distribution)>, Option<[usize; FEATURES]>),
     /// Training rooms, rooms tested, and how many of them were right.
     Point(usize, usize, usize),
@@ -106,8 +106,8 @@ impl<'a> Experiment<'a> {
         Ok(experiment)
     }
 
-    /// Makes the sets. The standard set's folds are those of the typologies put together, so that own
-    /// and standard classifiers are tested on the same rooms having learned without the same rooms.
+    /// Makes the sets. The standard set's folds are those of the typologies combined, so that own and
+    /// standard classifiers are tested on the same rooms, with the same rooms excluded from training.
     fn assign_folds(&mut self) -> Result<(), StudyError> {
         let options = self.options;
         let mut by_typology: BTreeMap<Option<&Typology>, Vec<usize>> = Default::default();
@@ -154,7 +154,7 @@ impl<'a> Experiment<'a> {
                 of_set.push(folds.ok());
             }
             if several && typology.is_none() {
-                // Part of the standard set only.
+                // Only in the standard set.
                 continue;
             }
             let by_building = of_set.pop().flatten();
@@ -190,8 +190,8 @@ impl<'a> Experiment<'a> {
         Condition { by: self.options.grouping, neighbours: self.options.neighbours }
     }
 
-    /// The mode in which curves and foreign classifiers are measured: they learn once, without the
-    /// inner validation that predicted labels need.
+    /// The choice of neighbours' labels for curves and foreign classifiers: they are trained once,
+    /// without the inner validation that predicted labels need.
     fn plain_mode(&self) -> NeighbourLabels {
         match self.options.neighbours {
             NeighbourLabels::Predicted => NeighbourLabels::Temporary,
@@ -254,13 +254,13 @@ impl<'a> Experiment<'a> {
         Classifier::train(algorithm, &table, self.options.seed, work).ok()
     }
 
-    /// Does a task.
+    /// Performs a task.
     ///
     /// # Errors
     /// When the work is cancelled.
     pub(super) fn perform(&self, task: Task, work: &Work<'_>) -> Result<Outcome, Cancelled> {
         let outcome = self.outcome(task, work);
-        // Without this, what was given up would count as measured.
+        // Otherwise a cancelled task would count as measured.
         work.goes_on()?;
         Ok(outcome)
     }
@@ -353,7 +353,7 @@ impl<'a> Experiment<'a> {
         Some(Outcome::Predicted(predictions, shuffled))
     }
 
-    /// The joint classifier on the buildings of a fold, having learned from the others of the set.
+    /// The joint classifier on the buildings of a fold, trained on the others of the set.
     fn predict_jointly(&self, set: &SetRows, fold: usize, work: &Work<'_>) -> Option<Outcome> {
         let (tested, learned) = Self::split(set, Grouping::Building, fold)?;
         let taught: Vec<&RoomNetwork> = self.networks_of(&learned).into_values().collect();
@@ -364,7 +364,7 @@ impl<'a> Experiment<'a> {
         Some(Outcome::Predicted(tested.into_iter().filter_map(prediction).collect(), None))
     }
 
-    /// What lies behind the openings of a fold's buildings, having learned from the others of the set.
+    /// What lies behind the openings of a fold's buildings, trained on the others of the set.
     fn look_behind(&self, set: &SetRows, fold: usize) -> Option<Outcome> {
         let (tested, learned) = Self::split(set, Grouping::Building, fold)?;
         let networks = |rows: &[usize]| self.networks_of(rows).into_values().collect::<Vec<_>>();
@@ -383,7 +383,7 @@ impl<'a> Experiment<'a> {
             return Outcome::Point(0, 0, 0);
         };
         let mut random = Random::new(seed_of_part(self.options.seed, fold));
-        // The smaller parts lie within the larger ones, and buildings stay whole where folds keep them so.
+        // Smaller parts are subsets of larger ones, and buildings stay whole if folds keep them whole.
         if self.options.grouping == Grouping::Building {
             let mut buildings: Vec<&str> = learned.iter().map(|&row| building_of(&self.rows[row])).collect();
             buildings.sort_unstable();
@@ -406,7 +406,7 @@ impl<'a> Experiment<'a> {
     }
 }
 
-/// Rooms that are right after shuffling each feature among them, of [`SHUFFLES`] times the rooms.
+/// Rooms right after shuffling each feature among them, out of [`SHUFFLES`] times the rooms.
 fn right_when_shuffled(classifier: &Classifier, values: &[Values], truths: &[Label], seed: u64) -> [usize; FEATURES] {
     std::array::from_fn(|feature| {
         let mut random = Random::new(seed_of_part(seed, feature));

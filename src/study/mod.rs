@@ -1,6 +1,6 @@
-//! The study: everything the paper's section 4.2 reports, measured on a collection of labelled rooms,
-//! and what it leaves open (buildings never seen, neighbours whose labels are not known). Numbers only;
-//! [`report`] writes them as a page and as tables.
+//! The study: everything reported in the paper's section 4.2, measured on a collection of labelled rooms,
+//! and what the paper leaves open (buildings never seen, neighbours whose labels are unknown). Numbers
+//! only; [`report`] writes them as a page and as tables.
 
 mod compare;
 mod comparison;
@@ -23,12 +23,12 @@ use crate::dataset::folds::Grouping;
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
 
-/// How a study is done.
+/// The options of a study.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
     /// Folds of each cross-validation, at least 2. The paper: 10.
     pub folds: usize,
-    /// What is assigned to folds in the main condition, under which all tables stand. The paper: rooms.
+    /// The unit assigned to folds in the main condition, which all tables use. The paper: rooms.
     pub grouping: Grouping,
     /// Neighbours' labels in the main condition. The paper: true.
     pub neighbours: NeighbourLabels,
@@ -41,7 +41,7 @@ impl Default for Options {
     }
 }
 
-/// Under what condition classifiers are tested.
+/// A condition under which classifiers are tested.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Condition {
     #[serde(serialize_with = "grouping_name")]
@@ -98,7 +98,7 @@ pub struct Set {
     pub rooms: usize,
     pub plans: usize,
     pub buildings: usize,
-    /// Share of the most frequent label: what is reached without looking at a room.
+    /// Share of the most frequent label: the accuracy reached without looking at a room.
     pub most_frequent: f64,
     /// [`crate::dataset::table::Table::fingerprint`] of its rows with true neighbour labels, in
     /// hexadecimal digits.
@@ -113,7 +113,7 @@ pub struct Cell {
     pub algorithm: Algorithm,
     #[serde(flatten)]
     pub condition: Condition,
-    /// Number of folds: fewer than asked for where there are not so many buildings.
+    /// Number of folds: fewer than requested if there are not enough buildings.
     pub fold_count: usize,
     #[serde(flatten)]
     pub scores: Scores,
@@ -124,7 +124,7 @@ pub struct Cell {
 pub struct Average {
     pub set: String,
     pub mean: f64,
-    /// Mean of the algorithms' deviations over the folds.
+    /// Mean of the algorithms' standard deviations over the folds.
     pub deviation: f64,
 }
 
@@ -137,7 +137,7 @@ pub struct ConfusionTable {
     /// Rows of shares, averaged over the algorithms: true label down, predicted across, in the order
     /// of [`Label::ALL`].
     pub shares: [[f64; 5]; 5],
-    /// The rates in the paper's words, averaged over the algorithms.
+    /// The rates in the paper's terms, averaged over the algorithms.
     pub rates: [TableRates; 5],
 }
 
@@ -201,7 +201,7 @@ pub struct Curve {
     pub points: Vec<CurvePoint>,
 }
 
-/// Accuracy after learning from some of the rooms.
+/// Accuracy when trained on a part of the rooms.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct CurvePoint {
     /// Training rooms, mean over the folds.
@@ -210,8 +210,8 @@ pub struct CurvePoint {
     pub deviation: f64,
 }
 
-/// How much each feature matters to a classifier: the accuracy lost when its values are shuffled
-/// among the tested rooms (Breiman 2001).
+/// The importance of each feature to a classifier: the accuracy lost when its values are shuffled among
+/// the tested rooms (Breiman 2001).
 #[derive(Clone, Debug, Serialize)]
 pub struct Importance {
     pub set: String,
@@ -221,7 +221,7 @@ pub struct Importance {
     pub accuracy_lost: [f64; 8],
 }
 
-/// The joint classifier on a set, folds by building, no label of the tested buildings known.
+/// The joint classifier on a set, with folds by building and no known labels in the tested buildings.
 #[derive(Clone, Debug, Serialize)]
 pub struct JointCell {
     pub set: String,
@@ -233,22 +233,22 @@ pub struct JointCell {
     pub scores: Scores,
 }
 
-/// What lies behind an opening, predicted from the room on this side: each opening between two labelled rooms
-/// in turn leads into unexplored space; folds by building.
+/// What lies behind an opening, predicted from the room on this side: each opening between two labelled
+/// rooms in turn is treated as leading into unexplored space; folds by building.
 #[derive(Clone, Debug, Serialize)]
 pub struct UnknownCell {
     pub set: String,
-    /// By opening, each from both sides: first the prediction, second the most frequent label.
+    /// Per opening, from both sides: first the prediction, second the most frequent label.
     pub comparison: Comparison,
 }
 
-/// How often plans of one typology were taken for each.
+/// How often plans of one typology were inferred to be of each.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TypologyLine {
     pub typology: String,
     /// Plans taken for each typology.
     pub plans: Vec<TypologyCount>,
-    /// Share of plans, and of buildings (each the mean over its plans), taken for what they are.
+    /// Share of plans, and of buildings (each the mean over its plans), inferred correctly.
     pub plan_accuracy: f64,
     pub building_accuracy: f64,
     pub buildings: usize,
@@ -261,7 +261,7 @@ pub struct TypologyCount {
     pub plans: usize,
 }
 
-/// Why there is no study.
+/// Why a study is not possible.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum StudyError {
     Cancelled,

@@ -1,4 +1,4 @@
-//! The figures that the paper reports, from `assets/paper_figures.toml`, to print beside ours.
+//! The figures reported in the paper, from `assets/paper_figures.toml`, to print beside ours.
 
 use std::collections::BTreeMap;
 
@@ -62,7 +62,7 @@ pub struct Rooms {
 }
 
 impl PaperFigures {
-    /// The figures that come with the program; `None` if its own asset did not read, which a test rules out.
+    /// The bundled figures; `None` if the asset cannot be read, which a test rules out.
     pub fn bundled() -> Option<Self> {
         toml::from_str(include_str!("../../assets/paper_figures.toml")).ok()
     }
@@ -81,8 +81,8 @@ impl PaperFigures {
         })
     }
 
-    /// Accuracy on the rooms of `data` of classifiers of `model`: mean and deviation. `algorithm` is an
-    /// algorithm's name or `average`.
+    /// Accuracy of the classifiers of `model` on the rooms of `data`: mean and deviation. `algorithm` is
+    /// an algorithm's name or `average`.
     pub fn cross(&self, data: &str, model: &str, algorithm: &str) -> Option<[f64; 2]> {
         self.cross.get(&format!("{data}_by_{model}"))?.get(algorithm).copied()
     }

@@ -1,5 +1,5 @@
-//! Doing a study: every fold, foreign test and point of a curve is a task of its own, so that all
-//! threads are busy to the end and progress is even.
+//! Running a study: every fold, foreign test and point of a curve is a separate task, so that all threads
+//! are busy to the end and progress is even.
 
 use super::compare::Results;
 use super::measure::{Experiment, Task, infer_typologies};
@@ -9,9 +9,9 @@ use crate::base::work::{Cancelled, Work};
 use crate::classify::Algorithm;
 use crate::dataset::{Collection, RoomNetwork};
 
-/// Studies a collection. `blind` are the same plans as [`RoomNetwork::without_typology`] sees them; without
-/// them, the inference of the typology is not measured. `work` is told how many tasks are done of how many; they come in random
-/// order, so that the share done is close to the share of the time.
+/// Studies a collection. `blind` are the same plans as [`RoomNetwork::without_typology`] sees them;
+/// without them, the inference of the typology is not measured. `work` receives the number of tasks done;
+/// they run in random order, so that progress is roughly proportional to time.
 ///
 /// # Errors
 /// When there is too little data for even one cross-validation, or the work is cancelled.

@@ -1,5 +1,5 @@
-//! Charts as SVG within the page. Colours come from the page's style sheet, so that they follow its
-//! theme and print in dark ink.
+//! Charts as inline SVG. Colours come from the page's style sheet, so that they follow its theme and
+//! print in dark ink.
 
 use maud::{Markup, html};
 
@@ -10,15 +10,15 @@ pub(super) struct Bar {
     pub title: String,
 }
 
-/// Bars side by side that belong together.
+/// Related bars, side by side.
 pub(super) struct Group {
     pub name: String,
     pub bars: Vec<Bar>,
-    /// A figure to compare with and its deviation, drawn as a line and a band across the group.
+    /// A reference value and its deviation, drawn as a line and a band across the group.
     pub mark: Option<(f64, f64)>,
 }
 
-/// A line through points, and its colour's number.
+/// A line through points, and the index of its colour.
 pub(super) struct Line {
     pub colour: usize,
     pub points: Vec<(f64, f64)>,
@@ -78,12 +78,12 @@ pub(super) fn bars(groups: &[Group]) -> Markup {
     }
 }
 
-/// What stands on an axis of a [`lines`] chart.
+/// The labels of an axis of a [`lines`] chart.
 pub(super) struct Axis {
     pub title: &'static str,
     pub from: f64,
     pub to: f64,
-    /// Where a number stands, and the number.
+    /// The ticks: position and number.
     pub ticks: Vec<(f64, String)>,
 }
 

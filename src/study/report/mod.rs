@@ -1,4 +1,4 @@
-//! A study as a page that needs nothing else, as tables, and as JSON.
+//! A study as a self-contained page, as tables, and as JSON.
 
 mod charts;
 mod page;
@@ -10,7 +10,7 @@ use crate::classify::Algorithm;
 /// The report's files: name and content.
 ///
 /// # Errors
-/// When a table cannot be written, which lack of memory alone could bring about.
+/// When a table cannot be written, which only lack of memory could cause.
 pub fn files(study: &Study) -> Result<Vec<(String, Vec<u8>)>, std::io::Error> {
     let mut json = serde_json::to_vec_pretty(study)?;
     json.push(b'\n');

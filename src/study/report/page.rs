@@ -75,7 +75,7 @@ fn head(study: &Study) -> Markup {
     }
 }
 
-/// A small number as a text has it: 'four'.
+/// A small number in words: 'four'.
 fn in_words(number: usize) -> String {
     let words = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"];
     words.get(number).map_or_else(|| number.to_string(), |word| (*word).to_owned())
@@ -583,7 +583,7 @@ fn curves(study: &Study) -> Markup {
     }
 }
 
-/// Round numbers between two, on a logarithmic axis: a few of 1, 2, 5 times powers of ten.
+/// Round numbers between two, for a logarithmic axis: a few of 1, 2, 5 times powers of ten.
 fn ticks_of_rooms(least: f64, most: f64) -> Vec<(f64, String)> {
     let round = (0..7).flat_map(|power| [1.0, 2.0, 5.0].map(|digit| digit * 10f64.powi(power)));
     let mut inside: Vec<f64> = round.filter(|rooms| (least..=most).contains(rooms)).collect();
@@ -626,7 +626,7 @@ fn importance(study: &Study) -> Markup {
     }
 }
 
-/// Points of a hundred with one decimal, without a minus before zero.
+/// Percentage points with one decimal, without a minus sign before zero.
 fn points(share: f64) -> String {
     let rounded = (share * 1000.0).round() / 10.0;
     format!("{:.1}", if rounded == 0.0 { 0.0 } else { rounded })
@@ -690,7 +690,7 @@ fn calibration(study: &Study) -> Markup {
     }
 }
 
-/// A bin of the reliability diagram with fewer rooms says too little.
+/// The fewest rooms in a bin of the reliability diagram for it to be meaningful.
 const LEAST_IN_BIN: usize = 10;
 
 fn method(study: &Study) -> Markup {

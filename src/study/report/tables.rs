@@ -32,7 +32,7 @@ impl Table {
     }
 }
 
-/// Four decimals: more than the folds can tell apart.
+/// Four decimals: more than the folds can distinguish.
 fn number(value: f64) -> String {
     format!("{value:.4}")
 }
