@@ -1,8 +1,8 @@
-//! From a plan to all that follows from it: analysis -> network -> labels -> drawing. The one way there, for
-//! the window, every subcommand and the robot, so that they cannot say different things of one plan.
+//! From a plan to all that is derived from it: analysis -> network -> labels -> drawing. The only way
+//! there, for the window, every subcommand and the robot, so that they cannot disagree about a plan.
 //!
-//! [`Pipeline`] works each step out when it is first asked for; [`Derived`] is all of it, with what the window
-//! needs to pick and to snap.
+//! [`Pipeline`] computes each step when it is first needed; [`Derived`] holds all of them, with what the
+//! window needs for picking and snapping.
 
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
@@ -23,7 +23,7 @@ use crate::predict::{Predictions, Predictor};
 use crate::snapping::PlanIndex;
 use crate::topology::{self, Gap};
 
-/// What follows from a plan, each step worked out when it is first asked for.
+/// What is derived from a plan, each step computed when it is first needed.
 pub struct Pipeline<'a> {
     plan: &'a Plan,
     schemes: &'a Schemes,
@@ -33,13 +33,13 @@ pub struct Pipeline<'a> {
 }
 
 impl<'a> Pipeline<'a> {
-    /// Nothing is worked out yet. Features count the known labels of neighbours.
+    /// Nothing is computed yet. Features count the known labels of neighbours.
     pub fn new(plan: &'a Plan, schemes: &'a Schemes) -> Self {
         Self::counting(plan, schemes, NeighbourLabels::True)
     }
 
-    /// The same, with features that count these labels of neighbours. The network and the predictions do not
-    /// depend on it: they count labels themselves.
+    /// The same, with features that count these labels of neighbours. The network and the predictions do
+    /// not depend on it: they count labels themselves.
     pub fn counting(plan: &'a Plan, schemes: &'a Schemes, neighbours: NeighbourLabels) -> Self {
         Self { plan, schemes, neighbours, analysis: OnceCell::new(), network: OnceCell::new() }
     }
@@ -54,10 +54,10 @@ impl<'a> Pipeline<'a> {
         self.network.get_or_init(|| RoomNetwork::of(self.plan, self.analysis()))
     }
 
-    /// What a model says of the rooms.
+    /// A model's predictions for the rooms.
     ///
     /// # Errors
-    /// When a bundled model cannot be read, which the tests exclude.
+    /// When a bundled model cannot be read, which the tests rule out.
     pub fn predictions(&self, asked: &Asked) -> Result<Predictions, ModelFileError> {
         let network = self.network().clone();
         let known = if asked.hides_labels { vec![None; network.rooms.len()] } else { network.known_labels() };
@@ -67,7 +67,7 @@ impl<'a> Pipeline<'a> {
         }
     }
 
-    /// The plan as it is drawn, with the labels that are said where there are predictions.
+    /// The plan as drawn, with predicted labels if there are predictions.
     pub fn drawing(&self, predictions: Option<&Predictions>) -> Drawing {
         let drawing = Drawing::new(self.plan, self.analysis());
         match predictions {
@@ -76,47 +76,47 @@ impl<'a> Pipeline<'a> {
         }
     }
 
-    /// The analysis, for good.
+    /// Takes the analysis out.
     pub fn into_analysis(self) -> Analysis {
         self.analysis();
         self.analysis.into_inner().unwrap_or_else(|| analyse(self.plan, self.schemes, self.neighbours))
     }
 }
 
-/// How rooms are to be classified.
+/// How to classify rooms.
 #[derive(Clone, Debug, Default)]
 pub struct Asked {
-    /// Which of the models at hand.
+    /// Which of the available models.
     pub predictor: Predictor,
     pub models: Models,
     /// A model from a file, instead.
     pub model: Option<Arc<StoredModel>>,
-    /// Which labels of neighbours count; `None`: as the model learned.
+    /// Which labels of neighbours count; `None`: as in the model's training.
     pub neighbours: Option<NeighbourLabels>,
-    /// Whether no label counts as known, as in a new building.
+    /// Whether to treat all labels as unknown, as in a new building.
     pub hides_labels: bool,
 }
 
 impl Asked {
-    /// By the models at hand, with all that is known: what the window shows, and `enfilade classify` without
-    /// options.
+    /// With the available models and all known labels: as the window does, and `enfilade classify`
+    /// without options.
     pub fn by(predictor: &Predictor, models: &Models) -> Self {
         Self { predictor: predictor.clone(), models: models.clone(), ..Self::default() }
     }
 }
 
-/// What follows from a plan.
+/// What is derived from a plan.
 pub struct Derived {
     pub analysis: Analysis,
     pub drawing: Drawing,
-    /// What a classifier says of the rooms; `None` where none was asked, and where there is no model of the
-    /// method that is asked for.
+    /// The predictions for the rooms; `None` if none were requested, or there is no model of the
+    /// requested method.
     pub predictions: Option<Predictions>,
     /// Which models were to predict.
     pub predictor: Option<Predictor>,
-    /// Why a room got its label, as asked for last.
+    /// Why a room got its label, for the last room asked about.
     reason: Mutex<Option<(RoomId, Option<String>)>>,
-    /// Corners, walls and boundaries by place: to snap to, and to select.
+    /// A spatial index of corners, walls and boundaries: for snapping and selecting.
     pub index: PlanIndex,
     /// Doorways left open in walls.
     pub gaps: Vec<Gap>,
@@ -148,7 +148,7 @@ impl PointDistance for OpeningPlace {
 }
 
 impl Derived {
-    /// Works out all that follows from a plan; without a predictor all but predictions.
+    /// Computes everything derived from a plan; without a predictor, all but predictions.
     pub fn new(plan: &Plan, schemes: &Schemes, predictor: Option<(Predictor, Models)>) -> Self {
         let pipeline = Pipeline::new(plan, schemes);
         let predictions = predictor.as_ref().and_then(|(by, models)| pipeline.predictions(&Asked::by(by, models)).ok());
@@ -156,10 +156,10 @@ impl Derived {
         Self::of(plan, pipeline.into_analysis(), predictions, predictor.map(|(by, _)| by), drawing)
     }
 
-    /// The same, given up between its steps when the work is cancelled.
+    /// The same, stopping between steps when the work is cancelled.
     ///
     /// # Errors
-    /// When it is.
+    /// When cancelled.
     pub fn by_steps(
         plan: &Plan,
         schemes: &Schemes,
@@ -202,7 +202,7 @@ impl Derived {
         Self { analysis, drawing, predictions, predictor, reason, index, gaps, openings, reading_order, functions }
     }
 
-    /// The rooms with a boundary as one reads: from the top left, line by line.
+    /// The rooms with a boundary in reading order: from the top left, line by line.
     pub fn reading_order(&self) -> &[RoomId] {
         &self.reading_order
     }
@@ -212,11 +212,11 @@ impl Derived {
         in_lines(&self.analysis, |bounds| (bounds.min.x, bounds.width()), |bounds| -bounds.max.y)
     }
 
-    /// Why a room got the label that is predicted, in words; `None` where none is. Worked out when asked
-    /// for another room.
+    /// Why a room got its predicted label, in words; `None` if it has none. Computed when asked about
+    /// another room.
     pub fn reason(&self, room: RoomId) -> Option<String> {
         let predictions = self.predictions.as_ref()?;
-        // A poisoned one holds what was there before, which is right.
+        // A poisoned mutex still holds the previous value, which is valid.
         let mut last = self.reason.lock().unwrap_or_else(PoisonError::into_inner);
         if last.as_ref().is_none_or(|(of, _)| *of != room) {
             *last = Some((room, predictions.reason(room)));
@@ -224,8 +224,8 @@ impl Derived {
         last.as_ref().and_then(|(_, reason)| reason.clone())
     }
 
-    /// What can be picked at a point: openings within `reach_m` metres, then walls, the nearest first, then
-    /// rooms, the smallest first. A wall is reached half as far beside it as an opening.
+    /// What can be picked at a point: openings within `reach_m` metres, then walls, nearest first, then
+    /// rooms, smallest first. Walls have half the reach of openings.
     pub fn at(&self, point: Point, reach_m: f64) -> Vec<ElementId> {
         let place = [point.x, point.y];
         let mut near: Vec<(f64, OpeningId)> = self
@@ -248,8 +248,8 @@ fn reading_order(analysis: &Analysis) -> Vec<RoomId> {
     in_lines(analysis, |bounds| (-bounds.max.y, bounds.height()), |bounds| bounds.min.x)
 }
 
-/// Rooms in lines, and in order within each. `across` tells where a room begins across the lines and how
-/// far it extends: a line is as wide as half a typical room.
+/// Rooms in lines, and in order within each. `across` returns where a room begins across the lines and
+/// how far it extends: a line is as wide as half a typical room.
 fn in_lines(
     analysis: &Analysis,
     across: impl Fn(&Bounds) -> (f64, f64),

@@ -1,5 +1,5 @@
-//! Predictions for the rooms of a plan: which model fits the plan, and what it says of each room. The
-//! one function behind the window, the command line and scripts; fast enough to run after every edit.
+//! Predictions for the rooms of a plan: which model fits the plan, and what it predicts for each room.
+//! The one function behind the window, the command line and scripts; fast enough to run after every edit.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -17,22 +17,22 @@ use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
 use crate::plan::{OpeningId, RoomId};
 
-/// By which models is predicted.
+/// Which models predict.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ModelSet {
-    /// Those of the plan's own typology; inferred from the plan where it has none, or one without models.
+    /// Those of the plan's own typology; inferred from the plan if it has none, or one without models.
     #[default]
     OfPlan,
-    /// Those of the typology that is inferred from the plan, whatever it says of itself.
+    /// Those of the typology inferred from the plan, whatever the plan states.
     Auto,
-    /// Those of a typology of which there are models, or of [`STANDARD`].
+    /// Those of a typology that has models, or of [`STANDARD`].
     Named(String),
-    /// The one of this name, whatever its method.
+    /// The model with this name, whatever its method.
     Model(String),
 }
 
 impl ModelSet {
-    /// The word for the command line and scripts.
+    /// Its name on the command line and in scripts.
     pub fn name(&self) -> &str {
         match self {
             Self::OfPlan => "plan",
@@ -51,7 +51,7 @@ impl ModelSet {
         }
     }
 
-    /// What it is, in a sentence without a full stop.
+    /// A description, in a sentence without a full stop.
     pub fn help(&self) -> String {
         match self {
             Self::OfPlan => "Predict by models of the plan's own typology, inferred where it has none".to_owned(),
@@ -65,17 +65,17 @@ impl ModelSet {
         }
     }
 
-    /// All there are, in the order of menus: of the plan, inferred, the sets at hand, the user's own models.
+    /// All choices, in menu order: the plan's, inferred, the available sets, the user's own models.
     pub fn all(models: &Models) -> Vec<Self> {
         let named = models.sets().into_iter().map(|set| Self::Named(set.to_owned()));
         let own = models.own().iter().map(|model| Self::Model(model.name.clone()));
         [Self::OfPlan, Self::Auto].into_iter().chain(named).chain(own).collect()
     }
 
-    /// What a word means: 'plan', 'auto', the name of a set in any case, or that of a model.
+    /// Parses a word: 'plan', 'auto', the name of a set in any case, or that of a model.
     ///
     /// # Errors
-    /// When there are no models of that name.
+    /// When there are no models with that name.
     pub fn read(word: &str, models: &Models) -> Result<Self, UnknownSet> {
         let wanted = word.trim();
         let found = Self::all(models).into_iter().find(|set| match set {
@@ -90,11 +90,11 @@ impl ModelSet {
     }
 }
 
-/// There are no models of that name.
+/// There are no models with that name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownSet {
     pub word: String,
-    /// Those there are.
+    /// The available sets.
     pub sets: Vec<String>,
 }
 
@@ -111,10 +111,10 @@ impl fmt::Display for UnknownSet {
 
 impl std::error::Error for UnknownSet {}
 
-/// The method used where nobody says which: the best on buildings never seen (`docs/joint.md`).
+/// The default method: the best on buildings never seen (`docs/joint.md`).
 pub const DEFAULT_METHOD: Method = Method::Joint;
 
-/// Which of the models at hand are to predict.
+/// Which of the available models are to predict.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Predictor {
     pub set: ModelSet,
@@ -128,11 +128,12 @@ impl Default for Predictor {
 }
 
 impl Predictor {
-    /// Classifies the rooms of a network by one of the models at hand. `known` holds, for each, the label that
-    /// may be used where it is a neighbour; without `neighbours`, they are taken as the model learned.
+    /// Classifies the rooms of a network by one of the available models. `known` holds, for each room,
+    /// the label that may be used when it is a neighbour; without `neighbours`, they are taken as in the
+    /// model's training.
     ///
     /// # Errors
-    /// When there is no model of the set and the method.
+    /// When there is no model for the set and the method.
     pub fn predict(
         &self,
         network: RoomNetwork,
@@ -161,16 +162,16 @@ impl Predictor {
     }
 }
 
-/// Which set of models a plan is classified by, and why.
+/// Which set of models classifies a plan, and why.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
     /// A typology, or [`STANDARD`].
     pub set: String,
-    /// Where that comes from, in a few words: 'the plan's'.
+    /// The reason, in a few words: 'the plan's'.
     pub because: String,
-    /// Where it was inferred: the probability of each typology, the most probable first, 0..=1.
+    /// If inferred: the probability of each typology, most probable first, 0..=1.
     pub posterior: Vec<(Typology, f64)>,
-    /// Where it was inferred: what speaks for it, the strongest first.
+    /// If inferred: the evidence for it, strongest first.
     pub reasons: Vec<String>,
 }
 
@@ -186,8 +187,8 @@ fn infer(network: &RoomNetwork) -> Choice {
     let Some(model) = bundled_typologies().filter(|_| !network.rooms.is_empty()) else {
         return Choice::stated(STANDARD, "nothing tells the typology");
     };
-    // Where the plan states a typology, its labels follow from functions by that typology's scheme: they
-    // would only say it again.
+    // If the plan states a typology, its labels follow from functions by that typology's scheme: they
+    // would add no evidence.
     let known = if network.typology.is_none() { network.known_labels() } else { Vec::new() };
     let posterior = model.posterior(network, &known);
     let Some((typology, probability)) = posterior.first().cloned() else {
@@ -197,24 +198,24 @@ fn infer(network: &RoomNetwork) -> Choice {
     Choice { set: typology.as_str().to_owned(), because, posterior, reasons: model.reasons(network, &known) }
 }
 
-/// What a model says of a plan's rooms.
+/// A model's predictions for a plan's rooms.
 #[derive(Clone, Debug)]
 pub struct Predictions {
     pub choice: Choice,
     pub model: Arc<StoredModel>,
     pub network: RoomNetwork,
-    /// The labels that could be used, one for each room.
+    /// The labels that could be used, one per room.
     known: Vec<Option<Label>>,
     /// Which labels of neighbours counted.
     pub neighbours: NeighbourLabels,
     pub result: InPlan,
-    /// Of the joint classifier, to explain from.
+    /// For explaining the joint classifier.
     first_round: Option<FirstRound>,
     index_of: BTreeMap<RoomId, usize>,
 }
 
 impl Predictions {
-    /// Classifies the rooms of a network by one model, whatever the plan's typology.
+    /// Classifies the rooms of a network with one model, whatever the plan's typology.
     pub fn by(
         network: RoomNetwork,
         model: Arc<StoredModel>,
@@ -225,8 +226,8 @@ impl Predictions {
         Self::new(network, choice, model, known, neighbours)
     }
 
-    /// Classifies the rooms of a network. `known` holds, for each, the label that may be used where it is
-    /// a neighbour; without `neighbours`, they are taken as the model learned.
+    /// Classifies the rooms of a network. `known` holds, for each room, the label that may be used when
+    /// it is a neighbour; without `neighbours`, they are taken as in the model's training.
     pub fn new(
         network: RoomNetwork,
         choice: Choice,
@@ -242,7 +243,7 @@ impl Predictions {
             PlanClassifier::Joint(joint) => {
                 let first_round = joint.first_round(&network);
                 let distributions = joint.predict_from(&first_round, known);
-                // Its own two rounds: predicted labels of neighbours, known ones where they are.
+                // Its own two rounds: neighbours' predicted labels, or known ones.
                 let seen: Vec<Label> = distributions.iter().map(Distribution::label).collect();
                 let features = (0..network.rooms.len()).map(|room| network.features(room, &seen)).collect();
                 let result = InPlan { distributions, features, rounds: 2, settled: true };
@@ -253,17 +254,17 @@ impl Predictions {
         Self { choice, model, network, known: known.to_vec(), neighbours, result, first_round, index_of }
     }
 
-    /// The distribution for a room; `None` for one that is not classified.
+    /// The distribution for a room; `None` if it is not classified.
     pub fn distribution(&self, room: RoomId) -> Option<&Distribution> {
         self.index_of.get(&room).map(|&index| &self.result.distributions[index])
     }
 
-    /// The label said of a room; `None` for one that is not classified.
+    /// The predicted label of a room; `None` if it is not classified.
     pub fn label(&self, room: RoomId) -> Option<Label> {
         self.distribution(room).map(Distribution::label)
     }
 
-    /// Why a room got its label, in one or two sentences; `None` for one that is not classified.
+    /// Why a room got its label, in one or two sentences; `None` if it is not classified.
     pub fn reason(&self, room: RoomId) -> Option<String> {
         let &index = self.index_of.get(&room)?;
         match &self.model.classifier {
@@ -275,14 +276,15 @@ impl Predictions {
         }
     }
 
-    /// The labels said of all rooms that are classified.
+    /// The predicted labels of all classified rooms.
     pub fn labels(&self) -> BTreeMap<RoomId, Label> {
         self.index_of.iter().map(|(&room, &index)| (room, self.result.distributions[index].label())).collect()
     }
 
-    /// What lies behind each opening that leads into unexplored space (or outside), should there be a room:
-    /// the room on this side by its index in the network, the opening, and the distribution over labels.
-    /// Labels that are not known are taken as predicted. Nothing for models of a set without bundled ones.
+    /// What lies behind each opening that leads into unexplored space (or outside), should there be a
+    /// room: the room on this side by its index in the network, the opening, and the distribution over
+    /// labels. Unknown labels are taken as predicted. Empty for models of a set without a bundled
+    /// predictor for this.
     pub fn unknown(&self) -> Vec<(usize, OpeningId, Distribution)> {
         let Some(unknown) = bundled_unknown(&self.choice.set) else { return Vec::new() };
         let said = &self.result.distributions;
@@ -299,7 +301,7 @@ impl Predictions {
         behind
     }
 
-    /// Rooms with a known label, and how many of them are said to have it.
+    /// The number of rooms with a known label, and how many of these are predicted correctly.
     pub fn agreement(&self) -> Agreement {
         let pairs = self.network.rooms.iter().zip(&self.result.distributions);
         let known = pairs.filter_map(|(room, said)| Some(room.label? == said.label()));
@@ -324,18 +326,18 @@ impl Predictions {
 pub struct Agreement {
     /// Rooms with a known label.
     pub known: usize,
-    /// Those of them that are said to have it.
+    /// Those predicted correctly.
     pub right: usize,
 }
 
 impl Agreement {
-    /// Counts those of another plan.
+    /// Adds the counts of another plan.
     pub fn add(&mut self, other: Self) {
         self.known += other.known;
         self.right += other.right;
     }
 
-    /// Share of the known labels that are said rightly, 0..=1; `None` where none is known.
+    /// Share of the known labels that are predicted correctly, 0..=1; `None` if none is known.
     pub fn share(self) -> Option<f64> {
         (self.known > 0).then(|| self.right as f64 / self.known as f64)
     }
