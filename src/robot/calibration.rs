@@ -1,25 +1,24 @@
-//! What a robot learns of its own odometry while it maps: wheels of unequal size turn a straight
-//! drive into a bow, a scanner ahead of the axle swings sideways in a turn.
+//! Online odometry calibration: unequal wheels bend a straight drive, and a scanner ahead of the axle
+//! swings sideways in a turn.
 
 use nalgebra::{Matrix3, Vector3};
 
 use super::Pose;
 use super::matching::PoseEstimate;
 
-/// The systematic error of the odometry, learned by a Kalman filter from motions that scan matching
-/// corrected (the idea of Roy and Thrun 1999, here linear in all three components), and what is
-/// left to chance.
+/// The systematic error of the odometry, learned by a Kalman filter from motions corrected by scan
+/// matching (the idea of Roy and Thrun 1999, here linear in all three components), and the random rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OdometryCalibration {
-    /// True motion (ahead, left, turn) is this times the motion that the odometry reports.
+    /// True motion (ahead, left, turn) = this times the motion reported by the odometry.
     gain: Matrix3<f64>,
     /// Covariance of each row of the gain: ahead, left, turn.
     doubt: [Matrix3<f64>; 3],
     options: OdometryOptions,
 }
 
-/// How far to trust odometry, in metres and radians a metre and radian: the deviation of a motion is
-/// the sum of the parts.
+/// How far to trust odometry, per metre and radian: the standard deviation of a motion is the sum of the
+/// parts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OdometryOptions {
     pub base_m: f64,
@@ -28,16 +27,17 @@ pub struct OdometryOptions {
     pub base_rad: f64,
     pub rad_per_m: f64,
     pub rad_per_rad: f64,
-    /// Deviation of the systematic part, before anything is learned.
+    /// Deviation of the systematic part before anything is learned.
     pub gain: f64,
-    /// Deviation of where the scanner sits, which few logs tell: a turn moves it by so much a radian.
+    /// Deviation of the scanner's mounting position, which few logs state, in metres: each radian of a
+    /// turn moves the scanner by this much.
     pub mount_m: f64,
-    /// There is no odometry at all: nothing is learned, and the last motion is taken to go on.
+    /// There is no odometry: nothing is learned, and the last motion is assumed to continue.
     pub is_absent: bool,
 }
 
 impl OdometryOptions {
-    /// For a robot without odometry: between two scans it may have moved by a step or two.
+    /// For a robot without odometry: it may move by a step or two between scans.
     pub const NONE: Self = Self {
         base_m: 0.2,
         m_per_m: 0.3,
@@ -52,8 +52,8 @@ impl OdometryOptions {
 }
 
 impl Default for OdometryOptions {
-    /// Measured on logs of Pioneers and B21s: a few centimetres and degrees a metre by chance, and
-    /// as much again with system.
+    /// Measured on logs of Pioneers and B21s: random errors of a few centimetres and degrees per metre,
+    /// and systematic ones of the same size.
     fn default() -> Self {
         Self {
             base_m: 0.01,
@@ -69,7 +69,7 @@ impl Default for OdometryOptions {
     }
 }
 
-/// A motion that scan matching corrected by more than this many deviations teaches nothing: a wheel
+/// Motions corrected by scan matching by more than this many deviations are not learned from: a wheel
 /// slipped, or the match is wrong.
 const MOST_DEVIATIONS: f64 = 4.0;
 
@@ -87,8 +87,8 @@ impl OdometryCalibration {
         Self { gain: Matrix3::identity(), doubt, options }
     }
 
-    /// The motion that most likely took place when the odometry reports `motion`, with its
-    /// information as of [`PoseEstimate::information`].
+    /// The most likely motion when the odometry reports `motion`, with its information as in
+    /// [`PoseEstimate::information`].
     pub fn corrected(&self, motion: Pose) -> PoseEstimate {
         let reported = Vector3::new(motion.x_m, motion.y_m, motion.heading_rad);
         let likely = self.gain * reported;
@@ -99,14 +99,14 @@ impl OdometryCalibration {
         }
     }
 
-    /// By chance, and by what is not yet known of the system.
+    /// Random errors, and what is not yet known of the systematic ones.
     fn covariance_of(&self, motion: Pose) -> Matrix3<f64> {
         let reported = Vector3::new(motion.x_m, motion.y_m, motion.heading_rad);
         let system = Vector3::from_fn(|row, _| reported.dot(&(self.doubt[row] * reported)));
         Matrix3::from_diagonal(&(self.chance(motion).map(|deviation| deviation * deviation) + system))
     }
 
-    /// Deviations by chance, ahead, left and turn.
+    /// Standard deviations of the random errors: ahead, left and turn.
     fn chance(&self, motion: Pose) -> Vector3<f64> {
         let options = &self.options;
         let (way, turn) = (motion.x_m.hypot(motion.y_m), motion.heading_rad.abs());
@@ -114,8 +114,8 @@ impl OdometryCalibration {
         Vector3::new(place, place, options.base_rad + options.rad_per_m * way + options.rad_per_rad * turn)
     }
 
-    /// Learns from a motion that the odometry reported as `reported` and that scan matching found to
-    /// be `found`.
+    /// Learns from a motion reported by the odometry as `reported` and found by scan matching to be
+    /// `found`.
     pub fn learn(&mut self, reported: Pose, found: Pose) {
         let motion = Vector3::new(reported.x_m, reported.y_m, reported.heading_rad);
         let likely = self.gain * motion;

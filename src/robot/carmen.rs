@@ -1,51 +1,51 @@
-//! Logs of CARMEN, the navigation toolkit of Carnegie Mellon: a message a line, in text. What the
-//! archives of laser logs (Radish and its heirs) are written in.
+//! Logs of CARMEN, the navigation toolkit of Carnegie Mellon: a text file with one message per line. The
+//! usual format in archives of laser logs (Radish and its successors).
 //!
-//! Read are `ODOM`, `FLASER` and `RLASER` (180 degrees ahead and astern), `ROBOTLASER1` and `2`,
-//! `RAWLASER1` to `4`, and the parameters that tell where the scanners sit. Logs from the archives are
-//! often 'corrected': their first pose is the result of somebody's scan matching. It is not used; the
-//! second is the robot's own odometry.
+//! Reads `ODOM`, `FLASER` and `RLASER` (180 degrees ahead and astern), `ROBOTLASER1` and `2`, `RAWLASER1`
+//! to `4`, and the parameters with the scanners' positions. Logs from the archives are often 'corrected':
+//! their first pose is the result of somebody's scan matching. It is ignored; the second is the robot's
+//! own odometry.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::{Pose, Scan};
 
-/// A log as far as it could be read.
+/// A log, as far as it could be read.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Log {
-    /// In the order of the log.
+    /// In log order.
     pub readings: Vec<Reading>,
-    /// Whether the odometry ever moves; without, scans are matched from one another alone.
+    /// Whether the odometry ever moves; if not, scans are matched only to each other.
     pub has_odometry: bool,
-    /// What was passed over or mended, with line numbers, the first few of each kind.
+    /// What was skipped or repaired, with line numbers: the first few of each kind.
     pub notes: Vec<Note>,
 }
 
-/// A reading of the odometry, with what the scanners saw at that moment.
+/// A reading of the odometry, with the scans taken at that moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// In seconds, as the log has it: since 1970, or since the start.
+    /// In seconds, as in the log: since 1970, or since the start.
     pub time_s: f64,
-    /// Where the robot is by its wheels, in a frame of its own.
+    /// The robot's pose from its wheels, in an arbitrary frame.
     pub odometry: Pose,
-    /// None, one, or front and rear.
+    /// Empty, one, or front and rear.
     pub scans: Vec<Scan>,
 }
 
-/// What kind of thing was passed over or mended.
+/// A kind of skip or repair.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum NoteKind {
-    /// The line stops before its last field.
+    /// The line ends before its last field.
     Cut,
-    /// A field that should be a number is not, or not a finite one.
+    /// A field is not a number, or not a finite one.
     NotANumber,
-    /// More readings than any scanner gives.
+    /// More readings than any scanner returns.
     TooManyReadings,
     /// The line is longer than any message.
     TooLong,
-    /// The clock runs back; the order of the lines is kept.
+    /// The clock runs backwards; the order of the lines is kept.
     TimeRunsBack,
-    /// The odometry jumps further than a robot drives; it goes on from where it was.
+    /// The odometry jumps further than a robot can drive; it continues from where it was.
     OdometryJumps,
     /// A scan before any odometry.
     NoOdometryYet,
@@ -65,7 +65,7 @@ impl NoteKind {
     }
 }
 
-/// What happened on lines of one kind.
+/// All lines with one kind of note.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Note {
     pub kind: NoteKind,
@@ -85,14 +85,14 @@ impl std::fmt::Display for Note {
     }
 }
 
-/// Why a log gives no map.
+/// Why a log cannot be mapped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LogError {
-    /// No line is a message of CARMEN.
+    /// No line is a CARMEN message.
     NotALog,
-    /// Messages, but no laser scan.
+    /// There are messages, but no laser scans.
     NoScans,
-    /// More than fits into memory.
+    /// Larger than fits into memory.
     TooLarge,
 }
 
@@ -116,23 +116,24 @@ impl std::fmt::Display for LogError {
 
 impl std::error::Error for LogError {}
 
-/// A log never holds more: a day of driving with a SICK LMS at half a degree. Keeps memory below 1 GB.
+/// The most ranges in a log: a day of driving with a SICK LMS at half a degree. Keeps memory below 1 GB.
 const MOST_RANGES: usize = 60_000_000;
 const MOST_LINES: usize = 5_000_000;
-/// No scanner of a log gives more readings a sweep.
+/// The most readings per sweep of any scanner.
 const MOST_READINGS: usize = 10_000;
-/// No message is longer, in bytes: as many readings with 20 characters each.
+/// The longest message in bytes: as many readings with 20 characters each.
 pub const LONGEST_LINE: usize = 32 * MOST_READINGS;
-/// Readings of `FLASER` lines from here on are no return: their maximum is not in the log. A SICK
-/// LMS 200 in its usual mode sees 8 m, in others 32 m, and gives 81.83 m or 81.91 m for nothing.
+/// Readings of `FLASER` lines from here on count as no return, since their maximum is not in the log. A
+/// SICK LMS 200 sees 8 m in its usual mode, 32 m in others, and reports 81.83 m or 81.91 m for no return.
 const OLD_MAX_RANGE_M: f64 = 30.0;
-/// Scanners sit on the robot: mounts further from its middle are an error of the log, in metres.
+/// Scanners are on the robot: mounting positions further from its middle than this, in metres, are
+/// errors.
 const FURTHEST_MOUNT_M: f64 = 1.5;
-/// Front and rear scanner belong together when taken within this time and way.
+/// Front and rear scans taken within this time and distance belong together.
 const TOGETHER_S: f64 = 0.15;
 const TOGETHER_M: f64 = 0.15;
 const TOGETHER_RAD: f64 = 0.2;
-/// No robot of a log drives faster, in m/s, and none jumps further between two lines, in metres.
+/// The fastest any logged robot drives, in m/s, and the furthest one moves between two lines, in metres.
 const FASTEST_M_PER_S: f64 = 5.0;
 const LONGEST_STEP_M: f64 = 10.0;
 
@@ -145,9 +146,9 @@ pub struct LogReader {
     messages: usize,
     front_mount_m: f64,
     rear_mount_m: f64,
-    /// The odometry as the log has it, and as mended after jumps.
+    /// The odometry as in the log, and as repaired after jumps.
     last: Option<(Pose, Pose)>,
-    /// Which scanner gave the latest scan.
+    /// The scanner of the latest scan.
     latest: Option<Scanner>,
 }
 
@@ -163,7 +164,8 @@ impl LogReader {
         Self::default()
     }
 
-    /// Takes in the next line, without its end. `None` stands for one beyond [`LONGEST_LINE`].
+    /// Processes the next line, without its line ending. `None` stands for one longer than
+    /// [`LONGEST_LINE`].
     ///
     /// # Errors
     /// [`LogError::TooLarge`].
@@ -202,7 +204,7 @@ impl LogReader {
         Ok(())
     }
 
-    /// The log, when there is anything in it to map.
+    /// The log, if there is anything to map in it.
     ///
     /// # Errors
     /// [`LogError::NotALog`], [`LogError::NoScans`].
@@ -274,7 +276,7 @@ impl LogReader {
     }
 
     /// `RAWLASER1 type start fov resolution max_range accuracy remission_mode n r1..rn m e1..em time host
-    /// logger_time`, taken where the odometry last was.
+    /// logger_time`, taken at the last odometry pose.
     fn raw_laser(&mut self, scanner: Scanner, fields: &mut Fields<'_>) -> Result<(), NoteKind> {
         let mut scan = fields.configured_scan()?;
         let time_s = fields.time()?;
@@ -327,7 +329,7 @@ impl LogReader {
         let mut scans = Vec::new();
         if let Some((scanner, mut scan)) = scan {
             self.ranges += scan.ranges_m.len();
-            // The other scanner's sweep of the same moment joins the reading before.
+            // The other scanner's sweep of the same moment joins the previous reading.
             let partner = self.log.readings.iter_mut().rev().take(2).find(|reading| !reading.scans.is_empty());
             let partner = partner.filter(|reading| {
                 let way = reading.odometry.between(odometry);
@@ -350,8 +352,8 @@ impl LogReader {
     }
 }
 
-/// Between two readings of a 180-degree sweep: SICKs give 180 or 181 at a degree, 360 or 361 at half a
-/// degree, and 401 at a quarter (carmen's `laser` module guesses by the same numbers).
+/// The angle between readings of a 180-degree sweep: SICKs return 180 or 181 at one degree, 360 or 361 at
+/// half a degree, and 401 at a quarter (CARMEN's `laser` module guesses by the same numbers).
 fn old_step_rad(count: usize) -> f64 {
     match count {
         180 | 181 => 1_f64.to_radians(),
@@ -361,20 +363,20 @@ fn old_step_rad(count: usize) -> f64 {
     }
 }
 
-/// The fields of a line that are not read yet.
+/// The unread fields of a line.
 struct Fields<'a> {
     words: std::str::SplitAsciiWhitespace<'a>,
 }
 
 impl Fields<'_> {
-    /// The next field as a number, which may be infinite or none.
+    /// The next field as a number, which may be infinite or NaN.
     fn reading(&mut self) -> Result<f64, NoteKind> {
         self.words.next().ok_or(NoteKind::Cut)?.parse().map_err(|_| NoteKind::NotANumber)
     }
 
     fn number(&mut self) -> Result<f64, NoteKind> {
         let number = self.reading()?;
-        // Beyond any coordinate or time: sums and squares of it would overflow.
+        // Beyond any coordinate or time: sums and squares would overflow.
         if number.abs() < 1e12 { Ok(number) } else { Err(NoteKind::NotANumber) }
     }
 
@@ -389,16 +391,16 @@ impl Fields<'_> {
         Ok(())
     }
 
-    /// `time host logger_time`: the first is when it was measured.
+    /// `time host logger_time`: the first is the time of measurement.
     fn time(&mut self) -> Result<f64, NoteKind> {
         let time_s = self.number()?;
         self.skip(1)?;
-        // The last field of the line: a cut within it cannot be told, and does no harm.
+        // The last field of the line: a truncation inside it cannot be detected, and is harmless.
         self.number()?;
         Ok(time_s)
     }
 
-    /// `n r1..rn`; memory is taken for readings that are there, not for the number promised.
+    /// `n r1..rn`; allocates for the readings present, not for the number promised.
     fn ranges(&mut self) -> Result<Vec<f64>, NoteKind> {
         let count = self.count()?;
         let mut ranges = Vec::new();

@@ -1,5 +1,5 @@
-//! A coarse search for a pose in a window too wide for [`super::matching`]: every pose of a grid is
-//! tried on a raster of the lines (Olson 2009, 'Real-time correlative scan matching').
+//! A coarse search for a pose in a window too wide for [`super::matching`]: tries every pose of a grid on
+//! a raster of the lines (Olson 2009, 'Real-time correlative scan matching').
 
 use super::matching::SurfacePoint;
 use super::{LineSegment, Pose};
@@ -9,15 +9,15 @@ use crate::geometry::{Bounds, Point, Vector};
 const CELL_M: f64 = 0.1;
 /// A line marks the cells this far around it.
 const BLUR_M: f64 = 0.15;
-/// Directions are told apart in this many sectors, a bit each.
+/// Directions are quantised into this many sectors, one bit each.
 const SECTORS: usize = 16;
-/// A raster is never wider.
+/// Maximum width of a raster.
 const WIDEST_M: f64 = 120.0;
 
-/// Points that stand for all in a coarse search.
+/// The sample size for a coarse search, in points.
 pub const COARSE_POINTS: usize = 120;
 
-/// Near which cells lines run, and in which directions.
+/// For each cell, the directions of the lines near it.
 #[derive(Clone, Debug)]
 pub struct Raster {
     origin: Point,
@@ -26,7 +26,7 @@ pub struct Raster {
     directions: Vec<u16>,
 }
 
-/// The window of a search: so far to each side of the guess.
+/// A search window: this far to each side of the guess.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
     pub way_m: f64,
@@ -45,7 +45,7 @@ impl Raster {
     }
 
     fn mark(&mut self, line: &LineSegment) {
-        // The sector and both beside it: a segment of a scan may be a sector off.
+        // The sector and its two neighbours: a segment of a scan may be a sector off.
         let middle = sector(line.direction().angle_rad());
         let mut bits = 0_u16;
         for by in [SECTORS - 1, 0, 1] {
@@ -75,14 +75,14 @@ impl Raster {
         (column < self.columns && row < self.rows).then(|| row * self.columns + column)
     }
 
-    /// The poses of the window that put most points on lines, best first and apart from each other,
-    /// each with the share of points it explains.
+    /// The poses of the window that put the most points on lines, best first and well separated, each
+    /// with the share of points it explains.
     pub fn search(&self, points: &[SurfacePoint], guess: Pose, window: Window, most: usize) -> Vec<(Pose, f64)> {
         let radius = points.iter().map(|point| point.at.x.hypot(point.at.y)).fold(1.0, f64::max).min(8.0);
         let turn_step = (2.0 * CELL_M / radius).min(window.turn_rad.max(1e-3));
         let turns = (window.turn_rad / turn_step).ceil() as i64;
         let ways = (window.way_m / CELL_M).ceil() as i64;
-        // Every other cell: the blur bridges them.
+        // Every other cell: the blur bridges the gaps.
         let stride = 2;
         let mut found: Vec<(Pose, f64)> = Vec::new();
         for turn in -turns..=turns {
@@ -129,7 +129,7 @@ impl Raster {
     }
 }
 
-/// About `most` of the points, evenly.
+/// About `most` of the points, evenly spaced.
 pub fn thinned(points: &[SurfacePoint], most: usize) -> Vec<SurfacePoint> {
     points.iter().step_by(points.len().div_ceil(most.max(1)).max(1)).copied().collect()
 }

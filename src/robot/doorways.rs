@@ -6,27 +6,28 @@ use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
 use crate::geometry::segments::are_parallel;
 use crate::geometry::{Bounds, Point, Segment, Vector};
 
-/// How walls and doorways are told.
+/// The thresholds for walls and doorways.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DoorwayOptions {
-    /// Shorter segments are furniture, in metres (paper: 30 cm).
+    /// Shorter segments count as furniture, in metres (paper: 30 cm).
     pub shortest_m: f64,
     /// Segments of a wall differ by at most this angle (paper: 10 degrees).
     pub collinear_rad: f64,
-    /// Segments of a wall lie aside from each other's line by at most this, in metres: less than a thin
-    /// wall's thickness.
+    /// Segments of a wall are offset from each other's line by at most this, in metres: less than the
+    /// thickness of a thin wall.
     pub aside_m: f64,
-    /// A doorway is wider than this, in metres (paper: 30 cm).
+    /// The minimum width of a doorway, in metres (paper: 30 cm).
     pub narrowest_m: f64,
-    /// A doorway is narrower than this, in metres (paper: 150 cm).
+    /// The maximum width of a doorway, in metres (paper: 150 cm).
     pub widest_m: f64,
-    /// Beyond the paper: a gap between two collinear segments, a free passage, may be that wide, in metres.
+    /// Beyond the paper: a gap between two collinear segments, a free passage, may be this wide, in
+    /// metres.
     pub widest_passage_m: f64,
-    /// Beyond the paper: shorter segments than those of walls may end at a doorway, in metres: the narrow
+    /// Beyond the paper: minimum length in metres of a segment that may end at a doorway, for the narrow
     /// strip of wall beside a door in a corner.
     pub shortest_jamb_m: f64,
-    /// Beyond the paper: a gap counts only where, within the depth of a thick wall, the floor on both sides
-    /// is wider than the gap. Else the mouth of a narrow corridor would be a doorway.
+    /// Beyond the paper: a gap counts only if, within the depth of a thick wall, the floor is wider than
+    /// the gap on both sides. Otherwise the mouth of a narrow corridor would count as a doorway.
     pub must_widen: bool,
 }
 
@@ -45,7 +46,7 @@ impl DoorwayOptions {
 }
 
 impl Default for DoorwayOptions {
-    /// The paper's figures, with the test that the floor widens; wide free passages included.
+    /// The paper's values, plus the test that the floor widens and wide free passages.
     fn default() -> Self {
         Self { must_widen: true, widest_m: 2.2, widest_passage_m: 4.0, shortest_jamb_m: 0.15, ..Self::PAPER }
     }
@@ -54,21 +55,22 @@ impl Default for DoorwayOptions {
 /// A passage in a wall.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Doorway {
-    /// From jamb to jamb in the middle of the wall.
+    /// From jamb to jamb, along the middle of the wall.
     pub segment: Segment,
     pub width_m: f64,
-    /// How thick the wall is there, in metres: from one face's gap to the other's; 0 where one was seen.
+    /// Thickness of the wall there, in metres: from one face's gap to the other's; 0 if only one was
+    /// seen.
     pub depth_m: f64,
 }
 
 impl Doorway {
-    /// The unit vector across the doorway, to the left of its segment.
+    /// The unit vector across the doorway, pointing to the left of its segment.
     pub fn across(&self) -> Vector {
         self.segment.vector().left().unit().unwrap_or(Vector::new(0.0, 1.0))
     }
 }
 
-/// The walls of a line map: for each segment the number of its wall, `None` for one that is too short.
+/// The walls of a line map: for each segment the index of its wall, `None` if it is too short.
 pub fn walls(segments: &[Segment], options: &DoorwayOptions) -> Vec<Option<usize>> {
     let long: Vec<usize> = (0..segments.len()).filter(|&i| segments[i].length() >= options.shortest_m).collect();
     let grid = RayGrid::new(long.iter().map(|&i| segments[i]).collect());
@@ -95,8 +97,8 @@ pub fn walls(segments: &[Segment], options: &DoorwayOptions) -> Vec<Option<usize
     numbers
 }
 
-/// Whether two segments belong to one wall: their directions agree, they lie on one line, and what is
-/// between them is no wider than a doorway.
+/// Whether two segments belong to one wall: parallel, on one line, and no further apart than the width of
+/// a doorway.
 fn are_collinear(p: Segment, q: Segment, options: &DoorwayOptions) -> bool {
     let (longer, shorter) = if p.length() >= q.length() { (p, q) } else { (q, p) };
     let Some(along) = longer.vector().unit() else { return false };
@@ -109,7 +111,7 @@ fn are_collinear(p: Segment, q: Segment, options: &DoorwayOptions) -> bool {
         && gap_m <= options.widest_m
 }
 
-/// Sets that grow together (Galler and Fischer 1964).
+/// Disjoint sets, or union-find (Galler and Fischer 1964).
 #[derive(Clone, Debug)]
 pub(super) struct Groups {
     parents: Vec<usize>,
@@ -129,7 +131,7 @@ impl Groups {
         i
     }
 
-    /// Makes one set of two; whether they were two.
+    /// Merges two sets; returns whether they were different.
     pub fn join(&mut self, i: usize, j: usize) -> bool {
         let (p, q) = (self.root(i), self.root(j));
         self.parents[p.max(q)] = p.min(q);
@@ -137,15 +139,15 @@ impl Groups {
     }
 }
 
-/// The end of a segment and the way it would go on.
+/// The end of a segment and the direction in which it would continue.
 #[derive(Clone, Copy)]
 struct End {
     at: Point,
     onward: Vector,
 }
 
-/// The doorways between the long segments of a line map, narrow ones first. `boundary` holds the edges of
-/// the free space, which lies to their left.
+/// The doorways between the long segments of a line map, narrowest first. `boundary` holds the edges of
+/// the free space, which is to their left.
 pub fn doorways(segments: &[Segment], boundary: &RayGrid, options: &DoorwayOptions) -> Vec<Doorway> {
     let long: Vec<Segment> = segments.iter().copied().filter(|s| s.length() >= options.shortest_jamb_m).collect();
     let grid = RayGrid::new(long.clone());
@@ -167,7 +169,7 @@ pub fn doorways(segments: &[Segment], boundary: &RayGrid, options: &DoorwayOptio
         }
         match found.iter().position(|group| group.iter().all(|&other| is_same_doorway(gap, other))) {
             Some(group) => found[group].push(gap),
-            // What crosses a narrower doorway is none.
+            // A gap that crosses a narrower doorway is not one.
             None if found.iter().flatten().any(|&other| crosses(gap, other)) => {}
             None => found.push(vec![gap]),
         }
@@ -175,7 +177,7 @@ pub fn doorways(segments: &[Segment], boundary: &RayGrid, options: &DoorwayOptio
     found.iter().map(|gaps| merged(gaps)).collect()
 }
 
-/// Gaps from an end to the ends of collinear segments that face it.
+/// Gaps from an end to the facing ends of collinear segments.
 fn between_ends(end: End, own: usize, long: &[Segment], grid: &RayGrid, options: &DoorwayOptions) -> Vec<Segment> {
     let reach = Bounds::of([end.at, end.at + end.onward * options.widest_passage_m]).inflated(0.3);
     let mut gaps = Vec::new();
@@ -197,9 +199,9 @@ fn between_ends(end: End, own: usize, long: &[Segment], grid: &RayGrid, options:
     gaps
 }
 
-/// The gap from an end straight on to the wall it meets.
+/// The gap straight ahead from an end to the wall it meets.
 fn to_wall(end: End, long: &[Segment], grid: &RayGrid, options: &DoorwayOptions) -> Option<Segment> {
-    // Behind the end itself, and what is joined to it.
+    // Past the end itself and whatever is joined to it.
     let from = end.at + end.onward * 0.02;
     let hit = grid.cast(from, end.onward, options.widest_m)?;
     let to = from + end.onward * hit.distance_m;
@@ -208,10 +210,10 @@ fn to_wall(end: End, long: &[Segment], grid: &RayGrid, options: &DoorwayOptions)
     (meets && (options.narrowest_m..=options.widest_m).contains(&gap.length())).then_some(gap)
 }
 
-/// How many places of a gap are looked at.
+/// Number of sample points on a gap.
 const PLACES: usize = 9;
 
-/// Whether a gap can be seen through: all of it but its ends lies in the free space.
+/// Whether a gap is unobstructed: all of it except its ends is in the free space.
 fn is_free(gap: Segment, boundary: &RayGrid) -> bool {
     let Some(along) = gap.vector().unit() else { return false };
     let margin_m = 0.06_f64.min(gap.length() / 4.0);
@@ -219,9 +221,9 @@ fn is_free(gap: Segment, boundary: &RayGrid) -> bool {
     (0..PLACES).all(|i| is_inside(boundary, from.lerp(to, i as f64 / (PLACES - 1) as f64)))
 }
 
-/// Whether a point lies in the free space: it is left of the boundary that a ray from it meets first.
+/// Whether a point is in the free space: it is left of the first boundary that a ray from it meets.
 pub(super) fn is_inside(boundary: &RayGrid, point: Point) -> bool {
-    // In no direction that walls have, so that no ray runs along one.
+    // In a direction that no wall has, so that no ray runs along one.
     let direction = Vector::new(0.8141, 0.5807).unit().unwrap_or(Vector::new(1.0, 0.0));
     boundary.cast(point, direction, 1e4).is_some_and(|hit| {
         let edge = boundary.segments()[hit.segment];
@@ -229,18 +231,18 @@ pub(super) fn is_inside(boundary: &RayGrid, point: Point) -> bool {
     })
 }
 
-/// How deep a doorway is at most, in metres: the thickest plausible wall, and a hair.
+/// Maximum depth of a doorway in metres: the thickest plausible wall, with a margin.
 const DEEPEST_M: f64 = 0.65;
 
-/// The floor beside a doorway is at least so much wider than it, in metres, and by that share of its width.
+/// How much wider than a doorway the floor beside it must be, in metres and as a share of its width.
 const WIDER_M: f64 = 0.06;
 const WIDER_SHARE: f64 = 0.03;
 
-/// Rays along a gap look no further, in metres.
+/// Maximum length of rays along a gap, in metres.
 const WIDTH_LIMIT_M: f64 = 6.0;
 
-/// Whether on both sides of a gap, within the depth of a wall, the free floor is wider than in it. The
-/// doorways found already are closed.
+/// Whether the free floor is wider than the gap on both sides of it, within the depth of a wall. Doorways
+/// already found count as closed.
 fn widens(gap: Segment, boundary: &RayGrid, found: &[Vec<Segment>]) -> bool {
     let Some(along) = gap.vector().unit() else { return false };
     let middle = gap.midpoint();
@@ -266,7 +268,7 @@ fn widens(gap: Segment, boundary: &RayGrid, found: &[Vec<Segment>]) -> bool {
     })
 }
 
-/// Whether two gaps are those of the two faces of one wall, or of the same face.
+/// Whether two gaps belong to the two faces of one wall, or to the same face.
 fn is_same_doorway(p: Segment, q: Segment) -> bool {
     let Some(along) = q.vector().unit() else { return false };
     let way = p.midpoint() - q.midpoint();
@@ -280,7 +282,7 @@ fn crosses(p: Segment, q: Segment) -> bool {
     crate::geometry::segments::crossing(p, q).is_some()
 }
 
-/// The doorway of the gaps in the faces of a wall.
+/// One doorway from the gaps in the faces of a wall.
 fn merged(gaps: &[Segment]) -> Doorway {
     let narrowest = gaps[0];
     let along = narrowest.vector().unit().unwrap_or(Vector::new(1.0, 0.0));

@@ -1,5 +1,5 @@
-//! Exploration by frontiers (Yamauchi 1997): drive to where the known floor ends, look, until nothing that
-//! can be reached is unknown. A machine of small steps, whose state can be looked at after each.
+//! Frontier-based exploration (Yamauchi 1997): drive to where the known floor ends, look, and repeat
+//! until nothing reachable is unknown. Runs in small steps; the state can be inspected after each.
 
 use std::sync::Arc;
 
@@ -13,16 +13,16 @@ use super::{Mapper, MapperOptions, Pose, RayGrid, Scan, World};
 use crate::base::random::{Random, seed_of_part};
 use crate::geometry::{Point, Segment, polygon};
 
-/// The robot and how it explores.
+/// The robot and its exploration parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotOptions {
-    /// Half its width, in metres: it is taken for round.
+    /// Half its width, in metres: it is assumed to be round.
     pub radius_m: f64,
-    /// It passes doorways that leave so much room on both sides, in metres.
+    /// It passes doorways that leave this much clearance on both sides, in metres.
     pub margin_m: f64,
-    /// It drives at most so far between two looks, in metres.
+    /// Maximum distance between two scans, in metres.
     pub step_m: f64,
-    /// It turns at most so far between two looks.
+    /// Maximum turn between two scans.
     pub turn_rad: f64,
     pub scanners: Vec<Scanner>,
     pub odometry: OdometryNoise,
@@ -33,8 +33,8 @@ impl Default for RobotOptions {
     /// A Pioneer 3-AT with two SICK LMS 200 back to back (paper, section 3.3).
     ///
     /// It is 0.508 m long and 0.497 m wide (Adept MobileRobots, Pioneer 3-AT data sheet, 2011): half of
-    /// that is 0.25 m; with 0.05 m on each side it passes doorways of 0.6 m. At its usual 0.4 m/s and two scans a second it looks every 0.2 m; between two
-    /// looks it turns by 20 degrees at most.
+    /// that is 0.25 m; with 0.05 m on each side it passes doorways of 0.6 m. At its usual 0.4 m/s and two
+    /// scans a second it scans every 0.2 m, and turns by at most 20 degrees between scans.
     fn default() -> Self {
         Self {
             radius_m: 0.25,
@@ -49,7 +49,7 @@ impl Default for RobotOptions {
 }
 
 impl RobotOptions {
-    /// The same without any error of scanners and odometry.
+    /// The same with error-free scanners and odometry.
     #[must_use]
     pub fn exact(self) -> Self {
         let scanners = self.scanners.into_iter().map(Scanner::exact).collect();
@@ -57,82 +57,82 @@ impl RobotOptions {
     }
 }
 
-/// What was seen is added to the free space after so many metres, or that much of a turn.
+/// Scans are added to the free space after driving this many metres, or turning this far.
 const LOOK_M: f64 = 0.4;
 const LOOK_RAD: f64 = 0.8;
 
-/// A frontier is looked at from within so many metres; where no such place can be reached, from further
-/// away: through a doorway, say, of whose other side only a wedge is known.
+/// A frontier is viewed from within this many metres; if no such place can be reached, from further away:
+/// through a doorway, say, beyond which only a wedge is known.
 const VIEWS_M: [f64; 3] = [1.2, 3.0, 6.0];
 
-/// Places to look from are tried so many metres apart.
+/// Spacing of candidate viewpoints, in metres.
 const VIEW_SPACING_M: f64 = 0.15;
 
-/// What a metre of distance from a frontier costs, in metres of way; on the second try more, so that the
-/// robot goes as close as it can.
+/// The cost of a metre of distance from a frontier, in metres of route; higher on the second try, so that
+/// the robot gets as close as it can.
 const PER_METRE: [f64; 2] = [1.0, 8.0];
 
-/// A long frontier is worth a detour: so many metres of way for each metre of it.
+/// A long frontier is worth a detour of this many metres of route per metre of its length.
 const PER_FRONTIER_METRE: f64 = 0.5;
 
-/// Longer frontiers are worth no more, in metres.
+/// The longest frontier length that counts, in metres.
 const LONGEST_WORTH_M: f64 = 3.0;
 
-/// Frontiers whose middles are closer than this, in metres, are one and the same.
+/// Frontiers whose middles are closer than this, in metres, count as the same.
 const SAME_M: f64 = 0.5;
 
-/// A frontier is given up after so many visits; one that showed nothing new counts twice.
+/// A frontier is abandoned after this many visits; one that revealed nothing new counts twice.
 const VISITS: usize = 6;
 
-/// A visit showed something where the known floor grew by so many m².
+/// A visit revealed something if the known floor grew by this many m².
 const NEWS_M2: f64 = 0.3;
 
-/// Each look at the same frontier is from another place, at least so far away in metres.
+/// Each view of the same frontier must be from a different place, at least this far away in metres.
 const OTHER_PLACE_M: f64 = 0.3;
 
-/// After so many collisions on the way to one goal it is given up.
+/// A goal is abandoned after this many collisions on the way.
 const BUMPS: usize = 3;
 
-/// A place of the way is reached within so many metres: no corner is cut by more.
+/// A waypoint counts as reached within this distance in metres: no corner is cut by more.
 const AT_PLACE_M: f64 = 0.06;
 
-/// The free space is laid out anew where a place has moved by so many metres, a turn counted as what it moves
-/// at the distance of a room's wall.
+/// The free space is rebuilt when a place has moved by this much, in metres, counting a turn as the
+/// movement it causes at the distance of a room's wall.
 const MOVED_M: f64 = 0.05;
 const LEVER_M: f64 = 3.0;
 
 /// How far the robot backs off after a collision, in metres.
 const BACK_OFF_M: f64 = 0.15;
 
-/// No exploration takes longer, in steps; said where one does. A school of 60 rooms takes some 5,000.
+/// Step limit of an exploration; reaching it is reported. A school of 60 rooms takes about 5,000.
 const STEPS_LIMIT: usize = 100_000;
 
-/// What the robot is about.
+/// The robot's current activity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Activity {
-    /// It is about to choose a frontier.
+    /// Choosing a frontier.
     Choosing,
-    /// It drives to a frontier.
+    /// Driving to a frontier.
     Driving,
-    /// It drove into something and backs off.
+    /// Backing off after a collision.
     BackingOff,
-    /// Nothing that can be reached is unknown.
+    /// Nothing reachable is unknown.
     Finished,
-    /// It gave up after a bounded number of steps.
+    /// It gave up at the step limit.
     GaveUp,
 }
 
-/// Where the robot heads for.
+/// The robot's destination.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Goal {
-    /// Where it will look from.
+    /// The viewpoint.
     pub place: Point,
-    /// The frontier it will look at.
+    /// The frontier to look at.
     pub frontier: Frontier,
-    /// The way there that is still ahead.
+    /// The remaining route.
     pub way: Vec<Point>,
     bumps: usize,
-    /// How much floor was known when it was chosen, in m².
+    /// The area of known floor when it was chosen, in m².
     known_m2: f64,
 }
 
@@ -141,12 +141,12 @@ pub struct Goal {
 struct Look {
     /// Index of the step.
     step: usize,
-    /// Where the free space has it.
+    /// The pose used for it in the free space.
     pose: Pose,
     scans: Vec<Scan>,
 }
 
-/// A frontier that was visited and was still there.
+/// A frontier that was still there after a visit.
 #[derive(Clone, Debug)]
 struct Visited {
     middle: Point,
@@ -154,29 +154,29 @@ struct Visited {
     places: Vec<Point>,
 }
 
-/// An exploration under way. The map's frame is that of the robot's first pose.
+/// An exploration in progress. The map's frame is that of the robot's first pose.
 pub struct Exploration {
     world: Arc<World>,
     options: RobotOptions,
     random: Random,
-    /// Where the robot started, in the world's frame.
+    /// The robot's start in the world's frame.
     pub world_from_map: Pose,
-    /// Where the robot really is, in the world's frame.
+    /// The robot's true pose, in the world's frame.
     pub true_pose: Pose,
-    /// Where its odometry alone puts it, in the map's frame.
+    /// The pose from odometry alone, in the map's frame.
     pub odometry: Pose,
-    /// Where it believes to be, in the map's frame.
+    /// The estimated pose, in the map's frame.
     pub pose: Pose,
     /// The last scans.
     pub scans: Vec<Scan>,
     mapper: Mapper,
-    /// What went into the free space.
+    /// The views that make up the free space.
     looks: Vec<Look>,
     closures: usize,
     pub free: FreeSpace,
     pub goal: Option<Goal>,
     pub activity: Activity,
-    /// All true poses so far, in the world's frame, and the estimated and the odometry's in the map's.
+    /// All poses so far: true ones in the world's frame, estimates and odometry in the map's.
     pub path: Vec<PathStep>,
     visited: Vec<Visited>,
     looked_at: Pose,
@@ -196,7 +196,7 @@ pub struct PathStep {
 }
 
 impl Exploration {
-    /// A robot that has just been put down and has looked around once.
+    /// A robot at its start that has looked around once.
     pub fn new(world: Arc<World>, start: Pose, options: RobotOptions) -> Self {
         let random = Random::new(seed_of_part(options.seed, 7));
         let mut exploration = Self {
@@ -234,12 +234,12 @@ impl Exploration {
         &self.options
     }
 
-    /// Whether it has come to its end.
+    /// Whether the exploration has ended.
     pub fn is_over(&self) -> bool {
         matches!(self.activity, Activity::Finished | Activity::GaveUp)
     }
 
-    /// How often the robot drove into something.
+    /// The number of collisions.
     pub fn collisions(&self) -> usize {
         self.collisions
     }
@@ -249,7 +249,7 @@ impl Exploration {
         self.has_new_look
     }
 
-    /// The frontiers of what is known so far, those visited in vain included.
+    /// The current frontiers, including those visited in vain.
     pub fn frontiers(&self) -> Vec<Frontier> {
         frontiers(&self.free)
     }
@@ -259,17 +259,17 @@ impl Exploration {
         self.mapper.map().lines().map(|line| line.line.segment()).collect()
     }
 
-    /// The rooms of what is known so far, in the map's frame.
+    /// The rooms of the known part, in the map's frame.
     pub fn rooms(&self, options: &RoomOptions) -> FoundRooms {
         find_rooms(&self.segments(), self.free.shapes(), options)
     }
 
-    /// The estimated poses after each step as they are best known now, in the map's frame.
+    /// The current best estimates of the poses after each step, in the map's frame.
     pub fn poses(&self) -> Vec<Pose> {
         self.mapper.poses()
     }
 
-    /// One small step: a choice, a turn, or some centimetres of driving with a look around.
+    /// One small step: a choice, a turn, or a few centimetres of driving and a scan.
     pub fn step(&mut self) -> Activity {
         self.has_new_look = false;
         if self.is_over() {
@@ -290,7 +290,7 @@ impl Exploration {
         self.activity
     }
 
-    /// Drives to the end.
+    /// Runs to the end.
     pub fn run(&mut self) -> Activity {
         while !self.is_over() {
             self.step();
@@ -298,8 +298,8 @@ impl Exploration {
         self.activity
     }
 
-    /// For how large a robot ways are planned, in metres of radius: with all of the margin first; where none
-    /// leads anywhere, with little. The free space ends some centimetres before the walls.
+    /// The robot radii for which routes are planned, in metres: first with the full margin; if no route
+    /// leads anywhere, with a small one. The free space ends a few centimetres before the walls.
     fn planned_radii_m(&self) -> [f64; 2] {
         [self.options.radius_m + self.options.margin_m, self.options.radius_m + 0.2 * self.options.margin_m]
     }
@@ -309,13 +309,13 @@ impl Exploration {
         same.map(|visited| visited.visits).max().unwrap_or(0)
     }
 
-    /// Whether a frontier was looked at from about this place before.
+    /// Whether a frontier was already viewed from about this place.
     fn was_seen_from(&self, frontier: &Frontier, place: Point) -> bool {
         let same = self.visited.iter().filter(|visited| visited.middle.distance(frontier.middle) < SAME_M);
         same.flat_map(|visited| &visited.places).any(|before| before.distance(place) < OTHER_PLACE_M)
     }
 
-    /// Chooses the frontier that costs least, or ends.
+    /// Chooses the cheapest frontier, or finishes.
     fn choose(&mut self) {
         let open: Vec<(Frontier, usize)> = self
             .frontiers()
@@ -347,7 +347,7 @@ impl Exploration {
         let edges: Vec<Segment> = edges.flat_map(|ring| polygon::edges(&ring).collect::<Vec<_>>()).collect();
         let grid = RayGrid::new(edges);
         let spacing_m = VIEW_SPACING_M * view_m / VIEWS_M[0];
-        // What looking from a cell costs beyond the way there, at least.
+        // A lower bound on the cost of viewing from a cell, beyond the route there.
         let mut views: Vec<(usize, usize, f64)> = Vec::new();
         for (index, (frontier, visits)) in open.iter().enumerate() {
             let worth = PER_FRONTIER_METRE * frontier.length_m.min(LONGEST_WORTH_M);
@@ -387,7 +387,7 @@ impl Exploration {
         })
     }
 
-    /// Plans the way to the goal again, from where the robot is now.
+    /// Replans the route to the goal from the current position.
     fn replan(&mut self) {
         self.activity = Activity::Driving;
         let [_, radius_m] = self.planned_radii_m();
@@ -409,7 +409,7 @@ impl Exploration {
         crate::geometry::areas::area_m2(self.free.shapes())
     }
 
-    /// Gives up the goal, or has reached it; `in_vain`: what it looked at is remembered.
+    /// Drops the goal, reached or given up; `in_vain`: its frontier is remembered as such.
     fn leave_goal(&mut self, in_vain: bool) {
         if let Some(goal) = self.goal.take()
             && in_vain
@@ -428,7 +428,7 @@ impl Exploration {
         self.activity = Activity::Choosing;
     }
 
-    /// Drives along the way to the goal.
+    /// Follows the route to the goal.
     fn follow(&mut self) {
         let here = self.pose.position();
         let near_m = AT_PLACE_M;
@@ -440,7 +440,7 @@ impl Exploration {
         let is_last = goal.way.len() == 1;
         if is_last && next.distance(here) < near_m {
             self.look();
-            // What is still there after a look cannot be seen through.
+            // What remains after a view cannot be seen from there.
             return self.leave_goal(true);
         }
         let to = self.pose.between(Pose::new(next.x, next.y, 0.0));
@@ -463,7 +463,7 @@ impl Exploration {
         }
     }
 
-    /// After a collision.
+    /// Handles a collision.
     fn bump(&mut self) {
         self.collisions += 1;
         self.look();
@@ -475,7 +475,7 @@ impl Exploration {
         self.activity = Activity::BackingOff;
     }
 
-    /// Drops a goal whose frontier is gone: it was seen on the way.
+    /// Drops a goal whose frontier has disappeared: it was seen on the way.
     fn reconsider(&mut self) {
         let Some(goal) = &self.goal else { return };
         let middle = goal.frontier.middle;
@@ -503,7 +503,7 @@ impl Exploration {
         self.has_new_look = true;
     }
 
-    /// Lays out the free space anew where a closed loop has moved the path.
+    /// Rebuilds the free space when closing a loop has moved the path.
     fn settle(&mut self) {
         self.closures = self.mapper.closures().0;
         let poses = self.mapper.poses();
@@ -524,13 +524,13 @@ impl Exploration {
         }
     }
 
-    /// Moves by what the odometry shall say, and looks. Whether nothing was in the way.
+    /// Moves so that the odometry reports this, and scans; returns whether nothing was in the way.
     fn drive(&mut self, odometry: Pose) -> bool {
         let mut odometry = odometry;
         let mut done = self.options.odometry.sample(odometry, &mut self.random);
         let free = self.free_share(self.true_pose, self.true_pose.compose(done));
         if free < 1.0 {
-            // It stops where it touches something; its wheels do not turn on.
+            // It stops on contact; its wheels stop too.
             let stopped = |way: Pose| Pose::new(way.x_m * free, way.y_m * free, way.heading_rad);
             (odometry, done) = (stopped(odometry), stopped(done));
         }
@@ -540,8 +540,8 @@ impl Exploration {
         free > 0.0
     }
 
-    /// How much of a straight way, 0..=1, the robot can drive before it touches something. Where it touches
-    /// something already, it may move away.
+    /// The share, 0..=1, of a straight path that the robot can drive before it touches something. If it
+    /// already touches something, it may move away.
     fn free_share(&self, from: Pose, to: Pose) -> f64 {
         let radius_m = self.options.radius_m;
         let clear = |at: Point| self.world.obstacles().distance_m(at, radius_m);
@@ -558,7 +558,7 @@ impl Exploration {
         share
     }
 
-    /// Scans, and estimates where the robot is.
+    /// Scans, and estimates the robot's pose.
     fn sense(&mut self) {
         let (world, pose, random) = (&self.world, self.true_pose, &mut self.random);
         self.scans = self.options.scanners.iter().map(|scanner| scanner.scan(world, pose, random)).collect();

@@ -1,5 +1,5 @@
-//! What a robot found as a plan like any other: rooms, the doorways between them, and where the unknown
-//! begins.
+//! Turns what a robot found into an ordinary plan: rooms, the doorways between them, and the frontiers to
+//! the unknown.
 
 use std::sync::Arc;
 
@@ -12,10 +12,10 @@ use crate::plan::{
     Builder, Extra, Joint, Meta, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, RoomLabel, Violation,
 };
 
-/// A doorway up to this width in metres is a door (paper: 150 cm), a wider one a free passage.
+/// A doorway up to this width in metres is a door (paper: 150 cm); a wider one is a free passage.
 const WIDEST_DOOR_M: f64 = 1.5;
 
-/// A frontier belongs to the room that lies within so many metres of it.
+/// A frontier belongs to the room within this many metres of it.
 const NEAR_ROOM_M: f64 = 0.5;
 
 /// The plan of a map.
@@ -24,23 +24,23 @@ pub struct ExploredPlan {
     pub plan: Plan,
     /// The plan's room for each found room.
     pub rooms: Vec<RoomId>,
-    /// The plan's opening for each frontier; `None` for one that bounds no room.
+    /// The plan's opening for each frontier; `None` if it borders no room.
     pub frontiers: Vec<Option<OpeningId>>,
 }
 
-/// What is said of rooms and frontiers besides their shape.
+/// Information about rooms and frontiers besides their shape.
 #[derive(Clone, Debug, Default)]
 pub struct Said {
-    /// For each found room its label; none where shorter.
+    /// The label of each found room; missing entries mean none.
     pub labels: Vec<Option<RoomLabel>>,
-    /// For each frontier what stands with its opening.
+    /// For each frontier, extra fields for its opening.
     pub behind: Vec<Extra>,
 }
 
-/// Makes a plan, in the world's frame. A frontier is an opening from its room to the outside.
+/// Makes a plan, in the world's frame. A frontier becomes an opening from its room to the outside.
 ///
 /// # Errors
-/// The violations of a plan's invariants: a room's boundary may fall together on the plan's grid.
+/// The violations of a plan's invariants: a room's boundary may collapse on the plan's grid.
 pub fn plan(
     found: &FoundRooms,
     frontiers: &[Frontier],
@@ -97,7 +97,7 @@ pub fn plan(
     Ok(ExploredPlan { plan: builder.finish()?, rooms, frontiers: at_frontiers })
 }
 
-/// The room at whose boundary a frontier lies.
+/// The room whose boundary contains a frontier.
 fn room_beside(found: &FoundRooms, frontier: &Frontier) -> Option<usize> {
     let inside = |point: Point| {
         found.rooms.iter().position(|room| polygon::locate(&room.outer, &room.holes, point) == Location::Inside)

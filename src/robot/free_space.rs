@@ -1,5 +1,5 @@
-//! The free space already explored: a polygon with holes whose edges are obstacle or frontier (paper,
-//! section 3.3).
+//! The explored free space: a polygon with holes whose edges are obstacles or frontiers (paper, section
+//! 3.3).
 
 use std::collections::BTreeSet;
 
@@ -12,32 +12,33 @@ use super::{Pose, Scan};
 use crate::geometry::areas::{self, Ring, Shapes};
 use crate::geometry::{Bounds, Point, Segment, polygon};
 
-/// What a scan saw free ends this far before what it hit, in metres: three standard deviations of a
-/// reading, and what the simplification of its outline adds.
+/// How far the free space seen by a scan ends before each hit, in metres: three standard deviations of a
+/// reading, plus the error of simplifying its outline.
 const BEFORE_HIT_M: f64 = 0.02;
 
-/// Outlines are simplified up to this distance in metres: the steps of the readings, 1 cm.
+/// Outlines are simplified to this tolerance in metres: the resolution of the readings, 1 cm, and a
+/// little.
 const OUTLINE_M: f64 = 0.012;
 
-/// Two neighbouring beams whose readings differ by more, in metres, hit different things.
+/// Two neighbouring beams whose readings differ by more than this, in metres, hit different things.
 const JUMP_M: f64 = 0.3;
 
-/// Side in metres of the cells that remember what was hit.
+/// Side in metres of the cells that record hits.
 const HIT_CELL_M: f64 = 0.05;
 
-/// A gap of unknown floor smaller than this, in m², is a shadow between two beams.
+/// A smaller gap of unknown floor, in m², is a shadow between two beams.
 const SHADOW_M2: f64 = 0.02;
 
-/// What bounds a stretch of the free space.
+/// The kind of boundary of a stretch of the free space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EdgeKind {
     /// Something was hit there.
     Obstacle,
-    /// Behind it lies what was not seen yet.
+    /// What is behind it has not been seen yet.
     Frontier,
 }
 
-/// The free space as seen so far, in the map's frame.
+/// The free space seen so far, in the map's frame.
 #[derive(Clone, Debug, Default)]
 pub struct FreeSpace {
     shapes: Shapes,
@@ -45,14 +46,14 @@ pub struct FreeSpace {
 }
 
 impl FreeSpace {
-    /// The union of what scans saw free, each with the pose of the robot at the time.
+    /// The union of the free space seen by scans, each with the robot's pose at the time.
     pub fn of<'a>(seen: impl IntoIterator<Item = (Pose, &'a [Scan])>) -> Self {
         let mut free = Self::default();
         let mut parts: Vec<Shapes> = Vec::new();
         for (map_from_robot, scans) in seen {
             parts.push(free.outlines(map_from_robot, scans));
         }
-        // Pairs of pairs: each outline is merged log(n) times, not n times.
+        // Merged pairwise: each outline is merged log(n) times, not n times.
         while parts.len() > 1 {
             let pairs = parts.chunks(2).map(|pair| match pair {
                 [one, other] => union(one, other),
@@ -65,7 +66,7 @@ impl FreeSpace {
         free
     }
 
-    /// Adds what the scans of one place saw.
+    /// Adds what the scans from one place saw.
     pub fn add(&mut self, map_from_robot: Pose, scans: &[Scan]) {
         let seen = self.outlines(map_from_robot, scans);
         self.shapes = union(&self.shapes, &seen);
@@ -77,7 +78,7 @@ impl FreeSpace {
         &self.shapes
     }
 
-    /// The box around it.
+    /// Its bounding box.
     pub fn bounds(&self) -> Bounds {
         Bounds::of(self.shapes.iter().flatten().flatten().map(|&[x, y]| Point::new(x, y)))
     }
@@ -88,8 +89,8 @@ impl FreeSpace {
         (-2..=2).any(|row| self.hits.range((y + row, x - 2)..=(y + row, x + 2)).next().is_some())
     }
 
-    /// All edges, cut into pieces of at most `piece_m` metres, and what bounds the free space there.
-    /// Each ring's pieces stand in its order; the free space lies to their left.
+    /// All edges, cut into pieces of at most `piece_m` metres, each with its kind. The pieces of each
+    /// ring are in order; the free space is to their left.
     pub fn edges(&self, piece_m: f64) -> Vec<Vec<(Segment, EdgeKind)>> {
         let kind = |piece: Segment| {
             if self.is_hit_near(piece.midpoint()) { EdgeKind::Obstacle } else { EdgeKind::Frontier }
@@ -108,7 +109,7 @@ impl FreeSpace {
         self.shapes.iter().flatten().map(of_ring).collect()
     }
 
-    /// What scans saw free, and what they hit, which is kept.
+    /// The free space seen by scans; also records their hits.
     fn outlines(&mut self, map_from_robot: Pose, scans: &[Scan]) -> Shapes {
         let mut rings: Vec<Ring> = Vec::new();
         for scan in scans {
@@ -130,7 +131,7 @@ impl FreeSpace {
             if let Some((before, from)) = last
                 && beam - before <= 3
             {
-                // Between two beams on one surface there is more of it.
+                // Between two beams that hit one surface, the surface continues.
                 let length_m = from.distance(point);
                 let steps = (length_m / HIT_CELL_M).ceil();
                 if length_m < JUMP_M && steps > 1.0 {
@@ -143,7 +144,7 @@ impl FreeSpace {
         }
     }
 
-    /// Fewer points, no shadows.
+    /// Simplifies outlines and removes shadows.
     fn tidy(&mut self) {
         let tidied = |ring: &Ring| -> Option<Ring> {
             let points = simplified_ring(&areas::points(ring), OUTLINE_M);
@@ -177,12 +178,13 @@ fn hit_cell(point: Point) -> (i32, i32) {
     (cell(point.x), cell(point.y))
 }
 
-/// Row first: neighbours along x stand together in the set.
+/// Row first: neighbours along x are adjacent in the set.
 fn swapped((x, y): (i32, i32)) -> (i32, i32) {
     (y, x)
 }
 
-/// The outline of what one sweep saw free, in the scanner's frame, from the scanner round.
+/// The outline of the free space seen by one sweep, in the scanner's frame, starting and ending at the
+/// scanner.
 fn outline(scan: &Scan) -> Vec<Point> {
     let ray = |beam: usize, range_m: f64| {
         let (sin, cos) = scan.angle_rad(beam).sin_cos();
@@ -201,12 +203,12 @@ fn outline(scan: &Scan) -> Vec<Point> {
         let last = to.map_or(beams, |(beam, _)| beam);
         let range_m = open_range_m(scan, from, to, last - first);
         if range_m > 0.0 {
-            // Past what is seen beside it only along the beams that brought nothing back.
+            // Only beams without return extend past what is seen beside them.
             let beside_m = from.into_iter().chain(to).map(|(_, range_m)| range_m).fold(f64::INFINITY, f64::min);
             let widened = usize::from(range_m <= beside_m);
             let begin = first.saturating_sub(if from.is_some() { widened } else { 0 });
             let end = if to.is_some() { last - 1 + widened } else { last - 1 };
-            // Enough corners that the chord does not cut what the beams passed.
+            // Enough corners that the chord stays outside the space the beams passed.
             outline.extend((begin..end).step_by(CHORD_BEAMS).map(|beam| ray(beam, range_m)));
             outline.push(ray(end, range_m));
         } else {
@@ -223,7 +225,7 @@ fn outline(scan: &Scan) -> Vec<Point> {
                 open(&mut outline, Some((before, last_m)), Some((beam, range_m)));
             }
             Some((before, last_m)) if (range_m - last_m).abs() > JUMP_M => {
-                // Only as far as the nearer of the two is the floor between them known.
+                // The floor between the two is known only as far as the nearer one.
                 let corner = if range_m > last_m { ray(beam, last_m) } else { ray(before, range_m) };
                 outline.extend(simplified(&run, OUTLINE_M));
                 outline.push(corner);
@@ -242,8 +244,8 @@ fn outline(scan: &Scan) -> Vec<Point> {
     outline
 }
 
-/// How far the floor is free, in metres, along beams in a row that brought nothing back. A wall that is
-/// met at too small an angle is further away than what is seen beside it; and no wall is met so over many
+/// How far the floor is free, in metres, along consecutive beams without return. A wall met at too
+/// shallow an angle is further away than what is seen beside it, and no wall is met that way over many
 /// beams.
 fn open_range_m(scan: &Scan, from: Option<(usize, f64)>, to: Option<(usize, f64)>, lost: usize) -> f64 {
     let beside_m = from.into_iter().chain(to).map(|(_, range_m)| range_m).fold(f64::INFINITY, f64::min);
@@ -256,20 +258,20 @@ fn open_range_m(scan: &Scan, from: Option<(usize, f64)>, to: Option<(usize, f64)
     }
 }
 
-/// Nothing came back over such an angle: there is no wall near.
+/// If nothing returns over this angle, there is no wall nearby.
 const WIDE_OPEN_RAD: f64 = 0.14;
 
-/// How far the floor counts as free there, in metres.
+/// How far the floor then counts as free, in metres.
 const OPEN_M: f64 = 6.0;
 
-/// The outline of an open sector has a corner every so many beams.
+/// The outline of an open sector has a corner every this many beams.
 const CHORD_BEAMS: usize = 8;
 
-/// So many beams in a row without return are taken for lost, where their neighbours agree.
+/// Up to this many consecutive beams without return count as lost readings, if their neighbours agree.
 const LOST_BEAMS: usize = 2;
 
-/// A chain of points without those that lie closer than the tolerance to what is left (Douglas and
-/// Peucker 1973).
+/// Simplifies a polyline: drops points closer than the tolerance to what is left (Douglas and Peucker
+/// 1973).
 pub(super) fn simplified(chain: &[Point], tolerance_m: f64) -> Vec<Point> {
     if chain.len() < 3 {
         return chain.to_vec();
@@ -292,8 +294,8 @@ pub(super) fn simplified(chain: &[Point], tolerance_m: f64) -> Vec<Point> {
     chain.iter().zip(kept).filter_map(|(&point, kept)| kept.then_some(point)).collect()
 }
 
-/// [`simplified`] for a ring: from its two points furthest apart, roughly, so that it does not hang on
-/// where the ring begins.
+/// [`simplified`] for a ring: starts from its two points roughly furthest apart, so that the result does
+/// not depend on where the ring begins.
 pub(super) fn simplified_ring(ring: &[Point], tolerance_m: f64) -> Vec<Point> {
     let Some(&first) = ring.first() else { return Vec::new() };
     let furthest = |from: Point| {

@@ -1,27 +1,27 @@
-//! Where the known floor ends and nothing was hit.
+//! Frontiers: where the known floor ends without an obstacle.
 
 use super::RayGrid;
 use super::free_space::{EdgeKind, FreeSpace};
 use crate::geometry::{Point, Segment, Vector};
 
-/// The boundary is looked at in pieces of this length in metres.
+/// The boundary is examined in pieces of this length in metres.
 const PIECE_M: f64 = 0.1;
 
-/// Shorter frontiers are shadows between beams, in metres: no robot passes them.
+/// Shorter frontiers are shadows between beams, in metres: no robot fits through them.
 const SHORTEST_M: f64 = 0.35;
 
-/// Behind a frontier nothing is known for at least so many metres; else it is a slit.
+/// How far behind a frontier must be unknown, in metres; otherwise it is a slit.
 const SLIT_M: f64 = 0.15;
 
 /// A stretch of the boundary between the known and the unknown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frontier {
-    /// Its points in order; the known floor lies to the left.
+    /// Its points in order; the known floor is to the left.
     pub line: Vec<Point>,
     /// The point on it halfway along.
     pub middle: Point,
     pub length_m: f64,
-    /// Unit vector into the unknown, on the whole.
+    /// Unit vector into the unknown, on average.
     pub outward: Vector,
 }
 
@@ -40,7 +40,7 @@ pub fn frontiers(free: &FreeSpace) -> Vec<Frontier> {
     for ring in &rings {
         let marks: Vec<bool> = ring.iter().map(is_frontier).collect();
         let n = ring.len();
-        // Start behind a piece that is none, so that no frontier is cut by the ring's beginning.
+        // Start after a piece that is not a frontier, so that the start of the ring splits none.
         let start = marks.iter().position(|mark| !mark).map_or(0, |at| at + 1);
         let mut line: Vec<Point> = Vec::new();
         for i in 0..n {

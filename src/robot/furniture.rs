@@ -10,22 +10,22 @@ use crate::geometry::{Bounds, Point, Vector, areas, polygon};
 #[serde(deny_unknown_fields)]
 pub struct Piece {
     pub name: String,
-    /// Metres; along the wall where it stands at one.
+    /// Metres; along the wall if it stands against one.
     #[serde(rename = "length")]
     pub length_m: f64,
     #[serde(rename = "width")]
     pub width_m: f64,
     pub at: Standing,
     pub seen: Seen,
-    /// How often it is drawn in comparison with the others.
+    /// Relative frequency.
     pub weight: u32,
 }
 
-/// Where a piece of furniture stands.
+/// Where a kind of furniture goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Standing {
-    /// Its back to a wall.
+    /// Against a wall.
     Wall,
     /// Anywhere in the room.
     Room,
@@ -47,16 +47,16 @@ struct Catalogue {
     piece: Vec<Piece>,
 }
 
-/// The catalogue that comes with the program, `assets/robot/furniture.toml`.
+/// The bundled catalogue, `assets/robot/furniture.toml`.
 pub fn bundled_furniture() -> Vec<Piece> {
-    // A test reads it; without it rooms stay empty.
+    // A test reads it; if it failed, rooms would stay empty.
     read_furniture(include_str!("../../assets/robot/furniture.toml")).unwrap_or_default()
 }
 
 /// Reads a catalogue of furniture.
 ///
 /// # Errors
-/// A sentence that says what is wrong with the text.
+/// When the text is invalid; the error is a sentence that says why.
 pub fn read_furniture(text: &str) -> Result<Vec<Piece>, String> {
     let catalogue: Catalogue = toml::from_str(text).map_err(|error| error.to_string())?;
     for piece in &catalogue.piece {
@@ -71,21 +71,21 @@ pub fn read_furniture(text: &str) -> Result<Vec<Piece>, String> {
 /// Side in metres of a leg of a table or chair.
 const LEG_M: f64 = 0.05;
 
-/// Furniture keeps this far from doorways, in metres: a door's leaf and a person pass.
+/// Clearance of furniture from doorways, in metres: for a door's leaf and a person.
 const CLEAR_OF_DOORS_M: f64 = 0.9;
 
-/// Between two pieces, and between a piece that stands free and a wall, a robot passes or nothing
-/// does: metres.
+/// Gap between two pieces, and between a free-standing piece and a wall, in metres: so that a robot
+/// clearly fits through.
 const PASSAGE_M: f64 = 0.7;
 
-/// A piece stands this far from the wall behind it, in metres: skirting boards and habit.
+/// Distance of a piece from the wall behind it, in metres: skirting boards and habit.
 const BEHIND_M: f64 = 0.03;
 
-/// Tries to place a piece before the room counts as full.
+/// Attempts to place a piece before the room counts as full.
 const TRIES: usize = 30;
 
 /// The outlines of up to `count` pieces of furniture in a room, counter-clockwise, as a scanner sees
-/// them: one ring a box, four a piece on legs. `doors`: points to keep clear of.
+/// them: one ring for a box, four for a piece with legs. `doors` are points to keep clear of.
 pub fn furnish(
     outer: &[Point],
     holes: &[Vec<Point>],
@@ -132,7 +132,7 @@ pub fn furnish(
                         bounds.min.x + random.unit() * bounds.width(),
                         bounds.min.y + random.unit() * bounds.height(),
                     );
-                    // Mostly in line with the walls, sometimes askew.
+                    // Mostly aligned with the walls, sometimes askew.
                     let askew = if random.unit() < 0.3 { random.unit() * std::f64::consts::PI } else { 0.0 };
                     (at, along.rotated(askew))
                 }
@@ -178,7 +178,7 @@ fn distance_m(ring: &[Point], point: Point) -> f64 {
     polygon::edges(ring).map(|edge| edge.distance(point)).fold(f64::INFINITY, f64::min)
 }
 
-/// How far two convex rings are apart, in metres; 0 where they meet.
+/// The distance between two convex rings, in metres; 0 if they meet.
 fn apart_m(one: &[Point], other: &[Point]) -> f64 {
     let nearest = |ring: &[Point], of: &[Point]| of.iter().map(|&p| distance_m(ring, p)).fold(f64::INFINITY, f64::min);
     nearest(one, other).min(nearest(other, one))

@@ -1,13 +1,13 @@
-//! Occupancy grids: what is free, taken or unknown, cell by cell.
+//! Occupancy grids: free, occupied or unknown, cell by cell.
 
 use super::Pose;
 use crate::geometry::Point;
 
-/// The most cells a grid may have: 25 million, 250 m by 250 m at 0.05 m. Segmentation needs some 30 bytes
-/// a cell, so that this is below a gigabyte.
+/// The maximum number of cells: 25 million, 250 m by 250 m at 0.05 m. Segmentation needs about 30 bytes
+/// per cell, so this stays below a gigabyte.
 pub const MOST_CELLS: usize = 25_000_000;
 
-/// What is known of a cell.
+/// The state of a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Cell {
     Free,
@@ -16,20 +16,20 @@ pub enum Cell {
     Unknown,
 }
 
-/// An occupancy grid as `map_server` publishes it: square cells, rows from the top of the picture down.
+/// An occupancy grid as published by `map_server`: square cells, rows from the top of the picture down.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GridMap {
     width: usize,
     height: usize,
     /// Side of a cell in metres.
     pub resolution_m: f64,
-    /// Where the lower left corner of the lower left cell is in the map's frame, and how the grid's
-    /// rows are turned there.
+    /// The position of the lower left corner of the lower left cell in the map's frame, and the rotation
+    /// of the grid's rows.
     pub map_from_grid: Pose,
     cells: Vec<Cell>,
 }
 
-/// Why there can be no such grid.
+/// Why a grid is invalid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GridMapError {
     Empty,
@@ -62,17 +62,17 @@ impl std::error::Error for GridMapError {}
 
 /// Half a centimetre: finer than laser scanners measure.
 const LEAST_RESOLUTION_M: f64 = 0.005;
-/// Coarser than a doorway is wide: no room could be told from the next.
+/// A coarser grid than a doorway is wide could not separate rooms.
 const MOST_RESOLUTION_M: f64 = 1.0;
-/// Farther away no plan can be drawn, which ends at 100 km.
+/// Plans end at 100 km: further away none can be drawn.
 const FARTHEST_ORIGIN_M: f64 = 90_000.0;
 
 impl GridMap {
     /// A grid of cells given row by row from the top.
     ///
     /// # Errors
-    /// When the grid is empty or larger than [`MOST_CELLS`], the number of cells does not fit its sides,
-    /// or resolution or origin are out of range.
+    /// When the grid is empty or larger than [`MOST_CELLS`], the number of cells does not match its
+    /// sides, or resolution or origin are out of range.
     pub fn new(
         width: usize,
         height: usize,
@@ -94,7 +94,7 @@ impl GridMap {
         Ok(Self { width, height, resolution_m, map_from_grid, cells })
     }
 
-    /// Whether a grid may have these sides, to be asked before its cells are read.
+    /// Checks a grid's size, before its cells are read.
     ///
     /// # Errors
     /// When it is empty or larger than [`MOST_CELLS`].
@@ -119,8 +119,8 @@ impl GridMap {
         &self.cells
     }
 
-    /// Where a place of the picture is in the map's frame. `x` and `y` are in cells, from the upper left
-    /// corner of the upper left cell, y down.
+    /// The position of a point of the picture in the map's frame. `x` and `y` are in cells, from the
+    /// upper left corner of the upper left cell, y down.
     pub fn map_from_picture(&self, x: f64, y: f64) -> Point {
         let up = self.height as f64 - y;
         self.map_from_grid.apply(Point::new(x * self.resolution_m, up * self.resolution_m))

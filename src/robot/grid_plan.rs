@@ -12,7 +12,7 @@ pub struct GridRoom {
     /// Its number in the segmentation.
     pub region: u32,
     pub outer: Vec<Point>,
-    /// What stands in it: pillars, blocks of walls, large furniture.
+    /// Obstacles in it: pillars, blocks of walls, large furniture.
     pub holes: Vec<Vec<Point>>,
 }
 
@@ -34,16 +34,16 @@ impl GridDoorway {
     }
 }
 
-/// Outlines are followed to this many metres, or [`STEPS_CELLS`] where cells are coarse.
+/// Tolerance for outlines in metres; [`STEPS_CELLS`] instead if cells are coarse.
 const TOLERANCE_M: f64 = 0.1;
-/// A slanted wall is a stair of cells: nothing finer than this is seen of it.
+/// Tolerance in cells: an oblique wall is a staircase of cells, so finer detail is not real.
 const STEPS_CELLS: f64 = 1.5;
-/// Smaller things standing in a room, in square metres, do not make holes in its polygon.
+/// Smaller obstacles in a room, in square metres, do not make holes in its polygon.
 const SMALLEST_HOLE_M2: f64 = 1.0;
 /// Rings with more corners are not tested for crossings, which takes quadratic time.
 const MOST_TESTED_CORNERS: usize = 2_000;
 
-/// The rooms, by their numbers.
+/// The rooms, by number.
 pub fn rooms(map: &GridMap, segmentation: &Segmentation) -> Vec<GridRoom> {
     let width = map.width();
     let mut windows = vec![[usize::MAX, usize::MAX, 0, 0]; segmentation.rooms as usize + 1];
@@ -69,10 +69,10 @@ fn room(map: &GridMap, segmentation: &Segmentation, region: u32, window: [usize;
     let mut holes = Vec::new();
     for outline in outlines(window, inside) {
         let ring: Vec<Point> = outline.iter().map(|&(x, y)| Point::new(f64::from(x), f64::from(y))).collect();
-        // Counter-clockwise on the picture, whose y is down, is negative here.
+        // Counter-clockwise in the picture, whose y points down, is negative here.
         let area_m2 = -polygon::signed_area(&ring) * cell_m2;
         if area_m2 > 0.0 {
-            // A room may have several parts that touch at corners; the largest is its polygon.
+            // A room may have several parts that touch at corners; its polygon is the largest.
             if outer.as_ref().is_none_or(|(largest, _)| area_m2 > *largest) {
                 outer = Some((area_m2, simple(map, &outline)));
             }
@@ -86,7 +86,7 @@ fn room(map: &GridMap, segmentation: &Segmentation, region: u32, window: [usize;
     Some(GridRoom { region, outer, holes })
 }
 
-/// An outline with few corners that does not cross itself, in the map's frame.
+/// An outline with few corners, not crossing itself, in the map's frame.
 fn simple(map: &GridMap, outline: &[(i32, i32)]) -> Vec<Point> {
     let mut tolerance = (TOLERANCE_M / map.resolution_m).max(STEPS_CELLS);
     loop {
@@ -98,12 +98,12 @@ fn simple(map: &GridMap, outline: &[(i32, i32)]) -> Vec<Point> {
     }
 }
 
-/// Narrower gaps are holes in walls that were scanned badly: no robot drives through them, and no one walks.
+/// Narrower gaps are holes in badly scanned walls: neither robots nor people pass through them.
 const NARROWEST_DOORWAY_M: f64 = 0.5;
 
-/// The doorways: of the cuts through one doorway the shortest.
+/// The doorways: of several cuts through one doorway, the shortest.
 pub fn doorways(map: &GridMap, segmentation: &Segmentation) -> Vec<GridDoorway> {
-    /// Doorways of the same two rooms whose middles are this near each other are one.
+    /// Doorways between the same two rooms whose middles are this close count as one.
     const NEAR_M: f64 = 0.5;
     let mut all: Vec<GridDoorway> = segmentation
         .cuts
@@ -133,23 +133,23 @@ pub fn doorways(map: &GridMap, segmentation: &Segmentation) -> Vec<GridDoorway> 
         .collect()
 }
 
-/// The widest opening that is a doorway; wider ones are free passages (section 3.3: 30 to 150 cm).
+/// The maximum width of a doorway; wider openings are free passages (section 3.3: 30 to 150 cm).
 pub const WIDEST_DOORWAY_M: f64 = 1.5;
 
-/// What is known of a room before, and stays.
+/// What was already known of a room and is kept.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Known {
-    /// The text of its identity.
+    /// The text of its id.
     pub id: String,
     pub name: String,
     pub function: String,
 }
 
-/// The plan: rooms in the order of `rooms`, doorways pinned to them, in the map's frame. `known` holds for each
-/// room, `known_doorways` for each doorway, what it was before.
+/// The plan: rooms in the order of `rooms`, doorways pinned to them, in the map's frame. `known` and
+/// `known_doorways` hold previous data of each room and doorway.
 ///
 /// # Errors
-/// When the map lies outside the drawing area; the reason in words.
+/// When the map lies outside the drawing area; the error says why.
 pub fn plan(
     meta: crate::plan::Meta,
     rooms: &[GridRoom],

@@ -1,48 +1,48 @@
-//! The map a robot builds: line segments, each fused from all that was seen of it.
+//! The map a robot builds: line segments, each fused from all sightings of it.
 
 use rstar::{AABB, RTree, primitives::GeomWithData, primitives::Rectangle};
 
 use super::LineSegment;
 use crate::geometry::{Bounds, Point};
 
-/// When two segments are taken for the same piece of wall.
+/// When two segments count as the same piece of wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FusionOptions {
-    /// How far the ends of one may lie off the line of the other, in metres.
+    /// Maximum distance of the ends of one from the line of the other, in metres.
     pub offset_m: f64,
-    /// The largest angle between them; for segments too short to know their angle, three deviations.
+    /// Maximum angle between them; three deviations for segments too short for a precise angle.
     pub angle_rad: f64,
-    /// The largest gap between them along the line: doors are wider.
+    /// Maximum gap between them along the line, in metres: doors are wider.
     pub gap_m: f64,
-    /// Deviation of a point across its line, in metres.
+    /// Standard deviation of a point across its line, in metres.
     pub sigma_m: f64,
 }
 
 impl Default for FusionOptions {
-    /// Half a thin wall's thickness apart at most; a gap below the paper's 30 cm for a doorway.
+    /// An offset of at most half a thin wall's thickness; a gap below the paper's 30 cm for a doorway.
     fn default() -> Self {
         Self { offset_m: 0.05, angle_rad: 6_f64.to_radians(), gap_m: 0.2, sigma_m: 0.015 }
     }
 }
 
-/// However uncertain its angle, a segment more oblique than this is another surface.
+/// However uncertain its angle, a segment at a larger angle than this is another surface.
 const MOST_OBLIQUE_RAD: f64 = 0.35;
 
 /// A segment of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapLine {
     pub line: LineSegment,
-    /// How many segments were fused into it.
+    /// The number of segments fused into it.
     pub sightings: usize,
 }
 
 type Entry = GeomWithData<Rectangle<[f64; 2]>, usize>;
 
-/// Line segments with an index over where they lie: what a segment costs to add depends on what is
-/// near, not on the size of the map.
+/// Line segments with a spatial index: the cost of adding a segment depends on what is nearby, not on the
+/// size of the map.
 #[derive(Clone, Debug, Default)]
 pub struct LineMap {
-    /// In the order of their creation; `None` where a line was fused into another.
+    /// In order of creation; `None` if a line was fused into another.
     lines: Vec<Option<MapLine>>,
     index: RTree<Entry>,
 }
@@ -62,12 +62,12 @@ impl LineMap {
         self.len() == 0
     }
 
-    /// The box around all segments.
+    /// The bounding box of all segments.
     pub fn bounds(&self) -> Bounds {
         Bounds::of(self.lines().flat_map(|line| [line.line.start, line.line.end]))
     }
 
-    /// The segments whose box meets `bounds`, oldest first.
+    /// The segments whose bounding boxes meet `bounds`, oldest first.
     pub fn near(&self, bounds: Bounds) -> Vec<&MapLine> {
         self.ids_near(bounds).into_iter().filter_map(|id| self.lines[id].as_ref()).collect()
     }
@@ -83,10 +83,10 @@ impl LineMap {
         ids
     }
 
-    /// Adds a segment in the map's frame: fused with the lines it is part of, else as a new one.
+    /// Adds a segment in the map's frame: fused with the lines it belongs to, or as a new one.
     pub fn add(&mut self, segment: LineSegment, options: &FusionOptions) {
         let mut fused = MapLine { line: segment, sightings: 1 };
-        // What was fused is longer and may reach another line.
+        // The fused line is longer and may reach another line.
         while let Some(id) = self
             .ids_near(fused.line.segment().bounds().inflated(options.gap_m))
             .into_iter()
@@ -113,8 +113,8 @@ fn entry(line: &MapLine, id: usize) -> Entry {
     Entry::new(Rectangle::from_corners([start.x, start.y], [end.x, end.y]), id)
 }
 
-/// Both segments as one, if they are pieces of the same wall seen from the same side: nearly
-/// parallel, overlapping or nearly so, and the ends of both near the common line.
+/// Both segments as one, if they are pieces of the same wall seen from the same side: nearly parallel,
+/// overlapping or nearly so, and the ends of both near the common line.
 fn union(a: LineSegment, b: LineSegment, options: &FusionOptions) -> Option<LineSegment> {
     let (a_direction, b_direction) = (a.direction(), b.direction());
     let angle_rad = a_direction.cross(b_direction).atan2(a_direction.dot(b_direction)).abs();
@@ -139,7 +139,7 @@ mod tests {
     use super::*;
     use crate::geometry::Point;
 
-    /// A segment through points every 5 cm.
+    /// A segment with a point every 5 cm.
     fn piece(from: (f64, f64), to: (f64, f64)) -> LineSegment {
         let (from, to) = (Point::new(from.0, from.1), Point::new(to.0, to.1));
         let count = (from.distance(to) / 0.05).ceil();

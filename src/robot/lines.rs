@@ -1,15 +1,15 @@
-//! Straight lines through noisy points: total least squares with covariance.
+//! Fits straight lines to noisy points: total least squares with covariance.
 
 use nalgebra::{Matrix2, Vector2};
 
 use super::Pose;
 use crate::geometry::{Point, Segment, Vector};
 
-/// Count, centroid and scatter of points: all that a line through them needs. Adding the moments of
-/// two sets gives those of their union, so fusing segments is fitting all their points at once.
+/// Count, centroid and scatter of points: all that is needed to fit a line. The moments of two sets add
+/// up to those of their union, so fusing segments equals fitting all their points at once.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moments {
-    /// Number of points, or their weight.
+    /// Number of points, or their total weight.
     pub weight: f64,
     pub centroid: Point,
     /// Sums of squares and products about the centroid, in m²: xx, xy, yy.
@@ -21,13 +21,13 @@ impl Moments {
         points.into_iter().fold(Self::default(), Self::with)
     }
 
-    /// These moments with one more point.
+    /// These moments plus one more point.
     #[must_use]
     pub fn with(self, point: Point) -> Self {
         self.and(Self { weight: 1.0, centroid: point, scatter: [0.0; 3] })
     }
 
-    /// The moments of the union (Chan, Golub and LeVeque 1983: no cancellation far from the origin).
+    /// The moments of the union (Chan, Golub and LeVeque 1983: without cancellation far from the origin).
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         let weight = self.weight + other.weight;
@@ -49,13 +49,13 @@ impl Moments {
         }
     }
 
-    /// The same points seen as fewer or more: every sum times `factor`.
+    /// The moments rescaled as if there were fewer or more points: every sum times `factor`.
     #[must_use]
     pub fn scaled(self, factor: f64) -> Self {
         Self { weight: self.weight * factor, centroid: self.centroid, scatter: self.scatter.map(|sum| sum * factor) }
     }
 
-    /// The moments of the points taken into the outer frame of `pose`.
+    /// The moments of the points transformed to the outer frame of `pose`.
     #[must_use]
     pub fn moved(self, pose: Pose) -> Self {
         let (sin, cos) = pose.heading_rad.sin_cos();
@@ -71,7 +71,7 @@ impl Moments {
         }
     }
 
-    /// Direction of the line of least squared distances, a unit vector whose sign means nothing.
+    /// Direction of the total-least-squares line, a unit vector of arbitrary sign.
     pub fn direction(self) -> Vector {
         let [xx, xy, yy] = self.scatter;
         // The axis of the larger eigenvalue (Deriche, Vaillant and Faugeras 1992).
@@ -79,7 +79,7 @@ impl Moments {
         Vector::new(angle.cos(), angle.sin())
     }
 
-    /// Sums of squares along and across the line, in m²: the eigenvalues of the scatter.
+    /// Sums of squares along and across the line, in m²: the eigenvalues of the scatter matrix.
     pub fn spread_m2(self) -> (f64, f64) {
         let [xx, xy, yy] = self.scatter;
         let mean = 0.5 * (xx + yy);
@@ -93,27 +93,27 @@ impl Moments {
     }
 }
 
-/// A piece of a line with how well it is known. It runs as a scanner sweeps: who saw it stood to
-/// the left of the way from `start` to `end`.
+/// A line segment with its uncertainty. It runs in the scanner's sweep direction: the observer was to the
+/// left of the direction from `start` to `end`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineSegment {
     pub start: Point,
     pub end: Point,
-    /// Of the points it was fitted to.
+    /// Those of the points it was fitted to.
     pub moments: Moments,
 }
 
 impl LineSegment {
-    /// The total-least-squares line through points in the order of the sweep, cut off at the feet of
-    /// its outermost points; `None` for fewer than two distinct points.
+    /// The total-least-squares line through points in sweep order, ending at the projections of its
+    /// outermost points; `None` for fewer than two distinct points.
     pub fn fitted(points: &[Point]) -> Option<Self> {
         let (first, last) = (*points.first()?, *points.last()?);
         let moments = Moments::of(points.iter().copied());
         Self::along(moments, last - first, points.iter().copied())
     }
 
-    /// The line of `moments`, in the direction that agrees with `towards`, long enough for the feet
-    /// of all `reaching` points.
+    /// The line of `moments`, in the direction that agrees with `towards`, long enough for the
+    /// projections of all `reaching` points.
     pub fn along(moments: Moments, towards: Vector, reaching: impl IntoIterator<Item = Point>) -> Option<Self> {
         let mut direction = moments.direction();
         if direction.dot(towards) < 0.0 {
@@ -157,9 +157,9 @@ impl LineSegment {
         Self { start: pose.apply(self.start), end: pose.apply(self.end), moments: self.moments.moved(pose) }
     }
 
-    /// Covariance of the line, given the deviation `sigma_m` of each point across it: of its distance
-    /// (m²) from where it is at the centroid of its points, and of its angle (rad²). About the
-    /// centroid the two are independent: σ²/n and σ²/Σs² (Arras and Siegwart 1997, for equal weights).
+    /// Covariance of the line, given the standard deviation `sigma_m` of each point across it: of its
+    /// offset at the centroid of its points (m²), and of its angle (rad²). About the centroid the two are
+    /// independent: σ²/n and σ²/Σs² (Arras and Siegwart 1997, for equal weights).
     pub fn covariance(self, sigma_m: f64) -> Matrix2<f64> {
         let variance = sigma_m * sigma_m;
         let along = self.moments.spread_m2().0;
@@ -194,7 +194,7 @@ mod tests {
         }
     }
 
-    /// Lines through noisy points scatter as their covariance says.
+    /// Lines through noisy points vary as their covariance says.
     #[test]
     fn covariance_is_that_of_repeated_fits() {
         let mut random = crate::base::random::Random::new(3);
@@ -202,7 +202,7 @@ mod tests {
         let (mut offset, mut angle, mut expected) = (0.0, 0.0, Matrix2::zeros());
         let fits = 4000;
         for _ in 0..fits {
-            // A uniform deviate of deviation sigma.
+            // A uniform distribution with standard deviation sigma.
             let half = sigma * 3.0_f64.sqrt();
             let points: Vec<Point> =
                 (0..20).map(|i| Point::new(0.1 * f64::from(i), half * (2.0 * random.unit() - 1.0))).collect();

@@ -1,4 +1,4 @@
-//! A log replayed: the map, and where the robot was at each reading.
+//! Replaying a log: the map, and the robot's pose at each reading.
 
 use std::collections::BTreeMap;
 
@@ -8,13 +8,13 @@ use super::mapper::{Mapper, MapperOptions};
 use super::{LineMap, Pose};
 use crate::base::work::{Cancelled, Work};
 
-/// What a log gave.
+/// The result of mapping a log.
 #[derive(Clone, Debug, Default)]
 pub struct MappedLog {
     pub map: LineMap,
-    /// For each reading of the log its pose, in the frame of the first scan.
+    /// The pose at each reading of the log, in the frame of the first scan.
     pub poses: Vec<Pose>,
-    /// Places recognised, and how many of these the path contradicts.
+    /// The number of places recognised, and how many of these contradict the path.
     pub closures: (usize, usize),
 }
 
@@ -39,9 +39,9 @@ pub fn map_log(log: &Log, options: &MapperOptions, work: &Work<'_>) -> Result<Ma
     Ok(MappedLog { map: mapper.map(), poses: poses_along(&reported, &at_looks), closures: mapper.closures() })
 }
 
-/// Poses of all readings of the odometry: between two scans along the odometry, what is left over
-/// spread by the way. `scans` gives for each scan its place among the readings, ascending, and its
-/// pose.
+/// Poses of all odometry readings: between two scans they follow the odometry, with the residual spread
+/// in proportion to the distance. `scans` maps the index of each scan among the readings, ascending, to
+/// its pose.
 fn poses_along(odometry: &[Pose], scans: &BTreeMap<usize, Pose>) -> Vec<Pose> {
     let Some((first, first_pose)) = scans.first_key_value() else { return Vec::new() };
     let mut poses: Vec<Pose> =
@@ -52,7 +52,7 @@ fn poses_along(odometry: &[Pose], scans: &BTreeMap<usize, Pose>) -> Vec<Pose> {
         let (from, from_pose) = before;
         let effort = |i: usize| {
             let step = odometry[i - 1].between(odometry[i]);
-            // A turn of a radian counts like a drive of 0.3 m, about a robot's radius.
+            // A turn of one radian counts like driving 0.3 m, about a robot's radius.
             step.x_m.hypot(step.y_m) + 0.3 * step.heading_rad.abs()
         };
         let total: f64 = (from + 1..=*at).map(effort).sum();

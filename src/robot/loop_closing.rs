@@ -1,4 +1,4 @@
-//! Places seen before: whether what a robot sees now fits what it saw there long ago.
+//! Loop closing: whether what a robot sees now matches what it saw at a place long ago.
 
 use super::correlation::{COARSE_POINTS, Raster, Window, thinned};
 use super::line_map::{FusionOptions, LineMap};
@@ -6,26 +6,27 @@ use super::matching::{MatchOptions, PoseEstimate, Reference, SurfacePoint, match
 use super::{LineSegment, Pose};
 use crate::geometry::{Bounds, Point};
 
-/// When a place counts as recognised.
+/// The criteria for recognising a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClosureOptions {
-    /// Path in metres since a place before it can be come back to.
+    /// Minimum path length in metres before a place can be revisited.
     pub least_path_m: f64,
-    /// Keyframes of the path between two tries.
+    /// Keyframes between two attempts.
     pub every: usize,
-    /// A place further away than this plus the drift is not looked for, in metres.
+    /// Places further away than this plus the drift are not considered, in metres.
     pub near_m: f64,
-    /// Drift of the path since the last closure, in metres a metre and radians a metre; and before it.
+    /// Drift of the path since the last closure, in metres per metre and radians per metre; and before
+    /// it.
     pub drift_m_per_m: f64,
     pub drift_rad_per_m: f64,
     pub drift_m: f64,
     pub drift_rad: f64,
-    /// Keyframes before and after the place, and before now, that are compared.
+    /// The number of keyframes around the place, and before now, that are compared.
     pub around: usize,
-    /// The share of points that must lie on lines, in a narrow and in a wide window.
+    /// The share of points that must lie on lines, for a narrow and for a wide window.
     pub explained: f64,
     pub explained_wide: f64,
-    /// From this drift on a closure waits for a second one that agrees, in metres.
+    /// With at least this drift, in metres, a closure waits for a second one that agrees.
     pub wide_m: f64,
 }
 
@@ -47,34 +48,34 @@ impl Default for ClosureOptions {
     }
 }
 
-/// How uncertain the way between two places is.
+/// The uncertainty of the path between two places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drift {
     pub way_m: f64,
     pub turn_rad: f64,
 }
 
-/// A place that was recognised.
+/// A recognised place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closure {
-    /// The present pose in the place's frame.
+    /// The current pose in the place's frame.
     pub estimate: PoseEstimate,
     pub explained: f64,
 }
 
-/// Points that stand for all in the fine search.
+/// The sample size for the fine search, in points.
 const FINE_POINTS: usize = 500;
-/// Poses of the coarse search that are looked at closely.
+/// Poses from the coarse search that are examined closely.
 const MOST_POSES: usize = 3;
-/// A runner-up elsewhere that explains nearly as much as the best makes a place ambiguous.
+/// A runner-up elsewhere that explains nearly as much as the best makes the place ambiguous.
 const AMBIGUOUS: f64 = 0.06;
-/// A closure must be known this well in every direction: deviation in metres, and radians as metres
-/// a few metres away.
+/// The maximum uncertainty of a closure in any direction: standard deviation in metres, with radians
+/// converted to metres a few metres away.
 const VAGUEST_M: f64 = 0.15;
 
-/// Looks for the present pose among the lines of a place. All is in the place's frame: `segments`
-/// what was seen there, `points` what is seen now in the robot's frame, `guess` the pose that the
-/// path gives.
+/// Looks for the current pose among the lines of a place. Everything is in the place's frame: `segments`
+/// were seen there, `guess` is the pose according to the path; only `points`, seen now, are in the
+/// robot's frame.
 pub fn recognise(
     segments: &[LineSegment],
     points: &[SurfacePoint],
@@ -119,7 +120,7 @@ pub fn recognise(
     (best.explained >= least && is_plausible && is_clear && is_firm(&best.estimate)).then_some(best)
 }
 
-/// Whether a pose is known well enough in every direction.
+/// Whether a pose is certain enough in every direction.
 fn is_firm(estimate: &PoseEstimate) -> bool {
     estimate.information.try_inverse().is_some_and(|covariance| {
         let place = covariance.fixed_view::<2, 2>(0, 0).symmetric_eigenvalues().max();
@@ -127,7 +128,7 @@ fn is_firm(estimate: &PoseEstimate) -> bool {
     })
 }
 
-/// Whether a point lies near a place.
+/// Whether a point is near a place.
 pub fn is_near(place: Point, point: Point, options: &ClosureOptions, drift: Drift) -> bool {
     place.distance(point) <= options.near_m + drift.way_m
 }

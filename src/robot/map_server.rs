@@ -1,5 +1,5 @@
-//! Maps as the `map_server` of ROS keeps them: a YAML file that describes, and a picture that shows,
-//! from bytes and into bytes. Format: wiki.ros.org/map_server and `nav2_map_server` (map_io.cpp).
+//! Maps in the format of the ROS `map_server`: a YAML description and a picture, from bytes and to bytes.
+//! Format: wiki.ros.org/map_server and `nav2_map_server` (map_io.cpp).
 
 use std::io::Cursor;
 
@@ -9,7 +9,7 @@ use serde::Deserialize;
 use super::Pose;
 use super::grid_map::{Cell, GridMap, GridMapError};
 
-/// What a map's YAML file says.
+/// The contents of a map's YAML file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapDescription {
     /// The picture's file, beside the YAML file.
@@ -21,36 +21,36 @@ pub struct MapDescription {
     pub reading: PictureReading,
 }
 
-/// How pixels become cells.
+/// How pixels are turned into cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PictureReading {
-    /// What is more probably taken than this is taken, 0..=1.
+    /// Cells more likely occupied than this are occupied, 0..=1.
     pub occupied_thresh: f64,
-    /// What is less probably taken than this is free, 0..=1.
+    /// Cells less likely occupied than this are free, 0..=1.
     pub free_thresh: f64,
-    /// Light pixels are taken, dark ones free.
+    /// Inverted: light pixels are occupied, dark ones free.
     pub negate: bool,
     pub mode: MapMode,
 }
 
 impl PictureReading {
-    /// What `map_server` writes and reads where nothing else is said.
+    /// The defaults of `map_server`.
     pub const MAP_SERVER: Self =
         Self { occupied_thresh: 0.65, free_thresh: 0.196, negate: false, mode: MapMode::Trinary };
 
-    /// For plain pictures: white is free, and nothing else. Furniture and unknown space are often drawn in
-    /// light greys that `map_server` would take for free.
+    /// For plain pictures: only white is free. Furniture and unknown space are often drawn in light greys
+    /// that `map_server` would take as free.
     pub const PLAIN_PICTURE: Self = Self { free_thresh: 0.02, ..Self::MAP_SERVER };
 }
 
-/// How probabilities between the thresholds are taken.
+/// How probabilities between the thresholds are interpreted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum MapMode {
     /// They are unknown.
     #[default]
     Trinary,
-    /// As trinary, and pixels that are not opaque are unknown.
+    /// Like trinary, and pixels that are not opaque are unknown.
     Scale,
     /// Pixels are percentages, 0 to 100; others are unknown.
     Raw,
@@ -78,10 +78,10 @@ fn wrong<T>(what: impl Into<String>) -> Result<T, MapServerError> {
     Err(MapServerError(what.into()))
 }
 
-/// A map's YAML file has a dozen lines; a larger one than this many bytes is another file.
+/// The maximum size in bytes: a map's YAML file has a dozen lines, so a larger file is something else.
 pub const LARGEST_DESCRIPTION_BYTES: usize = 1 << 20;
 
-/// The file as it is written. Keys that are not known are left alone, as `map_server` does.
+/// The file as written. Unknown keys are ignored, as in `map_server`.
 #[derive(Deserialize)]
 struct Keys {
     image: String,
@@ -93,7 +93,7 @@ struct Keys {
     mode: Option<MapMode>,
 }
 
-/// 0 and 1 are usual; newer files say true and false.
+/// 0 and 1 are usual; newer files use true and false.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Flag {
@@ -104,7 +104,8 @@ enum Flag {
 /// Reads a map's YAML file.
 ///
 /// # Errors
-/// When it is no YAML, a key is missing or out of range, or the picture it names is not in its folder.
+/// When it is not valid YAML, a key is missing or out of range, or the picture it names is not in its
+/// folder.
 pub fn description(text: &str) -> Result<MapDescription, MapServerError> {
     if text.len() > LARGEST_DESCRIPTION_BYTES {
         return wrong("this is too large for the YAML file of a map; is it another file?");
@@ -134,14 +135,14 @@ pub fn description(text: &str) -> Result<MapDescription, MapServerError> {
     };
     check_is_beside(&keys.image)?;
     let origin = Pose::new(x, y, yaw);
-    // Resolution and origin are checked before the picture is looked for.
+    // Resolution and origin are checked before looking for the picture.
     GridMap::new(1, 1, keys.resolution, origin, vec![Cell::Unknown])?;
     Ok(MapDescription { image: keys.image, resolution_m: keys.resolution, origin, reading })
 }
 
 impl PictureReading {
     /// # Errors
-    /// When the thresholds are not in order within 0..=1.
+    /// When the thresholds are out of order or outside 0..=1.
     pub fn check(&self) -> Result<(), MapServerError> {
         let (free, occupied) = (self.free_thresh, self.occupied_thresh);
         if 0.0 <= free && free < occupied && occupied <= 1.0 {
@@ -217,7 +218,7 @@ pub fn picture_cells(bytes: &[u8], reading: PictureReading) -> Result<(usize, us
     Ok((width, height, cells))
 }
 
-/// `shade`: 0 black to 1 white.
+/// `shade` is from 0, black, to 1, white.
 fn cell(shade: f64, is_opaque: bool, reading: PictureReading) -> Cell {
     let taken = match reading.mode {
         MapMode::Trinary => None,
@@ -238,7 +239,7 @@ fn cell(shade: f64, is_opaque: bool, reading: PictureReading) -> Cell {
     }
 }
 
-/// A map's picture as `map_server` writes it: PGM (P5), free 254, taken 0, unknown 205.
+/// A map's picture as written by `map_server`: PGM (P5), free 254, occupied 0, unknown 205.
 pub fn pgm(map: &GridMap) -> Vec<u8> {
     let mut bytes = format!("P5\n{} {}\n255\n", map.width(), map.height()).into_bytes();
     bytes.extend(map.cells().iter().map(|cell| match cell {
@@ -249,8 +250,8 @@ pub fn pgm(map: &GridMap) -> Vec<u8> {
     bytes
 }
 
-/// The YAML file to go with [`pgm`]. `semantics` is the file that says what the rooms are; `map_server`
-/// leaves that key alone.
+/// The YAML file for [`pgm`]. `semantics` names the file that says what the rooms are; `map_server`
+/// ignores that key.
 pub fn yaml(map: &GridMap, image: &str, semantics: &str) -> Result<String, MapServerError> {
     #[derive(serde::Serialize)]
     struct Written<'a> {
@@ -363,7 +364,7 @@ mod tests {
     }
 
     proptest! {
-        // Mutations of sound files: an answer or an error, never a panic.
+        // Mutations of valid files: a result or an error, never a panic.
         #[test]
         fn changed_bytes_never_panic(
             changes in proptest::collection::vec((0usize..400, any::<u8>()), 1..12), cut in 0usize..400,

@@ -12,31 +12,31 @@ use super::split_and_merge::{SplitOptions, segments_of};
 use super::{LineSegment, Pose, Scan};
 use crate::geometry::Bounds;
 
-/// How a map is made.
+/// Mapping parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapperOptions {
     pub split: SplitOptions,
     pub matching: MatchOptions,
     pub fusion: FusionOptions,
     pub odometry: OdometryOptions,
-    /// Whether places seen before are recognised; without, the path drifts.
+    /// Whether to close loops; without, the path drifts.
     pub closes_loops: bool,
     pub closure: ClosureOptions,
-    /// A scan is kept once the robot has moved so far or turned so much since the last one kept.
+    /// A scan becomes a keyframe once the robot has moved or turned this much since the last one.
     pub keyframe_m: f64,
     pub keyframe_rad: f64,
-    /// Scans are matched to what the last so many to twice as many kept scans saw, 50 to 100 m of path:
-    /// lines older than that lie where the path had not drifted yet, and may be taken for others.
+    /// Scans are matched to the last keyframes, at least this many and at most twice as many, 50 to 100 m
+    /// of path: older lines are not yet affected by the drift, and could be mistaken for others.
     pub memory: usize,
-    /// A match that explains less of a scan is not believed.
+    /// A match that explains a smaller share of a scan is rejected.
     pub least_explained: f64,
-    /// How far lines are looked for at first, in metres; further, up to the matching's first reach,
-    /// where a match found so explains less of the scan than `sure`.
+    /// The initial search distance for lines, in metres; extended up to the matching's first reach if a
+    /// match explains less of the scan than `sure`.
     pub near_reach_m: f64,
     pub sure: f64,
     /// A match that explains less is compared with those of a coarse search in the window `lost`.
     pub trusted: f64,
-    /// Odometry is never further off between two scans: what matches elsewhere only looks alike.
+    /// The maximum odometry error between two scans: matches further away only look alike.
     pub lost: Window,
 }
 
@@ -61,7 +61,7 @@ impl Default for MapperOptions {
     }
 }
 
-/// What the robot's scanners show at one place, in the robot's frame.
+/// The view of the robot's scanners from one place, in the robot's frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct View {
     pub segments: Vec<LineSegment>,
@@ -91,7 +91,7 @@ impl View {
     }
 }
 
-/// A scan that is kept. Its pose is in the pose graph.
+/// A keyframe: a scan that is kept. Its pose is in the pose graph.
 #[derive(Clone, Debug, PartialEq)]
 struct Keyframe {
     odometry: Pose,
@@ -100,14 +100,14 @@ struct Keyframe {
     path_m: f64,
 }
 
-/// Where a scan was taken: seen from the keyframe before it, so that it moves with that.
+/// The place of a scan relative to the preceding keyframe, so that it moves with that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Taken {
     keyframe: usize,
     from_keyframe: Pose,
 }
 
-/// Builds a map from scans as they come. What a scan costs depends on what is near; only closing a
+/// Builds a map from scans as they arrive. The cost of a scan depends on what is nearby; only closing a
 /// loop moves the whole path.
 #[derive(Clone, Debug, Default)]
 pub struct Mapper {
@@ -118,16 +118,16 @@ pub struct Mapper {
     last_odometry: Pose,
     last_motion: Pose,
     calibration: OdometryCalibration,
-    /// The lines of the last kept scans, to match with; and of the latest of them.
+    /// The lines of the most recent keyframes, to match with; and those of the latest part of them.
     recent: LineMap,
     latest: LineMap,
     in_latest: usize,
     /// Path length at the last closure.
     closed_at_m: f64,
-    /// Closures over a drift so wide that they wait for a second one.
+    /// Closures over so much drift that they wait for a second one.
     waiting: Vec<Edge>,
-    /// Closures since the poses were last optimised, and how far they are from being satisfied, in
-    /// squared deviations.
+    /// The number of closures since the poses were last optimised, and their total residual, in squared
+    /// deviations.
     fresh: usize,
     strain: f64,
 }
@@ -137,7 +137,7 @@ impl Mapper {
         Self { calibration: OdometryCalibration::new(options.odometry), options, ..Self::default() }
     }
 
-    /// Takes in what the scanners saw at one place, and gives the robot's pose there.
+    /// Processes the scans from one place, and returns the robot's pose there.
     pub fn add(&mut self, odometry: Pose, scans: &[Scan]) -> Pose {
         let view = View::of(scans, &self.options.split);
         let Some(last_pose) = self.pose() else {
@@ -146,7 +146,7 @@ impl Mapper {
             return Pose::IDENTITY;
         };
         let reported = self.last_odometry.between(odometry);
-        // Without odometry the robot most likely goes on as before.
+        // Without odometry the robot most likely continues as before.
         let reported = if self.options.odometry.is_absent { self.last_motion } else { reported };
         let likely = self.calibration.corrected(reported);
         self.last_odometry = odometry;
@@ -171,12 +171,12 @@ impl Mapper {
         self.pose().unwrap_or(pose)
     }
 
-    /// The present pose.
+    /// The current pose.
     pub fn pose(&self) -> Option<Pose> {
         self.taken.last().map(|taken| self.pose_of(taken))
     }
 
-    /// The poses of all scans that were taken in, as best known by now.
+    /// The current best estimates of the poses of all scans.
     pub fn poses(&self) -> Vec<Pose> {
         self.taken.iter().map(|taken| self.pose_of(taken)).collect()
     }
@@ -185,19 +185,19 @@ impl Mapper {
         self.graph.poses[taken.keyframe].compose(taken.from_keyframe)
     }
 
-    /// The lines of all kept scans, each where its pose is best known to be.
+    /// The lines of all keyframes, at the current best estimates of their poses.
     pub fn map(&self) -> LineMap {
         self.map_of(0..self.keyframes.len(), |segment| self.options.split.is_firm(segment))
     }
 
-    /// How many places were recognised, and how many of these the rest of the path contradicts.
+    /// The number of recognised places, and how many of these contradict the rest of the path.
     pub fn closures(&self) -> (usize, usize) {
         let closures = self.graph.edges.iter().filter(|edge| edge.is_closure);
         let doubted = closures.clone().filter(|edge| self.graph.weight(edge) < 0.1).count();
         (closures.count(), doubted)
     }
 
-    /// Settles what is left to settle. Call it once, after the last scan.
+    /// Optimises what is left. Call it once, after the last scan.
     pub fn finish(&mut self) {
         if self.fresh > 0 {
             self.optimise();
@@ -221,7 +221,8 @@ impl Mapper {
         let reference = Reference::new(&lines, bounds, reach_m);
         let from = |start, options: &MatchOptions| match_points(&reference, &view.points, start, Some(prior), options);
         let matching = self.options.matching;
-        // Near the odometry first: a reach too long is drawn to the wrong one of many door frames.
+        // Near the odometry first: with too long a reach, a match is drawn to the wrong one of many door
+        // frames.
         let near = MatchOptions { first_reach_m: self.options.near_reach_m, ..matching };
         let mut found: Vec<Match> = from(prior.pose, &near).into_iter().collect();
         let explained = |found: &[Match]| found.iter().map(|found| found.explained).fold(0.0, f64::max);
@@ -247,7 +248,7 @@ impl Mapper {
         best.filter(|found| found.explained > self.options.least_explained)
     }
 
-    /// Keeps a scan; `step` is the way from the one kept before.
+    /// Keeps a scan as a keyframe; `step` is the motion since the last one.
     fn keep(&mut self, odometry: Pose, pose: Pose, view: View, step: Option<PoseEstimate>) {
         for segment in &view.segments {
             let segment = segment.moved(pose);
@@ -273,7 +274,7 @@ impl Mapper {
         }
     }
 
-    /// Looks whether the present place was seen before.
+    /// Checks whether the current place was seen before.
     fn look_back(&mut self, id: usize) {
         let options = self.options.closure;
         let since_m = self.keyframes[id].path_m - self.closed_at_m;
@@ -293,13 +294,13 @@ impl Mapper {
                 self.waiting.push(edge);
             }
         }
-        // A path that agrees with what was recognised need not be moved yet.
+        // A path consistent with the closures need not be moved yet.
         if self.strain > MOST_STRAIN {
             self.optimise();
         }
     }
 
-    /// Keyframes of places that may be the present one: nearest first, one a stretch of path.
+    /// Keyframes of places that may be the current one: nearest first, one per stretch of path.
     fn places(&self, id: usize, drift: Drift) -> Vec<usize> {
         let options = &self.options.closure;
         let here = self.graph.poses[id].position();
@@ -348,7 +349,7 @@ impl Mapper {
         recognise(&segments, &points, guess, drift, options, &self.options.matching, &self.options.fusion)
     }
 
-    /// Whether two closures move the path alike.
+    /// Whether two closures move the path in the same way.
     fn agree(&self, a: &Edge, b: &Edge) -> bool {
         if self.keyframes[b.to].path_m - self.keyframes[a.to].path_m > AGREEING_WITHIN_M || a.to == b.to {
             return false;
@@ -381,24 +382,24 @@ impl Mapper {
     }
 }
 
-/// Poses of a coarse search that are looked at closely.
+/// Poses from a coarse search that are examined closely.
 const MOST_STARTS: usize = 3;
-/// Closures may be off by this much, in squared deviations, before the path is moved: three is what
-/// chance leaves of one.
+/// Closures may be off by this much, in squared deviations, before the path is moved: chance alone leaves
+/// three for each.
 const MOST_STRAIN: f64 = 6.0;
-/// Places looked at for one keyframe.
+/// Places examined for one keyframe.
 const MOST_PLACES: usize = 2;
-/// Two wide closures must come within this path, and agree so well.
+/// Two wide closures must come within this length of path, and agree this well.
 const AGREEING_WITHIN_M: f64 = 10.0;
 const AGREEING_M: f64 = 0.4;
 const AGREEING_RAD: f64 = 0.08;
 
-/// A measured pose is never better than this, in metres and radians: scanners have systematic errors
-/// that no number of readings averages out.
+/// A measured pose is never better than this, in metres and radians: scanners have systematic errors that
+/// do not average out.
 const FINEST_M: f64 = 0.01;
 const FINEST_RAD: f64 = 0.004;
 
-/// Information with the floor added to its covariance.
+/// An information matrix with the floor added to its covariance.
 fn softened(information: Matrix3<f64>) -> Matrix3<f64> {
     let floor =
         Matrix3::from_diagonal(&Vector3::new(FINEST_M * FINEST_M, FINEST_M * FINEST_M, FINEST_RAD * FINEST_RAD));

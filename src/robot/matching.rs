@@ -1,11 +1,11 @@
-//! Scan matching: the pose from which the segments of a scan fall on the lines of a map.
+//! Scan matching: finds the pose that places the segments of a scan on the lines of a map.
 //!
-//! Segments are matched to segments as in the paper's reference 18 (Lakaemper, Latecki and Wolter
-//! 2005): each segment of the scan looks for a line of the map that is near, nearly parallel and
-//! seen from the same side. What it leaves open, how the pose follows from the matches, is the
-//! point-to-line metric of Censi (2008, PLICP) over the points of the matched segments: Gauss-Newton
-//! with weights that fall with distance, and the odometry as a prior (Lu and Milios 1997 weigh both
-//! by their covariances in the same way), so that a direction no wall measures keeps its odometry.
+//! Segments are matched to segments as in the paper's reference 18 (Lakaemper, Latecki and Wolter 2005):
+//! each segment of the scan looks for a nearby, nearly parallel line of the map seen from the same side.
+//! It leaves open how the pose follows from the matches; here that is the point-to-line metric of Censi
+//! (2008, PLICP) over the points of the matched segments: Gauss-Newton with weights that fall with
+//! distance, and the odometry as a prior (Lu and Milios 1997 weigh both by their covariances in the same
+//! way), so that directions not constrained by any wall follow the odometry.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -17,31 +17,32 @@ use crate::geometry::{Bounds, Point, Vector};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
     pub at: Point,
-    /// Along the segment it belongs to, a unit vector; who saw it stood to the left.
+    /// Along its segment, a unit vector; the observer was to the left.
     pub along: Vector,
 }
 
-/// A pose with how well it is known.
+/// A pose with its uncertainty.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseEstimate {
     pub pose: Pose,
-    /// Inverse covariance of the pose's displacement ahead, to the left, and of its heading, in its
-    /// own frame: 1/m², 1/(m rad), 1/rad².
+    /// Inverse covariance of the displacement ahead, to the left, and of the heading, in the pose's own
+    /// frame: 1/m², 1/(m rad), 1/rad².
     pub information: Matrix3<f64>,
 }
 
-/// How matches are sought.
+/// Matching parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MatchOptions {
-    /// How far a point may lie from its line at first, in metres.
+    /// The maximum distance of a point from its line in the first iteration, in metres.
     pub first_reach_m: f64,
-    /// And at last.
+    /// And in the last.
     pub last_reach_m: f64,
-    /// The largest angle between a segment of the scan and its line.
+    /// The maximum angle between a segment of the scan and its line.
     pub angle_rad: f64,
-    /// Deviation of a point across its line, in metres: noise of the readings and of the world.
+    /// Standard deviation of a point across its line, in metres: noise of the readings and of the world.
     pub sigma_m: f64,
-    /// How many points of a scan say as much as one independent one: neighbours share their errors.
+    /// How many points of a scan carry as much information as one independent one: neighbours share
+    /// errors.
     pub points_per_measurement: f64,
 }
 
@@ -57,33 +58,33 @@ impl Default for MatchOptions {
     }
 }
 
-/// What came of matching.
+/// The result of matching.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Match {
     /// The information is that of the lines alone, without the prior.
     pub estimate: PoseEstimate,
-    /// The share of points that lie on a line within the last reach, in 0..=1.
+    /// The share of points within the last reach of a line, in 0..=1.
     pub explained: f64,
     /// Root mean square distance of these from their lines, in metres.
     pub residual_m: f64,
 }
 
 impl Match {
-    /// How well the lines explain `count` points, as a logarithm: each that is explained is as much
-    /// more likely as the kernel of the last step says.
+    /// The log likelihood of `count` points given the lines: each explained point is more likely by the
+    /// factor that the kernel of the last iteration gives.
     pub fn log_likelihood(&self, count: usize, options: &MatchOptions) -> f64 {
         let scale = 0.5 * options.last_reach_m / options.sigma_m;
         self.explained * count as f64 / options.points_per_measurement * 0.5 * scale * scale
     }
 }
 
-/// One line to match with.
+/// A line to match with.
 #[derive(Clone, Copy, Debug)]
 struct Target {
     start: Point,
     along: Vector,
     length_m: f64,
-    /// Where along the line the centroid of its points lies.
+    /// The position along the line of its points' centroid.
     centroid_m: f64,
     /// 1/n and 1/Σs²: the line's covariance in units of a point's variance.
     offset_variance: f64,
@@ -104,7 +105,7 @@ impl Target {
         }
     }
 
-    /// Squared distance to the segment, signed distance to its line, and place along it, in metres.
+    /// Squared distance to the segment, signed distance to its line, and position along it, in metres.
     fn place(&self, point: Point) -> (f64, f64, f64) {
         let way = point - self.start;
         let (at, off) = (way.dot(self.along), self.along.cross(way));
@@ -113,7 +114,7 @@ impl Target {
     }
 }
 
-/// The lines of a neighbourhood, in cells, so that the lines near a point are at hand.
+/// The lines of a neighbourhood, in a grid of cells, for fast lookup near a point.
 #[derive(Clone, Debug)]
 pub struct Reference {
     targets: Vec<Target>,
@@ -127,11 +128,11 @@ pub struct Reference {
 
 /// Side of a cell in metres: about the first reach.
 const CELL_M: f64 = 0.5;
-/// A neighbourhood is never wider: the longest range of common scanners both ways.
+/// Maximum width of a neighbourhood: the longest range of common scanners in both directions.
 const WIDEST_M: f64 = 200.0;
 
 impl Reference {
-    /// The lines as they matter within `bounds`; a point up to `reach_m` from a line will find it.
+    /// The lines within `bounds`; a point up to `reach_m` from a line will find it.
     pub fn new<'a>(lines: impl IntoIterator<Item = &'a LineSegment>, bounds: Bounds, reach_m: f64) -> Self {
         let targets: Vec<Target> = lines.into_iter().map(Target::new).collect();
         let side = |length: f64| (length.min(WIDEST_M) / CELL_M).ceil().max(1.0) as usize;
@@ -159,7 +160,7 @@ impl Reference {
         reference
     }
 
-    /// Calls `found` with each cell that has a point within `reach_m` of the target (and a few more).
+    /// Calls `found` with each cell that contains points within `reach_m` of the target (and a few more).
     fn cells_near(&self, target: &Target, reach_m: f64, mut found: impl FnMut(usize)) {
         let end = target.start + target.along * target.length_m;
         let bounds = Bounds::of([target.start, end]).inflated(reach_m);
@@ -188,7 +189,8 @@ impl Reference {
         &self.of_cell[self.starts[cell]..self.starts[cell + 1]]
     }
 
-    /// The nearest line within reach whose direction agrees, with signed distance and place along.
+    /// The nearest line within reach with a similar direction, with signed distance and position along
+    /// it.
     fn nearest(&self, point: Point, along: Vector, reach_m: f64, least_cos: f64) -> Option<(&Target, f64, f64)> {
         let mut best: Option<(&Target, f64, f64)> = None;
         let mut least = reach_m * reach_m;
@@ -206,7 +208,7 @@ impl Reference {
         best
     }
 
-    /// The share of points that lie within `reach_m` of a line whose direction agrees.
+    /// The share of points within `reach_m` of a line with a similar direction.
     pub fn explained(&self, points: &[SurfacePoint], pose: Pose, reach_m: f64, angle_rad: f64) -> f64 {
         let least_cos = angle_rad.cos();
         let found = points
@@ -217,13 +219,13 @@ impl Reference {
     }
 }
 
-/// Steps of Gauss-Newton at most.
+/// Maximum Gauss-Newton iterations.
 const MOST_STEPS: usize = 40;
-/// The reach shrinks by this factor a step.
+/// The reach shrinks by this factor in each iteration.
 const SHRINKING: f64 = 0.75;
 
-/// The pose near `guess` at which the points, given in the robot's frame, lie on the reference's
-/// lines; `prior` holds it where the lines leave it free. `None` when no line is near.
+/// The pose near `guess` that puts the points, given in the robot's frame, on the reference's lines;
+/// `prior` determines what the lines leave free. `None` if no line is near.
 pub fn match_points(
     reference: &Reference,
     points: &[SurfacePoint],
@@ -241,7 +243,7 @@ pub fn match_points(
             matrix += prior_matrix;
             vector += prior_vector;
         }
-        // A breath of damping: with one wall and no prior the system is singular.
+        // Slight damping: with one wall and no prior the system is singular.
         matrix += Matrix3::from_diagonal(&Vector3::new(1e-3, 1e-3, 1e-3));
         let step = matrix.cholesky()?.solve(&vector);
         pose = Pose::new(pose.x_m + step.x, pose.y_m + step.y, pose.heading_rad + step.z);
@@ -263,7 +265,7 @@ pub fn match_points(
     })
 }
 
-/// Normal equations of a small displacement in the world's frame, the turn being about the robot.
+/// Normal equations of a small displacement in the world's frame, turning about the robot.
 struct Pull {
     matrix: Matrix3<f64>,
     vector: Vector3<f64>,
@@ -286,7 +288,7 @@ fn pull(reference: &Reference, points: &[SurfacePoint], pose: Pose, reach_m: f64
             * options.sigma_m
             * options.points_per_measurement
             * (1.0 + target.offset_variance + lever * lever * target.angle_variance);
-        // Geman and McClure's weight: what is far counts little.
+        // Geman-McClure weights: distant points count little.
         let doubt = 1.0 + (off / scale).powi(2);
         let weight = 1.0 / (variance * doubt * doubt);
         let normal = target.along.left();
@@ -299,8 +301,8 @@ fn pull(reference: &Reference, points: &[SurfacePoint], pose: Pose, reach_m: f64
     pull
 }
 
-/// How improbable a pose is under a prior: the negative logarithm of its density against the
-/// highest, of Student's distribution in three dimensions.
+/// How unlikely a pose is under a prior: the negative log density relative to the mode, for Student's t
+/// distribution in three dimensions.
 pub fn surprise(prior: &PoseEstimate, pose: Pose) -> f64 {
     let off = prior.pose.between(pose);
     let off = Vector3::new(off.x_m, off.y_m, off.heading_rad);
@@ -310,7 +312,7 @@ pub fn surprise(prior: &PoseEstimate, pose: Pose) -> f64 {
 /// Degrees of freedom of the prior's distribution.
 const PRIOR_TAIL: f64 = 4.0;
 
-/// How the prior pulls a pose towards its own.
+/// The pull of the prior towards its own pose.
 fn pull_of_prior(prior: &PoseEstimate, pose: Pose) -> (Matrix3<f64>, Vector3<f64>) {
     let matrix = turned(&prior.information, prior.pose.heading_rad);
     let off = Vector3::new(
@@ -318,12 +320,12 @@ fn pull_of_prior(prior: &PoseEstimate, pose: Pose) -> (Matrix3<f64>, Vector3<f64
         prior.pose.y_m - pose.y_m,
         wrapped_rad(prior.pose.heading_rad - pose.heading_rad),
     );
-    // Heavy tails (Student's t): wheels slip, and some robots report a drive back as one ahead.
+    // Heavy tails (Student's t): wheels slip, and some robots report reversing as driving ahead.
     let doubt = 1.0 + (off.dot(&(matrix * off))) / PRIOR_TAIL;
     (matrix / doubt, matrix * off / doubt)
 }
 
-/// An information matrix over (x, y, heading) whose frame is turned by `angle_rad` into another.
+/// An information matrix over (x, y, heading) in a frame rotated by `angle_rad`.
 fn turned(information: &Matrix3<f64>, angle_rad: f64) -> Matrix3<f64> {
     let (sin, cos) = angle_rad.sin_cos();
     let turn = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);

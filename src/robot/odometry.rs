@@ -1,27 +1,27 @@
-//! A differential drive whose odometry drifts.
+//! A differential drive with drifting odometry.
 
 use super::Pose;
 use super::pose::wrapped_rad;
 use crate::base::random::Random;
 
-/// The noise of odometry: the standard motion model of Thrun, Burgard and Fox (Probabilistic Robotics,
-/// 2005, table 5.6), in which every small motion is a turn, a straight drive and a turn.
+/// Odometry noise: the standard motion model of Thrun, Burgard and Fox (Probabilistic Robotics, 2005,
+/// table 5.6), in which every small motion is a turn, a straight drive and a turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OdometryNoise {
-    /// Variance of a turn by the square of the turn.
+    /// Turn variance per squared turn.
     pub alpha_1: f64,
-    /// Variance of a turn by the square of the drive, rad² a m².
+    /// Turn variance per squared distance, rad² per m².
     pub alpha_2: f64,
-    /// Variance of the drive by its square.
+    /// Distance variance per squared distance.
     pub alpha_3: f64,
-    /// Variance of the drive by the squares of both turns, m² a rad².
+    /// Distance variance per squared turns, m² per rad².
     pub alpha_4: f64,
 }
 
 impl OdometryNoise {
     pub const NONE: Self = Self { alpha_1: 0.0, alpha_2: 0.0, alpha_3: 0.0, alpha_4: 0.0 };
 
-    /// Standard deviation of the motion model in units of the default's: 0 for none, 1 for the default.
+    /// The model with standard deviations scaled: 0 for no noise, 1 for the default.
     #[must_use]
     pub fn times(self, factor: f64) -> Self {
         let squared = factor * factor;
@@ -33,14 +33,14 @@ impl OdometryNoise {
         }
     }
 
-    /// What the robot did when its odometry says `odometry`, both seen from where it stood before: a
-    /// sample of the model.
+    /// A sample of the true motion when the odometry reports `odometry`, both relative to the previous
+    /// pose.
     pub fn sample(&self, odometry: Pose, random: &mut Random) -> Pose {
         let drive_m = odometry.x_m.hypot(odometry.y_m);
-        // A robot that turns on the spot has no direction of driving.
+        // A turn on the spot has no driving direction.
         let first_rad = if drive_m < 1e-6 { 0.0 } else { odometry.y_m.atan2(odometry.x_m) };
         let second_rad = wrapped_rad(odometry.heading_rad - first_rad);
-        // Driving backwards is no turn by half a circle (the model's known flaw).
+        // Reversing is not a turn by half a circle (the model's known flaw).
         let turn = |angle_rad: f64| angle_rad.abs().min((std::f64::consts::PI - angle_rad.abs()).abs());
         let (first, second) = (turn(first_rad).powi(2), turn(second_rad).powi(2));
         let of_turn = |turn_squared: f64| (self.alpha_1 * turn_squared + self.alpha_2 * drive_m * drive_m).sqrt();
@@ -54,9 +54,9 @@ impl OdometryNoise {
 }
 
 impl Default for OdometryNoise {
-    /// Of the order of what skid-steered robots show indoors: a standard deviation of 10 % of a small
-    /// turn, 5 % of a small drive, and 3 degrees a metre. Errors of a path's many steps mostly cancel:
-    /// 100 m in steps of 0.1 m drift by 0.16 m along and by 13 degrees in heading.
+    /// Typical of skid-steered robots indoors: a standard deviation of 10 % of a small turn, 5 % of a
+    /// small drive, and 3 degrees per metre. Errors over the many steps of a path mostly cancel: 100 m in
+    /// steps of 0.1 m drift by 0.16 m along and by 13 degrees in heading.
     fn default() -> Self {
         Self { alpha_1: 0.01, alpha_2: 0.0025, alpha_3: 0.0025, alpha_4: 0.0001 }
     }

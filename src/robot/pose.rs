@@ -1,9 +1,9 @@
 use crate::geometry::{Point, Vector};
 
-/// Where something stands and which way it looks: a rigid motion of the plane.
+/// A position and heading: a rigid motion of the plane.
 ///
-/// A pose named `world_from_robot` takes points in the robot's frame (x ahead, y to the left) into
-/// the world's frame; [`Pose::compose`] chains such names as they read:
+/// A pose named `world_from_robot` maps points in the robot's frame (x ahead, y to the left) to the
+/// world's frame; [`Pose::compose`] chains such names as they read:
 /// `world_from_robot.compose(robot_from_scanner)` is `world_from_scanner`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose {
@@ -14,10 +14,10 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// At the origin, looking along the x axis.
+    /// At the origin, facing along the x axis.
     pub const IDENTITY: Self = Self { x_m: 0.0, y_m: 0.0, heading_rad: 0.0 };
 
-    /// The heading may be any angle; it is brought into (-π, π].
+    /// The heading may be any angle; it is wrapped into (-π, π].
     pub fn new(x_m: f64, y_m: f64, heading_rad: f64) -> Self {
         Self { x_m, y_m, heading_rad: wrapped_rad(heading_rad) }
     }
@@ -30,39 +30,39 @@ impl Pose {
         self.x_m.is_finite() && self.y_m.is_finite() && self.heading_rad.is_finite()
     }
 
-    /// This pose followed by `next`, which is given in this pose's frame.
+    /// This pose followed by `next`, which is relative to this pose.
     #[must_use]
     pub fn compose(self, next: Self) -> Self {
         let at = self.apply(next.position());
         Self::new(at.x, at.y, self.heading_rad + next.heading_rad)
     }
 
-    /// The pose whose composition with this one, on either side, is the identity.
+    /// The inverse: composed with this pose on either side it gives the identity.
     #[must_use]
     pub fn inverse(self) -> Self {
         let back = Vector::new(-self.x_m, -self.y_m).rotated(-self.heading_rad);
         Self::new(back.x, back.y, -self.heading_rad)
     }
 
-    /// `other` as seen from this pose: `self.compose(self.between(other))` is `other`.
+    /// `other` relative to this pose: `self.compose(self.between(other))` is `other`.
     #[must_use]
     pub fn between(self, other: Self) -> Self {
         let way = (other.position() - self.position()).rotated(-self.heading_rad);
         Self::new(way.x, way.y, other.heading_rad - self.heading_rad)
     }
 
-    /// A point of this pose's frame in the outer frame.
+    /// Maps a point from this pose's frame to the outer frame.
     pub fn apply(self, point: Point) -> Point {
         self.position() + self.rotate(Vector::new(point.x, point.y))
     }
 
-    /// A direction of this pose's frame in the outer frame.
+    /// Maps a direction from this pose's frame to the outer frame.
     pub fn rotate(self, vector: Vector) -> Vector {
         vector.rotated(self.heading_rad)
     }
 }
 
-/// The same angle in (-π, π].
+/// The angle wrapped into (-π, π].
 pub fn wrapped_rad(angle_rad: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
     if angle_rad > -PI && angle_rad <= PI {

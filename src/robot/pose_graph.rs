@@ -1,8 +1,8 @@
-//! A graph of poses: what was measured between them, and the poses that agree with it best.
+//! A pose graph: measurements between poses, and the poses that fit them best.
 //!
-//! Levenberg and Marquardt's method on the sparse normal equations (Grisetti et al. 2010, 'A tutorial
-//! on graph-based SLAM'). Closures of loops may be wrong: each is weighed down as it disagrees with
-//! the rest by dynamic covariance scaling (Agarwal et al. 2013).
+//! The Levenberg-Marquardt method on the sparse normal equations (Grisetti et al. 2010, 'A tutorial on
+//! graph-based SLAM'). Loop closures may be wrong: each is down-weighted according to its disagreement
+//! with the rest, by dynamic covariance scaling (Agarwal et al. 2013).
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -16,29 +16,30 @@ use super::matching::PoseEstimate;
 pub struct Edge {
     pub from: usize,
     pub to: usize,
-    /// The pose of `to` as seen from `from`, with its information in its own frame.
+    /// The pose of `to` relative to `from`, with its information in its own frame.
     pub measured: PoseEstimate,
     /// A closure may be wrong; a step of the path is not.
     pub is_closure: bool,
 }
 
-/// Poses and what was measured between them. The first pose stays where it is.
+/// Poses and the measurements between them. The first pose is fixed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PoseGraph {
     pub poses: Vec<Pose>,
     pub edges: Vec<Edge>,
 }
 
-/// Squared error, in deviations, up to which a closure counts fully (Φ of Agarwal et al., who use 1
-/// to 10).
+/// Squared error, in deviations, up to which a closure has full weight (Φ of Agarwal et al., who use 1 to
+/// 10).
 const DOUBTED_FROM: f64 = 5.0;
 const MOST_STEPS: usize = 25;
-/// Steps smaller than this, in metres and radians, end it: a hundredth of what a scanner resolves.
+/// Iteration stops at steps smaller than this, in metres and radians: a hundredth of a scanner's
+/// resolution.
 const SETTLED: f64 = 1e-4;
 
 impl PoseGraph {
-    /// Moves the poses to where the weighted squares of all errors are least, starting from where
-    /// they are. Edges to poses that do not exist are passed over.
+    /// Minimises the weighted sum of squared errors over the poses, starting from their current values.
+    /// Edges to poses that do not exist are ignored.
     pub fn optimise(&mut self) {
         let count = self.poses.len();
         let mut damping = 1e-6;
@@ -58,7 +59,7 @@ impl PoseGraph {
                 *pose = Pose::new(pose.x_m + step.x, pose.y_m + step.y, pose.heading_rad + step.z);
             }
             let after = self.cost();
-            // Not-a-number is no improvement either.
+            // NaN is no improvement either.
             if after.is_nan() || cost.is_nan() || after > cost {
                 self.poses = before;
                 damping *= 10.0;
@@ -75,13 +76,13 @@ impl PoseGraph {
         }
     }
 
-    /// How far an edge is from being satisfied, in squared deviations.
+    /// The squared error of an edge, in squared deviations.
     pub fn squared_error(&self, edge: &Edge) -> f64 {
         let Some((error, ..)) = self.error(edge) else { return 0.0 };
         error.dot(&(edge.measured.information * error))
     }
 
-    /// How much an edge counts, 0 to 1.
+    /// The weight of an edge, 0 to 1.
     pub fn weight(&self, edge: &Edge) -> f64 {
         if !edge.is_closure {
             return 1.0;
@@ -105,14 +106,15 @@ impl PoseGraph {
             .sum()
     }
 
-    /// The error of an edge in the frame of its measurement, and its derivatives by both poses.
+    /// The error of an edge in the frame of its measurement, and its derivatives with respect to both
+    /// poses.
     fn error(&self, edge: &Edge) -> Option<(Vector3<f64>, Matrix3<f64>, Matrix3<f64>)> {
         let (from, to) = (*self.poses.get(edge.from)?, *self.poses.get(edge.to)?);
         let measured = edge.measured.pose;
         let off = measured.between(from.between(to));
         let (sin, cos) = (-(from.heading_rad + measured.heading_rad)).sin_cos();
         let way = to.position() - from.position();
-        // d/dθ of a rotation by -θ is itself turned by -90 degrees.
+        // d/dθ of a rotation by -θ is itself rotated by -90 degrees.
         let (swing_x, swing_y) = (sin * way.x + cos * way.y, -cos * way.x + sin * way.y);
         let by_to = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
         let by_from = Matrix3::new(-cos, sin, swing_x, -sin, -cos, swing_y, 0.0, 0.0, -1.0);
@@ -149,11 +151,11 @@ impl PoseGraph {
 /// The blocks on and below the diagonal of a symmetric matrix, by row and column.
 type Blocks = BTreeMap<(usize, usize), Matrix3<f64>>;
 
-/// Holds the first pose.
+/// Weight that fixes the first pose.
 const FIXED: f64 = 1e12;
 
-/// An order of elimination that fills in little: always the pose with the fewest neighbours left.
-/// Gives each pose's place in the order.
+/// An elimination order with little fill-in: always the pose with the fewest remaining neighbours.
+/// Returns each pose's place in the order.
 fn elimination_order(count: usize, edges: &[Edge]) -> Vec<usize> {
     let mut neighbours: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); count];
     for edge in edges.iter().filter(|edge| edge.from != edge.to && edge.from.max(edge.to) < count) {
@@ -197,7 +199,7 @@ fn solve(blocks: &Blocks, pull: &[Vector3<f64>], damping: f64, place: &[usize]) 
             columns[row_at].insert(column_at, block.transpose());
         }
     }
-    // Right-looking: each finished column is subtracted from those it touches.
+    // Right-looking: each finished column is subtracted from the columns it affects.
     let mut inverses = Vec::with_capacity(count);
     for at in 0..count {
         let inverse = diagonal[at].cholesky()?.inverse();
@@ -240,7 +242,7 @@ mod tests {
         Edge { from, to, measured: PoseEstimate { pose, information }, is_closure }
     }
 
-    /// A drive around a square of 10 m, 1 m a step, with odometry that bends it.
+    /// A drive around a square of 10 m in steps of 1 m, with odometry that bends it.
     fn square() -> (Vec<Pose>, PoseGraph) {
         let step = |i: usize| Pose::new(1.0, 0.0, if i % 10 == 9 { std::f64::consts::FRAC_PI_2 } else { 0.0 });
         let bent = |i: usize| Pose::new(1.02, 0.01, step(i).heading_rad + 0.01);

@@ -1,15 +1,15 @@
-//! The area of a room as a robot measures it: the mean of the areas of the inner and the outer
-//! quadrilateral that best approximate its walls (paper, section 3.3).
+//! The area of a room as a robot measures it: the mean of the areas of the inner and outer quadrilaterals
+//! that best approximate its walls (paper, section 3.3).
 //!
-//! The paper leaves open which those are. Here: the smallest rectangle around the room, and the largest
-//! rectangle within it of the same directions.
+//! The paper does not define these. Here they are the smallest rectangle around the room, and the largest
+//! rectangle with the same directions inside it.
 
 use crate::geometry::{Bounds, Point, Vector, hull, polygon};
 
-/// The inner rectangle is sought on a raster of at most so many cells a side.
+/// The inner rectangle is searched for on a raster with at most this many cells per side.
 const RASTER: usize = 200;
 
-/// The mean of the areas in m² of the smallest rectangle around a ring and the largest within it.
+/// The mean of the areas in m² of the smallest rectangle around a ring and the largest inside it.
 pub fn mean_quadrilateral_m2(outer: &[Point]) -> f64 {
     let Some(along) = direction(outer) else { return 0.0 };
     let turned: Vec<Point> = outer
@@ -38,8 +38,8 @@ fn direction(ring: &[Point]) -> Option<Vector> {
     polygon::edges(&hull).filter_map(|edge| edge.vector().unit()).min_by(|&p, &q| size(p).total_cmp(&size(q)))
 }
 
-/// The area in m² of the largest rectangle with sides along the axes within a ring, on a raster: the
-/// largest rectangle under a histogram, row by row.
+/// The area in m² of the largest axis-aligned rectangle inside a ring, on a raster: the largest rectangle
+/// under a histogram, row by row.
 fn largest_within_m2(ring: &[Point], bounds: Bounds) -> f64 {
     let cell_m = (bounds.width().max(bounds.height()) / RASTER as f64).max(0.02);
     let (columns, rows) = ((bounds.width() / cell_m) as usize, (bounds.height() / cell_m) as usize);
@@ -94,7 +94,7 @@ mod tests {
         for turn_rad in [0.0, 0.4] {
             let room = ring(&[(0.0, 0.0), (6.0, 0.0), (6.0, 4.0), (0.0, 4.0)], turn_rad);
             assert!((mean_quadrilateral_m2(&room) - 24.0).abs() < 0.5);
-            // Around it 6 x 4, within it 6 x 2.
+            // Around it 6 x 4, inside it 6 x 2.
             let l = ring(&[(0.0, 0.0), (6.0, 0.0), (6.0, 2.0), (2.0, 2.0), (2.0, 4.0), (0.0, 4.0)], turn_rad);
             assert!((mean_quadrilateral_m2(&l) - 18.0).abs() < 0.5);
         }

@@ -1,15 +1,15 @@
-//! Segments in a grid of square cells, for rays: a ray looks only at what lies in the cells it crosses.
+//! A grid of square cells for ray casting: a ray looks only at segments in the cells it crosses.
 
 use crate::geometry::{Bounds, Point, Segment, Vector};
 
-/// Side of a cell in metres where the segments do not ask for more: a ray in a room crosses a dozen
-/// cells, and few of them hold more than two walls.
+/// Side of a cell in metres, unless the segments need larger ones: a ray in a room crosses a dozen cells,
+/// few of which hold more than two walls.
 const CELL_M: f64 = 0.5;
 
-/// At most this many cells, so that two segments at opposite ends of the world cost no gigabytes.
+/// The most cells, so that two segments at opposite ends of the world do not cost gigabytes.
 const CELLS_LIMIT: f64 = 4e6;
 
-/// Segments that never change, found by the rays that hit them.
+/// Immutable segments, indexed for ray casting.
 #[derive(Clone, Debug)]
 pub struct RayGrid {
     segments: Vec<Segment>,
@@ -22,7 +22,7 @@ pub struct RayGrid {
     entries: Vec<u32>,
 }
 
-/// Where a ray hits.
+/// A ray's hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Metres from the ray's origin.
@@ -32,7 +32,7 @@ pub struct Hit {
 }
 
 impl RayGrid {
-    /// A grid over segments; those with an end that is not finite are never hit.
+    /// A grid over segments; those with a non-finite end are never hit.
     pub fn new(segments: Vec<Segment>) -> Self {
         let is_sound = |segment: &Segment| segment.a.is_finite() && segment.b.is_finite();
         let bounds = segments
@@ -67,7 +67,7 @@ impl RayGrid {
         &self.segments
     }
 
-    /// Calls `each` for the cells whose square, a little widened, a segment meets.
+    /// Calls `each` for the cells whose slightly enlarged square a segment meets.
     fn cells_touched(&self, segment: Segment, mut each: impl FnMut(usize)) {
         let bounds = segment.bounds();
         let ([left, low], [right, high]) = (self.cell_of(bounds.min), self.cell_of(bounds.max));
@@ -77,7 +77,8 @@ impl RayGrid {
             for column in left..=right {
                 let centre =
                     self.origin + Vector::new((column as f64 + 0.5) * self.cell_m, (row as f64 + 0.5) * self.cell_m);
-                // The line meets the square when its centre is no further aside than the square reaches.
+                // The line meets the square if its centre is no further from the line than the square
+                // extends that way.
                 let aside = normal.dot(centre - segment.a).abs();
                 if aside <= half * (normal.x.abs() + normal.y.abs()) + 1e-9 {
                     each(row * self.columns + column);
@@ -96,12 +97,12 @@ impl RayGrid {
         &self.entries[self.starts[cell] as usize..self.starts[cell + 1] as usize]
     }
 
-    /// The nearest segment that the ray from `origin` along the unit vector `direction` hits within
-    /// `reach_m` metres. A segment that passes through the origin is hit at 0.
+    /// The first segment hit by the ray from `origin` along the unit vector `direction` within `reach_m`
+    /// metres. A segment through the origin is hit at 0.
     pub fn cast(&self, origin: Point, direction: Vector, reach_m: f64) -> Option<Hit> {
         let (width, height) = (self.columns as f64 * self.cell_m, self.rows as f64 * self.cell_m);
         let from = origin - self.origin;
-        // Enter the grid's box.
+        // Clip to the grid's box.
         let (mut enter, mut leave) = (0.0_f64, reach_m);
         for (at, along, size) in [(from.x, direction.x, width), (from.y, direction.y, height)] {
             if along.abs() < 1e-15 {
@@ -139,7 +140,7 @@ impl RayGrid {
                 if let Some(distance_m) = hit_m(origin, direction, segment)
                     && distance_m <= nearest
                 {
-                    // Of two at the same place the first: no hash order, no chance.
+                    // If two are at the same place, the first: deterministic.
                     let is_first = best.is_none_or(|hit| distance_m < hit.distance_m || (index as usize) < hit.segment);
                     if is_first {
                         best = Some(Hit { distance_m, segment: index as usize });
@@ -164,13 +165,13 @@ impl RayGrid {
         }
     }
 
-    /// Whether a segment stands between two points.
+    /// Whether any segment blocks the line between two points.
     pub fn blocks(&self, from: Point, to: Point) -> bool {
         let way = to - from;
         way.unit().is_some_and(|direction| self.cast(from, direction, way.length()).is_some())
     }
 
-    /// The indices of segments in the cells that a box meets, sorted, each once.
+    /// The indices of segments in the cells that a box meets, sorted, without repeats.
     pub fn near(&self, bounds: Bounds) -> Vec<usize> {
         let ([left, low], [right, high]) = (self.cell_of(bounds.min), self.cell_of(bounds.max));
         let mut found: Vec<usize> = Vec::new();
@@ -191,8 +192,8 @@ impl RayGrid {
     }
 }
 
-/// How far along the ray a segment is hit. Ends count, a hair beyond included: no ray slips through a
-/// corner. A ray along a segment hits its nearer end.
+/// The distance along the ray to a segment, if hit. Ends count, with a small tolerance, so that no ray
+/// slips through a corner. A ray along a segment hits its nearer end.
 pub(super) fn hit_m(origin: Point, direction: Vector, segment: Segment) -> Option<f64> {
     let along = segment.vector();
     let to = segment.a - origin;
@@ -218,7 +219,7 @@ mod tests {
     }
 
     proptest! {
-        /// What the grid finds is what looking at every segment finds.
+        /// The grid finds the same as testing every segment.
         #[test]
         fn a_ray_hits_what_is_nearest(
             ends in prop::collection::vec((point(), point()), 0..40),

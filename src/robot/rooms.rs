@@ -1,5 +1,5 @@
-//! Rooms of a line map (paper, section 3.3): random points in the free space; points that see each other
-//! past walls and doorways are of one room.
+//! Finds the rooms of a line map (paper, section 3.3): random points in the free space belong to one room
+//! if they can see each other past walls and doorways.
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -14,13 +14,13 @@ use crate::geometry::areas::{self, Ring, Shapes};
 use crate::geometry::runs::{self, Axes};
 use crate::geometry::{Bounds, Point, Segment, Vector, polygon};
 
-/// How rooms are found.
+/// Room detection parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoomOptions {
     pub doorways: DoorwayOptions,
-    /// Random points a square metre.
+    /// Random points per square metre.
     pub points_per_m2: f64,
-    /// What is smaller is no room, in m²: a niche, a leak beside a wall.
+    /// Smaller pieces are not rooms, in m²: a niche, or a leak beside a wall.
     pub smallest_m2: f64,
     pub seed: u64,
 }
@@ -36,11 +36,11 @@ impl Default for RoomOptions {
 pub struct FoundRoom {
     pub outer: Vec<Point>,
     pub holes: Vec<Vec<Point>>,
-    /// `a`: the mean of the inner and the outer quadrilateral in m².
+    /// `a`: the mean of the inner and outer quadrilaterals, in m².
     pub area_m2: f64,
     /// `M` and `m`.
     pub axes: Option<Axes>,
-    /// Indices of the random points within it.
+    /// Indices of the random points inside it.
     pub points: Vec<usize>,
 }
 
@@ -52,29 +52,29 @@ impl FoundRoom {
     }
 }
 
-/// The rooms of a map and what they were found by.
+/// The rooms of a map and the evidence for them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FoundRooms {
-    /// For each segment of the map, the number of its wall; `None` where it is too short.
+    /// For each segment of the map, the index of its wall; `None` if it is too short.
     pub walls: Vec<Option<usize>>,
     pub doorways: Vec<Doorway>,
-    /// The rooms on the left and the right of each doorway, by index.
+    /// The indices of the rooms on the left and right of each doorway.
     pub sides: Vec<[Option<usize>; 2]>,
     /// The random points.
     pub points: Vec<Point>,
-    /// Pairs of points that see each other, by index: those that joined two sets.
+    /// Pairs of points that see each other, by index: those that merged two sets.
     pub sights: Vec<[usize; 2]>,
     pub rooms: Vec<FoundRoom>,
 }
 
-/// The rooms of the line map `segments` in the free space `free`, the same for the same seed.
+/// The rooms of the line map `segments` in the free space `free`; deterministic for a given seed.
 pub fn find_rooms(segments: &[Segment], free: &Shapes, options: &RoomOptions) -> FoundRooms {
     let boundary = RayGrid::new(edges(free));
     let long: Vec<Segment> =
         segments.iter().copied().filter(|segment| segment.length() >= options.doorways.shortest_m).collect();
     let mut found = doorways(segments, &boundary, &options.doorways);
     let walled = without_strips(free, &wall_strips(&long, &options.doorways));
-    // A doorway between a room and itself is none: without it the room may reach further, so look again.
+    // A doorway from a room to itself is spurious: without it the room may extend further, so repeat.
     let (pieces, sides) = loop {
         let strips: Vec<Ring> = found.iter().map(doorway_strip).collect();
         let pieces: Vec<Vec<Ring>> = without_strips(&walled, &strips);
@@ -85,7 +85,7 @@ pub fn find_rooms(segments: &[Segment], free: &Shapes, options: &RoomOptions) ->
             found.retain(|_| each.next().is_some_and(joins));
             continue;
         }
-        // Two doorways with nothing but a doorstep between them are one: the narrower.
+        // Two doorways with only a doorstep between them are one: keep the narrower.
         match between_two(&found, &sides, &pieces, options) {
             Some(wider) => found.remove(wider),
             None => break (pieces, sides),
@@ -109,7 +109,7 @@ pub fn find_rooms(segments: &[Segment], free: &Shapes, options: &RoomOptions) ->
     FoundRooms { walls: walls(segments, &options.doorways), doorways: found, sides, points, sights, rooms }
 }
 
-/// The edges of areas, which lie to their left.
+/// The edges of areas, with the area to their left.
 fn edges(shapes: &Shapes) -> Vec<Segment> {
     shapes.iter().flatten().flat_map(|ring| polygon::edges(&areas::points(ring)).collect::<Vec<_>>()).collect()
 }
@@ -121,11 +121,11 @@ fn without_strips(shapes: &Shapes, strips: &[Ring]) -> Shapes {
     shapes.overlay(&strips.to_vec(), OverlayRule::Difference, FillRule::NonZero)
 }
 
-/// Walls cut the free space in strips of this width in metres.
+/// Width in metres of the strips that walls cut out of the free space.
 const STRIP_M: f64 = 0.02;
 
-/// The segments of walls as strips, and what closes gaps too narrow for a doorway: between the ends of
-/// segments, and up to the wall that an end points at.
+/// The segments of walls as strips, plus strips that close gaps too narrow for a doorway: between the
+/// ends of segments, and up to the wall that an end points at.
 fn wall_strips(long: &[Segment], options: &DoorwayOptions) -> Vec<Ring> {
     let grid = RayGrid::new(long.to_vec());
     let mut strips: Vec<Ring> = Vec::new();
@@ -146,23 +146,23 @@ fn wall_strips(long: &[Segment], options: &DoorwayOptions) -> Vec<Ring> {
     strips
 }
 
-/// What a doorway cuts out of the free space: the place of its door, from face to face.
+/// The strip that a doorway cuts out of the free space: the place of its door, from face to face.
 fn doorway_strip(doorway: &Doorway) -> Ring {
     let along = doorway.segment.vector().unit().unwrap_or(Vector::new(1.0, 0.0));
     let (length_m, depth_m) = (doorway.width_m + 2.0 * JAMB_M, doorway.depth_m + STRIP_M);
     areas::ring(&rectangle(doorway.segment.midpoint(), along, length_m, depth_m))
 }
 
-/// A doorway's cut reaches so far into its jambs, in metres.
+/// How far a doorway's cut extends into its jambs, in metres.
 const JAMB_M: f64 = 0.08;
 
-/// Which piece lies on the left and on the right of each doorway.
+/// The pieces on the left and right of each doorway.
 fn sides_of(doorways: &[Doorway], pieces: &[Vec<Ring>]) -> Vec<[Option<usize>; 2]> {
     let bounds: Vec<Bounds> = pieces.iter().map(|piece| piece_bounds(piece)).collect();
     let piece_at = |point: Point| (0..pieces.len()).find(|&i| bounds[i].contains(point) && contains(&pieces[i], point));
     let side = |doorway: &Doorway, across: Vector| {
         let from_m = doorway.depth_m / 2.0 + STRIP_M;
-        // Past what is left of the door's place, and anything thin that stands in it.
+        // Past what is left of the door's place, and any thin obstacle in it.
         (1..=6).find_map(|step| {
             let at = doorway.segment.midpoint() + across * (from_m + f64::from(step) * 0.06);
             piece_at(at).filter(|&i| area_m2(&pieces[i]) > 0.1)
@@ -186,7 +186,7 @@ fn between_two(
     })
 }
 
-/// Whether a piece is no room, by its area without what is narrow.
+/// Whether a piece is too small for a room, ignoring its narrow parts.
 fn is_too_small(piece: &[Ring], options: &RoomOptions) -> bool {
     area_m2(piece) < options.smallest_m2
         || areas::area_m2(&areas::offset(&vec![piece.to_vec()], -2.0 * NARROW_M)) < options.smallest_m2 / 10.0
@@ -205,11 +205,11 @@ fn contains(piece: &[Ring], point: Point) -> bool {
     piece.split_first().is_some_and(|(outer, holes)| inside(outer) && !holes.iter().any(inside))
 }
 
-/// Points further apart than this in metres are not checked for sight of each other: others stand between.
+/// Points further apart than this in metres are not tested for visibility: others lie between them.
 const SIGHT_M: f64 = 2.5;
 
-/// Random points in the pieces, the sights that joined them, and for each point its piece: sets of points
-/// that see each other, straight or by way of others, are one room.
+/// Random points in the pieces, the sight lines that merged them, and the piece of each point: sets of
+/// points that see each other, directly or via others, are one room.
 fn scatter(pieces: &[Vec<Ring>], options: &RoomOptions) -> (Vec<Point>, Vec<[usize; 2]>, Vec<usize>) {
     let shapes: Shapes = pieces.to_vec();
     let grid = RayGrid::new(edges(&shapes));
@@ -223,7 +223,7 @@ fn scatter(pieces: &[Vec<Ring>], options: &RoomOptions) -> (Vec<Point>, Vec<[usi
         })
         .filter(|&point| is_inside(&grid, point))
         .collect();
-    // Left to right, so that near ones are found without looking at all.
+    // Sorted left to right, so that nearby ones are found without testing all.
     points.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
     for i in 0..points.len() {
@@ -255,17 +255,17 @@ fn scatter(pieces: &[Vec<Ring>], options: &RoomOptions) -> (Vec<Point>, Vec<[usi
     (points, sights, group_of)
 }
 
-/// Holes smaller than this are furniture and columns, in m²; a courtyard is larger.
+/// Smaller holes are furniture and columns, in m²; a courtyard is larger.
 const LARGEST_FURNITURE_M2: f64 = 4.0;
 
-/// What is narrower than twice this, in metres, is no part of a room: the place of a door, the gap beside a
-/// cupboard.
+/// Parts narrower than twice this, in metres, do not belong to a room: the place of a door, the gap
+/// beside a cupboard.
 const NARROW_M: f64 = 0.1;
 
-/// A room's boundary is simplified up to this, in metres.
+/// Tolerance for simplifying a room's boundary, in metres.
 const BOUNDARY_M: f64 = 0.04;
 
-/// The room of a piece of free space; `None` for one that is too small.
+/// The room of a piece of free space; `None` if it is too small.
 fn room(piece: &[Ring], points: Vec<usize>, options: &RoomOptions) -> Option<FoundRoom> {
     let (outer, holes) = piece.split_first()?;
     let large = holes.iter().filter(|hole| polygon::signed_area(&areas::points(hole)).abs() > LARGEST_FURNITURE_M2);

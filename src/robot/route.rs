@@ -1,5 +1,5 @@
-//! Ways through the free space for a round robot: a raster of the polygon with the clearance of every
-//! cell, and the cheapest ways from where the robot stands.
+//! Routes through the free space for a round robot: a raster of the polygon with the clearance of every
+//! cell, and the cheapest routes from the robot's position.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -7,38 +7,38 @@ use std::collections::BinaryHeap;
 use crate::geometry::areas::{self, Shapes};
 use crate::geometry::{Bounds, Point, Vector};
 
-/// Side of a cell in metres where the map is not too large for it: a tenth of the narrowest doorway.
+/// Side of a cell in metres, unless the map is too large: a tenth of the narrowest doorway.
 const CELL_M: f64 = 0.05;
 
-/// A larger map gets larger cells, so that a raster has at most about so many.
+/// The approximate limit on cells in a raster: a larger map gets larger cells.
 const CELLS_LIMIT: f64 = 1.5e6;
 
-/// Ways keep away from walls where that costs little: up to this clearance in metres a step costs more.
+/// Routes keep away from walls if that costs little: below this clearance in metres a step costs more.
 const COMFORT_M: f64 = 0.5;
 
-/// Ways are straightened by so many cells at most: the steps of a slanted way, no more.
+/// Routes are straightened by at most this many cells: only the steps of an oblique route.
 const STRAIGHT_CELLS: f64 = 0.7;
 
-/// The raster of a free space: where the robot's middle can be, and what it costs to get there.
+/// The raster of a free space: where the robot's centre can be, and the cost of getting there.
 #[derive(Clone, Debug)]
 pub struct Routes {
     origin: Point,
     cell_m: f64,
     columns: usize,
     rows: usize,
-    /// Whether the cell's middle is free.
+    /// Whether the cell's centre is free.
     free: Vec<bool>,
-    /// Metres to what is not free.
+    /// Distance in metres to the nearest obstacle.
     clearance_m: Vec<f32>,
-    /// What the way from the start costs, in metres and what nearness to walls adds; infinite where none
-    /// leads.
+    /// Cost of the route from the start: its length in metres plus a surcharge near walls; infinite if
+    /// there is none.
     cost: Vec<f32>,
-    /// The cell before, on the way from the start.
+    /// The previous cell on the route from the start.
     from: Vec<u32>,
 }
 
 impl Routes {
-    /// The raster of a free space around `start`, before any way is sought.
+    /// The raster of a free space around `start`, before any search.
     pub fn new(free: &Shapes, start: Point) -> Self {
         let bounds = Bounds::of(free.iter().flatten().flatten().map(|&[x, y]| Point::new(x, y))).with(start);
         let bounds = bounds.inflated(2.0 * CELL_M);
@@ -73,7 +73,7 @@ impl Routes {
         is_in.then(|| at.y as usize * self.columns + at.x as usize)
     }
 
-    /// Marks the cells whose middle lies inside, row by row (even-odd: holes are holes).
+    /// Marks the cells whose centre is inside, row by row (even-odd rule, so holes are excluded).
     fn fill(&mut self, free: &Shapes) {
         let mut crossings: Vec<Vec<f64>> = vec![Vec::new(); self.rows];
         for ring in free.iter().flatten() {
@@ -99,11 +99,11 @@ impl Routes {
         }
     }
 
-    /// The distance from each free cell to the nearest that is not, in metres, less half a cell: exact
+    /// The distance from each free cell to the nearest blocked one, in metres, less half a cell: exact
     /// (Felzenszwalb and Huttenlocher 2012).
     fn clearances(&self) -> Vec<f32> {
         let (columns, rows) = (self.columns, self.rows);
-        // Along columns first: cells to the nearest blocked one, up and down.
+        // Along columns first: the distance to the nearest blocked cell up and down.
         let far = (columns + rows) as f32;
         let mut along = vec![0.0_f32; columns * rows];
         for column in 0..columns {
@@ -158,9 +158,9 @@ impl Routes {
         result
     }
 
-    /// Finds the cheapest ways of a robot of this radius in metres from `start` (Dijkstra 1959) to all
-    /// cells, or until `is_enough` says so of a cell's index and cost. Where the start itself is tight, the
-    /// robot may leave that place.
+    /// Finds the cheapest routes for a robot of this radius in metres from `start` (Dijkstra 1959) to all
+    /// cells, or until `is_enough` accepts a cell's index and cost. If the start itself is tight, the
+    /// robot may leave it.
     pub fn spread(&mut self, start: Point, radius_m: f64, mut is_enough: impl FnMut(usize, f64) -> bool) {
         self.cost.fill(f32::INFINITY);
         self.from.fill(u32::MAX);
@@ -186,7 +186,7 @@ impl Routes {
                 }
                 let next = y as usize * self.columns + x as usize;
                 let clearance = self.clearance_m[next];
-                // From a tight place the way leads to more room, never to less.
+                // From a tight place routes lead only towards more clearance.
                 let escapes =
                     escape_m < radius && self.clearance_m[cell] < radius && clearance >= self.clearance_m[cell];
                 let leaves = cell == start && !self.free[cell];
@@ -229,13 +229,13 @@ impl Routes {
         self.free.len()
     }
 
-    /// What it costs to reach a point; `None` where no way leads.
+    /// The cost of reaching a point; `None` if unreachable.
     pub fn cost(&self, point: Point) -> Option<f64> {
         let cell = self.cell(point)?;
         Some(f64::from(self.cost[cell])).filter(|cost| cost.is_finite())
     }
 
-    /// The way from the start to a point, as points some cells apart; empty where none leads.
+    /// The route from the start to a point, as points some cells apart; empty if there is none.
     pub fn way(&self, to: Point) -> Vec<Point> {
         let Some(mut cell) = self.cell(to).filter(|&cell| self.cost[cell].is_finite()) else { return Vec::new() };
         let mut cells = vec![cell];
@@ -248,7 +248,7 @@ impl Routes {
         super::free_space::simplified(&points, STRAIGHT_CELLS * self.cell_m)
     }
 
-    /// Metres from a point to what is not free, to within a cell; 0 outside.
+    /// Distance in metres from a point to the nearest obstacle, to within a cell; 0 outside.
     pub fn clearance_m(&self, point: Point) -> f64 {
         self.cell(point).map_or(0.0, |cell| f64::from(self.clearance_m[cell]))
     }
@@ -265,7 +265,7 @@ const NEIGHBOURS: [(isize, isize, f32); 8] = [
     (1, -1, std::f32::consts::SQRT_2),
 ];
 
-/// A cost that can be compared: never not-a-number.
+/// A cost with a total order: never NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Ordered(f32);
 

@@ -4,24 +4,24 @@ use super::{Pose, Scan, World};
 use crate::base::random::Random;
 use crate::geometry::Vector;
 
-/// A laser scanner as it measures.
+/// A simulated laser scanner's characteristics.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scanner {
     /// Angle between the first beam and the last.
     pub field_rad: f64,
     /// From one beam to the next.
     pub step_rad: f64,
-    /// What is further away in metres gives no return.
+    /// Anything further away, in metres, gives no return.
     pub max_range_m: f64,
-    /// Readings are multiples of this, in metres; 0 for none.
+    /// Resolution of the readings in metres; 0 for exact ones.
     pub range_step_m: f64,
-    /// Standard deviation in metres of a reading at right angles to a wall.
+    /// Standard deviation in metres of a reading perpendicular to a wall.
     pub noise_m: f64,
-    /// Probability of no return where there should be one.
+    /// Probability of a lost reading.
     pub drop_out: f64,
-    /// Walls that the beam meets at less than this angle send nothing back.
+    /// Walls met at a smaller angle than this give no return.
     pub glancing_rad: f64,
-    /// Where it sits on the robot.
+    /// The pose of the scanner on the robot.
     pub robot_from_scanner: Pose,
 }
 
@@ -30,9 +30,9 @@ impl Scanner {
     ///
     /// Field of 180 degrees in steps of 0.5, resolution of 10 mm, statistical error of 5 mm (one standard
     /// deviation, typical at up to 8 m): SICK, LMS 200/211/221/291 Technical Description (8008970, 2006),
-    /// section 'Technical data'. Range of 20 m: as USARSim's SickLMS, which the paper used; the device
+    /// section 'Technical data'. Range of 20 m: as in USARSim's SickLMS, which the paper used; the device
     /// sees 10 m at 10 % reflectivity and up to 80 m. The share of lost readings, 0.1 %, and the angle
-    /// below which walls are not seen, 2 degrees, are ours.
+    /// below which walls are not seen, 2 degrees, are our choice.
     pub fn lms200(robot_from_scanner: Pose) -> Self {
         Self {
             field_rad: 180.0_f64.to_radians(),
@@ -46,13 +46,13 @@ impl Scanner {
         }
     }
 
-    /// The same without any error: each reading is the distance.
+    /// The same without errors: each reading is the exact distance.
     #[must_use]
     pub fn exact(self) -> Self {
         Self { range_step_m: 0.0, noise_m: 0.0, drop_out: 0.0, glancing_rad: 0.0, ..self }
     }
 
-    /// Number of beams of a sweep.
+    /// Number of beams in a sweep.
     pub fn beams(&self) -> usize {
         if self.step_rad > 0.0 {
             (self.field_rad / self.step_rad).round().clamp(0.0, 100_000.0) as usize + 1
@@ -61,7 +61,7 @@ impl Scanner {
         }
     }
 
-    /// One sweep in the world, of a robot that stands still meanwhile.
+    /// One sweep in the world by a stationary robot.
     pub fn scan(&self, world: &World, world_from_robot: Pose, random: &mut Random) -> Scan {
         let world_from_scanner = world_from_robot.compose(self.robot_from_scanner);
         let (origin, beams) = (world_from_scanner.position(), self.beams());
@@ -90,7 +90,7 @@ impl Scanner {
         }
     }
 
-    /// A distance as the scanner says it.
+    /// A distance as the scanner reports it.
     fn reading_m(&self, distance_m: f64) -> f64 {
         let stepped = if self.range_step_m > 0.0 {
             (distance_m / self.range_step_m).round() * self.range_step_m
@@ -102,12 +102,12 @@ impl Scanner {
     }
 }
 
-/// Two scanners back to back that see all around together, in front and behind the middle of the robot.
+/// Two scanners back to back, in front of and behind the robot's middle, that together see all around.
 pub fn back_to_back(scanner: impl Fn(Pose) -> Scanner) -> [Scanner; 2] {
     [scanner(Pose::new(SCANNER_AHEAD_M, 0.0, 0.0)), scanner(Pose::new(-SCANNER_AHEAD_M, 0.0, std::f64::consts::PI))]
 }
 
-/// How far in front of the robot's middle the scanner's mirror sits, in metres: half of what two LMS 200
+/// Distance of the scanner's mirror ahead of the robot's middle, in metres: half of what two LMS 200
 /// (0.156 m deep, SICK's drawing) need back to back, rounded up.
 const SCANNER_AHEAD_M: f64 = 0.1;
 

@@ -1,4 +1,4 @@
-//! How well the rooms that a robot found agree with those of the true plan.
+//! Compares the rooms found by a robot with those of the true plan.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,24 +11,24 @@ use crate::geometry::areas::{self, Shapes};
 use crate::geometry::{Bounds, Point};
 use crate::plan::{Joint, RoomId};
 
-/// A room is found where the common area is more than this share of what both cover together.
+/// A room counts as found if its intersection over union exceeds this.
 pub const FOUND_IOU: f64 = 0.7;
 
-/// A room takes part in a split or a merger where it has at least this share of the other's area.
+/// A room takes part in a split or a merger if it covers at least this share of the other's area.
 const PART_SHARE: f64 = 0.2;
 
-/// What became of a true room.
+/// The score of a true room.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoomScore {
     pub id: RoomId,
-    /// The found room that covers most of it, by index.
+    /// The found room that covers the most of it, by index.
     pub best: Option<usize>,
-    /// Common area with that by the area of both together, 0..=1.
+    /// Intersection over union with that room, 0..=1.
     pub iou: f64,
     pub fate: Fate,
 }
 
-/// What became of a true room.
+/// The fate of a true room.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fate {
     Found,
@@ -40,7 +40,7 @@ pub enum Fate {
 }
 
 impl Fate {
-    /// The word for files and for people.
+    /// Its name in files and in the interface.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Found => "found",
@@ -51,20 +51,20 @@ impl Fate {
     }
 }
 
-/// How well found rooms and their graph agree with the true ones.
+/// The agreement of found rooms and their graph with the true ones.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Score {
-    /// The rooms that the robot could reach, by id.
+    /// The rooms the robot could reach, by id.
     pub rooms: Vec<RoomScore>,
-    /// Rooms of the plan that it could not reach.
+    /// Rooms of the plan the robot could not reach.
     pub unreachable: Vec<RoomId>,
-    /// Found rooms that are the best match of no true room.
+    /// Found rooms that are not the best match of any true room.
     pub invented: Vec<usize>,
-    /// Pairs of reachable rooms that a passable opening joins.
+    /// Pairs of reachable rooms joined by a passable opening.
     pub true_edges: BTreeSet<(RoomId, RoomId)>,
     /// Those of them that were found.
     pub right_edges: BTreeSet<(RoomId, RoomId)>,
-    /// Found edges that join rooms that nothing joins.
+    /// The number of found edges between rooms that are not joined.
     pub wrong_edges: usize,
 }
 
@@ -74,17 +74,17 @@ impl Score {
         self.rooms.iter().filter(|room| room.fate == fate).count()
     }
 
-    /// Share of the reachable rooms that were found, 0..=1; 1 where there is none.
+    /// Share of the reachable rooms that were found, 0..=1; 1 if there are none.
     pub fn room_recall(&self) -> f64 {
         share(self.count(Fate::Found), self.rooms.len())
     }
 
-    /// Share of the true edges that were found, 0..=1; 1 where there is none.
+    /// Share of the true edges that were found, 0..=1; 1 if there are none.
     pub fn edge_recall(&self) -> f64 {
         share(self.right_edges.len(), self.true_edges.len())
     }
 
-    /// Share of the found edges that are right, 0..=1; 1 where there is none.
+    /// Share of the found edges that are correct, 0..=1; 1 if there are none.
     pub fn edge_precision(&self) -> f64 {
         share(self.right_edges.len(), self.right_edges.len() + self.wrong_edges)
     }
@@ -102,12 +102,12 @@ fn bounds(shapes: &Shapes) -> Bounds {
     Bounds::of(shapes.iter().flatten().flatten().map(|&[x, y]| Point::new(x, y)))
 }
 
-/// A room counts as reachable where the middle of the robot can be on this share of its floor.
+/// A room is reachable if the robot's centre can be on at least this share of its floor.
 const REACHED_SHARE: f64 = 0.05;
 
-/// Compares found rooms with the world's. `rooms`: their areas in the world's frame; `edges`: the pairs of
-/// found rooms that a doorway joins; `start` and `radius_m`: where the robot began and half its width, which
-/// say what it could reach.
+/// Compares found rooms with the world's. `rooms` are their areas in the world's frame; `edges` the pairs
+/// of found rooms joined by a doorway; `start` and `radius_m`, the robot's start and half its width,
+/// determine what it could reach.
 pub fn score(world: &World, start: Point, radius_m: f64, rooms: &[Shapes], edges: &[(usize, usize)]) -> Score {
     let passable = world.passable(radius_m);
     let reach = passable.into_iter().find(|piece| super::world::is_inside(piece, start)).unwrap_or_default();
@@ -130,7 +130,7 @@ pub fn score(world: &World, start: Point, radius_m: f64, rooms: &[Shapes], edges
         reachable.push(room);
         common.push(with);
     }
-    // Which true room a found one is: the one it shares most with.
+    // The true room of each found one: the one it shares the most area with.
     let mut true_of: BTreeMap<usize, (f64, RoomId)> = BTreeMap::new();
     for (room, with) in reachable.iter().zip(&common) {
         for &(i, m2) in with {

@@ -1,5 +1,5 @@
 //! The semantic map for robots: what the rooms of a `map_server` map are, in a YAML file beside it, as
-//! navigation2's issue 1595 asks for. The form is described in `docs/robot-maps.md`.
+//! navigation2's issue 1595 requests. The format is described in `docs/robot-maps.md`.
 
 use std::collections::BTreeMap;
 
@@ -10,9 +10,9 @@ use super::grid_plan::{GridDoorway, GridRoom, Known};
 use super::segment::Segmentation;
 use crate::geometry::{Point, polygon, trim_m};
 
-/// The version of the form that is written.
+/// The format version that is written.
 pub const VERSION: u32 = 1;
-/// A file with thousands of rooms has a few megabytes.
+/// The maximum size: a file with thousands of rooms has a few megabytes.
 pub const LARGEST_BYTES: usize = 16 << 20;
 
 /// The file.
@@ -21,12 +21,13 @@ pub struct SemanticMap {
     pub version: u32,
     /// The map's YAML file, beside this one.
     pub map: String,
-    /// The frame of all coordinates, in metres: that of the map.
+    /// The frame of all coordinates, which are in metres: that of the map.
     pub frame: String,
-    /// As in the map's YAML file: metres a cell, and the pose [x, y, yaw] of the picture's lower left corner.
+    /// As in the map's YAML file: metres per cell, and the pose [x, y, yaw] of the picture's lower left
+    /// corner.
     pub resolution: f64,
     pub origin: [f64; 3],
-    /// What the labels were predicted for: 'office'.
+    /// The typology the labels were predicted for: 'office'.
     pub typology: String,
     pub rooms: Vec<SemanticRoom>,
     pub doors: Vec<SemanticDoor>,
@@ -34,11 +35,11 @@ pub struct SemanticMap {
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SemanticRoom {
-    /// Stays the same while the room does.
+    /// Stable as long as the room exists.
     pub id: String,
     #[serde(default)]
     pub name: String,
-    /// What the room is for, where a person said it: 'kitchen'.
+    /// What the room is for, if the user said so: 'kitchen'.
     #[serde(default)]
     pub function: String,
     /// S, M, B, C or H.
@@ -46,10 +47,10 @@ pub struct SemanticRoom {
     pub label: String,
     #[serde(default)]
     pub label_name: String,
-    /// In m², without what stands in it.
+    /// In m², without obstacles inside it.
     #[serde(default)]
     pub area: f64,
-    /// A place within the room, as far from walls as can be.
+    /// A point inside the room, as far from walls as possible.
     #[serde(default)]
     pub centre: [f64; 2],
     pub polygon: Vec<[f64; 2]>,
@@ -59,7 +60,7 @@ pub struct SemanticRoom {
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SemanticDoor {
-    /// Stays the same while the door does.
+    /// Stable as long as the door exists.
     pub id: String,
     /// Clear width in metres.
     pub width: f64,
@@ -73,7 +74,7 @@ pub struct SemanticDoor {
 pub struct DoorSide {
     /// The room's id.
     pub room: String,
-    /// Where a robot stands in this room before it drives through, [x, y, yaw], looking at the door.
+    /// Where a robot stands in this room before it drives through, [x, y, yaw], facing the door.
     pub pose: [f64; 3],
 }
 
@@ -93,7 +94,7 @@ impl SemanticMap {
     /// Reads a file.
     ///
     /// # Errors
-    /// When it is no such file, of a newer version, or has coordinates that are not finite.
+    /// When it is not such a file, has a newer version, or has coordinates that are not finite.
     pub fn from_yaml(text: &str) -> Result<Self, SemanticsError> {
         let fail = |what: String| Err(SemanticsError(what));
         if text.len() > LARGEST_BYTES {
@@ -120,15 +121,16 @@ impl SemanticMap {
     /// The file's text.
     ///
     /// # Errors
-    /// When it cannot be written, which no map made here does.
+    /// When it cannot be written, which no map made here causes.
     pub fn to_yaml(&self) -> Result<String, SemanticsError> {
         let body = serde_saphyr::to_string(self).map_err(|error| SemanticsError(error.to_string()))?;
         Ok(format!("# Rooms of a map, by Enfilade. Metres and radians in the frame named below.\n{body}"))
     }
 }
 
-/// What the rooms of a new segmentation were before: each takes over from the old room that it shares more
-/// than half of its area with, of either; an old room is taken over once, by the room that shares most.
+/// The previous data of the rooms of a new segmentation: each takes over from the old room with which it
+/// shares more than half of either's area; an old room is taken over once, by the room that shares the
+/// most.
 pub fn known_rooms(map: &GridMap, segmentation: &Segmentation, rooms: &[GridRoom], before: &SemanticMap) -> Vec<Known> {
     let mut area = vec![0u32; segmentation.rooms as usize + 1];
     for &region in segmentation.region_of_cell.iter().filter(|&&region| region <= segmentation.rooms) {
@@ -164,7 +166,7 @@ pub fn known_rooms(map: &GridMap, segmentation: &Segmentation, rooms: &[GridRoom
     rooms.iter().map(known).collect()
 }
 
-/// How many cells an old room covers within the map, and how many of each new room.
+/// How many cells an old room covers in the map, and how many of each new room.
 fn overlap(map: &GridMap, segmentation: &Segmentation, old: &SemanticRoom) -> (u32, BTreeMap<u32, u32>) {
     let rings: Vec<Vec<(f64, f64)>> = std::iter::once(&old.polygon)
         .chain(&old.holes)
@@ -179,7 +181,7 @@ fn overlap(map: &GridMap, segmentation: &Segmentation, old: &SemanticRoom) -> (u
         return (0, by_region);
     }
     for row in clamp(low.floor(), map.height())..clamp(high.ceil(), map.height()) {
-        // Where the row's middle line enters and leaves the rings.
+        // Where the row's centre line enters and leaves the rings.
         let y = row as f64 + 0.5;
         let mut crossings: Vec<f64> = Vec::new();
         for ring in &rings {
@@ -205,15 +207,15 @@ fn overlap(map: &GridMap, segmentation: &Segmentation, old: &SemanticRoom) -> (u
     (cells, by_region)
 }
 
-/// What the doorways were before: the nearest old door between the same rooms, within half a metre. `known`
-/// holds for each of `rooms` what it was.
+/// The previous data of the doorways: the nearest old door between the same rooms, within half a metre.
+/// `known` holds the previous data of each of `rooms`.
 pub fn known_doorways(
     doorways: &[GridDoorway],
     rooms: &[GridRoom],
     known: &[Known],
     before: &SemanticMap,
 ) -> Vec<String> {
-    /// A door may have moved so far, in metres, between two maps.
+    /// How far a door may move between two maps, in metres.
     const MOVED_M: f64 = 0.5;
     let id_of = |region: u32| {
         let index = rooms.iter().position(|room| room.region == region)?;
@@ -245,8 +247,8 @@ pub fn known_doorways(
     ids
 }
 
-/// A place in a room as far from its rings as can be, to [`CENTRE_PRECISION_M`]: the finest of a grid of
-/// places, refined around the best.
+/// A point in a room as far from its rings as possible, to [`CENTRE_PRECISION_M`]: the best of a grid of
+/// points, refined around it.
 pub fn centre(room: &GridRoom) -> Point {
     const CENTRE_PRECISION_M: f64 = 0.05;
     const PLACES: u32 = 24;
@@ -280,13 +282,13 @@ pub fn centre(room: &GridRoom) -> Point {
     }
 }
 
-/// Where a robot stands on both sides of a doorway, half a metre before it, each looking at it: first in the
-/// room of the first region.
+/// Where a robot stands on both sides of a doorway, half a metre before it, facing it: first in the room
+/// of the first region.
 pub fn door_poses(doorway: &GridDoorway, rooms: [&GridRoom; 2]) -> [[f64; 3]; 2] {
     const BEFORE_M: f64 = 0.5;
     let along = (doorway.ends[1] - doorway.ends[0]).unit().unwrap_or_default();
     let side = |room: &GridRoom| {
-        // The doorway's line lies in the wall: look in both directions for where the room begins.
+        // The doorway's line is inside the wall: look in both directions for where the room begins.
         let inside = |aside: f64| {
             let at = doorway.middle() + along.left() * aside;
             polygon::locate(&room.outer, &room.holes, at) == polygon::Location::Inside

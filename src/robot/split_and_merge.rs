@@ -1,32 +1,32 @@
-//! Split-and-merge: line segments from one scan (the paper's reference 17, as compared by Nguyen et
-//! al. 2007), first broken where the range jumps.
+//! Split-and-merge: line segments from one scan (the paper's reference 17, as compared by Nguyen et al.
+//! 2007), first split at range jumps.
 
 use super::{LineSegment, Moments, Scan};
 use crate::geometry::Point;
 
-/// What makes readings one straight piece.
+/// Criteria for a straight segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SplitOptions {
-    /// How far a point may lie off its segment, in metres, at close range.
+    /// The maximum distance of a point from its segment, in metres, at close range.
     pub tolerance_m: f64,
-    /// How much more it may lie off for each metre of range: the footprint of a beam grows.
+    /// The additional tolerance per metre of range: the footprint of a beam grows.
     pub tolerance_per_m: f64,
-    /// Fewer points make no segment.
+    /// The minimum number of points in a segment.
     pub least_points: usize,
-    /// Fewer than this, `sparse_m` metres and more apart, line up by chance: past a door's jamb and a
-    /// wall behind it. Good enough to match scans with, but nothing for a map.
+    /// With fewer points than this, spaced `sparse_m` metres or more, an alignment may be chance: past a
+    /// door's jamb and a wall behind it. Good enough for matching scans, but not for a map.
     pub least_sparse_points: usize,
     pub sparse_m: f64,
-    /// The flattest angle between beam and wall at which neighbouring readings still hang together
+    /// The shallowest angle between beam and wall at which neighbouring readings still count as connected
     /// (the λ of Borges and Aldon 2004).
     pub flattest_rad: f64,
-    /// Neighbouring hits closer than this hang together at any angle.
+    /// Neighbouring hits closer than this are connected at any angle.
     pub gap_m: f64,
 }
 
 impl Default for SplitOptions {
-    /// For a SICK LMS 200: 1 cm of noise and 1 cm of rounding (its manual gives ±1.5 cm and σ 5 mm
-    /// up to 8 m), so 3 cm hold nearly all points of a wall.
+    /// For a SICK LMS 200: 1 cm of noise and 1 cm of rounding (its manual states ±1.5 cm and σ 5 mm up to
+    /// 8 m), so 3 cm include nearly all points of a wall.
     fn default() -> Self {
         Self {
             tolerance_m: 0.03,
@@ -41,19 +41,19 @@ impl Default for SplitOptions {
 }
 
 impl SplitOptions {
-    /// Whether a segment of a scan stands for something that is there.
+    /// Whether a segment of a scan is reliable enough for a map.
     pub fn is_firm(&self, segment: &LineSegment) -> bool {
         let count = segment.moments.weight;
         count >= self.least_sparse_points as f64 || segment.length() <= self.sparse_m * (count - 1.0)
     }
 }
 
-/// A segment of a scan with the readings that make it.
+/// A segment of a scan and its readings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScanSegment {
     /// In the frame of the points.
     pub line: LineSegment,
-    /// The hits it stands for: a range of indices into the hits, in the order of the beams.
+    /// Its hits: a range of indices into the hits, in beam order.
     pub hits: std::ops::Range<usize>,
 }
 
@@ -69,7 +69,7 @@ pub fn segments_of(scan: &Scan, options: &SplitOptions) -> (Vec<Point>, Vec<Scan
     (points, segments)
 }
 
-/// Maximal runs of hits without a jump between neighbours.
+/// Maximal runs of hits without jumps between neighbours.
 fn pieces(beams: &[usize], points: &[Point], step_rad: f64, options: &SplitOptions) -> Vec<std::ops::Range<usize>> {
     let mut pieces = Vec::new();
     let mut first = 0;
@@ -84,11 +84,11 @@ fn pieces(beams: &[usize], points: &[Point], step_rad: f64, options: &SplitOptio
     pieces
 }
 
-/// More lost beams in a row than this break a wall.
+/// More consecutive lost beams than this split a wall.
 const MOST_LOST_BEAMS: usize = 2;
 
-/// Whether two neighbouring hits belong to different surfaces: further apart than the flattest wall
-/// at that range would put them (the adaptive breakpoint detector of Borges and Aldon 2004).
+/// Whether two neighbouring hits belong to different surfaces: further apart than the shallowest wall at
+/// that range would put them (the adaptive breakpoint detector of Borges and Aldon 2004).
 fn is_jump(beams: usize, from: Point, to: Point, step_rad: f64, options: &SplitOptions) -> bool {
     if beams > MOST_LOST_BEAMS + 1 {
         return true;
@@ -100,13 +100,13 @@ fn is_jump(beams: usize, from: Point, to: Point, step_rad: f64, options: &SplitO
     from.distance(to) > apart.max(options.gap_m)
 }
 
-/// How far `point` may lie off its segment.
+/// The maximum distance of `point` from its segment.
 fn tolerance_m(point: Point, options: &SplitOptions) -> f64 {
     options.tolerance_m + options.tolerance_per_m * point.x.hypot(point.y)
 }
 
-/// Splits a run of hits at the point furthest from the chord until all points are near theirs
-/// (Ramer 1972), without recursion: a scan may hold as many points as a line may.
+/// Splits a run of hits at the point furthest from the chord until all points are close to theirs (Ramer
+/// 1972), without recursion: a scan may have as many points as fit on a line of the log.
 fn split(points: &[Point], piece: std::ops::Range<usize>, options: &SplitOptions) -> Vec<std::ops::Range<usize>> {
     let mut done = Vec::new();
     let mut waiting = vec![piece];
@@ -123,7 +123,7 @@ fn split(points: &[Point], piece: std::ops::Range<usize>, options: &SplitOptions
     done
 }
 
-/// The hit that lies furthest from the chord of a part, if that is beyond its tolerance.
+/// The hit furthest from the chord of a part, if beyond its tolerance.
 fn furthest_off(points: &[Point], part: std::ops::Range<usize>, options: &SplitOptions) -> Option<usize> {
     if part.len() < 3 {
         return None;
@@ -140,7 +140,7 @@ fn furthest_off(points: &[Point], part: std::ops::Range<usize>, options: &SplitO
     worst.1
 }
 
-/// Merges neighbouring parts whose points lie near one line.
+/// Merges neighbouring parts whose points are close to a common line.
 fn merged(points: &[Point], parts: Vec<std::ops::Range<usize>>, options: &SplitOptions) -> Vec<std::ops::Range<usize>> {
     let mut merged: Vec<std::ops::Range<usize>> = Vec::new();
     for part in parts {
@@ -158,8 +158,8 @@ fn merged(points: &[Point], parts: Vec<std::ops::Range<usize>>, options: &SplitO
     merged
 }
 
-/// Gives each hit between two parts to the line it lies nearer to: a corner's hits fit either within
-/// the tolerance, and would turn the wrong one.
+/// Assigns each hit between two parts to the nearer line: the hits at a corner fit both within the
+/// tolerance, and would tilt the wrong one.
 fn settled(
     points: &[Point],
     mut parts: Vec<std::ops::Range<usize>>,
@@ -170,7 +170,7 @@ fn settled(
         if before.len() <= options.least_points || after.len() <= options.least_points {
             continue;
         }
-        // The lines without the hits in question.
+        // The lines without the hits to be assigned.
         let inner = |part: std::ops::Range<usize>| Moments::of(points[part].iter().copied());
         let (one, other) = (inner(before.start..before.end - 1), inner(after.start + 1..after.end));
         let off = |line: Moments, point: Point| (point - line.centroid).cross(line.direction()).abs();
@@ -190,7 +190,7 @@ fn settled(
     parts
 }
 
-/// Whether all points lie near their common line.
+/// Whether all points are close to their common line.
 fn is_straight(points: &[Point], options: &SplitOptions) -> bool {
     let moments = Moments::of(points.iter().copied());
     let direction = moments.direction();

@@ -15,57 +15,57 @@ use crate::plan::{Joint, Opening, OpeningId, Plan, RoomId, THICKEST_WALL_M};
 use crate::topology::{RoomShape, RoomShapes, sides_by_geometry};
 
 /// Thickness in metres of the walls along the boundaries of rooms that came without any: a light
-/// partition, as the plan's picture draws it.
+/// partition, as drawn in the plan's rendering.
 const PARTITION_M: f64 = 0.10;
 
-/// A wall drawn as a line has at least this thickness in metres: boards, glass.
+/// Minimum thickness in metres of a wall drawn as a line: boards, glass.
 const THINNEST_WALL_M: f64 = 0.05;
 
-/// What of a door that is ajar can be seen through, in metres: no robot passes.
+/// Width in metres of the gap of a door that is ajar: a robot sees through but cannot pass.
 const AJAR_GAP_M: f64 = 0.25;
 
-/// How a world is made from a plan.
+/// Options for making a world from a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorldOptions {
     /// Share of the inner doors that are closed, 0..=1.
     pub closed_share: f64,
     /// Share of the inner doors that are ajar, 0..=1.
     pub ajar_share: f64,
-    /// Whether doors to the outside stand open: the robot sees the open field, and no wall in it.
+    /// Whether outside doors are open: the robot then sees the open field, without walls.
     pub outer_doors_open: bool,
-    /// Pieces of furniture a room, as far as they fit.
+    /// Pieces of furniture per room, as far as they fit.
     pub furniture: usize,
     pub seed: u64,
 }
 
 impl Default for WorldOptions {
-    /// All inner doors open, those to the outside closed, no furniture.
+    /// All inner doors open, outside doors closed, no furniture.
     fn default() -> Self {
         Self { closed_share: 0.0, ajar_share: 0.0, outer_doors_open: false, furniture: 0, seed: 1 }
     }
 }
 
-/// How a door stands.
+/// The state of a door.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DoorState {
     /// As wide as the opening; the leaf is folded back.
     Open,
     /// A gap that can be seen through but not passed.
     Ajar,
-    /// Like the wall beside it.
+    /// Solid, like the wall beside it.
     Closed,
 }
 
-/// A room as it stands in the world.
+/// A room of the world.
 #[derive(Clone, Debug)]
 pub struct WorldRoom {
     pub id: RoomId,
-    /// Its floor between the faces of the walls, without doorways; furniture not taken off.
+    /// Its floor between the faces of the walls, without doorways; furniture is not subtracted.
     pub floor: Shapes,
     pub area_m2: f64,
 }
 
-/// An opening as it stands in the world; windows are left out.
+/// An opening of the world; windows are left out.
 #[derive(Clone, Copy, Debug)]
 pub struct WorldOpening {
     pub id: OpeningId,
@@ -74,7 +74,7 @@ pub struct WorldOpening {
     pub state: DoorState,
 }
 
-/// What the simulated robot drives through, in metres in the plan's frame.
+/// The simulated robot's surroundings, in metres in the plan's frame.
 #[derive(Clone, Debug)]
 pub struct World {
     obstacles: RayGrid,
@@ -85,7 +85,7 @@ pub struct World {
 }
 
 impl World {
-    /// The world of a plan, the same for the same seed.
+    /// The world of a plan; deterministic for a given seed.
     pub fn new(plan: &Plan, options: &WorldOptions) -> Self {
         let shapes = RoomShapes::new(plan);
         let solids = solids(plan, &shapes);
@@ -110,7 +110,7 @@ impl World {
         Self { obstacles: RayGrid::new(obstacles), free, rooms, openings, bounds }
     }
 
-    /// A world of these obstacles alone, without rooms: for trials of the scanner.
+    /// A world with only these obstacles, without rooms: for testing the scanner.
     pub fn of_obstacles(obstacles: Vec<Segment>) -> Self {
         let bounds = obstacles.iter().fold(Bounds::EMPTY, |all, s| all.with(s.a).with(s.b));
         let obstacles = RayGrid::new(obstacles);
@@ -122,7 +122,7 @@ impl World {
         &self.obstacles
     }
 
-    /// The floor that is free of walls and furniture, doorways included.
+    /// The floor not covered by walls and furniture, doorways included.
     pub fn free(&self) -> &Shapes {
         &self.free
     }
@@ -137,12 +137,12 @@ impl World {
         &self.openings
     }
 
-    /// The box around all obstacles.
+    /// The bounding box of all obstacles.
     pub fn bounds(&self) -> Bounds {
         self.bounds
     }
 
-    /// Where the middle of a disc of this radius in metres can be, piece by piece, the largest first.
+    /// Where the centre of a disc of this radius in metres can be, piece by piece, largest first.
     pub fn passable(&self, radius_m: f64) -> Vec<Shapes> {
         let mut pieces: Vec<Shapes> =
             areas::offset(&self.free, -radius_m).into_iter().map(|shape| vec![shape]).collect();
@@ -150,8 +150,8 @@ impl World {
         pieces
     }
 
-    /// A place to start from: of some drawn by the seed in the largest part that a disc of this radius
-    /// can pass, the one with most room around. `None` where there is no such part.
+    /// A starting point: of several random ones in the largest part passable for a disc of this radius,
+    /// the one with the most room around it. `None` if there is no such part.
     pub fn start(&self, radius_m: f64, seed: u64) -> Option<Point> {
         let passable = self.passable(radius_m);
         let largest = passable.first()?;
@@ -167,10 +167,10 @@ impl World {
     }
 }
 
-/// Points drawn before a start is given up: even a corridor of 1 % of its box is hit.
+/// Attempts before a start is given up: enough to hit even a corridor covering 1 % of its bounding box.
 const START_TRIES: usize = 5_000;
 
-/// Of so many points the one with most room around is taken.
+/// Number of candidates, of which the one with the most room around it is taken.
 const START_CHOICES: usize = 12;
 
 /// Whether a point lies within an area.
@@ -187,8 +187,8 @@ fn wall_ring(segment: Segment, thickness_m: f64) -> Option<Ring> {
     Some(areas::ring(&rectangle(segment.midpoint(), along, segment.length() + thickness_m, thickness_m)))
 }
 
-/// Everything solid before doors are cut: drawn walls, and partitions along the boundaries of rooms
-/// that no wall touches.
+/// Everything solid before doors are cut: drawn walls, and partitions along the boundaries of rooms not
+/// touched by any wall.
 fn solids(plan: &Plan, shapes: &RoomShapes) -> Vec<Ring> {
     let walls: Vec<(Segment, f64)> = plan
         .walls()
@@ -217,7 +217,7 @@ fn near(solids: &[Ring], bounds: Bounds) -> Vec<Ring> {
     solids.iter().filter(|ring| ring_bounds(ring).intersects(bounds)).cloned().collect()
 }
 
-/// The floors of rooms: their area less what is solid, and less smaller rooms that are drawn over it.
+/// The floors of rooms: their area minus what is solid, and minus smaller rooms drawn over them.
 fn floors(shapes: &RoomShapes, solids: &[Ring]) -> Vec<WorldRoom> {
     let rings = |shape: &RoomShape| -> Vec<Ring> {
         shape.rings().enumerate().map(|(i, ring)| areas::directed(ring, i == 0)).collect()
@@ -232,7 +232,8 @@ fn floors(shapes: &RoomShapes, solids: &[Ring]) -> Vec<WorldRoom> {
             let smaller = shapes.near(shape.bounds).into_iter().map(|index| &shapes.all()[index]);
             for other in smaller.filter(|other| other.id != shape.id && other.area_m2() < shape.area_m2()) {
                 let common = area(shape).overlay(&area(other), OverlayRule::Intersect, FillRule::NonZero);
-                // Neighbours overlap by a few centimetres; only a room within this one takes floor from it.
+                // Neighbours overlap by a few centimetres; only a room inside this one takes floor from
+                // it.
                 if areas::area_m2(&common) > 0.5 * other.area_m2() {
                     cuts.extend(rings(other).into_iter().take(1));
                 }
@@ -243,7 +244,7 @@ fn floors(shapes: &RoomShapes, solids: &[Ring]) -> Vec<WorldRoom> {
         .collect()
 }
 
-/// The passable openings with their sides, each in a state drawn by the seed.
+/// The passable openings with their sides, each in a random state.
 fn openings(plan: &Plan, shapes: &RoomShapes, options: &WorldOptions) -> Vec<WorldOpening> {
     let mut random = Random::new(seed_of_part(options.seed, 1));
     let of = |(id, opening): (OpeningId, &Opening)| {
@@ -264,7 +265,7 @@ fn openings(plan: &Plan, shapes: &RoomShapes, options: &WorldOptions) -> Vec<Wor
     plan.openings().filter(|(_, opening)| opening.kind.is_passable()).filter_map(of).collect()
 }
 
-/// What a doorway cuts through the walls, and for one to the outside where the world ends.
+/// What a doorway cuts out of the walls and, if it leads outside, where the world ends.
 fn doorway(opening: &WorldOpening, shapes: &RoomShapes, solids: &[Ring]) -> (Shapes, Option<Segment>) {
     let Some(along) = opening.segment.vector().unit() else { return (Shapes::new(), None) };
     let segment = match opening.state {
@@ -280,7 +281,7 @@ fn doorway(opening: &WorldOpening, shapes: &RoomShapes, solids: &[Ring]) -> (Sha
     let is_solid = |point: Point| {
         solid.iter().any(|ring| polygon::locate_in_ring(&areas::points(ring), point) != Location::Outside)
     };
-    // Each way until the floor of a room on that side is reached, else as far as the thickest wall.
+    // In each direction as far as the floor of a room on that side, or the thickest wall.
     let depth = |normal: Vector| {
         let steps = (2.0 * THICKEST_WALL_M / DEPTH_STEP_M) as usize;
         (0..steps).map(|step| step as f64 * DEPTH_STEP_M).find(|&depth_m| {
@@ -295,7 +296,7 @@ fn doorway(opening: &WorldOpening, shapes: &RoomShapes, solids: &[Ring]) -> (Sha
     let (left_m, right_m) = (reach(to_left), reach(to_right));
     let centre = middle + left * ((left_m - right_m) / 2.0);
     let cut = areas::ring(&rectangle(centre, along, segment.length(), left_m + right_m));
-    // Where a door is wider than the wall it stands in, its neighbours keep theirs.
+    // If a door is wider than its wall, neighbouring walls stay intact.
     let mut others: Vec<Ring> = Vec::new();
     for index in shapes.near(around) {
         let shape = &shapes.all()[index];
@@ -315,10 +316,10 @@ fn doorway(opening: &WorldOpening, shapes: &RoomShapes, solids: &[Ring]) -> (Sha
     (areas::without(vec![vec![cut]], &others), outlet)
 }
 
-/// How finely the depth of a doorway is measured, in metres.
+/// Resolution for measuring the depth of a doorway, in metres.
 const DEPTH_STEP_M: f64 = 0.01;
 
-/// The outlines of all furniture. Each room has its own random numbers: a door moved elsewhere does not
+/// The outlines of all furniture. Each room has its own random numbers: moving a door elsewhere does not
 /// move the chairs here.
 fn furniture(rooms: &[WorldRoom], openings: &[WorldOpening], options: &WorldOptions, catalogue: &[Piece]) -> Vec<Ring> {
     let mut rings = Vec::new();

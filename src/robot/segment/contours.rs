@@ -5,18 +5,18 @@ use crate::geometry::Point;
 /// The four directions along cell edges, y down: right, down, left, up.
 const STEPS: [(i32, i32); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
 
-/// The closed outlines of a set of cells, along cell edges, in cells with y down. The set lies to the left
-/// of the way as one sees it on the picture, so that outer outlines run counter-clockwise there and holes
-/// clockwise. Cells that touch at a corner only are not joined; what surrounds them is.
+/// The closed outlines of a set of cells, along cell edges, in cells with y down. The set is on the left
+/// as seen in the picture, so that outer outlines run counter-clockwise there and holes clockwise. Cells
+/// that touch only at a corner are not joined; their surroundings are.
 ///
-/// `window`: the columns and rows to look at, half open; the set may not reach beyond it.
+/// `window` is the range of columns and rows to look at, half-open; the set must not extend beyond it.
 pub fn outlines(window: [usize; 4], inside: impl Fn(i32, i32) -> bool) -> Vec<Vec<(i32, i32)>> {
     let [left, top, right, bottom] = window.map(|side| side as i32);
     let columns = (right - left + 1) as usize;
     let index = |x: i32, y: i32| (y - top) as usize * columns + (x - left) as usize;
-    // A bit for each edge that leaves a lattice point and is done.
+    // A bit for each edge leaving a lattice point that is done.
     let mut done = vec![0u8; columns * (bottom - top + 1) as usize];
-    // Whether an edge leaves the point (x, y) in a direction with the set on its left only.
+    // Whether an edge leaves the point (x, y) in a direction with the set only on its left.
     let leaves = |x: i32, y: i32, step: usize| {
         let (left, right) = match step {
             0 => ((x, y - 1), (x, y)),
@@ -29,7 +29,7 @@ pub fn outlines(window: [usize; 4], inside: impl Fn(i32, i32) -> bool) -> Vec<Ve
     let mut found = Vec::new();
     for start_y in top..=bottom {
         for start_x in left..right {
-            // Every closed outline has an edge to the right.
+            // Every closed outline has a rightward edge.
             if done[index(start_x, start_y)] & 1 != 0 || !leaves(start_x, start_y, 0) {
                 continue;
             }
@@ -40,7 +40,7 @@ pub fn outlines(window: [usize; 4], inside: impl Fn(i32, i32) -> bool) -> Vec<Ve
                 outline.push((x, y));
                 x += STEPS[step].0;
                 y += STEPS[step].1;
-                // The left turn first: cells that touch at a corner stay apart.
+                // Left turns first, so that cells touching at a corner stay apart.
                 let next = [3, 0, 1].map(|turn| (step + turn) % 4).into_iter().find(|&turn| leaves(x, y, turn));
                 let Some(next) = next else { break };
                 step = next;
@@ -54,8 +54,8 @@ pub fn outlines(window: [usize; 4], inside: impl Fn(i32, i32) -> bool) -> Vec<Ve
     found
 }
 
-/// The outline with the fewest corners that the Douglas-Peucker rule finds: no point left out lies farther
-/// than the tolerance from it. The two points farthest from each other (nearly) are kept.
+/// Simplifies an outline by the Douglas-Peucker algorithm: no dropped point is further than the tolerance
+/// from the result. The two points (nearly) furthest from each other are kept.
 pub fn simplified(outline: &[(i32, i32)], tolerance: f64) -> Vec<Point> {
     let at = |index: usize| Point::new(f64::from(outline[index].0), f64::from(outline[index].1));
     let count = outline.len();
@@ -63,7 +63,7 @@ pub fn simplified(outline: &[(i32, i32)], tolerance: f64) -> Vec<Point> {
         return (0..count).map(at).collect();
     }
     let farthest_from = |index: usize| {
-        // The first of the farthest.
+        // The first, if tied.
         (0..count).fold((0, -1.0), |best, other| {
             let distance = at(index).distance(at(other));
             if distance > best.1 { (other, distance) } else { best }
@@ -102,8 +102,8 @@ pub fn simplified(outline: &[(i32, i32)], tolerance: f64) -> Vec<Point> {
     (0..count).filter(|&index| keep[index]).map(at).collect()
 }
 
-/// The rule takes quadratic time at worst (a spiral): longer outlines are cut into pieces of so many points,
-/// which keep a corner more each.
+/// The algorithm takes quadratic time at worst (a spiral): longer outlines are cut into pieces of this
+/// many points, each of which keeps an extra corner.
 const LONGEST_WHOLE: usize = 1 << 16;
 const PIECE: usize = 1 << 10;
 

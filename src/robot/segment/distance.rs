@@ -1,10 +1,10 @@
-//! The distance of every free cell from what is not free, and the nearest such cell.
+//! The distance from every free cell to the nearest one that is not free, and that cell.
 
-/// For every cell, in whole cells from centre to centre.
+/// For every cell, in cells from centre to centre.
 pub struct Distances {
-    /// Squared distance; 0 where the cell is not free.
+    /// Squared distance; 0 if the cell is not free.
     pub squared: Vec<u32>,
-    /// The nearest cell that is not free, as (x, y); cells just outside the grid are never free.
+    /// The nearest cell that is not free, as (x, y); cells just outside the grid count as not free.
     pub nearest: Vec<(i32, i32)>,
 }
 
@@ -13,7 +13,8 @@ pub struct Distances {
 pub fn distances(free: &[bool], width: usize, height: usize) -> Distances {
     let mut above = vec![0i32; free.len()];
     for x in 0..width {
-        // The row of the nearest taken cell of the column above or at each cell, then the same from below.
+        // The row of the nearest occupied cell in the column at or above each cell, then the same from
+        // below.
         let mut last = -1;
         for y in 0..height {
             if !free[y * width + x] {
@@ -34,7 +35,8 @@ pub fn distances(free: &[bool], width: usize, height: usize) -> Distances {
     }
     let mut squared = vec![0u32; free.len()];
     let mut nearest = vec![(0, 0); free.len()];
-    // Parabolas of the row's envelope: column (one outside on either side) and from where each is lowest.
+    // Parabolas of the row's envelope: the column (including one outside on either side) and from where
+    // each is lowest.
     let mut columns: Vec<i32> = Vec::with_capacity(width + 2);
     let mut from: Vec<f64> = Vec::with_capacity(width + 2);
     for y in 0..height {

@@ -1,10 +1,10 @@
-//! Rooms of a grid map. The paper finds rooms in line maps by mutual visibility; in grids of whole floors,
-//! with furniture, that rule parts corridors and joins rooms with wide doors, so this is a second method,
-//! reported separately (`docs/robot-maps.md`).
+//! Finds the rooms of a grid map. The paper finds rooms in line maps by mutual visibility; in furnished
+//! grids of whole floors that rule splits corridors and joins rooms with wide doors, so this is a second
+//! method, reported separately (`docs/robot-maps.md`).
 //!
-//! Clutter goes by its size; the free space is cut wherever a wall's free end looks at another wall across
-//! a gap ([`wall_ends`]) and wherever it is narrow ([`narrows`]); then pieces are joined again across cuts
-//! that are neither narrow nor continue a wall between them ([`regions`]).
+//! Clutter is removed by size; the free space is cut wherever the free end of a wall faces another wall
+//! across a gap ([`wall_ends`]) and wherever it is narrow ([`narrows`]); then pieces are rejoined across
+//! cuts that are neither narrow nor continue a wall between them ([`regions`]).
 
 mod contours;
 mod distance;
@@ -22,22 +22,22 @@ pub use regions::{Cut, SMALLEST_ROOM_M2};
 /// The rooms of a map, cell by cell.
 #[derive(Clone, Debug)]
 pub struct Segmentation {
-    /// For every cell of the map its region: rooms have the numbers 1 to [`Self::rooms`], patches of free
-    /// space too small to be rooms larger ones, what is not free 0.
+    /// The region of every cell of the map: rooms have the numbers 1 to [`Self::rooms`], patches of free
+    /// space too small to be rooms have larger ones, and cells that are not free have 0.
     pub region_of_cell: Vec<u32>,
-    /// How many rooms there are.
+    /// The number of rooms.
     pub rooms: u32,
-    /// How many regions there are, patches included.
+    /// The number of regions, patches included.
     pub regions: u32,
-    /// The cuts between two rooms, in cells of the picture, y down. Several may go through one doorway.
+    /// The cuts between two rooms, in cells of the picture, y down. Several may pass through one doorway.
     pub cuts: Vec<Cut>,
 }
 
-/// What surrounded by walls on its own is smaller, in square metres, is a gap between two scanned faces of a
-/// wall, not free space.
+/// A smaller area enclosed by walls, in square metres, is a gap between the two scanned faces of a wall,
+/// not free space.
 const SMALLEST_FREE_M2: f64 = 0.25;
-/// Obstacles on their own with a smaller diagonal, in metres, are furniture, its legs, or noise; walls
-/// hang together over more.
+/// Isolated obstacles with a smaller diagonal, in metres, are furniture, its legs, or noise; walls are
+/// connected over longer distances.
 const LARGEST_CLUTTER_M: f64 = 1.2;
 
 /// Finds the rooms of a map.
@@ -54,7 +54,7 @@ pub fn segment(map: &GridMap) -> Segmentation {
     numbered(&raster, &is_free, found)
 }
 
-/// Rooms first, then the patches too small for one, among them what was closed as too small to be free.
+/// Rooms first, then the patches too small to be rooms, including those closed as too small to be free.
 fn numbered(raster: &Raster, is_free: &[bool], found: regions::Regions) -> Segmentation {
     let mut area = vec![0u32; found.count as usize + 1];
     for &region in &found.of_cell {
@@ -84,7 +84,7 @@ fn numbered(raster: &Raster, is_free: &[bool], found: regions::Regions) -> Segme
     Segmentation { region_of_cell, rooms, regions: regions + count, cuts }
 }
 
-/// What is free, cell by cell from the top, while rooms are looked for.
+/// Which cells are free, from the top, while rooms are being found.
 struct Raster {
     width: usize,
     height: usize,
@@ -114,8 +114,8 @@ impl Raster {
         inside.then(|| y as usize * self.width + x as usize)
     }
 
-    /// Numbers from 1 the sets of cells that hang together side by side, 0 the rest, in the order of
-    /// their first cells; and how many there are.
+    /// Numbers the 4-connected components of cells from 1, in the order of their first cells, and other
+    /// cells 0; also returns their number.
     fn components(&self, belongs: impl Fn(usize) -> bool) -> (Vec<u32>, u32) {
         self.components_by(&[(0, -1), (-1, 0), (1, 0), (0, 1)], belongs)
     }
@@ -152,7 +152,7 @@ impl Raster {
         })
     }
 
-    /// Gives free cells without a number that of the nearest numbered one, going side by side.
+    /// Gives free cells without a number that of the nearest numbered one, by 4-connected steps.
     fn spread(&self, numbers: &mut [u32]) {
         const STEPS: [(i32, i32); 4] = [(0, -1), (-1, 0), (1, 0), (0, 1)];
         let is_open = |numbers: &[u32], cell: usize| self.free[cell] && numbers[cell] == 0;

@@ -1,19 +1,20 @@
-//! Where the free space is narrowest between two wider places: the saddles of the distance from what is
-//! not free, as Voronoi methods use them.
+//! Where the free space is narrowest between two wider places: the saddle points of the distance to
+//! obstacles, as used in Voronoi methods.
 
 use super::Raster;
 use super::distance::Distances;
 use super::union::Union;
 use crate::geometry::Point;
 
-/// Only what is narrower than this share of both sides is looked at; what is kept is decided later.
+/// Only places narrower than this share of both sides are considered; which to keep is decided later.
 const WIDEST_SHARE: f64 = 0.85;
-/// The two nearest obstacles of a narrow place lie on opposite sides: the cosine of the angle between them.
+/// The two nearest obstacles of a narrow place are on opposite sides: the maximum cosine of the angle
+/// between them.
 const MOST_COSINE: f64 = -0.3;
 
 /// The narrow places: from the nearest obstacle on one side to that on the other.
 ///
-/// Cells are taken from the widest place down; basins that meet are joined unless the place where they
+/// Cells are visited from the widest place down; basins that meet are merged unless the place where they
 /// meet is clearly narrower than both.
 pub fn narrows(raster: &Raster, distances: &Distances) -> Vec<[Point; 2]> {
     let (width, height) = (raster.width as i32, raster.height as i32);
@@ -26,7 +27,8 @@ pub fn narrows(raster: &Raster, distances: &Distances) -> Vec<[Point; 2]> {
     for &cell in &order {
         let (x, y) = (cell as i32 % width, cell as i32 / width);
         let distance = f64::from(distances.squared[cell as usize]).sqrt();
-        // The basins around, each once, the deepest first: at most four can be apart among eight.
+        // The surrounding basins, without repeats, deepest first: at most four of eight neighbours can
+        // differ.
         let mut around: Vec<u32> = Vec::new();
         for (dx, dy) in [(-1, -1), (0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0)] {
             let (x, y) = (x + dx, y + dy);
@@ -69,7 +71,7 @@ pub fn narrows(raster: &Raster, distances: &Distances) -> Vec<[Point; 2]> {
 
 /// From the nearest obstacle of a cell to the one most nearly opposite.
 fn across(raster: &Raster, distances: &Distances, x: i32, y: i32) -> Option<[Point; 2]> {
-    /// How far around the cell to look for the other side's, in cells.
+    /// How far around the cell to look for the obstacle on the other side, in cells.
     const AROUND: i32 = 2;
     let (width, height) = (raster.width as i32, raster.height as i32);
     let here = Point::new(f64::from(x), f64::from(y));

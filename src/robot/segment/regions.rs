@@ -1,4 +1,4 @@
-//! The free space cut along its gaps and narrow places, and put together again where no wall parts it.
+//! Cuts the free space along its gaps and narrow places, and rejoins pieces that no wall separates.
 
 use std::collections::BTreeSet;
 
@@ -8,33 +8,33 @@ use super::union::Union;
 use super::wall_ends::THICKEST_WALL_M;
 use crate::geometry::{Point, Vector};
 
-/// Smaller pieces, in square metres, are never rooms of their own beside a larger one: what lies between
-/// two cuts through the same doorway, the depth of a niche.
+/// Smaller pieces, in square metres, are never rooms of their own beside a larger one: the space between
+/// two cuts through the same doorway, or the depth of a niche.
 pub const SMALLEST_ROOM_M2: f64 = 1.0;
-/// A cut parts two rooms by itself where it is this much narrower than both: the diameters of the largest
-/// discs within them.
+/// A cut alone separates two rooms if it is narrower than this share of both: of the diameters of the
+/// largest discs inside them.
 const NARROW_SHARE: f64 = 0.6;
-/// Else it must continue, within [`WALL_LOOKED_AT_M`] of its ends, a wall between the same two rooms that
-/// is this long at least, and so long a share of the cut.
+/// Otherwise it must continue, within [`WALL_LOOKED_AT_M`] of its ends, a wall between the same two rooms
+/// of at least this length, which is also at least this share of the cut.
 const LEAST_WALL_M: f64 = 0.4;
 const LEAST_WALL_SHARE: f64 = 0.15;
 const WALL_LOOKED_AT_M: f64 = 2.0;
-/// Gaps in that wall, in cells: where it is scanned badly, or another wall meets it.
+/// Tolerated gaps in that wall, in cells: where it is badly scanned, or another wall meets it.
 const WALL_GAP_CELLS: u32 = 6;
 
 /// A straight cut through free space, in cells, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cut {
     pub ends: [Point; 2],
-    /// The regions it parts, as they are in the end.
+    /// The regions it separates in the end.
     pub regions: [u32; 2],
 }
 
-/// What the cuts leave.
+/// The result of cutting.
 pub struct Regions {
-    /// For every cell the region, from 1; 0 where it belongs to none.
+    /// The region of every cell, from 1; 0 if it belongs to none.
     pub of_cell: Vec<u32>,
-    /// How many regions there are: their numbers are 1 to this.
+    /// The number of regions, which are numbered from 1.
     pub count: u32,
     /// The cuts between two different regions.
     pub cuts: Vec<Cut>,
@@ -50,15 +50,15 @@ pub fn regions(raster: &Raster, distances: &Distances, gaps: &[[Point; 2]]) -> R
     let mut merger = Merger::new(raster, distances, &pieces, count, gaps);
     merger.join_small(raster.cells(SMALLEST_ROOM_M2.sqrt()).powi(2));
     merger.join_where_no_wall_parts(raster);
-    // Now against rooms as the cuts that are left close them: the aisle between two rows of open stalls is
-    // as wide as it is, not as it is with them.
+    // Now against rooms as closed by the remaining cuts: the aisle between two rows of open stalls counts
+    // with its own width, not including them.
     merger.measure_closed(raster, &pieces);
     merger.join_where_no_wall_parts(raster);
     merger.finish(raster, pieces)
 }
 
-/// Marks the cells along a cut, joined side by side, and two more into the walls at its ends: the ends
-/// are found to a cell or so, and a single open cell would join the rooms again.
+/// Marks the cells along a cut, 4-connected, plus two more into the walls at its ends: the ends are
+/// accurate only to about a cell, and a single open cell would reconnect the rooms.
 fn draw(raster: &Raster, is_cut: &mut [bool], [from, to]: [Point; 2]) {
     let Some(along) = (to - from).unit() else { return };
     let clamp = |value: f64, count: usize| value.floor().clamp(0.0, (count - 1) as f64) as i32;
@@ -73,7 +73,7 @@ fn draw(raster: &Raster, is_cut: &mut [bool], [from, to]: [Point; 2]) {
         if (x, y) == (to_x, to_y) {
             return;
         }
-        // One step sideways or up, never both at once.
+        // One step along x or y, never both at once.
         if y == to_y || (x != to_x && 2 * error > -dy) {
             error -= dy;
             x += step_x;
@@ -88,17 +88,17 @@ fn draw(raster: &Raster, is_cut: &mut [bool], [from, to]: [Point; 2]) {
 struct Border {
     pieces: [u32; 2],
     gap: [Point; 2],
-    /// For how many cells of the cut they face each other.
+    /// The number of cells of the cut over which they face each other.
     cells: u32,
     /// The pieces on both sides of the line beyond each end, cell by cell.
     beyond: [Vec<[u32; 2]>; 2],
 }
 
-/// How strongly a wall parts two pieces beside their border, in cells.
+/// How strongly a wall separates two pieces beside their border, in cells.
 struct Wall {
-    /// Wall between just these two.
+    /// Wall between these two only.
     between: u32,
-    /// Wall between one of them and anything else: what may become wall between them.
+    /// Wall between one of them and anything else, which may become wall between them.
     beside: u32,
 }
 
@@ -108,7 +108,7 @@ struct Merger {
     /// Radius of the largest free disc, in cells.
     peak: Vec<f64>,
     borders: Vec<Border>,
-    /// The borders of each set, under the number that stands for it.
+    /// The borders of each set, under the set's representative.
     borders_of: Vec<Vec<u32>>,
 }
 
@@ -134,7 +134,7 @@ impl Merger {
         Self { union: Union::of(count as usize + 1), area_cells, peak, borders, borders_of }
     }
 
-    /// Measures the largest disc within each set again, with the cuts between different sets as walls.
+    /// Re-measures the largest disc inside each set, with the cuts between different sets as walls.
     fn measure_closed(&mut self, raster: &Raster, pieces: &[u32]) {
         let mut is_cut = vec![false; raster.free.len()];
         for border in 0..self.borders.len() as u32 {
@@ -155,13 +155,13 @@ impl Merger {
         }
     }
 
-    /// The two sets at a border; `None` where they are one by now.
+    /// The two sets at a border; `None` if they have been merged.
     fn sides(&mut self, border: u32) -> Option<[u32; 2]> {
         let sides = self.borders[border as usize].pieces.map(|piece| self.union.find(piece));
         (sides[0] != sides[1]).then_some(sides)
     }
 
-    /// Joins two sets; gives what stands for both.
+    /// Merges two sets; returns the representative.
     fn join(&mut self, [one, other]: [u32; 2]) -> u32 {
         let is_larger = self.area_cells[one as usize] >= self.area_cells[other as usize];
         let (keep, go) = if is_larger { (one, other) } else { (other, one) };
@@ -176,7 +176,7 @@ impl Merger {
         keep
     }
 
-    /// Joins pieces smaller than `least` cells to the neighbour they have the longest border with, the
+    /// Merges pieces smaller than `least` cells into the neighbour with the longest common border,
     /// smallest first.
     fn join_small(&mut self, least: f64) {
         let is_small = |area: u32| f64::from(area) < least;
@@ -206,9 +206,9 @@ impl Merger {
         }
     }
 
-    /// Joins the sets on both sides of each border that is neither narrow nor the continuation of a wall
-    /// between them, those with the least wall beside it first: pieces of a corridor find each other
-    /// before one of them could be taken for part of a room.
+    /// Merges the sets on both sides of each border that is neither narrow nor continues a wall between
+    /// them, those with the least wall beside it first: so pieces of a corridor merge before one of them
+    /// could be taken for part of a room.
     fn join_where_no_wall_parts(&mut self, raster: &Raster) {
         let mut queue: BTreeSet<(i64, i64, u32)> = BTreeSet::new();
         let mut queued: Vec<Option<(i64, i64, u32)>> = vec![None; self.borders.len()];
@@ -225,7 +225,7 @@ impl Merger {
                 if let Some(old) = queued[border as usize].take() {
                     queue.remove(&old);
                 }
-                // Borders within a set never part anything again.
+                // A border inside a set never separates anything again.
                 if self.sides(border).is_some() {
                     open.push(border);
                     self.queue(raster, border, &mut queue, &mut queued);
@@ -235,7 +235,7 @@ impl Merger {
         }
     }
 
-    /// Puts a border at its place in the queue, if it is to go.
+    /// Queues a border if it should be removed.
     fn queue(
         &mut self,
         raster: &Raster,
@@ -253,7 +253,7 @@ impl Merger {
         if share < NARROW_SHARE || is_wall {
             return;
         }
-        // Whole numbers, so that the order is total.
+        // Integers, so that the order is total.
         let by_wall = (f64::from(wall.beside) / length * 1e6) as i64;
         let place = (by_wall, (share * -1e6) as i64, border);
         queue.insert(place);
@@ -289,7 +289,8 @@ impl Merger {
         wall
     }
 
-    /// The regions in the order of their first cells, with the cells of cuts given to what is nearest.
+    /// The regions in the order of their first cells, with the cells of cuts assigned to the nearest
+    /// region.
     fn finish(mut self, raster: &Raster, mut of_cell: Vec<u32>) -> Regions {
         let mut numbers = vec![0; self.area_cells.len()];
         let mut count = 0;
@@ -314,9 +315,9 @@ impl Merger {
     }
 }
 
-/// The pairs of pieces that face each other across a cut, for two cells at least.
+/// The pairs of pieces that face each other across a cut over at least two cells.
 fn borders_along(raster: &Raster, pieces: &[u32], gap: [Point; 2], borders: &mut Vec<Border>) {
-    /// How far from the cut's line its sides are looked for, in cells.
+    /// How far from the cut's line to look for its sides, in cells.
     const ASIDE: f64 = 3.0;
     let [from, to] = gap;
     let Some(along) = (to - from).unit() else { return };

@@ -1,13 +1,13 @@
-//! Sets that are joined one by one.
+//! Union-find.
 
-/// A forest of sets of numbers from 0.
+/// A disjoint-set forest over numbers from 0.
 #[derive(Clone, Debug, Default)]
 pub struct Union {
     parents: Vec<u32>,
 }
 
 impl Union {
-    /// Sets of one number each, from 0 up to `count`.
+    /// `count` singleton sets.
     pub fn of(count: usize) -> Self {
         Self { parents: (0..count as u32).collect() }
     }
@@ -19,7 +19,7 @@ impl Union {
         new
     }
 
-    /// The number that stands for the set of `number`.
+    /// The representative of the set containing `number`.
     pub fn find(&mut self, mut number: u32) -> u32 {
         while self.parents[number as usize] != number {
             let parent = self.parents[number as usize];
@@ -29,7 +29,7 @@ impl Union {
         number
     }
 
-    /// Joins two sets named by what stands for them; `keep` stands for both.
+    /// Merges two sets, given by their representatives; `keep` represents the result.
     pub fn join(&mut self, keep: u32, go: u32) {
         self.parents[go as usize] = keep;
     }

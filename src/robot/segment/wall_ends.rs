@@ -1,5 +1,5 @@
-//! Where walls end freely, and what lies ahead of them: doorways as gaps between a wall's end and the
-//! next wall, collinear or not (section 3.3 of the paper).
+//! Free ends of walls and what is ahead of them: doorways as gaps between a wall's end and the next wall,
+//! collinear or not (section 3.3 of the paper).
 
 use super::Raster;
 use super::contours;
@@ -10,30 +10,30 @@ use crate::geometry::{Point, Vector};
 struct WallEnd {
     /// Its middle.
     at: Point,
-    /// Out of the wall, along it; of length 1.
+    /// Along the wall, pointing out of its end; a unit vector.
     ahead: Vector,
-    /// Between its corners, in cells.
+    /// Distance between its corners, in cells.
     width: f64,
 }
 
 /// The thickest wall, in metres, as everywhere in plans.
 pub const THICKEST_WALL_M: f64 = 0.6;
-/// Shorter pieces are no walls: 'segments under 30 cm are dropped' (section 3.3).
+/// Shorter pieces are not walls: 'segments under 30 cm are dropped' (section 3.3).
 const SHORTEST_WALL_M: f64 = 0.3;
-/// The widest gap looked across. The paper's doorways end at 1.5 m; free passages are wider, and whether
-/// a gap parts two rooms is decided later by the wall beside it.
+/// The widest gap considered. The paper's doorways end at 1.5 m; free passages are wider, and whether a
+/// gap separates two rooms is decided later by the wall beside it.
 const WIDEST_GAP_M: f64 = 3.0;
-/// How far a wall's face may stray from a straight line, in cells: steps of the grid and noise of scans.
+/// How far a wall's face may deviate from a straight line, in cells: steps of the grid and scanner noise.
 const STRAIGHTNESS_CELLS: f64 = 1.5;
-/// By how much the two faces of a wall may part from parallel: they turn by 150 to 215 degrees around its
-/// end (at a pointed end of a wall seen from both sides they meet).
+/// How far the two faces of a wall may be from parallel: the outline turns by 150 to 215 degrees around
+/// the wall's end (at a pointed end of a wall seen from both sides they meet).
 const LEAST_TURN_RAD: f64 = 150.0 * DEGREE;
 const MOST_TURN_RAD: f64 = 215.0 * DEGREE;
-/// Around its end the wall turns one way, but for so much.
+/// Around its end the wall turns one way, with at most this much in reverse.
 const BACK_TURN_RAD: f64 = 10.0 * DEGREE;
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
-/// The gaps ahead of walls' free ends: from the end to what lies ahead.
+/// The gaps ahead of walls' free ends: from the end to the obstacle ahead.
 pub fn gaps(raster: &Raster) -> Vec<[Point; 2]> {
     let reach = raster.cells(WIDEST_GAP_M);
     let ends = wall_ends(raster);
@@ -41,7 +41,7 @@ pub fn gaps(raster: &Raster) -> Vec<[Point; 2]> {
         .filter_map(|end| {
             let half = (end.width / 2.0).max(STRAIGHTNESS_CELLS);
             let there = look_ahead(raster, *end, half, reach)?;
-            // From within the wall, so that the gap's line does not start beside its corner.
+            // From inside the wall, so that the gap's line does not start beside its corner.
             Some([end.at + end.ahead * -1.0, there])
         })
         .collect()
@@ -57,7 +57,7 @@ fn wall_ends(raster: &Raster) -> Vec<WallEnd> {
         .collect()
 }
 
-/// The wall ends of an outline of the free space: one, two or three corners between two faces.
+/// The wall ends on an outline of the free space: one, two or three corners between two faces.
 fn ends_of(corners: &[Point], raster: &Raster) -> Vec<WallEnd> {
     let count = corners.len();
     if count < 3 {
@@ -71,7 +71,7 @@ fn ends_of(corners: &[Point], raster: &Raster) -> Vec<WallEnd> {
     };
     let mut ends = Vec::new();
     for first in 0..count {
-        // How many edges lie between the faces; the faces themselves are two more.
+        // The number of edges between the faces; the faces themselves are two more.
         for between in 0..=2.min(count.saturating_sub(3)) {
             let (last, before) = (first + between, first + count - 1);
             let width = corners[first].distance(corners[last % count]);
@@ -97,10 +97,10 @@ fn ends_of(corners: &[Point], raster: &Raster) -> Vec<WallEnd> {
     ends
 }
 
-/// The nearest cell that is not free within a strip ahead of a wall's end, at most `reach` away. What lies
-/// aside counts as farther by as much: the collinear wall rather than its neighbour.
+/// The nearest obstacle cell within a strip ahead of a wall's end, at most `reach` away. Sideways offset
+/// counts as extra distance: so the collinear wall is preferred to its neighbour.
 fn look_ahead(raster: &Raster, end: WallEnd, half: f64, reach: f64) -> Option<Point> {
-    /// The end itself may reach so far into the strip, in cells.
+    /// How far the wall itself may extend into the strip, in cells.
     const OWN: f64 = 4.0;
     let rays = (2.0 * half) as i32 + 1;
     let mut best: Option<(f64, Point)> = None;
