@@ -1,4 +1,4 @@
-//! What screen readers and scripts are told of the canvas.
+//! The canvas for screen readers and scripts.
 
 use std::sync::Arc;
 
@@ -17,8 +17,8 @@ use crate::plan::{ElementId, Plan};
 use crate::topology::RoomShape;
 
 impl Canvas {
-    /// Rooms as nodes of the accessibility tree, for screen readers and scripts. Painted things are
-    /// invisible to them otherwise. Gives what they ask for.
+    /// Adds rooms as nodes of the accessibility tree, for screen readers and scripts: painted things are
+    /// otherwise invisible to them. Returns what they ask for.
     pub(super) fn tell_screen_reader(
         &self,
         ui: &Ui,
@@ -59,7 +59,7 @@ impl Canvas {
     }
 }
 
-/// What the canvas shows, in a sentence.
+/// The canvas's contents, in a sentence.
 pub(super) fn describe(document: &Document, picked: Option<ElementId>) -> String {
     let plan = document.plan();
     let mut text = format!("Plan {}, {} rooms", document.title(), plan.rooms().len());

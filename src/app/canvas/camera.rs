@@ -1,4 +1,4 @@
-//! Where the view stands: panning, zooming, what a wheel means.
+//! The view: panning, zooming, interpreting the wheel.
 
 use egui::{MouseWheelUnit, Pos2, Rect, Vec2};
 
@@ -10,12 +10,12 @@ use crate::draw::View;
 use crate::geometry::{Bounds, Point, Vector};
 use crate::plan::ElementId;
 
-/// Where the view stands.
+/// The position of the view.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Camera {
     centre: Point,
     px_per_m: f64,
-    /// Shows the whole plan, and goes on doing so when the window changes.
+    /// Whether it shows the whole plan, and keeps doing so when the window changes.
     is_fitted: bool,
 }
 
@@ -28,16 +28,16 @@ pub(super) enum Wish {
     Reveal(ElementId),
 }
 
-/// Free space around a fitted plan, in points.
+/// Margin around a fitted plan, in points.
 const FIT_MARGIN: f64 = 48.0;
 
-/// A canvas on which nothing is drawn shows so many metres from side to side.
+/// Width in metres shown by an empty canvas.
 const EMPTY_WIDTH_M: f64 = 20.0;
 
-/// Half a millimetre is as wide as a pixel: nothing smaller is drawn in a plan.
+/// Maximum zoom: a pixel is half a millimetre, and nothing smaller is drawn in a plan.
 const MOST_PX_PER_M: f64 = 2000.0;
 
-/// A hundred kilometres, the whole drawing area, fit a window.
+/// Minimum zoom: a hundred kilometres, the whole drawing area, fit a window.
 const LEAST_PX_PER_M: f64 = 0.005;
 
 impl Canvas {
@@ -57,38 +57,37 @@ impl Canvas {
         self.wish = Some(Wish::By(factor));
     }
 
-    /// Moves the view if need be, so that something is seen.
+    /// Moves the view if necessary, so that an element is visible.
     pub(crate) fn reveal(&mut self, picked: ElementId) {
         self.wish = Some(Wish::Reveal(picked));
     }
 
-    /// The view, unless it is the one that shows the whole plan: the point in the middle and points of
-    /// the screen to the metre.
+    /// The view, unless it shows the whole plan: the point in the middle, and screen points per metre.
     pub(crate) fn free_view(&self) -> Option<(Point, f64)> {
         self.camera.filter(|camera| !camera.is_fitted).map(|camera| (camera.centre, camera.px_per_m))
     }
 
-    /// Where the view was moved to by hand since the last call: the point in the middle and points of the
-    /// screen to the metre.
+    /// The view if it was moved by hand since the last call: the point in the middle, and screen points
+    /// per metre.
     pub(crate) fn take_moved(&mut self) -> Option<(Point, f64)> {
         let was_moved = std::mem::take(&mut self.was_moved);
         self.camera.filter(|_| was_moved).map(|camera| (camera.centre, camera.px_per_m))
     }
 
-    /// Moves the view at once, to a place nearby.
+    /// Moves the view at once, to somewhere nearby.
     pub(crate) fn set_view(&mut self, centre: Point, px_per_m: f64) {
         self.camera = Some(Camera { centre, px_per_m, is_fitted: false });
     }
 
-    /// Keeps a point and all around it, which was scaled by a factor, where it is on the screen; a view of
-    /// the whole plan goes by itself.
+    /// Keeps a point and its surroundings, which were scaled by a factor, in place on the screen; a view
+    /// of the whole plan adapts by itself.
     pub(crate) fn scale_view(&mut self, about: Point, factor: f64) {
         if let Some((centre, px_per_m)) = self.free_view() {
             self.set_view(about + (centre - about) * factor, px_per_m / factor);
         }
     }
 
-    /// Points of the screen a metre of the plan is long.
+    /// Screen points per metre of the plan.
     pub(crate) fn px_per_m(&self) -> Option<f64> {
         self.camera.map(|camera| camera.px_per_m)
     }
@@ -99,7 +98,7 @@ impl Canvas {
 
     // The view.
 
-    /// Where the view stands in a canvas of this size, wishes fulfilled.
+    /// The view in a canvas of this size, after applying pending requests.
     pub(super) fn update_camera(
         &mut self,
         rect: Rect,
@@ -112,13 +111,13 @@ impl Canvas {
         let bounds = bounds.union(backdrop.bounds(document.plan().backdrop()));
         let bounds = self.ghost.bounds().filter(|_| bounds.is_empty()).unwrap_or(bounds);
         let fitting = |bounds: Bounds| {
-            // A small canvas is for the plan, not for the space about it.
+            // A small canvas is for the plan, not for its margin.
             let margin = FIT_MARGIN.min(width_px.min(height_px) / 8.0);
             let view = View::fitting(bounds, width_px, height_px, margin);
             Camera { centre: view.centre, px_per_m: view.px_per_m, is_fitted: false }
         };
         let whole = || match bounds.is_empty() {
-            // Room for a house. What is drawn then does not move the view.
+            // Room for a house. What is then drawn does not move the view.
             true => {
                 let px_per_m = width_px.max(1.0) / EMPTY_WIDTH_M;
                 Camera { centre: Point::default(), px_per_m, is_fitted: false }
@@ -130,7 +129,7 @@ impl Canvas {
             None => {}
             Some(Wish::Fit) => camera = whole(),
             Some(Wish::Zoom(bounds)) => {
-                // A third of the surroundings stays in sight.
+                // A third of the surroundings stays visible.
                 let around_m = bounds.width().max(bounds.height()) / 3.0;
                 camera = fitting(bounds.inflated(around_m));
             }
@@ -176,7 +175,7 @@ impl Canvas {
         }
     }
 
-    /// Zooms so that the point of the plan at a place of the screen stays there.
+    /// Zooms so that the point of the plan at a screen position stays there.
     pub(super) fn zoom_at(&mut self, view: &View, rect: Rect, at: Pos2, factor: f64) {
         let Some(camera) = &mut self.camera else { return };
         let px_per_m = (camera.px_per_m * factor).clamp(LEAST_PX_PER_M, MOST_PX_PER_M);
@@ -191,8 +190,8 @@ impl Canvas {
     }
 }
 
-/// Whether a turn of the wheel comes from fingers on a touch pad, which pan: they report points, or
-/// fractions of a line, or go sideways. A wheel turns by whole lines up and down.
+/// Whether a scroll event comes from a touch pad, which pans: they report points or fractions of a line,
+/// or scroll sideways. A wheel reports whole lines up and down.
 pub(super) fn is_touch_pad(unit: MouseWheelUnit, delta: Vec2) -> bool {
     match unit {
         MouseWheelUnit::Point => true,
@@ -201,8 +200,8 @@ pub(super) fn is_touch_pad(unit: MouseWheelUnit, delta: Vec2) -> bool {
     }
 }
 
-/// The view moved by less than a pixel, so that the plan's origin is on one: lines then look the same
-/// wherever the plan is dragged.
+/// The view shifted by less than a pixel so that the plan's origin is on a whole pixel: lines then look
+/// the same wherever the plan is dragged.
 fn on_whole_pixels(view: View, rect: Rect) -> View {
     let origin = view.screen_from_plan(Point::default());
     let rest = |place: f64, start: f32| {
@@ -237,7 +236,7 @@ mod tests {
         let before = plan_point(&view, rect, at);
         canvas.zoom_at(&view, rect, at, 2.5);
         let after = plan_point(&canvas.view(rect, 1.0), rect, at);
-        // Half a pixel of 75 to the metre.
+        // Half a pixel at 75 per metre.
         assert!(before.distance(after) <= 0.5f64.hypot(0.5) / 75.0 + 1e-9, "{before:?} {after:?}");
         for factor in [1e9, 1e-9] {
             canvas.zoom_at(&view, rect, at, factor);

@@ -1,5 +1,5 @@
-//! Live dimensions: the lengths of the selected rooms' walls beside their edges, area and perimeter below.
-//! They keep off each other and off the names.
+//! Live dimensions: the lengths of the selected rooms' walls beside their edges, area and perimeter
+//! below. They avoid each other and room names.
 
 use crate::app::paint::places::paper;
 use std::sync::Arc;
@@ -19,35 +19,35 @@ use crate::geometry::{
 };
 use crate::topology::RoomShape;
 
-/// With more rooms selected, only what they come to together is told.
+/// With more rooms selected, only their totals are shown.
 const MOST_ROOMS: usize = 6;
 
-/// A room with more walls is told as a whole only: it is round, or a scan.
+/// For a room with more walls, only area and perimeter are shown: it is round, or a scan.
 const MOST_RUNS: usize = 40;
 
-/// Space in points between an edge and the number beside it: outside of a wall's thickness as drawn.
+/// Gap in points between an edge and its number: outside a wall's drawn thickness.
 const GAP: f32 = 5.0;
 
-/// A wall must be so much longer than its number, in points.
+/// How much longer a wall must be than its number, in points.
 const SPARE: f32 = 10.0;
 
-/// A number and where it stands.
+/// A number and its position.
 struct Label {
     galley: Arc<Galley>,
     centre: Pos2,
-    /// Clockwise, as egui turns text; within a quarter turn of level.
+    /// Clockwise, as in egui; within a quarter turn of horizontal.
     angle_rad: f32,
 }
 
 impl Label {
-    /// The box about it, upright.
+    /// Its axis-aligned bounding box.
     fn bounds(&self) -> Rect {
         let (size, (sin, cos)) = (self.size(), self.angle_rad.sin_cos());
         let extent = vec2((size.x * cos).abs() + (size.y * sin).abs(), (size.x * sin).abs() + (size.y * cos).abs());
         Rect::from_center_size(self.centre, extent)
     }
 
-    /// With the ground about the text.
+    /// Including the text's background.
     fn size(&self) -> Vec2 {
         self.galley.size() + vec2(8.0, 2.0)
     }
@@ -65,7 +65,7 @@ impl Label {
     }
 }
 
-/// Paints the dimensions of the selected rooms where they cover no `names`.
+/// Paints the dimensions of the selected rooms where they do not cover `names`.
 pub(crate) fn paint(
     painter: &Painter,
     rect: Rect,
@@ -106,7 +106,7 @@ struct Sheet<'a> {
     view: &'a View,
     units: Units,
     colours: &'a Colours,
-    /// What is written on the plan.
+    /// The texts on the plan.
     names: Vec<Rect>,
 }
 
@@ -122,7 +122,7 @@ impl Sheet<'_> {
             .rings()
             .enumerate()
             .map(|(index, ring)| {
-                // On the left of a ring that goes round counter-clockwise lies its inside.
+                // The inside of a counter-clockwise ring is on its left.
                 let is_left_inside = (polygon::signed_area(ring) > 0.0) == (index == 0);
                 (runs(ring), if is_left_inside { 1.0 } else { -1.0 })
             })
@@ -138,7 +138,7 @@ impl Sheet<'_> {
                 if along.length() < galley.size().x + SPARE {
                     continue;
                 }
-                // The y axis of the screen points down: outside is on the left there.
+                // The screen's y axis points down, so outside is on the left there.
                 let outwards = vec2(-along.y, along.x).normalized() * side;
                 let mut angle_rad = along.angle();
                 // Readable from below or from the right.
@@ -149,7 +149,7 @@ impl Sheet<'_> {
                 }
                 let wall = (crate::plan::DEFAULT_WALL_THICKNESS_M * self.view.px_per_m) as f32;
                 let off = wall.min(12.0) + GAP + galley.size().y / 2.0;
-                // In the middle if that is free, else nearer to an end, else inside.
+                // In the middle if that is free, otherwise nearer to an end, otherwise inside.
                 for (part, side) in [(0.5, 1.0), (0.3, 1.0), (0.7, 1.0), (0.5, -1.0), (0.3, -1.0), (0.7, -1.0)] {
                     let centre = a + along * part + outwards * off * side;
                     if self.add(Label { galley: galley.clone(), centre, angle_rad }, labels) {
@@ -160,7 +160,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// Area and perimeter, below the rooms, above them, or in the middle of what is seen.
+    /// Area and perimeter, below the rooms, above them, or in the middle of the visible part.
     fn whole(&self, shapes: &[&RoomShape], all: crate::geometry::Bounds, labels: &mut Vec<Label>) {
         let area_m2: f64 = shapes.iter().map(|shape| shape.area_m2()).sum();
         let perimeter_m: f64 = shapes.iter().map(|shape| shape.perimeter_m()).sum();
@@ -172,7 +172,7 @@ impl Sheet<'_> {
         let galley = self.text(text);
         let corners = [all.min, all.max].map(|point| on_screen(self.rect, self.view, point));
         let on_screen = Rect::from_two_pos(corners[0], corners[1]);
-        // Rooms that are specks are not told.
+        // Rooms that are just specks get none.
         if on_screen.width().max(on_screen.height()) < 24.0 {
             return;
         }
@@ -183,7 +183,7 @@ impl Sheet<'_> {
         let beside = [
             pos2(on_screen.right() + 40.0 + half.x, on_screen.center().y),
             pos2(on_screen.left() - 40.0 - half.x, on_screen.center().y),
-            // Where it is always found.
+            // Where it can always be found.
             pos2(self.rect.center().x, self.rect.bottom() - 18.0),
         ];
         for centre in below.chain(beside) {
@@ -193,7 +193,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// Adds a label if it is seen whole and over no other and no name; gives whether.
+    /// Adds a label if it is fully visible and covers no other label or name; returns whether it did.
     fn add(&self, label: Label, labels: &mut Vec<Label>) -> bool {
         let bounds = label.bounds();
         let is_free = self.rect.contains_rect(bounds)

@@ -10,19 +10,19 @@ use crate::draw::View;
 use crate::geometry::{Point, trim_m};
 use crate::plan::GuideAxis;
 
-/// A guide that the pointer holds.
+/// A guide being dragged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Drag {
     pub axis: GuideAxis,
-    /// Where it stood; `None` for a new one.
+    /// Its previous position; `None` for a new one.
     pub from_m: Option<f64>,
-    /// Where it would be let go; `None` where that would be none.
+    /// Where it would be dropped; `None` if that would remove it.
     pub to_m: Option<f64>,
-    /// The ruler it was taken from, by the axis of the guides that cross it.
+    /// The ruler it was dragged from, by the axis of the guides that cross it.
     pub ruler: GuideAxis,
 }
 
-/// Where the guides of an axis are, the one that is dragged left out.
+/// The positions of the guides of an axis, except the one being dragged.
 pub(crate) fn places(session: &Session, drag: Option<Drag>, axis: GuideAxis) -> impl Iterator<Item = f64> + '_ {
     let dragged = drag.filter(|drag| drag.axis == axis).and_then(|drag| drag.from_m);
     session
@@ -32,7 +32,7 @@ pub(crate) fn places(session: &Session, drag: Option<Drag>, axis: GuideAxis) -> 
         .map(|guide| guide.at_m)
 }
 
-/// A point of the screen on a guide.
+/// A point on a guide, on the screen.
 pub(crate) fn on_canvas(rect: Rect, view: &View, axis: GuideAxis, at_m: f64) -> Pos2 {
     on_screen(
         rect,
@@ -44,12 +44,12 @@ pub(crate) fn on_canvas(rect: Rect, view: &View, axis: GuideAxis, at_m: f64) -> 
     )
 }
 
-/// Where a dragged guide would be let go at a place of the screen: at the nearest round length that a
-/// pixel can tell. `None` beyond the canvas, for a new guide also on the ruler.
+/// Where a guide dragged to a screen position would be dropped: at the nearest round length that a pixel
+/// resolves. `None` outside the canvas and, for a new guide, also on the ruler.
 pub(crate) fn dropped_at(drag: &Drag, at: Pos2, rect: Rect, view: &View, units: Units) -> Option<f64> {
     let is_inside = match (drag.from_m, drag.axis) {
         (None, _) => rect.contains(at),
-        // Along its ruler, on it or not.
+        // Along its ruler, whether on it or not.
         (Some(_), GuideAxis::Vertical) => rect.x_range().contains(at.x),
         (Some(_), GuideAxis::Horizontal) => rect.y_range().contains(at.y),
     };
@@ -58,7 +58,7 @@ pub(crate) fn dropped_at(drag: &Drag, at: Pos2, rect: Rect, view: &View, units: 
     is_inside.then(|| trim_m((at_m / step_m).round() * step_m))
 }
 
-/// Paints the guides, and the one that is dragged with its place.
+/// Paints the guides, and the dragged one with its position.
 pub(crate) fn paint(painter: &Painter, rect: Rect, view: &View, session: &Session, drag: Option<Drag>) {
     let colours = theme::colours(&painter.ctx().global_style().visuals);
     let line = |axis: GuideAxis, at_m: f64, stroke: Stroke| {

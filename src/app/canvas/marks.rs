@@ -1,4 +1,5 @@
-//! What is painted over the plan: marks of what is selected and pointed at, questions, hints, the scale bar.
+//! What is painted over the plan: marks of selected and hovered elements, questions, hints, the scale
+//! bar.
 
 use std::sync::Arc;
 
@@ -20,11 +21,11 @@ use crate::draw::{Palette, Style, View};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::plan::{ElementId, GuideAxis, Plan};
 
-/// Of more selected elements not all are marked: it would take longer than a frame.
+/// The most selected elements that are marked: more would take longer than a frame.
 pub(super) const MOST_MARKED: usize = 2000;
 
 impl Canvas {
-    /// Shows what changed since everything was worked out last.
+    /// Shows what changed since the last analysis.
     pub(super) fn paint_pending(
         &mut self,
         painter: &Painter,
@@ -101,7 +102,7 @@ impl Canvas {
                 let ends = [segment.a, segment.b].map(|point| on_screen(rect, view, point));
                 let middle = ends[0] + (ends[1] - ends[0]) / 2.0;
                 let half = (ends[1] - ends[0]) / 2.0;
-                // Never so small that it is not seen.
+                // Never too small to be visible.
                 let half = if half.length() < 4.0 { vec2(4.0, 0.0) } else { half };
                 let (from, to) = (middle - half, middle + half);
                 let band = mark.width + 6.0;
@@ -115,7 +116,7 @@ impl Canvas {
     }
 }
 
-/// What an open question is about.
+/// The subject of an open question.
 pub(super) fn preview_question(session: &Session, plan: &Plan, preview: &mut Preview) {
     match session.question.as_ref().map(|question| &question.shown) {
         Some(Shown::Gone(gone)) => {
@@ -151,7 +152,7 @@ pub(super) fn preview_question(session: &Session, plan: &Plan, preview: &mut Pre
     }
 }
 
-/// Guide lines, and what lies near the pointer of the storey below.
+/// More snap targets: guide lines, and lines of the storey below near the pointer.
 pub(super) fn more_to_snap_to(session: &Session, view: &View, pointer: Point) -> (Vec<Segment>, Vec<Point>) {
     let seen = view.bounds();
     let mut lines: Vec<Segment> = session
@@ -164,7 +165,7 @@ pub(super) fn more_to_snap_to(session: &Session, view: &View, pointer: Point) ->
             GuideAxis::Vertical => Segment::new(Point::new(guide.at_m, seen.min.y), Point::new(guide.at_m, seen.max.y)),
         })
         .collect();
-    // As far as something attracts, and more.
+    // Within snapping reach, and a little more.
     let near = Bounds::of([pointer]).inflated(GHOST_REACH_PX / view.px_per_m);
     let below: Vec<Segment> = session.ghost_segments().iter().copied().filter(|line| near.meets(*line)).collect();
     let points = below.iter().flat_map(|line| [line.a, line.b]).collect();
@@ -172,7 +173,7 @@ pub(super) fn more_to_snap_to(session: &Session, view: &View, pointer: Point) ->
     (lines, points)
 }
 
-/// The storey below attracts from this far away, in points.
+/// Snapping reach for the storey below, in points.
 const GHOST_REACH_PX: f64 = 16.0;
 
 /// What has been typed for the tool, beside the pointer.
@@ -192,7 +193,7 @@ pub(super) fn paint_typed(
     tools::tag(painter, at, egui::Align2::LEFT_TOP, &format!("{typed}|   Enter"), ink, palette);
 }
 
-/// How something is marked.
+/// How an element is marked.
 pub(super) struct Mark {
     line: Color32,
     width: f32,
@@ -210,14 +211,14 @@ impl Mark {
     }
 }
 
-/// Whether a picture is shown under the plan.
+/// Whether a backdrop is shown.
 pub(super) fn is_over_picture(session: &Session, plan: &Plan) -> bool {
     session.layers.backdrop && plan.backdrop().is_some()
 }
 
-/// A bar of a round length in the lower left corner.
+/// A scale bar of a round length in the lower left corner.
 pub(super) fn paint_scale_bar(painter: &Painter, rect: Rect, view: &View, palette: &Palette, units: Units) {
-    // The longest round length that is at most as long as this, in points.
+    // The maximum length of the bar, in points.
     const LONGEST: f64 = 120.0;
     let length_m = units.round_length_at_most(LONGEST / view.px_per_m);
     let width = (length_m * view.px_per_m) as f32;
@@ -236,7 +237,7 @@ pub(super) fn paint_scale_bar(painter: &Painter, rect: Rect, view: &View, palett
     painter.galley(beside, galley, ink);
 }
 
-/// What to do with an empty plan: the tools one begins with, by their keys.
+/// Hints on an empty plan: the tools to begin with, and their keys.
 pub(super) fn paint_beginning(painter: &Painter, rect: Rect, palette: &Palette, beginning: &Beginning) {
     let lines = [
         ("Nothing is drawn yet".to_owned(), theme::TITLE, palette.ink),
@@ -250,7 +251,7 @@ pub(super) fn paint_beginning(painter: &Painter, rect: Rect, palette: &Palette, 
         ("Or drop a picture of a plan here, to trace it".to_owned(), theme::BODY, palette.ink_muted),
     ];
     const LINE: f32 = 26.0;
-    // Of a small canvas the hints would hide all.
+    // On a small canvas the hints would hide everything.
     if rect.width() < 420.0 || rect.height() < 240.0 {
         return;
     }

@@ -1,4 +1,4 @@
-//! The canvas: the plan, seen through a view that pans and zooms, and what can be picked on it.
+//! The canvas: the plan in a view that pans and zooms, and what can be picked on it.
 
 mod accessibility;
 mod camera;
@@ -34,56 +34,56 @@ use crate::draw::{self, Layers, Style, View};
 use crate::geometry::Point;
 use crate::plan::{ElementId, Plan};
 
-/// What the canvas remembers from frame to frame.
+/// The state of the canvas between frames.
 #[derive(Default)]
 pub(crate) struct Canvas {
     camera: Option<Camera>,
-    /// A change of the view that waits for the size of the canvas.
+    /// A change of the view waiting for the size of the canvas to be known.
     wish: Option<Wish>,
-    /// The view of the last frame and where it was on the screen.
+    /// The view of the last frame and its place on the screen.
     seen: Option<(View, Rect)>,
-    /// What a panel's row under the pointer stands for.
+    /// The element of the row hovered in a panel.
     pub hovered_in_panel: Option<ElementId>,
-    /// What the pointer points at.
+    /// What is under the pointer.
     pub pointed: Pointed,
     painter: ScenePainter,
     ghost: GhostPainter,
-    /// What is not worked out yet.
+    /// The edits not yet analysed.
     pending: Option<Pending>,
     /// The guide that is being dragged.
     pub guide_drag: Option<guides::Drag>,
-    /// The triangles of the room whose fill marks it.
+    /// The triangles of the room that is marked by a fill.
     marked: Option<(Arc<Derived>, ElementId, Vec<u32>)>,
-    /// Whether the last turn of a wheel came from fingers on a touch pad.
+    /// Whether the last scrolling came from a touch pad.
     is_touch_pad: bool,
-    /// Whether focus came by keyboard, so that it must be seen.
+    /// Whether focus came by keyboard, so that it must be visible.
     shows_focus: bool,
     /// Whether the pointer moved the view in this frame.
     was_moved: bool,
-    /// Whether a drag moves the view, however it goes on.
+    /// Whether the current drag pans, however it continues.
     is_panning: bool,
-    /// Where the button was pressed: what the place snapped to, and the place itself.
+    /// Where the button was pressed: the snapped point, and the exact one.
     pressed_at: Option<(Point, Point)>,
-    /// Where the pointer was last.
+    /// The last pointer position.
     last_pointer: Point,
 }
 
-/// How strongly a wheel zooms: egui's own measure for Ctrl and wheel.
+/// Zoom per point of scrolling: the same as egui's for Ctrl and wheel.
 const ZOOM_PER_POINT: f64 = 1.0 / 200.0;
 
-/// What a person did on the canvas.
+/// A user action on the canvas.
 pub(crate) enum Act {
-    /// What the tool in the hand does.
+    /// The calls of the active tool.
     Calls(Vec<Call>),
     Pick(ElementId),
-    /// Pick the next or previous room; leave the canvas behind the last.
+    /// Pick the next or previous room; leave the canvas after the last.
     PickNeighbour(isize),
     /// Pick the room nearest in a direction of the plan.
     PickTowards(Direction),
     Rename,
 }
 
-/// The keys of the tools one begins with, as people read them.
+/// The keys of the tools to begin with, in readable form.
 pub(crate) struct Beginning {
     pub walls: String,
     pub fill: String,
@@ -92,12 +92,12 @@ pub(crate) struct Beginning {
 }
 
 impl Canvas {
-    /// Forgets the plan that was shown.
+    /// Forgets the previous plan.
     pub(crate) fn forget(&mut self) {
         *self = Self { is_touch_pad: self.is_touch_pad, ..Self::default() };
     }
 
-    /// The view of the last frame and where it was on the screen.
+    /// The view of the last frame and its place on the screen.
     pub(crate) fn seen(&self) -> Option<(View, Rect)> {
         self.seen
     }
@@ -107,7 +107,7 @@ impl Canvas {
         self.seen.map(|(_, rect)| rect)
     }
 
-    /// How far from an opening a click picks it, in metres at the present zoom.
+    /// How close to an opening a click must be to pick it, in metres at the current zoom.
     pub(crate) fn pick_reach_m(&self) -> f64 {
         self.px_per_m().map_or(0.0, |px_per_m| tools::REACH_PX / px_per_m)
     }
@@ -150,7 +150,7 @@ impl Canvas {
         self.pointed.at = pointer.map(|at| plan_point(view, rect, at));
     }
 
-    /// Shows the plan in all that is left of `ui`; gives what a person did there.
+    /// Shows the plan in the rest of `ui`; returns the user's action.
     pub(crate) fn show(
         &mut self,
         ui: &mut Ui,
@@ -162,7 +162,7 @@ impl Canvas {
     ) -> Option<Act> {
         let rect = rulers::canvas_rect(session, ui.available_rect_before_wrap());
         let fresh = document.derived();
-        // What was worked out for an earlier plan is better than nothing.
+        // The results for an earlier plan are better than nothing.
         let shown = fresh.or(document.last_derived().map(|(_, derived)| derived));
         self.update_camera(rect, document, shown.map(Arc::as_ref), backdrop);
         let response = ui.interact(rect, canvas_id(), Sense::click_and_drag());
@@ -170,8 +170,8 @@ impl Canvas {
         let view = self.view(rect, ui.pixels_per_point());
         self.seen = Some((view, rect));
 
-        // While the plan is worked out anew after an edit, what was there before can still be picked:
-        // pressing on a room may be what ended the edit of another's name.
+        // While the plan is reanalysed after an edit, the previous elements can still be picked: pressing
+        // on a room may be what ended the edit of another's name.
         let (plan, px_per_m) = (document.plan(), view.px_per_m);
         let at = |point: Point| {
             shown.map(|derived| tools::hit(derived, plan, &session.layers, point, px_per_m)).unwrap_or_default()
@@ -185,7 +185,7 @@ impl Canvas {
         let mut act = None;
         let options = toolbox.options;
         let scope = self.use_tool(ui, &response, document, shown, session, &options, toolbox, &view, &mut act);
-        // With another tool in the hand the keyboard goes from room to room all the same.
+        // With any other tool, the keyboard still goes from room to room.
         act = act.or(self.take_keys(ui, &response));
 
         let style = style(session, document.plan(), ui.visuals().dark_mode);
@@ -199,7 +199,7 @@ impl Canvas {
         }
         self.ghost.paint(&painter, rect, session.shown_ghost().map(|ghost| &ghost.derived), &style, &view);
         match fresh {
-            // Never a stale label as a fresh one.
+            // Never show a stale label as current.
             None => self.paint_pending(&painter, rect, &view, document, session, &style),
             Some(derived) => {
                 let under_pointer = self.pointed.element.filter(|_| toolbox.is_selecting());
@@ -241,7 +241,7 @@ impl Canvas {
         self.tell_screen_reader(ui, rect, &view, document, fresh, session).or(act)
     }
 
-    /// Lets the tool in the hand see what the pointer and the keys do.
+    /// Passes pointer and keyboard input to the active tool.
     fn use_tool<'a>(
         &mut self,
         ui: &Ui,
@@ -258,7 +258,7 @@ impl Canvas {
         self.last_pointer = pointer;
         let modifiers = ui.input(|input| input.modifiers);
         let index = shown.map(|derived| &derived.index);
-        // A picture's walls do not stand on the grid.
+        // The walls in a backdrop are not on the grid.
         let grid_m = (!is_over_picture(session, document.plan()) && session.layers.grid).then(|| {
             session.settings.grid_m().unwrap_or(match session.units() {
                 Units::Metric => 1.0,
@@ -322,7 +322,7 @@ impl Canvas {
         for input in inputs {
             let was_snapping = toolbox.tool().snaps();
             calls.extend(toolbox.tool_mut().take(input, &scope));
-            // What it snaps to depends on what was begun.
+            // Snapping depends on what has been started.
             if toolbox.tool().snaps() != was_snapping || !calls.is_empty() {
                 scope.snap = toolbox.snap(&ground, pointer);
             }
@@ -337,7 +337,8 @@ impl Canvas {
         scope
     }
 
-    /// With the keyboard on the canvas: Tab goes from room to room, arrows to the next room that way.
+    /// With the keyboard on the canvas: Tab goes from room to room, arrows to the next room in that
+    /// direction.
     fn take_keys(&mut self, ui: &Ui, response: &Response) -> Option<Act> {
         if response.gained_focus() {
             self.shows_focus = ui.input(|input| !input.pointer.any_pressed() && !input.pointer.any_released());
@@ -368,12 +369,12 @@ impl Canvas {
     }
 }
 
-/// Whether the key is held that makes every drag move the view.
+/// Whether the key that makes every drag pan is held.
 fn is_space_held(ui: &Ui) -> bool {
     !ui.ctx().text_edit_focused() && ui.input(|input| input.key_down(Key::Space))
 }
 
-/// How the plan is drawn now.
+/// The current style of the plan.
 fn style(session: &Session, plan: &Plan, is_dark: bool) -> Style {
     let layers = session.layers;
     let is_over_picture = is_over_picture(session, plan);
@@ -381,14 +382,14 @@ fn style(session: &Session, plan: &Plan, is_dark: bool) -> Style {
         theme: if is_dark { draw::Theme::Dark } else { draw::Theme::Light },
         fill: layers.fill,
         label_colours: layers.colours,
-        // The picture must be seen through the rooms.
+        // The backdrop must show through the rooms.
         fill_opacity: if is_over_picture { 0.55 } else { 1.0 },
         halo: is_over_picture,
         text_px: 12.5,
         units: session.units(),
         grid_m: session.settings.grid_m(),
         layers: Layers {
-            // Over a picture its lines would be taken for walls.
+            // Over a backdrop its lines could be taken for walls.
             grid: layers.grid && !is_over_picture,
             rooms: !(is_over_picture && layers.fill == draw::Fill::None),
             walls: true,

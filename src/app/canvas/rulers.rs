@@ -1,5 +1,5 @@
-//! Rulers along the top and the left edge of the canvas, in the units that are set. They mark where the
-//! pointer is; guide lines are dragged out of them.
+//! Rulers along the top and left edges of the canvas, in the current units. They mark the pointer's
+//! position; guide lines are dragged out of them.
 
 use std::sync::Arc;
 
@@ -20,27 +20,27 @@ use crate::draw::View;
 use crate::geometry::Point;
 use crate::plan::GuideAxis;
 
-/// How wide a ruler is, in points.
+/// Width of a ruler in points.
 const WIDTH: f32 = 20.0;
 
-/// Ticks with a number are at least so many points apart.
+/// Minimum spacing of numbered ticks, in points.
 const NUMBERED: f64 = 64.0;
 
-/// Ticks are at least so many points apart.
+/// Minimum spacing of ticks, in points.
 const CLOSEST: f64 = 5.0;
 
-/// Numbers on rulers, in points.
+/// Font size of the numbers, in points.
 const TEXT: f32 = 10.0;
 
-/// A guide is taken from this far away, in points.
+/// How close to a guide the pointer must be to take it, in points.
 const REACH: f32 = 5.0;
 
-/// What the rulers leave of a rectangle to the canvas.
+/// The part of a rectangle that the rulers leave to the canvas.
 pub(crate) fn canvas_rect(session: &Session, all: Rect) -> Rect {
     if session.layers.rulers { Rect::from_min_max(all.min + vec2(WIDTH, WIDTH), all.max) } else { all }
 }
 
-/// Shows the rulers about the canvas that was shown last, if they are on.
+/// Shows the rulers around the canvas just shown, if they are on.
 pub(crate) fn show(canvas: &mut Canvas, session: &Session, help: &str, ui: &mut Ui) -> Vec<Call> {
     let mut calls = Vec::new();
     let Some((view, rect)) = canvas.seen().filter(|_| session.layers.rulers) else { return calls };
@@ -48,7 +48,7 @@ pub(crate) fn show(canvas: &mut Canvas, session: &Session, help: &str, ui: &mut 
     let all = ui.available_rect_before_wrap();
     let above = Rect::from_min_max(pos2(rect.left(), all.top()), pos2(rect.right(), rect.top()));
     let beside = Rect::from_min_max(pos2(all.left(), rect.top()), pos2(rect.left(), rect.bottom()));
-    // The ruler above measures x; dragging out of it makes horizontal guides, as rulers do everywhere.
+    // The top ruler measures x; dragging out of it makes horizontal guides, as in other programs.
     for (axis, strip) in [(GuideAxis::Vertical, above), (GuideAxis::Horizontal, beside)] {
         let painter = ui.painter_at(strip);
         painter.rect_filled(strip, 0.0, colours.panel);
@@ -75,7 +75,7 @@ pub(crate) fn show(canvas: &mut Canvas, session: &Session, help: &str, ui: &mut 
 }
 
 struct Ruler<'a> {
-    /// The axis of guides that stand at its ticks.
+    /// The axis of the guides at its ticks.
     axis: GuideAxis,
     strip: Rect,
     view: &'a View,
@@ -92,10 +92,10 @@ impl Ruler<'_> {
         let ends = [self.rect.left_bottom(), self.rect.right_top()].map(|at| plan_point(self.view, self.rect, at));
         let [from_m, to_m] = ends.map(|end| self.axis.coordinate(end));
         let per_number = (numbered_m / tick_m).round().max(1.0) as i64;
-        // Half of the numbered distance, where a tick stands there.
+        // Half of the numbered distance, if there is a tick there.
         let half = (per_number % 2 == 0).then_some(per_number / 2);
         let (first, last) = ((from_m / tick_m).floor() as i64 - 1, (to_m / tick_m).ceil() as i64 + 1);
-        // A number may begin before the first tick that is seen.
+        // A number may start before the first visible tick.
         for index in first - per_number..=last {
             let place_m = index as f64 * tick_m;
             let is_numbered = index.rem_euclid(per_number) == 0;
@@ -129,7 +129,7 @@ impl Ruler<'_> {
         }
     }
 
-    /// Where a coordinate is on the screen, on whole pixels.
+    /// The screen position of a coordinate, on whole pixels.
     fn place(&self, at_m: f64) -> Pos2 {
         let point = match self.axis {
             GuideAxis::Vertical => Point::new(at_m, 0.0),
@@ -139,12 +139,12 @@ impl Ruler<'_> {
     }
 }
 
-/// A text that reads from bottom to top, beginning at a place.
+/// A text that reads from bottom to top, starting at a position.
 fn upright(galley: Arc<Galley>, at: Pos2) -> Shape {
     TextShape::new(at, galley, Color32::PLACEHOLDER).with_angle(-std::f32::consts::FRAC_PI_2).into()
 }
 
-/// Marks where the guides are, on the ruler that they cross.
+/// Marks the positions of guides on the ruler that they cross.
 fn mark_guides(
     session: &Session,
     drag: Option<Drag>,
@@ -174,7 +174,7 @@ fn mark_guides(
     }
 }
 
-/// Guides are dragged out of a ruler, along it where they stand, and off it to be rid of them.
+/// Guides are dragged out of a ruler to create them, along it to move them, and off it to remove them.
 fn take_pointer(
     canvas: &mut Canvas,
     session: &Session,
@@ -222,7 +222,7 @@ fn take_pointer(
         let origin = ui.input(|input| input.pointer.press_origin());
         canvas.guide_drag = Some(match origin.and_then(near) {
             Some(at_m) => Drag { axis, from_m: Some(at_m), to_m: None, ruler: axis },
-            // The ruler above lies along horizontal lines.
+            // The top ruler is parallel to horizontal guides.
             None => Drag { axis: other(axis), from_m: None, to_m: None, ruler: axis },
         });
     }
