@@ -1,5 +1,5 @@
-//! What commands take: files, rooms, functions, numbers. Each kind reads its words, and offers
-//! choices where there are any.
+//! Command arguments: files, rooms, functions, numbers. Each kind parses its text and, where possible,
+//! offers choices.
 
 use crate::classify::Method;
 use crate::predict::ModelSet;
@@ -23,15 +23,15 @@ use crate::geometry::{COORDINATE_LIMIT_M, Point, trim_m};
 use crate::labels::Typology;
 use crate::plan::{ElementId, Joint, Opening, OpeningId, Plan, RoomId, titles::room_title};
 
-/// Something a command takes.
+/// An argument of a command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Argument {
-    /// In capitals, as in a command's call: 'ROOM'.
+    /// In capitals, as in a command's usage: 'ROOM'.
     pub name: &'static str,
     pub kind: ArgumentKind,
-    /// Whether the command does without.
+    /// Whether it may be omitted.
     pub is_optional: bool,
-    /// A phrase for the manual, and the hint where it is typed.
+    /// A phrase for the manual, and the hint in its text field.
     pub help: &'static str,
 }
 
@@ -52,16 +52,16 @@ pub enum ArgumentKind {
     Length { least_m: f64, most_m: f64 },
     /// 1, 2, 3, …
     Count,
-    /// A room of the open plan: its name, where no other room has it, or its id.
+    /// A room of the open plan: its name, if unique, or its id.
     Room,
     /// An opening of the open plan: its id.
     Opening,
-    /// Elements of the open plan: their ids with blanks between; a room's may be its name where that is one
+    /// Elements of the open plan: their ids separated by spaces; for a room, also its name if that is one
     /// word.
     Elements,
-    /// Points of the plan, `X,Y` in metres with blanks between.
+    /// Points of the plan: `X,Y` in metres, separated by spaces.
     Points { least: usize },
-    /// What a room is for: one the plan's label scheme knows, or any other text.
+    /// What a room is for: a function of the plan's label scheme, or any other text.
     Function,
     /// A typology that has a label scheme, or 'unknown'.
     Typology,
@@ -69,23 +69,23 @@ pub enum ArgumentKind {
     ModelSet,
     /// A way to classify: its word.
     Method,
-    /// A plan that comes with the program: its file's name without the ending.
+    /// A bundled plan: its file's name without the extension.
     Sample,
     /// 'on' or 'off'.
     Switch,
-    /// A button of the question that is asked.
+    /// A button of the current question.
     Answer,
-    /// A command of the menus: its id.
+    /// A menu command: its id.
     Command,
-    /// A panel at a side of the canvas that has no command of its own: its id.
+    /// A side panel without a command of its own: its id.
     SidePanel,
-    /// Keys that are pressed together: 'Ctrl+Shift+K'.
+    /// Keys pressed together: 'Ctrl+Shift+K'.
     Keys,
-    /// One of some words, each with its title.
+    /// One of several words, each with its title.
     Word(&'static [(&'static str, &'static str)]),
 }
 
-/// More words that may have been meant are not told.
+/// The most suggestions in an error message.
 const MOST_SIMILAR: usize = 3;
 
 impl ArgumentKind {
@@ -127,12 +127,12 @@ impl ArgumentKind {
         }
     }
 
-    /// Whether it can be something else than its choices.
+    /// Whether it can be something other than its choices.
     pub(crate) const fn is_open(self) -> bool {
         matches!(self, Self::Function)
     }
 
-    /// The word of what it is now, for what is chosen among a few that menus show at once.
+    /// The current choice, for settings whose choices menus show directly.
     pub(in crate::app) fn current(self, app: &App) -> Option<&str> {
         match self {
             Self::ModelSet => Some(app.session.predictor.set.name()),
@@ -239,10 +239,10 @@ impl ArgumentKind {
         }
     }
 
-    /// Takes a value that was not written, if it is one that could have been.
+    /// Checks a value given directly rather than as text.
     ///
     /// # Errors
-    /// What is expected instead.
+    /// When it does not fit; the error says what is expected.
     pub(crate) fn take(self, app: &App, value: Value) -> Result<Value, String> {
         let has = |element: ElementId| app.plan().is_some_and(|plan| plan.has(element));
         let is_in_reach = |point: &Point| {
@@ -282,12 +282,12 @@ impl ArgumentKind {
         if is_taken { Ok(value) } else { Err(self.expected()) }
     }
 
-    /// An argument as it is written in a call, so that reading it gives the same again.
+    /// An argument as text, such that parsing it gives the same value.
     pub(crate) fn write(self, app: &App, value: &Value) -> String {
         match value {
             Value::Path(path) => path.to_string_lossy().into_owned(),
             Value::Text(text) => text.clone(),
-            // With its unit: another's numbers without one may mean feet.
+            // With its unit: for someone else, numbers without one may mean feet.
             Value::Number(number) if matches!(self, Self::Length { .. }) => format!("{number}m"),
             Value::Number(number) => number.to_string(),
             Value::Count(count) => count.to_string(),
@@ -306,8 +306,8 @@ impl ArgumentKind {
         }
     }
 
-    /// Everything the argument can be; `None` where it can be anything. Rooms come as one reads them
-    /// on the plan, from the top left.
+    /// All possible values of the argument; `None` if there is no such list. Rooms come in reading order,
+    /// from the top left.
     pub(crate) fn choices(self, app: &App) -> Option<Vec<Choice>> {
         let plain = |word: &str, title: &str| Choice {
             word: word.to_owned(),
@@ -388,7 +388,7 @@ fn room_choices(app: &App) -> Vec<Choice> {
         let room = plan.room(id)?;
         let status = RoomStatus::of(plan, &app.session.schemes, room);
         let is_unique = !room.name.is_empty() && names.get(&room.name.to_lowercase()) == Some(&1);
-        // As `room_word` has it, quicker for thousands of rooms.
+        // Like `room_word`, but faster for thousands of rooms.
         let word = if is_unique && is_own_word(&room.name) { room.name.clone() } else { id.to_string() };
         let area = document.derived().and_then(|derived| derived.analysis.shapes.get(id));
         let area = area.map(|shape| app.units().area(shape.area_m2()));
@@ -428,7 +428,7 @@ fn opening_choices(app: &App) -> Vec<Choice> {
     plan.openings().map(choice).collect()
 }
 
-/// The answers to the question that is asked, each with what its button says; none where none is asked.
+/// The answers to the current question with their button titles; empty if there is none.
 fn answers(app: &App) -> Vec<(&'static str, &'static str)> {
     app.session.question.as_ref().map(Question::answers).unwrap_or_default()
 }

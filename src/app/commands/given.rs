@@ -1,5 +1,5 @@
-//! Arguments with a type: what an argument is called, what it can be, how it is read and what a command gets
-//! are said in one place, so that a wrong place or a wrong kind does not compile.
+//! Typed arguments: an argument's name, kind, parsing and resulting type are declared in one place, so
+//! that a wrong index or a wrong kind does not compile.
 
 use std::marker::PhantomData;
 use std::path::PathBuf;
@@ -16,13 +16,13 @@ use crate::labels::Typology;
 use crate::plan::{ElementId, OpeningId, RoomId};
 use crate::predict::ModelSet;
 
-/// What a command can get of a value.
+/// A type that a command can get from a value.
 pub(super) trait OfValue: Sized + 'static {
-    /// `None` where it is a value of another kind.
+    /// `None` if the value is of another kind.
     fn of(value: &Value) -> Option<Self>;
 }
 
-/// What a command gets of a value of one kind.
+/// Implements `OfValue` for one kind of value.
 macro_rules! of_value {
     ($($type:ty: $variant:ident;)*) => {$(
         impl OfValue for $type {
@@ -108,7 +108,7 @@ impl<T: Worded> OfValue for T {
     }
 }
 
-/// What an argument can be, and what a command gets of it.
+/// The kind of an argument, and the type a command gets from it.
 pub(super) struct Kind<T> {
     kind: ArgumentKind,
     of: PhantomData<fn() -> T>,
@@ -148,7 +148,7 @@ pub(super) const fn metres(least_m: f64, most_m: f64) -> Kind<f64> {
     number(" of metres", least_m, most_m)
 }
 
-/// A length in the units that are set, or with its own.
+/// A length in the current units, or with its own.
 pub(super) const fn length(least_m: f64, most_m: f64) -> Kind<f64> {
     kind(ArgumentKind::Length { least_m, most_m })
 }
@@ -158,27 +158,27 @@ pub(super) const fn points(least: usize) -> Kind<Vec<Point>> {
     kind(ArgumentKind::Points { least })
 }
 
-/// One of several things, each with a word.
+/// One of several named things.
 pub(super) const fn one_of<T: Worded>() -> Kind<T> {
     assert!(T::WORDS.len() == T::ALL.len(), "a word for each");
     kind(ArgumentKind::Word(T::WORDS))
 }
 
-/// How an argument is got out of a value, or out of none.
+/// How to get an argument from a value, or from none.
 type Get<T> = fn(Option<&Value>) -> Option<T>;
 
-/// Something a command takes, and what it gets.
+/// An argument of a command, and the type it gets.
 pub(super) struct Arg<T> {
     argument: Argument,
     get: Get<T>,
 }
 
-/// Something that must be there.
+/// A required argument.
 pub(super) const fn needed<T: OfValue>(name: &'static str, kind: Kind<T>, help: &'static str) -> Arg<T> {
     Arg { argument: Argument { name, kind: kind.kind, is_optional: false, help }, get: |value| T::of(value?) }
 }
 
-/// Something that may be left out.
+/// An optional argument.
 pub(super) const fn optional<T: OfValue>(name: &'static str, kind: Kind<T>, help: &'static str) -> Arg<Option<T>> {
     Arg {
         argument: Argument { name, kind: kind.kind, is_optional: true, help },
@@ -200,14 +200,14 @@ pub(super) trait Run: Sync {
     fn run(&self, app: &mut App, values: &Values, context: &Context) -> Ran;
 }
 
-/// Arguments, how each is got, and what is done with them.
+/// The arguments, how to get each, and the function to run.
 pub(super) struct Given<const N: usize, G, F> {
     pub arguments: [Argument; N],
     get: G,
     run: F,
 }
 
-/// Values were checked against the arguments before: this is not seen.
+/// Values have already been checked against the arguments, so this is never shown.
 const MISFIT: &str = "an argument is of another kind than the command takes";
 
 macro_rules! given {
@@ -239,7 +239,7 @@ given! {
     given6 6: a A, b B, c C, d D, e E, f F;
 }
 
-/// What takes no arguments.
+/// A command without arguments.
 pub(super) const fn given0(run: fn(&mut App, &Context) -> Ran) -> Given<0, (), fn(&mut App, &Context) -> Ran> {
     Given { arguments: [], get: (), run }
 }

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::{Argument, ArgumentKind, COMMANDS, Command, Menu};
 use crate::app::look::keys::Keys;
 
-/// What stands above the tables.
+/// The text above the tables.
 const INTRODUCTION: &str = "\
 # Commands
 
@@ -70,7 +70,7 @@ fn section<'a>(page: &mut String, title: &str, has_keys: bool, commands: impl It
     }
 }
 
-/// The keys a command comes with, as people write them.
+/// The default keys of a command, in readable form.
 pub fn keys_of(command: &Command) -> Vec<String> {
     command.shortcuts.iter().map(|&shortcut| Keys::from(shortcut).readable()).collect()
 }

@@ -1,7 +1,7 @@
-//! The one table of commands: menus, tool bar, palette, tooltips, shortcuts, the manual's list and
-//! the verbs of scripts come from it.
+//! The one table of commands: menus, tool bar, palette, tooltips, shortcuts, the manual's list and the
+//! verbs of scripts come from it.
 //!
-//! A new command is one entry. Its id is the word by which scripts call it, and never changes.
+//! To add a command, add an entry. Scripts call it by its id, which never changes.
 
 mod argument;
 mod given;
@@ -30,72 +30,71 @@ use crate::app::look::icons::Icon;
 use crate::app::state::App;
 use crate::app::tools::Entry;
 
-/// Something a person can do.
+/// A command: something the user can do.
 #[derive(Clone, Copy)]
 pub struct Command {
-    /// Its word, in lower case with hyphens.
+    /// Its id, in lower case with hyphens.
     pub id: &'static str,
-    /// As in a menu. Ends in '…' when it asks for something before it is done.
+    /// Its title in menus. Ends in '…' if it asks for something first.
     pub title: &'static str,
     /// A sentence for tooltips and the manual.
     pub help: &'static str,
-    /// What it takes, the optional ones last. What is missing it asks for.
+    /// Its arguments, the optional ones last. It asks for missing ones.
     pub arguments: &'static [Argument],
-    /// The shortcuts it comes with. The first one is shown.
+    /// Its default shortcuts. The first one is shown.
     pub shortcuts: &'static [KeyboardShortcut],
-    /// Where it stands in the menus, with the section between two lines; `None` for a verb of
-    /// scripts only.
+    /// Its menu and the section in it; `None` if only for scripts.
     pub menu: Option<(Menu, u8)>,
-    /// Its icon in the tool bar, and the group it stands in; `None` for not there.
+    /// Its icon and group in the tool bar; `None` if not there.
     pub tool: Option<(Icon, u8)>,
-    /// Its icon in the strip of drawing tools, and the group it stands in; `None` for not there.
+    /// Its icon and group in the strip of drawing tools; `None` if not there.
     pub strip: Option<(Icon, u8)>,
     availability: fn(&App) -> Availability,
-    /// When it can be called with all its arguments, where that needs less.
+    /// When it can be called with all its arguments, if that requires less.
     complete_availability: Option<fn(&App) -> Availability>,
     action: Action,
 }
 
-/// Whether a command can be done now; if not, what to do first.
+/// Whether a command is available; if not, what to do first.
 type Availability = Result<(), &'static str>;
 
 #[derive(Clone, Copy)]
 enum Action {
     Plain(fn(&mut App, &Context)),
-    /// Something that is on or off: without an argument it becomes the other.
+    /// Turns something on or off; without an argument, toggles it.
     Switch {
         is_on: fn(&App) -> bool,
         set: fn(&mut App, bool),
     },
-    /// One of several that are on in turn.
+    /// Chooses one of several alternatives.
     Choose {
         is_on: fn(&App) -> bool,
         run: fn(&mut App, &Context),
     },
-    /// Takes up a tool.
+    /// Activates a tool.
     TakeUp(&'static Entry),
     With {
         run: &'static dyn Run,
-        /// Asks for what is missing; the palette does without.
+        /// Asks for missing arguments; not used by the palette.
         ask: Option<fn(&mut App, &Context)>,
-        /// For what is on or off: which it is.
+        /// For something on or off: its state.
         is_on: Option<fn(&App) -> bool>,
     },
 }
 
-/// What became of a command.
+/// The outcome of a command.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Ran {
     Done,
-    /// It was done, and running it again with these arguments does the same.
+    /// It was done, and repeating it with these arguments does the same.
     DoneWith(Vec<String>),
-    /// It asks for something, or shows it; the answer is a command of its own.
+    /// It asks for something, or shows it; the answer is a separate command.
     Asks,
-    /// Nothing was done, and why.
+    /// Nothing was done; the text says why.
     Refused(String),
 }
 
-/// A menu of the menu bar, in their order.
+/// A menu of the menu bar, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Menu {
     File,
@@ -138,12 +137,12 @@ impl Menu {
 }
 
 impl Command {
-    /// Why it cannot be done now, as something to do: 'pick a room first'; `None` when it can.
+    /// Why it is unavailable, as something to do: 'pick a room first'; `None` if it is available.
     pub fn why_not(&self, app: &App) -> Option<&'static str> {
         (self.availability)(app).err()
     }
 
-    /// For what is on or off: which it is.
+    /// For something on or off: its state.
     pub fn is_on(&self, app: &App) -> Option<bool> {
         match self.action {
             Action::Switch { is_on, .. } | Action::Choose { is_on, .. } => Some(is_on(app)),
@@ -153,25 +152,26 @@ impl Command {
         }
     }
 
-    /// Its title without the dots that say that something is asked for.
+    /// Its title without the ellipsis.
     pub(super) fn plain_title(&self) -> &'static str {
         self.title.trim_end_matches('…')
     }
 
-    /// The argument that comes after some given ones and must be there, where the palette asks for it.
+    /// The required argument after those given, if the palette asks for it.
     pub(super) fn asked_in_palette(&self, given: usize) -> Option<&'static Argument> {
         let asks_itself = matches!(self.action, Action::With { ask: Some(_), .. });
         self.arguments.get(given).filter(|argument| !argument.is_optional && !asks_itself)
     }
 
-    /// What it can be set to, and the word of what it is set to now: for a command whose choices menus show in its
-    /// place, one a row.
+    /// Its choices and the current one: for a setting whose choices menus show instead of the command,
+    /// one per row.
     pub(super) fn settings<'a>(&self, app: &'a App) -> Option<(Vec<Choice>, &'a str)> {
         let [argument] = self.arguments else { return None };
         Some((argument.kind.choices(app)?, argument.kind.current(app)?))
     }
 
-    /// What menus show in its place, one a row, each with whether it is on; `None` where they show the command.
+    /// The rows that menus show instead of it, each with whether it is on; `None` if they show the
+    /// command itself.
     pub(super) fn rows(&self, app: &App) -> Option<Vec<(Choice, bool)>> {
         let with = |is_on: &dyn Fn(&str) -> bool, choices: Vec<Choice>| {
             let ticked = choices.into_iter().map(|choice| {
@@ -187,7 +187,7 @@ impl Command {
         Some(with(&|word| word == current, choices))
     }
 
-    /// How it is called: 'open PATH [STOREY]'. What stands in brackets may be left out.
+    /// Its usage: 'open PATH [STOREY]'. Arguments in brackets are optional.
     pub fn usage(&self) -> String {
         let mut usage = self.id.to_owned();
         for argument in self.arguments {
@@ -251,7 +251,7 @@ mod tests {
             assert!(id_is_word, "{}", command.id);
             assert!(command.title.starts_with(char::is_uppercase) && !command.title.ends_with('.'), "{}", command.id);
             assert!(command.help.starts_with(char::is_uppercase) && !command.help.ends_with('.'), "{}", command.id);
-            // What a script alone runs is found in the manual.
+            // Commands only for scripts are listed in the manual.
             assert!(command.menu.is_some() || command.shortcuts.is_empty(), "{} has keys and no menu", command.id);
             let first_optional = command.arguments.iter().position(|argument| argument.is_optional);
             let after = command.arguments.iter().skip(first_optional.unwrap_or(command.arguments.len()));
@@ -260,7 +260,7 @@ mod tests {
             names.dedup();
             assert_eq!(names.len(), command.arguments.len(), "{}", command.id);
         }
-        // Sections of a menu stand together.
+        // Sections of a menu are contiguous.
         for menu in Menu::ALL {
             let sections: Vec<u8> =
                 COMMANDS.iter().filter_map(|command| command.menu).filter(|m| m.0 == menu).map(|m| m.1).collect();

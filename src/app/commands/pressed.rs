@@ -1,4 +1,4 @@
-//! Which commands the keys that were pressed mean.
+//! The commands for the keys that were pressed.
 
 use egui::{Event, InputState};
 
@@ -6,8 +6,8 @@ use super::{COMMANDS, Command};
 use crate::app::look::keys::Keys;
 use crate::app::session::settings::Settings;
 
-/// Takes the shortcuts pressed since the last frame out of the input and gives their commands.
-/// `is_typing`: a text field has the keyboard, which then keeps what it needs itself.
+/// Takes the shortcuts pressed since the last frame out of the input and returns their commands.
+/// `is_typing`: a text field has the keyboard and keeps the keys it needs.
 pub(crate) fn take_pressed(input: &mut InputState, settings: &Settings, is_typing: bool) -> Vec<&'static Command> {
     let mut pressed = Vec::new();
     input.events.retain(|event| {

@@ -1,4 +1,4 @@
-//! Running commands by their words, and telling a recorder which ran.
+//! Running commands by id, and reporting to a recorder which ran.
 
 use crate::app::session::executed::Executed;
 use crate::base::wording::{or_list, similar};
@@ -24,16 +24,16 @@ pub enum CommandError {
     /// No command has this id.
     Unknown {
         id: String,
-        /// Ids that are like it, the likest first; may be empty.
+        /// Similar ids, closest first; may be empty.
         similar: Vec<&'static str>,
     },
-    /// It cannot be done now.
+    /// It is unavailable.
     NotNow {
         id: &'static str,
-        /// What stands against it, as something to do: 'pick a room first'.
+        /// What to do first: 'pick a room first'.
         reason: String,
     },
-    /// An argument is not what the command takes.
+    /// An argument is invalid.
     WrongArgument {
         id: &'static str,
         /// The argument's name: 'ROOM'.
@@ -67,17 +67,17 @@ impl fmt::Display for CommandError {
 impl std::error::Error for CommandError {}
 
 impl App {
-    /// Runs a command by its id without arguments, as a menu does: what it needs it asks for. Gives
-    /// whether there is such a command and it could be done.
+    /// Runs a command by its id without arguments, as a menu does: it asks for what it needs. Returns
+    /// whether the command exists and ran.
     pub fn run_command(&mut self, id: &str, context: &Context) -> bool {
         self.run_command_with(id, &[], context).is_ok()
     }
 
-    /// Runs a command by its id. Arguments that are missing are asked for as a menu does: by a
-    /// dialog, a text field that gets the keyboard, or the palette. Nothing is done on an error.
+    /// Runs a command by its id. It asks for missing arguments as from a menu: by a dialog, a text field
+    /// that gets the keyboard, or the palette. On an error nothing is done.
     ///
     /// # Errors
-    /// When there is no such command, when it cannot be done now, when an argument is wrong.
+    /// When the command does not exist or is unavailable, or an argument is invalid.
     pub fn run_command_with(&mut self, id: &str, arguments: &[&str], context: &Context) -> Result<(), CommandError> {
         let command = self.prepare(id, arguments.len())?;
         let values = self.read_arguments(command, arguments)?;
@@ -94,14 +94,14 @@ impl App {
         self.finish(command, values, context)
     }
 
-    /// Runs a command with values, and says why where that is refused.
+    /// Runs a command with values, and reports why if it is refused.
     pub(crate) fn act_on(&mut self, call: Call, context: &Context) {
         if let Err(error) = self.run_call(call, context) {
             self.session.say(Severity::Warning, error.to_string(), "");
         }
     }
 
-    /// The command, where it can be done now with so many arguments.
+    /// The command, if it is available with this many arguments.
     fn prepare(&mut self, id: &str, given: usize) -> Result<&'static Command, CommandError> {
         let command = find(id).ok_or_else(|| CommandError::Unknown {
             id: id.to_owned(),
@@ -127,7 +127,7 @@ impl App {
         ran
     }
 
-    /// Runs a command with arguments of the window's own, and says why where that is refused.
+    /// Runs a command with arguments from the window itself, and reports why if it is refused.
     pub(crate) fn act(&mut self, id: &str, arguments: &[&str], context: &Context) {
         if let Err(error) = self.run_command_with(id, arguments, context) {
             self.session.say(Severity::Warning, error.to_string(), "");
@@ -165,7 +165,7 @@ impl App {
         taken.collect::<Result<_, _>>().map(Values)
     }
 
-    /// Runs a command that can be done now; `Err` says why it was not after all.
+    /// Runs an available command; `Err` says why it was refused after all.
     fn run_with_values(&mut self, command: &'static Command, values: Values, context: &Context) -> Result<(), String> {
         let is_complete = command.arguments.get(values.0.len()).is_none_or(|argument| argument.is_optional);
         // Before the command runs: it may rename the room, or close the plan, that an argument names.
@@ -206,14 +206,14 @@ impl App {
 
     // What a recorder sees.
 
-    /// Starts or stops keeping the commands that are done, for [`App::take_executed`].
+    /// Starts or stops recording the commands that run, for [`App::take_executed`].
     pub fn watch_commands(&mut self, is_watched: bool) {
         self.session.executed = is_watched.then(|| self.session.executed.take().unwrap_or_default());
     }
 
-    /// The commands done since the last call, in order, each with all its arguments: also those that
-    /// were asked for, what was clicked, typed into a field, and seen by panning and zooming.
-    /// Empty unless they are watched.
+    /// The commands run since the last call, in order, each with all its arguments, including those it
+    /// asked for, and including clicks, typing into fields, panning and zooming. Empty unless they are
+    /// watched.
     pub fn take_executed(&mut self) -> Vec<Executed> {
         self.session.executed.as_mut().map(std::mem::take).unwrap_or_default()
     }
@@ -221,7 +221,7 @@ impl App {
 
 // Shortcuts.
 
-/// The commands with the shortcuts they come with, as settings need them.
+/// The commands with their default shortcuts, for the settings.
 pub(crate) fn keyed() -> &'static [Keyed] {
     static KEYED: OnceLock<Vec<Keyed>> = OnceLock::new();
     let keyed = |command: &Command| Keyed {
@@ -234,7 +234,7 @@ pub(crate) fn keyed() -> &'static [Keyed] {
 }
 
 impl App {
-    /// Keeps settings in a file from now on, and takes over what it holds.
+    /// Keeps settings in a file from now on, and loads those it has.
     pub fn use_settings(&mut self, file: PathBuf) {
         let (settings, problems) = Settings::read(file, keyed());
         self.session.settings = settings;
@@ -243,7 +243,7 @@ impl App {
         }
     }
 
-    /// The first shortcut of a command as people read it ('Ctrl+Shift+S', '+'); empty without one.
+    /// The first shortcut of a command in readable form ('Ctrl+Shift+S', '+'); empty if it has none.
     pub fn keys_text(&self, command: &Command, context: &Context) -> String {
         self.session.settings.keys_of(command.id).first().map(|keys| keys.text(context)).unwrap_or_default()
     }
@@ -272,7 +272,7 @@ impl App {
         self.keep_settings();
     }
 
-    /// Sets the distance of the grid's lines in metres; `None` for as the zoom has it.
+    /// Sets the spacing of the grid in metres; `None` chooses it by the zoom.
     pub(super) fn set_grid_m(&mut self, grid_m: Option<f64>) {
         self.session.settings.set_grid_m(grid_m);
         self.keep_settings();

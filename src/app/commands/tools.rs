@@ -1,4 +1,4 @@
-//! The tool in the hand, as keys and commands know it.
+//! The active tool, for keys and commands.
 
 use egui::{Context, Event};
 
@@ -6,7 +6,7 @@ use crate::app::state::App;
 use crate::app::tools::TOOLS;
 
 impl App {
-    /// Takes the keys that are for the tool in the hand.
+    /// Takes the keys meant for the active tool.
     pub(in crate::app) fn take_tool_keys(&mut self, context: &Context) {
         let is_typing = self.was_typing || context.text_edit_focused();
         let is_covered =
@@ -32,7 +32,7 @@ impl App {
         }
     }
 
-    /// Puts the tool away: what was begun is dropped first, then selecting is taken up again.
+    /// Puts the tool away: first cancels what was started, then returns to selecting.
     pub(in crate::app) fn put_tool_away(&mut self) {
         if self.tools.tool().is_busy() {
             self.tools.drop_work();

@@ -11,7 +11,7 @@ const PLACE: Arg<Point> = needed("PLACE", POINT, "a point in metres, as '2,1.5'"
 const THICKNESS: Arg<Option<f64>> =
     optional("THICKNESS", metres(0.0, 10.0), "of walls, in metres; what is set without");
 
-/// An edit whose refusal is the command's.
+/// Applies an edit; if the edit is refused, so is the command.
 pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) -> Ran {
     match app.session.try_edit(title, change) {
         Ok(()) => Ran::Done,
@@ -127,7 +127,7 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .menu(Menu::Draw, 4),
-    // What the tools do, for scripts.
+    // The actions of the tools, for scripts.
     with(
         "draw-walls",
         "Draw walls",

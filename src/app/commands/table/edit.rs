@@ -1,4 +1,4 @@
-//! Taking back, and the plan as a whole.
+//! Undo and redo, and the plan as a whole.
 
 use super::*;
 

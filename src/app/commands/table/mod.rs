@@ -1,4 +1,4 @@
-//! The table itself: one file a menu, and what the entries are made of.
+//! The table itself: one file per menu, and helpers for the entries.
 
 mod draw;
 mod edit;
@@ -81,7 +81,7 @@ const fn command(
 
 const SWITCH: &[Argument] = &[optional("SWITCH", ON_OR_OFF, "on or off; without, the other of what it is").argument()];
 
-/// Something that is on or off.
+/// A command that turns something on or off.
 const fn switch(
     id: &'static str,
     title: &'static str,
@@ -93,7 +93,7 @@ const fn switch(
     entry(id, title, help, availability, Action::Switch { is_on, set }).takes(SWITCH)
 }
 
-/// One of several, of which one is on.
+/// A command that chooses one of several alternatives.
 const fn choose(
     id: &'static str,
     title: &'static str,
@@ -105,12 +105,12 @@ const fn choose(
     entry(id, title, help, availability, Action::Choose { is_on, run })
 }
 
-/// Takes up a tool: all but when and where is said in the tool's own file.
+/// A command that activates a tool: everything except availability is declared in the tool's own file.
 const fn tool(tool: &'static Entry, availability: fn(&App) -> Availability) -> Command {
     entry(tool.id, tool.title, tool.help, availability, Action::TakeUp(tool)).keys(tool.keys)
 }
 
-/// The commands of the tools that stand in the strip, by their groups.
+/// The commands of the tools in the strip, by group.
 fn tools_of_the_strip() -> Vec<Command> {
     let mut tools: Vec<(Group, Command)> = TOOLS
         .iter()
@@ -128,7 +128,7 @@ fn tools_of_the_strip() -> Vec<Command> {
     tools.into_iter().map(|(_, command)| command).collect()
 }
 
-/// Something that takes arguments, see [`given`](super::given); missing ones are asked for by `ask`, or in the palette.
+/// A command with arguments, see [`given`](super::given); `ask` or the palette asks for missing ones.
 const fn with<const N: usize, G, F>(
     id: &'static str,
     title: &'static str,
@@ -148,12 +148,12 @@ impl Command {
         Self { arguments, ..self }
     }
 
-    /// Can be called with all its arguments when less holds.
+    /// With all its arguments given, it is available under this weaker condition.
     const fn when_complete(self, availability: fn(&App) -> Availability) -> Self {
         Self { complete_availability: Some(availability), ..self }
     }
 
-    /// One of several that are on in turn.
+    /// Marks it as one of several alternatives, with its state.
     const fn shown_on(self, is_on: fn(&App) -> bool) -> Self {
         match self.action {
             Action::With { run, ask, .. } => Self { action: Action::With { run, ask, is_on: Some(is_on) }, ..self },
@@ -169,7 +169,7 @@ impl Command {
         Self { menu: Some((menu, section)), ..self }
     }
 
-    /// It stands in the strip of tools.
+    /// Adds it to the strip of tools.
     const fn strip(self, icon: Icon, group: u8) -> Self {
         Self { strip: Some((icon, group)), ..self }
     }
@@ -185,7 +185,7 @@ fn always(_: &App) -> Availability {
     Ok(())
 }
 
-/// `Ok` where something holds, else what to do first.
+/// `Ok` if the condition holds, otherwise what to do first.
 fn when(holds: bool, otherwise: &'static str) -> Availability {
     if holds { Ok(()) } else { Err(otherwise) }
 }
@@ -230,7 +230,7 @@ fn can_redo(app: &App) -> Availability {
     when(can, "nothing was undone")
 }
 
-/// Rooms are selected, or one is under the pointer.
+/// Rooms are selected, or there is one under the pointer.
 fn has_target(app: &App) -> Availability {
     has_plan(app)?;
     when(app.session.target(None).is_some(), "pick a room first, or point at one")
@@ -300,7 +300,7 @@ fn has_messages(app: &App) -> Availability {
 }
 
 fn can_record(app: &App) -> Availability {
-    // A script starts from what is in a file.
+    // A script starts from the contents of a file.
     when(
         app.is_recording() || !app.has_unsaved_changes(),
         "save the plan first: a script starts from what is in its file",
@@ -315,7 +315,7 @@ fn is_asked(app: &App) -> Availability {
     when(app.session.question.is_some(), "nothing is asked")
 }
 
-/// The drawing area's half side in metres: coordinates beyond are no plan's.
+/// The half side of the drawing area in metres: no plan has coordinates beyond it.
 const FAR_M: f64 = 1e6;
 
 const X: Arg<f64> = needed("X", metres(-FAR_M, FAR_M), "to the right, in metres");
@@ -327,10 +327,10 @@ const SCALE: Arg<f64> =
 
 const ROOM: Arg<RoomId> = needed("ROOM", A_ROOM, "a room's name, or its id where several have the name");
 
-/// How much a step of zooming changes the size.
+/// The zoom factor of one step.
 const ZOOM_STEP: f64 = 1.25;
 
-/// Every command, in the order of the menus. A menu is a file; the tools' commands follow from the tools.
+/// Every command, in menu order. Each menu is a file; the tools' commands come from the tools.
 pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| {
     let tools = tools_of_the_strip();
     let parts: [&[Command]; 11] = [

@@ -120,7 +120,7 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .keys(&[ctrl(Key::D)])
     .menu(Menu::Modify, 2),
-    // Turning and the like.
+    // Rotating and the like.
     with(
         "rotate",
         "Rotate…",
@@ -394,7 +394,7 @@ pub(super) const COMMANDS: &[Command] = &[
         |app, is_on| app.session.layers.locked.openings = is_on,
     )
     .menu(Menu::Modify, 9),
-    // What the pointer does, for scripts.
+    // The actions of the pointer, for scripts.
     with(
         "select-box",
         "Select in a box",

@@ -1,4 +1,4 @@
-//! The picture under the plan, to trace over.
+//! The backdrop.
 
 use super::*;
 use crate::app::session::picture_change::PictureUse;
@@ -19,7 +19,7 @@ const fn coordinate(name: &'static str, help: &'static str) -> Arg<f64> {
 
 const LENGTH: Kind<f64> = metres(0.001, FAR_M);
 
-/// By how much a key makes the picture fainter or stronger.
+/// The change in opacity per key press.
 const OPACITY_STEP: f64 = 0.1;
 
 fn has_measurements(app: &App) -> Availability {
@@ -45,7 +45,7 @@ fn has_pages(app: &App) -> Availability {
     when(app.session.backdrop.pages() > 1, "the picture has one page")
 }
 
-/// A page too far on for any document is the last there could be.
+/// A page number too large for any document becomes the largest possible.
 fn page_number(page: usize) -> u32 {
     u32::try_from(page).unwrap_or(u32::MAX)
 }
@@ -155,8 +155,8 @@ pub(super) const COMMANDS: &[Command] = &[
     .menu(Menu::Picture, 3),
 ];
 
-/// An opacity some steps away, in whole steps.
+/// An opacity some steps away, rounded to whole steps.
 fn stepped(opacity: f64, steps: f64) -> f64 {
-    // Divided, not multiplied: 7 tenths are 0.7.
+    // Divided, not multiplied: so 7 tenths are 0.7.
     ((opacity / OPACITY_STEP + steps).round() / (1.0 / OPACITY_STEP).round()).clamp(0.0, 1.0)
 }

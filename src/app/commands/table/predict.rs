@@ -1,4 +1,4 @@
-//! What classifiers say.
+//! Predictions.
 
 use super::*;
 

@@ -28,8 +28,7 @@ fn label_target(app: &mut App, room: Option<RoomId>, label: Option<Label>) -> Ra
     on_target(app, room, &[], |app, target| app.session.label_rooms(target, label))
 }
 
-/// Does something with the rooms that a command is about; a recording names one that was only under the
-/// pointer.
+/// Acts on the rooms a command applies to; a recording names a room that was just under the pointer.
 fn on_target(app: &mut App, named: Option<RoomId>, given: &[&str], act: impl FnOnce(&mut App, &Target)) -> Ran {
     let Some((plan, target)) = app.plan().zip(app.session.target(named)) else {
         return Ran::Refused("pick a room first, or point at one".to_owned());

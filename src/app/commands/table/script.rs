@@ -1,4 +1,4 @@
-//! What the pointer does, for scripts.
+//! The actions of the pointer, for scripts.
 
 use super::*;
 

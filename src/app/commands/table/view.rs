@@ -1,4 +1,4 @@
-//! What is seen, and how.
+//! What is visible, and how.
 
 use super::*;
 use crate::edit::EditError;
@@ -34,7 +34,7 @@ impl App {
     }
 }
 
-/// The grid's lines are as far apart as the zoom has it.
+/// The spacing of the grid follows the zoom.
 const AUTO: &str = "auto";
 
 pub(super) const COMMANDS: &[Command] = &[

@@ -1,8 +1,8 @@
-//! What the commands that select and change things do, where that is more than a line.
+//! The actions of the commands that select and change things, where they take more than a line.
 
 use super::*;
 
-/// Over which line things are mirrored.
+/// The line to mirror across.
 #[derive(Clone, Copy)]
 pub(super) enum Mirror {
     LeftRight,
@@ -15,7 +15,7 @@ impl Worded for Mirror {
     const ALL: &'static [Self] = &[Self::LeftRight, Self::UpDown];
 }
 
-/// Which way things are put at equal distances.
+/// The direction in which to space things equally.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Way {
     Across,
@@ -27,7 +27,7 @@ impl Worded for Way {
     const ALL: &'static [Self] = &[Self::Across, Self::Up];
 }
 
-/// A label that is looked for, or none.
+/// A label to search for, or none.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted(pub Option<Label>);
 
@@ -52,17 +52,17 @@ impl Worded for Wanted {
 
 pub(super) const NO_GAPS: &str = "there is no gap of 30 to 150 cm between collinear walls";
 
-/// Moves what is selected.
+/// Moves the selection.
 pub(super) fn moved(app: &mut App, title: &str, transform: Transform) -> Ran {
     let selected = app.session.selection.elements().clone();
     edited(app, title, |plan| {
         let next = edit::move_elements(plan, &selected, transform)?;
-        // What comes to lie on something else shares its corners.
+        // Elements that come to rest on something else share its corners.
         edit::settle(&next, &edit::corners_of(plan, &selected)?)
     })
 }
 
-/// Copies what is selected and selects the copies.
+/// Copies the selection and selects the copies.
 pub(super) fn copied(app: &mut App, array: Array) -> Ran {
     let selected = app.session.selection.elements().clone();
     let mut made = BTreeSet::new();
@@ -75,7 +75,7 @@ pub(super) fn copied(app: &mut App, array: Array) -> Ran {
     ran
 }
 
-/// Selects what was made, but for corners.
+/// Selects what was made, except corners.
 pub(super) fn select_made(app: &mut App, made: &BTreeSet<ElementId>) {
     let made: Vec<ElementId> =
         made.iter().copied().filter(|element| !matches!(element, ElementId::Corner(_))).collect();
@@ -102,7 +102,7 @@ pub(super) fn is_labelled(status: RoomStatus, wanted: Option<Label>) -> bool {
     }
 }
 
-/// Selects what was looked for.
+/// Selects the search results.
 pub(super) fn select_found(app: &mut App, found: Vec<ElementId>, mode: Option<SelectMode>) -> Ran {
     if found.is_empty() {
         return Ran::Refused("there is no such room".to_owned());
@@ -117,13 +117,13 @@ pub(super) fn has_drawing(app: &App) -> Availability {
     when(app.plan().is_some_and(|plan| !plan.is_empty()), "nothing is drawn yet")
 }
 
-/// Corners are selected by hand only: they are part of everything else.
+/// Corners are only selected by hand: they are part of everything else.
 pub(super) fn is_selectable(app: &App, element: ElementId) -> bool {
     !matches!(element, ElementId::Corner(_)) && !app.session.layers.is_locked(element)
 }
 
 impl App {
-    /// What lies in a box, or also what it touches.
+    /// The elements inside a box, or also those touching it.
     pub(super) fn elements_in(&self, bounds: Bounds, touches: bool) -> Vec<ElementId> {
         let Some(plan) = self.plan() else { return Vec::new() };
         let is_in = |points: &[Point]| !points.is_empty() && points.iter().all(|&point| bounds.contains(point));
@@ -153,14 +153,14 @@ impl App {
         found
     }
 
-    /// Says why something was refused, where the command cannot.
+    /// Reports why an action was refused, when there is no command to do so.
     pub(super) fn report(&mut self, act: impl FnOnce(&mut Self) -> Ran) {
         if let Ran::Refused(reason) = act(self) {
             self.session.status = reason;
         }
     }
 
-    /// The point that an argument names, or the middle of what is selected.
+    /// The point given by an argument, or the middle of the selection.
     pub(super) fn centre_of_selection(&self, named: Option<Point>) -> Point {
         named.unwrap_or_else(|| {
             let document = self.session.document.as_ref();
@@ -169,7 +169,7 @@ impl App {
         })
     }
 
-    /// Keeps what is selected, here and in the system's clipboard.
+    /// Copies the selection, here and to the system's clipboard.
     pub(super) fn copy_selected(&mut self, context: &Context) -> Ran {
         let Some(plan) = self.plan() else { return Ran::Done };
         match edit::fragment(plan, self.session.selection.elements()) {
@@ -184,7 +184,7 @@ impl App {
         }
     }
 
-    /// Takes over what the system's clipboard holds, where that is part of a plan.
+    /// Takes the contents of the system's clipboard, if that is part of a plan.
     pub(crate) fn take_pasted(&mut self, text: &str) {
         if let Ok(plan) = crate::formats::plan_json::from_bytes(text.as_bytes())
             && !plan.is_empty()
@@ -206,7 +206,7 @@ impl App {
         ran
     }
 
-    /// Shows which corners would be joined, and asks.
+    /// Shows which corners would be welded, and asks.
     pub(super) fn ask_to_weld(&mut self, tolerance_m: f64) -> Ran {
         let Some(plan) = self.plan() else { return Ran::Done };
         match edit::weld(plan, tolerance_m) {
@@ -252,7 +252,7 @@ impl App {
         }
     }
 
-    /// Draws walls beside what is selected.
+    /// Draws walls parallel to the selection.
     pub(super) fn offset_selected(&mut self, distance_m: f64, named: Option<Point>) -> Ran {
         let towards = named.or(self.session.pointed.at).unwrap_or_default();
         let walls: Vec<_> = self.session.selection.walls().collect();
@@ -269,7 +269,7 @@ impl App {
         })
     }
 
-    /// Changes the selected openings; the change is told how each is drawn.
+    /// Changes the selected openings; the change receives the swing of each as drawn.
     pub(super) fn change_openings(
         &mut self,
         title: &str,
@@ -288,12 +288,12 @@ impl App {
         })
     }
 
-    /// Deletes what is selected; asks first where more would go with it.
+    /// Deletes the selection; asks first if more would be deleted with it.
     pub(super) fn delete_selected(&mut self) -> Ran {
         let Some(plan) = self.plan() else { return Ran::Done };
         let selected: Vec<ElementId> = self.session.selection.iter().collect();
         let gone = edit::removed_with(plan, &selected);
-        // Corners that nothing uses any more are no loss.
+        // Corners that become unused are no loss.
         let is_loss = |element: &ElementId| {
             !self.session.selection.contains(*element) && !matches!(element, ElementId::Corner(_))
         };
