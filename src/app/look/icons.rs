@@ -1,13 +1,12 @@
-//! Icons drawn as shapes on a grid of 16 by 16, so that they are crisp at every scale and need no
-//! font.
+//! Icons as shapes on a grid of 16 by 16: crisp at every scale, and no font needed.
 
 use egui::epaint::{PathShape, PathStroke};
 use egui::{Color32, Painter, Pos2, Rect, Shape, Stroke, pos2, vec2};
 
-/// A picture for a command or a thing.
+/// An icon for a command or a thing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Icon {
-    /// One that stands where it is used: a tool's.
+    /// One defined where it is used, such as a tool's.
     Drawn(&'static [Part]),
     Open,
     Save,

@@ -1,12 +1,11 @@
-//! Shortcuts: which command the pressed keys mean, how keys are written, and which a person may
-//! choose.
+//! Shortcuts: which command the pressed keys mean, how keys are written, and which ones users may choose.
 
 use std::fmt;
 use std::str::FromStr;
 
 use egui::{Context, Key, KeyboardShortcut, Modifiers};
 
-/// Keys that are pressed together: what a command's shortcut is.
+/// Keys pressed together: a command's shortcut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Keys {
     /// Only Ctrl (Cmd on a Mac), Alt and Shift count.
@@ -15,24 +14,24 @@ pub struct Keys {
 }
 
 impl Keys {
-    /// Keys as egui tells of them.
+    /// Keys as reported by egui.
     pub fn new(modifiers: Modifiers, key: Key) -> Self {
         let mut wanted = Modifiers::NONE;
         wanted.command = modifiers.command;
         wanted.alt = modifiers.alt;
-        // '?' takes Shift on one keyboard and none on the next.
+        // '?' needs Shift on some keyboards and not on others.
         wanted.shift = modifiers.shift && !IS_TYPED_WITH_SHIFT.contains(&key);
         Self { modifiers: wanted, key }
     }
 
-    /// As people read it on their system: 'Ctrl+Shift+S', '+'.
+    /// As written on the user's system: 'Ctrl+Shift+S', '+'.
     pub fn text(self, context: &Context) -> String {
         let modifiers = context.format_modifiers(self.modifiers);
         let plus = if modifiers.is_empty() { "" } else { "+" };
         format!("{modifiers}{plus}{}", self.key_text())
     }
 
-    /// As people read it in the manual, whatever their system.
+    /// As written in the manual, the same on every system.
     pub(crate) fn readable(self) -> String {
         format!("{}{}", self.modifiers_text(), self.key_text())
     }
@@ -53,7 +52,7 @@ impl Keys {
         held.into_iter().filter(|(is_held, _)| *is_held).map(|(_, name)| name).collect()
     }
 
-    /// Why nobody may choose these keys; `None` when they may.
+    /// Why users may not choose these keys; `None` if they may.
     pub fn why_reserved(self) -> Option<&'static str> {
         let Modifiers { command, alt, .. } = self.modifiers;
         match self.key {
@@ -69,7 +68,7 @@ impl Keys {
     }
 
     pub(crate) fn is_pressed(self, key: Key, modifiers: Modifiers) -> bool {
-        // Ctrl and Cmd are told twice on some systems.
+        // Some systems report both Ctrl and Cmd.
         Self::new(modifiers, key) == self && (modifiers.command || !modifiers.ctrl)
     }
 
@@ -89,7 +88,7 @@ impl From<KeyboardShortcut> for Keys {
     }
 }
 
-/// Signs that most keyboards have only with Shift.
+/// Characters that most keyboards have only with Shift.
 const IS_TYPED_WITH_SHIFT: [Key; 7] = [
     Key::Plus,
     Key::Questionmark,
@@ -107,7 +106,7 @@ impl fmt::Display for Keys {
     }
 }
 
-/// A text that names no keys.
+/// A text that is not a shortcut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoKeys;
 

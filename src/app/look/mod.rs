@@ -1,4 +1,4 @@
-//! How the window looks: theme, icons, controls, keys as people read them.
+//! The look of the window: theme, icons, controls, readable keys.
 
 pub(crate) mod icons;
 pub(crate) mod keys;

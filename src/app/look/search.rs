@@ -1,9 +1,9 @@
-//! Finding things by a few of their letters, in order: 'zts' finds 'Zoom to selection'.
+//! Fuzzy search by a few letters in order: 'zts' finds 'Zoom to selection'.
 
 use nucleo_matcher::pattern::{Atom, AtomKind, CaseMatching, Normalization, Pattern};
 use nucleo_matcher::{Config, Matcher, Utf32Str};
 
-/// What is looked for.
+/// A search query.
 pub(crate) struct Search {
     /// All its letters in order.
     whole: Atom,
@@ -13,15 +13,15 @@ pub(crate) struct Search {
     is_empty: bool,
 }
 
-/// What has the words in the order that was typed comes before what has them in another.
+/// A bonus for matching the words in the order typed.
 const IN_ORDER: u32 = 1 << 20;
 
-/// How well a text fits.
+/// How well a text matches.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Hit {
     /// The higher, the better.
     pub score: u32,
-    /// Which of the text's characters were looked for, in order.
+    /// The indices of the text's characters that matched, in order.
     pub characters: Vec<u32>,
 }
 
@@ -35,12 +35,12 @@ impl Search {
         Self { whole, words, matcher: Matcher::new(config), is_empty: query.trim().is_empty() }
     }
 
-    /// Whether nothing is looked for, which fits everything.
+    /// Whether the query is empty, which matches everything.
     pub(crate) fn is_empty(&self) -> bool {
         self.is_empty
     }
 
-    /// Whether and how well a text fits.
+    /// Whether and how well a text matches.
     pub(crate) fn hit(&mut self, text: &str) -> Option<Hit> {
         let mut buffer = Vec::new();
         let mut characters = Vec::new();
@@ -64,10 +64,10 @@ mod tests {
         let hit = Search::new("zts").hit("Zoom to selection").unwrap();
         assert_eq!(hit.characters, [0, 5, 8]);
         assert_eq!(Search::new("stz").hit("Zoom to selection"), None);
-        // Words in any order, without regard to case and accents.
+        // Words in any order, ignoring case and accents.
         assert!(Search::new("SEL zoom").hit("Zoom to selection").is_some());
         assert_eq!(Search::new("cafe").hit("Das Café").unwrap().characters, [4, 5, 6, 7]);
-        // What begins with it comes first.
+        // Matches at the beginning come first.
         let mut search = Search::new("na");
         assert!(search.hit("Names").unwrap().score > search.hit("Open a plan").unwrap().score);
         assert!(Search::new(" ").is_empty());

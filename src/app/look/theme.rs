@@ -1,4 +1,4 @@
-//! The window's own look: colours, type, spacing, radii; light and dark.
+//! The window's own design: colours, type, spacing, radii; light and dark.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::draw::{self, LabelColours, Palette, Rgba, font};
 /// Which theme is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ThemeChoice {
-    /// What the system says.
+    /// As the system.
     #[default]
     System,
     Light,
@@ -20,7 +20,7 @@ pub enum ThemeChoice {
 }
 
 impl ThemeChoice {
-    /// Tells egui.
+    /// Applies it to egui.
     pub(crate) fn apply(self, context: &Context) {
         context.set_theme(match self {
             Self::System => egui::ThemePreference::System,
@@ -30,26 +30,26 @@ impl ThemeChoice {
     }
 }
 
-/// Whether things move.
+/// Whether there are animations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Motion {
     Smooth,
-    /// Nothing moves and no cursor blinks: pictures do not depend on when they are taken.
+    /// Nothing moves and the cursor does not blink: snapshots do not depend on their timing.
     Still,
 }
 
-/// The colours of the window. The plan's own come from [`crate::draw`].
+/// The colours of the window. Those of the plan come from [`crate::draw`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Colours {
-    /// Behind the panels' content.
+    /// Background of panels.
     pub panel: Color32,
-    /// Fields, chips.
+    /// Background of fields and chips.
     pub field: Color32,
-    /// Popups, dialogs.
+    /// Background of popups and dialogs.
     pub raised: Color32,
-    /// Under the pointer.
+    /// Background under the pointer.
     pub hover: Color32,
-    /// Pressed.
+    /// Background when pressed.
     pub pressed: Color32,
     /// Hairlines between panels.
     pub border: Color32,
@@ -58,10 +58,10 @@ pub(crate) struct Colours {
     pub text: Color32,
     /// Secondary text; readable on `panel`, `field` and `raised` (contrast 4.5 or more).
     pub text_weak: Color32,
-    /// Marks what is picked and the main action.
+    /// Marks the selection and the main action.
     pub accent: Color32,
     pub on_accent: Color32,
-    /// Behind what is picked in a list.
+    /// Background of the selected row in a list.
     pub accent_soft: Color32,
     pub error: Color32,
     pub error_soft: Color32,
@@ -116,7 +116,7 @@ const DARK: Colours = Colours {
     shadow: Color32::from_black_alpha(120),
 };
 
-/// An opaque colour written as in CSS.
+/// An opaque colour from its CSS digits.
 const fn hex(rgb: u32) -> Color32 {
     Color32::from_rgb((rgb >> 16) as u8, (rgb >> 8) as u8, rgb as u8)
 }
@@ -126,17 +126,17 @@ const fn opaque(rgba: Rgba) -> Color32 {
     Color32::from_rgb(rgba.r, rgba.g, rgba.b)
 }
 
-/// The colours of the theme in use.
+/// The colours of the current theme.
 pub(crate) fn colours(visuals: &Visuals) -> &'static Colours {
     if visuals.dark_mode { &DARK } else { &LIGHT }
 }
 
-/// A colour of the plan's drawing as egui's.
+/// A colour of the plan's drawing, for egui.
 pub(crate) fn colour(rgba: Rgba) -> Color32 {
     Color32::from_rgba_unmultiplied(rgba.r, rgba.g, rgba.b, rgba.a)
 }
 
-/// The family of the semibold weight.
+/// The font family of the semibold weight.
 pub(crate) fn semibold() -> FontFamily {
     FontFamily::Name("semibold".into())
 }
@@ -145,7 +145,7 @@ pub(crate) fn semibold() -> FontFamily {
 pub(crate) const BODY: f32 = 13.0;
 /// Secondary text.
 pub(crate) const SMALL: f32 = 11.5;
-/// Titles of what is picked.
+/// Title of the selection.
 pub(crate) const TITLE: f32 = 15.0;
 /// The welcome.
 pub(crate) const DISPLAY: f32 = 24.0;
@@ -162,7 +162,7 @@ pub(crate) fn install(context: &Context, motion: Motion) {
     context.set_style_of(Theme::Dark, style(&DARK, true, motion));
     context.options_mut(|options| {
         options.fallback_theme = Theme::Light;
-        // The commands have these keys.
+        // Commands use these keys.
         options.zoom_with_keyboard = false;
         options.quit_shortcuts.clear();
         options.warn_on_id_clash = cfg!(debug_assertions);

@@ -1,4 +1,4 @@
-//! The controls the panels are made of. Each carries a name for screen readers and scripts.
+//! The controls used by the panels. Each has a name for screen readers and scripts.
 
 use egui::epaint::StrokeKind;
 use egui::text::{LayoutJob, TextFormat};
@@ -21,7 +21,7 @@ pub(crate) fn colours(ui: &Ui) -> &'static Colours {
     theme::colours(ui.visuals())
 }
 
-/// A line of text, cut off with an ellipsis at a width.
+/// A line of text, cut with an ellipsis at a width.
 fn line(ui: &Ui, text: &str, font: FontId, colour: Color32, width: f32) -> Arc<Galley> {
     let mut job = LayoutJob::single_section(text.to_owned(), TextFormat::simple(font, colour));
     job.wrap.max_width = width.max(0.0);
@@ -30,7 +30,7 @@ fn line(ui: &Ui, text: &str, font: FontId, colour: Color32, width: f32) -> Arc<G
     ui.painter().layout_job(job)
 }
 
-/// Puts a galley at a place, on whole pixels, vertically about `middle`.
+/// Places a galley on whole pixels, vertically centred at `middle`.
 fn put(ui: &Ui, galley: Arc<Galley>, left: f32, middle: f32) {
     let pixels_per_point = ui.pixels_per_point();
     let on_pixel = |value: f32| (value * pixels_per_point).round() / pixels_per_point;
@@ -38,14 +38,14 @@ fn put(ui: &Ui, galley: Arc<Galley>, left: f32, middle: f32) {
     ui.painter().galley(at, galley, Color32::PLACEHOLDER);
 }
 
-/// Brings what the keyboard has gone to into sight.
+/// Scrolls the control that has just got the keyboard into view.
 pub(crate) fn follow_focus(response: &Response) {
     if response.gained_focus() {
         response.scroll_to_me(None);
     }
 }
 
-/// The ring around what has the keyboard.
+/// The ring around the control that has the keyboard.
 pub(crate) fn focus_ring(ui: &Ui, rect: Rect, response: &Response) {
     if response.has_focus() {
         let stroke = Stroke::new(2.0, colours(ui).accent);
@@ -53,7 +53,7 @@ pub(crate) fn focus_ring(ui: &Ui, rect: Rect, response: &Response) {
     }
 }
 
-/// Text of a size and colour in the semibold weight.
+/// Text of a size and colour in semibold.
 pub(crate) fn strong(text: impl Into<String>, size: f32) -> RichText {
     RichText::new(text).font(FontId::new(size, theme::semibold()))
 }
@@ -77,13 +77,13 @@ pub(crate) fn hairline(ui: &mut Ui) {
     ui.painter().hline(x, rect.center().y, Stroke::new(1.0, colours(ui).border));
 }
 
-/// A hairline across what it is in, without space about it.
+/// A hairline across its container, without space around it.
 pub(crate) fn hairline_in(ui: &mut Ui) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 1.0), Sense::hover());
     ui.painter().hline(rect.x_range(), rect.center().y, Stroke::new(1.0, colours(ui).border));
 }
 
-/// A line of text at the left of a rectangle, in its middle, cut off where the rectangle ends.
+/// A line of text at the left of a rectangle, vertically centred, cut at its right edge.
 pub(crate) fn put_line(ui: &Ui, text: &str, font: FontId, colour: Color32, rect: Rect) {
     let galley = line(ui, text, font, colour, rect.width());
     put(ui, galley, rect.left(), rect.center().y);
@@ -122,12 +122,12 @@ pub(crate) fn icon_button(ui: &mut Ui, icon: Icon, name: &str, is_on: Option<boo
     response
 }
 
-/// What stands in front of a row.
+/// The leading element of a row.
 #[derive(Clone, Copy)]
 pub(crate) enum Lead {
     None,
     Icon(Icon),
-    /// A square of a colour.
+    /// A colour swatch.
     Swatch(Color32),
     /// A tick, or the space for one.
     Tick(bool),
@@ -135,21 +135,21 @@ pub(crate) enum Lead {
     Eye(bool),
 }
 
-/// A row across a panel: something in front, a text, and something at its end.
+/// A row across a panel: a leading element, a text, and a trailing text.
 pub(crate) struct Row<'a> {
     pub lead: Lead,
     pub text: &'a str,
-    /// At the right, in secondary colour.
+    /// At the right, in the secondary colour.
     pub trail: &'a str,
-    /// Picked in a list.
+    /// Selected in a list.
     pub is_selected: bool,
-    /// For what can be on or off: which it is.
+    /// For something on or off: its state.
     pub is_on: Option<bool>,
-    /// In secondary colour.
+    /// In the secondary colour.
     pub is_muted: bool,
-    /// Points by which its start is set in.
+    /// Indent of its start, in points.
     pub indent: f32,
-    /// Points by which its end is set in.
+    /// Inset of its end, in points.
     pub inset: f32,
 }
 
@@ -174,7 +174,7 @@ impl<'a> Row<'a> {
         Self { is_muted: true, ..self }
     }
 
-    /// Set in at both ends.
+    /// Inset at both ends.
     pub(crate) fn inset(self, inset: f32) -> Self {
         Self { indent: inset, inset, ..self }
     }
@@ -183,12 +183,12 @@ impl<'a> Row<'a> {
         Self { indent, ..self }
     }
 
-    /// As something to click.
+    /// Shows it as something to click.
     pub(crate) fn button(self, ui: &mut Ui, role: Role) -> Response {
         self.show(ui, ROW, Some(role))
     }
 
-    /// As something to read.
+    /// Shows it as something to read.
     pub(crate) fn show_only(self, ui: &mut Ui) -> Response {
         self.show(ui, 22.0, None)
     }
@@ -230,7 +230,7 @@ impl<'a> Row<'a> {
             (true, false) => colours.text,
         };
         let middle = rect.center().y;
-        // What can be clicked has a ground that reaches further than its text.
+        // Something clickable has a background that extends beyond its text.
         let pad = if role.is_some() { 8.0 } else { 0.0 };
         let mut left = rect.left() + pad + self.indent;
         match self.lead {
@@ -276,7 +276,7 @@ impl<'a> Row<'a> {
     }
 }
 
-/// A square of a colour, of 12 points.
+/// A colour swatch of 12 points.
 pub(crate) fn swatch(ui: &Ui, centre: Pos2, colour: Color32) {
     let square = Rect::from_center_size(centre, Vec2::splat(12.0));
     ui.painter().rect_filled(square, 3.0, colour);
@@ -291,17 +291,17 @@ pub(crate) struct Segment<'a> {
     pub name: &'a str,
     pub help: &'a str,
     pub is_on: bool,
-    /// The ground when it is on; the theme's without.
+    /// The background when on; `None` for the theme's.
     pub colour: Option<Color32>,
 }
 
-/// Choices side by side, of which one is on. Gives the index of one that was clicked.
+/// Alternatives side by side, one of them on. Returns the index of one that was clicked.
 pub(crate) fn segmented(ui: &mut Ui, segments: &[Segment<'_>]) -> Option<usize> {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
     let colours = colours(ui);
     ui.painter().rect_filled(rect, RADIUS, colours.field);
     let inner = rect.shrink(2.0);
-    // Each as wide as its text asks for, measured when on; what is left is shared.
+    // Each as wide as its text needs when on; the rest is shared.
     let font = |is_on: bool| {
         if is_on { FontId::new(theme::BODY, theme::semibold()) } else { FontId::proportional(theme::BODY) }
     };
@@ -357,7 +357,7 @@ pub(crate) fn value(ui: &mut Ui, name: &str, value: &str) -> Response {
     if is_elided { response.on_hover_text(value) } else { response }
 }
 
-/// A text that is on or off.
+/// A text that toggles.
 pub(crate) fn toggle(ui: &mut Ui, text: &str, is_on: bool) -> Response {
     let colours = colours(ui);
     let font = FontId::proportional(theme::BODY);
@@ -386,14 +386,14 @@ pub(crate) fn toggle(ui: &mut Ui, text: &str, is_on: bool) -> Response {
     response
 }
 
-/// A small text that does something when it is clicked.
+/// A small clickable text.
 pub(crate) fn link(ui: &mut Ui, text: &str) -> Response {
     let response = ui.link(RichText::new(text).size(theme::SMALL));
     focus_ring(ui, response.rect.expand2(vec2(3.0, 1.0)), &response);
     response
 }
 
-/// A button with a text; the main one of a dialog has the accent's colour.
+/// A text button; the main one of a dialog has the accent colour.
 pub(crate) fn text_button(ui: &mut Ui, text: &str, is_main: bool) -> Response {
     let colours = colours(ui);
     let (fill, stroke, colour) = if is_main {
@@ -405,7 +405,7 @@ pub(crate) fn text_button(ui: &mut Ui, text: &str, is_main: bool) -> Response {
     let text = if is_main { text.font(FontId::new(theme::BODY, theme::semibold())) } else { text };
     let button = egui::Button::new(text).fill(fill).stroke(Stroke::new(1.0, stroke)).min_size(vec2(72.0, 30.0));
     let response = ui.add(button);
-    // Outside of a button that has the ring's colour.
+    // Outside a button that has the ring's colour.
     let around = if is_main { response.rect.expand(3.0) } else { response.rect };
     focus_ring(ui, around, &response);
     response
@@ -416,7 +416,7 @@ pub(crate) fn dialog_frame(ui: &Ui) -> egui::Frame {
     egui::Frame::window(ui.style()).inner_margin(egui::Margin::same(22))
 }
 
-/// Lays out what follows from right to left in what is left of the line.
+/// Lays out the contents from right to left in the rest of the line.
 pub(crate) fn right(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     ui.with_layout(egui::Layout::right_to_left(Align::Center), contents);
 }
