@@ -1,19 +1,19 @@
-//! What a person does at the window: pointer, wheel, keys, files that are dropped.
+//! User input to the window: pointer, wheel, keys, dropped files.
 
 use super::*;
 
 impl Offscreen {
-    /// Feeds an event of egui's.
+    /// Feeds an egui event.
     pub fn event(&mut self, event: Event) {
         self.frame(vec![event], Vec::new(), false);
     }
 
-    /// Where the pointer is.
+    /// The pointer's position.
     pub fn pointer(&self) -> Pos2 {
         self.pointer
     }
 
-    /// Holds modifier keys down, in place of those held before.
+    /// Holds modifier keys down, instead of those held before.
     pub fn hold_modifiers(&mut self, modifiers: Modifiers) {
         if self.modifiers != modifiers {
             self.modifiers = modifiers;
@@ -32,7 +32,7 @@ impl Offscreen {
         self.event(Event::PointerMoved(at));
     }
 
-    /// Presses or lets go of a button of the pointer.
+    /// Presses or releases a pointer button.
     pub fn button(&mut self, button: PointerButton, pressed: bool) {
         self.event(Event::PointerButton { pos: self.pointer, button, pressed, modifiers: self.modifiers });
     }
@@ -42,23 +42,23 @@ impl Offscreen {
         self.clicks(PointerButton::Primary, at, 1);
     }
 
-    /// Clicks at a place so often in quick succession.
+    /// Clicks a position this many times in quick succession.
     pub fn clicks(&mut self, button: PointerButton, at: Pos2, count: usize) {
         self.move_to(at);
         for _ in 0..count {
             self.button(button, true);
             self.button(button, false);
         }
-        // What is clicked next is no double click.
+        // So that the next click does not make a double click.
         self.advance(CLICK_GAP_SECS);
     }
 
-    /// Drags from a place to another.
+    /// Drags from one position to another.
     pub fn drag(&mut self, button: PointerButton, from: Pos2, to: Pos2) {
         self.drag_along(button, &[from, from + (to - from) / 2.0, to]);
     }
 
-    /// Drags from the first of some places by way of the others to the last.
+    /// Drags from the first position via the others to the last.
     pub fn drag_along(&mut self, button: PointerButton, places: &[Pos2]) {
         for (index, &place) in places.iter().enumerate() {
             self.move_to(place);
@@ -69,7 +69,7 @@ impl Offscreen {
         self.button(button, false);
     }
 
-    /// Turns the wheel by lines, away from the person when positive.
+    /// Scrolls the wheel by lines, away from the user when positive.
     pub fn wheel(&mut self, lines: f32) {
         self.scroll(MouseWheelUnit::Line, vec2(0.0, lines));
     }
@@ -85,8 +85,8 @@ impl Offscreen {
         self.event(Event::MouseWheel { unit, delta, phase: TouchPhase::Move, source, modifiers });
     }
 
-    /// Presses a key and lets it go, with modifiers beside those that are held down. Ctrl with C, X and
-    /// V are copy, cut and paste, as window systems have it.
+    /// Presses and releases a key, with modifiers in addition to those held down. Ctrl with C, X and V
+    /// are copy, cut and paste, as in window systems.
     pub fn key(&mut self, modifiers: Modifiers, key: Key) {
         let held = self.modifiers;
         let modifiers = held.plus(modifiers);
@@ -109,7 +109,7 @@ impl Offscreen {
         self.hold_modifiers(held);
     }
 
-    /// Holds a key down or lets it go.
+    /// Holds a key down or releases it.
     pub fn hold(&mut self, key: Key, pressed: bool) {
         let modifiers = self.modifiers;
         self.event(Event::Key { key, physical_key: None, pressed, repeat: false, modifiers });
@@ -120,7 +120,7 @@ impl Offscreen {
         self.event(Event::Text(text.to_owned()));
     }
 
-    /// Holds a file over the window, or takes it away.
+    /// Hovers a file over the window, or takes it away.
     pub fn hover_file(&mut self, path: Option<&Path>) {
         let hovered = path.map(|path| egui::HoveredFile { path: Some(path.to_owned()), ..Default::default() });
         self.hovered_files = hovered.into_iter().collect();
@@ -133,7 +133,7 @@ impl Offscreen {
         self.frame(Vec::new(), vec![Arc::new(Dropped(path.to_owned()))], false);
     }
 
-    /// Asks the window to close, as its title bar's button does.
+    /// Asks the window to close, like its title bar's button.
     pub fn ask_to_close(&mut self) {
         self.frame(Vec::new(), Vec::new(), true);
     }

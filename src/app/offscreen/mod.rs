@@ -1,5 +1,5 @@
-//! The same window without a display: input is fed by hand, the clock stands still between frames,
-//! and a picture is painted on the CPU.
+//! The same window without a display: input is fed by hand, the clock stands still between frames, and
+//! snapshots are rendered on the CPU.
 
 pub(crate) mod controls;
 mod input;
@@ -27,16 +27,16 @@ use crate::app::state::App;
 use crate::picture::Picture;
 use controls::Control;
 
-/// Two clicks are a double click only when they follow within 0.3 seconds.
+/// Time between clicks: two clicks within 0.3 seconds would be a double click.
 const CLICK_GAP_SECS: f64 = 0.5;
 
 /// Seconds from frame to frame.
 const FRAME_SECS: f64 = 1.0 / 60.0;
 
-/// A window that has not come to rest after so many frames never will.
+/// A window that has not settled after this many frames never will.
 const MOST_FRAMES: usize = 600;
 
-/// What the window is like.
+/// The window's properties.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OffscreenOptions {
     /// Size in logical pixels.
@@ -44,7 +44,7 @@ pub struct OffscreenOptions {
     pub height: u32,
     /// Physical pixels per logical one.
     pub scale: f32,
-    /// What the system asks for.
+    /// Whether the system asks for a dark theme.
     pub is_dark: bool,
 }
 
@@ -54,7 +54,7 @@ impl Default for OffscreenOptions {
     }
 }
 
-/// The window asked for frame after frame and never came to rest.
+/// The window kept asking for frames and never settled.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NotSettled;
 
@@ -76,9 +76,9 @@ pub struct Offscreen {
     pointer: Pos2,
     modifiers: Modifiers,
     hovered_files: Vec<egui::HoveredFile>,
-    /// What can be pasted: the system's clipboard.
+    /// The text that can be pasted: the system's clipboard.
     clipboard: String,
-    /// What the last frame gave.
+    /// The output of the last frame.
     output: Option<FullOutput>,
     tree: Option<accesskit::TreeUpdate>,
     is_closing: bool,
@@ -109,7 +109,7 @@ impl Offscreen {
         }
     }
 
-    /// Runs as where no screen reader listens: what only it would hear is not worked out.
+    /// Runs as if no screen reader were listening: nothing is computed for one.
     pub fn without_screen_reader(self) -> Self {
         self.context.disable_accesskit();
         self
@@ -125,8 +125,7 @@ impl Offscreen {
         self.app.session.open(Origin::File { path: path.to_owned(), storey: 0 });
     }
 
-    /// Opens a plan that comes with the program, by its file's name without the ending.
-    /// Gives whether there is such a plan.
+    /// Opens a bundled plan by its file's name without the extension. Returns whether it exists.
     pub fn open_bundled(&mut self, stem: &str) -> bool {
         let index = bundled().iter().position(|(name, _)| crate::formats::file_stem(name) == stem);
         if let Some(index) = index {
@@ -135,61 +134,60 @@ impl Offscreen {
         index.is_some()
     }
 
-    /// Runs a command by its id. Gives whether there is such a command and it could be done.
+    /// Runs a command by its id. Returns whether the command exists and ran.
     pub fn run_command(&mut self, id: &str) -> bool {
         self.app.run_command(id, &self.context)
     }
 
-    /// Runs a command by its id, with arguments; as [`App::run_command_with`].
+    /// Runs a command by its id, with arguments; like [`App::run_command_with`].
     ///
     /// # Errors
-    /// When there is no such command, when it cannot be done now, when an argument is wrong.
+    /// When the command does not exist or is unavailable, or an argument is invalid.
     pub fn run_command_with(&mut self, id: &str, arguments: &[&str]) -> Result<(), CommandError> {
         self.app.run_command_with(id, arguments, &self.context)
     }
 
-    /// Keeps settings in a file from now on, and takes over what it holds. Without, none are read or
-    /// kept.
+    /// Keeps settings in a file from now on, and loads those it has. Without this, none are read or kept.
     pub fn use_settings(&mut self, file: &Path) {
         self.app.use_settings(file.to_owned());
     }
 
-    /// Keeps journals in a folder from now on, and offers what is left there. Without, none are kept.
+    /// Keeps journals in a folder from now on, and offers those left there. Without this, none are kept.
     pub fn use_journal(&mut self, folder: &Path) {
         self.app.use_journal(folder.to_owned());
     }
 
-    /// Starts or stops keeping the commands that are done; as [`App::watch_commands`].
+    /// Starts or stops recording the commands that run; like [`App::watch_commands`].
     pub fn watch_commands(&mut self, is_watched: bool) {
         self.app.watch_commands(is_watched);
     }
 
-    /// The commands done since the last call; as [`App::take_executed`].
+    /// The commands run since the last call; like [`App::take_executed`].
     pub fn take_executed(&mut self) -> Vec<Executed> {
         self.app.take_executed()
     }
 
-    /// The answer to the next dialog that asks for a file; `None` cancels it. A dialog without an
-    /// answer is cancelled.
+    /// Sets the answer to the next file dialog; `None` cancels it. A dialog without an answer is
+    /// cancelled.
     pub fn answer_dialog(&mut self, path: Option<PathBuf>) {
         if let Some(given) = self.given() {
             given.answers.push_back(path);
         }
     }
 
-    /// How many answers no dialog has asked for yet.
+    /// The number of answers not used yet.
     pub fn answers_left(&mut self) -> usize {
         self.given().map_or(0, |given| given.answers.len())
     }
 
-    /// Forgets the answers that no dialog has asked for.
+    /// Drops unused answers.
     pub fn forget_answers(&mut self) {
         if let Some(given) = self.given() {
             given.answers.clear();
         }
     }
 
-    /// How many dialogs had no answer since this was last asked.
+    /// The number of dialogs without an answer since the last call.
     pub fn take_unanswered(&mut self) -> usize {
         self.given().map_or(0, |given| std::mem::take(&mut given.unanswered))
     }
@@ -201,8 +199,8 @@ impl Offscreen {
         }
     }
 
-    /// Names paths below a folder by what comes behind it, so that what is seen does not depend on
-    /// where the folder is.
+    /// Shows paths below a folder relative to it, so that what is visible does not depend on where the
+    /// folder is.
     pub fn name_paths_from(&mut self, folder: &Path) {
         self.app.session.named_from = Some(folder.to_owned());
     }
@@ -212,31 +210,30 @@ impl Offscreen {
         self.is_closed
     }
 
-    /// What was copied last, or put there to be pasted.
+    /// The clipboard: what was copied last, or set to be pasted.
     pub fn clipboard(&self) -> &str {
         &self.clipboard
     }
 
-    /// Puts a text where Ctrl+V takes it from.
+    /// Sets the text that Ctrl+V pastes.
     pub fn set_clipboard(&mut self, text: &str) {
         text.clone_into(&mut self.clipboard);
     }
 
-    /// What the window is like now.
+    /// The window's current properties.
     pub fn options(&self) -> OffscreenOptions {
         self.options
     }
 
-    /// Makes it another size, scale or theme of the system.
+    /// Changes its size, scale or system theme.
     pub fn set_options(&mut self, options: OffscreenOptions) {
         self.options = options;
         self.frame(Vec::new(), Vec::new(), false);
     }
 
-    // Input. Each is a frame of its own, as at most one thing happens in a sixtieth of a second.
+    // Input. Each is a separate frame, as at most one thing happens in a sixtieth of a second.
 
-    /// Turns what the last frame painted into triangles, as a display has it done. Gives how many
-    /// corners they have.
+    /// Tessellates the last frame, as a display would. Returns the number of vertices.
     pub fn tessellate(&self) -> usize {
         let Some(output) = &self.output else { return 0 };
         let primitives = self.context.tessellate(output.shapes.clone(), output.pixels_per_point);
@@ -249,8 +246,8 @@ impl Offscreen {
 
     // Time.
 
-    /// Lets time pass, in seconds: a frame whenever the window asks for one, and one at the end. One
-    /// that asks without end gets no more than [`NotSettled`] says, and then the last.
+    /// Lets time pass, in seconds: runs a frame whenever the window asks for one, and one at the end. If
+    /// it keeps asking, the frames are limited as for [`NotSettled`], plus the last one.
     pub fn advance(&mut self, secs: f64) {
         let end_secs = self.time_secs + secs.max(0.0);
         for _ in 0..MOST_FRAMES {
@@ -258,7 +255,7 @@ impl Offscreen {
             if self.is_closed || self.time_secs >= end_secs {
                 return;
             }
-            // Nothing happens until the window wants to be shown again.
+            // Nothing happens until the window asks for a repaint.
             let idle_secs = self.repaint_delay_secs() - FRAME_SECS;
             self.time_secs = (self.time_secs + idle_secs.max(0.0)).min(end_secs);
         }
@@ -266,10 +263,10 @@ impl Offscreen {
         self.frame(Vec::new(), Vec::new(), false);
     }
 
-    /// Runs frames until the window asks for no further one soon.
+    /// Runs frames until the window asks for no more soon.
     ///
     /// # Errors
-    /// When it goes on asking for ten seconds.
+    /// When it keeps asking for ten seconds.
     pub fn settle(&mut self) -> Result<(), NotSettled> {
         for _ in 0..MOST_FRAMES {
             self.frame(Vec::new(), Vec::new(), false);
@@ -280,7 +277,7 @@ impl Offscreen {
         Err(NotSettled)
     }
 
-    /// Seconds until the window wants to be shown again.
+    /// Seconds until the window wants a repaint.
     fn repaint_delay_secs(&self) -> f64 {
         let viewport = self.output.as_ref().and_then(|output| output.viewport_output.get(&ViewportId::ROOT));
         viewport.map_or(f64::INFINITY, |viewport| viewport.repaint_delay.as_secs_f64())
@@ -323,7 +320,7 @@ impl Offscreen {
         }
         let commands = output.viewport_output.get(&ViewportId::ROOT).map(|viewport| viewport.commands.as_slice());
         let commands = commands.unwrap_or_default();
-        // As a window system does it: a wish to close can be refused in the frame that hears of it.
+        // As in a window system: a request to close can be refused in the frame that receives it.
         self.is_closed |= close && !commands.contains(&ViewportCommand::CancelClose);
         self.is_closing = commands.contains(&ViewportCommand::Close);
         if let Some(tree) = output.platform_output.accesskit_update.take() {
@@ -333,9 +330,9 @@ impl Offscreen {
         self.time_secs += FRAME_SECS;
     }
 
-    // What is seen.
+    // What is visible.
 
-    /// A picture of a part of the last frame, its sides rounded to pixels.
+    /// A snapshot of part of the last frame, its sides rounded to pixels.
     pub fn picture_of(&mut self, rect: Rect) -> Picture {
         let picture = self.picture();
         let scale = self.options.scale;
@@ -344,7 +341,7 @@ impl Offscreen {
         picture.part(corner(rect.min), corner(rect.max))
     }
 
-    /// A picture of the last frame.
+    /// A snapshot of the last frame.
     pub fn picture(&mut self) -> Picture {
         let scale = self.options.scale;
         let size_px = [self.options.width, self.options.height].map(|side| (side as f32 * scale).round() as u32);
@@ -354,7 +351,7 @@ impl Offscreen {
         self.raster.paint(&primitives, size_px, scale, background)
     }
 
-    /// Where the dialog, palette or menu in front is, in logical pixels; `None` where there is none.
+    /// The rectangle of the front dialog, palette or menu, in logical pixels; `None` if there is none.
     pub fn front_rect(&self) -> Option<Rect> {
         self.context.memory(|memory| {
             let shown = memory.areas().visible_layer_ids();
@@ -364,7 +361,7 @@ impl Offscreen {
         })
     }
 
-    /// The controls that are on the screen, in the tree's order.
+    /// The controls on the screen, in tree order.
     pub fn controls(&self) -> Vec<Control> {
         self.tree.as_ref().map(|tree| controls::of_tree(tree, self.options.scale)).unwrap_or_default()
     }
@@ -375,12 +372,12 @@ impl Offscreen {
         self.controls().into_iter().find(|control| control.id == focus)
     }
 
-    /// The first control with a name.
+    /// The first control with this name.
     pub fn control(&self, name: &str) -> Option<Control> {
         self.controls().into_iter().find(|control| control.name == name)
     }
 
-    /// Clicks in the middle of a control. Gives whether there is one of this name.
+    /// Clicks the middle of a control. Returns whether one with this name exists.
     pub fn click_control(&mut self, name: &str) -> bool {
         let control = self.control(name);
         if let Some(control) = &control {

@@ -1,9 +1,9 @@
-//! A CPU rasteriser of egui's tessellated output, so that the window can be seen without a display:
-//! in tests, in replay scripts, in pictures for the manual.
+//! A CPU rasteriser for egui's tessellated output, so that the window can be rendered without a display:
+//! in tests, in replay scripts, for the manual's pictures.
 //!
-//! It does what egui's OpenGL shader does: triangles with colours interpolated between their
-//! corners, times a texture, blended premultiplied in gamma space. All arithmetic behind the corner
-//! positions is in whole numbers, so that the picture is the same on every machine.
+//! It does what egui's OpenGL shader does: triangles with colours interpolated between their vertices,
+//! times a texture, blended premultiplied in gamma space. All arithmetic after the vertex positions is in
+//! integers, so that the result is the same on every machine.
 
 mod parts;
 
@@ -14,28 +14,28 @@ use crate::picture::Picture;
 use egui::epaint::{ClippedPrimitive, ImageData, ImageDelta, Primitive, Vertex};
 use egui::{Color32, Rect, TextureFilter, TextureId, TextureWrapMode, TexturesDelta};
 
-/// Subpixels in a pixel along each axis: what GPUs use at least.
+/// Subpixels per pixel along each axis: the minimum of GPUs.
 const SUBPIXELS: i64 = 256;
 
-/// The centre of a pixel in subpixels, where coverage is decided.
+/// The centre of a pixel in subpixels, where coverage is tested.
 const CENTRE: i64 = SUBPIXELS / 2;
 
-/// Corners further out than a million pixels are pulled in to there, so that products of two
-/// coordinates in subpixels fit 64 bits.
+/// Vertices further out than a million pixels are clamped, so that products of two coordinates in
+/// subpixels fit 64 bits.
 const FAR: f32 = (1 << 28) as f32;
 
-/// Bits behind the point of an interpolated value.
+/// Fraction bits of an interpolated value.
 const FRACTION_BITS: u32 = 16;
 
-/// Keeps the textures that egui hands over and paints frames with them.
+/// Keeps egui's textures and renders frames with them.
 #[derive(Default)]
 pub struct Raster {
     textures: BTreeMap<u64, Texture>,
 }
 
 impl Raster {
-    /// Takes over new and changed textures. Textures named as freed go only after the frame that
-    /// came with them is painted, so they are dropped at the next call.
+    /// Applies new and changed textures. Textures to be freed may be used by the frame they came with, so
+    /// they are dropped at the next call.
     pub fn update_textures(&mut self, delta: &mut TexturesDelta) {
         for (id, changes) in delta.set.drain() {
             for change in changes {
@@ -44,7 +44,7 @@ impl Raster {
         }
     }
 
-    /// Drops textures that are no longer used; to be called after painting.
+    /// Drops textures no longer used; call it after painting.
     pub fn free_textures(&mut self, delta: &mut TexturesDelta) {
         for id in delta.free.drain() {
             self.textures.remove(&key(id));
@@ -81,8 +81,8 @@ impl Raster {
         }
     }
 
-    /// Paints a frame of `size_px` pixels on an opaque background. Meshes whose texture is not known
-    /// and paint callbacks (which Enfilade does not use) are left out.
+    /// Paints a frame of `size_px` pixels on an opaque background. Skips meshes with an unknown texture,
+    /// and paint callbacks (which Enfilade does not use).
     pub fn paint(
         &self,
         primitives: &[ClippedPrimitive],
@@ -107,8 +107,8 @@ impl Raster {
                 else {
                     continue;
                 };
-                // Two triangles that egui made from one rectangle: most of a frame's area and all
-                // of its text.
+                // Two triangles that egui made from one rectangle: most of a frame's area and all of its
+                // text.
                 if let Some(next) = triangles.peek()
                     && next[0] == triangle[2]
                     && next[1] == triangle[1]
@@ -126,7 +126,7 @@ impl Raster {
     }
 }
 
-/// Textures are kept by number: user textures apart from egui's own.
+/// The key of a texture: user textures are separate from egui's own.
 fn key(id: TextureId) -> u64 {
     match id {
         TextureId::Managed(number) => number << 1,
@@ -134,7 +134,7 @@ fn key(id: TextureId) -> u64 {
     }
 }
 
-/// The part of the picture that may be painted, in pixels; the far sides are not part of it.
+/// The clip rectangle in pixels; the right and bottom edges are excluded.
 #[derive(Clone, Copy, Default)]
 struct Clip {
     left: i64,
@@ -145,7 +145,7 @@ struct Clip {
 
 impl Clip {
     fn new(rect: Rect, pixels_per_point: f32, width: usize, height: usize) -> Self {
-        // As egui_glow sets its scissor: rounded to whole pixels.
+        // Rounded to whole pixels, like egui_glow's scissor.
         let side = |value: f32, limit: usize| ((value * pixels_per_point).round() as i64).clamp(0, limit as i64);
         Self {
             left: side(rect.min.x, width),
@@ -160,13 +160,13 @@ impl Clip {
     }
 }
 
-/// The first pixel whose centre lies at or behind a place in subpixels.
+/// The first pixel whose centre is at or after a position in subpixels.
 fn first_pixel(subpixels: i64) -> i64 {
     (subpixels - CENTRE + SUBPIXELS - 1).div_euclid(SUBPIXELS)
 }
 
-/// The nearest whole number; half is rounded away from zero. (`f64::round` is a call into the C
-/// library where the processor's baseline has no such instruction.)
+/// The nearest integer, with halves rounded away from zero. (`f64::round` is a call into the C library if
+/// the baseline processor has no such instruction.)
 fn whole(value: f64) -> i64 {
     (if value < 0.0 { value - 0.5 } else { value + 0.5 }) as i64
 }
@@ -181,7 +181,7 @@ struct Target {
 }
 
 impl Target {
-    /// An upright rectangle between its left top and right bottom corner.
+    /// An axis-aligned rectangle between its top left and bottom right vertices.
     fn rectangle(&mut self, texture: &Texture, a: &Corner, d: &Corner) {
         let left = first_pixel(a.x).max(self.clip.left);
         let right = first_pixel(d.x).min(self.clip.right);
@@ -198,7 +198,7 @@ impl Target {
             }
             return;
         }
-        // Both sides have a length here: at least one pixel centre lies between them.
+        // Both sides have a length here: at least one pixel centre is between them.
         let step_u = texture.fixed(d.u - a.u, texture.width) / (d.x - a.x) as f64;
         let step_v = texture.fixed(d.v - a.v, texture.height) / (d.y - a.y) as f64;
         let u = texture.fixed(a.u, texture.width) + step_u * (left * SUBPIXELS + CENTRE - a.x) as f64;
@@ -220,8 +220,8 @@ impl Target {
         }
     }
 
-    /// A triangle by the top-left rule: a pixel whose centre lies on an edge belongs to exactly one
-    /// of the two triangles that share it.
+    /// A triangle by the top-left rule: a pixel whose centre is on an edge belongs to exactly one of the
+    /// two triangles that share it.
     fn triangle(&mut self, texture: &Texture, a: Corner, mut b: Corner, mut c: Corner) {
         let mut twice_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
         if twice_area == 0 {
@@ -350,8 +350,8 @@ mod tests {
         mesh.add_triangle(first, first + 1, first + 2);
     }
 
-    /// A translucent fan about a point covers each pixel exactly once, whatever the directions of
-    /// its edges.
+    /// A translucent fan around a point covers each pixel exactly once, whatever the directions of its
+    /// edges.
     #[test]
     fn neighbouring_triangles_share_no_pixel_and_leave_none() {
         let mut mesh = Mesh::default();
@@ -375,7 +375,7 @@ mod tests {
         mesh.add_colored_rect(Rect::from_min_max(pos2(1.0, 1.5), pos2(3.0, 2.5)), Color32::WHITE);
         let picture = painted(&white(), mesh, 4, 1.0);
         let lit: Vec<usize> = (0..16).filter(|&i| picture.rgba[4 * i] == 255).collect();
-        // Centres at y = 1.5 belong to the row above by the top-left rule.
+        // By the top-left rule, centres at y = 1.5 belong to the row above.
         assert_eq!(lit, [5, 6]);
     }
 

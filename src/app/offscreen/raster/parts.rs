@@ -1,4 +1,4 @@
-//! What triangles are painted from: corners, edges in fixed point, colours and textures.
+//! The parts of painting triangles: vertices, edges in fixed point, colours and textures.
 
 use super::*;
 
@@ -11,7 +11,7 @@ pub(super) struct Texture {
     pub(super) wrap: TextureWrapMode,
 }
 
-/// A mesh's corner in subpixels.
+/// A mesh's vertex in subpixels.
 #[derive(Clone, Copy)]
 pub(super) struct Corner {
     pub(super) x: i64,
@@ -23,7 +23,7 @@ pub(super) struct Corner {
 
 impl Corner {
     pub(super) fn new(vertex: &Vertex, pixels_per_point: f32) -> Self {
-        // A float becomes a whole number by saturation and not-a-number becomes 0: no surprise.
+        // Float to integer casts saturate, and NaN becomes 0: fine here.
         let place = |value: f32| whole(f64::from((value * pixels_per_point * SUBPIXELS as f32).clamp(-FAR, FAR)));
         Self {
             x: place(vertex.pos.x),
@@ -35,8 +35,8 @@ impl Corner {
     }
 }
 
-/// Whether the corners (left top, right top, left bottom, right bottom) are an upright rectangle of
-/// one colour whose texture lies upright on it.
+/// Whether the vertices (top left, top right, bottom left, bottom right) form an axis-aligned rectangle
+/// of one colour with an axis-aligned texture.
 pub(super) fn is_rectangle(a: &Corner, b: &Corner, c: &Corner, d: &Corner) -> bool {
     let upright = a.x == c.x && b.x == d.x && a.y == b.y && c.y == d.y && a.x <= b.x && a.y <= c.y;
     let texture = a.u == c.u && b.u == d.u && a.v == b.v && c.v == d.v;
@@ -61,7 +61,7 @@ impl Colour {
         Self { r: u32::from(r) << 8, g: u32::from(g) << 8, b: u32::from(b) << 8, a: u32::from(a) << 8 }
     }
 
-    /// Channel by channel.
+    /// Multiplies channel by channel.
     #[inline]
     pub(super) fn times(self, other: Self) -> Self {
         // Both factors are at most 65280, so the product fits.
@@ -73,14 +73,14 @@ impl Colour {
         }
     }
 
-    /// All channels times a byte as a fraction of 255.
+    /// Multiplies all channels by a byte as a fraction of 255.
     #[inline]
     pub(super) fn covered(self, by: u8) -> Self {
         let by = u32::from(by);
         Self { r: self.r * by / 255, g: self.g * by / 255, b: self.b * by / 255, a: self.a * by / 255 }
     }
 
-    /// Puts it over a pixel of the picture, which stays opaque.
+    /// Blends it over a pixel of the picture, which stays opaque.
     #[inline]
     pub(super) fn over(self, pixel: &mut [u8; 4]) {
         let rest = OPAQUE - self.a.min(OPAQUE);
@@ -89,8 +89,8 @@ impl Colour {
     }
 }
 
-/// Pixels of one colour under texels that lie exactly on them: text, mostly. Letters are white, so
-/// that one channel says all.
+/// Pixels of one colour under texels that lie exactly on them: mostly text. Letters are white, so one
+/// channel is enough.
 pub(super) fn glyph_span(pixels: &mut [[u8; 4]], texels: &[[u8; 4]], tint: Colour) {
     for (pixel, texel) in pixels.iter_mut().zip(texels) {
         match *texel {
@@ -101,7 +101,7 @@ pub(super) fn glyph_span(pixels: &mut [[u8; 4]], texels: &[[u8; 4]], tint: Colou
     }
 }
 
-/// What a triangle is painted with.
+/// What to paint a triangle with.
 pub(super) enum Paint {
     Solid(Colour),
     /// An interpolated colour, times one texel.
@@ -109,25 +109,25 @@ pub(super) enum Paint {
     Textured(Planes),
 }
 
-/// One side of a triangle: which pixels of a row lie on its inner side, from row to row.
+/// One edge of a triangle: which pixels of a row are on its inner side, row by row.
 pub(super) struct Edge {
-    /// The sign of what a step to the right adds to the distance from the edge.
+    /// The sign of the change in distance from the edge per step to the right.
     pub(super) slope: i64,
-    /// Whole steps of the slope's size in the distance at column 0, and what is left of it.
+    /// The distance at column 0 divided by the slope's size: quotient and remainder.
     pub(super) quotient: i64,
     pub(super) rest: i64,
-    /// What a row adds to both.
+    /// The change of both per row.
     pub(super) row_quotient: i64,
     pub(super) row_rest: i64,
-    /// The slope's size; for a level edge, 1.
+    /// The slope's size; 1 for a horizontal edge.
     pub(super) size: i64,
 }
 
 impl Edge {
     pub(super) fn new(from: &Corner, to: &Corner, first_row: i64) -> Self {
         let (dx, dy) = (to.x - from.x, to.y - from.y);
-        // Going round clockwise with y down, left edges go up and top edges go right: a centre
-        // exactly on them counts as inside.
+        // Going clockwise with y down, left edges go up and top edges go right: a centre exactly on them
+        // counts as inside.
         let bias = if dy < 0 || (dy == 0 && dx > 0) { 0 } else { -1 };
         // Inside: dx * (Y - y) - dy * (X - x) + bias >= 0, with X and Y the pixel's centre.
         let constant = dx * (first_row * SUBPIXELS + CENTRE - from.y) - dy * (CENTRE - from.x) + bias;
@@ -143,7 +143,7 @@ impl Edge {
         }
     }
 
-    /// Narrows the current row's pixels `from..to` to those inside, and goes on to the next row.
+    /// Narrows the current row's pixels `from..to` to those inside, and advances to the next row.
     #[inline]
     pub(super) fn narrow(&mut self, from: &mut i64, to: &mut i64) {
         match self.slope {
@@ -162,7 +162,7 @@ impl Edge {
     }
 }
 
-/// Colour channels in levels, with [`FRACTION_BITS`] behind the point.
+/// Colour channels in levels, with [`FRACTION_BITS`] fraction bits.
 #[derive(Clone, Copy)]
 pub(super) struct Interpolated {
     pub(super) r: i64,
@@ -179,7 +179,7 @@ impl Interpolated {
         Self { r, g, b, a }
     }
 
-    /// Rounding may have carried a channel a little out of range.
+    /// Rounding may have moved a channel slightly out of range.
     #[inline]
     pub(super) fn colour(self) -> Colour {
         let channel = |value: i64| (value >> (FRACTION_BITS - 8)).clamp(0, i64::from(OPAQUE)) as u32;
@@ -195,7 +195,7 @@ impl Interpolated {
     }
 }
 
-/// What is interpolated: a colour, and texture coordinates in texels with [`FRACTION_BITS`].
+/// The interpolated values: a colour, and texture coordinates in texels with [`FRACTION_BITS`].
 #[derive(Clone, Copy)]
 pub(super) struct Sample {
     pub(super) color: Interpolated,
@@ -203,10 +203,10 @@ pub(super) struct Sample {
     pub(super) v: i64,
 }
 
-/// The planes through a triangle's values over the picture.
+/// The planes of a triangle's values over the picture.
 pub(super) struct Planes {
     pub(super) origin: (i64, i64),
-    /// Four colours, u, v: at the origin, what a subpixel to the right adds, and one down.
+    /// Four colour channels, u, v: at the origin, change per subpixel to the right, and down.
     pub(super) start: [f64; 6],
     pub(super) right: [f64; 6],
     pub(super) down: [f64; 6],
@@ -252,7 +252,7 @@ impl Planes {
 }
 
 pub(super) fn fixed_sample(values: &[f64; 6]) -> Sample {
-    // The steps of a sliver may be huge; its spans are then a pixel long and never use them.
+    // The steps of a sliver may be huge, but its spans are then a pixel long and never use them.
     let fixed = |value: f64| whole(value.clamp(-1e15, 1e15));
     let [r, g, b, a, u, v] = *values;
     let color = Interpolated { r: fixed(r), g: fixed(g), b: fixed(b), a: fixed(a) };
@@ -271,7 +271,7 @@ impl Texture {
         self.sample(whole(self.fixed(u, self.width)), whole(self.fixed(v, self.height)))
     }
 
-    /// The column and row of the first texel, when a rectangle's texels lie exactly on its pixels.
+    /// The column and row of the first texel, if a rectangle's texels lie exactly on its pixels.
     pub(super) fn aligned(
         &self,
         u: i64,
@@ -282,7 +282,7 @@ impl Texture {
         height: i64,
     ) -> Option<(usize, usize)> {
         const ONE: i64 = 1 << FRACTION_BITS;
-        // The weights between texels have 8 bits: what rounds to nothing there is nothing.
+        // The weights between texels have 8 bits: anything that rounds to zero there does not matter.
         let slack = 1 << (FRACTION_BITS - 9);
         let place = |at: i64, step: i64, count: i64| {
             let (index, rest) = ((at + slack) >> FRACTION_BITS, (at + slack) & (ONE - 1));
@@ -311,7 +311,7 @@ impl Texture {
         if self.filter == TextureFilter::Nearest {
             return Colour::of_bytes(self.texel(u >> FRACTION_BITS, v >> FRACTION_BITS));
         }
-        // Texel centres lie at halves; weights of 8 bits, as GPUs have.
+        // Texel centres are at halves; weights have 8 bits, as in GPUs.
         let half = 1 << (FRACTION_BITS - 1);
         let rounding = 1 << (FRACTION_BITS - 9);
         let u = (u - half + rounding) >> (FRACTION_BITS - 8);
@@ -335,7 +335,7 @@ impl Texture {
     }
 }
 
-/// A texel's index within a side, by the texture's rule for coordinates beyond it.
+/// The index of a texel along a side, by the texture's wrapping rule.
 #[inline]
 pub(super) fn wrapped(index: i64, side: usize, wrap: TextureWrapMode) -> usize {
     let side = side as i64;
