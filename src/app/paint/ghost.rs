@@ -1,4 +1,4 @@
-//! The storey below, faint.
+//! The storey below, drawn faintly.
 
 use std::sync::Arc;
 
@@ -9,11 +9,11 @@ use crate::draw::{Fill, Layers, Style, View};
 use crate::geometry::Bounds;
 use crate::pipeline::Derived;
 
-/// How strongly the storey below is drawn, from 0 to 1: over the rooms, whose fills would hide it, and yet
-/// behind them to the eye.
+/// Opacity of the storey below, 0 to 1: drawn over the rooms, whose fills would hide it, yet looking as
+/// if behind them.
 const OPACITY: f32 = 0.24;
 
-/// Paints the storey below, keeping what can be used again.
+/// Paints the storey below, with caching.
 #[derive(Default)]
 pub(crate) struct GhostPainter {
     painter: ScenePainter,
@@ -21,12 +21,12 @@ pub(crate) struct GhostPainter {
 }
 
 impl GhostPainter {
-    /// The box of the storey that was painted last: what is seen where nothing is drawn above it yet.
+    /// The bounding box of the storey last painted: shown when nothing is drawn above it yet.
     pub(crate) fn bounds(&self) -> Option<Bounds> {
         self.bounds
     }
 
-    /// Paints it in the style of the plan above: its walls and openings, faint.
+    /// Paints it in the style of the plan above, faintly: its walls and openings.
     pub(crate) fn paint(
         &mut self,
         painter: &Painter,
@@ -37,7 +37,7 @@ impl GhostPainter {
     ) {
         let bounds = below.map(|below| below.drawing.bounds());
         if std::mem::replace(&mut self.bounds, bounds) != bounds {
-            // The view may go by it.
+            // The view may depend on it.
             painter.ctx().request_repaint();
         }
         let Some(below) = below else { return };

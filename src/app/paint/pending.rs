@@ -1,5 +1,5 @@
-//! What changed since everything was worked out last, painted at once over the drawing of the plan
-//! before, so that nobody waits to see an edit.
+//! Changes since the last analysis, painted at once over the drawing of the previous plan, so that edits
+//! are visible immediately.
 
 use std::collections::BTreeSet;
 
@@ -16,33 +16,34 @@ use crate::geometry::{Point, Segment};
 use crate::labels::Schemes;
 use crate::plan::{CornerId, Difference, ElementId, OpeningId, Place, Plan, RoomId, Wall};
 
-/// With more changes everything is veiled until it is worked out: they would take longer than a frame.
+/// With more changes than this, everything is veiled until analysed: painting them would take longer than
+/// a frame.
 const MOST_CHANGES: usize = 1500;
 
-/// No wall is drawn thinner than this, in points.
+/// The minimum drawn thickness of a wall, in points.
 const THINNEST_WALL_PX: f64 = 1.5;
 
-/// An outer ring, its holes, and the room that is there now.
+/// An outer ring, its holes, and the room now there.
 type Area = (Vec<Point>, Vec<Vec<Point>>, Option<RoomId>);
 
-/// The difference between two plans, as far as it can be seen.
+/// The visible difference between two plans.
 pub(crate) struct Pending {
     earlier: Plan,
     plan: Plan,
-    /// Whether too much changed to be painted by itself, or what concerns all.
+    /// Whether there are too many changes to paint them separately, or one that affects everything.
     is_all: bool,
-    /// Areas to be drawn over, where what was drawn is no more so, each with the fill it gets: none where
-    /// there is no room now.
+    /// Outdated areas to paint over, each with the room whose fill it gets: `None` if there is no room
+    /// now.
     areas: Vec<Area>,
-    /// Walls that are no more.
+    /// Walls that were removed.
     gone: Vec<(Segment, f64)>,
-    /// Walls that changed, and those around rooms that did, which are drawn over.
+    /// Walls that changed, and those around changed rooms, which get painted over.
     walls: Vec<(Segment, f64)>,
     openings: Vec<OpeningId>,
 }
 
 impl Pending {
-    /// What changed.
+    /// The difference between two plans.
     pub(crate) fn new(earlier: &Plan, plan: &Plan) -> Self {
         let mut pending = Self {
             earlier: earlier.clone(),
@@ -81,7 +82,7 @@ impl Pending {
                 ElementId::Opening(_) | ElementId::Corner(_) => {}
             }
         }
-        // What is drawn over is drawn again.
+        // What gets painted over is painted again.
         if !around.is_empty() {
             let walls = plan.walls().filter(|(_, wall)| around.contains(&wall.from) && around.contains(&wall.to));
             pending.walls.extend(walls.filter_map(|(_, wall)| Some((plan.wall_segment(wall)?, wall.thickness_m))));
@@ -94,13 +95,13 @@ impl Pending {
             .openings()
             .filter(|(id, opening)| changed.contains_key(&ElementId::Opening(*id)) || is_around(&opening.place));
         pending.openings.extend(openings.map(|(id, _)| id));
-        // Openings that are no more leave a closed wall.
+        // Removed openings leave a closed wall.
         let closed = changed.keys().filter_map(|&element| match element {
             ElementId::Opening(id) if plan.opening(id).is_none() => earlier.opening_segment(earlier.opening(id)?),
             _ => None,
         });
         pending.walls.extend(closed.map(|segment| (segment, crate::plan::DEFAULT_WALL_THICKNESS_M)));
-        // First what is no more, then what is.
+        // First what was removed, then what is there.
         pending.areas.sort_by_key(|(_, _, now)| now.is_some());
         pending
     }
@@ -110,7 +111,8 @@ impl Pending {
         self.earlier.is_same_value(earlier) && self.plan.is_same_value(plan)
     }
 
-    /// Paints it; where it concerns all, or predictions that rest on all rooms are shown, a veil. No name is drawn: what was there before is covered.
+    /// Paints it; if it affects everything, or predictions that depend on all rooms are shown, a veil.
+    /// Draws no names: the previous ones are covered.
     pub(crate) fn paint(&self, painter: &Painter, rect: Rect, view: &View, style: &Style, schemes: &Schemes) {
         let palette = style.palette();
         if self.is_all || style.fill == Fill::Prediction {
@@ -140,7 +142,7 @@ impl Pending {
             }
         };
         for (segment, thickness_m) in &self.gone {
-            // A pixel more on both sides, to cover the soft edges.
+            // One pixel more on both sides, to cover the soft edges.
             band(segment, (thickness_m * view.px_per_m).max(THINNEST_WALL_PX) + 2.0, theme::colour(palette.paper));
         }
         for (segment, thickness_m) in &self.walls {
@@ -153,7 +155,7 @@ impl Pending {
         }
     }
 
-    /// A gap with a line for what closes it.
+    /// A gap with a line for the door or window in it.
     fn paint_opening(&self, segment: &Segment, palette: &Palette, band: &dyn Fn(&Segment, f64, Color32), view: &View) {
         let width_px = (crate::plan::DEFAULT_WALL_THICKNESS_M * view.px_per_m).max(THINNEST_WALL_PX) + 2.0;
         band(segment, width_px, theme::colour(palette.paper));

@@ -1,4 +1,4 @@
-//! Places on the screen and in the plan, and the colour they stand on.
+//! Positions on the screen and in the plan, and the background colour.
 
 use egui::{Context, Id, Pos2, Rect, vec2};
 
@@ -14,13 +14,13 @@ pub(crate) fn canvas_id() -> Id {
     Id::unique("canvas")
 }
 
-/// The ground of the plan in the window's theme.
+/// The background of the plan in the window's theme.
 pub(crate) fn paper(colours: LabelColours, context: &Context) -> draw::Rgba {
     let theme = if context.global_style().visuals.dark_mode { draw::Theme::Dark } else { draw::Theme::Light };
     Palette::of(theme, colours).paper
 }
 
-/// Where a point of the plan is on the screen.
+/// The screen position of a point of the plan.
 pub(crate) fn on_screen(rect: Rect, view: &View, point: Point) -> Pos2 {
     let place = view.screen_from_plan(point);
     rect.min + vec2(place.x as f32, place.y as f32)

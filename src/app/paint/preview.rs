@@ -1,4 +1,4 @@
-//! What a tool has in the making, painted over the plan.
+//! A tool's work in progress, painted over the plan.
 
 use egui::epaint::StrokeKind;
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, vec2};
@@ -13,14 +13,14 @@ use crate::draw::{Palette, View};
 use crate::geometry::{Point, Segment, Vector};
 use crate::snapping::{Snap, SnapKind};
 
-/// What something is drawn for.
+/// The purpose of a shape.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Look {
-    /// What will be.
+    /// To be created.
     New,
-    /// A helping line.
+    /// A construction line.
     Guide,
-    /// What will be no more, or cannot be.
+    /// To be removed, or invalid.
     Danger,
 }
 
@@ -80,7 +80,7 @@ impl Preview {
         self.items.push(Item::Wall { segment, thickness_m, look });
     }
 
-    /// An arc about a centre, the short way.
+    /// An arc around a centre, the short way.
     pub(crate) fn arc(&mut self, centre: Point, from: Point, to: Point, look: Look) {
         self.line(arc_points(centre, from, to, 5), false, look);
     }
@@ -134,7 +134,7 @@ impl Preview {
                 }
                 Item::Dimension { segment, text } => {
                     let (a, b) = (place(segment.a), place(segment.b));
-                    // On short lines the number would hide what it is about.
+                    // On short lines the number would hide what it measures.
                     if (b - a).length() < 28.0 {
                         continue;
                     }
@@ -164,12 +164,12 @@ impl Preview {
     }
 }
 
-/// A text on a ground of its own.
+/// A text on a background.
 pub(crate) fn tag(painter: &Painter, at: Pos2, anchor: Align2, text: &str, ink: Color32, palette: &Palette) -> Rect {
     let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(theme::SMALL), ink);
     let size = galley.rect.size();
     let ground = anchor.anchor_size(at, size + vec2(10.0, 4.0));
-    // Never beyond the canvas.
+    // Never outside the canvas.
     let clip = painter.clip_rect().shrink(2.0);
     let into = vec2(
         (clip.right() - ground.right()).min(0.0) + (clip.left() - ground.left()).max(0.0),
@@ -195,7 +195,7 @@ fn stroke(look: Look, palette: &Palette) -> Stroke {
     Stroke::new(width, colour(look, palette))
 }
 
-/// The mark at what is snapped to, with its name and the lines that say why.
+/// The snap marker, with its name and the lines that explain it.
 pub(crate) fn paint_snap(painter: &Painter, rect: Rect, view: &View, palette: &Palette, snap: &Snap) {
     let colour = theme::colour(palette.snap);
     let place = |point: Point| on_screen(rect, view, point);
@@ -236,7 +236,7 @@ pub(crate) fn paint_snap(painter: &Painter, rect: Rect, view: &View, palette: &P
     tag(painter, at + vec2(12.0, -12.0), Align2::LEFT_BOTTOM, snap.kind.name(), colour, palette);
 }
 
-/// A direction's angle from another in whole degrees, 0 to 359.
+/// The angle of a direction relative to another in whole degrees, 0 to 359.
 pub(crate) fn degrees(along: Option<Vector>, way: Vector) -> f64 {
     let from = along.unwrap_or(Vector::new(1.0, 0.0));
     let angle = from.cross(way).atan2(from.dot(way)).to_degrees();

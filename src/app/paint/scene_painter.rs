@@ -1,4 +1,4 @@
-//! Paints the scene of a plan with egui: triangles made once a zoom level, moved while panning.
+//! Paints the scene of a plan with egui: triangles are made once per zoom level and moved while panning.
 
 mod meshes;
 
@@ -18,63 +18,63 @@ use crate::draw::scene::arc_points;
 use crate::draw::{Anchor, Group, Item, Layer, Length, Rgba, Style, Text, View, Weight};
 use crate::geometry::Point;
 
-/// The layers that only move while panning, in their order.
+/// The layers that just move while panning, in order.
 const SHAPE_LAYERS: [Layer; 5] = [Layer::Rooms, Layer::Boundaries, Layer::Walls, Layer::Openings, Layer::Graph];
 
-/// A piece of the scene is passed over as a whole when it lies outside the view.
+/// Size of a piece of the scene, which is culled as a whole when outside the view.
 const CHUNK_VERTICES: usize = 20_000;
 
-/// A scene with more corners is not made anew for every frame of a zoom but scaled until the zoom
-/// rests: making it would take longer than a frame.
+/// A scene with more vertices is not rebuilt for every frame of a zoom, but scaled until the zoom ends:
+/// building it would take longer than a frame.
 const HEAVY_VERTICES: usize = 60_000;
 
-/// The cosine of the turn, 120 degrees, up to which corners of lines are mitred.
+/// The cosine of the sharpest turn, 120 degrees, at which lines are mitred.
 const SHARPEST_MITRE: f32 = -0.5;
 
-/// With more rooms, names are not placed anew for every frame of a gesture.
+/// With more rooms, names are not laid out again for every frame of a gesture.
 const MANY_NAMES: usize = 60;
 
-/// Of a large plan so many names are placed in a frame, the others in the next ones.
+/// The most names laid out per frame in a large plan; the others follow in the next frames.
 const NAMES_A_FRAME: usize = 80;
 
-/// Zooming further than this from where the triangles were made shows the scaled edges' blur.
+/// Zooming further than this from the zoom at which the triangles were made shows blurred edges.
 const SCALED_AT_MOST: f64 = 1.6;
 
-/// When more elements of a large plan are in sight, it is drawn as seen from afar.
+/// With more elements of a large plan in view, it is drawn as seen from afar.
 const MOST_IN_DETAIL: usize = 7000;
 
-/// Triangles start so many points from where the view was at most: further off, numbers of 32 bits are
-/// not exact to a hundredth of a pixel.
+/// The maximum distance of the triangles' origin from the view, in points: further away, 32-bit floats
+/// are not accurate to a hundredth of a pixel.
 const FAR_PX: f64 = 60_000.0;
 
-/// Tiles out of sight are kept while all have no more corners than this: 60 MB.
+/// Tiles out of view are kept while all together have at most this many vertices: 60 MB.
 const KEPT_VERTICES: usize = 1_500_000;
 
-/// Tiles are made this many points before they come into sight.
+/// Tiles are built this many points before they come into view.
 const AHEAD_PX: f64 = 8.0;
 
-/// Paints a plan, keeping what can be used again.
+/// Paints a plan, with caching.
 #[derive(Default)]
 pub(crate) struct ScenePainter {
     shapes: Option<Shapes>,
     names: Option<Names>,
-    /// Triangles of each polygon, by a hash of its points: they do not change with zoom and style.
+    /// Triangles of each polygon, by a hash of its points: independent of zoom and style.
     triangles: HashMap<u64, Vec<u32>>,
     last_view: Option<View>,
 }
 
-/// The triangles of everything but names at a zoom level.
+/// The triangles at a zoom level, of everything except names.
 struct Shapes {
     derived: Arc<Derived>,
     style: Style,
     fills: Vec<Rgba>,
-    /// The view they were made for; its centre is where the triangles' coordinates start.
+    /// The view they were made for; its centre is the origin of the triangles' coordinates.
     view: View,
     is_from_afar: bool,
-    /// By tile, as far as they have been in sight.
+    /// By tile, for those that have been in view.
     tiles: BTreeMap<usize, TileShapes>,
     vertices: usize,
-    /// Where they were put last.
+    /// Where they were last placed.
     placed: Option<Placed>,
 }
 
@@ -97,14 +97,14 @@ struct Names {
     style: Style,
     view: View,
     fills: Vec<Rgba>,
-    /// The rooms in sight.
+    /// The rooms in view.
     rooms: Vec<usize>,
-    /// What was placed at this zoom, by room.
+    /// The names laid out at this zoom, by room.
     placed: HashMap<usize, Option<Group>>,
 }
 
 impl Names {
-    /// The texts in sight.
+    /// The texts in view.
     fn texts(&self) -> impl Iterator<Item = &Text> + '_ {
         let groups = self.rooms.iter().filter_map(|room| self.placed.get(room)?.as_ref());
         groups
@@ -114,8 +114,7 @@ impl Names {
 }
 
 impl ScenePainter {
-    /// Paints a plan in `rect`, whose view is `view`. Asks for another frame when it has put off
-    /// something.
+    /// Paints a plan in `rect` with the view `view`. Asks for another frame if it has deferred something.
     pub(crate) fn paint(&mut self, painter: &Painter, rect: Rect, derived: &Arc<Derived>, style: &Style, view: &View) {
         let is_moving = self.last_view.is_some_and(|last| last != *view);
         self.last_view = Some(*view);
@@ -139,7 +138,7 @@ impl ScenePainter {
         }
     }
 
-    /// Where the names stand on the screen.
+    /// The boxes of the names on the screen.
     pub(crate) fn text_boxes(&self, rect: Rect, view: &View) -> Vec<Rect> {
         let boxed = |text: &Text| {
             let width = crate::draw::font::Font::of(text.weight).width_px(&text.content, text.size_px) as f32;
@@ -164,11 +163,11 @@ impl ScenePainter {
         let is_usable = |shapes: &Shapes| {
             let scale = view.px_per_m / shapes.view.px_per_m;
             let is_near = (1.0 / SCALED_AT_MOST..=SCALED_AT_MOST).contains(&scale);
-            // What is seen from afar has no edges to blur.
+            // Seen from afar there are no edges to blur.
             let can_wait = is_near && (shapes.is_from_afar || (is_moving && shapes.vertices > HEAVY_VERTICES));
             let same_zoom = scale == 1.0 || can_wait;
             let same_pixels = shapes.view.pixel_ratio == view.pixel_ratio;
-            // Neither flickers to and fro at the limit.
+            // Hysteresis, so that it does not flicker at the limit.
             let same_detail = if shapes.is_from_afar {
                 elements * 5 > MOST_IN_DETAIL * 4
             } else {
@@ -214,7 +213,7 @@ impl ScenePainter {
         }
     }
 
-    /// Gives whether some names are still to be placed.
+    /// Returns whether some names are still to be laid out.
     fn update_names(&mut self, derived: &Arc<Derived>, style: &Style, view: &View, is_moving: bool) -> bool {
         if !style.layers.names && !style.layers.areas {
             self.names = None;
@@ -292,7 +291,7 @@ impl Shapes {
         made
     }
 
-    /// The triangles at their place for a view.
+    /// The triangles placed for a view.
     fn placed_in(&mut self, rect: Rect, view: &View, clip: Rect) -> &[Shape] {
         let origin = on_screen(rect, view, self.view.centre);
         let scale = (view.px_per_m / self.view.px_per_m) as f32;
@@ -315,9 +314,9 @@ impl Shapes {
     }
 }
 
-/// A number that tells polygons apart.
+/// A hash that tells polygons apart.
 fn hash(outer: &[Point], holes: &[Vec<Point>]) -> u64 {
-    // SipHash with fixed keys: the same on every run, and two polygons of a plan never meet.
+    // SipHash with fixed keys: the same on every run, and collisions within a plan are negligible.
     let mut hasher = std::collections::hash_map::DefaultHasher::new();
     for ring in std::iter::once(outer).chain(holes.iter().map(Vec::as_slice)) {
         hasher.write_usize(ring.len());
@@ -329,7 +328,7 @@ fn hash(outer: &[Point], holes: &[Vec<Point>]) -> u64 {
     hasher.finish()
 }
 
-/// The grid's lines go along the screen's: egui puts them on whole pixels.
+/// The grid's lines are parallel to the screen's: egui puts them on whole pixels.
 fn paint_grid(painter: &Painter, rect: Rect, view: &View, group: &Group) {
     for item in &group.items {
         if let Item::Line { points, colour, width, .. } = item
@@ -379,5 +378,5 @@ fn paint_text(painter: &Painter, rect: Rect, view: &View, text: &Text) {
     painter.add(TextShape::new(corner, galley, Color32::PLACEHOLDER).with_angle(angle));
 }
 
-/// How far the halo of a text reaches, in points.
+/// The width of a text's halo, in points.
 const HALO_PX: f32 = 1.6;

@@ -1,4 +1,4 @@
-//! Reading the picture that a plan asks for, off the frame's path.
+//! Loading a plan's backdrop in the background.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -6,13 +6,13 @@ use std::sync::Arc;
 use crate::plan::Backdrop;
 use crate::store::pictures::{self, Found, LoadedPicture, PictureError};
 
-/// The picture that a plan asks for.
+/// The picture to load for a plan.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Wanted {
-    /// The file, where the plan says it is.
+    /// The file, at the path stated by the plan.
     pub path: PathBuf,
     pub page: u32,
-    /// As [`Backdrop::content_hash`].
+    /// Like [`Backdrop::content_hash`].
     pub content_hash: String,
 }
 
@@ -26,16 +26,16 @@ impl Wanted {
     }
 }
 
-/// What became of reading it.
+/// The outcome of loading it.
 pub(crate) enum Read {
     Shown {
         picture: Arc<LoadedPicture>,
-        /// Where it was found, when not where the plan says.
+        /// Where it was found, if not at the plan's path.
         found_at: Option<PathBuf>,
     },
     Missing {
         error: PictureError,
-        /// A file of the same name with other content.
+        /// A file with the same name but different content.
         candidate: Option<PathBuf>,
     },
 }

@@ -1,4 +1,4 @@
-//! The picture under the plan: read off the frame's path, and painted as tiles at its place.
+//! The backdrop: loaded in the background, and painted in tiles at its position.
 
 mod load;
 mod tiles;
@@ -17,20 +17,20 @@ use crate::geometry::{Bounds, Point};
 use crate::plan::Backdrop;
 use crate::store::pictures::{LoadedPicture, PictureError};
 
-/// While this is held down, the picture is hidden: what is drawn is seen alone.
+/// While this is held, the backdrop is hidden, to see the drawing alone.
 const HIDING_KEY: Key = Key::Backtick;
 
-/// So many tiles a frame are handed to the display: each takes about a millisecond.
+/// The most tiles uploaded per frame: each takes about a millisecond.
 const TILES_A_FRAME: usize = 4;
 
-/// What is shown of the picture.
+/// The state of the backdrop.
 #[derive(Default)]
 pub(crate) struct BackdropView {
     state: State,
     tiles: Tiles,
-    /// The opacity while its slider is dragged.
+    /// The opacity while its slider is being dragged.
     pub opacity: Option<f64>,
-    /// Whether it was shown in the last frame.
+    /// Whether it was visible in the last frame.
     is_seen: bool,
 }
 
@@ -50,7 +50,7 @@ enum State {
     },
 }
 
-/// What is known of the picture that the plan asks for.
+/// The state of the plan's backdrop.
 pub(crate) enum Known<'a> {
     Loading,
     Shown(&'a LoadedPicture),
@@ -58,8 +58,8 @@ pub(crate) enum Known<'a> {
 }
 
 impl BackdropView {
-    /// The picture to read for a plan whose file lies in a folder: one that is neither shown nor being
-    /// read nor missing.
+    /// The picture to load for a plan whose file is in this folder: `None` if it is already shown,
+    /// loading or missing.
     pub(crate) fn wanted(&mut self, backdrop: Option<&Backdrop>, folder: Option<&Path>) -> Option<Wanted> {
         let Some(backdrop) = backdrop else {
             *self = Self::default();
@@ -73,7 +73,7 @@ impl BackdropView {
             && picture.content_hash == wanted.content_hash
             && known.page == wanted.page
         {
-            // The same picture at another path: linked anew, or its plan was saved elsewhere.
+            // The same picture at another path: relinked, or its plan was saved elsewhere.
             *known = wanted;
             *found_at = None;
             return None;
@@ -89,7 +89,7 @@ impl BackdropView {
         }
     }
 
-    /// Takes over what was read. Gives whether it is still wanted.
+    /// Takes the loaded picture. Returns whether it is still wanted.
     pub(crate) fn set_read(&mut self, wanted: Wanted, read: &Read) -> bool {
         if self.known() != Some(&wanted) {
             return false;
@@ -109,7 +109,7 @@ impl BackdropView {
         *self = Self { state: State::Shown { wanted, picture, found_at: None }, ..Self::default() };
     }
 
-    /// What is known of the picture; `None` where the plan has none.
+    /// The state of the backdrop; `None` if the plan has none.
     pub(crate) fn state(&self) -> Option<Known<'_>> {
         match &self.state {
             State::None => None,
@@ -119,7 +119,7 @@ impl BackdropView {
         }
     }
 
-    /// How many pages its file has; 1 while that is not known.
+    /// The number of pages in its file; 1 while unknown.
     pub(crate) fn pages(&self) -> u32 {
         match &self.state {
             State::Shown { picture, .. } => picture.pages,
@@ -127,12 +127,12 @@ impl BackdropView {
         }
     }
 
-    /// Whether it is being read.
+    /// Whether it is loading.
     pub(crate) fn is_loading(&self) -> bool {
         matches!(self.state, State::Loading(_))
     }
 
-    /// The file that is shown.
+    /// The file shown.
     pub(crate) fn shown_path(&self) -> Option<&Path> {
         match &self.state {
             State::Shown { wanted, found_at, .. } => Some(found_at.as_deref().unwrap_or(&wanted.path)),
@@ -140,7 +140,7 @@ impl BackdropView {
         }
     }
 
-    /// The box around the picture where it is shown; else empty.
+    /// The bounding box of the picture, if shown; otherwise empty.
     pub(crate) fn bounds(&self, backdrop: Option<&Backdrop>) -> Bounds {
         match (&self.state, backdrop) {
             (State::Shown { picture, .. }, Some(backdrop)) if self.is_seen => {
@@ -152,8 +152,8 @@ impl BackdropView {
         }
     }
 
-    /// Paints the picture at its place in a view, unless a held key hides it. `is_still`: where frames
-    /// do not follow a clock, all of it at once.
+    /// Paints the picture at its position in a view, unless a held key hides it. `is_still`: frames do
+    /// not follow a clock, so paint all of it at once.
     pub(crate) fn paint(
         &mut self,
         painter: &Painter,
@@ -165,7 +165,7 @@ impl BackdropView {
         let State::Shown { picture, .. } = &self.state else { return };
         let was_seen = std::mem::replace(&mut self.is_seen, backdrop.is_some());
         if self.is_seen != was_seen {
-            // A view that shows all may be another now.
+            // A view of everything may now be different.
             painter.ctx().request_repaint();
         }
         let context = painter.ctx();

@@ -1,5 +1,5 @@
-//! The picture as tiles at several sizes: those that are seen are handed to the display, a few a
-//! frame, and taken back when they are not seen any more.
+//! The backdrop as tiles at several sizes: visible ones are uploaded to the display, a few per frame, and
+//! dropped when no longer visible.
 
 use std::collections::BTreeMap;
 
@@ -12,15 +12,14 @@ use crate::geometry::{Bounds, Point};
 use crate::picture::{Level, PictureLevels, Samples};
 use crate::plan::Backdrop;
 
-/// Pixels of a tile's side, without the rim of one pixel about it that neighbours share, so that no
-/// seam is seen between them.
+/// Side of a tile in pixels, without the border of one pixel shared with neighbours that hides seams.
 const TILE_PX: u32 = 512;
 
-/// Tiles that the display holds at most while fewer are seen: 1 MB each. A screen of 3840 by 2160
-/// pixels shows at most 77.
+/// The most tiles kept on the display while fewer are visible: 1 MB each. A screen of 3840 by 2160 pixels
+/// shows at most 77.
 const KEPT_TILES: usize = 128;
 
-/// A place in the picture: which size, column, row.
+/// A tile's position: level, column, row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Key {
     level: usize,
@@ -30,18 +29,18 @@ struct Key {
 
 struct Tile {
     texture: TextureHandle,
-    /// When it was last seen, in frames.
+    /// The frame in which it was last visible.
     seen: u64,
 }
 
-/// What the display holds of a picture.
+/// The tiles of a picture on the display.
 #[derive(Default)]
 pub(crate) struct Tiles {
     tiles: BTreeMap<Key, Tile>,
     frame: u64,
 }
 
-/// A picture as it is shown: where, and how strongly.
+/// How a picture is shown: where, and at what opacity.
 pub(crate) struct Shown<'a> {
     pub levels: &'a PictureLevels,
     pub backdrop: &'a Backdrop,
@@ -49,9 +48,8 @@ pub(crate) struct Shown<'a> {
 }
 
 impl Tiles {
-    /// Paints the part of the picture that is seen in a view. Hands at most `most_new` tiles to the
-    /// display, and asks for another frame where more are missing: their places show a smaller size
-    /// of the picture meanwhile.
+    /// Paints the visible part of the picture. Uploads at most `most_new` tiles, and asks for another
+    /// frame if more are missing: a smaller level of the picture is shown there in the meantime.
     pub(crate) fn paint(&mut self, painter: &Painter, rect: Rect, view: &View, shown: &Shown<'_>, most_new: usize) {
         self.frame += 1;
         let screen_px_per_pixel = shown.backdrop.metres_per_pixel * view.px_per_m * view.pixel_ratio;
@@ -60,7 +58,7 @@ impl Tiles {
         }
         let index = shown.levels.index_for(screen_px_per_pixel);
         let keys = seen_tiles(view, shown, index);
-        // The smallest size first: with it no place is empty.
+        // The smallest level first, so that no place is empty.
         let smallest = Key { level: shown.levels.all().len().saturating_sub(1), column: 0, row: 0 };
         let mut missing = 0;
         for key in std::iter::once(smallest).chain(keys.iter().copied()) {
@@ -79,7 +77,7 @@ impl Tiles {
         }
         let tint = Color32::WHITE.gamma_multiply(shown.opacity.clamp(0.0, 1.0) as f32);
         for key in &keys {
-            // This one, or the part of a larger one at a smaller size.
+            // This tile, or the matching part of a larger one at a smaller level.
             let sizes = key.level..shown.levels.all().len();
             let held = sizes.map(|level| {
                 let halvings = (level - key.level) as u32;
@@ -98,7 +96,7 @@ impl Tiles {
         self.drop_unseen();
     }
 
-    /// Takes back the tiles that were not seen for the longest time, down to the budget.
+    /// Drops the least recently visible tiles until within budget.
     fn drop_unseen(&mut self) {
         let excess = self.tiles.len().saturating_sub(KEPT_TILES);
         if excess == 0 {
@@ -113,12 +111,12 @@ impl Tiles {
     }
 }
 
-/// Pixels of the full picture that a pixel of a size stands for, along a side.
+/// Pixels of the full picture per pixel of a level, along a side.
 fn stride(level: usize) -> f64 {
     (level as f64).exp2()
 }
 
-/// The tiles of a size that are seen, the middle ones first.
+/// The visible tiles of a level, middle ones first.
 fn seen_tiles(view: &View, shown: &Shown<'_>, index: usize) -> Vec<Key> {
     let Some(level) = shown.levels.all().get(index) else { return Vec::new() };
     let bounds = view.bounds();
@@ -128,7 +126,7 @@ fn seen_tiles(view: &View, shown: &Shown<'_>, index: usize) -> Vec<Key> {
     let tile_px = f64::from(TILE_PX) * stride(index);
     let range = |from_px: f64, to_px: f64, side_px: u32| {
         let count = side_px.div_ceil(TILE_PX);
-        // `as` keeps within 0 and the largest number.
+        // `as` saturates at 0 and the largest number.
         let (from, to) = ((from_px / tile_px).floor() as u32, (to_px / tile_px).floor() as i64);
         from..(to + 1).clamp(0, i64::from(count)) as u32
     };
@@ -145,20 +143,20 @@ fn seen_tiles(view: &View, shown: &Shown<'_>, index: usize) -> Vec<Key> {
     keys
 }
 
-/// Hands a tile to the display.
+/// Uploads a tile.
 fn upload(context: &Context, level: &Level, key: Key) -> TextureHandle {
     let name = format!("backdrop {} {} {}", key.level, key.column, key.row);
     context.load_texture(name, tile_image(level, key), TextureOptions::LINEAR)
 }
 
-/// A tile's pixels with its rim.
+/// A tile's pixels with its border.
 fn tile_image(level: &Level, key: Key) -> ColorImage {
     let (left, top) = (key.column * TILE_PX, key.row * TILE_PX);
     let width = level.width_px.saturating_sub(left).min(TILE_PX);
     let height = level.height_px.saturating_sub(top).min(TILE_PX);
     let bytes = level.samples.bytes();
     let row_bytes = level.width_px as usize * bytes;
-    // Indices of the columns, the rim's those of the nearest.
+    // Indices of the columns; the border repeats the nearest.
     let last = level.width_px.saturating_sub(1);
     let columns: Vec<usize> = (0..width + 2).map(|x| (left + x).saturating_sub(1).min(last) as usize * bytes).collect();
     let mut pixels = Vec::with_capacity((width as usize + 2) * (height as usize + 2));
@@ -176,7 +174,7 @@ fn tile_image(level: &Level, key: Key) -> ColorImage {
     ColorImage::new([width as usize + 2, height as usize + 2], pixels)
 }
 
-/// The place of a tile, painted with what is held of it.
+/// The area of a tile, painted with what is available for it.
 fn mesh(
     rect: Rect,
     view: &View,
@@ -219,7 +217,7 @@ mod tests {
         let levels = PictureLevels::new(full);
         let backdrop = Backdrop::new("scan.png", "");
         let shown = Shown { levels: &levels, backdrop: &backdrop, opacity: 1.0 };
-        // A pixel a pixel: 300 by 200 pixels about the pixel (600, 500).
+        // At one pixel per pixel: 300 by 200 pixels around the pixel (600, 500).
         let view = View {
             width_px: 300.0,
             height_px: 200.0,

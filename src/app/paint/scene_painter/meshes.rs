@@ -1,4 +1,4 @@
-//! Shapes as triangles with soft edges, in egui's points from the view's centre.
+//! Shapes as triangles with soft edges, in egui's points relative to the view's centre.
 
 use super::*;
 
@@ -8,7 +8,7 @@ pub(super) struct Chunk {
 }
 
 impl Chunk {
-    /// The triangles moved and scaled; `None` where they are out of sight.
+    /// The triangles moved and scaled; `None` if out of view.
     pub(super) fn placed(&self, origin: Pos2, scale: f32, clip: Rect) -> Option<Shape> {
         let bounds =
             Rect::from_min_max(origin + self.bounds.min.to_vec2() * scale, origin + self.bounds.max.to_vec2() * scale);
@@ -21,7 +21,7 @@ impl Chunk {
     }
 }
 
-/// The corners of a polygon's triangles, as indices into its points, rings one after the other.
+/// The vertices of a polygon's triangles, as indices into its points, ring after ring.
 pub(crate) fn earcut(outer: &[Point], holes: &[Vec<Point>]) -> Vec<u32> {
     let mut starts: Vec<u32> = Vec::new();
     let mut count = outer.len();
@@ -35,7 +35,7 @@ pub(crate) fn earcut(outer: &[Point], holes: &[Vec<Point>]) -> Vec<u32> {
     triangles
 }
 
-/// A polygon with holes as a mesh with soft edges, for marks over the plan.
+/// A polygon with holes as a mesh with soft edges, for markers over the plan.
 pub(crate) fn polygon_mesh(
     rect: Rect,
     view: &View,
@@ -54,7 +54,7 @@ pub(crate) fn polygon_mesh(
     mesh
 }
 
-/// The outline of a ring as a mesh, for marks over the plan.
+/// The outline of a ring as a mesh, for markers over the plan.
 pub(crate) fn outline_mesh(rect: Rect, view: &View, ring: &[Point], stroke: Stroke) -> Mesh {
     let mut writer = Writer::new(view);
     let points = ring.iter().map(|&point| writer.place(point)).collect();
@@ -64,12 +64,12 @@ pub(crate) fn outline_mesh(rect: Rect, view: &View, ring: &[Point], stroke: Stro
     mesh
 }
 
-/// Writes shapes as triangles with feathered edges. Coordinates are egui's points from the view's
-/// centre.
+/// Converts shapes to triangles with feathered edges. Coordinates are in egui's points relative to the
+/// view's centre.
 pub(super) struct Writer<'a> {
     pub(super) view: &'a View,
     pub(super) tessellator: Tessellator,
-    /// Width of the soft rim along edges: a physical pixel.
+    /// Width of the soft edges: one physical pixel.
     pub(super) feather: f32,
     pub(super) mesh: Mesh,
     pub(super) chunks: Vec<Chunk>,
@@ -79,7 +79,7 @@ impl<'a> Writer<'a> {
     pub(super) fn new(view: &'a View) -> Self {
         let pixels_per_point = view.pixel_ratio as f32;
         let options = TessellationOptions {
-            // The place on the screen is not known yet.
+            // The position on the screen is not known yet.
             round_line_segments_to_pixels: false,
             round_rects_to_pixels: false,
             prerasterized_discs: false,
@@ -113,8 +113,8 @@ impl<'a> Writer<'a> {
 
     pub(super) fn item(&mut self, item: &Item) {
         match item {
-            // Polygons come with their triangles, texts are painted for each frame.
-            // The window has the picture in tiles of its own.
+            // Polygons have their own triangles, texts are painted every frame, and the window shows the
+            // backdrop in its own tiles.
             Item::Polygon { .. } | Item::Text(_) | Item::Picture(_) => {}
             Item::Line { points, closed, colour, width, dash } => {
                 let mut points: Vec<Pos2> = points.iter().map(|&point| self.place(point)).collect();
@@ -126,7 +126,7 @@ impl<'a> Writer<'a> {
                             points.extend(points.first().copied());
                         }
                         let (length, gap) = (self.view.px(dash.dash) as f32, self.view.px(dash.gap) as f32);
-                        // Dashes shorter than a pixel are a line, not a million dashes.
+                        // Dashes shorter than a pixel look like a line; no need for a million of them.
                         if length < self.feather {
                             self.path(points, false, stroke);
                         } else {
@@ -141,8 +141,8 @@ impl<'a> Writer<'a> {
             }
             Item::Arc { centre, from, to, colour, width } => {
                 let radius_px = centre.distance(*from) * self.view.px_per_m;
-                // Chords that stay within a tenth of a pixel of the arc: their number grows with the
-                // root of the radius.
+                // Chords within a tenth of a pixel of the arc: their number grows with the square root of
+                // the radius.
                 let halvings = ((radius_px.max(1.0).sqrt() * 4.0).log2().ceil() as u32).clamp(2, 7);
                 let points = arc_points(*centre, *from, *to, halvings);
                 let points = points.into_iter().map(|point| self.place(point)).collect();
@@ -164,13 +164,13 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// A line along points, with soft sides. Corners are mitred; sharp ones, and the hairpins that
-    /// joined walls may have, are cut off.
+    /// A line along points, with soft sides. Corners are mitred; sharp ones, and the hairpins that joined
+    /// walls may have, are cut off.
     pub(super) fn path(&mut self, mut points: Vec<Pos2>, closed: bool, stroke: Stroke) {
         if stroke.width <= 0.0 || stroke.color == Color32::TRANSPARENT {
             return;
         }
-        // Points closer than a hundredth of a pixel give no direction.
+        // Points closer than a hundredth of a pixel have no meaningful direction.
         points.dedup_by(|p, q| p.distance(*q) < self.feather * 0.01);
         let closed = closed && points.len() > 2;
         if closed && points.first().zip(points.last()).is_some_and(|(p, q)| p.distance(*q) < self.feather * 0.01) {
@@ -180,7 +180,7 @@ impl<'a> Writer<'a> {
         if n < 2 {
             return;
         }
-        // What is thinner than a pixel is as wide and fainter.
+        // A line thinner than a pixel is drawn one pixel wide but fainter.
         let colour = stroke.color.gamma_multiply((stroke.width / self.feather).min(1.0));
         let outer = stroke.width.max(self.feather) / 2.0 + self.feather / 2.0;
         let inner = outer - self.feather;
@@ -219,7 +219,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// A part of what is seen from afar: fills without soft edges, which walls cover, and lines.
+    /// Part of a plan seen from afar: fills without soft edges, which walls cover, and lines.
     pub(super) fn item_from_afar(&mut self, item: &Item) {
         match item {
             Item::Polygon { outer, holes, colour } => {
@@ -228,7 +228,7 @@ impl<'a> Writer<'a> {
                 for &point in outer.iter().chain(holes.iter().flatten()) {
                     self.mesh.vertices.push(Vertex { pos: self.place(point), uv: WHITE_UV, color });
                 }
-                // Nearly all rooms are.
+                // True for nearly all rooms.
                 if outer.len() == 4 && holes.is_empty() && is_convex(outer) {
                     self.mesh.indices.extend([0, 1, 2, 0, 2, 3].map(|corner| first + corner));
                 } else {
@@ -245,8 +245,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// A line that fades from its middle to both sides, with two thirds of the corners of a whole one; as
-    /// much of it as its width says is seen.
+    /// A line that fades from its middle to both sides, with two thirds of the vertices of a full one; it
+    /// is as opaque as its width suggests.
     pub(super) fn line_from_afar(&mut self, from: Pos2, to: Pos2, stroke: Stroke) {
         let across = (to - from).normalized().rot90() * stroke.width.max(self.feather);
         let color = stroke.color.gamma_multiply((stroke.width / self.feather).min(1.0));
@@ -259,7 +259,7 @@ impl<'a> Writer<'a> {
         self.mesh.indices.extend([0, 3, 1, 1, 3, 4, 1, 4, 2, 2, 4, 5].map(|corner| first + corner));
     }
 
-    /// A filled polygon: its triangles, drawn half a pixel in, and a rim that fades out.
+    /// A filled polygon: its triangles, inset by half a pixel, and a rim that fades out.
     pub(super) fn polygon(&mut self, outer: &[Point], holes: &[Vec<Point>], triangles: &[u32], colour: Color32) {
         self.polygon_cut(outer, holes, triangles, colour, &|_, _| false);
     }
@@ -278,7 +278,7 @@ impl<'a> Writer<'a> {
         }
         let first = self.mesh.vertices.len() as u32;
         let rings = std::iter::once(outer).chain(holes.iter().map(Vec::as_slice));
-        // Inner and outer rim of a corner follow each other.
+        // The inner and outer rim vertices of a corner are consecutive.
         for (index, ring) in rings.enumerate() {
             let points: Vec<Pos2> = ring.iter().map(|&point| self.place(point)).collect();
             let cut: Vec<bool> = (0..ring.len()).map(|i| is_cut(ring[i], ring[(i + 1) % ring.len()])).collect();
@@ -305,12 +305,12 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// For each corner of a ring the direction out of the polygon, as long as keeps the rim a pixel wide
-/// along both edges; at sharp corners at most twice that.
+/// For each corner of a ring the outward direction, scaled so that the rim is a pixel wide along both
+/// edges; at sharp corners at most twice that.
 pub(super) fn outward_normals(ring: &[Pos2], is_hole: bool) -> Vec<Vec2> {
     let n = ring.len();
     let twice_area: f32 = (0..n).map(|i| cross(ring[i].to_vec2(), ring[(i + 1) % n].to_vec2())).sum();
-    // With y down, a positive area is clockwise: outside is on the left.
+    // With y down, a positive area means clockwise: outside is on the left.
     let side = if (twice_area > 0.0) == is_hole { -1.0 } else { 1.0 };
     let edge_normal = |i: usize| {
         let edge = ring[(i + 1) % n] - ring[i % n];
@@ -320,7 +320,7 @@ pub(super) fn outward_normals(ring: &[Pos2], is_hole: bool) -> Vec<Vec2> {
     (0..n)
         .map(|i| {
             let (before, after) = (edge_normal(i + n - 1), edge_normal(i));
-            // An edge without length has no direction: the other decides.
+            // An edge without length has no direction: use the other's.
             if before == Vec2::ZERO || after == Vec2::ZERO {
                 return before + after;
             }
@@ -330,8 +330,8 @@ pub(super) fn outward_normals(ring: &[Pos2], is_hole: bool) -> Vec<Vec2> {
         .collect()
 }
 
-/// Turns the directions out of a polygon at corners where it was cut along the cut, so that both pieces
-/// end at the same place: half a pixel from the edge that is none of a cut.
+/// At corners where a polygon was cut, turns the outward directions along the cut, so that both pieces
+/// end at the same place: half a pixel from the real edge.
 pub(super) fn keep_on_cuts(outward: &mut [Vec2], ring: &[Pos2], cut: &[bool]) {
     let n = ring.len();
     for i in 0..n {
@@ -348,13 +348,13 @@ pub(super) fn keep_on_cuts(outward: &mut [Vec2], ring: &[Pos2], cut: &[bool]) {
         let edge = if cut[before] { ring[(i + 1) % n] - ring[i] } else { ring[i] - ring[before] };
         let (along, edge) = (along.normalized(), edge.normalized());
         let sine = cross(edge, along);
-        // The side of the edge that the direction was on before is out.
+        // Outwards is the side of the edge that the direction was on before.
         let side = if cross(edge, outward[i]) < 0.0 { -1.0 } else { 1.0 };
         outward[i] = if sine.abs() < 0.1 { Vec2::ZERO } else { along * (side / sine) };
     }
 }
 
-/// Whether a ring turns one way only.
+/// Whether a ring turns only one way.
 pub(super) fn is_convex(ring: &[Point]) -> bool {
     let n = ring.len();
     let turn = |i: usize| (ring[(i + 1) % n] - ring[i]).cross(ring[(i + 2) % n] - ring[(i + 1) % n]);
@@ -401,7 +401,7 @@ mod tests {
             let mut writer = Writer::new(&view);
             writer.polygon(&outer, &holes, &triangles, Color32::WHITE);
             let chunks = writer.finish();
-            // 40 by 40 points less 20 by 20, each side drawn in by half a point.
+            // 40 by 40 points minus 20 by 20, each side inset by half a point.
             let expected = 39.0 * 39.0 - 21.0 * 21.0;
             assert_eq!(twice_solid_area(&chunks[0].mesh) / 2.0, expected, "{reversed}");
         }
@@ -412,7 +412,7 @@ mod tests {
         let view = view();
         let mut writer = Writer::new(&view);
         writer.path(vec![pos2(0.0, 0.0), pos2(10.0, 0.0)], false, Stroke::new(3.0, Color32::WHITE));
-        // The solid core is a pixel less wide than the line with its two soft sides.
+        // The solid core is a pixel narrower than the line with its two soft sides.
         assert_eq!(twice_solid_area(&writer.mesh) / 2.0, 10.0 * 2.0);
         let mut writer = Writer::new(&view);
         let hairpin = vec![pos2(0.0, 0.0), pos2(10.0, 0.0), pos2(0.0, 1e-4), pos2(0.0, 5.0)];
