@@ -1,4 +1,4 @@
-//! What Enfilade is.
+//! The About dialog.
 
 use crate::app::state::dialogs;
 use egui::{Id, Modal, Ui};

@@ -1,4 +1,4 @@
-//! Naming and changing many rooms: what would become of which is seen before it happens.
+//! Naming and changing many rooms at once, with a preview.
 
 use crate::app::state::dialogs;
 use crate::app::value::{Call, Value};
@@ -27,7 +27,7 @@ use crate::plan::titles::room_title;
 /// Width of the dialogs, in points.
 const WIDTH: f32 = 460.0;
 
-/// Width of the words in front of the controls.
+/// Width of the captions before the controls.
 const NAMES: f32 = 76.0;
 
 /// A dialog for many rooms, while it is open.
@@ -36,22 +36,22 @@ pub(crate) enum Bulk {
     Change(ChangeForm),
 }
 
-/// What is filled in to name rooms.
+/// The form for naming rooms.
 pub(crate) struct NameForm {
     pattern: String,
     start: String,
     which: Which,
     order: Order,
-    /// The rooms along a line that was drawn, with what they are called here.
+    /// The rooms along a drawn line, with what they are called here.
     along: Option<(String, Which)>,
-    /// Whether it was shown: the first time the pattern takes the keyboard.
+    /// Whether it has been shown: the first time, the pattern gets the keyboard.
     is_shown: bool,
 }
 
-/// What is filled in to change rooms.
+/// The form for changing rooms.
 pub(crate) struct ChangeForm {
     which: Which,
-    /// The function chosen last for [`Which::Function`], the label for [`Which::Label`].
+    /// The last function chosen for [`Which::Function`], and the last label for [`Which::Label`].
     from_function: String,
     from_label: Option<Label>,
     change: Change,
@@ -60,7 +60,7 @@ pub(crate) struct ChangeForm {
     is_shown: bool,
 }
 
-/// How a dialog ends.
+/// How a dialog was closed.
 enum End {
     Cancel,
     Do(Call),
@@ -75,20 +75,20 @@ impl Bulk {
         }
     }
 
-    /// To name the selected rooms; without any those that have no name, or all.
+    /// Names the selected rooms; if none, those without a name, or all.
     fn naming(app: &App) -> Self {
         let has = |which: &Which| !app.session.rooms_of(which).is_empty();
         let which = [Which::Selected, Which::Unnamed].into_iter().find(has).unwrap_or(Which::All);
         Self::naming_these(app, which)
     }
 
-    /// To name rooms of a kind.
+    /// Names rooms of one kind.
     fn naming_these(app: &App, which: Which) -> Self {
         let pattern = app.panels.pattern.clone().unwrap_or_else(|| "{function} {n}".to_owned());
         Self::Name(NameForm { pattern, start: "1".to_owned(), which, order: Order::Rows, along: None, is_shown: false })
     }
 
-    /// To change the selected rooms; without any those of the function that most have.
+    /// Changes the selected rooms; if none, those with the most common function.
     fn changing(app: &App) -> Self {
         let from_function =
             app.session.function_choices().into_iter().next().map(|choice| choice.word).unwrap_or_default();
@@ -210,7 +210,7 @@ impl NameForm {
         })
     }
 
-    /// What each room is called, and would be.
+    /// The current and new name of each room.
     fn preview(&self, app: &App, ui: &mut Ui, names: &Result<Names, PatternError>) {
         const ROW: f32 = 24.0;
         let Some(plan) = app.plan() else { return };
@@ -302,7 +302,8 @@ impl ChangeForm {
         })
     }
 
-    /// The function that rooms get: typed, or one of a list. Gives whether the field has the keyboard.
+    /// The function to give rooms: typed, or chosen from a list. Returns whether the field has the
+    /// keyboard.
     fn function(&mut self, app: &App, ui: &mut Ui, palette: &Palette) -> bool {
         let mut is_typed = false;
         line(ui, "", |ui| {
@@ -345,7 +346,7 @@ impl ChangeForm {
     }
 }
 
-/// What naming comes to, in a sentence without its point.
+/// A summary of the naming, in a sentence without its full stop.
 fn said_of_names(Names { changed, kept }: &Names, are_unnamed: bool) -> String {
     let verb = if changed.len() == 1 { "gets" } else { "get" };
     let what = if are_unnamed { "a name" } else { "another name" };
@@ -357,7 +358,7 @@ fn said_of_names(Names { changed, kept }: &Names, are_unnamed: bool) -> String {
     format!("{} {verb} {what}{keep}", count(changed.len(), "room"))
 }
 
-/// A line of the form: a word, and its control in what is left.
+/// A line of the form: a caption, and the control in the rest.
 fn line(ui: &mut Ui, name: &str, control: impl FnOnce(&mut Ui)) {
     ui.horizontal_top(|ui| {
         let (rect, _) = ui.allocate_exact_size(vec2(NAMES, 28.0), Sense::hover());
@@ -367,7 +368,7 @@ fn line(ui: &mut Ui, name: &str, control: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// One of several, by its words.
+/// A choice of one of several, by name.
 fn choose<T: Clone + PartialEq>(ui: &mut Ui, value: &mut T, options: &[(&str, T)]) {
     let segments: Vec<Segment<'_>> = options
         .iter()
@@ -378,7 +379,7 @@ fn choose<T: Clone + PartialEq>(ui: &mut Ui, value: &mut T, options: &[(&str, T)
     }
 }
 
-/// The five labels, and what stands for none of them.
+/// The five labels, and an option for none of them.
 fn labels(ui: &mut Ui, palette: &Palette, value: &mut Option<Label>, none: &str, none_help: &str) {
     let mut segments: Vec<Segment<'_>> = Label::ALL
         .into_iter()
@@ -391,13 +392,13 @@ fn labels(ui: &mut Ui, palette: &Palette, value: &mut Option<Label>, none: &str,
         })
         .collect();
     segments.push(Segment { text: none, name: none, help: none_help, is_on: value.is_none(), colour: None });
-    // Two of them may stand in one form.
+    // Two of them may be in one form.
     if let Some(index) = ui.push_id(none, |ui| segmented(ui, &segments)).inner {
         *value = Label::ALL.get(index).copied();
     }
 }
 
-/// A field; gives whether it has, or had until Enter, the keyboard.
+/// A text field; returns whether it has, or had until Enter, the keyboard.
 fn text(ui: &mut Ui, name: &str, value: &mut String, width: f32, takes_focus: bool) -> bool {
     let edit = TextEdit::singleline(value).id(Id::unique(("many rooms", name))).desired_width(width);
     let response = ui.add(edit.align(Align2::LEFT_CENTER)).accessible_name(name);
@@ -407,7 +408,7 @@ fn text(ui: &mut Ui, name: &str, value: &mut String, width: f32, takes_focus: bo
     response.has_focus() || response.lost_focus()
 }
 
-/// The functions that rooms of the plan have, with how many.
+/// The functions of the plan's rooms, with their counts.
 fn functions_of_plan(app: &App, ui: &mut Ui, function: &mut String) {
     let number = app.session.rooms_of(&Which::Function(String::new())).len();
     let none = Choice {
@@ -437,7 +438,7 @@ fn functions_of_plan(app: &App, ui: &mut Ui, function: &mut String) {
     shown.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, format!("Function: {current}")));
 }
 
-/// What would happen, and the buttons. Gives `true` for the main one, `false` for the other.
+/// The summary and the buttons. Returns `true` for the main one, `false` for the other.
 fn foot(ui: &mut Ui, said: &Result<String, String>, title: &str, can: bool) -> Option<bool> {
     let (text, colour) = match said {
         Ok(said) => (format!("{said}."), colours(ui).text),

@@ -1,4 +1,4 @@
-//! The canvas among the panels: shows it, and runs the commands that what a person does there calls for.
+//! The canvas among the panels: shows it, and runs the commands for the user's actions there.
 
 use egui::Ui;
 
@@ -9,7 +9,7 @@ use crate::app::state::App;
 use crate::app::value::{Call, Value};
 use crate::base::wording::sentence;
 
-/// Shows the canvas in all that is left of `ui`.
+/// Shows the canvas in the rest of `ui`.
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let keys = |id: &str| commands::find(id).map(|command| app.keys_text(command, ui.ctx())).unwrap_or_default();
     let beginning = Beginning {
@@ -58,7 +58,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     }
 }
 
-/// Runs what a tool calls for; it is told when the plan does not take it.
+/// Runs a tool's calls, and tells the tool if the plan rejects them.
 fn run(app: &mut App, calls: Vec<Call>, ui: &Ui) {
     for call in calls {
         if let Err(error) = app.run_call(call, ui.ctx()) {

@@ -1,5 +1,5 @@
-//! How the open plan and its file, which somebody else changed, differ: both drawn side by side, with what
-//! each side changed since they were the same.
+//! The differences between the open plan and its file, changed by somebody else: both drawn side by side,
+//! with what each side changed since they were the same.
 
 use crate::app::state::dialogs;
 use crate::app::value::{Call, Value};
@@ -18,10 +18,10 @@ use crate::app::state::App;
 use crate::app::state::{After, Dialog, Entry};
 use crate::plan::{ChangeKind, Difference, ElementId, Plan, titles::title_of};
 
-/// More lines than these are not read; how many there are is said.
+/// The most lines shown; the number of the rest is stated.
 const MOST_LINES: usize = 200;
 
-/// What is shown, kept while neither side changes.
+/// What is shown, cached while neither side changes.
 pub(crate) struct Shown {
     mine: (Plan, Arc<Derived>),
     theirs: Plan,
@@ -52,7 +52,7 @@ impl Shown {
     }
 }
 
-/// What one side changed, a line each.
+/// What one side changed, one line each.
 fn lines_of(
     base: &Plan,
     plan: &Plan,
@@ -68,7 +68,7 @@ fn lines_of(
     ];
     let parts = parts.into_iter().filter(|(differs, _)| *differs);
     let mut lines: Vec<(MarkKind, String)> = parts.map(|(_, text)| (MarkKind::Changed, text.to_owned())).collect();
-    // What both changed first: there one has to choose.
+    // Changes on both sides first: there the user has to choose.
     let mut elements: Vec<(bool, &ElementId, &ChangeKind)> =
         seen.iter().map(|(element, kind)| (!both.contains(element), element, kind)).collect();
     elements.sort();
@@ -84,7 +84,7 @@ fn lines_of(
     counted(lines)
 }
 
-/// The same lines, those that follow each other and read the same as one with their number.
+/// The same lines, with consecutive identical ones merged and counted.
 fn counted(lines: Vec<(MarkKind, String)>) -> Vec<(MarkKind, String)> {
     let of_one = |same: &[(MarkKind, String)]| match same {
         [(mark, text)] => (*mark, text.clone()),
@@ -110,7 +110,7 @@ impl Dialog for Differences {
 }
 
 impl Differences {
-    /// The button, and what else closes it, does so by the command, as it is recorded.
+    /// The button, and other ways to close it, run the command, so that this is recorded.
     fn show_in(&mut self, app: &mut App, ui: &Ui) {
         let Some((theirs, document)) = app.session.their_plan().zip(app.session.document.as_ref()) else { return };
         let Some(derived) = document.derived().cloned() else { return };
@@ -217,7 +217,7 @@ mod tests {
     }
 }
 
-/// What closes the dialog: a command, so that it is recorded.
+/// The call that closes the dialog: a command, so that it is recorded.
 fn closed() -> Call {
     Call::new("differences", [Value::Switch(false)])
 }

@@ -1,4 +1,4 @@
-//! The steps that led to the plan, undone ones included: a click, or an arrow key, goes to any of them.
+//! The history of the plan, including undone steps: a click, or an arrow key, goes to any of them.
 
 use egui::{EventFilter, Id, Key, Rect, Response, Role, ScrollArea, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
@@ -13,16 +13,16 @@ use crate::app::value::{Call, Value};
 /// Height of a step's row, in points.
 const ROW: f32 = 24.0;
 
-/// Where the line of dots stands, from the left.
+/// Position of the line of dots, from the left.
 const DOT_LEFT: f32 = 12.0;
 
-/// What was to be done.
+/// A user action.
 enum Act {
     /// Go to a step, counted from 0.
     Jump(usize),
 }
 
-/// Height in points below the inspector, and the least it can be made.
+/// Height in points below the inspector: the initial one, and the minimum.
 const USUAL_HEIGHT: f32 = 240.0;
 const LEAST_HEIGHT: f32 = 90.0;
 
@@ -54,7 +54,7 @@ fn show(app: &mut App, ui: &mut Ui) {
     }
 }
 
-/// The list of steps. It takes the keyboard as a whole: the arrows go back and forth.
+/// The list of steps. It gets the keyboard as a whole: the arrows go back and forth.
 fn steps(ui: &mut Ui, document: &Document) -> Option<Act> {
     let history = &document.history;
     let (steps, current) = (history.steps(), history.position());
@@ -64,7 +64,7 @@ fn steps(ui: &mut Ui, document: &Document) -> Option<Act> {
     let title = format!("History, step {} of {}: {}", current + 1, steps.len(), steps[current].title);
     list.widget_info(|| WidgetInfo::labeled(Role::ListBox, true, &title));
     let mut act = take_keys(ui, &list, current, steps.len());
-    // Follows only when the step is another: who scrolls away stays there.
+    // Scrolls only when the current step changes: if the user scrolls away, it stays there.
     let seen = ui.data_mut(|data| {
         let seen = data.get_temp_mut_or_default::<(u64, usize, usize)>(id);
         std::mem::replace(seen, (document.number, current, steps.len()))
@@ -73,14 +73,14 @@ fn steps(ui: &mut Ui, document: &Document) -> Option<Act> {
     let saved = document.saved_step();
     let area = ScrollArea::vertical().id_salt("steps").auto_shrink(false);
     area.show_viewport(ui, |ui, viewport| {
-        // Only what is seen is laid out: there may be thousands.
+        // Lay out only what is visible: there may be thousands.
         ui.set_height(steps.len() as f32 * ROW);
         let place = |index: usize| {
             let min = ui.max_rect().min + vec2(0.0, index as f32 * ROW);
             Rect::from_min_size(min, vec2(ui.available_width(), ROW))
         };
         if is_new {
-            // With the neighbours, so that one sees where it goes on.
+            // With its neighbours, to show the context.
             ui.scroll_to_rect(place(current).expand2(vec2(0.0, ROW)), None);
         }
         let first = (viewport.top() / ROW).floor().max(0.0) as usize;
@@ -95,7 +95,7 @@ fn steps(ui: &mut Ui, document: &Document) -> Option<Act> {
             };
             if row.show(ui, place(index)).clicked() {
                 act = Some(Act::Jump(index));
-                // The arrows go on from there.
+                // The arrows continue from there.
                 list.request_focus();
             }
         }
@@ -104,7 +104,7 @@ fn steps(ui: &mut Ui, document: &Document) -> Option<Act> {
     act
 }
 
-/// With the keyboard on the list, the arrows go a step back or forth, Home and End to the ends.
+/// With the keyboard on the list, the arrows go one step back or forth, Home and End to the ends.
 fn take_keys(ui: &Ui, list: &Response, current: usize, number: usize) -> Option<Act> {
     if !list.has_focus() {
         return None;
@@ -128,7 +128,7 @@ struct StepRow<'a> {
     title: &'a str,
     index: usize,
     is_last: bool,
-    /// The index of the step the plan is at.
+    /// The index of the current step.
     current: usize,
     is_saved: bool,
 }
@@ -151,7 +151,7 @@ impl StepRow<'_> {
         } else if response.hovered() {
             painter.rect_filled(rect, theme::RADIUS, colours.hover);
         }
-        // A line with a dot for each step, full as far as the plan has come.
+        // A line with a dot for each step, filled up to the current one.
         let dot = pos2(rect.left() + DOT_LEFT, rect.center().y);
         let done = colours.text_weak.gamma_multiply(0.55);
         let coming = colours.text_weak.gamma_multiply(0.25);

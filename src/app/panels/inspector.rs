@@ -26,7 +26,7 @@ use crate::plan::{
 };
 use crate::topology::RoomShape;
 
-/// What a person did in the inspector.
+/// A user action in the inspector.
 enum Act {
     Pick(ElementId),
     Label(Option<Label>),
@@ -49,7 +49,7 @@ impl Act {
     }
 }
 
-/// So many points at least it keeps above the history.
+/// Minimum height in points above the history.
 const LEAST_HEIGHT: f32 = 160.0;
 
 pub(super) const PANEL: SidePanel = SidePanel {
@@ -80,7 +80,7 @@ fn show(app: &mut App, ui: &mut Ui) {
                 Some(ElementId::Opening(id)) => {
                     document.plan().opening(id).and_then(|opening| inspected.opening(ui, id, opening, &mut hovered))
                 }
-                // Walls, corners, and several at a time.
+                // Walls, corners, and multiple elements.
                 Some(_) => inspected.several(ui),
                 None if app.selection().is_empty() => inspected.plan(ui),
                 None => inspected.several(ui),
@@ -185,7 +185,7 @@ impl Inspected<'_> {
         prediction::of_room(ui, self.app, self.palette, predictions, reason, id, status).map(Act::of)
     }
 
-    /// A text of a room that can be changed.
+    /// An editable text of a room.
     fn field(&self, ui: &mut Ui, room: RoomId, kind: FieldKind, current: &str, hint: &str) -> Option<Act> {
         let name = match kind {
             FieldKind::Name => "Name",
@@ -229,7 +229,7 @@ impl Inspected<'_> {
                     let is_escape = ui.input(|input| input.key_pressed(Key::Escape));
                     act = Some(if is_escape { Act::Revert } else { Act::Commit });
                 }
-                // A chosen function, or one whose list was left.
+                // A function was chosen, or its list was left.
                 None if typed.is_some() && !response.has_focus() && act.is_none() => act = Some(Act::Commit),
                 None => {}
             }
@@ -237,11 +237,11 @@ impl Inspected<'_> {
         act
     }
 
-    /// The scheme's functions under the field that is being typed in.
+    /// The scheme's functions, below the field being edited.
     fn suggestions(&self, ui: &Ui, response: &egui::Response, text: &str, is_typed: bool) -> Option<Suggested> {
         let typology = self.plan.meta().typology.as_ref()?;
         let wanted = normalised_function(text);
-        // Before anything is typed, all; then those that fit.
+        // All until something is typed; then those that match.
         let fits = |function: &str| !is_typed || (function.contains(&wanted) && function != wanted);
         let functions: Vec<(&str, Meaning)> =
             self.app.session.schemes.functions(typology).filter(|(function, _)| fits(function)).collect();
@@ -290,7 +290,7 @@ impl Inspected<'_> {
         }
     }
 
-    /// The five labels side by side; gives one that was clicked.
+    /// The five labels side by side; returns one that was clicked.
     fn label_segments(&self, ui: &mut Ui, current: Option<Label>) -> Option<Label> {
         let segments: Vec<Segment<'_>> = Label::ALL
             .into_iter()
@@ -318,7 +318,7 @@ impl Inspected<'_> {
         act
     }
 
-    /// Who says what the room's label is.
+    /// Where the room's label comes from.
     fn label_origin(&self, room: &Room, status: RoomStatus) -> String {
         if let Some(given) = room.label {
             return match given.origin {
@@ -518,7 +518,7 @@ impl Inspected<'_> {
         value(ui, "Openings", &doors.to_string());
         value(ui, "Windows", &(plan.openings().len() - doors).to_string());
         if let Some(derived) = self.document.derived() {
-            // A sum of nothing is minus zero.
+            // An empty sum is minus zero.
             let areas_m2 = derived.analysis.shapes.all().iter().map(crate::topology::RoomShape::area_m2);
             let area_m2 = areas_m2.fold(0.0, |sum, area_m2| sum + area_m2);
             value(ui, "Floor area", &self.app.units().area(area_m2));
@@ -543,7 +543,7 @@ impl Inspected<'_> {
         act
     }
 
-    /// What is missing before every room has a label.
+    /// What is missing until every room has a label.
     fn gaps(&self, ui: &mut Ui, derived: &Derived) {
         let unlabelled = derived.analysis.rooms.iter().filter(|room| room.status == RoomStatus::Unlabelled);
         let mut unknown = std::collections::BTreeSet::new();
@@ -566,14 +566,14 @@ impl Inspected<'_> {
     }
 }
 
-/// What happened in the list of suggestions.
+/// An event in the list of suggestions.
 enum Suggested {
-    /// The pointer is down on it.
+    /// The pointer is pressed on it.
     Choosing,
     Chosen(String),
 }
 
-/// Lets rows reach as far out as their ground does, so that their text is in line with the rest.
+/// Lets rows extend outwards by their padding, so that their text lines up with the rest.
 fn unindented(ui: &mut Ui, contents: impl FnOnce(&mut Ui)) {
     let margin = egui::Margin { left: -8, right: -8, top: 0, bottom: 0 };
     egui::Frame::new().outer_margin(margin).show(ui, contents);
@@ -614,7 +614,7 @@ fn header(
     });
 }
 
-/// `F_r` with names that can be read.
+/// `F_r` with readable names.
 fn features(ui: &mut Ui, analysed: &RoomAnalysis, perimeter_m: Option<f64>, units: Units) {
     let Some(features) = &analysed.features else {
         let why = if analysed.status == RoomStatus::NotClassified {
@@ -656,7 +656,7 @@ fn feature(ui: &mut Ui, name: &str, symbol: &str, number: &str, is_zero: bool, h
     let middle = rect.center().y;
     let painter = ui.painter();
     painter.text(rect.left_center(), egui::Align2::LEFT_CENTER, name, body.clone(), colour);
-    // The symbol's letter with its index lowered, as the paper writes it.
+    // The symbol with its index as a subscript, as in the paper.
     let (letter, index) = symbol.split_once('_').unwrap_or((symbol, ""));
     let small = egui::FontId::proportional(theme::SMALL);
     let at = egui::pos2(rect.left() + 142.0, middle);

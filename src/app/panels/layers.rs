@@ -1,4 +1,4 @@
-//! What is shown of the plan, with the meaning of its colours.
+//! The visible layers of the plan, and the legend of its colours.
 
 use egui::{Role, ScrollArea, Ui};
 
@@ -13,13 +13,13 @@ use crate::draw::{self, Fill, Palette};
 use crate::features::RoomStatus;
 use crate::labels::Label;
 
-/// The section of the view menu that holds the layers.
+/// The section of the view menu with the layers.
 const LAYERS: (Menu, u8) = (Menu::View, 2);
 
-/// Layers that are listed only where the plan has them.
+/// Layers listed only if the plan has them.
 const RARE: [&str; 2] = ["guides", "ghost-layer"];
 
-/// Height in points before it was first shown.
+/// Initial height in points.
 const USUAL_HEIGHT: f32 = 360.0;
 
 pub(super) const PANEL: SidePanel = SidePanel {
@@ -66,7 +66,7 @@ fn show(app: &mut App, ui: &mut Ui) {
         let is_on = command.is_on(app) == Some(true);
         let shortcut = app.keys_text(command, &context);
         let is_available = command.why_not(app).is_none();
-        // What most plans never have takes no place in the list.
+        // Layers that most plans lack take no space in the list.
         if !is_available && RARE.contains(&command.id) {
             continue;
         }
@@ -78,7 +78,7 @@ fn show(app: &mut App, ui: &mut Ui) {
     }
 }
 
-/// What each colour means, and how many rooms have it.
+/// The legend: each colour's meaning, and the number of rooms.
 fn legend(ui: &mut Ui, document: &Document, fill: Fill, palette: &Palette) {
     let Some(derived) = document.derived() else { return };
     let mut rows: Vec<(draw::Rgba, String, usize)> = Vec::new();
@@ -119,7 +119,7 @@ fn legend(ui: &mut Ui, document: &Document, fill: Fill, palette: &Palette) {
     // A long legend leaves space for the list of plans.
     let most = (ui.ctx().content_rect().height() * 0.25).max(4.0 * ROW);
     let height = (rows.len() as f32 * 22.0).min(most);
-    // As high as it must be, however high the panel was before.
+    // As high as necessary, however high the panel was before.
     let area = ScrollArea::vertical().id_salt("legend").min_scrolled_height(height).max_height(height);
     area.auto_shrink([false, true]).show(ui, |ui| {
         for (colour, name, number) in &rows {

@@ -1,5 +1,5 @@
-//! The bars above the canvas: messages that stay until they are dismissed, and some that stay as long
-//! as what they say is so.
+//! The bars above the canvas: messages that stay until dismissed, and some that stay as long as they are
+//! true.
 
 use egui::{Color32, Frame, Label, Margin, Rect, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
 
@@ -12,12 +12,12 @@ use crate::app::session::messages::{Message, Remedy, Severity};
 use crate::app::state::App;
 use crate::app::value::{Call, Value};
 
-/// More messages are not shown at once; the newest ones are.
+/// The most messages shown at once: the newest ones.
 const SHOWN: usize = 3;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let first = app.session.messages.len().saturating_sub(SHOWN);
-    // What stays is always shown.
+    // Lasting messages are always shown.
     let messages: Vec<Message> = app.session.messages.iter().skip(first).cloned().chain(app.session.bars()).collect();
     for (index, message) in messages.into_iter().enumerate() {
         let act = ui.push_id(("message", index), |ui| bar(ui, &message)).inner;
@@ -117,7 +117,7 @@ fn bar(ui: &mut Ui, message: &Message) -> Option<Act> {
     act
 }
 
-/// The colour of a message's mark, and of its ground.
+/// The colours of a message's icon and background.
 fn severity_colours(ui: &Ui, severity: Severity) -> (Icon, Color32, Color32) {
     let colours = colours(ui);
     match severity {

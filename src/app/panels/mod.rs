@@ -29,11 +29,11 @@ use egui::{CentralPanel, Frame, Margin, Panel, Ui, UiBuilder};
 use crate::app::look::theme;
 use crate::app::state::{App, Entry, Side, SidePanel};
 
-/// The dialogs there are; a later one lies above an earlier one.
+/// All dialogs; later ones are above earlier ones.
 pub(crate) const DIALOGS: &[Entry] =
     &[notes::ENTRY, differences::ENTRY, recovery::ENTRY, about::ENTRY, shortcuts::ENTRY, bulk::ENTRY, palette::ENTRY];
 
-/// The panels at the sides there are, from the top.
+/// All side panels, from the top.
 pub(crate) const SIDE_PANELS: &[SidePanel] = &[plans::PANEL, layers::PANEL, inspector::PANEL, history::PANEL];
 
 /// Shows the window.
@@ -42,7 +42,7 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     let frame = |margin: Margin| Frame::new().fill(colours.panel).inner_margin(margin);
     app.canvas.hovered_in_panel = None;
     Panel::top("top bar").exact_size(44.0).frame(frame(Margin::symmetric(8, 0))).show(ui, |ui| top_bar::show(app, ui));
-    // Only its place: its contents come last, in the order in which Tab goes.
+    // Only reserves its place: its contents come last in Tab order.
     let status_rect = Panel::bottom("status line")
         .exact_size(30.0)
         .frame(frame(Margin::symmetric(12, 0)))

@@ -1,4 +1,4 @@
-//! What an import mended or left out.
+//! What an import repaired or skipped.
 
 use crate::app::state::dialogs;
 use crate::app::value::{Call, Value};
@@ -26,7 +26,7 @@ impl Dialog for Notes {
     }
 }
 
-/// The button, and what else closes it, does so by the command, as it is recorded.
+/// The button, and other ways to close it, run the command, so that this is recorded.
 fn show(app: &mut App, ui: &Ui) {
     let Some(document) = &app.session.document else { return };
     let response = Modal::new(Id::unique("import notes")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {

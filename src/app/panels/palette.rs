@@ -1,4 +1,4 @@
-//! The palette: every command by a few letters of its name, and what it needs asked for in place.
+//! The command palette: finds a command by a few letters of its name, and asks for its arguments.
 
 mod lines;
 
@@ -25,45 +25,45 @@ use crate::base::wording::sentence;
 /// Width of the palette, in points.
 const WIDTH: f32 = 580.0;
 
-/// So far below the top of the window.
+/// Distance below the top of the window.
 const TOP: f32 = 60.0;
 
 /// Height of the line with the text field.
 const HEAD: f32 = 46.0;
 
-/// So many rows are seen at once.
+/// The number of rows visible at once.
 const ROWS: usize = 11;
 
-/// So many commands are remembered as done.
+/// The number of recent commands remembered.
 const RECENT: usize = 6;
 
-/// The palette while it is open.
+/// The open palette.
 #[derive(Default)]
 pub(crate) struct Palette {
     query: String,
-    /// The row that Enter takes.
+    /// The row that Enter chooses.
     at: usize,
-    /// The command of which an argument is asked for.
+    /// The command whose argument is being asked for.
     asking: Option<Asking>,
-    /// Whether the row that Enter takes was changed by a key, so that it must be brought into sight.
+    /// Whether a key changed the chosen row, so that it must be scrolled into view.
     is_stepped: bool,
-    /// Whether the field has been shown: the first time, what is in it is selected.
+    /// Whether the field has been shown: the first time, its text is selected.
     is_shown: bool,
 }
 
 struct Asking {
     command: &'static Command,
-    /// The arguments that were given already.
+    /// The arguments already given.
     given: Vec<String>,
-    /// The arguments behind the one that is asked for.
+    /// The arguments after the one being asked for.
     rest: Vec<String>,
-    /// What the command is about, beside its title; may be empty.
+    /// What the command applies to, shown beside its title; may be empty.
     about: String,
-    /// What the argument that comes next can be, once it is known; `None` within for anything.
+    /// The choices for the next argument, once known; the inner `None` means anything.
     choices: Option<Option<Vec<Choice>>>,
-    /// Why what was typed is not taken; empty when nothing is wrong.
+    /// Why the text was rejected; empty if it was not.
     error: String,
-    /// Whether the command was chosen from the list, to which Escape goes back.
+    /// Whether the command was chosen from the list, to which Escape returns.
     is_from_list: bool,
 }
 
@@ -73,19 +73,19 @@ impl Asking {
         Self { command, given, rest, about, choices: None, error, is_from_list: false }
     }
 
-    /// The argument that is asked for.
+    /// The argument being asked for.
     fn argument(&self) -> Option<&'static Argument> {
         self.command.arguments.get(self.given.len())
     }
 
-    /// Whether any text will do.
+    /// Whether any text is accepted.
     fn is_free(&self) -> bool {
         matches!(self.choices, Some(None))
     }
 }
 
 impl Palette {
-    /// The list of commands, or what is asked for.
+    /// Opens with the list of commands, or with a request for an argument.
     fn new(purpose: Purpose) -> Self {
         let Purpose::Argument(asked) = purpose else { return Self::default() };
         let Some(command) = find(asked.command) else { return Self::default() };
@@ -98,7 +98,7 @@ impl Palette {
 /// A line of the list.
 struct Line {
     title: String,
-    /// Which of the title's characters were looked for.
+    /// The indices of the title's characters that matched.
     characters: Vec<u32>,
     /// Beside the title.
     detail: String,
@@ -116,18 +116,18 @@ enum LineLead {
     Swatch(Color32),
 }
 
-/// What taking a line means.
+/// The result of choosing a line.
 enum Taken {
     Command(&'static Command),
     Argument(String),
 }
 
-/// What a person did.
+/// A user action.
 enum Act {
     Take(usize),
-    /// Take what was typed.
+    /// Submit the text.
     TakeText,
-    /// Go one step back, or close.
+    /// Go back one step, or close.
     Back,
     Close,
 }
@@ -138,7 +138,7 @@ pub(crate) const ID: &str = dialogs::PALETTE;
 
 impl Dialog for Palette {
     fn show(&mut self, app: &mut App, ui: &mut Ui) -> After {
-        // A question comes first, and what was begun here is forgotten.
+        // A question takes precedence, and what was started here is dropped.
         if app.session.question.is_some() {
             return After::Close;
         }
@@ -168,7 +168,7 @@ impl Dialog for Palette {
 }
 
 impl Palette {
-    // What is in the list.
+    // The contents of the list.
 
     fn lines(&mut self, app: &App, ui: &Ui) -> Vec<Line> {
         let mut search = Search::new(&self.query);
@@ -193,7 +193,7 @@ impl Palette {
         lines
     }
 
-    // What is done. Each gives whether the palette stays open.
+    // Actions. Each returns whether the palette stays open.
 
     fn go_back(&mut self) -> bool {
         match self.asking.take() {
@@ -237,7 +237,7 @@ impl Palette {
         false
     }
 
-    // How it looks.
+    // Appearance.
 
     fn show_in(&mut self, ui: &mut Ui, lines: &[Line]) -> Option<Act> {
         let id = Id::unique("command palette");
@@ -257,11 +257,11 @@ impl Palette {
             self.show_foot(ui, lines);
             clicked.or(keys)
         });
-        // Escape is taken above: it goes one step back.
+        // Escape was handled above: it goes back one step.
         response.inner.or(response.backdrop_response.clicked().then_some(Act::Close))
     }
 
-    /// The keys that the text field does not need.
+    /// The keys not needed by the text field.
     fn take_keys(&mut self, ui: &Ui, number: usize) -> Option<Act> {
         let pressed = |key: Key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key));
         let before = self.at;
@@ -271,7 +271,7 @@ impl Palette {
         for (key, step) in steps {
             for _ in 0..pressed(key) {
                 self.at = match self.at.checked_add_signed(step) {
-                    // A single step goes round, a page ends at the end.
+                    // Single steps wrap around; pages stop at the end.
                     Some(at) if at >= number && step == 1 => 0,
                     Some(at) => at.min(number.saturating_sub(1)),
                     None if step == -1 => number.saturating_sub(1),
@@ -303,7 +303,7 @@ impl Palette {
         let mut left = rect.left() + 16.0;
         let colours = colours(ui);
         if let Some(asking) = &self.asking {
-            // What is asked for: the command, and what was given.
+            // What is being asked for: the command, and the arguments given.
             let title = FontId::new(theme::BODY, theme::semibold());
             let mut job = LayoutJob::single_section(
                 asking.command.plain_title().to_owned(),
@@ -330,7 +330,7 @@ impl Palette {
         let field = Rect::from_min_max(pos2(left, rect.top() + 8.0), pos2(rect.right() - 12.0, rect.bottom() - 8.0));
         let field_id = Id::unique("command palette's text");
         if !std::mem::replace(&mut self.is_shown, true) {
-            // Of an earlier palette, the cursor is anywhere.
+            // The cursor may be anywhere, left from an earlier palette.
             let mut state = TextEditState::default();
             let all = CCursorRange::two(CCursor::new(0), CCursor::new(self.query.chars().count()));
             state.cursor.set_char_range(Some(all));
@@ -347,7 +347,7 @@ impl Palette {
             .desired_width(field.width());
         let mut line = ui.new_child(UiBuilder::new().max_rect(field));
         let response = line.put(field, edit).accessible_name(name);
-        // Nothing else here takes the keyboard.
+        // Nothing else here gets the keyboard.
         response.request_focus();
         if response.changed() {
             self.at = 0;
@@ -381,7 +381,7 @@ impl Palette {
         egui::Frame::new().inner_margin(egui::Margin::symmetric(6, 6)).show(ui, |ui| {
             let area = ScrollArea::vertical().id_salt("lines").auto_shrink([false, true]);
             area.min_scrolled_height(rows * ROW).max_height(rows * ROW).show_viewport(ui, |ui, seen| {
-                // Only what is seen is laid out: a plan may have thousands of rooms.
+                // Lay out only what is visible: a plan may have thousands of rooms.
                 ui.set_height(lines.len() as f32 * ROW);
                 let place = |index: usize| {
                     let min = ui.max_rect().min + vec2(0.0, index as f32 * ROW);
@@ -402,7 +402,7 @@ impl Palette {
         act
     }
 
-    /// What the chosen line does, or what is wrong.
+    /// A description of the chosen line, or what is wrong.
     fn show_foot(&self, ui: &mut Ui, lines: &[Line]) {
         let error = self.asking.as_ref().map(|asking| asking.error.as_str()).filter(|error| !error.is_empty());
         let colours = colours(ui);

@@ -1,4 +1,4 @@
-//! The picture under the plan: what it is, how strongly it is seen, how its scale was found.
+//! The backdrop: what it is, its opacity, and how its scale was found.
 
 use crate::app::session::tracing::millimetres;
 use egui::{FontId, Role, Sense, Slider, Ui, WidgetInfo, pos2, vec2};
@@ -14,15 +14,15 @@ use crate::base::units::Units;
 use crate::edit::Calibration;
 use crate::plan::{Backdrop, Measurement, ScaleOrigin};
 
-/// What a person did in the section.
+/// A user action in the section.
 pub(super) enum PictureAct {
     Command(&'static str, Vec<String>),
-    /// The slider stands here, and is still held.
+    /// The slider's position while it is held.
     Opacity(f64),
 }
 
-/// Measured lengths that agree better than this are not told apart: what two clicks a pixel off make
-/// of a length of a hundred pixels.
+/// Measurements that agree better than this are considered equal: it is the effect of two clicks one
+/// pixel off on a length of a hundred pixels.
 const AGREEMENT: f64 = 0.01;
 
 pub(super) fn show(ui: &mut Ui, app: &App, backdrop: &Backdrop) -> Option<PictureAct> {
@@ -45,7 +45,7 @@ pub(super) fn show(ui: &mut Ui, app: &App, backdrop: &Backdrop) -> Option<Pictur
         }
     }
     act = act.or(opacity(ui, app, backdrop));
-    // A plan may come with a scale that was measured before the lengths were kept.
+    // A plan may have a scale measured before the lengths were kept.
     let is_known =
         backdrop.is_measured() || app.plan().is_some_and(|plan| plan.meta().scale.origin == ScaleOrigin::Measured);
     let scale = if is_known { "1 px is" } else { "1 px is taken as" };
@@ -74,7 +74,7 @@ pub(super) fn show(ui: &mut Ui, app: &App, backdrop: &Backdrop) -> Option<Pictur
     act
 }
 
-/// How strongly it is seen: one step of the history when the slider is let go.
+/// The opacity slider: one step of the history when it is released.
 fn opacity(ui: &mut Ui, app: &App, backdrop: &Backdrop) -> Option<PictureAct> {
     let before = (backdrop.opacity * 100.0).round();
     let mut percent = app.session.backdrop.opacity.map_or(before, |opacity| (opacity * 100.0).round());
@@ -104,7 +104,7 @@ fn opacity(ui: &mut Ui, app: &App, backdrop: &Backdrop) -> Option<PictureAct> {
     (percent != before).then(|| PictureAct::Command("picture-opacity", vec![percent.to_string()]))
 }
 
-/// The lengths the scale follows from, each with how well it fits.
+/// The measurements that determine the scale, each with how well it fits.
 fn measurements(ui: &mut Ui, units: Units, measurements: &[Measurement]) -> Option<PictureAct> {
     let calibration = Calibration::of(measurements)?;
     let mut act = None;
@@ -127,7 +127,7 @@ fn measurements(ui: &mut Ui, units: Units, measurements: &[Measurement]) -> Opti
     act
 }
 
-/// A measured length and by how much it exceeds the stated one. Gives whether it is to be removed.
+/// A measured length and by how much it exceeds the stated one. Returns whether it should be removed.
 fn length(ui: &mut Ui, units: Units, index: usize, measurement: &Measurement, residual: f64, is_worst: bool) -> bool {
     let colours = colours(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());

@@ -1,4 +1,4 @@
-//! A small picture of a plan in which what changed is marked, for dialogs.
+//! A thumbnail of a plan with the changes marked, for dialogs.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -17,13 +17,13 @@ use crate::draw::{self, Fill, LabelColours, Layers, Palette, Style, View};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::plan::{ChangeKind, Difference, ElementId, Plan};
 
-/// More marks than these are not told apart in a small picture, and would take longer than a frame.
+/// The most marks: more cannot be told apart in a thumbnail, and would take longer than a frame.
 const MOST_MARKS: usize = 4000;
 
-/// Free space around the plan, in points.
+/// Margin around the plan, in points.
 const MARGIN: f64 = 14.0;
 
-/// A picture of a plan and of what changed.
+/// A thumbnail of a plan and its changes.
 pub(crate) struct PlanPicture {
     derived: Arc<Derived>,
     marks: Vec<Mark>,
@@ -31,7 +31,7 @@ pub(crate) struct PlanPicture {
     painter: ScenePainter,
 }
 
-/// What is said of something that changed.
+/// The kind of change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum MarkKind {
     Added,
@@ -45,7 +45,7 @@ pub(crate) enum MarkKind {
 impl MarkKind {
     pub(crate) const ALL: [Self; 4] = [Self::Added, Self::Changed, Self::Removed, Self::Both];
 
-    /// The word for people.
+    /// Its name in the interface.
     pub(crate) const fn title(self) -> &'static str {
         match self {
             Self::Added => "Added",
@@ -76,7 +76,7 @@ enum MarkShape {
 }
 
 impl MarkShape {
-    /// Where an element of a plan is; `None` for what has no place.
+    /// The position of an element; `None` if it has none.
     fn of(plan: &Plan, element: ElementId) -> Option<Self> {
         match element {
             ElementId::Corner(_) => None,
@@ -101,8 +101,8 @@ impl MarkShape {
 }
 
 impl PlanPicture {
-    /// The picture of a plan that was `before`, with what follows from it. `both`: what changed on another
-    /// side too.
+    /// A thumbnail of a plan that was `before`, with its analysis. `both`: elements also changed on the
+    /// other side.
     pub(crate) fn new(before: &Plan, plan: &Plan, derived: Arc<Derived>, both: &BTreeSet<ElementId>) -> Self {
         let seen = Difference::between(before, plan).seen(before, plan);
         let marks = seen.iter().take(MOST_MARKS).filter_map(|(&element, &kind)| {
@@ -125,7 +125,7 @@ impl PlanPicture {
         Self { derived, marks, bounds, painter: ScenePainter::default() }
     }
 
-    /// Paints it in a frame of this size.
+    /// Paints it at this size.
     pub(crate) fn show(&mut self, ui: &mut Ui, size: Vec2, name: &str) {
         let (frame, response) = ui.allocate_exact_size(size, Sense::hover());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
@@ -174,7 +174,7 @@ fn paint_mark(painter: &Painter, rect: Rect, view: &View, mark: &Mark, colour: C
             let ends = [segment.a, segment.b].map(|point| on_screen(rect, view, point));
             let middle = ends[0] + (ends[1] - ends[0]) / 2.0;
             let half = (ends[1] - ends[0]) / 2.0;
-            // Never so short that it is not seen.
+            // Never too short to be visible.
             let half = if half.length() < 2.0 { vec2(2.0, 0.0) } else { half };
             let line = [middle - half, middle + half];
             if is_gone {
@@ -186,7 +186,7 @@ fn paint_mark(painter: &Painter, rect: Rect, view: &View, mark: &Mark, colour: C
     }
 }
 
-/// What the marks mean.
+/// The meaning of the marks.
 pub(crate) fn legend(ui: &mut Ui, kinds: impl Iterator<Item = MarkKind>) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;

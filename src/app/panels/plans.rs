@@ -1,4 +1,4 @@
-//! The list of plans: those of the folder, and those that come with the program.
+//! The list of plans: those of the folder, and the bundled ones.
 
 use std::path::Path;
 
@@ -19,7 +19,7 @@ enum Entry {
     Storey { origin: Origin, text: String },
 }
 
-/// So many points at least it keeps above the layers: its title and two plans.
+/// Minimum height in points above the layers: its title and two plans.
 const LEAST_HEIGHT: f32 = 110.0;
 
 pub(super) const PANEL: SidePanel = SidePanel {

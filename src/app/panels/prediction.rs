@@ -1,4 +1,4 @@
-//! What a classifier says of the rooms, and which models are asked.
+//! The predictions for the rooms, and the choice of models.
 
 use egui::{Align2, ComboBox, FontId, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
@@ -13,10 +13,10 @@ use crate::labels::Label;
 use crate::plan::RoomId;
 use crate::predict::Predictions;
 
-/// The id of a command that was asked for, with the word of its argument.
+/// The id of a requested command, with the word of its argument.
 pub(super) type Asked = (&'static str, Option<String>);
 
-/// The prediction for a room, with its reason. Gives the command that was asked for.
+/// The prediction for a room, with its reason. Returns the command requested.
 pub(super) fn of_room(
     ui: &mut Ui,
     app: &App,
@@ -56,7 +56,7 @@ pub(super) fn of_room(
     asked.or(models(ui, app, predictions))
 }
 
-/// What is said of a plan as a whole. Gives the command that was asked for.
+/// The predictions for the plan as a whole. Returns the command requested.
 pub(super) fn of_plan(ui: &mut Ui, app: &App, predictions: &Predictions) -> Option<Asked> {
     section(ui, "Prediction");
     let agreement = predictions.agreement();
@@ -77,7 +77,7 @@ pub(super) fn of_plan(ui: &mut Ui, app: &App, predictions: &Predictions) -> Opti
     asked.or(models(ui, app, predictions))
 }
 
-/// The choice of models. Gives the command that was asked for.
+/// The choice of models. Returns the command requested.
 fn models(ui: &mut Ui, app: &App, predictions: &Predictions) -> Option<Asked> {
     ui.add_space(4.0);
     let mut asked = choice(ui, app, "Typology", "models");
@@ -93,7 +93,7 @@ fn models(ui: &mut Ui, app: &App, predictions: &Predictions) -> Option<Asked> {
     asked
 }
 
-/// What a command can set as a list to choose from.
+/// The choices of a command, as a drop-down list.
 fn choice(ui: &mut Ui, app: &App, name: &str, id: &'static str) -> Option<Asked> {
     let (choices, set) = commands::find(id)?.settings(app)?;
     let current = choices.iter().find(|choice| choice.word == set).map_or(set, |choice| choice.title.as_str());

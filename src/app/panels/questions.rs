@@ -1,4 +1,4 @@
-//! Questions that must be answered before anything else. Escape, and a click beside, mean cancel.
+//! Questions that must be answered before anything else. Escape, or a click outside, cancels.
 
 use egui::{Id, Key, Modal, Ui};
 

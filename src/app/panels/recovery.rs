@@ -18,7 +18,7 @@ use crate::app::state::App;
 use crate::app::state::{After, Dialog, Entry};
 use crate::base::wording::count;
 
-/// Size of a picture, in points.
+/// Size of a thumbnail, in points.
 const PICTURE: egui::Vec2 = vec2(300.0, 190.0);
 
 #[derive(Clone, Copy)]
@@ -34,7 +34,7 @@ pub(crate) const ID: &str = dialogs::RECOVERY;
 
 #[derive(Default)]
 struct Recovery {
-    /// What would be recovered, what changed marked, by the journal.
+    /// Thumbnails of what would be recovered, with changes marked, by journal.
     pictures: BTreeMap<PathBuf, PlanPicture>,
 }
 
@@ -49,7 +49,7 @@ impl Dialog for Recovery {
 }
 
 impl Recovery {
-    /// Draws those that are new.
+    /// Draws the new ones.
     fn draw(&mut self, leftovers: &[Offered]) {
         for Offered { leftover, derived } in leftovers {
             if let (Ok(recovered), Some(derived)) = (&leftover.content, derived)
@@ -63,7 +63,7 @@ impl Recovery {
     }
 }
 
-/// The button, and what else closes it, does so by the command, as it is recorded.
+/// The button, and other ways to close it, run the command, so that this is recorded.
 fn show(pictures: &mut BTreeMap<PathBuf, PlanPicture>, app: &mut App, ui: &Ui) {
     let leftovers = std::mem::take(&mut app.session.safety.leftovers);
     let now = app.session.safety.clock.map(|clock| clock());
@@ -173,7 +173,7 @@ fn one(
     act
 }
 
-/// How long ago something was, in words; `None` where the clock went backwards.
+/// How long ago something was, in words; `None` if the clock went backwards.
 fn age(now: SystemTime, then: SystemTime) -> Option<String> {
     let minutes = now.duration_since(then).ok()?.as_secs() / 60;
     Some(match minutes {

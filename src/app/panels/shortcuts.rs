@@ -1,4 +1,4 @@
-//! The sheet of shortcuts: all of them by menu, and a way to change each.
+//! The sheet of shortcuts: all of them by menu, with a way to change each.
 
 use crate::app::state::dialogs;
 use egui::epaint::StrokeKind;
@@ -21,15 +21,15 @@ use crate::app::look::{
 use crate::app::state::App;
 use crate::app::state::{After, Dialog, Entry};
 
-/// The sheet while it is open.
+/// The open sheet.
 #[derive(Default)]
 pub(crate) struct Sheet {
     query: String,
-    /// The command for which keys are waited for.
+    /// The command that is waiting for its new keys.
     changing: Option<&'static str>,
-    /// What was done, or why it was not.
+    /// The result of the last change, or why it was refused.
     said: Option<Said>,
-    /// Whether it has been shown: the first time, the search takes the keyboard.
+    /// Whether it has been shown: the first time, the search gets the keyboard.
     is_shown: bool,
 }
 
@@ -38,11 +38,11 @@ struct Said {
     is_error: bool,
 }
 
-/// What a person did.
+/// A user action.
 enum Act {
     Change(&'static Command),
     Set(&'static Command, Option<Keys>),
-    /// Wait no longer for keys.
+    /// Stop waiting for keys.
     GiveUp,
     Reset(&'static Command),
     ResetAll,
@@ -52,17 +52,17 @@ enum Act {
 /// Height of a line of the sheet, in points.
 const LINE: f32 = 25.0;
 
-/// Space between two menus of a column.
+/// Space between two menus in a column.
 const BETWEEN: f32 = 10.0;
 
 /// Commands of a menu.
 type Group = (Menu, Vec<&'static Command>);
 
-/// Width of a column, and the space between two.
+/// Width of a column, and the space between columns.
 const COLUMN: f32 = 300.0;
 const GAP: f32 = 28.0;
 
-/// Which menus stand in which column, by how many columns there are: about as many lines in each.
+/// The menus in each column, by the number of columns: about as many lines in each.
 const COLUMNS: [&[&[Menu]]; 3] = [
     &[&Menu::ALL],
     &[
@@ -101,7 +101,7 @@ fn said(ran: Result<(), CommandError>, done: String) -> Said {
 }
 
 impl Sheet {
-    /// Does what a person did: by commands, as a script does.
+    /// Performs a user action, by commands, as a script does.
     fn take(&mut self, app: &mut App, ui: &Ui, act: Act) -> After {
         let (said, changing) = match act {
             Act::Close => return After::Close,
@@ -159,7 +159,7 @@ impl Sheet {
             let wanted = columns.iter().map(|column| height_of(column)).fold(LINE, f32::max);
             let area = ScrollArea::vertical().min_scrolled_height(wanted.min(height)).max_height(height);
             area.auto_shrink([false, true]).show(ui, |ui| {
-                // The bar lies over what it scrolls.
+                // The scroll bar lies over the contents.
                 let bar = if wanted > height { 14.0 } else { 0.0 };
                 act = self.show_columns(app, ui, &columns, wanted, bar).or(act.take());
             });
@@ -195,7 +195,7 @@ impl Sheet {
         }
     }
 
-    /// How to change a shortcut, or what became of changing it.
+    /// How to change a shortcut, or the result of changing it.
     fn show_said(&self, ui: &mut Ui) {
         match &self.said {
             Some(Said { text, is_error }) => {
@@ -217,7 +217,7 @@ impl Sheet {
         }
     }
 
-    /// The keys that are waited for.
+    /// The keys being waited for.
     fn take_keys(&self, ui: &Ui) -> Option<Act> {
         let command = commands::find(self.changing?)?;
         ui.input_mut(|input| {
@@ -225,7 +225,7 @@ impl Sheet {
             input.events.retain(|event| {
                 let (key, modifiers) = match event {
                     Event::Key { key, pressed: true, modifiers, .. } => (*key, *modifiers),
-                    // The system tells of these in its own way.
+                    // The system reports these as events of their own.
                     Event::Copy => (Key::C, egui::Modifiers::COMMAND),
                     Event::Cut => (Key::X, egui::Modifiers::COMMAND),
                     Event::Paste(_) => (Key::V, egui::Modifiers::COMMAND),
@@ -243,7 +243,7 @@ impl Sheet {
         })
     }
 
-    /// The commands that are looked for, by column and menu.
+    /// The matching commands, by column and menu.
     fn columns(&self, app: &App, ui: &Ui, columns: &[&[Menu]]) -> Vec<Vec<Group>> {
         let mut search = Search::new(&self.query);
         let mut group = |menu: &Menu| -> Option<Group> {
@@ -363,7 +363,7 @@ impl Sheet {
         focus_ring(ui, rect.expand(2.0), &response);
         follow_focus(&response);
         if is_changing {
-            // Tab and arrows are keys like others now; Escape ends the waiting, not the sheet.
+            // Tab and arrows now count as ordinary keys; Escape ends the waiting, not the sheet.
             let filter = EventFilter { tab: true, horizontal_arrows: true, vertical_arrows: true, escape: true };
             response.request_focus();
             ui.memory_mut(|memory| memory.set_focus_lock_filter(id, filter));

@@ -1,4 +1,4 @@
-//! The panels at the sides of the canvas, below each other.
+//! The side panels, stacked.
 
 use egui::{Frame, Panel, Rect, ScrollArea, Ui, UiBuilder};
 
@@ -6,7 +6,7 @@ use super::SIDE_PANELS;
 use crate::app::look::theme;
 use crate::app::state::{App, Height, Side, SidePanel};
 
-/// The panels of a side that are shown now, from the top.
+/// The panels currently shown at a side, from the top.
 pub(super) fn shown(app: &App, side: Side) -> Vec<&'static SidePanel> {
     let has_plan = app.session.document.is_some();
     let is_shown =
@@ -14,9 +14,9 @@ pub(super) fn shown(app: &App, side: Side) -> Vec<&'static SidePanel> {
     SIDE_PANELS.iter().filter(is_shown).collect()
 }
 
-/// Shows panels below each other.
+/// Shows panels stacked.
 pub(super) fn show(app: &mut App, ui: &mut Ui, panels: &[&'static SidePanel]) {
-    // One takes what the others leave.
+    // One of them gets the remaining height.
     let rest = panels.iter().position(|panel| matches!(panel.height, Height::Rest { .. })).unwrap_or(0);
     let Some(&filling) = panels.get(rest) else { return };
     let least = if let Height::Rest { least } = filling.height { least } else { 0.0 };
@@ -44,8 +44,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui, panels: &[&'static SidePanel]) {
         (filling.show)(app, ui);
         return;
     }
-    // As high as what is in them, which changes: a panel that sizes itself does not grow again. In a low window
-    // they scroll, so that the filling one keeps some room.
+    // As high as their contents, which change: a panel that sizes itself does not grow again. In a low
+    // window they scroll, so that the filling one keeps some space.
     let mut above = ui.available_rect_before_wrap();
     let mut places: Vec<(&SidePanel, f32, Rect)> = Vec::new();
     for (panel, wanted) in contents.into_iter().rev() {
@@ -54,7 +54,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui, panels: &[&'static SidePanel]) {
         places.push((panel, wanted, place));
         above = rest;
     }
-    // From top to bottom, as the keyboard goes.
+    // From top to bottom, in Tab order.
     (filling.show)(app, &mut ui.new_child(UiBuilder::new().max_rect(above).id_salt(filling.id)));
     for (panel, wanted, place) in places.into_iter().rev() {
         let mut below = ui.new_child(UiBuilder::new().max_rect(place).id_salt(panel.id));

@@ -1,4 +1,4 @@
-//! The line at the bottom: what is there, what was done, where the pointer is, how large.
+//! The status line: counts, the last action, pointer position, zoom.
 
 use crate::base::wording::{count, thousands};
 use egui::{Align, Layout, RichText, Sense, Ui, vec2};
@@ -11,8 +11,7 @@ use crate::app::look::{
 };
 use crate::app::state::App;
 
-/// Metres in a point of a screen of 96 points to the inch, which is what egui's points are meant to
-/// be.
+/// Metres per point on a 96 dpi screen, which egui's points are meant to match.
 const METRES_PER_POINT: f64 = 0.0254 / 96.0;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
@@ -27,7 +26,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             ui.label(RichText::new("● Not kept safe").size(theme::SMALL).color(colours(ui).error));
             ui.add_space(6.0);
         }
-        // Never over what stands on the right.
+        // Never over the right part.
         let width = (ui.available_width() - RIGHT_WIDTH).max(0.0);
         ui.scope(|ui| {
             ui.set_max_width(width);
@@ -54,7 +53,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     });
 }
 
-/// What the coordinates and the zoom take, in points.
+/// Width of the coordinates and the zoom, in points.
 const RIGHT_WIDTH: f32 = 290.0;
 
 fn zoom_button(app: &mut App, ui: &mut Ui, icon: Icon, id: &str) {

@@ -1,5 +1,5 @@
-//! What the tool in the hand can be told, in a bar that floats over the canvas: nothing moves when it
-//! comes and goes.
+//! The options of the active tool, in a bar floating over the canvas, so that nothing moves when it
+//! appears.
 
 use egui::{Area, DragValue, Frame, Id, Margin, Order, RichText, Ui, vec2};
 
@@ -28,7 +28,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let area = Area::new(Id::unique("tool options")).order(Order::Middle).constrain_to(canvas.shrink(EDGE));
     area.fixed_pos(canvas.min + vec2(SPACE, SPACE)).show(ui.ctx(), |ui| {
         frame.show(ui, |ui| {
-            // A narrow canvas takes two lines or more.
+            // On a narrow canvas it wraps to two lines or more.
             ui.set_max_width((canvas.width() - SPACE - EDGE - frame.total_margin().sum().x).max(LEAST_WIDTH));
             ui.horizontal_wrapped(|ui| {
                 ui.spacing_mut().item_spacing = vec2(8.0, 4.0);
@@ -60,10 +60,10 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     });
 }
 
-/// Space between the bar and the canvas's edges, in points: beside rulers.
+/// Distance between the bar and the canvas's edges, in points: clear of the rulers.
 const SPACE: f32 = 30.0;
 
-/// Left of the canvas at its edges, in points.
+/// Margin left at the canvas's edges, in points.
 const EDGE: f32 = 4.0;
 
 /// The bar is at least so wide, in points, on however small a canvas.

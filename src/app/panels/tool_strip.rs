@@ -30,7 +30,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         let is_on = command.is_on(app) == Some(true);
         let is_available = command.why_not(app).is_none();
         let response = ui.add_enabled_ui(is_available, |ui| icon_button(ui, icon, command.title, Some(is_on))).inner;
-        // Its key in the corner: whoever sees it once needs the strip no more.
+        // Its key is in the corner: after seeing it once, the user no longer needs the strip.
         let keys = app.keys_text(command, ui.ctx());
         if keys.chars().count() == 1 {
             let colours = colours(ui);

@@ -1,4 +1,4 @@
-//! The bar at the top: menus, the plan's title, tools.
+//! The top bar: menus, the plan's title, tools.
 
 use egui::{
     Align, Align2, Context, FontId, Layout, MenuBar, Response, Role, Sense, Stroke, Ui, UiBuilder, WidgetInfo, pos2,
@@ -86,7 +86,7 @@ fn menu_entries(app: &mut App, ui: &mut Ui, menu: Menu) {
 const SPACE: f32 = 2.0;
 const GROUP_SPACE: f32 = 6.0;
 
-/// How wide the tools are.
+/// The width of the tools.
 fn tools_width() -> f32 {
     let groups: Vec<u8> = COMMANDS.iter().filter_map(|command| command.tool).map(|(_, group)| group).collect();
     let lines = groups.windows(2).filter(|pair| pair[0] != pair[1]).count();
@@ -94,7 +94,7 @@ fn tools_width() -> f32 {
     groups.len() as f32 * ROW + lines as f32 * (2.0 * GROUP_SPACE + 1.0) + things.saturating_sub(1) as f32 * SPACE
 }
 
-/// The tools, groups apart.
+/// The tools, in groups.
 fn show_tools(app: &mut App, ui: &mut Ui) {
     let mut group = None;
     for command in COMMANDS.iter() {
@@ -117,7 +117,7 @@ fn show_tools(app: &mut App, ui: &mut Ui) {
     }
 }
 
-/// A command's title, shortcut and help under the pointer, and why it cannot be done now.
+/// A tooltip with a command's title, shortcut and help, and why it is unavailable.
 pub(super) fn with_tooltip(app: &App, response: Response, context: &Context, command: &Command) -> Response {
     let keys = app.keys_text(command, context);
     let why_not = command.why_not(app);
@@ -134,9 +134,9 @@ pub(super) fn with_tooltip(app: &App, response: Response, context: &Context, com
     response.on_hover_ui(show).on_disabled_hover_ui(show)
 }
 
-/// The plan's title in the middle of the window, as far as there is space.
+/// The plan's title in the middle of the window, as space permits.
 fn title(app: &App, ui: &Ui, left: f32, right: f32) {
-    // Less than this shows no more than a letter or two.
+    // In less space only a letter or two would show.
     const LEAST_WIDTH: f32 = 80.0;
     let Some(document) = app.session.document.as_ref().filter(|_| right - left >= LEAST_WIDTH) else { return };
     let colours = colours(ui);

@@ -1,4 +1,4 @@
-//! What is seen when no plan is open, and when a file is dragged over the window.
+//! The welcome screen, shown when no plan is open, and the drop target for dragged files.
 
 use egui::emath::GuiRounding as _;
 use egui::epaint::StrokeKind;
@@ -72,7 +72,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     });
 }
 
-/// A sample with its picture.
+/// A sample with its thumbnail.
 fn card(app: &mut App, ui: &mut Ui, index: usize, plan: &Plan) -> Response {
     let (rect, response) = ui.allocate_exact_size(CARD, Sense::click());
     follow_focus(&response);
@@ -104,7 +104,7 @@ fn card(app: &mut App, ui: &mut Ui, index: usize, plan: &Plan) -> Response {
     response
 }
 
-/// Says that a dragged file can be let go.
+/// Shows that a dragged file can be dropped.
 pub(super) fn show_drop_target(ui: &Ui) {
     if ui.input(|input| input.raw.hovered_files.is_empty()) {
         return;

@@ -1,8 +1,8 @@
-//! The lines of the palette: what they say, and how they are drawn.
+//! The lines of the palette: their contents and appearance.
 
 use super::*;
 
-/// A line of the list. It does not take the keyboard, which stays in the text field.
+/// Shows a line of the list. The keyboard stays in the text field.
 pub(super) fn row(ui: &Ui, rect: Rect, index: usize, line: &Line, is_chosen: bool) -> Response {
     let response = ui.interact(rect, ui.scope_id().with(("line", index)), Sense::CLICK);
     let name = match (line.detail.as_str(), line.is_available) {
@@ -37,7 +37,7 @@ pub(super) fn row(ui: &Ui, rect: Rect, index: usize, line: &Line, is_chosen: boo
     let trail_rect = Rect::from_min_max(pos2(right, rect.top()), pos2(rect.right() - 10.0, rect.bottom()));
     put_line(ui, &line.trail, small.clone(), colours.text_weak.gamma_multiply(fade), trail_rect);
     let limit = if line.trail.is_empty() { right } else { right - 12.0 };
-    // The title keeps two thirds where both are long.
+    // If both are long, the title gets two thirds.
     let most = if line.detail.is_empty() { limit - left } else { (limit - left) * 0.66 };
     let job =
         highlighted(&line.title, &line.characters, text, if line.is_available { colours.accent } else { text }, most);
@@ -50,7 +50,7 @@ pub(super) fn row(ui: &Ui, rect: Rect, index: usize, line: &Line, is_chosen: boo
     response
 }
 
-/// A text whose characters that were looked for stand out.
+/// A text with its matching characters highlighted.
 fn highlighted(text: &str, characters: &[u32], colour: Color32, accent: Color32, width: f32) -> LayoutJob {
     let plain = TextFormat::simple(FontId::proportional(theme::BODY), colour);
     let marked = TextFormat::simple(FontId::new(theme::BODY, theme::semibold()), accent);
@@ -66,8 +66,8 @@ fn highlighted(text: &str, characters: &[u32], colour: Color32, accent: Color32,
 }
 
 pub(super) fn command_lines(app: &App, ui: &Ui, search: &mut Search) -> Vec<Line> {
-    // First by where the letters were found, then by how well, then what can be done and was done
-    // last; of titles that fit alike, the shortest has least that was not looked for.
+    // First by where the letters matched, then how well, then whether it is available and was recently
+    // used; of equally good titles, the shortest has the least that did not match.
     type Rank = (u8, std::cmp::Reverse<u32>, usize, bool, usize, usize);
     let mut found: Vec<(Rank, Line)> = Vec::new();
     for (index, command) in COMMANDS.iter().enumerate() {
@@ -120,7 +120,7 @@ pub(super) fn argument_lines(app: &App, ui: &Ui, choices: &[Choice], search: &mu
         };
         found.push((std::cmp::Reverse(hit.score), line));
     }
-    // Stable: in their own order where they fit alike.
+    // Stable: ties stay in their own order.
     if !search.is_empty() {
         found.sort_by_key(|(score, _)| *score);
     }
