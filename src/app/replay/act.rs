@@ -1,7 +1,7 @@
-//! A step of a script, read and ready.
+//! A step of a script, parsed and ready to run.
 
 use super::fault::Fault;
 use super::stage::Stage;
 
-/// What a step does.
+/// The action of a step.
 pub(super) type Act = Box<dyn Fn(&mut Stage<'_>) -> Result<(), Fault> + Send + Sync>;

@@ -1,27 +1,27 @@
-//! Why a step of a script did not do what it says.
+//! Why a step of a script failed.
 
 use std::path::PathBuf;
 
-/// Why a step did not do what it says.
+/// Why a step failed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Fault {
     /// What was expected and what was found.
     pub what: String,
     /// What to do about it; may be empty.
     pub hint: String,
-    /// What was written to look at.
+    /// Files written for inspection.
     pub files: Vec<PathBuf>,
-    /// Whether the steps that follow still mean something.
+    /// Whether the following steps still make sense.
     pub goes_on: bool,
 }
 
 impl Fault {
-    /// One after which the script cannot go on.
+    /// A fault after which the script cannot continue.
     pub(super) fn new(what: impl Into<String>) -> Self {
         Self { what: what.into(), hint: String::new(), files: Vec::new(), goes_on: false }
     }
 
-    /// One of something that was only looked at.
+    /// A fault of a check that changes nothing.
     pub(super) fn unmet(what: impl Into<String>) -> Self {
         Self { goes_on: true, ..Self::new(what) }
     }

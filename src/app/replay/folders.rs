@@ -1,5 +1,5 @@
-//! The folders of a script. It reads what lies beside it and never changes it: every file it opens is
-//! copied to a folder of its own first, and all it saves goes there.
+//! The folders of a script. It reads what is beside it and never changes that: every file it opens is
+//! first copied to a folder of its own, and all it saves goes there.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -10,22 +10,22 @@ use crate::store::save_bytes_fast;
 
 /// Where a script reads and writes.
 pub(super) struct Folders {
-    /// Where the script lies: paths in it start here.
+    /// The script's folder: paths in it are relative to this.
     pub script: PathBuf,
-    /// The script's own: copies of what it opens, and what it saves.
+    /// The script's working folder: copies of what it opens, and what it saves.
     pub work: PathBuf,
-    /// Where the pictures are that its snapshots are compared with.
+    /// The folder with the reference pictures for its snapshots.
     pub snapshots: PathBuf,
-    /// Where every picture is kept; nowhere without.
+    /// Where to keep every picture, if anywhere.
     pub kept_pictures: Option<PathBuf>,
 }
 
 impl Folders {
-    /// A copy of a file or a folder of plans that a script names, in its own folder; what is there
-    /// already is used as it is.
+    /// Copies a file or a folder of plans named by a script to its working folder; a copy already there
+    /// is used as it is.
     ///
     /// # Errors
-    /// When there is no such thing, or it cannot be copied.
+    /// When it does not exist or cannot be copied.
     pub(super) fn brought_in(&self, path: &str) -> Result<PathBuf, Fault> {
         let target = self.work.join(inner(path).unwrap_or_else(|| last_two(Path::new(path))));
         if target.exists() {
@@ -47,10 +47,10 @@ impl Folders {
         Ok(target)
     }
 
-    /// The path in the script's own folder to which it saves, its folder made.
+    /// The path in the working folder where the script saves; creates its folder.
     ///
     /// # Errors
-    /// When the path leads out of it.
+    /// When the path leads outside.
     pub(super) fn to_write(&self, path: &str) -> Result<PathBuf, Fault> {
         let target = self.work.join(inner(path).ok_or_else(|| {
             Fault::new(format!("{} leads out of the script's own folder", written(path)))
@@ -67,7 +67,7 @@ fn cannot_copy(path: &str, what: &str) -> Fault {
     Fault::new(format!("{} cannot be read: {what}", written(path)))
 }
 
-/// A relative path that stays inside of the folder it starts from.
+/// A relative path that stays inside the folder it starts from.
 pub(super) fn inner(path: &str) -> Option<PathBuf> {
     let mut inner = PathBuf::new();
     for component in Path::new(path).components() {
@@ -84,16 +84,16 @@ fn file_name(path: &Path) -> PathBuf {
     path.file_name().map(PathBuf::from).unwrap_or_else(|| PathBuf::from("plan"))
 }
 
-/// A path's last folder and file: files from elsewhere lie in folders of their own.
+/// A path's last folder and file name: files from elsewhere get folders of their own.
 fn last_two(path: &Path) -> PathBuf {
     let folder = path.parent().and_then(Path::file_name).map(PathBuf::from).unwrap_or_default();
     folder.join(file_name(path))
 }
 
-/// Copies a plan, and the picture under it if it lies beside.
+/// Copies a plan, and its backdrop if that is beside it.
 fn copy_plan(source: &Path, target: &Path) -> Result<(), String> {
     copy(source, target)?;
-    // Whether it is a plan at all, the window says.
+    // If it is not a plan, the window will say so.
     let plans = formats::read_file(source).map(|import| import.plans).unwrap_or_default();
     for picture in plans.iter().filter_map(|plan| plan.backdrop()).filter_map(|backdrop| inner(&backdrop.path)) {
         let beside = |path: &Path| path.parent().unwrap_or(Path::new("")).join(&picture);

@@ -1,12 +1,12 @@
-//! The language described from the tables it is understood by.
+//! A description of the language, from the tables that define it.
 
 use std::fmt::Write as _;
 
 use super::place::FORMS;
 use super::verbs::{VERBS, expectations};
 
-/// Every verb, place and expectation, as Markdown tables: `docs/replay.md` holds it, and a test keeps the
-/// two the same. `docs/commands.md` has the commands.
+/// Every verb, place and expectation, as Markdown tables, for `docs/replay.md`; a test keeps the two in
+/// sync. The commands are in `docs/commands.md`.
 pub fn guide() -> String {
     let mut text = String::new();
     for group in VERBS {

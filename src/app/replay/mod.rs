@@ -1,9 +1,10 @@
-//! Replay scripts: what a person does in the window, written down line by line, done again without a
-//! display, and looked at.
+//! Replay scripts: user actions in the window, written down line by line, repeated without a display, and
+//! checked.
 //!
-//! A script drives the same [`App`](crate::app::state::App) that a person sees, through [`Offscreen`](crate::app::offscreen::Offscreen):
-//! the same input events, a clock of its own, dialogs answered beforehand. [`find_scripts`] finds
-//! scripts, [`replay`] runs one, [`guide`] describes the language from the table of verbs.
+//! A script drives the same [`App`](crate::app::state::App) that users see, through
+//! [`Offscreen`](crate::app::offscreen::Offscreen): the same input events, a clock of its own, dialogs
+//! answered in advance. [`find_scripts`] finds scripts, [`replay`] runs one, [`guide`] describes the
+//! language from the table of verbs.
 
 mod act;
 mod fault;

@@ -1,4 +1,4 @@
-//! Where the pointer goes: a point of the plan, a pixel, a room, a control.
+//! Targets of the pointer: a point of the plan, a pixel, a room, a control.
 
 use egui::{Pos2, pos2};
 
@@ -8,7 +8,7 @@ use super::words::{Words, in_quotes};
 use crate::app::replay::words::told;
 use crate::geometry::Point;
 
-/// A place of a script.
+/// A place named in a script.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Place {
     /// `at 3.2,4.5`: a point of the plan in metres, y up.
@@ -17,11 +17,11 @@ pub(super) enum Place {
     Pixel(Pos2),
     /// `room "Room 3"`: inside a room of the plan, by its name or its id.
     Room { name: String, number: Option<usize> },
-    /// `control "Save"`: the middle of a control, or a place in it.
+    /// `control "Save"`: the middle of a control, or a point in it.
     Control { name: String, number: Option<usize>, offset: Option<Pos2> },
 }
 
-/// How places are written, for the manual.
+/// The syntax of places, for the manual.
 pub(super) const FORMS: [(&str, &str); 4] = [
     ("at X,Y", "a point of the plan, in metres, y up: `at 3.2,4.5`"),
     ("pixel X,Y", "logical pixels from the window's top left: `pixel 100,200`"),
@@ -34,7 +34,7 @@ pub(super) const FORMS: [(&str, &str); 4] = [
 ];
 
 impl Place {
-    /// Takes a place.
+    /// Parses a place.
     ///
     /// # Errors
     /// When there is none.
@@ -68,10 +68,10 @@ impl Place {
         }
     }
 
-    /// Where it is on the screen now.
+    /// Its current position on the screen.
     ///
     /// # Errors
-    /// When there is no such thing, or it is not on the screen.
+    /// When it does not exist, or is not on the screen.
     pub(super) fn on_screen(&self, stage: &Stage<'_>) -> Result<Pos2, Fault> {
         match self {
             Self::Plan(point) => stage.plan_point_on_screen(*point),
@@ -93,7 +93,7 @@ impl Place {
     }
 }
 
-/// A number that says which of several is meant, counted from 1.
+/// A number that selects one of several, counted from 1.
 fn ordinal(words: &mut Words<'_>) -> Result<Option<usize>, String> {
     let Some(number) = words.peek().and_then(|word| word.parse::<usize>().ok()) else { return Ok(None) };
     words.next();

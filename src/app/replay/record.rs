@@ -1,9 +1,8 @@
-//! Recording: what a person does, written as a script that does it again.
+//! Recording: user actions, written as a script that repeats them.
 //!
-//! A recording holds the commands that were done, however they were called: by key, by menu, by a click
-//! on the plan, by text typed into a field, by a dialog. The files it starts from and opens go with it,
-//! and so does the plan it ends with, so that it can be replayed anywhere and says whether it went the
-//! same way.
+//! A recording holds the commands that ran, however they were called: by key, by menu, by a click on the
+//! plan, by typing into a field, by a dialog. The files it starts from and opens are included, and so is
+//! the final plan, so that it can be replayed anywhere and checks whether the result is the same.
 
 mod files;
 
@@ -34,35 +33,35 @@ use crate::plan::{ElementId, Plan};
 use crate::store::{SaveError, save_bytes};
 use files::Files;
 
-/// The recorder that the window keeps, which knows it only as something.
+/// The window's recorder, which the window stores without knowing its type.
 fn recorder_in(kept: &mut Option<Box<dyn Any>>) -> Option<&mut Recorder> {
     kept.as_mut()?.downcast_mut()
 }
 
-/// What the recorder hears, through the session, which cannot read it.
+/// Messages to the recorder, passed through the session, which cannot read them.
 enum News {
-    /// Where to save a recording; then goes on.
+    /// Where to save a recording; `then` follows.
     Chosen { recording: Recording, path: PathBuf, then: Option<Intent> },
-    /// Whether that was done.
+    /// Whether it was saved.
     Saved { recording: Recording, path: PathBuf, result: Result<(), SaveError>, then: Option<Intent> },
 }
 
-/// A recording at work.
+/// A recording in progress.
 pub(crate) struct Recorder {
     /// The script's lines so far.
     lines: Vec<Line>,
     files: Files,
-    /// What the system made of the window when that was last written down.
+    /// The window's size, scale and theme when last written down.
     frame: Frame,
-    /// The document that was open at the start, and how far back its history then went.
+    /// The document open at the start, and the length of its history then.
     start: Option<(u64, usize)>,
-    /// A view that was seen and not written down yet.
+    /// A view not written down yet.
     view: Option<View>,
     /// Whether the view moved in this frame.
     is_moving: bool,
 }
 
-/// The words of a line, not yet in quotes.
+/// The words of a line, before quoting.
 #[derive(Clone, Debug)]
 struct Line(Vec<String>);
 
@@ -76,7 +75,7 @@ impl Line {
     }
 }
 
-/// A view of the plan: what the command of this name takes.
+/// A view of the plan: the arguments of the command of that name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct View {
     x_m: f64,
@@ -84,24 +83,24 @@ struct View {
     px_per_m: f64,
 }
 
-/// A recording that has ended: a script, and the files that go with it.
+/// A finished recording: a script, and the files that belong to it.
 #[derive(Clone, Debug)]
 pub(crate) struct Recording {
     lines: Vec<Line>,
     files: Files,
 }
 
-/// The ending of recordings' names.
+/// The extension of recordings.
 const ENDING: &str = ".replay";
 
-/// In a script's words, the folder of the files that go with it: its name is known when it is saved. No
-/// other word holds this character.
+/// Placeholder in a script's words for the folder of its files, whose name is known only when it is
+/// saved. No other word contains this character.
 const FOLDER: &str = "\0";
 
-/// Commands of the recorder's own, which no recording holds.
+/// The recorder's own commands, which are not recorded.
 const OWN: [&str; 1] = ["record-script"];
 
-/// What the system makes of the window.
+/// The window's size, scale and theme.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Frame {
     width: u32,
@@ -122,7 +121,7 @@ impl Frame {
         }
     }
 
-    /// The steps from another.
+    /// The steps that lead here from another.
     fn lines(self, from: Self) -> Vec<Line> {
         let mut lines = Vec::new();
         if (self.width, self.height) != (from.width, from.height) {
@@ -138,16 +137,16 @@ impl Frame {
     }
 }
 
-/// The window a script starts with.
+/// The initial window of a script.
 const FIRST_FRAME: Frame = Frame { width: 1280, height: 800, scale: 1.0, is_dark: false };
 
 impl View {
-    /// The same, so rounded that it reads well: by less than a twentieth of a pixel.
+    /// The same rounded to read well: by less than a twentieth of a pixel.
     fn rounded(self) -> Self {
         // The next power of ten below a hundredth of a pixel.
         let digits = 10f64.powi((100.0 * self.px_per_m).log10().ceil().clamp(0.0, 12.0) as i32);
         let round = |value: f64| (value * digits).round() / digits;
-        // A ten-thousandth, over the half of a canvas of a thousand pixels.
+        // A ten-thousandth, over half of a canvas of a thousand pixels.
         let scale_digits = 10f64.powi((4.0 - self.px_per_m.log10()).floor().clamp(0.0, 9.0) as i32);
         Self {
             x_m: round(self.x_m),
@@ -174,7 +173,7 @@ impl Recorder {
             }
             return;
         }
-        // What lies beside a plan is not taken along: the list of plans is another in the replay.
+        // Files beside a plan are not included: the list of plans differs in the replay.
         if matches!(*id, "previous-plan" | "next-plan") {
             if let Some(origin) = target {
                 let line = self.open(origin);
@@ -208,7 +207,7 @@ impl Recorder {
         self.lines.push(line);
     }
 
-    /// Writes down a view, or the one that was seen. Of several in a row only the last counts.
+    /// Writes down a view, or the pending one. Of several in a row only the last counts.
     fn write_view(&mut self, view: Option<View>) {
         let Some(view) = view.or(self.view.take()) else { return };
         if self.lines.last().is_some_and(|last| last.starts_with("view")) {
@@ -232,7 +231,7 @@ impl Recorder {
 }
 
 impl Recorder {
-    /// What was recorded up to here, with the plan that it led to.
+    /// The recording up to now, with the resulting plan.
     fn recording(&self, plan: Option<&Plan>) -> Recording {
         let (mut lines, mut files) = (self.lines.clone(), self.files.clone());
         if let Some(plan) = plan {
@@ -244,7 +243,7 @@ impl Recorder {
 }
 
 impl Recording {
-    /// Saves the script, and beside it the folder of the files that go with it.
+    /// Saves the script, and beside it the folder of its files.
     ///
     /// # Errors
     /// When something cannot be written.
@@ -255,7 +254,7 @@ impl Recording {
         for (name, bytes) in &self.files.0 {
             let file = folder.join(name);
             if let Some(folder) = file.parent() {
-                // Saving says why it is not there.
+                // If this fails, saving will say so.
                 let _ = std::fs::create_dir_all(folder);
             }
             save_bytes(&file, bytes)?;
@@ -271,12 +270,12 @@ impl Recording {
 }
 
 impl App {
-    /// Whether what is done is being recorded.
+    /// Whether a recording is in progress.
     pub fn is_recording(&self) -> bool {
         self.recorder.is_some()
     }
 
-    /// Begins to write down what is done.
+    /// Starts recording.
     fn start_recording(&mut self, context: &Context) {
         let frame = Frame::of(context);
         let mut recorder = Recorder {
@@ -308,7 +307,7 @@ impl App {
         self.session.status = "Recording".to_owned();
     }
 
-    /// The steps to what is shown and picked, from how the program starts.
+    /// The steps from the program's initial state to the current view and selection.
     fn lines_of_state(&self) -> Vec<Line> {
         let first = Self::new(&Context::default(), Mode::Inline, Dialogs::Given(Given::default()), Motion::Still);
         let mut lines: Vec<Line> = COMMANDS
@@ -337,7 +336,7 @@ impl App {
         lines
     }
 
-    /// Writes down what was done in a frame that ends.
+    /// Records what was done in the frame that ends.
     pub(crate) fn record(&mut self, context: &Context) {
         if std::mem::take(&mut self.wants_recording) {
             self.start_recording(context);
@@ -347,7 +346,7 @@ impl App {
         if frame != recorder.frame {
             let lines = frame.lines(recorder.frame);
             recorder.frame = frame;
-            // Of a window that is being drawn larger, only how large it becomes.
+            // While the window is being resized, only the final size counts.
             if lines.len() == 1 && recorder.lines.last().is_some_and(|last| last.starts_with("size")) {
                 recorder.lines.pop();
             }
@@ -380,9 +379,9 @@ impl App {
         }
     }
 
-    /// Writes down the commands that were done.
+    /// Writes down the commands that ran.
     pub(crate) fn write_executed(&mut self) {
-        // Without a recorder they are kept for whoever watches them.
+        // Without a recorder they are left for other observers.
         let executed = if self.recorder.is_some() { self.take_executed() } else { return };
         let Some(recorder) = recorder_in(&mut self.recorder) else { return };
         for executed in &executed {
@@ -394,7 +393,7 @@ impl App {
         }
     }
 
-    /// Writes down the view that is seen, rounded, and shows it as it is written.
+    /// Writes down the current view, rounded, and shows it as written.
     fn round_view(&mut self) {
         let Some(recorder) = recorder_in(&mut self.recorder) else { return };
         if let Some(view) = recorder.view.take() {
@@ -404,8 +403,8 @@ impl App {
         }
     }
 
-    /// Asks where to save what was recorded. The recording ends once it is saved, and goes on if the
-    /// dialog is cancelled; then does what was to follow.
+    /// Asks where to save the recording. It ends once saved, and continues if the dialog is cancelled;
+    /// then does what was to follow.
     pub(crate) fn stop_recording(&mut self, then: Option<Intent>) {
         self.session.commit_field();
         self.write_executed();
@@ -420,19 +419,19 @@ impl App {
         self.session.dialogs.ask(purpose, None, "recording.replay".to_owned(), &mut self.session.jobs);
     }
 
-    /// Takes what the session was given to tell the recorder.
+    /// Receives the messages passed through the session.
     pub(crate) fn hear_of_recording(&mut self, news: Box<dyn Any + Send>) {
         match news.downcast::<News>().map(|news| *news) {
             Ok(News::Chosen { recording, path, then }) => self.save_recording(recording, path, then),
             Ok(News::Saved { recording, path, result, then }) => {
                 self.recording_was_saved(&path, recording, result, then);
             }
-            // Nobody else tells it anything.
+            // There are no other senders.
             Err(_) => {}
         }
     }
 
-    /// Saves a recording; the ending is added where it is missing.
+    /// Saves a recording, adding the extension if it is missing.
     pub(crate) fn save_recording(&mut self, recording: Recording, mut path: PathBuf, then: Option<Intent>) {
         if !path.to_string_lossy().ends_with(ENDING) {
             path.as_mut_os_string().push(ENDING);
@@ -445,7 +444,7 @@ impl App {
         });
     }
 
-    /// Takes note of a recording that was saved, or was not.
+    /// Handles a recording that was saved, or could not be.
     pub(crate) fn recording_was_saved(
         &mut self,
         path: &Path,

@@ -1,4 +1,4 @@
-//! Scripts found and run.
+//! Finding and running scripts.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -10,49 +10,49 @@ use super::stage::Stage;
 use crate::formats;
 use crate::plan::Plan;
 
-/// A script on the disk.
+/// A script on disk.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ScriptFile {
     pub path: PathBuf,
-    /// Its place below the folder that was searched, without its ending: what tells it from others.
+    /// Its path below the searched folder, without the extension: this identifies it.
     pub title: String,
 }
 
-/// How scripts are run.
+/// Options for running scripts.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ReplayOptions {
-    /// Where the pictures are that snapshots are compared with, a folder a script; beside each script
-    /// without.
+    /// The folder of the reference pictures, with a folder per script; if `None`, they are beside each
+    /// script.
     pub snapshots: Option<PathBuf>,
-    /// Where to keep what scripts save and every picture they take, a folder a script; what they save
-    /// is thrown away without.
+    /// Where to keep what scripts save and every picture they take, with a folder per script; if `None`,
+    /// what they save is thrown away.
     pub out: Option<PathBuf>,
-    /// Make what comes out the new references.
+    /// Whether to make the results the new references.
     pub update: bool,
 }
 
-/// How a script went.
+/// The result of a script.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Report {
     pub script: ScriptFile,
-    /// How many steps were done.
+    /// The number of steps done.
     pub steps: usize,
-    /// How many pictures were taken.
+    /// The number of snapshots taken.
     pub snapshots: usize,
-    /// What went wrong, in the order of the lines.
+    /// The failures, in line order.
     pub failures: Vec<Failure>,
-    /// The references that were written.
+    /// The references written.
     pub updated: Vec<PathBuf>,
 }
 
 impl Report {
-    /// Whether all was as the script says.
+    /// Whether everything was as the script says.
     pub fn is_passed(&self) -> bool {
         self.failures.is_empty()
     }
 }
 
-/// Something in a script that went wrong.
+/// A failure in a script.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failure {
     /// Counted from 1; 0 for the script as a whole.
@@ -61,7 +61,7 @@ pub struct Failure {
     pub what: String,
     /// What to do about it; may be empty.
     pub hint: String,
-    /// What was written to look at.
+    /// Files written for inspection.
     pub files: Vec<PathBuf>,
 }
 
@@ -75,7 +75,7 @@ impl fmt::Display for Failure {
     }
 }
 
-/// No scripts where they were looked for.
+/// There are no scripts where they were looked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FindError {
     pub path: PathBuf,
@@ -90,20 +90,21 @@ impl fmt::Display for FindError {
 
 impl std::error::Error for FindError {}
 
-/// The ending of scripts' names.
+/// The extension of scripts.
 const ENDING: &str = ".replay";
 
-/// A script of this name is its folder's: the folder names it.
+/// A script with this name takes the name of its folder.
 const FOLDERS_OWN: &str = "script";
 
-/// A script has no more failures: it is told what is wrong, not all that follows from it.
+/// The most failures reported for a script: enough to show what is wrong, without all that follows from
+/// it.
 const MOST_FAILURES: usize = 20;
 
-/// The scripts that paths name: a file is itself, a folder all files below it that end in `.replay`, in
-/// the order of their names.
+/// The scripts named by paths: a file stands for itself, a folder for all files below it that end in
+/// `.replay`, in name order.
 ///
 /// # Errors
-/// When a path does not exist, or a folder holds no script.
+/// When a path does not exist, or a folder has no scripts.
 pub fn find_scripts(paths: &[PathBuf]) -> Result<Vec<ScriptFile>, FindError> {
     let mut scripts = Vec::new();
     for path in paths {
@@ -128,7 +129,7 @@ pub fn find_scripts(paths: &[PathBuf]) -> Result<Vec<ScriptFile>, FindError> {
             return Err(fail("no script in this folder; the names of scripts end in .replay"));
         }
     }
-    // Two folders may hold scripts of one name; what they write must not get mixed up.
+    // Two folders may contain scripts of the same name; what they write must not be mixed up.
     let titles: Vec<String> = scripts.iter().map(|script| script.title.clone()).collect();
     for (index, script) in scripts.iter_mut().enumerate() {
         let earlier = titles[..index].iter().filter(|title| **title == titles[index]).count();
@@ -139,7 +140,7 @@ pub fn find_scripts(paths: &[PathBuf]) -> Result<Vec<ScriptFile>, FindError> {
     Ok(scripts)
 }
 
-/// A script's path below the folder that was searched, as a title.
+/// A script's path below the searched folder, as a title.
 fn title_of(below: &Path, folder: Option<&Path>) -> String {
     let parts: Vec<String> = below.iter().map(|part| part.to_string_lossy().into_owned()).collect();
     let Some((file, folders)) = parts.split_last() else { return FOLDERS_OWN.to_owned() };
@@ -159,8 +160,8 @@ pub fn replay(script: &ScriptFile, options: &ReplayOptions) -> Report {
     replay_telling(script, options, &mut |_| {})
 }
 
-/// Runs a script and tells of each step, by its line, when it is done: what it changed is then in the
-/// journal, if one is kept.
+/// Runs a script and reports each step, by its line, when it is done: its changes are then in the
+/// journal, if there is one.
 pub fn replay_telling(script: &ScriptFile, options: &ReplayOptions, told: &mut dyn FnMut(usize)) -> Report {
     let mut report =
         Report { script: script.clone(), steps: 0, snapshots: 0, failures: Vec::new(), updated: Vec::new() };
@@ -190,12 +191,12 @@ fn run(
             return Ok(());
         }
     };
-    // What is thrown away afterwards; kept until then.
+    // Thrown away afterwards; kept until then.
     let temporary = tempfile::Builder::new().prefix("enfilade-replay-").tempdir();
     let temporary = temporary.map_err(|error| whole(format!("no folder to work in: {error}"), "free some space"))?;
     let work = match &options.out {
         Some(out) => out.join(&script.title),
-        // The last part is seen in the window: the same each time.
+        // The last part is visible in the window, so it must always be the same.
         None => temporary.path().join(script.title.rsplit('/').next().unwrap_or(FOLDERS_OWN)),
     };
     std::fs::create_dir_all(&work).map_err(|error| whole(format!("{}: {error}", work.display()), ""))?;
@@ -210,7 +211,7 @@ fn run(
     let mut checked: Option<Plan> = None;
     for step in &parsed.steps {
         let done = (step.act)(&mut stage).and_then(|()| settle(&mut stage)).and_then(|()| {
-            // Values are cheap to compare: only a plan that is another is looked through.
+            // Comparing values is cheap: a plan is only checked if it changed.
             let plan = stage.window.app().plan();
             if plan.is_none() || plan.zip(checked.as_ref()).is_some_and(|(plan, last)| plan.is_same_value(last)) {
                 return Ok(());
@@ -251,7 +252,7 @@ fn read(path: &Path) -> Result<Vec<u8>, String> {
     formats::read_bytes(path).map_err(|error| error.error.to_string())
 }
 
-/// Lets the window come to rest after a step.
+/// Lets the window settle after a step.
 fn settle(stage: &mut Stage<'_>) -> Result<(), Fault> {
     stage
         .window
@@ -264,7 +265,7 @@ fn settle(stage: &mut Stage<'_>) -> Result<(), Fault> {
     Ok(())
 }
 
-/// The plan's invariants, after every step.
+/// Checks the plan's invariants, after every step.
 fn sweep(plan: Option<&Plan>) -> Result<(), Fault> {
     let violations = plan.map(Plan::violations).unwrap_or_default();
     match violations.first() {

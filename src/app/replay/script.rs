@@ -1,4 +1,4 @@
-//! A script's text as steps.
+//! Parsing a script into steps.
 
 use super::act::Act;
 use std::fmt;
@@ -7,19 +7,19 @@ use super::verbs::{self, VERBS};
 use super::words::{self, Words};
 use crate::app::commands::{self, COMMANDS};
 
-/// A script that was understood.
+/// A parsed script.
 pub struct Script {
     pub(super) steps: Vec<Step>,
 }
 
-/// A line that does something.
+/// A line with an action.
 pub(super) struct Step {
     /// Counted from 1.
     pub line: usize,
     pub act: Act,
 }
 
-/// What cannot be understood in a script.
+/// A syntax error in a script.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SyntaxError {
     /// Counted from 1.
@@ -41,17 +41,17 @@ impl fmt::Display for SyntaxError {
 
 impl std::error::Error for SyntaxError {}
 
-/// A longer script was not written, nor recorded, for a purpose.
+/// The maximum size: nobody writes or records a longer script on purpose.
 pub const LARGEST_BYTES: usize = 4 << 20;
 
-/// So many wrong lines are told; a script that has more is something else.
+/// The most errors reported; a file with more is something else.
 const MOST_ERRORS: usize = 10;
 
 impl Script {
-    /// Understands a script.
+    /// Parses a script.
     ///
     /// # Errors
-    /// Every line that means nothing, up to [`MOST_ERRORS`], each with the nearest thing that does.
+    /// Every invalid line, up to [`MOST_ERRORS`], each with the nearest valid alternative.
     pub fn parse(bytes: &[u8]) -> Result<Self, Vec<SyntaxError>> {
         let whole =
             |what: &str, hint: &str| vec![SyntaxError { line: 1, what: what.to_owned(), hint: hint.to_owned() }];
@@ -78,18 +78,18 @@ impl Script {
         if errors.is_empty() { Ok(Self { steps }) } else { Err(errors) }
     }
 
-    /// How many steps it has.
+    /// The number of steps.
     pub fn len(&self) -> usize {
         self.steps.len()
     }
 
-    /// Whether it does nothing.
+    /// Whether there are no steps.
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()
     }
 }
 
-/// A line's step; none for a line without words. An error has a hint.
+/// The step on a line; none for a blank line. An error has a hint.
 fn step(line: &str) -> Result<Option<Act>, (String, String)> {
     let line = words::split(line).map_err(|what| (what, String::new()))?;
     let mut words = Words::new(&line);

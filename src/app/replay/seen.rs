@@ -1,4 +1,4 @@
-//! What scripts look at.
+//! What scripts check.
 
 use egui::Rect;
 
@@ -9,16 +9,16 @@ use crate::geometry::{Point, Vector};
 use crate::plan::{ElementId, RoomId};
 
 impl App {
-    /// Where the canvas was in the last frame, in logical pixels; `None` without a plan.
+    /// The canvas's place in the last frame, in logical pixels; `None` without a plan.
     pub fn canvas_rect(&self) -> Option<Rect> {
         self.session.document.as_ref()?;
         self.canvas.seen_rect()
     }
 
-    /// A point of the plan where a click picks this room: in the middle of the room's box or of a
-    /// stretch of the room in its height, else the middle of a stretch higher or lower.
+    /// A point of the plan where a click picks this room: in the middle of the room's box, or of a
+    /// stretch of the room at that height, otherwise in the middle of a stretch higher or lower.
     pub(super) fn place_in_room(&self, room: RoomId) -> Option<Point> {
-        /// Heights of the room's box to try, the best first.
+        /// Heights of the room's box to try, best first.
         const HEIGHTS: [f64; 9] = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9];
         let derived = self.session.document.as_ref()?.derived()?;
         let shape = derived.analysis.shapes.get(room)?;
@@ -34,13 +34,13 @@ impl App {
         std::iter::once(bounds.center()).chain(stretches).find(is_picked)
     }
 
-    /// What is known of a room's label.
+    /// The status of a room's label.
     pub(super) fn status_of(&self, room: RoomId) -> Option<RoomStatus> {
         let plan = self.plan()?;
         Some(RoomStatus::of(plan, &self.session.schemes, plan.room(room)?))
     }
 
-    /// What the status line says.
+    /// The text of the status line.
     pub(super) fn status_text(&self) -> String {
         panels::status::left_text(self)
     }

@@ -1,4 +1,4 @@
-//! Pictures of the window, compared with those that are expected.
+//! Snapshots of the window, compared with references.
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use crate::app::offscreen::OffscreenOptions;
 use crate::picture::Picture;
 use crate::store::save_bytes_fast;
 
-/// What a picture shows and how, where that is not how the window is.
+/// The part and settings of a snapshot, where they differ from the window's.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Look {
     pub region: Region,
@@ -29,7 +29,7 @@ pub(super) enum Region {
     Canvas,
     /// The canvas with its rulers, and the messages above it.
     Middle,
-    /// The dialog, palette or menu in front.
+    /// The front dialog, palette or menu.
     Dialog,
     /// The inspector on the right.
     Panel,
@@ -51,7 +51,7 @@ impl Region {
         }
     }
 
-    /// Where it is on the screen; `None` when it is not shown.
+    /// Its place on the screen; `None` if it is not shown.
     fn rect(self, stage: &Stage<'_>) -> Option<Rect> {
         match self {
             Self::All => Some(Rect::EVERYTHING),
@@ -64,10 +64,10 @@ impl Region {
     }
 }
 
-/// No reference has more pixels: what the largest window at the largest scale has.
+/// The most pixels of a reference: those of the largest window at the largest scale.
 const MOST_PIXELS: usize = 1 << 28;
 
-/// Takes a picture and compares it with the reference of this name.
+/// Takes a snapshot and compares it with the reference of this name.
 pub(super) fn take(stage: &mut Stage<'_>, name: &str, look: &Look) -> Result<(), Fault> {
     let picture = picture(stage, look)?;
     stage.snapshots += 1;
@@ -104,7 +104,7 @@ fn compare(stage: &mut Stage<'_>, name: &str, picture: &Picture) -> Result<(), F
     let reference = stage.folders.snapshots.join(format!("{name}.png"));
     let (out, diff) = (beside(&reference, "out"), beside(&reference, "diff"));
     for stale in [&out, &diff] {
-        // There is none, mostly.
+        // Usually there is none.
         let _ = std::fs::remove_file(stale);
     }
     if let Some(folder) = &stage.folders.kept_pictures {
@@ -156,7 +156,7 @@ fn save(path: &Path, picture: &Picture) -> Result<(), Fault> {
         std::fs::create_dir_all(folder).map_err(|error| fail(error.to_string()))?;
     }
     let bytes = picture.to_png().map_err(|error| fail(error.to_string()))?;
-    // A reference that is the same already keeps its bytes and its date.
+    // An identical reference keeps its bytes and its date.
     let is_same = std::fs::read(path).ok().and_then(|old| Picture::from_png(Cursor::new(old), MOST_PIXELS).ok());
     if is_same.as_ref() == Some(picture) {
         return Ok(());
@@ -164,7 +164,7 @@ fn save(path: &Path, picture: &Picture) -> Result<(), Fault> {
     save_bytes_fast(path, &bytes).map_err(|error| fail(error.to_string()))
 }
 
-/// A file beside another: `name.out.png` beside `name.png`.
+/// The path of a related file: `name.out.png` beside `name.png`.
 pub(super) fn beside(path: &Path, what: &str) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let (stem, ending) = name.split_once('.').unwrap_or((&name, ""));

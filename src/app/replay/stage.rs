@@ -1,4 +1,4 @@
-//! A script at work: the window it drives, the folders it lives in, and what went wrong.
+//! A running script: its window, its folders, and its failures.
 
 use super::fault::Fault;
 use std::path::PathBuf;
@@ -11,17 +11,17 @@ use crate::app::offscreen::{Offscreen, OffscreenOptions, controls::Control};
 use crate::geometry::Point;
 use crate::plan::{Plan, RoomId};
 
-/// No window has more physical pixels a side: a picture of it takes 256 MiB.
+/// The largest side of a window in physical pixels: a snapshot takes 256 MiB.
 const MOST_PX_A_SIDE: f32 = 8192.0;
 
-/// A script at work.
+/// A running script.
 pub(super) struct Stage<'a> {
     pub window: Offscreen,
     pub folders: &'a Folders,
-    /// Whether what comes out becomes what is expected.
+    /// Whether results become the new references.
     pub is_updating: bool,
     pub snapshots: usize,
-    /// The references that were written.
+    /// The references written.
     pub updated: Vec<PathBuf>,
 }
 
@@ -32,10 +32,10 @@ impl<'a> Stage<'a> {
         Self { window, folders, is_updating, snapshots: 0, updated: Vec::new() }
     }
 
-    /// Makes the window another size, scale or theme.
+    /// Changes the window's size, scale or theme.
     ///
     /// # Errors
-    /// When a picture of it would be too large.
+    /// When a snapshot of it would be too large.
     pub(super) fn set_options(&mut self, options: OffscreenOptions) -> Result<(), Fault> {
         let side_px = |side: u32| side as f32 * options.scale;
         if side_px(options.width).max(side_px(options.height)) > MOST_PX_A_SIDE {
@@ -48,12 +48,12 @@ impl<'a> Stage<'a> {
         Ok(())
     }
 
-    /// Keeps journals, in the script's own folder.
+    /// Keeps journals, in the script's working folder.
     pub(super) fn keep_journal(&mut self) {
         self.window.use_journal(&self.folders.work.join("journal"));
     }
 
-    /// Ends the program as a power cut does, and starts it again.
+    /// Ends the program as in a power cut, and restarts it.
     pub(super) fn crash(&mut self) {
         self.window = Offscreen::new(self.window.options());
         self.window.name_paths_from(&self.folders.work);
@@ -69,10 +69,10 @@ impl<'a> Stage<'a> {
         self.window.app().plan().ok_or_else(|| Fault::new("no plan is open").hint(hint))
     }
 
-    /// The room of a name or an id; of several with one name the Nth, by id.
+    /// The room with a name or an id; if several share the name, the Nth by id.
     ///
     /// # Errors
-    /// When there is none, or more than one and no number says which.
+    /// When there is none, or several and no number selects one.
     pub(super) fn room(&self, name: &str, number: Option<usize>) -> Result<RoomId, Fault> {
         let plan = self.plan()?;
         if let Ok(id) = name.parse::<RoomId>()
@@ -98,7 +98,7 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// The control of a name; of several the first, or the Nth.
+    /// The control with a name; of several the first, or the Nth.
     ///
     /// # Errors
     /// When there is none.
@@ -118,7 +118,7 @@ impl<'a> Stage<'a> {
         })
     }
 
-    /// Where a point of the plan is on the screen.
+    /// The screen position of a point of the plan.
     ///
     /// # Errors
     /// When no plan is open, or the point is out of sight.
@@ -133,7 +133,7 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// A number of things, in words.
+/// A count with its noun.
 pub(super) fn count(number: usize, thing: &str) -> String {
     format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
 }

@@ -1,4 +1,4 @@
-//! The words of a line: separated by blanks, in quotes where they hold blanks themselves.
+//! The words of a line, separated by spaces; in quotes if they contain spaces.
 
 use crate::base::wording::shortened;
 
@@ -6,15 +6,15 @@ use crate::base::wording::shortened;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Word {
     pub text: String,
-    /// In quotes it is never a keyword.
+    /// If so, it is never a keyword.
     pub is_quoted: bool,
 }
 
-/// Splits a line. `#` at the start of a word begins a comment. In quotes, `\"`, `\\`, `\n`, `\t`
-/// and `\u{…}` stand for what they cannot hold as such.
+/// Splits a line. `#` at the start of a word begins a comment. In quotes, `\"`, `\\`, `\n`, `\t` and
+/// `\u{…}` are escapes.
 ///
 /// # Errors
-/// In words, when quotes are not closed or a backslash escapes nothing.
+/// When quotes are not closed or an escape is invalid; the message says so.
 pub(super) fn split(line: &str) -> Result<Vec<Word>, String> {
     let mut words = Vec::new();
     let mut letters = line.chars().peekable();
@@ -59,7 +59,7 @@ fn quoted(letters: &mut impl Iterator<Item = char>) -> Result<String, String> {
     }
 }
 
-/// The character of a number in braces, as in `\u{e9}`.
+/// The character given by its code point in braces, as in `\u{e9}`.
 fn by_number(letters: &mut impl Iterator<Item = char>) -> Result<char, String> {
     let wrong = || "\\u means the character of a number in braces, as in \\u{e9}".to_owned();
     if letters.next() != Some('{') {
@@ -69,13 +69,13 @@ fn by_number(letters: &mut impl Iterator<Item = char>) -> Result<char, String> {
     u32::from_str_radix(&digits, 16).ok().and_then(char::from_u32).ok_or_else(wrong)
 }
 
-/// A text as a word of a script: as it is where that reads back as the same, else in quotes.
+/// A text as a word of a script: unquoted if that reads back the same, otherwise in quotes.
 pub(super) fn written(text: &str) -> String {
     let is_plain = |letter: char| letter.is_alphanumeric() || "_-./:+".contains(letter);
     if !text.is_empty() && text.chars().all(is_plain) { text.to_owned() } else { in_quotes(text) }
 }
 
-/// A text in quotes, as a script has names and what is typed.
+/// A text in quotes, as scripts write names and typed text.
 pub(super) fn in_quotes(text: &str) -> String {
     let mut quoted = String::from("\"");
     for letter in text.chars() {
@@ -92,15 +92,15 @@ pub(super) fn in_quotes(text: &str) -> String {
     quoted
 }
 
-/// A word as [`written`], short enough for a message.
+/// A word as from [`written`], short enough for a message.
 pub(super) fn told(text: &str) -> String {
     const MOST: usize = 60;
     written(&shortened(text, MOST))
 }
 
-/// The word of some that is most like another, if one is like it at all.
+/// The most similar of some words, if any is similar enough.
 pub(super) fn nearest<'a>(wrong: &str, words: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    // From tries: below this the guess is more often wrong than right.
+    // By experiment: below this the guess is more often wrong than right.
     const ALIKE: f64 = 0.75;
     words
         .into_iter()
@@ -110,12 +110,12 @@ pub(super) fn nearest<'a>(wrong: &str, words: impl IntoIterator<Item = &'a str>)
         .map(|(_, word)| word)
 }
 
-/// A hint at the nearest of some words; empty when none is near.
+/// A hint with the most similar of some words; empty if none is similar enough.
 pub(super) fn did_you_mean<'a>(wrong: &str, words: impl IntoIterator<Item = &'a str>) -> String {
     nearest(wrong, words).map(|word| format!("did you mean {}?", written(word))).unwrap_or_default()
 }
 
-/// What is left of a line's words while it is understood.
+/// The remaining words of a line during parsing.
 pub(super) struct Words<'a> {
     rest: &'a [Word],
 }
@@ -125,14 +125,14 @@ impl<'a> Words<'a> {
         Self { rest: words }
     }
 
-    /// The next word, taken.
+    /// Takes the next word.
     pub(super) fn next(&mut self) -> Option<&'a Word> {
         let (first, rest) = self.rest.split_first()?;
         self.rest = rest;
         Some(first)
     }
 
-    /// Takes the next word if it is this one.
+    /// Takes the next word if it equals this one.
     pub(super) fn keyword(&mut self, word: &str) -> bool {
         let is_next = self.rest.first().is_some_and(|next| !next.is_quoted && next.text == word);
         if is_next {
@@ -141,17 +141,17 @@ impl<'a> Words<'a> {
         is_next
     }
 
-    /// The next word, not taken; a quoted one is none.
+    /// The next word, without taking it; `None` if it is quoted.
     pub(super) fn peek(&self) -> Option<&'a str> {
         self.rest.first().filter(|word| !word.is_quoted).map(|word| word.text.as_str())
     }
 
-    /// Whether all is taken.
+    /// Whether all words have been taken.
     pub(super) fn is_empty(&self) -> bool {
         self.rest.is_empty()
     }
 
-    /// A word that must be there; `what` says what it is.
+    /// A required word; `what` describes it.
     ///
     /// # Errors
     /// When it is missing.
@@ -159,7 +159,7 @@ impl<'a> Words<'a> {
         self.next().map(|word| word.text.as_str()).ok_or_else(|| format!("{what} is missing"))
     }
 
-    /// All that is left, as texts.
+    /// All remaining words, as texts.
     pub(super) fn all(&mut self) -> Vec<String> {
         std::mem::take(&mut self.rest).iter().map(|word| word.text.clone()).collect()
     }
@@ -200,7 +200,7 @@ const FAR: f64 = 1e7;
 /// A number from `least` to `most`.
 ///
 /// # Errors
-/// When it is none.
+/// When it is not one.
 pub(super) fn number(text: &str, what: &str, least: f64, most: f64) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(number) if (least..=most).contains(&number) => Ok(number),

@@ -1,13 +1,13 @@
-//! The files a recording brings along.
+//! The files included in a recording.
 
 use super::*;
 
-/// The files that go with a recording: names in its folder, and what they hold.
+/// The files of a recording: their names in its folder, and their contents.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Files(pub(super) Vec<(String, Vec<u8>)>);
 
 impl Files {
-    /// Takes a file along; gives its path as the script writes it.
+    /// Adds a file; returns its path as written in the script.
     pub(super) fn add(&mut self, name: &str, bytes: Vec<u8>) -> String {
         let (stem, ending) = name.split_once('.').unwrap_or((name, "plan.json"));
         let mut number = 1;
@@ -24,7 +24,7 @@ impl Files {
         path
     }
 
-    /// Takes along the file at a path, and the pictures under its plans.
+    /// Adds the file at a path, and the backdrops of its plans.
     pub(super) fn add_file(&mut self, path: &Path) -> Option<String> {
         if path.is_dir() {
             // A folder stands for its first plan.
@@ -33,7 +33,7 @@ impl Files {
         let bytes = formats::read_bytes(path).ok()?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let plans = formats::read_file(path).map(|import| import.plans).unwrap_or_default();
-        // A picture that lies elsewhere is missed in the replay as it would be on another machine.
+        // A backdrop stored elsewhere is missing in the replay, as it would be on another machine.
         let beside = |picture: &str| inner(picture).map(|picture| picture.to_string_lossy().into_owned());
         for picture in plans.iter().filter_map(Plan::backdrop).filter_map(|backdrop| beside(&backdrop.path)) {
             if let Ok(bytes) = formats::read_bytes(&folder.join(&picture))

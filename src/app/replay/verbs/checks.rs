@@ -1,4 +1,4 @@
-//! What must be so, and pictures of it.
+//! Expectations and snapshots.
 
 use std::path::{Path, PathBuf};
 
@@ -47,16 +47,16 @@ pub(super) const GROUP: Group = Group {
     ],
 };
 
-/// Something that can be expected.
+/// A kind of expectation.
 pub(super) struct Expectation {
     name: &'static str,
-    /// How it is written behind `expect`.
+    /// Its syntax after `expect`.
     pub form: &'static str,
     pub help: &'static str,
     parse: fn(&mut Words<'_>) -> Result<Act, String>,
 }
 
-/// Everything that can be expected.
+/// All kinds of expectation.
 pub(super) const EXPECTATIONS: &[Expectation] = &[
     Expectation {
         name: "rooms",
@@ -287,7 +287,7 @@ fn picked(stage: &Stage<'_>, expected: &str, is_quoted: bool) -> Result<(), Faul
     Err(Fault::unmet(format!("expected picked {}, found {}", written(expected), written(&name))))
 }
 
-/// A room's name; without one its id.
+/// A room's name or, without one, its id.
 fn room_name(stage: &Stage<'_>, id: RoomId) -> String {
     let name = stage.window.app().plan().and_then(|plan| plan.room(id)).map(|room| room.name.clone());
     name.filter(|name| !name.is_empty()).unwrap_or_else(|| id.to_string())
@@ -367,7 +367,7 @@ fn snapshot(words: &mut Words<'_>) -> Result<Act, String> {
     Ok(Box::new(move |stage| snapshot::take(stage, &name, &look)))
 }
 
-// Words with few meanings.
+// Words with few values.
 
 fn choice<T: Clone, const N: usize>(word: &str, choices: [(&str, T); N]) -> Result<T, String> {
     match choices.iter().find(|(name, _)| *name == word) {
@@ -400,7 +400,7 @@ fn equals(words: &mut Words<'_>) -> Result<PathBuf, String> {
     }
 }
 
-/// The labels and what else a room may be, with their names in scripts.
+/// The labels, and other statuses of a room, with their names in scripts.
 const STATUSES: [(&str, RoomStatus); 7] = [
     ("small", RoomStatus::Labelled(Label::SmallRoom)),
     ("medium", RoomStatus::Labelled(Label::MediumRoom)),
@@ -422,7 +422,7 @@ fn status_name(status: RoomStatus) -> &'static str {
     STATUSES.iter().find(|(_, known)| *known == status).map_or("none", |(name, _)| name)
 }
 
-// What was found.
+// Actual values.
 
 fn same_number(thing: &str, expected: usize, found: usize) -> Result<(), Fault> {
     if expected == found {
@@ -445,14 +445,15 @@ fn holds(what: &str, expected: &str, found: &str) -> Result<(), Fault> {
     Err(Fault::unmet(format!("{what}: expected {}, found {}", in_quotes(expected), in_quotes(found))))
 }
 
-/// Compares bytes with a file beside the script. What differs is written beside that, as `….out.…`.
+/// Compares bytes with a file beside the script. If they differ, they are written beside it, as
+/// `….out.…`.
 fn same_bytes(stage: &mut Stage<'_>, what: &str, reference: &Path, found: &[u8]) -> Result<(), Fault> {
     let path = stage.folders.script.join(reference);
     let out = snapshot::beside(&path, "out");
     let save = |path: &Path| save_bytes_fast(path, found).map_err(|error| Fault::new(error.to_string()));
     let expected = formats::read_bytes(&path).ok();
     if expected.as_deref() == Some(found) {
-        // What an earlier run left there is stale.
+        // A file left by an earlier run is stale.
         let _ = std::fs::remove_file(&out);
         return Ok(());
     }

@@ -1,4 +1,4 @@
-//! What the keyboard does.
+//! Keyboard actions.
 
 use egui::{Key, Modifiers};
 
@@ -55,9 +55,9 @@ pub(super) const GROUP: Group = Group {
     ],
 };
 
-/// The modifier keys by their names in scripts.
+/// The modifier keys and their names in scripts.
 const MODIFIERS: [(&str, Modifiers); 3] = [
-    // On every system Ctrl is what shortcuts use: a script is the same everywhere.
+    // Ctrl is the key that shortcuts use on each system: a script is the same everywhere.
     ("Ctrl", Modifiers { alt: false, ctrl: true, shift: false, mac_cmd: false, command: true }),
     ("Shift", Modifiers::SHIFT),
     ("Alt", Modifiers::ALT),
@@ -67,10 +67,10 @@ fn modifier(name: &str) -> Option<Modifiers> {
     MODIFIERS.into_iter().find(|(known, _)| *known == name).map(|(_, modifier)| modifier)
 }
 
-/// Modifiers with '+' between them.
+/// Modifiers separated by '+'.
 ///
 /// # Errors
-/// When one is none.
+/// When one is not a modifier.
 pub(super) fn modifiers_of(text: &str) -> Result<Modifiers, String> {
     text.split('+').try_fold(Modifiers::NONE, |modifiers, name| match modifier(name) {
         Some(modifier) => Ok(modifiers.plus(modifier)),
@@ -78,7 +78,7 @@ pub(super) fn modifiers_of(text: &str) -> Result<Modifiers, String> {
     })
 }
 
-/// A key with modifiers before it.
+/// A key with preceding modifiers.
 fn chord(text: &str) -> Result<(Modifiers, Key), String> {
     // 'Ctrl++' is Ctrl and '+'.
     let (modifiers, key) = match text.strip_suffix("++") {
@@ -130,7 +130,7 @@ fn without(held: Modifiers, one: Modifiers) -> Modifiers {
 mod tests {
     use super::*;
 
-    /// A chord as scripts write it.
+    /// A chord in script syntax.
     fn chord_text(modifiers: Modifiers, key: Key) -> String {
         let held: Vec<&str> =
             MODIFIERS.into_iter().filter(|(_, one)| modifiers.contains(*one)).map(|(name, _)| name).collect();

@@ -1,5 +1,5 @@
-//! The verbs of scripts, a file a group. A new verb is one entry: the parser, the manual and the hints
-//! come from it.
+//! The verbs of scripts, one file per group. To add a verb, add an entry: the parser, the manual and the
+//! hints use it.
 
 mod checks;
 mod files;
@@ -17,16 +17,15 @@ use crate::app::commands::{ArgumentKind, Command};
 pub(super) struct Verb {
     /// The first word of the line.
     pub name: &'static str,
-    /// How it is written: keywords small, what is to be filled in large, what may be left out in
-    /// brackets.
+    /// Its syntax: keywords in lower case, placeholders in capitals, optional parts in brackets.
     pub form: &'static str,
     /// What it does, in a sentence.
     pub help: &'static str,
-    /// Understands what stands behind the verb. An error says what is wrong with it.
+    /// Parses what comes after the verb. An error says what is wrong with it.
     pub parse: fn(&mut Words<'_>) -> Result<Act, String>,
 }
 
-/// Verbs that belong together.
+/// A group of related verbs.
 pub(super) struct Group {
     pub title: &'static str,
     pub verbs: &'static [Verb],
@@ -35,16 +34,16 @@ pub(super) struct Group {
 /// Every verb.
 pub(super) const VERBS: &[Group] = &[pointer::GROUP, keyboard::GROUP, window::GROUP, files::GROUP, checks::GROUP];
 
-/// What can be expected, with how it is written and what it means.
+/// The expectations, with their syntax and meaning.
 pub(super) fn expectations() -> impl Iterator<Item = (&'static str, &'static str)> {
     checks::EXPECTATIONS.iter().map(|expectation| (expectation.form, expectation.help))
 }
 
-/// A step that runs a command. Files that it names are the script's own: copies of what it reads, and in
-/// its folder what it writes.
+/// A step that runs a command. Its files are the script's own: copies of what it reads and, in its
+/// folder, what it writes.
 ///
 /// # Errors
-/// When the command takes no such arguments.
+/// When the command does not take such arguments.
 pub(super) fn command(command: &'static Command, arguments: Vec<String>) -> Result<Act, String> {
     let most = command.arguments.len();
     if arguments.len() > most {

@@ -1,4 +1,4 @@
-//! What the pointer does.
+//! Pointer actions.
 
 use egui::{Event, Modifiers, PointerButton, Pos2, vec2};
 
@@ -109,13 +109,13 @@ pub(super) const GROUP: Group = Group {
     ],
 };
 
-/// A button's name, if one is next; the left one without.
+/// The name of a button, if one follows; otherwise the left one.
 fn button(words: &mut Words<'_>) -> PointerButton {
     let named = BUTTONS.into_iter().find(|(name, _)| words.keyword(name));
     named.map_or(PointerButton::Primary, |(_, button)| button)
 }
 
-/// The buttons of a pointer, by name.
+/// The pointer buttons by name.
 pub(in crate::app::replay) const BUTTONS: [(&str, PointerButton); 5] = [
     ("left", PointerButton::Primary),
     ("right", PointerButton::Secondary),
@@ -156,7 +156,7 @@ fn drag(words: &mut Words<'_>) -> Result<Act, String> {
     Ok(Box::new(move |stage| {
         let mut way: Vec<Pos2> = places.iter().map(|place| place.on_screen(stage)).collect::<Result<_, Fault>>()?;
         if let [from, to] = way[..] {
-            // A hand does not jump: what moves along must see that it moves.
+            // A hand does not jump: code that follows the pointer must see it move.
             way.insert(1, from + (to - from) / 2.0);
         }
         holding(stage, modifiers, |stage| stage.window.drag_along(button, &way));
@@ -171,7 +171,7 @@ fn press(button: PointerButton, pressed: bool) -> Act {
     })
 }
 
-/// Something done with the pointer over a place, or where it is.
+/// An action at a place, or at the pointer's position.
 fn over_place(words: &mut Words<'_>, act: impl Fn(&mut Stage<'_>) + Send + Sync + 'static) -> Result<Act, String> {
     let has_place = words.peek().is_some_and(|word| word != "with");
     let place = if has_place { Some(Place::take(words)?) } else { None };
@@ -186,7 +186,7 @@ fn over_place(words: &mut Words<'_>, act: impl Fn(&mut Stage<'_>) + Send + Sync 
     }))
 }
 
-/// The modifiers behind `with`.
+/// The modifiers after `with`.
 fn with(words: &mut Words<'_>) -> Result<Modifiers, String> {
     if words.keyword("with") { modifiers_of(words.text("the modifier keys")?) } else { Ok(Modifiers::NONE) }
 }

@@ -74,7 +74,7 @@ pub(super) const GROUP: Group = Group {
     ],
 };
 
-/// The sides of a window, in logical pixels.
+/// The size of a window, in logical pixels.
 pub(super) fn size(words: &mut Words<'_>) -> Result<(u32, u32), String> {
     let text = words.text("the size")?;
     let side = |text: &str| number(text, "a side of the window", 1.0, 8192.0).ok().filter(|side| side.fract() == 0.0);
