@@ -1,4 +1,4 @@
-//! Changing many rooms at once: which, to what, and how many that are before it happens.
+//! Changing many rooms at once: which rooms, what change, and a preview of the numbers.
 
 use std::collections::BTreeSet;
 
@@ -14,25 +14,25 @@ use crate::geometry::Point;
 use crate::labels::{Label, normalised_function};
 use crate::plan::{LabelOrigin, RoomId, RoomLabel};
 
-/// Rooms by what they are.
+/// A selection of rooms by their properties.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Which {
     Selected,
     Unnamed,
     All,
-    /// As schemes compare it; empty for rooms without one.
+    /// As schemes compare it; empty for rooms without a function.
     Function(String),
-    /// Their label, whoever gave it; `None` for rooms without one.
+    /// By label, from any source; `None` for rooms without one.
     Label(Option<Label>),
-    /// Those that a line goes through, counted as it comes to them.
+    /// Those a line passes through, in order along it.
     Along(Vec<Point>),
 }
 
 impl Which {
-    /// What is understood, for errors.
+    /// The accepted forms, for errors.
     pub(crate) const FORMS: &'static str = "selected, unnamed, all, 'function office', 'label big', or 'along 1,2 5,2'";
 
-    /// Reads a call's word.
+    /// Parses an argument.
     pub(crate) fn of_word(word: &str) -> Result<Self, String> {
         let word = word.trim();
         match word.split_once(' ').unwrap_or((word, "")) {
@@ -53,7 +53,7 @@ impl Which {
         }
     }
 
-    /// As it is written in a call.
+    /// As an argument.
     pub(crate) fn word(&self) -> String {
         match self {
             Self::Along(points) => format!("along {}", words::points_word(points)),
@@ -66,7 +66,7 @@ impl Which {
         }
     }
 
-    /// So many rooms of the kind, in words: '37 rooms with function ‘office’'.
+    /// A number of such rooms, in words: '37 rooms with function ‘office’'.
     fn counted(&self, number: usize) -> String {
         let rooms = count(number, "room");
         match self {
@@ -83,19 +83,19 @@ impl Which {
     }
 }
 
-/// What rooms become.
+/// The change to make to rooms.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Change {
     Function(String),
-    /// `None`: as their functions say.
+    /// `None`: the one that their functions give.
     Label(Option<Label>),
 }
 
 impl Change {
-    /// What is understood, for errors.
+    /// The accepted forms, for errors.
     pub(crate) const FORMS: &'static str = "'function meeting room', 'label hall', or 'label by-function'";
 
-    /// Reads a call's word.
+    /// Parses an argument.
     pub(crate) fn of_word(word: &str) -> Result<Self, String> {
         let word = word.trim();
         match word.split_once(' ') {
@@ -108,7 +108,7 @@ impl Change {
         }
     }
 
-    /// As it is written in a call.
+    /// As an argument.
     pub(crate) fn word(&self) -> String {
         match self {
             Self::Function(function) => format!("function {function}"),
@@ -117,7 +117,7 @@ impl Change {
         }
     }
 
-    /// What becomes of so many rooms, in words: 'become ‘meeting room’'.
+    /// The change for a number of rooms, in words: 'become ‘meeting room’'.
     fn phrase(&self, number: usize) -> String {
         let (verb, are) = if number == 1 { ("becomes", "is") } else { ("become", "are") };
         match self {
@@ -139,10 +139,10 @@ fn label_of_word(word: &str) -> Option<Label> {
     short.or_else(|| word.parse().ok())
 }
 
-/// In which order rooms are counted.
+/// The order in which rooms are numbered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Order {
-    /// As one reads: from the top left, line by line.
+    /// In reading order: from the top left, line by line.
     Rows,
     /// From the top left, column by column.
     Columns,
@@ -153,17 +153,17 @@ impl Order {
         &[("rows", "Line by line"), ("columns", "Column by column")];
 }
 
-/// Names that rooms would get.
+/// New names for rooms.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Names {
-    /// Those whose name would be another, with it, in the order in which they are counted.
+    /// The rooms whose name would change, with the new name, in numbering order.
     pub changed: Vec<(RoomId, String)>,
     /// How many would keep theirs.
     pub kept: usize,
 }
 
 impl Session {
-    /// The rooms of a kind, as one reads.
+    /// The rooms of a selection, in reading order.
     pub(crate) fn rooms_of(&self, which: &Which) -> Vec<RoomId> {
         let Some(plan) = self.plan() else { return Vec::new() };
         if let Which::Along(points) = which {
@@ -188,7 +188,7 @@ impl Session {
         self.ordered(rooms, Order::Rows)
     }
 
-    /// Rooms in an order; those without a boundary last.
+    /// Rooms in this order; those without a boundary last.
     fn ordered(&self, rooms: Vec<RoomId>, order: Order) -> Vec<RoomId> {
         let Some(derived) = self.document.as_ref().and_then(Document::derived) else { return rooms };
         let all = match order {
@@ -204,7 +204,7 @@ impl Session {
 
     // Changing.
 
-    /// What a change would come to, in a sentence without its point, and how many rooms it is about.
+    /// A summary of a change, in a sentence without its full stop, and the number of rooms affected.
     pub(crate) fn said_of_change(&self, which: &Which, change: &Change) -> (String, usize) {
         let number = self.rooms_of(which).len();
         let typology = self.plan().and_then(|plan| plan.meta().typology.as_ref());
@@ -218,7 +218,7 @@ impl Session {
         (format!("{} {}{note}", which.counted(number), change.phrase(number)), number)
     }
 
-    /// Changes all rooms of a kind in one step.
+    /// Changes all rooms of a selection in one step.
     ///
     /// # Errors
     /// When there are none.
@@ -244,10 +244,10 @@ impl Session {
 
     // Naming.
 
-    /// The names that rooms of a kind would get by a pattern.
+    /// The names that a pattern gives the rooms of a selection.
     ///
     /// # Errors
-    /// What is wrong with the pattern.
+    /// When the pattern is invalid; the error says why.
     pub(crate) fn names_by(
         &self,
         pattern: &str,
@@ -258,7 +258,7 @@ impl Session {
         let pattern: Pattern = pattern.parse()?;
         let Some(plan) = self.plan() else { return Ok(Names { changed: Vec::new(), kept: 0 }) };
         let rooms = self.rooms_of(which);
-        // A line is an order of its own.
+        // A line has its own order.
         let rooms = if matches!(which, Which::Along(_)) { rooms } else { self.ordered(rooms, order) };
         let label = |_, room: &crate::plan::Room| RoomStatus::of(plan, &self.schemes, room).label();
         let mut changed = pattern.names(plan, &rooms, start, label)?;
@@ -267,10 +267,10 @@ impl Session {
         Ok(Names { kept: all - changed.len(), changed })
     }
 
-    /// Names the rooms of a kind by a pattern, in one step.
+    /// Names the rooms of a selection by a pattern, in one step.
     ///
     /// # Errors
-    /// When the pattern is wrong, or there are no such rooms.
+    /// When the pattern is invalid, or there are no such rooms.
     pub(crate) fn name_rooms(&mut self, pattern: &str, which: &Which, order: Order, start: u32) -> Result<(), String> {
         let names = self.names_by(pattern, which, order, start).map_err(|error| error.to_string())?;
         if names.changed.is_empty() && names.kept == 0 {

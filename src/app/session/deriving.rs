@@ -1,4 +1,4 @@
-//! Working out what follows from the open plan: at once where that is quick, by a job where it is not.
+//! Analysing the open plan: at once if that is fast, otherwise in a background job.
 
 use std::sync::Arc;
 
@@ -6,11 +6,11 @@ use super::Session;
 use crate::app::session::document::Derived;
 use crate::app::session::jobs::Kind;
 
-/// A plan with more elements is analysed off the frame's path; below, that takes a few milliseconds.
+/// The size of plan that is analysed in the background; below this, analysis takes a few milliseconds.
 const LARGE_PLAN_ELEMENTS: usize = 2000;
 
 impl Session {
-    /// Works out what follows from the plan as it is now, unless that is known or being done.
+    /// Analyses the current plan, unless that is done or in progress.
     pub(crate) fn derive(&mut self) {
         let Some(document) = &mut self.document else { return };
         document.predict_by(&self.predictor);

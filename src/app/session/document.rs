@@ -1,4 +1,4 @@
-//! The plan that is open: its history, where it came from, and what follows from it.
+//! The open plan: its history, its origin, and its analysis.
 
 use crate::app::session::origin::Origin;
 use crate::app::session::origin::bundled;
@@ -17,39 +17,39 @@ use crate::plan::{ElementId, History, Meta, Plan, Scale, ScaleOrigin};
 use crate::predict::Predictor;
 use crate::store::{self, Stamp};
 
-/// What follows from a bundled plan without predictions, which its picture does not show: worked out once.
+/// The analysis of a bundled plan, without predictions, which its thumbnail does not show: computed once.
 pub(crate) fn derived_sample(index: usize, plan: &Plan) -> Arc<Derived> {
     static DERIVED: Mutex<BTreeMap<usize, Arc<Derived>>> = Mutex::new(BTreeMap::new());
-    // A poisoned map only lacks an entry.
+    // A poisoned map at worst lacks an entry.
     let mut derived = DERIVED.lock().unwrap_or_else(PoisonError::into_inner);
     derived.entry(index).or_insert_with(|| Arc::new(Derived::new(plan, &Schemes::bundled(), None))).clone()
 }
 
-/// What a file or a bundled plan gave.
+/// The result of opening a file or a bundled plan.
 #[derive(Debug)]
 pub(crate) struct Opened {
     pub origin: Origin,
     /// All plans of the file; `origin` says which is shown.
     pub storeys: Vec<Plan>,
     pub notes: Vec<Note>,
-    /// What the file held when it was read; `None` for what cannot be saved in place.
+    /// The state of the file when it was read; `None` if it cannot be saved in place.
     pub stamp: Option<Stamp>,
     /// The first step of a plan that begins as something else.
     pub begun: Option<Box<Begun>>,
 }
 
-/// How a plan begins.
+/// How such a plan starts.
 #[derive(Debug)]
 pub(crate) struct Begun {
-    /// What was done, as in the history.
+    /// The title of the step in the history.
     pub title: String,
     pub plan: Plan,
-    /// The storey it came from.
+    /// The storey it was copied from.
     pub below: Plan,
 }
 
 impl Opened {
-    /// A plan on which nothing is drawn yet, of a typology yet unknown.
+    /// An empty plan, its typology still unknown.
     pub(crate) fn untitled() -> Self {
         let scale = Scale { origin: ScaleOrigin::Drawn, ..Scale::default() };
         let plan = edit::set_meta(&Plan::default(), Meta { scale, ..Meta::default() });
@@ -57,10 +57,10 @@ impl Opened {
     }
 }
 
-/// Reads a plan from where it is.
+/// Reads a plan from its origin.
 ///
 /// # Errors
-/// When the file cannot be read; an error names the path.
+/// When the file cannot be read; the error names the path.
 pub(crate) fn open(origin: Origin) -> Result<Opened, FileError> {
     let (storeys, notes, stamp) = match &origin {
         Origin::Bundled(index) => {
@@ -79,7 +79,7 @@ pub(crate) fn open(origin: Origin) -> Result<Opened, FileError> {
             return open(Origin::File { path, storey: *storey });
         }
         Origin::File { path, .. } => {
-            // Before the plan: a change between the two is then noticed when saving, not lost.
+            // Before reading the plan: a change in between is then noticed when saving, not lost.
             let stamp = is_own_file(path).then(|| Stamp::of(path)).flatten();
             let import = formats::read_file(path)?;
             (import.plans, import.notes, stamp)
@@ -88,38 +88,38 @@ pub(crate) fn open(origin: Origin) -> Result<Opened, FileError> {
     Ok(Opened { origin, storeys, notes, stamp, begun: None })
 }
 
-/// Whether a path names a file of Enfilade's own, which can be saved in place.
+/// Whether a path is a file in Enfilade's own format, which can be saved in place.
 pub(crate) fn is_own_file(path: &Path) -> bool {
     path.to_string_lossy().to_lowercase().ends_with(".plan.json")
 }
 
 /// The open plan.
 pub(crate) struct Document {
-    /// Tells documents apart that were open one after the other.
+    /// Distinguishes documents opened one after the other.
     pub number: u64,
     pub history: History,
     pub origin: Origin,
-    /// All plans of the file it came from, as they were read.
+    /// All plans of its file, as they were read.
     pub storeys: Vec<Plan>,
     pub notes: Vec<Note>,
-    /// What its file held when it was last read or written.
+    /// The state of its file when last read or written.
     pub stamp: Option<Stamp>,
-    /// The plan as it is on the disk, or as it came; `None` when it is in no file.
+    /// The plan as on disk, or as it was opened; `None` if it is in no file.
     saved: Option<Plan>,
-    /// Whether its file was removed.
+    /// Whether its file has been removed.
     pub is_gone: bool,
     derived: Option<(Plan, Arc<Derived>)>,
-    /// What is being worked out.
+    /// The analysis in progress.
     awaited: Option<Awaited>,
     /// Which models predict.
     predictor: Predictor,
 }
 
-/// The plan for which a job is at work, and the models it uses.
+/// The plan that a job is analysing, and the models it uses.
 struct Awaited {
     plan: Plan,
     predictor: Predictor,
-    /// The job; `None` where it broke, as it would again.
+    /// The job; `None` if it panicked, as it would again.
     job: Option<Wanted>,
 }
 
@@ -144,37 +144,37 @@ impl Document {
         self.history.plan()
     }
 
-    /// The plan's name, or its file's.
+    /// The plan's name or, without one, its file's.
     pub(crate) fn title(&self) -> String {
         let name = &self.plan().meta().name;
         if name.is_empty() { self.origin.title() } else { name.clone() }
     }
 
-    /// Whether something would be lost by closing.
+    /// Whether closing would lose anything.
     pub(crate) fn is_changed(&self) -> bool {
         let is_saved = |saved: &Plan| self.plan().is_same_value(saved) || self.plan() == saved;
         self.is_gone || !self.saved.as_ref().is_some_and(is_saved)
     }
 
-    /// The plan as it is on the disk, or as it came.
+    /// The plan as on disk, or as it was opened.
     pub(crate) fn saved(&self) -> Option<&Plan> {
         self.saved.as_ref()
     }
 
-    /// Takes note of what the file holds now: a plan, if it is one.
+    /// Records the current state of the file: its plan, if it has one.
     pub(crate) fn stands_in_file(&mut self, plan: Option<Plan>, stamp: Option<Stamp>) {
         self.saved = plan;
         self.stamp = stamp;
         self.is_gone = false;
     }
 
-    /// The step of the history whose plan is the one on the disk, counted from 0; the last of several.
+    /// The index of the history step whose plan is on disk; the last, if several are.
     pub(crate) fn saved_step(&self) -> Option<usize> {
         let saved = self.saved.as_ref()?;
         self.history.steps().iter().rposition(|step| step.plan.is_same_value(saved))
     }
 
-    /// Notes that `plan` now stands in a file.
+    /// Records that `plan` is now in a file.
     pub(crate) fn was_saved(&mut self, plan: Plan, path: PathBuf, stamp: Option<Stamp>) {
         self.stands_in_file(Some(plan), stamp);
         if self.origin.path() != Some(&path) {
@@ -183,7 +183,7 @@ impl Document {
         }
     }
 
-    /// What follows from the plan as it is now; `None` while that is being worked out.
+    /// The analysis of the current plan; `None` while it is in progress.
     pub(crate) fn derived(&self) -> Option<&Arc<Derived>> {
         let is_fresh = |(plan, derived): &&(Plan, Arc<Derived>)| {
             plan.is_same_value(self.plan()) && derived.predictor.as_ref() == Some(&self.predictor)
@@ -191,20 +191,20 @@ impl Document {
         self.derived.as_ref().filter(is_fresh).map(|(_, derived)| derived)
     }
 
-    /// Lets these models predict.
+    /// Sets which models predict.
     pub(crate) fn predict_by(&mut self, predictor: &Predictor) {
         if self.predictor != *predictor {
             self.predictor.clone_from(predictor);
         }
     }
 
-    /// The last plan for which everything was worked out, perhaps an earlier one: to be drawn in the
-    /// meantime, and never shown as fresh.
+    /// The last plan analysed, perhaps an earlier one: to be drawn in the meantime, but never shown as
+    /// current.
     pub(crate) fn last_derived(&self) -> Option<&(Plan, Arc<Derived>)> {
         self.derived.as_ref()
     }
 
-    /// Whether what follows from the plan is neither known nor being worked out, and can be.
+    /// Whether the current plan is neither analysed nor being analysed, and can be.
     pub(crate) fn needs_deriving(&self) -> bool {
         let is_awaited = self
             .awaited
@@ -213,26 +213,25 @@ impl Document {
         self.derived().is_none() && !is_awaited
     }
 
-    /// Notes that a job is at work for the plan. One that is for an earlier plan is told to give up.
+    /// Records that a job is analysing the plan. One for an earlier plan is cancelled.
     pub(crate) fn await_derived(&mut self, job: Wanted) {
         let (plan, predictor) = (self.plan().clone(), self.predictor.clone());
         self.awaited = Some(Awaited { plan, predictor, job: Some(job) });
     }
 
-    /// Notes that the job for a plan broke: nobody waits for it, and it is not begun again before the plan or the
-    /// models are others.
+    /// Records that the job for a plan panicked: it is not restarted until the plan or the models change.
     pub(crate) fn could_not_be_derived(&mut self, plan: &Plan) {
         if let Some(awaited) = self.awaited.as_mut().filter(|awaited| awaited.plan.is_same_value(plan)) {
             awaited.job = None;
         }
     }
 
-    /// Whether a job works out what follows from the plan.
+    /// Whether a job is analysing the plan.
     pub(crate) fn is_awaited(&self) -> bool {
         self.awaited.as_ref().is_some_and(|awaited| awaited.job.is_some())
     }
 
-    /// Takes over what was worked out for a plan; dropped when the plan or the models are others by now.
+    /// Takes the analysis of a plan; dropped if the plan or the models have changed since.
     pub(crate) fn set_derived(&mut self, plan: Plan, derived: Arc<Derived>) {
         if plan.is_same_value(self.plan()) && derived.predictor.as_ref() == Some(&self.predictor) {
             self.derived = Some((plan, derived));
@@ -240,7 +239,7 @@ impl Document {
         }
     }
 
-    /// The box around something.
+    /// The bounding box of an element.
     pub(crate) fn bounds_of(&self, picked: ElementId) -> Option<Bounds> {
         let plan = self.plan();
         let bounds = match picked {
@@ -253,7 +252,7 @@ impl Document {
     }
 }
 
-/// Saves a plan to a path and gives the file's stamp.
+/// Saves a plan to a path and returns the file's stamp.
 ///
 /// # Errors
 /// As [`store::save_plan`]; [`SaveFailure::ChangedOnDisk`] when the file there is not the one that
@@ -267,16 +266,16 @@ pub(crate) fn save(path: &Path, plan: &Plan, expected: Expected) -> Result<Optio
     }
     let bytes = store::checked_bytes(path, plan).map_err(SaveFailure::Store)?;
     store::save_bytes(path, &bytes).map_err(SaveFailure::Store)?;
-    // Not read from the disk: somebody may have changed the file by now.
+    // Not read back from disk: somebody may already have changed the file.
     Ok(Some(Stamp::of_bytes(&bytes)))
 }
 
-/// What stands at the path that a plan is saved to.
+/// The expected state of the file at the path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Expected {
-    /// The file as it was last seen; `None` for no file.
+    /// The file as last seen; `None` for no file.
     Seen(Option<Stamp>),
-    /// Whatever: the person chose the path, or agreed to overwrite.
+    /// Any: the user chose the path, or agreed to overwrite.
     Anything,
 }
 

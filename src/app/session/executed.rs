@@ -1,8 +1,8 @@
-//! What was done, for whoever records it.
+//! The commands that ran, for recording.
 
 use super::Session;
 
-/// A command that was done, complete: running it again with these arguments does the same.
+/// A complete call of a command: repeating it does the same.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Executed {
     pub id: &'static str,
@@ -10,10 +10,10 @@ pub struct Executed {
 }
 
 impl Session {
-    /// Notes that something was done which the command with these arguments does.
+    /// Records something done as a call of this command with these arguments.
     pub(crate) fn note_executed(&mut self, id: &'static str, arguments: Vec<String>) {
         let Some(executed) = &mut self.executed else { return };
-        // Of a pan, only where it ends.
+        // Of a pan, only its end.
         if id == "view" && executed.last().is_some_and(|last| last.id == id) {
             executed.pop();
         }

@@ -1,9 +1,9 @@
-//! Texts of a room while a person types them.
+//! Texts of a room while being edited.
 
 use crate::edit::{self, EditError};
 use crate::plan::{Plan, RoomId};
 
-/// A text field in the making.
+/// A text field being edited.
 #[derive(Clone, Debug)]
 pub(crate) struct Field {
     pub(crate) room: RoomId,
@@ -11,7 +11,7 @@ pub(crate) struct Field {
     pub(crate) text: String,
 }
 
-/// A text of a room.
+/// An editable text of a room.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FieldKind {
     Name,
@@ -24,7 +24,7 @@ impl Field {
         Self { room, kind, text: text.to_owned() }
     }
 
-    /// The id and the argument of the command that writes it.
+    /// The id and the argument of the command that sets it.
     pub(crate) fn as_command(&self) -> (&'static str, String) {
         let id = match self.kind {
             FieldKind::Name => "rename",
@@ -34,7 +34,7 @@ impl Field {
         (id, self.text.clone())
     }
 
-    /// What the edit is called in the history.
+    /// The title of the edit in the history.
     pub(crate) fn title(&self) -> &'static str {
         match self.kind {
             FieldKind::Name => "Rename room",

@@ -1,4 +1,4 @@
-//! Dialogs that ask for a file: the system's, or answers given beforehand where there is no screen.
+//! File dialogs: the system's, or predefined answers where there is no screen.
 
 use crate::app::session::picture_change::PictureUse;
 use std::any::Any;
@@ -15,49 +15,49 @@ use crate::app::session::{
 };
 use crate::store::pictures::PICTURE_ENDINGS;
 
-/// Who answers.
+/// The source of answers.
 pub(crate) enum Dialogs {
     /// The system's dialogs, one at a time.
     System { is_open: bool },
-    /// Answers given beforehand.
+    /// Predefined answers.
     Given(Given),
 }
 
-/// Answers given beforehand, in order; `None` cancels, and so does having none left.
+/// Predefined answers, in order; `None` cancels, and so does running out.
 #[derive(Default)]
 pub(crate) struct Given {
     pub answers: VecDeque<Option<PathBuf>>,
-    /// How many dialogs had no answer left.
+    /// How many dialogs found no answer left.
     pub unanswered: usize,
 }
 
-/// What a file is wanted for.
+/// The purpose of choosing a file.
 pub(crate) enum Purpose {
     Open,
     Picture(PictureUse),
-    /// `answering`: the answer to a question that a file is chosen for.
+    /// `answering`: the answer to a question that led to this.
     Save {
         then: Option<Intent>,
         answering: Option<&'static str>,
     },
-    /// To save what was recorded; gives what the recorder is told of the file.
+    /// To save a recording; the closure makes the message that tells the recorder the path.
     Recording(Box<dyn FnOnce(PathBuf) -> Box<dyn Any + Send> + Send>),
 }
 
 /// A dialog's answer.
 pub(crate) struct Answer {
     pub purpose: Purpose,
-    /// `None` when the dialog was cancelled.
+    /// `None` if the dialog was cancelled.
     pub path: Option<PathBuf>,
-    /// Whether a person can have seen the dialog.
+    /// Whether the user can have seen the dialog.
     pub was_shown: bool,
 }
 
-/// Nobody cancels a dialog faster: it was never shown.
+/// Nobody cancels a dialog faster than this: it was never shown.
 const QUICKEST_CANCEL: Duration = Duration::from_millis(250);
 
 impl Dialogs {
-    /// Asks for a file; the answer comes to [`Session::was_chosen`]. Does nothing while a dialog is open.
+    /// Asks for a file; the answer goes to [`Session::was_chosen`]. Does nothing while a dialog is open.
     pub(crate) fn ask(&mut self, purpose: Purpose, folder: Option<PathBuf>, name: String, jobs: &mut Jobs) {
         let kind = Kind::new("ask for a file").if_broken(|session| session.dialogs.answered());
         match self {
@@ -74,7 +74,7 @@ impl Dialogs {
                 if let Some(folder) = folder.filter(|folder| folder.is_dir()) {
                     dialog = dialog.set_directory(folder);
                 }
-                // Made here, on the thread of the window, as some systems require; waited for elsewhere.
+                // Created here, on the window's thread, as some systems require; waited for elsewhere.
                 let chosen = match purpose {
                     Purpose::Open => {
                         let dialog = dialog
@@ -115,7 +115,7 @@ impl Dialogs {
         }
     }
 
-    /// Notes that the dialog is gone.
+    /// Records that the dialog has closed.
     pub(crate) fn answered(&mut self) {
         if let Self::System { is_open } = self {
             *is_open = false;

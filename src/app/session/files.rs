@@ -33,14 +33,14 @@ impl Session {
         self.dialogs.ask(Purpose::Open, folder, String::new(), &mut self.jobs);
     }
 
-    /// Shows a plan on which nothing is drawn yet.
+    /// Shows an empty plan.
     pub(crate) fn new_plan(&mut self) {
-        // What is still being read was asked for before.
+        // A file still being read was requested earlier.
         self.opening = None;
         self.request(Intent::Show(Box::new(Opened::untitled())));
     }
 
-    /// Begins a plan of another storey as a copy of this one, which is shown below it.
+    /// Starts a plan of another storey as a copy of this one, which is then shown below it.
     pub(crate) fn copy_storey(&mut self, storey: &str, keep: Keep) {
         let Some(below) = self.plan().cloned() else { return };
         self.opening = None;
@@ -49,7 +49,7 @@ impl Session {
         self.request(Intent::Show(Box::new(opened)));
     }
 
-    /// Reads a plan and shows it when it is there.
+    /// Reads a plan and shows it once it is read.
     pub(crate) fn open(&mut self, origin: Origin) {
         self.opening = Some(origin.clone());
         let kind = Kind::new("open a plan").newest_of("plan to show").if_broken(|session| session.opening = None);
@@ -60,7 +60,7 @@ impl Session {
     }
 
     pub(crate) fn was_opened(&mut self, origin: &Origin, result: Result<Opened, FileError>) {
-        // Only what was asked for last counts.
+        // Only the latest request counts.
         if self.opening.as_ref() != Some(origin) {
             return;
         }
@@ -75,7 +75,7 @@ impl Session {
         }
     }
 
-    /// Opens the plan `step` places further down the list.
+    /// Opens the plan `step` places down the list.
     pub(crate) fn open_neighbour(&mut self, step: isize) {
         let current = self.document.as_ref().map(|document| &document.origin);
         if let Some(origin) = self.list.neighbour(current, step) {
@@ -83,11 +83,11 @@ impl Session {
         }
     }
 
-    /// Does what a person wants, after asking where that would lose unsaved work.
+    /// Does what the user wants, after asking if that would lose unsaved work.
     pub(crate) fn request(&mut self, intent: Intent) {
         self.commit_field();
         if self.question.is_some() || self.jobs.is_one_to_end() {
-            // One thing after the other: what is saved need not be asked for.
+            // One thing at a time: while saving, there is no need to ask.
             self.waiting = Some(intent);
         } else if self.has_unsaved_changes() {
             let title = self.document.as_ref().map(Document::title).unwrap_or_default();
@@ -97,7 +97,7 @@ impl Session {
         }
     }
 
-    /// Goes on with what waited for an answer, or for a file to be saved.
+    /// Continues with what waited for an answer, or for a file to be saved.
     pub(crate) fn take_waiting(&mut self) {
         if self.question.is_none()
             && !self.jobs.is_one_to_end()
@@ -107,7 +107,7 @@ impl Session {
         }
     }
 
-    /// Does it, unsaved work or not.
+    /// Does it, regardless of unsaved work.
     pub(crate) fn perform(&mut self, intent: Intent) {
         match intent {
             Intent::Show(opened) => self.show(*opened),
@@ -162,8 +162,8 @@ impl Session {
         path.is_some_and(document::is_own_file)
     }
 
-    /// Saves the plan in its file; then does what was to follow. Where it has none of Enfilade's own,
-    /// asks for one. Gives whether it did not have to ask.
+    /// Saves the plan in its file, then does what was to follow. If it has none in Enfilade's own format,
+    /// asks for one. Returns whether it did not have to ask.
     pub(crate) fn save(&mut self, then: Option<Intent>) -> bool {
         let Some(document) = &self.document else { return true };
         match document.origin.path() {
@@ -179,8 +179,8 @@ impl Session {
         }
     }
 
-    /// Asks for a file to save the plan in; then does what was to follow. `answering`: the answer to
-    /// a question that led here.
+    /// Asks for a file to save the plan in, then does what was to follow. `answering`: the answer to a
+    /// question that led here.
     pub(crate) fn ask_where_to_save(&mut self, then: Option<Intent>, answering: Option<&'static str>) {
         let Some(document) = &self.document else { return };
         let folder = document.origin.folder().map(Path::to_owned);
@@ -188,7 +188,7 @@ impl Session {
         self.dialogs.ask(Purpose::Save { then, answering }, folder, name, &mut self.jobs);
     }
 
-    /// Saves the plan in a file that a person has chosen; the ending is added where it is missing.
+    /// Saves the plan in the file the user chose, adding the extension if it is missing.
     pub(crate) fn save_in(&mut self, mut path: PathBuf, then: Option<Intent>) {
         if document::is_own_file(&path) {
             // The save dialog already asked whether to replace it.
@@ -214,7 +214,7 @@ impl Session {
                      the desktop's portal or from zenity.",
                 );
             }
-            // Cancel means cancel: what was to follow is forgotten.
+            // Cancel means cancel: what was to follow is dropped.
             if let Purpose::Save { answering: Some(_), .. } = purpose {
                 self.note_executed("answer", vec!["cancel".to_owned()]);
             }
@@ -242,7 +242,7 @@ impl Session {
         let plan = plan_in_folder(document.plan(), document.origin.folder(), path.parent());
         let document = document.number;
         self.begins_to_save();
-        // What was to follow a save does not follow a broken one.
+        // What was to follow a save is dropped if the save panics.
         let kind = Kind::new("save the plan").must_end().if_broken(|session| session.waiting = None);
         self.jobs.start(kind, move |_| {
             let result = document::save(&path, &plan, expected);
@@ -285,7 +285,7 @@ impl Session {
                 self.ask(Question::replace(path, true, then));
             }
             Err(SaveFailure::Store(error)) => {
-                // What was to follow a save does not follow a failure.
+                // What was to follow a save is dropped if the save fails.
                 self.waiting = None;
                 self.is_not_saved(error);
             }

@@ -1,4 +1,4 @@
-//! The storey below: another plan drawn faintly under the open one.
+//! The storey below: another plan, drawn faintly under the open one.
 
 use crate::app::session::Session;
 use crate::app::session::origin::file_name;
@@ -17,12 +17,12 @@ use crate::geometry::{Segment, polygon};
 use crate::labels::Schemes;
 use crate::plan::Plan;
 
-/// A plan that lies under the open one.
+/// The plan shown below the open one.
 pub(crate) struct Ghost {
     pub plan: Plan,
-    /// What it is called.
+    /// Its title.
     pub title: String,
-    /// Where it was read; `None` for a plan that was copied.
+    /// Where it was read from; `None` for a plan that was copied.
     pub origin: Option<Origin>,
     pub(crate) derived: Arc<Derived>,
     segments: Vec<Segment>,
@@ -43,12 +43,12 @@ impl Ghost {
 }
 
 impl Session {
-    /// The plan of the storey that is shown below, if there is one: what snapping may go by.
+    /// The plan of the storey shown below, if any, for snapping.
     pub fn ghost_plan(&self) -> Option<&Plan> {
         self.shown_ghost().map(|ghost| &ghost.plan)
     }
 
-    /// The centre lines of walls, the edges of rooms and the openings of the storey that is shown below.
+    /// The centre lines of walls, edges of rooms, and openings of the storey shown below.
     pub fn ghost_segments(&self) -> &[Segment] {
         self.shown_ghost().map_or(&[], |ghost| &ghost.segments)
     }
@@ -57,8 +57,8 @@ impl Session {
         self.ghost.as_ref().filter(|_| self.layers.ghost)
     }
 
-    /// Reads a plan and shows it below the open one. Without a storey the first of the file; of the open
-    /// file the one before the open one, or the one after where there is none before.
+    /// Reads a plan and shows it below the open one. Without a storey, the first in the file; for the
+    /// open file the one before the open one or, if there is none, the one after.
     pub(crate) fn read_ghost(&mut self, path: PathBuf, storey: Option<usize>) {
         let open = self.document.as_ref().map(|document| &document.origin);
         let storey = storey.unwrap_or_else(|| match open {
@@ -97,7 +97,7 @@ impl Session {
         self.layers.ghost = true;
     }
 
-    /// The plans that may lie below: those of the folder, those of the same building first.
+    /// The plans that may be shown below: those of the folder, those of the same building first.
     pub(crate) fn ghost_choices(&self) -> Vec<Choice> {
         let Some(document) = &self.document else { return Vec::new() };
         let building = |stem: &str| building_name::key(&building_name::split(stem).building);
@@ -112,7 +112,7 @@ impl Session {
             !own.is_empty() && building(formats::file_stem(&name)) == own
         };
         let is_open = |path: &Path| document.origin.path() == Some(path);
-        // A file with one plan is not below itself.
+        // A file with one plan cannot be below itself.
         let files = self.list.files.iter().filter(|path| !is_open(path) || document.storeys.len() > 1);
         let mut files: Vec<(bool, &PathBuf)> = files.map(|path| (is_open(path) || is_same(path), path)).collect();
         files.sort_by_key(|(is_same, _)| !is_same);

@@ -16,7 +16,7 @@ impl Session {
         }
     }
 
-    /// As [`App::edit`], but leaves it to the caller to say why nothing was changed.
+    /// Like [`App::edit`], but leaves it to the caller to report why nothing changed.
     pub(crate) fn try_edit(
         &mut self,
         title: &str,
@@ -28,11 +28,11 @@ impl Session {
         Ok(())
     }
 
-    /// Makes what stands in a text field part of the plan.
+    /// Commits the text field's contents to the plan.
     pub(crate) fn commit_field(&mut self) {
         if let Some(field) = self.field.take() {
             self.edit(field.title(), |plan| field.apply(plan));
-            // The field's room is the picked one: picking another ends the typing first.
+            // The field's room is the picked one: picking another ends the editing first.
             let (id, text) = field.as_command();
             if id == "set-function" {
                 self.remember_function(&text);
@@ -41,14 +41,14 @@ impl Session {
         }
     }
 
-    /// Writes a text of the picked room.
+    /// Sets a text of the picked room.
     pub(crate) fn write_field(&mut self, kind: FieldKind, text: &str) {
         let Some((room, _)) = self.picked_room() else { return };
         let field = Field::new(room, kind, text);
         self.edit(field.title(), |plan| field.apply(plan));
     }
 
-    /// Changes what is known of the plan as a whole.
+    /// Changes the plan's metadata.
     pub(crate) fn change_meta(&mut self, title: &str, change: impl FnOnce(&mut Meta)) {
         self.edit(title, |plan| {
             let mut meta = plan.meta().clone();
@@ -63,7 +63,7 @@ impl Session {
         }
     }
 
-    /// Goes to a step of the history, counted from 0; gives why not where there is none.
+    /// Goes to a step of the history, counted from 0; the error says why if there is none.
     pub(crate) fn jump_to_step(&mut self, step: usize) -> Result<(), String> {
         let Some(document) = &mut self.document else { return Ok(()) };
         let number = document.history.steps().len();
@@ -75,7 +75,7 @@ impl Session {
         Ok(())
     }
 
-    /// Takes the last change back.
+    /// Undoes the last change.
     pub(crate) fn undo(&mut self) {
         if let Some(title) = self.document.as_mut().and_then(|document| document.history.undo()) {
             self.status = format!("Undone: {title}");

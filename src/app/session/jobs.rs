@@ -1,5 +1,5 @@
-//! Work off the frame's path: a job runs elsewhere and gives a closure, which a later frame runs on the session.
-//! Offscreen the same jobs run at once, so that a replayed session never waits for a clock; tests hold them back
+//! Background work: a job runs elsewhere and returns a closure, which a later frame runs on the session.
+//! Offscreen the same jobs run at once, so that a replay never waits for a clock; tests hold them back
 //! and end them in any order.
 
 use std::collections::{BTreeMap, VecDeque};
@@ -14,31 +14,31 @@ use crate::app::session::Session;
 use crate::app::session::messages::Severity;
 use crate::base::work::Work;
 
-/// What a job gives: what is to be done with the session once it has ended.
+/// The outcome of a job: what to do with the session once it has ended.
 pub(crate) type Outcome = Box<dyn FnOnce(&mut Session, &Context) + Send>;
 
 type Job = Box<dyn FnOnce(&Work<'_>) -> Outcome + Send>;
 
-/// What its owner does when a job broke.
+/// What its owner does if a job panics.
 type Broken = Box<dyn FnOnce(&mut Session) + Send>;
 
 /// Where jobs run.
 pub(crate) enum Mode {
     /// On threads; the context is asked for a frame when one ends.
     Threads(Context),
-    /// Within the call that starts them.
+    /// Inside the call that starts them.
     Inline,
-    /// Not before they are told to, one by one: see [`Jobs::run_held`].
+    /// When told to, one by one: see [`Jobs::run_held`].
     Held,
-    /// One a frame, within it: where there are no threads.
+    /// One per frame, inside it: where there are no threads.
     Sliced,
 }
 
-/// What a job is.
+/// The properties of a job.
 pub(crate) struct Kind {
-    /// What it does, in words: 'open a plan'.
+    /// Its name, in words: 'open a plan'.
     name: &'static str,
-    /// A later job of the same key replaces it.
+    /// A later job with the same key replaces it.
     key: Option<&'static str>,
     must_end: bool,
     broken: Option<Broken>,
@@ -49,23 +49,23 @@ impl Kind {
         Self { name, key: None, must_end: false, broken: None }
     }
 
-    /// Only the newest of this key counts: an older one is cancelled, and its outcome dropped.
+    /// Only the newest job with this key counts: an older one is cancelled, and its outcome dropped.
     pub(crate) fn newest_of(self, key: &'static str) -> Self {
         Self { key: Some(key), ..self }
     }
 
-    /// Nothing that could lose work happens before it has ended: closing, or showing another plan.
+    /// Actions that could lose work wait for its end: closing, or showing another plan.
     pub(crate) fn must_end(self) -> Self {
         Self { must_end: true, ..self }
     }
 
-    /// What whoever started it does when it breaks instead of giving an outcome.
+    /// What its owner does if it panics instead of returning an outcome.
     pub(crate) fn if_broken(self, broken: impl FnOnce(&mut Session) + Send + 'static) -> Self {
         Self { broken: Some(Box::new(broken)), ..self }
     }
 }
 
-/// How far a job is, and whether it is to go on.
+/// The progress of a job, and whether it should continue.
 #[derive(Clone, Default)]
 struct Watched(Arc<State>);
 
@@ -85,14 +85,14 @@ impl Watched {
         self.0.cancelled.store(true, Ordering::Relaxed);
     }
 
-    /// Parts that are done, of how many; `None` for a job that does not tell.
+    /// Parts done, and their total; `None` for a job that reports none.
     fn progress(&self) -> Option<(usize, usize)> {
         let count = self.0.count.load(Ordering::Relaxed);
         (count > 0).then(|| (self.0.done.load(Ordering::Relaxed).min(count), count))
     }
 }
 
-/// A job that is wanted as long as this is kept: dropped, it is cancelled, and so is its outcome.
+/// A job that is wanted as long as this is kept: when dropped, it is cancelled, and so is its outcome.
 pub(crate) struct Wanted(Watched);
 
 impl Drop for Wanted {
@@ -106,7 +106,7 @@ struct Running {
     watched: Watched,
 }
 
-/// How a job ended: `None` when it panicked, which is a bug of ours, not to take the window down.
+/// How a job ended: `None` if it panicked, which is a bug but must not take the window down.
 struct Ended {
     number: u64,
     outcome: Option<Outcome>,
@@ -122,9 +122,9 @@ struct Queued {
 pub(crate) struct Jobs {
     sender: Sender<Ended>,
     receiver: Receiver<Ended>,
-    /// By their numbers: those whose outcomes have not been taken.
+    /// By number: those whose outcomes have not been taken.
     running: BTreeMap<u64, Running>,
-    /// Those that have not begun, where they wait for that.
+    /// Those that have not started, if they have to wait.
     queued: VecDeque<Queued>,
     started: u64,
     mode: Mode,
@@ -136,7 +136,7 @@ impl Jobs {
         Self { sender, receiver, running: BTreeMap::new(), queued: VecDeque::new(), started: 0, mode }
     }
 
-    /// Starts a job: what it gives runs in a later frame.
+    /// Starts a job: its outcome runs in a later frame.
     pub(crate) fn start<O>(&mut self, kind: Kind, job: impl FnOnce(&Work<'_>) -> O + Send + 'static)
     where
         O: FnOnce(&mut Session, &Context) + Send + 'static,
@@ -144,7 +144,7 @@ impl Jobs {
         self.begin(kind, Box::new(move |work| Box::new(job(work))));
     }
 
-    /// As [`Self::start`]; the job is cancelled when what this gives is dropped.
+    /// Like [`Self::start`]; the job is cancelled when the returned value is dropped.
     pub(crate) fn start_wanted<O>(&mut self, kind: Kind, job: impl FnOnce(&Work<'_>) -> O + Send + 'static) -> Wanted
     where
         O: FnOnce(&mut Session, &Context) + Send + 'static,
@@ -174,7 +174,7 @@ impl Jobs {
         watched
     }
 
-    /// Runs the job that waits at a place in the queue, counted from 0, or lets it break. Gives whether one is there.
+    /// Runs the job at an index in the queue, or makes it panic. Returns whether there is one.
     pub(crate) fn run_held(&mut self, index: usize, breaks: bool) -> bool {
         let Some(queued) = self.queued.remove(index) else { return false };
         if breaks {
@@ -185,13 +185,14 @@ impl Jobs {
         true
     }
 
-    /// What the jobs that have not begun do, the first in the queue first.
+    /// The names of the jobs that have not started, in queue order.
     pub(crate) fn held(&self) -> Vec<&'static str> {
         let name = |queued: &Queued| self.running.get(&queued.number).map(|running| running.kind.name);
         self.queued.iter().filter_map(name).collect()
     }
 
-    /// What the jobs at work do, and how far each is: parts done, of how many, where it tells.
+    /// The names of the running jobs, and the progress of each that reports it: parts done, and their
+    /// total.
     pub(crate) fn progress(&self) -> Vec<(&'static str, Option<(usize, usize)>)> {
         let wanted = self.running.values().filter(|running| !running.watched.is_cancelled());
         wanted.map(|running| (running.kind.name, running.watched.progress())).collect()
@@ -208,25 +209,25 @@ impl Jobs {
     /// Asks for the frame that takes the next outcome.
     pub(crate) fn request_frame(&self, context: &Context) {
         match self.mode {
-            // They end when somebody says so.
+            // They end when told to.
             Mode::Held if self.queued.len() == self.running.len() => {}
             Mode::Inline | Mode::Held | Mode::Sliced => context.request_repaint(),
-            // A thread asks when it is done; in between, what waits may say so.
+            // A thread asks when it is done; in between, progress can be shown.
             Mode::Threads(_) => context.request_repaint_after(std::time::Duration::from_millis(100)),
         }
     }
 
-    /// Whether no thread works beside the frames.
+    /// Whether no threads run in the background.
     pub(crate) fn is_inline(&self) -> bool {
         !matches!(self.mode, Mode::Threads(_))
     }
 
-    /// Whether a job's outcome has not been taken yet.
+    /// Whether any job's outcome has not been taken yet.
     pub(crate) fn is_busy(&self) -> bool {
         !self.running.is_empty()
     }
 
-    /// Whether a job is at work that must end first, such as a save.
+    /// Whether a job is running that must end first, such as a save.
     pub(crate) fn is_one_to_end(&self) -> bool {
         self.running.values().any(|running| running.kind.must_end)
     }
@@ -244,12 +245,12 @@ fn run(queued: Queued, work: Work<'_>, sender: &Sender<Ended>) {
 }
 
 fn deliver(number: u64, outcome: Option<Outcome>, sender: &Sender<Ended>) {
-    // The receiver is gone only when the window is: nobody waits for the outcome then.
+    // The receiver is gone only when the window is: then nobody waits for the outcome.
     let _ = sender.send(Ended { number, outcome });
 }
 
 impl Session {
-    /// Does what the jobs that ended since the last call gave.
+    /// Runs the outcomes of the jobs that ended since the last call.
     pub(crate) fn take_outcomes(&mut self, context: &Context) {
         for Ended { number, outcome } in self.jobs.arrived() {
             let Some(Running { kind, watched }) = self.jobs.running.remove(&number) else { continue };

@@ -1,4 +1,4 @@
-//! What labelling and naming are about: the selected rooms, or the one under the pointer.
+//! The target of labelling and naming: the selected rooms, or the one under the pointer.
 
 use std::collections::BTreeMap;
 
@@ -12,24 +12,24 @@ use crate::labels::{Label, Meaning, normalised_function};
 use crate::plan::titles::room_title;
 use crate::plan::{ElementId, LabelOrigin, Plan, RoomId, RoomLabel};
 
-/// Functions that were set are remembered, so many of them.
+/// The number of recent functions remembered.
 const MOST_RECENT: usize = 12;
 
-/// The rooms that a command is about.
+/// The rooms a command applies to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Target {
     pub rooms: Vec<RoomId>,
-    /// Whether they are the selected ones, which a recording has selected before.
+    /// Whether they are the selection, which a recording has already made.
     pub is_selection: bool,
 }
 
 impl Target {
-    /// The argument that names it in a call; none for the selection.
+    /// The argument that names it in a call; `None` for the selection.
     pub(crate) fn word(&self, plan: &Plan) -> Option<String> {
         self.rooms.first().filter(|_| !self.is_selection).map(|&room| words::room_word(plan, room))
     }
 
-    /// What it is called: 'Kitchen', '5 rooms'.
+    /// Its title: 'Kitchen', '5 rooms'.
     pub(crate) fn title(&self, plan: &Plan) -> String {
         match self.rooms.as_slice() {
             [one] => plan.room(*one).map(room_title).unwrap_or_default(),
@@ -39,8 +39,8 @@ impl Target {
 }
 
 impl Session {
-    /// The rooms that a command is about: one that is named, else the selected ones, else the one under
-    /// the pointer, if nothing is selected. `None` without any.
+    /// The rooms a command applies to: the named one, otherwise the selected ones, otherwise, if nothing
+    /// is selected, the one under the pointer. `None` if there are none.
     pub(crate) fn target(&self, named: Option<RoomId>) -> Option<Target> {
         let plan = self.plan()?;
         let pointed = || self.room_under_pointer().filter(|_| self.selection.is_empty());
@@ -51,7 +51,7 @@ impl Session {
         (!rooms.is_empty()).then_some(Target { rooms, is_selection: true })
     }
 
-    /// The room under the pointer, also where a wall or a door lies above it.
+    /// The room under the pointer, even if there is a wall or a door above it.
     fn room_under_pointer(&self) -> Option<RoomId> {
         if let Some(ElementId::Room(room)) = self.pointed.element {
             return Some(room);
@@ -61,7 +61,7 @@ impl Session {
         shapes.all().get(index).map(|shape| shape.id)
     }
 
-    /// The label that all selected rooms have, whoever gave it.
+    /// The label shared by all selected rooms, from any source.
     pub(crate) fn selected_label(&self) -> Option<Label> {
         let plan = self.plan()?;
         let label = |room: RoomId| RoomStatus::of(plan, &self.schemes, plan.room(room)?).label();
@@ -70,7 +70,7 @@ impl Session {
         rooms.all(|room| label(room) == Some(first)).then_some(first)
     }
 
-    /// Gives rooms a label, or takes their own away, in one step.
+    /// Labels rooms, or removes their own labels, in one step.
     pub(crate) fn label_rooms(&mut self, target: &Target, label: Option<Label>) {
         let Some(plan) = self.plan() else { return };
         let what = label.map_or("Label by function".to_owned(), |label| format!("Label {label}"));
@@ -82,7 +82,7 @@ impl Session {
         self.status = status;
     }
 
-    /// Writes what rooms are for, in one step.
+    /// Sets what rooms are for, in one step.
     pub(crate) fn set_function_of(&mut self, target: &Target, function: &str) {
         let Some(plan) = self.plan() else { return };
         let function = function.trim();
@@ -97,7 +97,7 @@ impl Session {
         self.remember_function(function);
     }
 
-    /// Keeps a function for the next list of them.
+    /// Remembers a function for the next list.
     pub(crate) fn remember_function(&mut self, function: &str) {
         let function = normalised_function(function);
         if !function.is_empty() {
@@ -108,8 +108,8 @@ impl Session {
         }
     }
 
-    /// The functions of the plan and of its typology's scheme: first those that most rooms of the plan
-    /// have, then those that were set lately, then as the scheme has them.
+    /// The functions of the plan and of its typology's scheme: first by how many rooms of the plan have
+    /// them, then the recent ones, then in the scheme's order.
     pub(crate) fn function_choices(&self) -> Vec<Choice> {
         let Some(plan) = self.plan() else { return Vec::new() };
         let typology = plan.meta().typology.as_ref();
@@ -132,7 +132,7 @@ impl Session {
         let recent =
             |function: &String| self.recent_functions.iter().position(|other| other == function).unwrap_or(usize::MAX);
         let number = |function: &String| used.get(function).copied().unwrap_or(0);
-        // Stable: else as they are.
+        // Stable: ties keep their order.
         functions.sort_by_key(|function| (std::cmp::Reverse(number(function)), recent(function)));
         let choice = |function: String| {
             let (status, detail) = match self.schemes.meaning(typology, &function) {
@@ -153,7 +153,7 @@ impl Session {
     }
 }
 
-/// Changes some rooms one after the other.
+/// Changes rooms one by one.
 pub(crate) fn for_each(
     plan: &Plan,
     rooms: &[RoomId],

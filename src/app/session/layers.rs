@@ -1,4 +1,4 @@
-//! What is shown of a plan, and what the pointer leaves alone.
+//! What is shown of a plan, and what the pointer ignores.
 
 use super::Session;
 use crate::draw::{Fill, LabelColours};
@@ -15,16 +15,16 @@ pub(crate) struct LayerSettings {
     pub(crate) backdrop: bool,
     pub(crate) grid: bool,
     pub(crate) guides: bool,
-    /// Lengths and area of what is selected.
+    /// Lengths and area of the selection.
     pub(crate) dimensions: bool,
-    /// The storey that lies below.
+    /// The storey below.
     pub(crate) ghost: bool,
     pub(crate) rulers: bool,
-    /// Rooms, walls and openings that cannot be selected or moved with the pointer.
+    /// Rooms, walls and openings that the pointer cannot select or move.
     pub(crate) locked: Locked,
 }
 
-/// What the pointer leaves alone.
+/// What the pointer ignores.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Locked {
     pub(crate) rooms: bool,
@@ -62,7 +62,7 @@ impl Default for LayerSettings {
 }
 
 impl Session {
-    /// The guide lines of the open plan that are shown: what snapping may go by.
+    /// The visible guide lines of the open plan, for snapping.
     pub(crate) fn guides(&self) -> &[Guide] {
         let plan = self.plan().filter(|_| self.layers.guides);
         plan.map_or(&[], crate::plan::Plan::guides)

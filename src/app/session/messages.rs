@@ -1,4 +1,4 @@
-//! What is said to a person until it is dismissed.
+//! Messages that stay until they are dismissed.
 
 /// A message that stays until it is dismissed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -8,28 +8,28 @@ pub struct Message {
     pub text: String,
     /// Where, and what to do; may be empty.
     pub detail: String,
-    /// What can be done about it.
+    /// The available remedies.
     pub remedies: Vec<Remedy>,
-    /// Whether it stays as long as what it says is so; else a person can dismiss it.
+    /// Whether it stays as long as it is true; otherwise the user can dismiss it.
     pub stays: bool,
 }
 
-/// What a message offers to do.
+/// A remedy offered by a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Remedy {
-    /// Show what an import mended or left out.
+    /// Show what an import repaired or skipped.
     ShowNotes,
     /// Show how the plan and its file differ.
     ShowDifferences,
-    /// Make the plan what its file holds.
+    /// Replace the plan by the file's contents.
     LoadTheirs,
-    /// Go on with the plan as it is here.
+    /// Continue with the plan as it is here.
     KeepMine,
     /// Save the plan in its file.
     Save,
-    /// Save it in another.
+    /// Save it in another file.
     SaveElsewhere,
-    /// Say where the picture under the plan is.
+    /// Find the missing backdrop.
     RelinkPicture,
     /// Take the picture that is shown as the one that the plan means.
     KeepPicture,
@@ -50,7 +50,7 @@ impl Remedy {
     }
 }
 
-/// How bad a message is.
+/// The severity of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
     Info,

@@ -1,4 +1,4 @@
-//! The work at hand: the open plan and all that is done with it. It knows no canvas, tool, panel or command.
+//! The session: the open plan and all that is done with it. It knows no canvas, tool, panel or command.
 
 pub(crate) mod bulk;
 pub(crate) mod deriving;
@@ -61,63 +61,63 @@ use std::path::Path;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The open plan, what is selected and asked, what is kept safe: all of the window but how it is shown.
+/// The open plan, the selection, questions, recovery: everything about the window except how it is shown.
 pub(crate) struct Session {
     pub(crate) schemes: Arc<Schemes>,
     pub(crate) document: Option<Document>,
-    /// What is being read to be opened.
+    /// The origin of the plan being opened.
     pub(crate) opening: Option<Origin>,
     pub(crate) list: PlanList,
     pub(crate) selection: Selection,
-    /// What was copied: a part of a plan.
+    /// The copied part of a plan.
     pub(crate) copied: Option<Plan>,
     pub(crate) layers: LayerSettings,
     /// The storey drawn faintly under the plan.
     pub(crate) ghost: Option<ghost::Ghost>,
     /// Which models predict.
     pub(crate) predictor: Predictor,
-    /// The models at hand: bundled, and the user's own.
+    /// The available models: bundled, and the user's own.
     pub(crate) models: Models,
     pub(crate) settings: Settings,
     pub(crate) messages: Vec<Message>,
-    /// What was just done, for the status line.
+    /// The last action, for the status line.
     pub(crate) status: String,
     pub(crate) question: Option<Question>,
-    /// What a person wants once a question is answered, or a file saved.
+    /// What to do once a question is answered, or a file saved.
     pub(crate) waiting: Option<Intent>,
-    /// The journal that is to be opened.
+    /// The journal to be recovered.
     pub(crate) recovering: Option<PathBuf>,
     pub(crate) safety: Safety,
     pub(crate) jobs: Jobs,
     pub(crate) dialogs: Dialogs,
     pub(crate) quitting: bool,
-    /// Where scripts work: paths below are shown from here.
+    /// The folder where scripts work: paths below it are shown relative to it.
     pub(crate) named_from: Option<PathBuf>,
-    /// How many documents have been shown.
+    /// The number of documents shown so far.
     pub(crate) documents: u64,
-    /// The commands that were done, where a recorder wants them.
+    /// The commands that ran, if a recorder wants them.
     pub(crate) executed: Option<Vec<Executed>>,
-    /// The name of a picture that is being read to lie under the plan.
+    /// The name of a picture being loaded as a backdrop.
     pub(crate) reading_picture: Option<String>,
     /// What the pointer points at on the canvas.
     pub(crate) pointed: Pointed,
-    /// The picture under the plan, as far as it is read.
+    /// The state of the backdrop.
     pub(crate) backdrop: BackdropView,
-    /// Text that a person has changed and not finished.
+    /// A text being edited.
     pub(crate) field: Option<Field>,
-    /// Functions that were set, the last one first, as schemes compare them.
+    /// Recently set functions, latest first, in the form schemes compare.
     pub(crate) recent_functions: Vec<String>,
-    /// Whether what is done is being recorded.
+    /// Whether a recording is in progress.
     pub(crate) is_recording: bool,
-    /// What the rest of the window is to do about it.
+    /// Requests to the rest of the window.
     pub(crate) wishes: Vec<Wish>,
 }
 
-/// What the pointer points at.
+/// What is under the pointer.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Pointed {
     pub element: Option<ElementId>,
-    /// The place in the plan; `None` off the canvas.
+    /// The position in the plan; `None` off the canvas.
     pub at: Option<Point>,
 }
 
@@ -163,17 +163,18 @@ impl Session {
         self.document.as_ref().map(Document::plan)
     }
 
-    /// What is selected.
+    /// The selection.
     pub(crate) fn selection(&self) -> &Selection {
         &self.selection
     }
 
-    /// The element that is selected, where it is exactly one.
+    /// The selected element, if there is exactly one.
     pub(crate) fn picked(&self) -> Option<ElementId> {
         self.selection.one()
     }
 
-    /// What stands above the canvas: messages, the oldest first, then what stays as long as it is so.
+    /// The messages above the canvas: dismissible ones, oldest first, then those that stay as long as
+    /// they are true.
     pub(crate) fn messages(&self) -> Vec<Message> {
         let mut messages = self.messages.clone();
         messages.extend(self.bars());
@@ -188,12 +189,12 @@ impl Session {
         messages
     }
 
-    /// Whether the plan has changes that are in no file.
+    /// Whether the plan has unsaved changes.
     pub(crate) fn has_unsaved_changes(&self) -> bool {
         self.document.as_ref().is_some_and(Document::is_changed)
     }
 
-    /// A path as it is shown.
+    /// A path for display.
     pub(crate) fn shown_path(&self, path: &Path) -> String {
         let folder = self.named_from.as_deref().unwrap_or(Path::new(""));
         path.strip_prefix(folder).unwrap_or(path).display().to_string()
@@ -210,7 +211,7 @@ impl Session {
     }
 
     pub(crate) fn add_message(&mut self, message: Message) {
-        // The same thing said again moves to the end.
+        // A repeated message moves to the end.
         self.messages.retain(|other| *other != message);
         self.messages.push(message);
     }

@@ -1,4 +1,4 @@
-//! Where a plan came from, and what was said of it there.
+//! Where a plan came from, and the notes made when reading it.
 
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -7,10 +7,10 @@ use crate::formats::{self, Note, NoteKind};
 use crate::plan::Plan;
 use crate::store;
 
-/// The plans that come with the program, each with its file's name, the one shown first in front.
+/// The bundled plans with their file names; the first is the one to show first.
 pub(crate) fn bundled() -> &'static [(&'static str, Plan)] {
     static PLANS: OnceLock<Vec<(&str, Plan)>> = OnceLock::new();
-    // They read, or the tests fail; were one broken, there would be no samples.
+    // The tests fail if they cannot be read; if one were broken, there would be no samples.
     PLANS.get_or_init(|| store::bundled_plans().unwrap_or_default())
 }
 
@@ -19,7 +19,7 @@ pub(crate) fn bundled() -> &'static [(&'static str, Plan)] {
 pub(crate) enum Origin {
     /// One of [`bundled`], by its index.
     Bundled(usize),
-    /// Begun here, and in no file yet.
+    /// Created here, and in no file yet.
     Untitled,
     /// A file; `storey` counts the plans in it from 0.
     File { path: PathBuf, storey: usize },
@@ -34,12 +34,12 @@ impl Origin {
         }
     }
 
-    /// The folder the file lies in.
+    /// The folder of the file.
     pub(crate) fn folder(&self) -> Option<&Path> {
         self.path().and_then(Path::parent)
     }
 
-    /// What it is called in lists and titles.
+    /// Its title in lists.
     pub(crate) fn title(&self) -> String {
         match self {
             Self::Bundled(index) => bundled().get(*index).map_or("", |(_, plan)| &plan.meta().name).to_owned(),
@@ -48,7 +48,7 @@ impl Origin {
         }
     }
 
-    /// Its file's name without the ending.
+    /// Its file's name without the extension.
     pub(crate) fn stem(&self) -> String {
         match self {
             Self::Bundled(index) => {

@@ -1,4 +1,4 @@
-//! What is picked, and going from room to room.
+//! Picking, and going from room to room.
 
 use super::Session;
 use super::wishes::Wish;
@@ -26,8 +26,8 @@ impl Session {
         Some((id, self.plan()?.room(id)?))
     }
 
-    /// Picks the room that comes `step` later as one reads: from the top left, line by line. From
-    /// nothing picked, the first or the last. `false` when there is no further one.
+    /// Picks the room `step` places on in reading order: from the top left, line by line. With nothing
+    /// picked, the first or the last. `false` if there is none.
     pub(crate) fn pick_neighbour(&mut self, step: isize) -> bool {
         let Some(derived) = self.document.as_ref().and_then(Document::derived) else { return false };
         let order = derived.reading_order();
@@ -46,7 +46,8 @@ impl Session {
         true
     }
 
-    /// Picks the room nearest to the picked one in a direction of the plan; the first where none is.
+    /// Picks the room nearest to the picked one in a direction of the plan; with nothing picked, the
+    /// first.
     pub(crate) fn pick_towards(&mut self, direction: Vector) {
         let Some(derived) = self.document.as_ref().and_then(Document::derived) else { return };
         let Some(ElementId::Room(picked)) = self.picked() else {
@@ -62,7 +63,7 @@ impl Session {
             .filter_map(|shape| {
                 let way = shape.bounds.center() - from;
                 let (along, across) = (way.dot(direction), way.cross(direction).abs());
-                // Within 60 degrees of the direction; what lies aside counts double.
+                // Within 60 degrees of the direction; sideways distance counts double.
                 (along > 0.0 && across < along * 1.75).then_some((along + 2.0 * across, shape.id))
             })
             .min_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));

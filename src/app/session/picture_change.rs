@@ -1,30 +1,30 @@
-//! What can be done with the picture under the plan.
+//! Changes to the backdrop.
 
 use crate::edit::DrawingMoves;
 use crate::edit::{self, EditError};
 use crate::geometry::Point;
 use crate::plan::{Measurement, Plan};
 
-/// What a picture is read for.
+/// The purpose of loading a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PictureUse {
-    /// To lie under the plan, in place of one that does.
+    /// As the plan's backdrop, replacing any present.
     Add,
-    /// To be the one that the plan asks for.
+    /// As the missing picture of the plan's backdrop.
     Relink,
 }
 
-/// A change of the picture that the drawing may follow.
+/// A change of the backdrop that the drawing may follow.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum PictureChange {
-    /// The lengths its scale follows from.
+    /// The measurements that determine its scale.
     Measurements(Vec<Measurement>),
-    /// A turn about a point of the plan, counter-clockwise.
+    /// A counter-clockwise rotation about a point of the plan.
     Turn { about: Point, angle_rad: f64 },
 }
 
 impl PictureChange {
-    /// What it is called in the history.
+    /// Its title in the history.
     pub(crate) const fn title(&self) -> &'static str {
         match self {
             Self::Measurements(_) => "Set scale",

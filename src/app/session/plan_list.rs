@@ -1,4 +1,4 @@
-//! The plans of a folder, and those that come with the program.
+//! The plans of a folder, and the bundled ones.
 
 use std::path::{Path, PathBuf};
 
@@ -6,7 +6,7 @@ use crate::app::session::origin::{Origin, bundled};
 use crate::base::natural_order::NaturalKey;
 use crate::store;
 
-/// What the panel on the left lists.
+/// The contents of the panel on the left.
 #[derive(Debug, Default)]
 pub(crate) struct PlanList {
     pub folder: Option<PathBuf>,
@@ -30,7 +30,7 @@ impl PlanList {
         let next = match current? {
             Origin::Bundled(index) => (self.files.len() + index).checked_add_signed(step)?,
             Origin::File { path, .. } => self.files.iter().position(|file| file == path)?.checked_add_signed(step)?,
-            // In front of the first.
+            // Before the first.
             Origin::Untitled => usize::try_from(step - 1).ok()?,
         };
         match self.files.get(next) {
@@ -43,7 +43,7 @@ impl PlanList {
     }
 }
 
-/// More plans than this in one folder are not listed: nobody reads such a list.
+/// The most plans listed from one folder: nobody reads a longer list.
 const LIST_LIMIT: usize = 20_000;
 
 /// The plan files in a folder, in natural order of their names; none when it cannot be read.

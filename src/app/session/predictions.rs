@@ -1,4 +1,4 @@
-//! What classifiers say of the rooms, and accepting it.
+//! Predictions for the rooms, and accepting them.
 
 use super::Session;
 use crate::app::session::messages::Severity;
@@ -12,12 +12,12 @@ use crate::predict::Predictions;
 use crate::store;
 use std::sync::Arc;
 impl Session {
-    /// What is said of the rooms of the plan as it is now; `None` while that is being worked out.
+    /// The predictions for the current plan; `None` while they are being computed.
     pub fn predictions(&self) -> Option<&Predictions> {
         self.document.as_ref()?.derived()?.predictions.as_ref()
     }
 
-    /// The selected rooms that are predicted, with what is said of them.
+    /// The selected rooms that have a prediction, with the predicted label.
     pub(crate) fn predictions_of_selected(&self) -> Vec<(RoomId, Label)> {
         let Some(predictions) = self.predictions() else { return Vec::new() };
         self.selection.rooms().filter_map(|id| Some((id, predictions.label(id)?))).collect()
@@ -42,7 +42,7 @@ impl Session {
         });
     }
 
-    /// Labels all rooms that have no label as predicted.
+    /// Labels all rooms without a label as predicted.
     pub(crate) fn accept_all_predictions(&mut self) {
         let Some(predictions) = self.predictions() else { return };
         let unlabelled = predictions.network.rooms.iter().filter(|room| room.label.is_none());
@@ -53,7 +53,8 @@ impl Session {
         self.status = title;
     }
 
-    /// Takes the user's own label schemes and models from their folders; says what cannot be used.
+    /// Loads the user's own label schemes and models from their folders; reports those that cannot be
+    /// used.
     pub(crate) fn use_own_schemes_and_models(&mut self) {
         if let Some(folder) = store::schemes_folder() {
             let (schemes, errors) = store::schemes_in(&folder);

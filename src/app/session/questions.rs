@@ -1,4 +1,4 @@
-//! What a person is asked, with what each answer does, and what waits for the answer.
+//! Questions to the user, the effect of each answer, and what waits for it.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -12,12 +12,12 @@ use crate::edit::DrawingMoves;
 use crate::geometry::Segment;
 use crate::plan::{ElementId, Plan};
 
-/// What a person wants to do that would lose unsaved work.
+/// An action that would lose unsaved work.
 #[derive(Debug)]
 pub(crate) enum Intent {
-    /// Show another plan, which was read meanwhile.
+    /// Show another plan, already read.
     Show(Box<Opened>),
-    /// Show what a journal keeps.
+    /// Recover the contents of a journal.
     Recover(PathBuf),
     Close,
     Quit,
@@ -25,12 +25,12 @@ pub(crate) enum Intent {
 
 /// A question that must be answered before anything else.
 pub(crate) struct Question {
-    /// What is asked, in a sentence.
+    /// The question, in a sentence.
     pub(crate) title: String,
     pub(crate) text: String,
-    /// What is shown of it on the plan.
+    /// What it shows on the plan.
     pub(crate) shown: Shown,
-    /// The main answer first.
+    /// The answers, the main one first.
     answers: Vec<Answer>,
     /// What waits for the answer.
     then: Option<Intent>,
@@ -39,33 +39,33 @@ pub(crate) struct Question {
 /// What a question shows on the plan.
 pub(crate) enum Shown {
     Nothing,
-    /// Elements that would go.
+    /// Elements that would be removed.
     Gone(BTreeSet<ElementId>),
     /// Places that would change; a point is a segment without length.
     Marks(Vec<Segment>),
 }
 
 struct Answer {
-    /// What it is called in scripts.
+    /// Its name in scripts.
     word: &'static str,
-    /// What its button says.
+    /// The title of its button.
     title: &'static str,
     effect: Effect,
 }
 
-/// What an answer does; gives whether it did not have to ask for more.
+/// The effect of an answer; returns whether it did not have to ask for more.
 type Effect = Box<dyn FnOnce(&mut Session, Reply) -> bool>;
 
 /// What comes with an answer.
 struct Reply {
     word: &'static str,
-    /// The file to save in, where a dialog would ask for it.
+    /// The file to save in, if a dialog would otherwise ask for it.
     path: Option<PathBuf>,
-    /// What waited.
+    /// What was waiting.
     then: Option<Intent>,
 }
 
-/// The answer of every question that a click beside it gives, and Escape: nothing is done.
+/// The answer, present in every question, that Escape and a click outside give: nothing is done.
 pub(crate) const CANCEL: &str = "cancel";
 
 impl Question {
@@ -95,12 +95,12 @@ impl Question {
         self.simply((CANCEL, "Cancel"), |_| {})
     }
 
-    /// The answers there are, each with what its button says, the main one first.
+    /// The answers with their button titles, the main one first.
     pub(crate) fn answers(&self) -> Vec<(&'static str, &'static str)> {
         self.answers.iter().map(|answer| (answer.word, answer.title)).collect()
     }
 
-    /// The plan has unsaved changes: save, give up, or keep working?
+    /// The plan has unsaved changes: save, discard, or keep working?
     pub(crate) fn unsaved(plan: &str, intent: Intent) -> Self {
         let then = match intent {
             Intent::Show(_) | Intent::Recover(_) => "before another plan is shown",
@@ -122,7 +122,7 @@ impl Question {
             .cancel()
     }
 
-    /// More would go than is selected: delete it all?
+    /// More would be removed than is selected: delete it all?
     pub(crate) fn delete(selected: Vec<ElementId>, gone: BTreeSet<ElementId>) -> Self {
         let title = match selected.as_slice() {
             [one] => format!("Delete the {} and what depends on it?", one.kind()),
@@ -140,7 +140,7 @@ impl Question {
         asked.simply(("delete", "Delete"), move |session| session.delete(&selected)).cancel()
     }
 
-    /// Something large would be changed: do it? `step`: what it is called in the history.
+    /// A large change is about to be made: do it? `step`: its title in the history.
     pub(crate) fn change(
         title: &str,
         text: String,
@@ -153,7 +153,7 @@ impl Question {
         asked.simply(answer, move |session| session.edit(step, |_| Ok(plan))).cancel()
     }
 
-    /// Something else stands in the file to be saved: replace it?
+    /// The file to be saved has other contents: replace it?
     pub(crate) fn replace(path: PathBuf, is_changed_since: bool, then: Option<Intent>) -> Self {
         let text = match is_changed_since {
             true => "Somebody else has changed the file since it was opened here. Replacing it loses their changes.",
@@ -168,7 +168,7 @@ impl Question {
             .cancel()
     }
 
-    /// Give up what a program left behind?
+    /// Discard a journal left behind by a program?
     pub(crate) fn discard(path: PathBuf, plan: &str) -> Self {
         let text = "They are in no file and cannot be brought back.";
         Self::new(format!("Discard the changes to {plan}?"), text)
@@ -176,7 +176,7 @@ impl Question {
             .simply(("discard", "Discard"), move |session| session.discard_leftover(&path))
     }
 
-    /// The picture is about to be scaled or turned: does the drawing go along?
+    /// The backdrop is about to be scaled or rotated: should the drawing follow?
     pub(crate) fn drawing(change: PictureChange) -> Self {
         let title = match change {
             PictureChange::Measurements(_) => "Scale the drawing along with the picture?",
@@ -197,23 +197,24 @@ impl Question {
 }
 
 impl Session {
-    /// Asks: nothing else happens before this is answered.
+    /// Asks: nothing else happens until this is answered.
     pub(crate) fn ask(&mut self, question: Question) {
         self.question = Some(question);
     }
 
-    /// Answers the question that is asked. `path`: the file to save in, where there must be one; the
-    /// dialog asks for it without. Gives whether it did not have to ask.
+    /// Answers the current question. `path`: the file to save in, if one is needed; without it a dialog
+    /// asks. Returns whether it did not have to ask.
     pub(crate) fn answer(&mut self, word: &'static str, path: Option<PathBuf>) -> bool {
         let Some(Question { answers, then, .. }) = self.question.take() else { return true };
         match answers.into_iter().find(|answer| answer.word == word) {
             Some(answer) => (answer.effect)(self, Reply { word, path, then }),
-            // Another word is no answer: nothing is done.
+            // An unknown answer: nothing is done.
             None => true,
         }
     }
 
-    /// Saves in the file that came with the answer, or asks for one. Gives whether it did not have to ask.
+    /// Saves in the file that came with the answer, or asks for one. Returns whether it did not have to
+    /// ask.
     fn save_by(&mut self, reply: Reply) -> bool {
         let Reply { word, path, then } = reply;
         match path {

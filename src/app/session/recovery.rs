@@ -1,4 +1,4 @@
-//! What programs that ended without saving left behind: it is offered, recovered or discarded.
+//! Unsaved work left behind by other runs of the program: offered, recovered or discarded.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -18,10 +18,10 @@ use crate::app::session::{
 use crate::labels::Schemes;
 use crate::store::{JournalStart, Leftover, Predecessor, leftovers};
 
-/// A journal that is offered.
+/// A journal offered for recovery.
 pub(crate) struct Offered {
     pub leftover: Leftover,
-    /// What follows from the plan that would be recovered.
+    /// The analysis of the plan that would be recovered.
     pub derived: Option<Arc<Derived>>,
 }
 
@@ -32,7 +32,7 @@ impl Offered {
         Self { leftover, derived }
     }
 
-    /// What the plan is called.
+    /// The plan's title.
     pub(crate) fn title(&self) -> String {
         let Ok(recovered) = &self.leftover.content else { return "Unreadable journal".to_owned() };
         let name = &recovered.history.plan().meta().name;
@@ -40,7 +40,7 @@ impl Offered {
     }
 }
 
-/// Where a plan that a journal keeps came from.
+/// The origin of a journal's plan.
 fn origin_of(start: &JournalStart) -> Origin {
     let sample = |sample: &String| (0..bundled().len()).find(|&index| sample_word(index) == sample.as_str());
     match (&start.file, start.sample.as_ref().and_then(sample)) {
@@ -51,7 +51,7 @@ fn origin_of(start: &JournalStart) -> Origin {
 }
 
 impl Session {
-    /// Keeps journals in a folder from now on, and offers what is left there.
+    /// Keeps journals in a folder from now on, and offers those left there.
     pub fn use_journal(&mut self, folder: PathBuf) {
         self.safety.folder = Some(folder.clone());
         let schemes = self.schemes.clone();
@@ -67,7 +67,7 @@ impl Session {
         self.safety.leftovers = offered;
     }
 
-    /// Recovers the Nth of what was left behind, from 1, after asking where that would lose unsaved work.
+    /// Recovers the Nth leftover, from 1, after asking if that would lose unsaved work.
     pub(crate) fn recover(&mut self, number: usize) -> Result<(), String> {
         let offered = self.offered(number)?;
         if let Err(what) = &offered.leftover.content {
@@ -79,7 +79,7 @@ impl Session {
         Ok(())
     }
 
-    /// Asks whether to discard the Nth of what was left behind.
+    /// Asks whether to discard the Nth leftover.
     pub(crate) fn ask_to_discard(&mut self, number: usize) -> Result<(), String> {
         let offered = self.offered(number)?;
         let question = Question::discard(offered.leftover.path.clone(), &offered.title());
@@ -113,7 +113,7 @@ impl Session {
         }
     }
 
-    /// Opens what a journal keeps, as changes of its plan that are in no file.
+    /// Opens a journal's contents, as unsaved changes of its plan.
     pub(crate) fn show_recovered(&mut self, path: &Path, context: &Context) {
         let Some(Offered { leftover, .. }) = self.take_offered(path) else { return };
         let Ok(recovered) = &leftover.content else { return };

@@ -1,4 +1,4 @@
-//! Keeping work safe: the journal of the open plan, and what stays in sight while something is not kept.
+//! Keeping work safe: the journal of the open plan, and warnings while something is not safe.
 
 use std::path::PathBuf;
 use std::time::SystemTime;
@@ -17,23 +17,23 @@ use crate::app::session::{
 };
 use crate::store::{Journal, JournalFailure, JournalStart, Predecessor, SaveError};
 
-/// What keeps work safe.
+/// The state of keeping work safe.
 #[derive(Default)]
 pub(crate) struct Safety {
-    /// Where journals are kept; none without.
+    /// The folder of journals; `None` to keep none.
     pub(super) folder: Option<PathBuf>,
-    /// That of the open plan, while it has changes that are in no file.
+    /// The journal of the open plan, while it has unsaved changes.
     journal: Option<Journal>,
     /// Why the journal is not being written.
     journal_failure: Option<JournalFailure>,
-    /// Why the plan could not be saved when that was last tried.
+    /// Why the last attempt to save the plan failed.
     save_failure: Option<SaveError>,
-    /// What can be recovered, the newest first.
+    /// What can be recovered, newest first.
     pub leftovers: Vec<Offered>,
-    /// What somebody else made of the plan's file.
+    /// The changes by somebody else to the plan's file.
     pub theirs: Option<Theirs>,
     pub(super) watch: Watch,
-    /// Tells the time where that may be shown.
+    /// The clock, if times may be shown.
     pub clock: Option<fn() -> SystemTime>,
 }
 
@@ -53,12 +53,12 @@ fn start_of(document: &Document) -> JournalStart {
 }
 
 impl Session {
-    /// Tells from now on how old things are.
+    /// From now on shows how old things are.
     pub(crate) fn use_clock(&mut self, clock: fn() -> SystemTime) {
         self.safety.clock = Some(clock);
     }
 
-    /// Brings the journal up to date with the open plan.
+    /// Updates the journal with the open plan.
     pub(crate) fn keep_journal(&mut self, context: &Context) {
         if self.quitting {
             return;
@@ -70,7 +70,7 @@ impl Session {
         let (Some(document), Some(journal)) = (&self.document, &mut self.safety.journal) else { return };
         journal.note(&document.history);
         if self.jobs.is_inline() {
-            // What it says is asked below.
+            // Its result is checked below.
             let _ = journal.wait();
         }
         self.safety.journal_failure = journal.failure();
@@ -84,7 +84,7 @@ impl Session {
         self.safety.journal = Some(Journal::begin(folder, start_of(document), base, replaces, on_change));
     }
 
-    /// Takes note that the plan's file holds something else now: the journal goes on from there.
+    /// Records that the plan's file has changed: the journal continues from there.
     pub(super) fn journal_from_file(&mut self, context: &Context) {
         self.safety.journal_failure = None;
         let Some(journal) = self.safety.journal.take() else { return };
@@ -96,7 +96,7 @@ impl Session {
         }
     }
 
-    /// Ends the journal of a plan that is closed: its changes are saved, or given up.
+    /// Ends the journal of a closed plan: its changes are saved, or discarded.
     pub(crate) fn end_journal(&mut self) {
         if let Some(journal) = self.safety.journal.take() {
             journal.remove();
@@ -111,7 +111,7 @@ impl Session {
         self.safety.watch.saves += 1;
     }
 
-    /// Takes note that the open plan stands in its file.
+    /// Records that the open plan is saved in its file.
     pub(crate) fn is_saved(&mut self, context: &Context) {
         self.safety.save_failure = None;
         self.safety.theirs = None;
@@ -129,7 +129,7 @@ impl Session {
         self.safety.journal_failure.as_ref()
     }
 
-    /// What stays above the canvas as long as it is so.
+    /// The messages that stay above the canvas as long as they are true.
     pub(crate) fn bars(&self) -> Vec<Message> {
         let mut bars = Vec::new();
         let mut bar = |severity, text: String, detail: String, remedies: &[Remedy]| {

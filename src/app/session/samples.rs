@@ -1,4 +1,4 @@
-//! The pictures of the plans that come with the program.
+//! Thumbnails of the bundled plans.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use crate::app::session::document::derived_sample;
 use crate::pipeline::Derived;
 use crate::plan::Plan;
 
-/// The samples' pictures, made when they are first seen.
+/// The samples' thumbnails, made when first shown.
 #[derive(Default)]
 pub(crate) struct Samples(Vec<Option<Sample>>);
 

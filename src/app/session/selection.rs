@@ -1,4 +1,4 @@
-//! What is selected: elements of the plan that the next command is about.
+//! The selection: elements of the plan that the next command applies to.
 
 use std::collections::BTreeSet;
 
@@ -10,18 +10,18 @@ pub struct Selection {
     elements: BTreeSet<ElementId>,
 }
 
-/// What becomes of the elements that were selected before.
+/// What happens to the previous selection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SelectMode {
-    /// They are selected no longer.
+    /// It is replaced.
     Replace,
     Add,
-    /// Those that are given again are taken out.
+    /// Elements selected again are deselected.
     Toggle,
 }
 
 impl Selection {
-    /// Exactly these elements.
+    /// A selection of exactly these elements.
     pub fn of(elements: impl IntoIterator<Item = ElementId>) -> Self {
         Self { elements: elements.into_iter().collect() }
     }
@@ -38,7 +38,7 @@ impl Selection {
         self.elements.contains(&element)
     }
 
-    /// The element, where exactly one is selected.
+    /// The element, if exactly one is selected.
     pub fn one(&self) -> Option<ElementId> {
         (self.elements.len() == 1).then(|| self.elements.first().copied()).flatten()
     }
@@ -83,7 +83,7 @@ impl Selection {
         }
     }
 
-    /// Forgets what a plan does not have.
+    /// Deselects elements that are not in a plan.
     pub fn keep_what_is_in(&mut self, plan: &Plan) {
         if self.elements.iter().any(|&element| !plan.has(element)) {
             self.elements.retain(|&element| plan.has(element));

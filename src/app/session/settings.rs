@@ -1,7 +1,7 @@
-//! What a person has set, kept in a file from session to session: the shortcuts, the units, the grid.
+//! User settings, kept in a file between sessions: the shortcuts, the units, the grid.
 //!
-//! The file is JSON. What this version does not know in it is kept. A file that cannot be read is
-//! moved aside and never overwritten.
+//! The file is JSON. Entries unknown to this version are kept. A file that cannot be read is moved aside
+//! and never overwritten.
 
 use super::Session;
 use std::collections::BTreeMap;
@@ -14,51 +14,51 @@ use crate::app::session::messages::{Message, Severity};
 use crate::base::units::Units;
 use crate::store;
 
-/// Names the settings file in place of the system's; empty for none: nothing is read or kept.
+/// Environment variable for another settings file; if empty, none is read or kept.
 const VARIABLE: &str = "ENFILADE_SETTINGS";
 
-/// The version of the file that is written.
+/// The file version that is written.
 const VERSION: u64 = 1;
 
-/// Lines of the grid are at least so far apart, and at most, in metres.
+/// The range of the grid spacing, in metres.
 pub(crate) const GRID_RANGE_M: std::ops::RangeInclusive<f64> = 0.001..=1000.0;
 
-/// No settings file is larger.
+/// The maximum size of a settings file.
 const MOST_BYTES: u64 = 1 << 20;
 
-/// A command, as far as its shortcuts go.
+/// A command and its shortcuts.
 #[derive(Clone, Debug)]
 pub(crate) struct Keyed {
     pub id: &'static str,
     pub title: &'static str,
-    /// The menu it stands in; `None` for a verb of scripts only.
+    /// Its menu; `None` if it is only for scripts.
     pub menu: Option<&'static str>,
-    /// The shortcuts it comes with.
+    /// Its default shortcuts.
     pub shipped: Vec<Keys>,
 }
 
-/// What a person has set.
+/// The user's settings.
 #[derive(Debug, Default)]
 pub(crate) struct Settings {
-    /// The commands there are.
+    /// All commands.
     commands: &'static [Keyed],
-    /// Where it is kept; `None` for not at all.
+    /// Their file; `None` if they are not kept.
     file: Option<PathBuf>,
-    /// All that the file holds.
+    /// The whole contents of the file.
     kept: Map<String, Value>,
-    /// The shortcuts that are not those the commands come with.
+    /// The shortcuts that differ from the defaults.
     changed: BTreeMap<&'static str, Vec<Keys>>,
     units: Units,
-    /// Distance of the grid's lines in metres; `None` for as the zoom has it.
+    /// Spacing of the grid in metres; `None` chooses it by the zoom.
     grid_m: Option<f64>,
 }
 
-/// Why a command does not get a shortcut.
+/// Why a shortcut was refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Refused {
-    /// A command of this title has the keys.
+    /// The command with this title has the keys.
     Taken(&'static str),
-    /// Nobody may choose the keys, and why.
+    /// The keys are reserved; the text says why.
     Reserved(&'static str),
 }
 
@@ -72,8 +72,8 @@ impl Refused {
     }
 }
 
-/// The file in which settings are kept: the one the environment names, or the system's place; `None`
-/// where there is none.
+/// The settings file: the one in the environment variable, or in the system's location; `None` if there
+/// is none.
 pub(crate) fn file() -> Option<PathBuf> {
     use etcetera::BaseStrategy as _;
     match std::env::var_os(VARIABLE) {
@@ -86,17 +86,17 @@ pub(crate) fn file() -> Option<PathBuf> {
 }
 
 impl Settings {
-    /// Settings as the program comes with them, kept nowhere.
+    /// The default settings, not kept.
     pub(crate) fn new(commands: &'static [Keyed]) -> Self {
         Self { commands, ..Self::default() }
     }
 
-    /// The commands there are.
+    /// All commands.
     pub(crate) const fn commands(&self) -> &'static [Keyed] {
         self.commands
     }
 
-    /// Reads the settings that a file keeps, or starts a new one; and what is to be said about it.
+    /// Reads the settings from a file, or starts a new one; also returns messages about it.
     pub(crate) fn read(file: PathBuf, commands: &'static [Keyed]) -> (Self, Vec<Message>) {
         let mut problems = Vec::new();
         let text = match read_text(&file) {
@@ -135,7 +135,7 @@ impl Settings {
                 };
             }
         };
-        // A word or a number of another version leaves what the program comes with.
+        // Values unknown to this version leave the defaults.
         let units = kept.get("units").and_then(Value::as_str).and_then(Units::from_name).unwrap_or_default();
         let is_grid = |grid_m: &f64| GRID_RANGE_M.contains(grid_m);
         let grid_m = kept.get("grid_m").and_then(Value::as_f64).filter(is_grid);
@@ -144,12 +144,12 @@ impl Settings {
         (settings, problems)
     }
 
-    /// Takes over the shortcuts that the file keeps, except those that cannot be.
+    /// Loads the shortcuts from the file, except invalid ones.
     fn read_shortcuts(&mut self) -> Option<Message> {
         let kept = self.kept.get("shortcuts")?.as_object().cloned().unwrap_or_default();
         let mut wrong = Vec::new();
         for (id, value) in &kept {
-            // A command of another version.
+            // A command from another version.
             let Some(command) = self.find(id) else { continue };
             let keys: Option<Vec<Keys>> =
                 value.as_array().and_then(|list| list.iter().map(|keys| keys.as_str()?.parse().ok()).collect());
@@ -158,8 +158,8 @@ impl Settings {
                 None => wrong.push(format!("{id}: {value} is no list of keys")),
             }
         }
-        // With all changes in place, so that two commands may have changed keys. One that is dropped
-        // gets back the keys it comes with, which another may have.
+        // With all changes in place, so that two commands may have swapped keys. One that is dropped gets
+        // its defaults back, which another may have.
         while let Some((id, reason)) = self.changed.iter().find_map(|(id, keys)| {
             let (keys, refused) = keys.iter().find_map(|&keys| Some((keys, self.why_refused(id, keys)?)))?;
             Some((*id, refused.reason(&keys.to_string())))
@@ -173,7 +173,7 @@ impl Settings {
         (!wrong.is_empty()).then(|| warning(text, format!("{}\n{place}", wrong.join("\n"))))
     }
 
-    /// In which units lengths and areas are shown and typed.
+    /// The units in which lengths and areas are shown and typed.
     pub(crate) fn units(&self) -> Units {
         self.units
     }
@@ -183,7 +183,7 @@ impl Settings {
         self.kept.insert("units".to_owned(), json!(units.name()));
     }
 
-    /// The distance of the grid's lines in metres; `None` for as the zoom has it.
+    /// Spacing of the grid in metres; `None` chooses it by the zoom.
     pub(crate) fn grid_m(&self) -> Option<f64> {
         self.grid_m
     }
@@ -196,7 +196,7 @@ impl Settings {
         }
     }
 
-    /// The shortcuts of a command, the first of which is shown.
+    /// The shortcuts of a command; the first one is shown.
     pub(crate) fn keys_of(&self, id: &str) -> &[Keys] {
         self.changed.get(id).map_or_else(|| self.shipped_keys(id), Vec::as_slice)
     }
@@ -209,27 +209,27 @@ impl Settings {
         self.find(id).map_or(&[], |command| command.shipped.as_slice())
     }
 
-    /// Whether a command's shortcuts are not those it comes with.
+    /// Whether a command's shortcuts differ from its defaults.
     pub(crate) fn is_changed(&self, id: &str) -> bool {
         self.changed.contains_key(id)
     }
 
-    /// Whether any shortcut is changed.
+    /// Whether any shortcut differs from its default.
     pub(crate) fn is_any_changed(&self) -> bool {
         !self.changed.is_empty()
     }
 
-    /// Why a command cannot have a shortcut; `None` when it can.
+    /// Why a command cannot have a shortcut; `None` if it can.
     fn why_refused(&self, id: &str, keys: Keys) -> Option<Refused> {
         let other = self.commands.iter().find(|other| other.id != id && self.keys_of(other.id).contains(&keys));
         let reserved = keys.why_reserved().filter(|_| !self.shipped_keys(id).contains(&keys));
         reserved.map(Refused::Reserved).or(other.map(|other| Refused::Taken(other.title)))
     }
 
-    /// Gives a command a shortcut in place of those it has; `None` takes them away.
+    /// Replaces a command's shortcuts by one; `None` removes them.
     ///
     /// # Errors
-    /// When another command has the keys, or nobody may.
+    /// When another command has the keys, or they are reserved.
     pub(crate) fn set_keys(&mut self, id: &'static str, keys: Option<Keys>) -> Result<(), Refused> {
         if let Some(refused) = keys.and_then(|keys| self.why_refused(id, keys)) {
             return Err(refused);
@@ -241,10 +241,10 @@ impl Settings {
         Ok(())
     }
 
-    /// Gives a command the shortcuts it comes with.
+    /// Restores a command's default shortcuts.
     ///
     /// # Errors
-    /// When another command has them by now; the keys and the command.
+    /// When another command now has them: the keys and the command.
     pub(crate) fn reset_keys(&mut self, id: &str) -> Result<(), (Keys, Refused)> {
         for &keys in self.shipped_keys(id) {
             if let Some(refused) = self.why_refused(id, keys) {
@@ -255,18 +255,18 @@ impl Settings {
         Ok(())
     }
 
-    /// Gives every command the shortcuts it comes with.
+    /// Restores all default shortcuts.
     pub(crate) fn reset_all_keys(&mut self) {
         self.changed.clear();
     }
 
-    /// Keeps the settings in their file, if they have one.
+    /// Writes the settings to their file, if they have one.
     ///
     /// # Errors
-    /// What to say when they could not be written.
+    /// When they could not be written: the message to show.
     pub(crate) fn write(&mut self) -> Result<(), Message> {
         let mut shortcuts = self.kept.get("shortcuts").and_then(Value::as_object).cloned().unwrap_or_default();
-        // Those of commands that this version does not know stay.
+        // Those of commands unknown to this version stay.
         shortcuts.retain(|id, _| self.find(id).is_none());
         for (id, keys) in &self.changed {
             let keys: Vec<String> = keys.iter().map(Keys::to_string).collect();
@@ -293,14 +293,14 @@ fn warning(text: String, detail: String) -> Message {
     Message { severity: Severity::Warning, text, detail, remedies: Vec::new(), stays: false }
 }
 
-/// The text of a file; `None` when there is none.
+/// The text of a file; `None` if it does not exist.
 fn read_text(file: &Path) -> Result<Option<String>, String> {
     match std::fs::metadata(file) {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error.to_string()),
         Ok(metadata) if !metadata.is_file() => Err("it is no file".to_owned()),
         Ok(metadata) if metadata.len() > MOST_BYTES => Err("it is too large".to_owned()),
-        // What is no text is damaged like any other text that is no JSON.
+        // Anything that is not text is damaged, like text that is not JSON.
         Ok(_) => std::fs::read(file)
             .map(|bytes| Some(String::from_utf8_lossy(&bytes).into_owned()))
             .map_err(|error| error.to_string()),
@@ -322,7 +322,7 @@ fn set_aside(file: &Path) -> std::io::Result<PathBuf> {
 }
 
 impl Session {
-    /// In which units lengths and areas are shown and typed.
+    /// The units in which lengths and areas are shown and typed.
     pub(crate) fn units(&self) -> Units {
         self.settings.units()
     }

@@ -1,4 +1,4 @@
-//! What a person does with the picture under the plan. Every change is a step of the history.
+//! The user's actions on the backdrop. Every change is a step of the history.
 
 use super::wishes::Wish;
 use crate::app::session::Session;
@@ -23,7 +23,7 @@ use crate::store::pictures::{self, LoadedPicture, PictureError};
 impl Session {
     // Reading.
 
-    /// Starts to read the picture that the plan asks for, unless it is known.
+    /// Starts loading the plan's backdrop, unless that is done.
     pub(crate) fn refresh_backdrop(&mut self) {
         let Some(document) = &self.document else { return };
         let (backdrop, folder) = (document.plan().backdrop(), document.origin.folder());
@@ -80,7 +80,7 @@ impl Session {
         self.dialogs.ask(Purpose::Picture(use_), folder, String::new(), &mut self.jobs);
     }
 
-    /// Reads a picture, then makes it the one under the plan.
+    /// Loads a picture and makes it the backdrop.
     pub(crate) fn use_picture(&mut self, use_: PictureUse, path: PathBuf, page: u32) {
         if self.document.is_none() {
             self.new_plan();
@@ -132,7 +132,7 @@ impl Session {
                 }
                 ("Relink picture", Backdrop { path: stated, content_hash: hash, page, ..before })
             }
-            // Its scale is another's to know, but how strongly a picture is seen is a habit.
+            // The scale belongs to the other picture, but opacity is a preference.
             (_, before) => {
                 let opacity = before.map_or(1.0, |before| before.opacity);
                 ("Add picture", Backdrop { page, opacity, ..Backdrop::new(stated, hash) })
@@ -150,14 +150,14 @@ impl Session {
         self.status = format!("{} has {width} x {height} pixels", file_name(path));
     }
 
-    /// Makes the picture that is shown the one that the plan asks for, as it is and where it is.
+    /// The path of the picture shown, to make it the plan's backdrop.
     pub(crate) fn shown_picture_path(&self) -> Option<PathBuf> {
         self.backdrop.shown_path().map(ToOwned::to_owned)
     }
 
     // Changing.
 
-    /// Changes the picture's entry in the plan.
+    /// Changes the plan's backdrop.
     pub(crate) fn change_backdrop(&mut self, title: &str, change: impl FnOnce(&mut Backdrop)) {
         self.edit(title, |plan| {
             let mut backdrop = plan.backdrop().cloned();
@@ -175,10 +175,10 @@ impl Session {
         self.edit("Remove picture", |plan| Ok(edit::set_backdrop(plan, None)));
     }
 
-    /// Adds a known length between two points of the plan to those the scale follows from.
+    /// Adds a known length between two points of the plan to the measurements that determine the scale.
     ///
     /// # Errors
-    /// When it measures nothing.
+    /// When it is not a valid measurement.
     pub(crate) fn add_measurement(
         &mut self,
         from: Point,
@@ -194,10 +194,10 @@ impl Session {
         Ok(())
     }
 
-    /// Adds the width of a door that was drawn over the picture.
+    /// Adds the width of a door that was drawn over the backdrop.
     ///
     /// # Errors
-    /// When there is no such opening, or it measures nothing.
+    /// When there is no such opening, or it is not a valid measurement.
     pub(crate) fn measure_opening(
         &mut self,
         opening: OpeningId,
@@ -210,10 +210,10 @@ impl Session {
         self.add_measurement(segment.a, segment.b, width_m, drawing)
     }
 
-    /// Forgets the known length with an index.
+    /// Removes the measurement with an index.
     ///
     /// # Errors
-    /// When there are not so many.
+    /// When there are not that many.
     pub(crate) fn remove_measurement(&mut self, index: usize, drawing: Option<DrawingMoves>) -> Result<(), String> {
         let Some(backdrop) = self.plan().and_then(Plan::backdrop) else { return Ok(()) };
         let mut measurements = backdrop.measurements.clone();
@@ -225,7 +225,7 @@ impl Session {
         Ok(())
     }
 
-    /// Turns the picture so that a line between two points of the plan follows the nearest axis.
+    /// Rotates the backdrop so that a line between two points of the plan follows the nearest axis.
     ///
     /// # Errors
     /// When both points are the same.
@@ -235,7 +235,7 @@ impl Session {
         Ok(())
     }
 
-    /// Turns the picture about the middle of what is seen of it.
+    /// Rotates the backdrop about the middle of its visible part.
     pub(crate) fn turn_picture(&mut self, angle_deg: f64, drawing: Option<DrawingMoves>) {
         let Some(backdrop) = self.plan().and_then(Plan::backdrop) else { return };
         let bounds = self.backdrop.bounds(Some(backdrop));
@@ -247,7 +247,7 @@ impl Session {
         self.edit("Move picture", |plan| edit::move_picture(plan, by));
     }
 
-    /// Changes the picture; where something is drawn and nobody has said what becomes of it, asks.
+    /// Changes the backdrop; if there is a drawing and its fate was not stated, asks.
     fn change_picture(&mut self, change: PictureChange, drawing: Option<DrawingMoves>) {
         let Some(plan) = self.plan() else { return };
         let drawing = match drawing {
@@ -269,7 +269,7 @@ impl Session {
         self.edit(change.title(), |plan| change.apply(plan, drawing));
         let (Some((_, before)), Some((origin, after))) = (before, placed(self)) else { return };
         let factor = after / before;
-        // The picture stays where it is on the screen, and all that goes along with it.
+        // The backdrop and everything that follows it stays in place on the screen.
         if drawing == DrawingMoves::Along && factor != 1.0 {
             self.wishes.push(Wish::ScaleView { about: origin, factor });
         }
@@ -279,14 +279,14 @@ impl Session {
     }
 }
 
-/// Whether a change moves anything that is drawn on.
+/// Whether a change affects the position of points already traced.
 fn moves_picture(plan: &Plan, change: &PictureChange) -> bool {
     let after = change.apply(plan, DrawingMoves::Stays);
     let placed = |plan: &Plan| plan.backdrop().map(|b| (b.metres_per_pixel, b.rotation_rad, b.origin));
     after.is_ok_and(|after| placed(&after) != placed(plan))
 }
 
-/// A plan as it is saved in a folder: the picture's path starts there.
+/// A plan as saved in a folder: the backdrop's path is relative to it.
 pub(crate) fn plan_in_folder(plan: &Plan, from: Option<&Path>, to: Option<&Path>) -> Plan {
     match (plan.backdrop(), to) {
         (Some(backdrop), Some(to)) if from != Some(to) => {
@@ -300,7 +300,7 @@ fn document_is_empty(document: Option<&Document>) -> bool {
     document.is_some_and(|document| document.plan().is_empty())
 }
 
-/// A size of a pixel, as people read it.
+/// A pixel size, for display.
 pub(crate) fn millimetres(metres: f64) -> String {
     let mm = metres * 1000.0;
     let decimals = if mm < 10.0 { 2 } else { 1 };

@@ -1,4 +1,4 @@
-//! The open plan's file on the disk, which somebody else may change.
+//! Watching the open plan's file for changes by others.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -17,16 +17,16 @@ use crate::labels::Schemes;
 use crate::plan::{Difference, Plan};
 use crate::store::Stamp;
 
-/// The file of the open plan is looked at so often, in seconds: who comes back from another program has
-/// been told before the next edit.
+/// How often to check the file of the open plan, in seconds: a user who returns from another program is
+/// told before the next edit.
 const LOOK_SECS: f64 = 2.0;
 
-/// What somebody else made of the file of the open plan.
+/// A change by somebody else to the file of the open plan.
 pub(crate) struct Theirs {
-    /// What the file holds; `None` when it is gone.
+    /// The file's stamp; `None` if it is gone.
     stamp: Option<Stamp>,
     pub content: Content,
-    /// How much differs from the open plan, and from which: worked out once for each.
+    /// How much differs from the open plan, and from which plan: computed once for each.
     pub(super) differs: Option<(Plan, String)>,
 }
 
@@ -38,25 +38,25 @@ impl Theirs {
 
 pub(crate) enum Content {
     Plan(Box<Plan>, Arc<Derived>),
-    /// It is no plan any more, and why.
+    /// It is not a plan any more; the text says why.
     Broken(String),
     Gone,
 }
 
-/// Looks at the file from time to time.
+/// Checks the file from time to time.
 #[derive(Default)]
 pub(super) struct Watch {
-    /// When to look again, by the window's clock.
+    /// When to check again, by the window's clock.
     next_secs: f64,
     is_looking: bool,
     was_focused: bool,
-    /// What the file was like when its bytes were last read.
+    /// The file's facts when its bytes were last read.
     pub(super) seen: Option<Facts>,
-    /// How many saves were begun: what was seen before one does not count after it.
+    /// The number of saves started: a check from before one does not count after it.
     pub(super) saves: u64,
 }
 
-/// What tells without reading a file that it is another: size, time, number.
+/// Facts that show without reading it that a file changed: size, time, number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Facts {
     path: PathBuf,
@@ -67,7 +67,7 @@ pub(super) struct Facts {
 
 impl Facts {
     /// # Errors
-    /// When there is no such file, or it cannot be looked at.
+    /// When the file does not exist, or cannot be examined.
     fn of(path: &Path) -> std::io::Result<Self> {
         let metadata = std::fs::metadata(path)?;
         #[cfg(unix)]
@@ -78,7 +78,7 @@ impl Facts {
     }
 }
 
-/// What a look at a file found.
+/// The result of checking a file.
 pub(crate) struct Looked {
     document: u64,
     saves: u64,
@@ -87,14 +87,14 @@ pub(crate) struct Looked {
 }
 
 enum Found {
-    /// It cannot be looked at, or nothing is new.
+    /// It cannot be examined, or nothing is new.
     Nothing,
-    /// It holds what it held when it was last read or written here.
+    /// Its contents are the same as when last read or written here.
     Same,
     Theirs(Theirs),
 }
 
-/// Looks at a file that held `stamp`, and was like `seen` when its bytes were last read.
+/// Checks a file that had the stamp `stamp`, and the facts `seen` when its bytes were last read.
 fn look(path: &Path, stamp: Option<Stamp>, seen: Option<&Facts>, schemes: &Schemes) -> (Option<Facts>, Found) {
     let facts = match Facts::of(path) {
         Ok(facts) => facts,
@@ -126,7 +126,7 @@ fn look(path: &Path, stamp: Option<Stamp>, seen: Option<&Facts>, schemes: &Schem
 }
 
 impl Session {
-    /// Looks from time to time whether somebody else changed the plan's file.
+    /// Checks from time to time whether somebody else changed the plan's file.
     pub(crate) fn watch_file(&mut self, context: &Context) {
         let Some(document) = &self.document else { return };
         let Some(path) = document.origin.path().filter(|path| document::is_own_file(path)) else { return };
@@ -166,7 +166,7 @@ impl Session {
                 document.is_gone = false;
                 self.safety.theirs = None;
             }
-            // Written anew, or otherwise, with the same in it.
+            // Rewritten, perhaps in another form, with the same contents.
             Found::Theirs(Theirs { stamp, content: Content::Plan(plan, _), .. })
                 if document.saved() == Some(&*plan) =>
             {
@@ -184,7 +184,7 @@ impl Session {
         }
     }
 
-    /// Says anew how much differs from the file that somebody else changed, where the plan is another.
+    /// Updates the summary of differences from the changed file, if the plan has changed.
     pub(crate) fn compare_with_theirs(&mut self) {
         let (Some(Theirs { content: Content::Plan(theirs, _), differs, .. }), Some(document)) =
             (&mut self.safety.theirs, &self.document)
@@ -199,7 +199,7 @@ impl Session {
         }
     }
 
-    /// The plan that somebody else put in the file.
+    /// The plan that somebody else saved in the file.
     pub(crate) fn their_plan(&self) -> Option<(&Plan, &Arc<Derived>)> {
         match &self.safety.theirs.as_ref()?.content {
             Content::Plan(plan, derived) => Some((plan, derived)),
@@ -207,7 +207,7 @@ impl Session {
         }
     }
 
-    /// Makes the plan what the file holds now, as a step that can be undone.
+    /// Replaces the plan by the file's contents, as a step that can be undone.
     pub(crate) fn load_theirs(&mut self, context: &Context) {
         let Some(Theirs { stamp, content: Content::Plan(plan, _), .. }) = self.safety.theirs.take() else { return };
         self.wishes.push(Wish::CloseDifferences);
@@ -219,7 +219,7 @@ impl Session {
         self.journal_from_file(context);
     }
 
-    /// Goes on with the plan as it is here: saving it replaces what somebody else put in the file.
+    /// Continues with the plan as it is here: saving it will overwrite the other's changes.
     pub(crate) fn keep_mine(&mut self, context: &Context) {
         let Some(Theirs { stamp, content, .. }) = self.safety.theirs.take() else { return };
         self.wishes.push(Wish::CloseDifferences);
@@ -234,7 +234,7 @@ impl Session {
         self.journal_from_file(context);
     }
 
-    /// Has the file looked at again soon.
+    /// Has the file checked again soon.
     pub(crate) fn look_soon(&mut self) {
         self.safety.watch.next_secs = 0.0;
     }

@@ -1,4 +1,4 @@
-//! What the session asks of the rest of the window, which it does not know.
+//! Requests of the session to the rest of the window, which it does not know.
 
 use std::any::Any;
 
@@ -7,30 +7,30 @@ use crate::app::value::Call;
 use crate::geometry::{Bounds, Point};
 use crate::plan::ElementId;
 
-/// Something the rest of the window is to do.
+/// Something for the rest of the window to do.
 #[derive(Debug)]
 pub(crate) enum Wish {
-    /// Another plan is shown: what belonged to the one before is forgotten.
+    /// Another plan is shown: drop what belonged to the previous one.
     ForgetPlan,
     /// No plan is shown any more.
     ForgetDrawing,
-    /// Move the view if need be, so that an element is seen.
+    /// Move the view if necessary, so that an element is visible.
     Reveal(ElementId),
     ZoomTo(Bounds),
     /// Show the whole plan.
     Fit,
-    /// What was scaled about a point stays where it is on the screen.
+    /// Keep what was scaled about a point in place on the screen.
     ScaleView {
         about: Point,
         factor: f64,
     },
-    /// Offer what programs that crashed left behind.
+    /// Offer the journals left behind by crashed programs.
     OfferRecovery,
     CloseRecovery,
     CloseDifferences,
     Run(Call),
     /// End the recording, then go on.
     EndRecording(Intent),
-    /// Tell the recorder something that it alone knows how to read.
+    /// Pass the recorder a message that only it can read.
     Recording(Box<dyn Any + Send>),
 }

@@ -1,4 +1,4 @@
-//! Words for what is in a plan, as commands are called with them, and choices among such words.
+//! Names of the things in a plan as command arguments, and choices among such names.
 
 use crate::app::session::origin::bundled;
 use crate::features::RoomStatus;
@@ -6,22 +6,22 @@ use crate::formats;
 use crate::geometry::{COORDINATE_LIMIT_M, Point};
 use crate::plan::{ElementId, Plan, Room, RoomId};
 
-/// One of the things an argument can be.
+/// A possible value of an argument.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
-    /// As it is written in a call.
+    /// As written in a call.
     pub word: String,
-    /// As it is shown.
+    /// As shown.
     pub title: String,
-    /// What tells it from others of the same title; may be empty.
+    /// What distinguishes it from others of the same title; may be empty.
     pub detail: String,
-    /// At the end: how often there is such a thing; may be empty.
+    /// At the end: how many there are; may be empty.
     pub trail: String,
-    /// What a room is labelled, or a function means: for a swatch.
+    /// A room's label, or a function's meaning: for a swatch.
     pub status: Option<RoomStatus>,
 }
 
-/// Of rooms that have the same name not more are told.
+/// The most rooms of the same name to list.
 const MOST_TOLD: usize = 3;
 
 /// The word for a plan without a typology.
@@ -31,12 +31,12 @@ pub(crate) const fn switch_word(is_on: bool) -> &'static str {
     if is_on { "on" } else { "off" }
 }
 
-/// The word for a plan that comes with the program.
+/// The word for a bundled plan.
 pub(crate) fn sample_word(index: usize) -> &'static str {
     bundled().get(index).map_or("", |(name, _)| formats::file_stem(name))
 }
 
-/// The room that a word means. `Err(Some(…))` says why a word that names several rooms means none.
+/// The room named by a word. `Err(Some(…))` says why a word that names several rooms is ambiguous.
 pub(crate) fn room(plan: &Plan, word: &str) -> Result<RoomId, Option<String>> {
     if let Ok(id) = word.parse::<RoomId>()
         && plan.room(id).is_some()
@@ -63,7 +63,7 @@ pub(crate) fn room(plan: &Plan, word: &str) -> Result<RoomId, Option<String>> {
     }
 }
 
-/// The element that a word means.
+/// The element named by a word.
 pub(crate) fn element(plan: &Plan, word: &str) -> Option<ElementId> {
     let id = match word.chars().next()? {
         'c' => word.parse().ok().map(ElementId::Corner),
@@ -74,7 +74,7 @@ pub(crate) fn element(plan: &Plan, word: &str) -> Option<ElementId> {
     id.or_else(|| room(plan, word).ok().map(ElementId::Room)).filter(|&element| plan.has(element))
 }
 
-/// The word for some elements.
+/// The words for some elements.
 pub(crate) fn elements_word(elements: impl IntoIterator<Item = ElementId>) -> String {
     let words: Vec<String> = elements.into_iter().map(|element| element.to_string()).collect();
     words.join(" ")
@@ -87,19 +87,19 @@ pub(crate) fn point(word: &str) -> Option<Point> {
     (point.is_finite() && point.x.abs() <= COORDINATE_LIMIT_M && point.y.abs() <= COORDINATE_LIMIT_M).then_some(point)
 }
 
-/// The word for some points, on the 0.1 mm grid.
+/// The words for some points, on the 0.1 mm grid.
 pub(crate) fn points_word(points: &[Point]) -> String {
     let words: Vec<String> = points.iter().map(|point| point.trimmed()).map(|p| format!("{},{}", p.x, p.y)).collect();
     words.join(" ")
 }
 
-/// The word for a room: its name, where that means no other room, or its id.
+/// The word for a room: its name if unique, or its id.
 pub(crate) fn room_word(plan: &Plan, id: RoomId) -> String {
     let name = plan.room(id).map_or("", |room| room.name.as_str());
     if room(plan, name) == Ok(id) && is_own_word(name) { name.to_owned() } else { id.to_string() }
 }
 
-/// Whether a name is read as a name, and whole.
+/// Whether a name parses as one whole word.
 pub(crate) fn is_own_word(name: &str) -> bool {
     name.trim() == name && name.parse::<RoomId>().is_err()
 }
