@@ -1,4 +1,4 @@
-//! The window's state, apart from any display, and the dialogs that are open over it.
+//! The window's state, apart from any display, and the dialogs open over it.
 
 use crate::app::canvas::Canvas;
 use crate::app::look::theme::ThemeChoice;
@@ -33,13 +33,13 @@ pub struct App {
     pub(crate) panels: Panels,
     pub(crate) dialogs: OpenDialogs,
     pub(crate) samples: Samples,
-    /// Whether a text field had the keyboard when the last frame ended.
+    /// Whether a text field had the keyboard at the end of the last frame.
     pub(crate) was_typing: bool,
     pub(crate) is_close_sent: bool,
     pub(crate) shown_title: String,
-    /// What is being recorded; only `replay` looks into it.
+    /// The recording in progress; only `replay` can look inside.
     pub(crate) recorder: Option<Box<dyn std::any::Any>>,
-    /// A recording is to begin.
+    /// Whether to start a recording.
     pub(crate) wants_recording: bool,
 }
 
@@ -49,58 +49,59 @@ impl App {
         self.session.plan()
     }
 
-    /// What is selected.
+    /// The selection.
     pub fn selection(&self) -> &Selection {
         self.session.selection()
     }
 
-    /// The element that is selected, where it is exactly one.
+    /// The selected element, if there is exactly one.
     pub fn picked(&self) -> Option<ElementId> {
         self.session.picked()
     }
 
-    /// What stands above the canvas: messages, the oldest first, then what stays as long as it is so.
+    /// The messages above the canvas: dismissible ones, oldest first, then those that stay as long as
+    /// they are true.
     pub fn messages(&self) -> Vec<Message> {
         self.session.messages()
     }
 
-    /// Whether the plan has changes that are in no file.
+    /// Whether the plan has unsaved changes.
     pub fn has_unsaved_changes(&self) -> bool {
         self.session.has_unsaved_changes()
     }
 
-    /// What is said of the rooms of the plan as it is now; `None` while that is being worked out.
+    /// The predictions for the current plan; `None` while they are being computed.
     pub fn predictions(&self) -> Option<&Predictions> {
         self.session.predictions()
     }
 
-    /// The plan of the storey below, while one is shown.
+    /// The plan of the storey below, if one is shown.
     pub fn ghost_plan(&self) -> Option<&Plan> {
         self.session.ghost_plan()
     }
 
-    /// The lines of the storey below that attract.
+    /// The lines of the storey below that can be snapped to.
     pub fn ghost_segments(&self) -> &[Segment] {
         self.session.ghost_segments()
     }
 
-    /// The guide lines of the open plan that are shown: what snapping may go by.
+    /// The visible guide lines of the open plan, for snapping.
     pub fn guides(&self) -> &[Guide] {
         self.session.guides()
     }
 
-    /// In which units lengths and areas are shown and typed.
+    /// The units in which lengths and areas are shown and typed.
     pub fn units(&self) -> Units {
         self.session.units()
     }
 
-    /// Keeps journals in a folder from now on, and offers what is left there.
+    /// Keeps journals in a folder from now on, and offers those left there.
     pub fn use_journal(&mut self, folder: PathBuf) {
         self.session.use_journal(folder);
     }
 
-    /// Takes the last change back, or the last corner of what is being drawn. Gives whether the plan's
-    /// last step was undone.
+    /// Undoes the last change, or the last corner of what is being drawn. Returns whether the plan's last
+    /// step was undone.
     pub(crate) fn undo(&mut self) -> bool {
         if self.tools.take_back() == TakenBack::Corner {
             return false;
@@ -115,8 +116,8 @@ impl App {
         self.panels.focus = Some(kind);
     }
 
-    /// Where a point of the plan (in metres) is on the screen, in egui's points; `None` before the
-    /// first frame and without a plan.
+    /// The screen position of a point of the plan (in metres), in egui's points; `None` before the first
+    /// frame and without a plan.
     pub fn screen_position(&self, x_m: f64, y_m: f64) -> Option<egui::Pos2> {
         self.canvas.screen_position(crate::geometry::Point::new(x_m, y_m))
     }

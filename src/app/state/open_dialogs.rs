@@ -1,4 +1,4 @@
-//! Dialogs that cover the window. A new one is a file, and a line in the panels' list.
+//! Dialogs over the window. To add one, write a file, and a line in the panels' list.
 
 use egui::Ui;
 
@@ -6,52 +6,52 @@ use super::App;
 use crate::app::session::bulk::Which;
 use crate::app::session::words::Choice;
 
-/// A dialog that is open: it shows itself, and remembers what it needs for that.
+/// An open dialog: it shows itself, and keeps its own state.
 pub(crate) trait Dialog {
     /// Shows it for a frame.
     fn show(&mut self, app: &mut App, ui: &mut Ui) -> After;
 }
 
-/// What becomes of a dialog that was shown.
+/// What happens to a dialog after it was shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum After {
     Stay,
     Close,
 }
 
-/// What a dialog is opened for.
+/// The purpose of opening a dialog.
 #[derive(Clone, Debug, Default)]
 pub(crate) enum Purpose {
-    /// What it is for of itself.
+    /// Its usual purpose.
     #[default]
     Usual,
     /// The palette: to ask for an argument.
     Argument(Asked),
     /// Many rooms: to name these.
     NameRooms(Which),
-    /// Many rooms: to give them another function or label.
+    /// Many rooms: to change their function or label.
     ChangeRooms,
 }
 
-/// An argument that the palette asks for.
+/// A request to the palette for an argument.
 #[derive(Clone, Debug)]
 pub(crate) struct Asked {
     /// The command's id.
     pub command: &'static str,
     /// The arguments before it.
     pub given: Vec<String>,
-    /// The arguments behind it.
+    /// The arguments after it.
     pub rest: Vec<String>,
-    /// What the command is about, beside its title; may be empty.
+    /// What the command applies to, shown beside its title; may be empty.
     pub about: String,
-    /// What it can be; `None` for what its kind says.
+    /// The choices; `None` for those of its kind.
     pub choices: Option<Vec<Choice>>,
-    /// What is in the field at first, to be changed.
+    /// The initial text of the field.
     pub text: String,
 }
 
 impl Asked {
-    /// The first argument of a command, of its kind's choices.
+    /// A request for the first argument of a command, with the choices of its kind.
     pub(crate) fn of(command: &'static str) -> Self {
         Self { command, given: Vec::new(), rest: Vec::new(), about: String::new(), choices: None, text: String::new() }
     }
@@ -59,21 +59,21 @@ impl Asked {
 
 /// A dialog that can be opened.
 pub(crate) struct Entry {
-    /// By which it is opened.
+    /// The id to open it by.
     pub id: &'static str,
     pub make: fn(&App, Purpose) -> Box<dyn Dialog>,
-    /// Whether it is about the plan that is shown, and closed with it.
+    /// Whether it belongs to the plan shown, and closes with it.
     pub is_of_plan: bool,
 }
 
-/// The dialogs that are open, each once at most.
+/// The open dialogs, each at most once.
 pub(crate) struct OpenDialogs {
-    /// All there are; of those that are open, a later one lies above an earlier one.
+    /// All dialogs; of the open ones, later ones are above earlier ones.
     list: &'static [Entry],
     open: Vec<(&'static str, Box<dyn Dialog>)>,
-    /// The one that is being shown, while it is.
+    /// The one being shown at the moment.
     shown: Option<&'static str>,
-    /// Whether that one is to be closed.
+    /// Whether that one should close.
     closes: bool,
 }
 
@@ -82,7 +82,7 @@ impl OpenDialogs {
         Self { list, open: Vec::new(), shown: None, closes: false }
     }
 
-    /// Whether a dialog covers the window.
+    /// Whether any dialog is open.
     pub(crate) fn is_any_open(&self) -> bool {
         !self.open.is_empty() || self.shown.is_some()
     }
@@ -91,12 +91,12 @@ impl OpenDialogs {
         (self.shown == Some(id) && !self.closes) || self.is_waiting(id)
     }
 
-    /// Whether it is open and not the one that is being shown: it takes that one's place.
+    /// Whether it is open and not being shown at the moment; if its predecessor is, it will replace that.
     pub(crate) fn is_waiting(&self, id: &str) -> bool {
         self.open.iter().any(|(open, _)| *open == id)
     }
 
-    /// Opens a dialog in place of one of the same id.
+    /// Opens a dialog, replacing one with the same id.
     fn open(&mut self, id: &'static str, dialog: Box<dyn Dialog>) {
         self.open.retain(|(open, _)| *open != id);
         self.open.push((id, dialog));
@@ -107,19 +107,19 @@ impl OpenDialogs {
         self.closes |= self.shown == Some(id);
     }
 
-    /// Closes those that are about the plan that was shown.
+    /// Closes those that belong to the previous plan.
     pub(crate) fn forget_plan(&mut self) {
         self.list.iter().filter(|entry| entry.is_of_plan).for_each(|entry| self.close(entry.id));
     }
 }
 
 impl App {
-    /// Opens a dialog of the list, anew if it is open.
+    /// Opens a dialog of the list, afresh if it is already open.
     pub(crate) fn open_dialog(&mut self, id: &str) {
         self.open_dialog_for(id, Purpose::Usual);
     }
 
-    /// Opens a dialog of the list for something, anew if it is open.
+    /// Opens a dialog of the list for a purpose, afresh if it is already open.
     pub(crate) fn open_dialog_for(&mut self, id: &str, purpose: Purpose) {
         if let Some(entry) = self.dialogs.list.iter().find(|entry| entry.id == id) {
             let dialog = (entry.make)(self, purpose);
@@ -132,7 +132,7 @@ impl App {
         self.open_dialog_for(dialogs::PALETTE, Purpose::Argument(asked));
     }
 
-    /// Opens a dialog of the list unless it is open, or closes it.
+    /// Opens a dialog of the list if it is not open, or closes it.
     pub(crate) fn set_dialog(&mut self, id: &str, is_open: bool) {
         match is_open {
             true if self.dialogs.is_open(id) => {}
@@ -141,7 +141,7 @@ impl App {
         }
     }
 
-    /// Shows the dialogs that are open.
+    /// Shows the open dialogs.
     pub(crate) fn show_dialogs(&mut self, ui: &mut Ui) {
         for &Entry { id, .. } in self.dialogs.list {
             let Some(index) = self.dialogs.open.iter().position(|(open, _)| *open == id) else { continue };
@@ -149,7 +149,7 @@ impl App {
             (self.dialogs.shown, self.dialogs.closes) = (Some(id), false);
             let after = dialog.show(self, ui);
             self.dialogs.shown = None;
-            // It may have opened one of its own kind.
+            // It may have opened another of its own kind.
             let is_closed = self.dialogs.closes || after == After::Close || self.dialogs.is_waiting(id);
             if !is_closed {
                 self.dialogs.open.push((id, dialog));
@@ -158,7 +158,7 @@ impl App {
     }
 }
 
-/// What dialogs are called, by those that open them and those that show them.
+/// The ids of dialogs, for those that open them and those that show them.
 pub(crate) mod dialogs {
     pub(crate) const RECOVERY: &str = "recovery";
     pub(crate) const DIFFERENCES: &str = "differences";

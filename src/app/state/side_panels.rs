@@ -1,4 +1,4 @@
-//! Panels at the sides of the canvas. A new one is a file, and a line in the panels' list.
+//! Side panels of the canvas. To add one, write a file, and a line in the panels' list.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,9 +7,9 @@ use egui::Ui;
 use super::App;
 use crate::app::session::fields::FieldKind;
 
-/// A panel at a side of the canvas.
+/// A side panel of the canvas.
 pub(crate) struct SidePanel {
-    /// By which commands and scripts call it.
+    /// Its id for commands and scripts.
     pub id: &'static str,
     /// In the menu.
     pub title: &'static str,
@@ -17,11 +17,12 @@ pub(crate) struct SidePanel {
     pub help: &'static str,
     pub side: Side,
     pub height: Height,
-    /// Whether it is shown before anybody chose.
+    /// Whether it is shown by default.
     pub is_shown_at_first: bool,
-    /// Whether it is shown only with a plan.
+    /// Whether it is only shown with a plan.
     pub needs_plan: bool,
-    /// Whether a command of its own shows and hides it; others have a row in the menu, and 'panel' for scripts.
+    /// Whether it has a command of its own to show and hide it; others have a row in the menu, and
+    /// 'panel' for scripts.
     pub has_own_command: bool,
     pub show: fn(&mut App, &mut Ui),
 }
@@ -33,33 +34,34 @@ pub(crate) enum Side {
     Right,
 }
 
-/// How high a panel is among those of its side, in points. They stand below each other in the order of the list.
+/// The height of a panel among those of its side, in points. They are stacked in the order of the list.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Height {
-    /// What the others leave, and no less than this: one of each side.
+    /// The rest, but no less than this: for one panel of each side.
     Rest { least: f32 },
-    /// As high as what is in it, which scrolls where there is less.
+    /// That of its contents, which scroll if there is less.
     Content { usual: f32 },
-    /// As a person drags it.
+    /// As set by dragging.
     Dragged { usual: f32, least: f32 },
 }
 
-/// What the panels remember.
+/// The state of the panels.
 pub(crate) struct Panels {
-    /// All there are at the sides.
+    /// All side panels.
     pub list: &'static [SidePanel],
     shown: BTreeSet<&'static str>,
-    /// The text of a room whose field is to take the keyboard.
+    /// The text of a room whose field should get the keyboard.
     pub focus: Option<FieldKind>,
-    /// Commands that were done from the palette, the last one first.
+    /// Commands run from the palette, latest first.
     pub recent: Vec<&'static str>,
-    /// The pattern by which rooms were named last.
+    /// The last pattern used to name rooms.
     pub pattern: Option<String>,
-    /// Where the panels on the left, what is between, and those on the right were in the last frame, as far as shown.
+    /// The rectangles of the panels on the left, the middle, and those on the right in the last frame, if
+    /// shown.
     pub left_rect: Option<egui::Rect>,
     pub middle_rect: Option<egui::Rect>,
     pub right_rect: Option<egui::Rect>,
-    /// Height in points of what was in the panels that are as high as that, when they were last shown.
+    /// Height in points of the contents of panels sized by them, when last shown.
     pub content_heights: BTreeMap<&'static str, f32>,
 }
 
@@ -83,12 +85,12 @@ impl Panels {
         self.list.iter().find(|panel| panel.id == id)
     }
 
-    /// Those that no command of their own shows and hides.
+    /// Those without a command of their own.
     pub(crate) fn others(&self) -> impl Iterator<Item = &'static SidePanel> + use<> {
         self.list.iter().filter(|panel| !panel.has_own_command)
     }
 
-    /// Whether a panel is shown, with a plan where it needs one.
+    /// Whether a panel is shown: if it needs a plan, only with one.
     pub(crate) fn is_shown(&self, id: &str) -> bool {
         self.shown.contains(id)
     }
@@ -102,7 +104,7 @@ impl Panels {
     }
 }
 
-/// What panels that commands name are called.
+/// The ids of panels that commands refer to.
 pub(crate) mod ids {
     pub(crate) const PLANS: &str = "plans";
     pub(crate) const LAYERS: &str = "layers";
