@@ -1,5 +1,4 @@
-//! Sets the scale of the picture under the plan by lengths that are known: written on the drawing, or
-//! the width of a door.
+//! Sets the scale of the backdrop by known lengths: those written on the drawing, or the width of a door.
 
 use super::{Call, Entry, Input, Scope, TakenBack, Tool, Typed, Typing, Value, picture_numbers};
 use crate::app::paint::preview::{Look, Preview};
@@ -28,12 +27,12 @@ pub(crate) const BY_DOOR: Entry = Entry {
     make: || Box::new(Calibrate::new(Known::Door)),
 };
 
-/// Whose length it is.
+/// The kind of length being measured.
 #[derive(Clone, Copy, PartialEq)]
 enum Known {
-    /// A person types it.
+    /// Typed by the user.
     Typed,
-    /// A door's, as wide as doors are drawn now; another can be typed.
+    /// A door's, initially the current width of doors; another can be typed.
     Door,
 }
 
@@ -50,7 +49,7 @@ enum State {
     Between(Segment),
 }
 
-/// Two clicks nearer than this, in points, are one: a hand trembles.
+/// Two clicks closer than this, in points, are one: hands tremble.
 const LEAST_PX: f64 = 4.0;
 
 impl Calibrate {
@@ -133,7 +132,7 @@ impl Tool for Calibrate {
         measured_before(scope.units, backdrop, preview);
         let Some(line) = self.line(scope) else { return };
         let pixels = line.length() / backdrop.metres_per_pixel;
-        // What nobody has measured is no length yet.
+        // Not yet measured, so there is no length to state.
         let said = if backdrop.is_measured() {
             format!("{pixels:.0} px  {}", scope.units.length(line.length()))
         } else {
@@ -154,7 +153,7 @@ impl Tool for Calibrate {
         !matches!(self.state, State::Ready)
     }
 
-    // Places of the picture are meant, not of what is drawn.
+    // Refers to positions in the backdrop, not in the drawing.
     fn snaps(&self) -> bool {
         false
     }
@@ -174,7 +173,7 @@ impl Tool for Calibrate {
     }
 }
 
-/// The lengths measured so far, each with how well it fits; the worst stands out.
+/// The lengths measured so far, each with how well it fits; the worst is highlighted.
 fn measured_before(units: Units, backdrop: &Backdrop, preview: &mut Preview) {
     let Some(calibration) = Calibration::of(&backdrop.measurements) else { return };
     for (index, (measurement, residual)) in backdrop.measurements.iter().zip(&calibration.residuals).enumerate() {

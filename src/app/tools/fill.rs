@@ -31,12 +31,12 @@ pub(super) const ENTRY: Entry = Entry {
 
 #[derive(Default)]
 struct Fill {
-    /// The faces of a plan: worked out once a plan, when the pointer is first over it.
+    /// The faces of a plan: computed once per plan, when the pointer is first over it.
     faces: RefCell<Option<(Plan, Vec<PlanFace>)>>,
 }
 
 impl Fill {
-    /// Does something with the free face around a point.
+    /// Calls `then` with the free face around a point.
     fn with_face<R>(&self, scope: &Scope<'_>, point: Point, then: impl FnOnce(&PlanFace) -> R) -> Option<R> {
         let mut known = self.faces.borrow_mut();
         if !known.as_ref().is_some_and(|(plan, _)| plan.is_same_value(scope.plan)) {

@@ -1,4 +1,4 @@
-//! What tools are given: what a person does, where, and how things are drawn.
+//! The input of tools: the user's actions, their position, and drawing options.
 
 use std::sync::Arc;
 
@@ -13,24 +13,24 @@ use crate::plan::{DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, Plan};
 use crate::snapping::{PlanIndex, Snap};
 use crate::topology::Gap;
 
-/// What is drawn next, and how.
+/// The options for drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct DrawOptions {
     /// Thickness of new walls in metres.
     pub thickness_m: f64,
     /// Whether walls are drawn along the boundaries of new rooms.
     pub walls_with_rooms: bool,
-    /// Whether new rooms take what other rooms cover too.
+    /// Whether new rooms may cover existing ones.
     pub over_rooms: bool,
     /// Clear width of new openings in metres.
     pub opening_width_m: f64,
-    /// Arcs are drawn as chords that stay this near to them, in metres.
+    /// The maximum distance of chords from arcs, in metres.
     pub arc_tolerance_m: f64,
-    /// Whether lines keep to right angles unless Shift is held.
+    /// Whether lines are constrained to right angles unless Shift is held.
     pub right_angles: bool,
-    /// Whether corners, walls and alignments attract.
+    /// Whether to snap to corners, walls and alignments.
     pub snaps: bool,
-    /// Whether the grid attracts.
+    /// Whether to snap to the grid.
     pub snaps_to_grid: bool,
 }
 
@@ -41,7 +41,7 @@ impl DrawOptions {
     /// The call that draws a room with these corners.
     pub(super) fn draw_room(&self, corners: &[Point]) -> Call {
         let thickness_m = if self.walls_with_rooms { self.thickness_m } else { 0.0 };
-        // Along rooms that are there the boundary need not be drawn exactly: it may run through them.
+        // Along existing rooms the boundary need not be drawn exactly: it may run through them.
         let space = if self.over_rooms { Space::Exact } else { Space::Free };
         Call::new("draw-room", [Value::points(corners), Value::word(space), Value::Number(thickness_m)])
     }
@@ -62,29 +62,29 @@ impl Default for DrawOptions {
     }
 }
 
-/// What a tool sees.
+/// What a tool can see.
 pub(crate) struct Scope<'a> {
     pub plan: &'a Plan,
-    /// What follows from the plan, or from an earlier one while that is worked out anew.
+    /// The plan's analysis, or that of an earlier plan until it is ready.
     pub derived: Option<&'a Arc<Derived>>,
-    /// The doorways left open in the plan's walls; none while they are looked for anew.
+    /// The doorways left open in the plan's walls; empty while they are being found again.
     pub gaps: &'a [Gap],
     pub selection: &'a Selection,
     pub options: &'a DrawOptions,
     pub layers: &'a LayerSettings,
-    /// What was copied.
+    /// The copied part of a plan.
     pub copied: Option<&'a Plan>,
     pub units: Units,
-    /// Where the pointer is in the plan, in metres; the last place when it has left the canvas.
+    /// The pointer's position in the plan, in metres; the last one if it has left the canvas.
     pub pointer: Point,
-    /// What it snaps to.
+    /// The snapped position.
     pub snap: Snap,
     pub px_per_m: f64,
     pub modifiers: Modifiers,
 }
 
 impl Scope<'_> {
-    /// The point that is meant.
+    /// The intended point.
     pub(crate) fn at(&self) -> Point {
         self.snap.point
     }
@@ -95,42 +95,42 @@ impl Scope<'_> {
     }
 }
 
-/// What a person does.
+/// A user action.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Input {
-    /// The primary button was pressed and let go at one place.
+    /// The primary button was clicked.
     Click,
-    /// It was pressed twice in quick succession; follows a click.
+    /// It was double-clicked; follows a click.
     DoubleClick,
     /// The secondary button was clicked.
     SecondaryClick,
-    /// It was pressed here and the pointer has moved on: what it snapped to then, and the place itself.
+    /// A drag started here: the position it snapped to then, and the exact one.
     DragStart { at: Point, pointer: Point },
     /// The pointer moves while the button is down.
     Drag,
     /// The button was let go after a drag.
     Drop,
-    /// Enter, with nothing typed.
+    /// Enter, with no text typed.
     Enter,
-    /// Enter or Tab behind something typed.
+    /// Enter or Tab after typed text.
     Typed(Typed),
-    /// A letter that the tool asks for.
+    /// A letter requested by the tool.
     Key(Key),
     /// Escape.
     Escape,
 }
 
-/// Where lines are measured from.
+/// The reference for new lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Anchor {
     pub from: Point,
-    /// The direction of the line drawn before.
+    /// The direction of the previous line.
     pub along: Option<Vector>,
-    /// Whether the line from here keeps to right angles.
+    /// Whether the line from here is constrained to right angles.
     pub right_angles: bool,
 }
 
-/// What places can snap to.
+/// What positions can snap to.
 #[derive(Clone, Copy)]
 pub(crate) struct Ground<'a> {
     pub index: Option<&'a PlanIndex>,
@@ -142,7 +142,7 @@ pub(crate) struct Ground<'a> {
     /// Corners of the storey below.
     pub points: &'a [Point],
     pub options: &'a DrawOptions,
-    /// Spacing of the grid that is shown, in metres; `None` where it does not attract.
+    /// Spacing of the visible grid in metres; `None` if it is not snapped to.
     pub grid_m: Option<f64>,
     /// Whether the pointer is on the canvas.
     pub is_seen: bool,

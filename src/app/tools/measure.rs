@@ -31,7 +31,7 @@ pub(super) const ENTRY: Entry = Entry {
 #[derive(Default)]
 struct Measure {
     path: Path,
-    /// Whether the last point is set: what is shown stays until the next click.
+    /// Whether the measurement is finished: the result stays visible until the next click.
     is_done: bool,
 }
 
@@ -111,7 +111,7 @@ impl Tool for Measure {
             let segment = Segment::new(pair[0], pair[1]);
             let angle = degrees(along, segment.vector());
             let angle = if angle > 180.0 { 360.0 - angle } else { angle };
-            // Between two lines, the angle that they enclose.
+            // The angle between the two lines.
             let shown = if along.is_some() { ((180.0 - angle) * 10.0).round() / 10.0 } else { angle };
             preview.dimension(segment, format!("{}  {shown}°", scope.units.length(segment.length())));
             along = segment.vector().unit();

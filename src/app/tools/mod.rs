@@ -1,7 +1,7 @@
 //! Tools: what the pointer does on the canvas. One file each, one line in [`TOOLS`].
 //!
-//! A tool is a state machine. It sees what the pointer does, already snapped, and answers with calls of
-//! commands: what is drawn by hand is what a script draws. Between two calls it only shows a preview.
+//! A tool is a state machine. It receives pointer actions, already snapped, and responds with command
+//! calls: so drawing by hand and drawing by script are the same. Between calls it only shows a preview.
 
 mod calibrate;
 mod cut_out;
@@ -34,7 +34,7 @@ pub(crate) use tool::{Entry, Group, TakenBack, Tool, ToolOption};
 pub(crate) use toolbox::Toolbox;
 pub(crate) use typing::{Typed, Typing};
 
-/// Every tool. The first one is in the hand when nothing else is.
+/// Every tool. The first one is the default.
 pub(crate) const TOOLS: &[Entry] = &[
     select::ENTRY,
     walls::ENTRY,
@@ -55,7 +55,7 @@ pub(crate) const TOOLS: &[Entry] = &[
     straighten::ENTRY,
 ];
 
-/// Places and lengths of a picture: a hundredth of a millimetre of the plan is less than any pixel.
+/// Positions and lengths of the backdrop: a hundredth of a millimetre in the plan is below any pixel.
 fn picture_numbers<const N: usize>(values: [f64; N]) -> [Value; N] {
     values.map(|value| Value::Number((value * 1e5).round() / 1e5))
 }

@@ -1,4 +1,4 @@
-//! Names rooms in the order in which a line is drawn through them.
+//! Names rooms in order along a line drawn through them.
 
 use super::{Call, Entry, Input, Scope, Tool, Value};
 use crate::app::paint::preview::{Look, Preview};
@@ -14,7 +14,7 @@ pub(crate) const ENTRY: Entry = Entry {
     make: || Box::new(Number::default()),
 };
 
-/// The line has a point at least every so many pixels of the way.
+/// The spacing of points along the line, in pixels.
 const STEP_PX: f64 = 4.0;
 
 /// Ready while the line is empty, Drawing while it is not.

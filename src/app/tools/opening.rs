@@ -52,15 +52,15 @@ pub(super) const WINDOW: Entry = Entry {
 
 struct Opening {
     kind: OpeningKind,
-    /// Where a drag along the wall began: it says how wide the opening is.
+    /// Where a drag along the wall started: its length is the opening's width.
     from: Option<Point>,
 }
 
-/// An opening goes into a wall this near to the pointer, in points: nearer than the next wall of a narrow
-/// corridor at a usual zoom.
+/// How close to the pointer a wall must be to get an opening, in points: closer than the next wall of a
+/// narrow corridor at a usual zoom.
 const REACH_PX: f64 = 18.0;
 
-/// A drag shorter than this is a click with a trembling hand, in metres.
+/// A shorter drag is a click with a trembling hand, in metres.
 const LEAST_WIDTH_M: f64 = 0.3;
 
 impl Opening {
@@ -82,17 +82,17 @@ impl Opening {
         opening_on(scope.plan, self.kind, host.into(), at, width_m, Some(scope.pointer)).ok()
     }
 
-    /// The gap between two collinear walls that is meant: the pointer is in it.
+    /// The gap between two collinear walls under the pointer.
     fn gap(scope: &Scope<'_>) -> Option<Gap> {
         let reach_m = scope.metres(REACH_PX);
         let distance = |gap: &Gap| gap.segment.distance(scope.pointer);
         let nearest = scope.gaps.iter().min_by(|p, q| distance(p).total_cmp(&distance(q)))?;
-        // Beside the gap the walls are meant.
+        // Beside the gap, the walls are meant.
         let fraction = nearest.segment.nearest_fraction(scope.pointer);
         (distance(nearest) <= reach_m && (0.02..=0.98).contains(&fraction)).then(|| nearest.clone())
     }
 
-    /// Two leaves are twice as wide.
+    /// A double door is twice as wide.
     fn width_m(&self, scope: &Scope<'_>) -> f64 {
         let factor = if self.kind == OpeningKind::DoubleDoor { 2.0 } else { 1.0 };
         scope.options.opening_width_m * factor

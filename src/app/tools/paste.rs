@@ -1,4 +1,4 @@
-//! Places what was copied.
+//! Pastes what was copied.
 
 use super::{Call, Entry, Input, Scope, Tool, Value};
 use crate::app::paint::preview::{Look, Preview};
@@ -15,10 +15,11 @@ pub(crate) const ENTRY: Entry = Entry {
     make: || Box::new(Paste),
 };
 
-/// What hangs on the pointer is what was copied last.
+/// The pointer carries what was copied last.
 struct Paste;
 
-/// Of larger copies only the box is shown: more lines than this take longer than a frame.
+/// The most lines shown; for larger copies just the bounding box, since more would take longer than a
+/// frame.
 const MOST_LINES: usize = 3000;
 
 impl Tool for Paste {

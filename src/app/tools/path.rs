@@ -1,4 +1,4 @@
-//! Corners in the making: what tools share that draw one corner after the other.
+//! Paths being drawn: shared by tools that draw one corner after the other.
 
 use super::{Anchor, Scope, Typed};
 use crate::app::paint::preview::{Look, Preview, degrees};
@@ -9,21 +9,21 @@ use crate::geometry::{Point, Segment, Vector};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Path {
     pub points: Vec<Point>,
-    /// What was there before each click.
+    /// The state before each click.
     before: Vec<Before>,
     /// Whether an arc comes next.
     bend: Bend,
 }
 
-/// What was there before a click.
+/// The state before a click.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Before {
     corners: usize,
-    /// Whether the click changed nothing of the plan, though it was to.
+    /// Whether the plan refused what the click was to draw.
     was_refused: bool,
 }
 
-/// What the next click is.
+/// The meaning of the next click.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Bend {
     /// A corner.
@@ -35,30 +35,31 @@ enum Bend {
     To { through: Point },
 }
 
-/// What can be done while an arc is begun.
+/// The hint while drawing an arc.
 pub(super) const ARC_HINT: &str =
     "Arc: click a point that it passes through, then its end · A goes back to straight lines";
 
-/// Two points closer than this are one: the grid that plans are kept on.
+/// Two points closer than this are the same: the grid of plans.
 const SAME_M: f64 = 1e-4;
 
 impl Path {
-    /// A path that begins at a point.
+    /// A path starting at a point.
     pub(super) fn from(point: Point) -> Self {
         Self { points: vec![point], before: vec![Before { corners: 0, was_refused: false }], bend: Bend::Straight }
     }
 
-    /// Makes the next piece an arc, or a straight line again.
+    /// Switches the next piece between an arc and a straight line.
     pub(super) fn toggle_arc(&mut self) {
         self.bend = if self.bend == Bend::Straight { Bend::Through } else { Bend::Straight };
     }
 
-    /// Whether an arc is begun.
+    /// Whether an arc is being drawn.
     pub(super) fn is_bending(&self) -> bool {
         self.bend != Bend::Straight
     }
 
-    /// Goes on to a point. Gives whether corners were added: the point that an arc passes through is none.
+    /// Continues to a point. Returns whether corners were added: the point that an arc passes through is
+    /// not one.
     pub(super) fn go_to(&mut self, point: Point, scope: &Scope<'_>) -> bool {
         match (self.bend, self.last()) {
             (Bend::Through, Some(_)) => {
@@ -80,15 +81,15 @@ impl Path {
         }
     }
 
-    /// Notes that the plan did not take what the last click was to draw.
+    /// Records that the plan refused what the last click was to draw.
     pub(super) fn was_refused(&mut self) {
         if let Some(last) = self.before.last_mut() {
             last.was_refused = true;
         }
     }
 
-    /// Takes the last click back: a corner, an arc, or the point that an arc was to pass through. Gives
-    /// whether there was one, and whether corners went that the plan had taken.
+    /// Undoes the last click: a corner, an arc, or the point that an arc was to pass through. Returns
+    /// whether there was one, and whether it removed corners already in the plan.
     pub(super) fn take_back(&mut self) -> (bool, bool) {
         if self.bend != Bend::Straight {
             self.bend = Bend::Straight;
@@ -103,7 +104,7 @@ impl Path {
         }
     }
 
-    /// The line from the last corner to the pointer, an arc where one is begun.
+    /// The line from the last corner to the pointer, as an arc if one is being drawn.
     pub(super) fn next_line(&self, scope: &Scope<'_>) -> Vec<Point> {
         match (self.bend, self.last()) {
             (Bend::To { through }, Some(last)) => arc(last, through, scope.at(), scope.options.arc_tolerance_m),
@@ -154,7 +155,7 @@ impl Path {
         Some((last + way * length_m).trimmed())
     }
 
-    /// The line that comes next: its length, and its angle to the last one.
+    /// Shows the next line: its length, and its angle to the last one.
     pub(super) fn preview_next(&self, scope: &Scope<'_>, preview: &mut Preview) {
         let Some(last) = self.last().filter(|last| last.distance(scope.at()) >= SAME_M) else { return };
         let segment = Segment::new(last, scope.at());
@@ -163,7 +164,7 @@ impl Path {
         preview.dimension(segment, text);
     }
 
-    /// The corners clicked so far.
+    /// Shows the corners clicked so far.
     pub(super) fn preview_corners(&self, preview: &mut Preview) {
         for &point in &self.points {
             preview.handle(point, Look::New);

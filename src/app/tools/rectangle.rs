@@ -1,4 +1,4 @@
-//! Draws a room as a rectangle: it takes what is free there, or what rooms cover too.
+//! Draws a rectangular room: it takes only free space, or also what other rooms cover.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
@@ -42,7 +42,7 @@ const LEAST_SIDE_M: f64 = 0.1;
 impl Rectangle {
     /// Ready -> Sized
     fn begin(&mut self, from: Point, scope: &Scope<'_>) {
-        // Along the wall it begins on, where that is slanted.
+        // Along the wall it starts on, if that is oblique.
         let index = scope.derived.map(|derived| &derived.index);
         let edges = index.map(|index| index.edges_near(from, scope.metres(1.0))).unwrap_or_default();
         let along = edges.first().and_then(|edge| edge.segment.vector().unit()).unwrap_or(Vector::new(1.0, 0.0));

@@ -1,4 +1,4 @@
-//! Draws a room by its corners: it takes what is free there, or what rooms cover too.
+//! Draws a room by its corners: it takes only free space, or also what other rooms cover.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
@@ -57,8 +57,8 @@ impl Room {
     }
 }
 
-/// The corner that makes the last two angles right, where the room is closed without it and its first and
-/// last lines are at right angles or parallel: an L of six corners takes five clicks.
+/// The corner that makes the last two angles right, where it is missing and the first and last lines are
+/// perpendicular or parallel: an L of six corners takes five clicks.
 fn closing_corner(points: &[Point], scope: &Scope<'_>) -> Option<Point> {
     let [first, second, .., before, last] = points else {
         // Three corners make a rectangle.
@@ -71,13 +71,13 @@ fn closing_corner(points: &[Point], scope: &Scope<'_>) -> Option<Point> {
     }
     let (start, end) = ((*second - *first).unit()?, (*last - *before).unit()?);
     let closing = *first - *last;
-    // Closed at a right angle already.
+    // Already closed at a right angle.
     if closing.unit().is_none_or(|closing| closing.dot(start).abs() < 1e-3 || closing.dot(end).abs() < 1e-3)
         && is_right_angle(start, closing)
     {
         return None;
     }
-    // At right angles to the first line and to the last one.
+    // Perpendicular to the first line and to the last one.
     let (p, q) = (start.left(), end.left());
     let denominator = p.cross(q);
     if denominator.abs() < 1e-6 {

@@ -47,34 +47,34 @@ struct Select {
 enum State {
     #[default]
     Ready,
-    /// A box is pulled open from here.
+    /// Dragging a selection box from here.
     Boxing { from: Point },
-    /// A corner is dragged.
+    /// Dragging a corner.
     MovingCorner { corner: CornerId, from: Point },
-    /// What is selected is dragged; `from` is the point that snaps.
+    /// Dragging the selection; `from` is the point that snaps.
     Moving { from: Point },
-    /// An opening is slid along its wall.
+    /// Sliding an opening along its wall.
     Sliding { opening: OpeningId },
 }
 
-/// Clicks at the same place go through all that lies there.
+/// Repeated clicks at one position cycle through all elements there.
 struct Cycle {
     at: Point,
     candidates: Vec<ElementId>,
     index: usize,
 }
 
-/// Something is hit from this far away, in points.
+/// How close a click must be to hit something, in points.
 pub(crate) const REACH_PX: f64 = 7.0;
 
-/// Clicks closer than this are at the same place, in points.
+/// Clicks closer than this are at the same position, in points.
 const SAME_PLACE_PX: f64 = 4.0;
 
-/// Of more corners no handles are shown: they would hide the plan.
+/// The most corners shown with handles: more would hide the plan.
 const MOST_HANDLES: usize = 400;
 
-/// What lies at a place, what is meant first in front: openings, walls, rooms from the smallest. What is
-/// locked is not there.
+/// The elements at a position, likeliest first: openings, walls, rooms from the smallest. Locked ones are
+/// skipped.
 pub(crate) fn hit(
     derived: &Derived,
     plan: &Plan,
@@ -129,7 +129,7 @@ impl Select {
         };
     }
 
-    /// What a press here takes hold of: only what is selected, so that nothing moves by accident.
+    /// What a press here grabs: only something selected, so that nothing moves by accident.
     fn grabbed(&self, pointer: Point, scope: &Scope<'_>) -> Option<Grabbed> {
         if scope.modifiers.shift || scope.modifiers.command {
             return None;
@@ -192,7 +192,7 @@ enum Grabbed {
     Selection,
 }
 
-/// What a click or a box does with what was selected before.
+/// How a click or a box changes the selection.
 fn mode(scope: &Scope<'_>) -> SelectMode {
     if scope.modifiers.command {
         SelectMode::Toggle
@@ -203,14 +203,14 @@ fn mode(scope: &Scope<'_>) -> SelectMode {
     }
 }
 
-/// A box pulled to the right takes what is inside; to the left also what it touches, as in CAD programs.
+/// A box dragged to the right takes what is inside; to the left also what it touches, as in CAD programs.
 fn is_inside(from: Point, to: Point) -> bool {
     to.x >= from.x
 }
 
-/// The corners that selected elements have, where they are few enough to be shown and grabbed.
+/// The corners of the selected elements, if few enough to be shown and grabbed.
 fn handles_of(plan: &Plan, selection: &Selection) -> BTreeSet<CornerId> {
-    // Each element has corners of its own or shares them: so many elements have more.
+    // Each element has corners of its own or shares them: that many elements have too many.
     if selection.len() > MOST_HANDLES {
         return BTreeSet::new();
     }
@@ -218,7 +218,7 @@ fn handles_of(plan: &Plan, selection: &Selection) -> BTreeSet<CornerId> {
     if handles.len() > MOST_HANDLES { BTreeSet::new() } else { handles }
 }
 
-/// The corners that selected elements have.
+/// The corners of the selected elements.
 fn corners_of(plan: &Plan, selection: &Selection) -> BTreeSet<CornerId> {
     let mut corners: BTreeSet<CornerId> = selection.corners().collect();
     for wall in selection.walls().filter_map(|id| plan.wall(id)) {
@@ -230,7 +230,7 @@ fn corners_of(plan: &Plan, selection: &Selection) -> BTreeSet<CornerId> {
     corners
 }
 
-/// How far what is selected is moved. A single wall moves across itself, unless Shift is held.
+/// The displacement of the selection. A single wall moves perpendicular to itself, unless Shift is held.
 fn moved_by(from: Point, scope: &Scope<'_>) -> Vector {
     let by = scope.at() - from;
     let wall = match scope.selection.one() {
@@ -345,7 +345,7 @@ impl Tool for Select {
     }
 }
 
-/// Where an opening is when it slides as near to a point as its wall lets it.
+/// The segment of an opening slid as close to a point as its wall allows.
 fn slid(plan: &Plan, place: Place, towards: Point) -> Option<Segment> {
     let Place::Hosted { from, to, width_m, .. } = place else { return None };
     let edge = Segment::new(plan.position(from)?, plan.position(to)?);
@@ -356,7 +356,7 @@ fn slid(plan: &Plan, place: Place, towards: Point) -> Option<Segment> {
     Some(Segment::new(middle + -along * half_m, middle + along * half_m))
 }
 
-/// The edges that have moved corners, at their new places.
+/// The edges of moved corners, at their new positions.
 fn preview_moved(scope: &Scope<'_>, moved: &BTreeSet<CornerId>, by: Vector, preview: &mut Preview) {
     let Some(derived) = scope.derived else { return };
     let mut shown = BTreeSet::new();

@@ -1,4 +1,4 @@
-//! Splits rooms, without a wall: straight across by one click, or along a line.
+//! Splits rooms without a wall: straight across by one click, or along a line.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
@@ -36,7 +36,7 @@ struct Split {
     path: Path,
 }
 
-/// A boundary is pointed at from this far away, in points: as far as things attract.
+/// How close to a boundary the pointer must be, in points: the same as the snapping radius.
 const REACH_PX: f64 = 10.0;
 
 impl Split {
@@ -56,7 +56,7 @@ impl Split {
         // Ready -> Cutting, Cutting -> Cutting
         let is_first = self.path.is_empty();
         self.path.go_to(point, scope);
-        // On a boundary the line has come through.
+        // At a boundary the line is complete.
         let index = scope.derived.map(|derived| &derived.index);
         let is_through = index.is_some_and(|index| !index.edges_near(point, SAME_PLACE_M).is_empty());
         if !is_first && is_through { self.end() } else { Vec::new() }
@@ -69,7 +69,7 @@ impl Split {
     }
 }
 
-/// A point this near to a boundary is on it.
+/// A point this close to a boundary is on it, in metres.
 const SAME_PLACE_M: f64 = 1e-3;
 
 impl Tool for Split {
@@ -113,7 +113,7 @@ impl Tool for Split {
             if let Some(Across { line, areas_m2, .. }) = self.across(scope) {
                 preview.dashed(vec![line.a, line.b], false, Look::Danger);
                 if let Some([left, right]) = areas_m2 {
-                    // The smaller x first, as they lie.
+                    // The smaller x first, as they are placed.
                     let is_upward = line.b.y > line.a.y;
                     let (first, second) = if is_upward { (left, right) } else { (right, left) };
                     preview.label(

@@ -1,4 +1,4 @@
-//! Turns the picture under the plan so that a line of it becomes level or upright.
+//! Rotates the backdrop so that one of its lines becomes horizontal or vertical.
 
 use super::{Call, Entry, Input, Scope, TakenBack, Tool, picture_numbers};
 use crate::app::paint::preview::{Look, Preview};
@@ -19,7 +19,7 @@ struct Straighten {
     from: Option<Point>,
 }
 
-/// A line shorter than this, in points, has no direction to speak of.
+/// A shorter line, in points, has no reliable direction.
 const LEAST_PX: f64 = 12.0;
 
 impl Straighten {
@@ -75,7 +75,7 @@ impl Tool for Straighten {
         self.from.is_some()
     }
 
-    // Places of the picture are meant, not of what is drawn.
+    // Refers to positions in the backdrop, not in the drawing.
     fn snaps(&self) -> bool {
         false
     }

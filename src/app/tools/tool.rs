@@ -1,4 +1,4 @@
-//! What a tool is: a state machine, and its entry in the list of tools.
+//! The interface of a tool: a state machine, and its entry in the list of tools.
 
 use egui::{CursorIcon, Key, KeyboardShortcut};
 
@@ -10,25 +10,24 @@ use crate::app::look::icons::Icon;
 use crate::app::paint::preview::Preview;
 use crate::geometry::Point;
 
-/// A tool, and all that the window shows of it: its command, its place in the strip, its bar of options.
+/// A tool, and all that the window shows of it: its command, its place in the strip, its options.
 pub(crate) struct Entry {
-    /// Its word: the id of the command that takes it up.
+    /// The id of the command that activates it.
     pub id: &'static str,
-    /// As in a menu.
+    /// Its title in menus.
     pub title: &'static str,
     /// A sentence for tooltips and the manual.
     pub help: &'static str,
-    /// The shortcuts that its command comes with.
+    /// The default shortcuts of its command.
     pub keys: &'static [KeyboardShortcut],
-    /// Its icon, and the group in which it stands in the strip and in the menu; `None` for a tool that
-    /// another menu has a place for.
+    /// Its icon, and its group in the strip and in the menu; `None` for a tool placed in another menu.
     pub strip: Option<(Icon, Group)>,
-    /// What it can be told, in the order of its bar.
+    /// Its options, in the order of the bar.
     pub options: &'static [ToolOption],
     pub make: fn() -> Box<dyn Tool>,
 }
 
-/// The groups of the strip, in their order.
+/// The groups of the strip, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Group {
     Select,
@@ -38,13 +37,13 @@ pub(crate) enum Group {
     Measure,
 }
 
-/// Something a tool can be told: a command sets it.
+/// An option of a tool, set by a command.
 pub(crate) enum ToolOption {
     /// On or off.
     Switch {
         /// The command's id.
         command: &'static str,
-        /// As it is called in the bar.
+        /// Its name in the bar.
         name: &'static str,
     },
     /// A length in metres.
@@ -54,7 +53,7 @@ pub(crate) enum ToolOption {
         least_m: f64,
         most_m: f64,
         now_m: fn(&DrawOptions) -> f64,
-        /// Whether it matters as things are.
+        /// Whether it currently applies.
         is_shown: fn(&DrawOptions) -> bool,
     },
 }
@@ -65,10 +64,10 @@ pub(super) const RIGHT_ANGLES: ToolOption = ToolOption::Switch { command: "right
 pub(super) const WITH_WALLS: ToolOption = ToolOption::Switch { command: "walls-with-rooms", name: "With walls" };
 pub(super) const OVER_ROOMS: ToolOption = ToolOption::Switch { command: "over-rooms", name: "Over rooms" };
 
-/// How thick walls are.
+/// The thickness of walls.
 pub(super) const THICKNESS: ToolOption = thickness(|_| true);
 
-/// How thick the walls around rooms are, where they are drawn.
+/// The thickness of the walls around rooms, if they are drawn.
 pub(super) const THICKNESS_WITH_ROOMS: ToolOption = thickness(|options| options.walls_with_rooms);
 
 const fn thickness(is_shown: fn(&DrawOptions) -> bool) -> ToolOption {
@@ -82,7 +81,7 @@ const fn thickness(is_shown: fn(&DrawOptions) -> bool) -> ToolOption {
     }
 }
 
-/// How wide openings are.
+/// The width of openings.
 pub(super) const WIDTH: ToolOption = ToolOption::Length {
     command: "opening-width",
     name: "Width",
@@ -92,33 +91,33 @@ pub(super) const WIDTH: ToolOption = ToolOption::Length {
     is_shown: |_| true,
 };
 
-/// What undo does to a tool at work.
+/// What undo does to the active tool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TakenBack {
     /// Nothing: the plan's last step is undone.
     Nothing,
-    /// A corner that is not part of the plan yet.
+    /// Removes a corner that is not in the plan yet.
     Corner,
-    /// A corner that is: the plan's last step is undone as well.
+    /// Removes a corner that is: the plan's last step is undone as well.
     CornerAndStep,
 }
 
-/// A state machine.
+/// A tool's state machine.
 pub(crate) trait Tool {
-    /// What a person does, and the commands that follow.
+    /// Handles a user action; returns the resulting commands.
     fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call>;
 
     /// What can be done now, for the status line.
     fn hint(&self, scope: &Scope<'_>) -> String;
 
-    /// What is in the making.
+    /// Shows the work in progress.
     fn preview(&self, scope: &Scope<'_>, preview: &mut Preview);
 
     fn cursor(&self, _scope: &Scope<'_>) -> CursorIcon {
         CursorIcon::Crosshair
     }
 
-    /// The corners in the making, where it draws one after the other: what follows is then as they say.
+    /// The path being drawn, if it draws one corner after the other: defaults below then follow from it.
     fn path(&self) -> Option<&Path> {
         None
     }
@@ -127,7 +126,7 @@ pub(crate) trait Tool {
         None
     }
 
-    /// Whether something is begun that Escape drops.
+    /// Whether something has been started that Escape would cancel.
     fn is_busy(&self) -> bool {
         self.path().is_some_and(|path| !path.is_empty())
     }
@@ -141,7 +140,7 @@ pub(crate) trait Tool {
         self.path()?.anchor()
     }
 
-    /// Points in the making that attract like corners.
+    /// Points of the work in progress that can be snapped to like corners.
     fn points(&self) -> Vec<Point> {
         Vec::new()
     }
@@ -151,12 +150,12 @@ pub(crate) trait Tool {
         self.path().filter(|path| !path.is_empty()).map(|_| Typing::Length)
     }
 
-    /// Letters that it takes while it is busy.
+    /// Letters that it takes while busy.
     fn keys(&self) -> &'static [Key] {
         &[]
     }
 
-    /// The plan did not take what it called for last.
+    /// The plan refused what it called for last.
     fn was_refused(&mut self) {}
 
     fn take_back(&mut self) -> TakenBack {

@@ -1,4 +1,4 @@
-//! The tool in the hand, what was typed for it, and what its places snap to.
+//! The active tool, the text typed for it, and snapping.
 
 use egui::{Context, Event, Key};
 
@@ -11,22 +11,22 @@ use crate::base::units::Units;
 use crate::geometry::Point;
 use crate::snapping::{self, PlanIndex, Query, Snap};
 
-/// The tool in the hand.
+/// The active tool and its surroundings.
 pub(crate) struct Toolbox {
     entry: &'static Entry,
     tool: Box<dyn Tool>,
-    /// What has been typed for the tool.
+    /// The text typed for the tool.
     pub typed: String,
     /// Keys that were pressed since the canvas was last shown.
     pending: Vec<Input>,
-    /// How often Tab was pressed here, for the next thing to snap to.
+    /// How often Tab was pressed here, to cycle through snap targets.
     cycled: usize,
     cycled_at: Option<Point>,
-    /// Whether something attracts the pointer now: Tab goes on to the next.
+    /// Whether the pointer is snapped to something now: Tab then goes to the next.
     attracts: bool,
-    /// What the tool said last.
+    /// The tool's last hint.
     pub hint: String,
-    /// What is drawn next, and how.
+    /// The options for drawing.
     pub options: DrawOptions,
 }
 
@@ -47,18 +47,18 @@ impl Default for Toolbox {
     }
 }
 
-/// Tab starts anew when the pointer has moved so far, in points.
+/// Tab starts over when the pointer has moved this far, in points.
 const SAME_PLACE_PX: f64 = 4.0;
 
-/// Something attracts from this far away, in points: the length of a finger's tremble, and what CAD
-/// programs take (AutoCAD's aperture is 10 pixels).
+/// Snapping radius in points: about as much as a finger trembles, and the usual value in CAD programs
+/// (AutoCAD's aperture is 10 pixels).
 const SNAP_RADIUS_PX: f64 = 10.0;
 
-/// The grid that attracts is never finer than this, in points.
+/// The minimum spacing of the snapping grid, in points.
 const FINEST_GRID_PX: f64 = 8.0;
 
 impl Toolbox {
-    /// Takes up a tool by its word.
+    /// Activates a tool by its id.
     pub(crate) fn take_up(&mut self, id: &str) {
         if let Some(entry) = TOOLS.iter().find(|entry| entry.id == id) {
             self.entry = entry;
@@ -66,7 +66,7 @@ impl Toolbox {
         }
     }
 
-    /// Drops what is in the making.
+    /// Cancels the work in progress.
     pub(crate) fn drop_work(&mut self) {
         self.tool = (self.entry.make)();
         self.typed.clear();
@@ -76,7 +76,7 @@ impl Toolbox {
         self.hint.clear();
     }
 
-    /// Whether this tool is in the hand.
+    /// Whether this tool is active.
     pub(crate) fn is(&self, id: &str) -> bool {
         self.entry.id == id
     }
@@ -93,7 +93,7 @@ impl Toolbox {
         self.tool.as_mut()
     }
 
-    /// The tool in the hand, as the list has it.
+    /// The active tool's entry in the list.
     pub(crate) fn entry(&self) -> &'static Entry {
         self.entry
     }
@@ -181,7 +181,7 @@ impl Toolbox {
         std::mem::take(&mut self.pending)
     }
 
-    /// What a place snaps to now.
+    /// What a position currently snaps to.
     pub(crate) fn snap(&mut self, ground: &Ground<'_>, pointer: Point) -> Snap {
         let &Ground { index, seen, px_per_m, modifiers, lines, points, options, grid_m, is_seen } = ground;
         let empty = PlanIndex::default();
@@ -212,13 +212,13 @@ impl Toolbox {
             lines,
         };
         let mut found = snapping::candidates(index.unwrap_or(&empty), &query);
-        // The last one is the place itself.
+        // The last one is the position itself.
         self.attracts = is_seen && self.tool.snaps() && found.len() > 1;
         found.swap_remove(self.cycled % found.len())
     }
 }
 
-/// The grid that attracts: a tenth, a half or the whole of what is shown, as fine as can still be aimed
+/// The snapping grid: a tenth, a half or the whole of the visible spacing, as fine as one can still aim
 /// at.
 fn attracting_grid_m(shown_m: f64, px_per_m: f64) -> f64 {
     let finest_m = FINEST_GRID_PX / px_per_m;

@@ -15,7 +15,7 @@ pub(crate) enum Typing {
     Width,
 }
 
-/// What was typed, read.
+/// Typed text, parsed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Typed {
     /// In metres; with an angle in radians, counter-clockwise from the last line.

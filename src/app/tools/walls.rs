@@ -30,12 +30,12 @@ pub(super) const ENTRY: Entry = Entry {
 
 enum Walls {
     Ready,
-    /// Every wall between these corners is part of the plan.
+    /// Every wall between these corners is already in the plan.
     Drawing(Path),
 }
 
 impl Walls {
-    /// Goes on to a corner.
+    /// Continues to a corner.
     fn to(&mut self, point: Point, scope: &Scope<'_>) -> Vec<Call> {
         match self {
             // Ready -> Drawing
@@ -142,7 +142,7 @@ impl Tool for Walls {
         if !had_corners {
             return TakenBack::Corner;
         }
-        // The first corner is no wall yet.
+        // The first corner is not a wall yet.
         if path.is_empty() {
             *self = Self::Ready;
             TakenBack::Corner
