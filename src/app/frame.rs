@@ -1,4 +1,4 @@
-//! One frame of the window: what happened since the last, what the plan still needs, and the panels.
+//! One frame of the window: events since the last one, updates the plan needs, and the panels.
 
 use crate::app::canvas::Canvas;
 use crate::app::commands;
@@ -45,7 +45,7 @@ impl App {
     /// One frame.
     pub(crate) fn frame(&mut self, ui: &mut Ui) {
         let context = ui.ctx().clone();
-        // What was done since the last frame; what it opens is still known.
+        // What was done since the last frame; what it opened is still known.
         self.write_executed();
         self.session.take_outcomes(&context);
         self.grant_wishes(&context);
@@ -74,9 +74,9 @@ impl App {
     }
 
     pub(crate) fn take_shortcuts(&mut self, context: &Context) {
-        // Escape has taken the keyboard from the text by now, but belongs to it all the same.
+        // Escape has already taken the keyboard from the text field, but belongs to it all the same.
         let is_typing = std::mem::take(&mut self.was_typing) || context.text_edit_focused();
-        // An open menu has the keys to itself; the list under a text field leaves them to the text.
+        // An open menu gets all keys; the list below a text field leaves them to the field.
         let is_menu_open = egui::Popup::is_any_open(context) && !is_typing;
         if self.session.question.is_some() || self.dialogs.is_any_open() || is_menu_open {
             return;
@@ -84,7 +84,7 @@ impl App {
         let pressed = context.input_mut(|input| commands::take_pressed(input, &self.session.settings, is_typing));
         for command in pressed {
             match self.run_command_with(command.id, &[], context) {
-                // Escape with nothing picked needs no word.
+                // Escape with nothing selected needs no message.
                 Err(CommandError::NotNow { reason, .. }) if command.id != "clear-selection" => {
                     self.session.status = format!("{}: {reason}", command.plain_title());
                 }
@@ -93,7 +93,7 @@ impl App {
         }
     }
 
-    /// Starts what the plan on screen still needs: its analysis, its backdrop.
+    /// Starts the updates the plan on screen needs: analysis, backdrop.
     pub(crate) fn refresh(&mut self) {
         self.session.derive();
         self.session.refresh_backdrop();
@@ -140,7 +140,7 @@ impl App {
         self.act_on(Call::new(id, [Value::Path(first.path().to_owned())]), context);
     }
 
-    /// Opens what a row of the list or a card stands for.
+    /// Opens the plan of a row in the list or of a card.
     pub(crate) fn open_listed(&mut self, origin: &Origin, context: &Context) {
         let call = match origin {
             Origin::Bundled(index) => Call::new("open-sample", [Value::Sample(*index)]),

@@ -1,7 +1,7 @@
 //! The window: canvas, commands, panels, theme.
 //!
-//! [`App`] is the whole window apart from any display: it takes egui's input and gives shapes.
-//! [`run_window`] shows it on a screen; [`Offscreen`] drives the same one without.
+//! [`App`] is the whole window apart from any display: it takes egui's input and returns shapes.
+//! [`run_window`] shows it on a screen; [`Offscreen`] drives the same window without one.
 //!
 //! The floors, from the ground: `look`, `paint`, `session`, `value`, `tools`, `canvas`, `state`, `commands`, `panels`,
 //! `frame`; above these `native`, `offscreen` and `replay`.

@@ -15,11 +15,10 @@ use crate::app::session::{
 use crate::app::state::App;
 use crate::store;
 
-/// What the window opens with.
+/// What to open the window with.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct WindowOptions {
-    /// The plan to show: a file of any known format, or a folder of them; one that comes with the
-    /// program without.
+    /// The plan to show: a file of any known format, or a folder of them; `None` for a bundled one.
     pub plan: Option<PathBuf>,
 }
 
@@ -105,7 +104,7 @@ impl eframe::App for Window {
     }
 }
 
-/// What winit says, without the line of its own source that it puts in front.
+/// winit's error message, without the source location that it puts in front.
 fn reason(what: &str) -> String {
     let behind_place = what.split_once(".rs:").and_then(|(_, rest)| rest.split_once(": "));
     behind_place.map_or(what, |(_, reason)| reason).trim_end_matches('.').to_owned()

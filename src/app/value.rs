@@ -1,4 +1,4 @@
-//! What commands take, as values: what tools, the canvas and panels hand over, and what scripts, the palette
+//! Values of command arguments: what tools, the canvas and panels pass on, and what scripts, the palette
 //! and recordings write as words.
 
 use std::path::PathBuf;
@@ -15,7 +15,7 @@ use crate::labels::Typology;
 use crate::plan::{ElementId, GuideAxis, OpeningId, OpeningKind, RoomId};
 use crate::predict::ModelSet;
 
-/// An argument that was read.
+/// A parsed argument.
 #[derive(Clone, Debug)]
 pub(crate) enum Value {
     Path(PathBuf),
@@ -35,16 +35,16 @@ pub(crate) enum Value {
     Word(&'static str),
     /// A command's id.
     Command(&'static str),
-    /// The id of a panel at a side of the canvas.
+    /// The id of a side panel.
     SidePanel(&'static str),
     Keys(Keys),
 }
 
-/// The arguments of a call, read. Those left out are missing at the end.
+/// The parsed arguments of a call. Omitted ones are missing at the end.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Values(pub(crate) Vec<Value>);
 
-/// A command to run: its id, and its arguments in the order in which it takes them.
+/// A call of a command: its id, and its arguments in order.
 #[derive(Clone, Debug)]
 pub(crate) struct Call {
     pub id: &'static str,
@@ -58,31 +58,31 @@ impl Call {
 }
 
 impl Value {
-    /// Points on the 0.1 mm grid, as their words have them.
+    /// Points rounded to the 0.1 mm grid, as they are written.
     pub(crate) fn points(points: &[Point]) -> Self {
         Self::Points(points.iter().map(|point| point.trimmed()).collect())
     }
 
-    /// One point on the 0.1 mm grid.
+    /// One point rounded to the 0.1 mm grid.
     pub(crate) fn point(point: Point) -> Self {
         Self::points(&[point])
     }
 
-    /// One of several things that have words.
+    /// One of several named things.
     pub(crate) fn word<T: Worded + PartialEq>(thing: T) -> Self {
         let index = T::ALL.iter().position(|one| *one == thing);
         Self::Word(index.and_then(|index| T::WORDS.get(index)).map_or("", |(word, _)| word))
     }
 }
 
-/// One of several things, each with a word.
+/// One of several things, each with a name.
 pub(crate) trait Worded: Copy + 'static {
-    /// Each with its word and its title, in the order in which they are offered.
+    /// The name and title of each, in the order they are offered.
     const WORDS: &'static [(&'static str, &'static str)];
     /// The things, in the same order.
     const ALL: &'static [Self];
 
-    /// The thing that a word means.
+    /// The thing with this name.
     fn of_its_word(word: &str) -> Option<Self> {
         let index = Self::WORDS.iter().position(|(own, _)| *own == word)?;
         Self::ALL.get(index).copied()
@@ -133,12 +133,12 @@ impl Worded for Alignment {
     const ALL: &'static [Self] = &[Self::Left, Self::Right, Self::Top, Self::Bottom, Self::Center, Self::Middle];
 }
 
-/// What a new room takes.
+/// What a new room covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Space {
-    /// All within its boundary.
+    /// Everything within its boundary.
     Exact,
-    /// What no room covers of it.
+    /// The part of it not covered by other rooms.
     Free,
 }
 
@@ -151,7 +151,7 @@ impl Worded for Space {
 /// What a box selects.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Boxed {
-    /// What lies within it.
+    /// Only what lies inside it.
     Inside,
     /// Also what it touches.
     Touching,
