@@ -1,5 +1,5 @@
-//! Many plans, one after the other for whoever watches, several at once for the machine: which files are
-//! meant, what is done with each, and how far it is. What is wrong with one never ends the rest.
+//! Processing many plans, in order but several at once: which files are meant, what is done with each,
+//! and progress. An error in one never stops the rest.
 
 use std::io::{Read as _, Write as _};
 use std::path::{Path, PathBuf};
@@ -10,11 +10,11 @@ use crate::base::work::Work;
 use crate::formats::{self, FileError, Import, Place, ReadError, Reading};
 use crate::store::plans_below;
 
-/// A plan that is named on the command line, or lies in a folder that is.
+/// A plan named on the command line, or found in a folder that is.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Input {
     pub path: PathBuf,
-    /// The folder named on the command line that it lies in; `None` where it is named itself.
+    /// The folder on the command line in which it was found; `None` if it is named itself.
     pub root: Option<PathBuf>,
     /// Why it cannot be read, where finding it showed that.
     problem: Option<String>,
@@ -30,8 +30,8 @@ impl Input {
         formats::read_file(&self.path)
     }
 
-    /// Reads it as a person wants it to be read; `None` for a file found in a folder that is no plan, see
-    /// [`formats::foreign_kind`], with what it is instead.
+    /// Reads it with the user's options; the inner error is for a file found in a folder that is not a
+    /// plan, see [`formats::foreign_kind`], and says what it is instead.
     ///
     /// # Errors
     /// When it cannot be read.
@@ -47,7 +47,7 @@ impl Input {
         }
     }
 
-    /// What finding it showed.
+    /// The problem found when listing it, if any.
     ///
     /// # Errors
     /// When it cannot be read.
@@ -102,15 +102,15 @@ pub fn inputs_but(
     Ok(inputs)
 }
 
-/// So many inputs for each thread are worked on before their results are handed over: enough to keep all
-/// threads busy, few enough to hold in memory.
+/// Inputs per thread processed before their results are handed over: enough to keep all threads busy, few
+/// enough to hold in memory.
 const AT_ONCE: usize = 4;
 
-/// Works on each input, several at once, and hands the results over in the order of the inputs, with a line
-/// that tells how far it is. The results do not depend on the number of threads.
+/// Processes each input, several at once, and hands the results over in input order, with a progress
+/// line. The results do not depend on the number of threads.
 ///
 /// # Errors
-/// What `take` returns: then no further input is begun.
+/// What `take` returns; then no further input is started.
 pub fn for_each<T: Send>(
     inputs: &[Input],
     title: &str,

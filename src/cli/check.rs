@@ -109,7 +109,7 @@ impl CheckCommand {
         found
     }
 
-    /// What was found in one file, for people; empty when nothing was.
+    /// The findings of one file, for people; empty if there are none.
     fn text(&self, path: &Path, import: &Import, checked: &[(&Plan, Vec<Finding>)]) -> String {
         let mut text = String::new();
         let notes = note_groups(&import.notes, self.least);
@@ -133,7 +133,7 @@ impl CheckCommand {
             if groups.is_empty() {
                 continue;
             }
-            // Stable: what the reader says comes first within its severity.
+            // Stable: the reader's notes come first within their severity.
             groups.sort_by_key(|group| std::cmp::Reverse(group.severity));
             let _ = writeln!(text, "{}", heading(path, plan, checked.len()));
             for group in &groups {
@@ -196,7 +196,7 @@ impl Group {
     }
 }
 
-/// What the reader left out is a warning, what it mended is for information.
+/// Something a reader skipped is a warning; something it repaired is for information.
 const fn note_severity(kind: NoteKind) -> Severity {
     match kind {
         NoteKind::Skipped => Severity::Warning,
@@ -223,7 +223,7 @@ fn note_groups(notes: &[Note], least: Severity) -> Vec<Group> {
         .collect()
 }
 
-/// What all files gave.
+/// The totals of all files.
 #[derive(Default)]
 struct Totals {
     files: usize,
@@ -352,7 +352,7 @@ fn json_finding(finding: &Finding) -> Value {
     })
 }
 
-/// A figure for machines: at most four decimals, a whole number without a decimal point.
+/// A figure for machines: at most four decimals, integers without a decimal point.
 fn rounded(value: f64) -> Value {
     let value = crate::geometry::trim_m(value);
     if value.fract() == 0.0 && value.abs() < 1e15 { (value as i64).into() } else { value.into() }

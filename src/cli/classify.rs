@@ -79,15 +79,16 @@ pub struct ModelsOption {
 }
 
 impl ModelsOption {
-    /// The folder of the user's own models; `None` where the system tells of no home.
+    /// The folder of the user's own models; `None` if the system has no home folder.
     pub fn folder(&self) -> Option<PathBuf> {
         self.folder.clone().or_else(models_folder)
     }
 
-    /// The models at hand. What cannot be used of the user's own is said on stderr; gives their number as well.
+    /// The available models, and the number of the user's own that cannot be used, which are reported on
+    /// stderr.
     ///
     /// # Errors
-    /// When the folder that is named does not exist, or stderr cannot be written.
+    /// When the given folder does not exist, or stderr cannot be written.
     pub fn read(&self, terminal: &mut Terminal) -> Result<(Models, usize), CliError> {
         if let Some(folder) = self.folder.as_ref().filter(|folder| !folder.is_dir()) {
             return Err(CliError::new(format!("{}: no such folder of models; check the path", folder.display())));
@@ -101,10 +102,10 @@ impl ModelsOption {
 }
 
 impl PredictorOptions {
-    /// What is to predict, and the models at hand.
+    /// Which models predict, and the available models.
     ///
     /// # Errors
-    /// When there are no models of the name given.
+    /// When there are no models with the given name.
     pub fn read(&self, terminal: &mut Terminal) -> Result<(Predictor, Models), CliError> {
         let (models, _) = self.models.read(terminal)?;
         let set = ModelSet::read(&self.typology, &models)?;
@@ -165,7 +166,8 @@ impl Subcommand for ClassifyCommand {
 }
 
 impl ClassifyCommand {
-    /// Writes the predictions of the rooms without a label into a plan file; gives the file and their number.
+    /// Writes the predictions for rooms without a label into a plan file; returns the file and their
+    /// number.
     fn write(
         &self,
         file: &Path,

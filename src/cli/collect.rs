@@ -70,7 +70,7 @@ pub fn collect(options: &CollectOptions, seed: u64, terminal: &mut Terminal) -> 
 /// What was read.
 pub struct Collected {
     pub collection: Collection,
-    /// The plans of the collection, in its order, as they are seen when nobody knows their typology.
+    /// The plans of the collection, in order, as if their typology were unknown.
     pub blind: Vec<RoomNetwork>,
     /// Number of files that could not be read.
     pub failed: usize,
@@ -103,7 +103,8 @@ fn read_networks(paths: &[PathBuf], scheme_files: &[PathBuf], terminal: &mut Ter
         }
         Ok(())
     })?;
-    // Storeys of one building are spelled differently at times; folds must not split it for that.
+    // The spelling of a building's name sometimes differs between storeys; folds must not split it for
+    // that.
     let mut spellings: BTreeMap<BuildingKey, String> = BTreeMap::new();
     for network in networks.iter_mut().chain(&mut blind) {
         let key = (network.typology.clone(), building_name::key(&network.building));

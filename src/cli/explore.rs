@@ -97,7 +97,7 @@ impl Subcommand for ExploreCommand {
         };
         let world = Arc::new(World::new(truth, &self.world_options()));
         let robot = self.robot_options();
-        // Half the robot's width, and what it keeps free beside it.
+        // Half the robot's width plus its clearance.
         let reach_m = robot.radius_m + robot.margin_m;
         let Some(start) = world.start(reach_m, self.seed) else {
             return Err(CliError::new(format!(
@@ -228,7 +228,7 @@ impl ExploreCommand {
         write("score.json", score_json(score, explored, labels).as_bytes())?;
         write(&format!("{name}.plan.json"), &formats::plan_json::to_bytes(&explored.plan))?;
 
-        // The parser let only names of the table through.
+        // The parser only accepts names of the table.
         let theme = Theme::ALL.into_iter().find(|theme| theme.name() == self.theme).unwrap_or_default();
         let world_from_map = exploration.world_from_map;
         let to_world =
@@ -265,10 +265,10 @@ fn alphas(text: &str) -> Result<OdometryNoise, String> {
     }
 }
 
-/// Pixels of the longer side of a picture.
+/// The longer side of a picture, in pixels.
 const PICTURE_SIDE_PX: f64 = 1600.0;
 
-/// Drives until the end, telling how much of the floor has been seen.
+/// Runs to the end, reporting how much of the floor has been seen.
 fn drive(exploration: &mut Exploration, world: &World, work: &Work<'_>) -> Result<(), Cancelled> {
     let all = areas::area_m2(world.free()).ceil().max(1.0) as usize;
     while !exploration.is_over() {
@@ -295,8 +295,7 @@ fn moved(shapes: &Shapes, exploration: &Exploration) -> Shapes {
     shapes.iter().map(|shape| shape.iter().map(ring).collect()).collect()
 }
 
-/// The plan of the map with the labels that classifiers say: of each room, and of what lies behind each
-/// frontier.
+/// The plan of the map with predicted labels: of each room, and of what lies behind each frontier.
 fn labelled(map: &Map, world_from_map: Pose, truth: &Plan) -> Result<ExploredPlan, CliError> {
     let of = &truth.meta();
     let meta = Meta {
@@ -348,7 +347,7 @@ fn labelled(map: &Map, world_from_map: Pose, truth: &Plan) -> Result<ExploredPla
     make(&said)
 }
 
-/// How many of the found rooms whose true label is known are labelled so, and how many there are.
+/// The number of found rooms whose true label is known that are labelled correctly, and their total.
 fn labels_right(truth: &Plan, score: &Score, explored: &ExploredPlan) -> (usize, usize) {
     let schemes = Schemes::bundled();
     let pairs: Vec<(Label, Option<Label>)> = score
@@ -364,8 +363,7 @@ fn labels_right(truth: &Plan, score: &Score, explored: &ExploredPlan) -> (usize,
     (pairs.iter().filter(|(known, said)| *said == Some(*known)).count(), pairs.len())
 }
 
-/// Each step's true pose, the estimate as best known at the end, and the odometry's, all in the plan's
-/// frame.
+/// Each step's true pose, the final estimate of it, and the odometry's, all in the plan's frame.
 fn poses_csv(exploration: &Exploration, map: &Map) -> String {
     let mut csv = String::from(
         "step,true_x,true_y,true_theta,estimated_x,estimated_y,estimated_theta,odometry_x,odometry_y,odometry_theta\n",

@@ -10,7 +10,7 @@ use crate::labels::Schemes;
 use crate::plan::Plan;
 use crate::store::save_bytes;
 
-/// The format of a folder's files where none is named.
+/// The default format of files in a folder.
 const DEFAULT_FORMAT: &str = "geojson";
 
 /// `enfilade export`: plans in another format.
@@ -82,21 +82,21 @@ impl Subcommand for ExportCommand {
     }
 }
 
-/// What a plan gave.
+/// The result for one plan.
 enum Piece {
     /// Its files.
     Written(Export),
-    /// Itself, by its stem, to be written with the others.
+    /// The plan itself, with its stem, to be written with the others.
     Plan(String, Plan),
 }
 
-/// Where an export goes, and in which format.
+/// The destination of an export, and its format.
 struct Target {
     format: &'static Format,
     exporter: &'static dyn Exporter,
     options: Options,
     output: PathBuf,
-    /// The output's name without its ending, where it is one file.
+    /// The output's name without its extension, if it is one file.
     stem: Option<String>,
 }
 
@@ -113,7 +113,7 @@ impl ExportCommand {
                 let (format, exporter) = writable_named(DEFAULT_FORMAT)?;
                 (format, exporter, false)
             }
-            // Of several formats with this ending, the one that is named.
+            // Of several formats with this extension, the one that was named.
             (several, Some((format, exporter))) if several.iter().any(|(other, _)| other.id == format.id) => {
                 (format, exporter, !is_folder)
             }
@@ -203,7 +203,7 @@ fn writable() -> impl Iterator<Item = Writable> {
     FORMATS.iter().filter_map(|format| Some((*format, format.exporter?)))
 }
 
-/// The format that goes by a word or an ending.
+/// The format with this name or extension.
 fn writable_named(word: &str) -> Result<Writable, CliError> {
     let word = word.trim_start_matches('.').to_lowercase();
     let by_ending = |(format, _): &Writable| format.endings.contains(&word.as_str());

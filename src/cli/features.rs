@@ -78,12 +78,12 @@ impl Subcommand for FeaturesCommand {
     }
 }
 
-/// What tells a room, before its features.
+/// The columns that identify a room, before its features.
 const HEAD: [&str; 4] = ["plan", "room", "function", "label"];
 
-/// A room with its features, where it has an area.
+/// A room with its features, if it has an area.
 struct RoomFeatures {
-    /// Of [`HEAD`].
+    /// The texts for [`HEAD`].
     texts: [String; 4],
     features: Option<Features>,
 }
@@ -122,7 +122,7 @@ impl RoomFeatures {
     }
 }
 
-/// A number as JSON: a whole one without a decimal point, else at most six decimals.
+/// A number as JSON: an integer without a decimal point, otherwise at most six decimals.
 fn rounded(value: f64) -> serde_json::Value {
     let value = (value * 1e6).round() / 1e6;
     if value.fract() == 0.0 && value.abs() < 1e15 { (value as i64).into() } else { value.into() }

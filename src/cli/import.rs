@@ -17,7 +17,7 @@ use crate::labels::Typology;
 use crate::plan::Meta;
 use crate::store::save_bytes_fast;
 
-/// How the files that are written end.
+/// The extension of the files written.
 const ENDING: &str = "plan.json";
 
 /// `enfilade import`: files of any known format to plan files.
@@ -49,7 +49,7 @@ pub struct ImportCommand {
     json: bool,
 }
 
-/// A format that can be read, as an option's value.
+/// Parses the name of a readable format.
 fn importer(word: &str) -> Result<Found<'static>, String> {
     formats::importer_named(word).ok_or_else(|| {
         let ids = FORMATS.iter().filter(|format| format.importer.is_some()).map(|format| format.id);
@@ -118,7 +118,7 @@ impl Subcommand for ImportCommand {
 fn jobs(inputs: &[PathBuf], output: &Path) -> Result<Vec<Job>, CliError> {
     let output = output.canonicalize().ok();
     let is_output = |path: &Path| output.is_some() && path.canonicalize().ok() == output;
-    // Plans that an earlier import wrote beside their sources are no sources.
+    // Plans that an earlier import wrote beside their sources are not sources.
     let beside: BTreeSet<&PathBuf> = inputs.iter().filter(|input| is_output(input)).collect();
     let is_source = |input: &Input| {
         let is_own = input.path.to_string_lossy().ends_with(ENDING);
@@ -146,10 +146,10 @@ fn job(input: Input, has_several: bool) -> Job {
     Job { input, folder, target }
 }
 
-/// A file's name without the ending of its format.
+/// A file's name without the extension of its format.
 fn stem_of(path: &Path) -> PathBuf {
     let name = path.file_name().unwrap_or_default();
-    // Only names that are text have a known ending.
+    // Only names that are valid text can have a known extension.
     name.to_str().map_or_else(|| PathBuf::from(name), |name| PathBuf::from(formats::file_stem(name)))
 }
 
@@ -164,7 +164,7 @@ fn content(input: &Input, reading: &Reading) -> Content {
     }
 }
 
-/// Says what is in each file, one a line.
+/// Prints a summary of each file, one per line.
 fn preview(jobs: &[Job], reading: &Reading, terminal: &mut Terminal) -> Result<Outcome, CliError> {
     let mut outcome = Outcome::Done;
     for job in jobs {
@@ -198,8 +198,8 @@ fn in_words(preview: &Preview) -> String {
     format!("{}{layers}", words.join(", "))
 }
 
-/// Gives plans of one building the same name of it, where spellings differ: the longest, since a
-/// letter is more often left out than added.
+/// Gives plans of one building the same building name if spellings differ: the longest, since letters are
+/// more often omitted than added.
 fn same_buildings(files: &mut [File]) {
     let key_of =
         |meta: &Meta| -> (Option<Typology>, String) { (meta.typology.clone(), building_name::key(&meta.building)) };
@@ -226,8 +226,7 @@ fn same_buildings(files: &mut [File]) {
     }
 }
 
-/// A path in the output folder that no other plan of this import has, also where upper and lower
-/// case are the same.
+/// A path in the output folder unique within this import, also ignoring case.
 fn target(output: &Path, target: &Path, index: Option<usize>, taken: &mut BTreeSet<String>) -> PathBuf {
     let stem = target.file_name().unwrap_or_default();
     for nth in 1.. {

@@ -11,7 +11,7 @@ use crate::store::{schemes_folder, schemes_in, with_scheme_file};
 /// The bundled label schemes, extended by those in the user's folder and then by the files named.
 ///
 /// # Errors
-/// When one of the files cannot be read or is no label scheme.
+/// When one of the files cannot be read or is not a label scheme.
 pub fn schemes(files: &[PathBuf]) -> Result<Schemes, CliError> {
     let (own, errors) = schemes_folder().map_or_else(|| (Schemes::bundled(), Vec::new()), |own| schemes_in(&own));
     if let Some(error) = errors.into_iter().next() {
@@ -20,10 +20,10 @@ pub fn schemes(files: &[PathBuf]) -> Result<Schemes, CliError> {
     Ok(files.iter().try_fold(own, |schemes, file| with_scheme_file(schemes, file))?)
 }
 
-/// The one of `all` that goes by a word, as an option's value.
+/// Parses one of `all` by its name.
 ///
 /// # Errors
-/// A sentence that lists the words there are.
+/// When there is no such name; the sentence lists those there are.
 pub fn one_of<T: Copy>(word: &str, all: &[T], name: fn(T) -> &'static str) -> Result<T, String> {
     all.iter().copied().find(|&it| name(it) == word).ok_or_else(|| {
         let words: Vec<&str> = all.iter().map(|&it| name(it)).collect();

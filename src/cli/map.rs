@@ -64,7 +64,7 @@ impl Subcommand for MapCommand {
         write(&format!("{name}.lines.json"), lines_json(&mapped.map, &options).as_bytes())?;
         let segments: Vec<Segment> = mapped.map.lines().map(|line| line.line.segment()).collect();
         let path: Vec<Point> = mapped.poses.iter().map(|pose| pose.position()).collect();
-        // The parser let only names of the table through.
+        // The parser only accepts names of the table.
         let theme = Theme::ALL.into_iter().find(|theme| theme.name() == self.theme).unwrap_or_default();
         let drawing = LineMapDrawing { segments: &segments, free: &Vec::new(), path: &path };
         let scene = drawing.scene(theme, PICTURE_SIDE_PX);
@@ -85,10 +85,10 @@ impl Subcommand for MapCommand {
     }
 }
 
-/// Pixels of the longer side of the picture.
+/// The longer side of the picture, in pixels.
 const PICTURE_SIDE_PX: f64 = 2000.0;
 
-/// A log's name without its endings.
+/// A log's name without its extensions.
 fn log_name(path: &Path) -> String {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let stem = name.strip_suffix(".gz").unwrap_or(&name);
@@ -100,14 +100,15 @@ fn log_name(path: &Path) -> String {
 fn poses_csv(log: &Log, mapped: &MappedLog) -> String {
     let mut csv = String::from("t,x,y,theta\n");
     for (reading, pose) in log.readings.iter().zip(&mapped.poses) {
-        // Angles to a hundredth of a milliradian: half a millimetre 50 m away. `+ 0.0` drops the sign of zero.
+        // Angles to a hundredth of a milliradian: half a millimetre at 50 m. `+ 0.0` drops the sign of
+        // zero.
         let heading = (pose.heading_rad * 1e5).round() / 1e5 + 0.0;
         let _ = writeln!(csv, "{},{},{},{heading}", reading.time_s, trim_m(pose.x_m), trim_m(pose.y_m));
     }
     csv
 }
 
-/// The lines, one a row, each with its deviations.
+/// The lines, one per row, each with its standard deviations.
 fn lines_json(map: &LineMap, options: &MapperOptions) -> String {
     let mut json = String::from(
         "{\"enfilade_line_map\":1,\"frame\":\"the first scan's robot: x ahead, y to the left; metres and radians; \

@@ -1,4 +1,4 @@
-//! The command line. One file a subcommand, one line in [`SUBCOMMANDS`] to register it.
+//! The command line. One file per subcommand, and one line in [`SUBCOMMANDS`] to register it.
 
 mod batch;
 mod check;
@@ -50,16 +50,16 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<commands::CommandsCommand>(),
 ];
 
-/// A subcommand: its arguments (a clap `Args`) and what it does with them.
+/// A subcommand: its arguments (a clap `Args`) and its action.
 pub trait Subcommand: Args {
-    /// The word on the command line.
+    /// Its name on the command line.
     const NAME: &'static str;
     /// One line for the list of subcommands.
     const ABOUT: &'static str;
-    /// An example call with a word on what it does, shown at the end of its help.
+    /// An example call with a short explanation, shown at the end of its help.
     const EXAMPLE: &'static str;
 
-    /// What stands above the example: lists that the program keeps elsewhere. Empty for most.
+    /// Text above the example: lists that the program keeps elsewhere. Empty for most.
     fn more_help() -> String {
         String::new()
     }
@@ -71,12 +71,12 @@ pub trait Subcommand: Args {
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError>;
 }
 
-/// How a subcommand that ran ended.
+/// The outcome of a subcommand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// Exit code 0.
     Done,
-    /// It did what it could, and said what was wrong with the input: exit code 1.
+    /// It did what it could, and reported what was wrong with the input: exit code 1.
     InputWrong,
 }
 
@@ -84,7 +84,7 @@ pub enum Outcome {
 #[derive(Debug)]
 pub struct CliError {
     pub message: String,
-    /// Whoever read our output has gone away (`| head`): nothing to say.
+    /// The reader of our output has gone away (`| head`): nothing to say.
     pub broken_pipe: bool,
 }
 

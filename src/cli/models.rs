@@ -37,7 +37,7 @@ impl Subcommand for ModelsCommand {
     }
 }
 
-/// The accuracy of the cross-validation that assigned these units to folds.
+/// The accuracy of the cross-validation with folds by this unit.
 fn accuracy(model: &StoredModel, folds_by: &str) -> Option<f64> {
     model.about.scores.iter().find(|scores| scores.folds_by == folds_by).map(|scores| scores.accuracy)
 }

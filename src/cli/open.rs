@@ -1,4 +1,5 @@
-//! `enfilade` without a subcommand: the window, or where there is no display the same job headless.
+//! `enfilade` without a subcommand: opens the window or, if there is no display, does the same job
+//! headless.
 
 use std::io::Write as _;
 use std::path::Path;
@@ -13,13 +14,13 @@ use crate::pipeline::Pipeline;
 use crate::plan::Plan;
 use crate::store::{bundled_plans, save_bytes_fast};
 
-/// Where the headless job writes, below the current folder.
+/// The headless job's output folder, in the current folder.
 const OUTPUT: &str = "enfilade-out";
 
 /// The longer side of the headless job's pictures in pixels.
 const PICTURE_PX: f64 = 1600.0;
 
-/// Opens the window on a plan, or on a bundled one; without a display does the job headless.
+/// Opens the window on a plan, or on a bundled one; without a display, runs the headless job.
 pub fn open(plan: Option<&Path>, terminal: &mut Terminal) -> Result<Outcome, CliError> {
     let why = match window(plan) {
         None => return Ok(Outcome::Done),
@@ -40,7 +41,7 @@ fn window(_plan: Option<&Path>) -> Option<String> {
     Some("this build has no window (cargo feature 'gui')".to_owned())
 }
 
-/// Reads the plans, and writes for each its pictures, and for all their features as a dataset.
+/// Reads the plans, and writes pictures of each, and the features of all as a dataset.
 fn headless(plan: Option<&Path>, terminal: &mut Terminal) -> Result<Outcome, CliError> {
     let plans: Vec<(String, Plan)> = match plan {
         Some(path) => {

@@ -1,4 +1,4 @@
-//! A line on the terminal that says how far long work is.
+//! A progress line on the terminal.
 
 use std::io::Write as _;
 use std::sync::Mutex;
@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use super::Terminal;
 use crate::base::work::Work;
 
-/// How often the line changes at most.
+/// The minimum time between updates.
 const STEP: Duration = Duration::from_millis(200);
 
 /// The line: on stderr, if that is a terminal.
@@ -23,7 +23,7 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// Nothing of `count` parts is done.
+    /// Starts at 0 of `count` parts.
     pub fn new(title: &str, count: usize, terminal: &Terminal) -> Self {
         #[expect(clippy::disallowed_methods, reason = "the time left is for a person to read; no result depends on it")]
         let start = Instant::now();
@@ -31,7 +31,7 @@ impl Progress {
         Self { title, count, is_shown: terminal.is_interactive, start, last, never }
     }
 
-    /// So many parts are done.
+    /// Reports the number of parts done.
     pub fn tell(&self, done: usize) {
         self.tell_of(done, self.count);
     }
@@ -52,7 +52,7 @@ impl Progress {
         let _ = write!(std::io::stderr(), "\r{}: {percent} %, {} left \x1b[K", self.title, in_words(left));
     }
 
-    /// Takes the line away, for other text.
+    /// Clears the line, for other text.
     pub fn clear(&self) {
         if self.is_shown {
             let _ = write!(std::io::stderr(), "\r\x1b[K");
@@ -60,8 +60,8 @@ impl Progress {
     }
 }
 
-/// Does work while a line on stderr, if that is a terminal, tells how much is done and how long the
-/// rest will take. Ctrl+C ends the program at once: nothing is written before all work is done.
+/// Runs work while a line on stderr, if that is a terminal, shows progress and the estimated time left.
+/// Ctrl+C ends the program at once: nothing is written before all work is done.
 pub fn with_progress<T>(
     title: &str,
     threads: Option<usize>,
@@ -79,7 +79,7 @@ pub fn with_progress<T>(
     result
 }
 
-/// A duration as people say it: '45 s', '3 min'.
+/// A readable duration: '45 s', '3 min'.
 fn in_words(duration: Duration) -> String {
     let seconds = duration.as_secs_f64().ceil();
     if seconds < 100.0 { format!("{seconds} s") } else { format!("{} min", (seconds / 60.0).ceil()) }

@@ -138,7 +138,7 @@ impl Subcommand for RenderCommand {
 
 impl RenderCommand {
     fn style(&self) -> Style {
-        // The parser let only names of the tables through.
+        // The parser only accepts names of the tables.
         Style {
             theme: Theme::ALL.into_iter().find(|theme| theme.name() == self.theme).unwrap_or_default(),
             label_colours: LabelColours::ALL
@@ -157,7 +157,7 @@ impl RenderCommand {
         }
     }
 
-    /// `file` is where the plan comes from: the picture that it was traced over is found from there.
+    /// `file` is the plan's file: its backdrop is relative to it.
     fn picture_of(
         &self,
         plan: &Plan,
@@ -206,7 +206,7 @@ impl RenderCommand {
         let mut style = style.clone();
         if let Some((levels, backdrop)) = traced {
             drawing = drawing.with_picture(levels, backdrop);
-            // As in the window: the picture is seen through the rooms.
+            // As in the window: the backdrop shows through the rooms.
             style.fill_opacity = OVER_PICTURE;
             style.halo = true;
             style.layers.rooms = style.fill != Fill::None;
@@ -218,23 +218,23 @@ impl RenderCommand {
     }
 }
 
-/// A plan's picture as a file's bytes, or why there is none.
+/// A plan's rendering as a file's bytes, or why there is none.
 struct Picture {
     bytes: Result<Vec<u8>, CliError>,
     /// What was left out.
     warning: Option<String>,
 }
 
-/// How strongly rooms are filled over a picture.
+/// Opacity of rooms over a backdrop.
 const OVER_PICTURE: f64 = 0.55;
 
-/// The ending of a picture's file name, if it has one.
+/// The extension of a picture's file name, if it has one.
 fn picture_ending(path: &Path) -> Option<&'static str> {
     let extension = path.extension()?.to_string_lossy().to_lowercase();
     ["png", "svg"].into_iter().find(|known| *known == extension)
 }
 
-/// Reads `1600` or `2000x1500`.
+/// Parses `1600` or `2000x1500`.
 fn page_size(text: &str) -> Result<PageSize, String> {
     let (least, most) = (SMALLEST_SIDE_PX, png::LARGEST_SIDE_PX);
     let side = |text: &str| {
@@ -251,5 +251,5 @@ fn page_size(text: &str) -> Result<PageSize, String> {
     }
 }
 
-/// A picture of fewer pixels a side shows nothing.
+/// The minimum side in pixels: a smaller picture shows nothing.
 const SMALLEST_SIDE_PX: u32 = 16;

@@ -74,7 +74,7 @@ impl Subcommand for ReplayCommand {
     }
 }
 
-/// Runs a script and writes the line of each step when it is done.
+/// Runs a script and prints the line of each step when it is done.
 fn told_by_step(script: &ScriptFile, options: &ReplayOptions, terminal: &mut Terminal) -> Result<Report, CliError> {
     let mut written = Ok(());
     let report = replay::replay_telling(script, options, &mut |line| {
@@ -86,7 +86,7 @@ fn told_by_step(script: &ScriptFile, options: &ReplayOptions, terminal: &mut Ter
     Ok(report)
 }
 
-/// How a script went, and on stderr what went wrong in it.
+/// Prints the result of a script, and on stderr its failures.
 fn tell(report: &Report, terminal: &mut Terminal) -> Result<(), CliError> {
     let path = report.script.path.display();
     for Failure { line, what, hint, files } in &report.failures {

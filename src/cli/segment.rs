@@ -123,7 +123,7 @@ fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
 
-/// Pixels of the longer side of the plan's picture, as `enfilade render` draws it.
+/// The longer side of the plan's picture in pixels, as in `enfilade render`.
 const PICTURE_SIDE_PX: f64 = 1600.0;
 
 impl SegmentCommand {
@@ -177,7 +177,7 @@ impl SegmentCommand {
     }
 }
 
-/// The plan with the labels said of its rooms, marked as predictions.
+/// The plan with the predicted labels of its rooms, marked as predictions.
 fn labelled(mut plan: Plan, said: &Predictions) -> Result<Plan, CliError> {
     for room in said.network.rooms.iter().filter(|room| room.label.is_none()) {
         let label = said.label(room.id).map(|label| RoomLabel { label, origin: LabelOrigin::Prediction });
@@ -186,7 +186,7 @@ fn labelled(mut plan: Plan, said: &Predictions) -> Result<Plan, CliError> {
     Ok(plan)
 }
 
-/// What was found in a map, with its identities in the plan.
+/// The results for a map, with their ids in the plan.
 struct Found<'a> {
     map: &'a GridMap,
     rooms: &'a [GridRoom],
@@ -202,7 +202,7 @@ impl Found<'_> {
             self.rooms.iter().enumerate().map(|(index, room)| (room.region, index)).collect();
         let room = |(found, &id): (&GridRoom, &RoomId)| {
             let room = plan.room(id);
-            // Of rooms with a function, the label that it stands for.
+            // For rooms with a function, the label it implies.
             let known = said.network.rooms.iter().find(|room| room.id == id).and_then(|room| room.label);
             let label = known.or_else(|| said.label(id));
             let centre = semantics::centre(found);
@@ -244,8 +244,8 @@ impl Found<'_> {
     }
 }
 
-/// The segmentation as a picture of the map's size: every room, and every smaller patch of free space, in a
-/// colour of its own, all else black.
+/// The segmentation as a picture of the map's size: every room, and every smaller patch of free space, in
+/// its own colour, everything else black.
 fn segmentation_png(map: &GridMap, segmentation: &Segmentation) -> Result<Vec<u8>, CliError> {
     let width = u32::try_from(map.width())?;
     let height = u32::try_from(map.height())?;
@@ -262,8 +262,8 @@ fn segmentation_png(map: &GridMap, segmentation: &Segmentation) -> Result<Vec<u8
     Ok(bytes)
 }
 
-/// A colour for each number, black for 0 only, no two alike below 2^24, neighbours far apart: the number times
-/// an odd constant, within 24 bits.
+/// A colour for each number: black only for 0, no two alike below 2^24, neighbours far apart. It is the
+/// number times an odd constant, modulo 2^24.
 fn colour(number: u32) -> [u8; 3] {
     /// 2^24 over the golden ratio, made odd: multiples of it are spread evenly (Knuth, vol. 3, 6.4).
     const SPREAD: u32 = 0x9e_3779;

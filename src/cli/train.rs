@@ -58,15 +58,15 @@ pub struct TrainCommand {
     output: PathBuf,
 }
 
-/// The scores of each method, and what was assigned to folds for them.
+/// The scores of each method, and the unit assigned to folds.
 type ScoresOf = Vec<(Method, (Grouping, Scores))>;
 
-/// The words of the learners: 'rules, tree, knn or mlp'.
+/// The names of the learners: 'rules, tree, knn or mlp'.
 pub fn each_room() -> String {
     or_words(&Algorithm::ALL.map(Algorithm::name))
 }
 
-/// A way to classify, as an option's value.
+/// Parses a method.
 pub fn method(word: &str) -> Result<Method, String> {
     word.parse().map_err(|error: crate::classify::UnknownAlgorithm| error.to_string())
 }
@@ -178,8 +178,8 @@ impl TrainCommand {
         }
     }
 
-    /// What cross-validation gives, by room and by building; what could not be done is said on stderr.
-    /// The joint classifier learns from whole plans: for it, by building only.
+    /// The scores of cross-validation, by room and by building; reports on stderr what could not be done.
+    /// The joint classifier is trained on whole plans, so only by building.
     fn validated(
         &self,
         part: &Collection,
@@ -195,7 +195,7 @@ impl TrainCommand {
             Algorithm::ALL.into_iter().filter(|&algorithm| methods.contains(&Method::Each(algorithm))).collect();
         let options = Options { folds: self.folds, neighbours, seed: self.seed, grouping: Grouping::Room };
         let conditions = Grouping::ALL.map(|by| Condition { by, neighbours });
-        // One typology alone makes a set of its own name, never a standard one.
+        // A single typology makes a set with its own name, never a standard one.
         let typologies = part.typologies();
         let of_part = if typologies.len() == 1 { set_name(typologies.first()).to_owned() } else { set.to_owned() };
         let result = with_progress(&format!("validating {set}"), None, terminal, |work| {
@@ -281,7 +281,7 @@ impl TrainCommand {
         Ok(model_file::to_bytes(&classifier, &about))
     }
 
-    /// The call that makes this one model from the same data.
+    /// The command line that makes this one model from the same data.
     fn command_line(&self, typology: Option<&Typology>, method: Method, neighbours: NeighbourLabels) -> String {
         let quoted = |path: &PathBuf| {
             let text = path.display().to_string();

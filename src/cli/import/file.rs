@@ -1,4 +1,4 @@
-//! A file to import and what became of it.
+//! A file to import and its outcome.
 
 use super::super::batch::Input;
 use super::super::{CliError, Terminal};
@@ -12,11 +12,11 @@ pub(super) struct Job {
     pub(super) input: Input,
     /// The folder it is counted under.
     pub(super) folder: PathBuf,
-    /// Where its plan goes in the output folder, without the ending.
+    /// The path of its plan in the output folder, without the extension.
     pub(super) target: PathBuf,
 }
 
-/// A file and what became of it.
+/// A file and its outcome.
 pub(super) struct File {
     pub(super) job: Job,
     pub(super) content: Content,
@@ -27,7 +27,7 @@ pub(super) enum Content {
         plans: Vec<ImportedPlan>,
         notes: Vec<Note>,
     },
-    /// No plan, although its name ends like one: passed over.
+    /// Not a plan, although its name ends like one: skipped.
     Foreign(String),
     Failed(formats::FileError),
 }
@@ -38,14 +38,14 @@ pub(super) struct ImportedPlan {
     pub(super) state: State,
 }
 
-/// What became of a plan's file.
+/// The outcome of writing a plan's file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum State {
     Waiting,
     Written,
-    /// The same plan was there.
+    /// The same plan was already there.
     Unchanged,
-    /// Another plan was there, and stays.
+    /// A different plan was there, and was kept.
     Kept,
     NotSaved(String),
 }
@@ -77,7 +77,7 @@ impl File {
         }
     }
 
-    /// Whether it could not be read, or a plan of it could not be saved.
+    /// Whether it could not be read, or one of its plans could not be saved.
     pub(super) fn is_wrong(&self) -> bool {
         matches!(self.content, Content::Failed(_))
             || self.plans().iter().any(|plan| matches!(plan.state, State::Kept | State::NotSaved(_)))

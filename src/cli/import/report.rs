@@ -1,4 +1,4 @@
-//! What an import says when it is done: notes, a table, and the report for machines.
+//! The report of an import: notes, a table, and JSON for machines.
 
 use std::collections::BTreeMap;
 use std::io::Write as _;
@@ -36,7 +36,7 @@ fn place(file: &File, note: &Note) -> String {
     note.place.line.map_or_else(|| path.to_string(), |line| format!("{path}:{line}"))
 }
 
-/// One line for notes that say the same but for names and numbers, with their number and the first.
+/// One line for notes that differ only in names and numbers, with their number and the first of them.
 pub(super) fn summarise_notes(files: &[File], terminal: &mut Terminal) -> Result<(), CliError> {
     /// Notes of one kind and text.
     struct Group<'a> {
@@ -65,7 +65,7 @@ pub(super) fn summarise_notes(files: &[File], terminal: &mut Terminal) -> Result
     Ok(())
 }
 
-/// A text with '…' for what is in quotes and for numbers.
+/// A text with '…' in place of quoted text and numbers.
 fn masked(what: &str) -> String {
     let mut masked = String::new();
     let mut rest = what;
@@ -87,7 +87,7 @@ fn masked(what: &str) -> String {
     masked
 }
 
-/// What the table counts.
+/// The columns of the table.
 #[derive(Clone, Copy, Default, Serialize)]
 struct Counts {
     files: usize,
@@ -122,7 +122,7 @@ impl Counts {
     }
 }
 
-/// The counts of each folder, in the order of its first file, and of all.
+/// The counts of each folder, in the order of its first file, and their total.
 fn counts(files: &[File]) -> (Vec<(String, Counts)>, Counts) {
     let mut folders: Vec<(String, Counts)> = Vec::new();
     let mut index_of: BTreeMap<&Path, usize> = BTreeMap::new();
@@ -210,7 +210,7 @@ struct FileReport {
     notes: Vec<NoteReport>,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<ErrorReport>,
-    /// What a file is that was passed over.
+    /// What a skipped file is.
     #[serde(skip_serializing_if = "Option::is_none")]
     is: Option<String>,
 }
