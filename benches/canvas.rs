@@ -1,8 +1,8 @@
-//! What working on a large plan costs on one core: `cargo bench --bench canvas [WALLS]`.
+//! The cost of working on a large plan, on one core: `cargo bench --bench canvas [WALLS]`.
 //!
-//! The goals (the issue of drawing): 60 frames a second, that is 16.7 ms a frame, with 50,000 walls; a click
-//! selects in under 5 ms. A frame is everything from the event to the triangles that a display gets.
-//! Working out rooms and features runs beside the window, except here, where it is measured by itself.
+//! The goals: 60 frames a second, that is 16.7 ms a frame, with 50,000 walls; a click selects in under 5
+//! ms. A frame is everything from the event to the triangles that go to a display. The analysis of rooms
+//! and features runs in the background of the window, except here, where it is measured separately.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! The sixteen classifiers of the paper, ours beside Weka's on the same rows and the same folds:
+//! The paper's sixteen classifiers, ours against Weka's on the same rows and the same folds:
 //!
 //!     cargo bench --bench classify                 # scores, calibration, times: docs/classifiers.md
 //!     cargo bench --bench classify -- --ours       # without Weka
@@ -6,8 +6,8 @@
 //!     cargo bench --bench classify -- --threads 1  # times on one thread only
 //!     cargo bench --bench classify -- --record     # the rows of tests/classify/weka.csv, no more
 //!
-//! Needs the real plans in ../shared/data, and for Weka a JDK and Debian's package `weka`
-//! (/usr/share/java/weka.jar); says so where they are not there.
+//! Needs the real plans in ../shared/data and, for Weka, a JDK and Debian's package `weka`
+//! (/usr/share/java/weka.jar); says so if they are missing.
 #![allow(
     clippy::disallowed_methods,
     clippy::unwrap_used,

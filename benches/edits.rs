@@ -1,5 +1,5 @@
-//! What edits cost on a plan of 50,000 walls and 25,000 rooms: a grid of rooms, drawn upon in its
-//! middle. Each time in milliseconds is the least of several.
+//! The cost of edits on a plan of 50,000 walls and 25,000 rooms: a grid of rooms, with drawing in its
+//! middle. Times are in milliseconds, each the minimum of several runs.
 //!
 //!     cargo bench --no-default-features --bench edits
 #![allow(clippy::unwrap_used, reason = "a benchmark that cannot go on stops")]

@@ -1,9 +1,10 @@
-//! Faces of segments, ours beside GEOS through shapely, in the same run:
+//! Faces of segments, ours against GEOS through shapely, in the same run:
 //!
 //!     cargo bench --bench faces                      # the table of docs/figures.md
 //!     cargo bench --bench faces -- --reference       # the rows of tests/faces/reference.csv
 //!
-//! Times are processor times, medians of several runs. Needs python3 with shapely for the comparison; without it, says so and measures ours alone.
+//! Times are processor times, medians of several runs. The comparison needs python3 with shapely; without
+//! it, says so and measures only ours.
 #![expect(clippy::disallowed_methods, reason = "a benchmark reads the clock and writes scratch files")]
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a failing benchmark may stop; it prints to a terminal")]
 

@@ -1,4 +1,4 @@
-//! How long a picture of a 100-room plan takes on one core: `cargo bench --bench render`.
+//! The time to render a 100-room plan on one core: `cargo bench --bench render`.
 //!
 //! The goal is 60 ms at 2000 x 2000 pixels, from the plan to the PNG file's bytes. Prints the mean of
 //! 25 runs of each step.

@@ -1,7 +1,7 @@
-//! What a snapshot and a script cost on one core: `cargo bench --bench replay`.
+//! The cost of a snapshot and of a script on one core: `cargo bench --bench replay`.
 //!
-//! The goals: a picture of the window at 1280x800 under 30 ms, a script of 100 steps under a second.
-//! Prints the mean of 25 runs.
+//! The goals: a snapshot of the window at 1280x800 in under 30 ms, a script of 100 steps in under a
+//! second. Prints the mean of 25 runs.
 
 use std::hint::black_box;
 use std::path::Path;

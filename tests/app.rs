@@ -1,4 +1,4 @@
-//! The window, clicked and typed at without a display: one module a subject, its files beside it.
+//! The window, driven without a display: one module per subject, with its files beside it.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]

@@ -1,4 +1,4 @@
-//! The library and its subcommands, with no window: one module a subject, its files beside it.
+//! The library and its subcommands, without a window: one module per subject, with its files beside it.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]

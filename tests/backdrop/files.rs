@@ -1,4 +1,4 @@
-//! Finding a picture that is not where its plan says.
+//! Finding a picture that is not at its plan's path.
 
 use enfilade::plan::Backdrop;
 use enfilade::store::pictures::{Found, content_hash, find_picture, is_picture_name};

@@ -1,5 +1,5 @@
-//! Pictures to trace over: reading any kind of file, bad ones included; their place, scale and way home;
-//! how they are shown in the window and by `enfilade render`.
+//! Backdrops: reading any kind of file, bad ones included; their position, scale and path; how they are
+//! shown in the window and by `enfilade render`.
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "says why it was skipped")]
 #![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]

@@ -1,4 +1,4 @@
-//! Every kind of file that scans come in, and files that are damaged or hostile.
+//! Every file type that scans come in, and damaged or hostile files.
 
 use enfilade::picture::{Level, Samples};
 use enfilade::store::pictures::{PictureError, decode_picture, load_picture};

@@ -1,4 +1,4 @@
-//! The scans that six real office floors were traced from, under the plans that were traced.
+//! The scans from which six real office floors were traced, as backdrops of the traced plans.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! `enfilade render` shows the picture under the plan.
+//! `enfilade render` shows the backdrop.
 
 use std::path::Path;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! Small pictures, made here.
+//! Small generated pictures.
 
 use std::io::Cursor;
 use std::path::{Path, PathBuf};

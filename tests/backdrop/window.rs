@@ -1,4 +1,4 @@
-//! The picture in the window: added, scaled, turned, moved away, changed, missed.
+//! The backdrop in the window: added, scaled, rotated, moved away, changed, missing.
 
 use std::path::Path;
 

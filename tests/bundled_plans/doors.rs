@@ -1,4 +1,4 @@
-//! Leaves of doors: where they open to, and that nothing is in their way.
+//! Door leaves: where they open to, and that nothing is in the way.
 
 use enfilade::features::RoomStatus;
 use enfilade::geometry::{Point, Segment, Vector, polygon::Location};

@@ -1,5 +1,4 @@
-//! The plans that come with Enfilade: they are what their drawings say, and what they say is
-//! architecture that could be built.
+//! The bundled plans: they match their drawings, and describe architecture that could be built.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 

@@ -1,4 +1,4 @@
-//! One case a check: a plan that just does not have the finding, and one that has it once.
+//! One case per check: a plan that barely does not have the finding, and one that has it once.
 
 use enfilade::labels::Typology;
 use enfilade::plan::{Joint, OpeningKind, Room};

@@ -1,4 +1,4 @@
-//! The subcommand: its words, its JSON, its exit codes.
+//! The subcommand: its wording, its JSON, its exit codes.
 
 use super::golden::assert_golden;
 use crate::support;

@@ -1,5 +1,5 @@
-//! What `enfilade check` finds: each finding with a plan that has it and one that just does not, its
-//! words, and its independence of where and how a plan is drawn.
+//! The findings of `enfilade check`: for each, a plan that has it and one that barely does not, its
+//! wording, and its independence of where and how a plan is drawn.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "a skipped test says so")]

@@ -1,4 +1,4 @@
-//! The real plans: no check may be noise on them, and none may panic.
+//! The real plans: no check may be noisy on them, and none may panic.
 
 use std::collections::BTreeMap;
 use std::path::Path;

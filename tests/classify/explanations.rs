@@ -1,5 +1,5 @@
-//! Why a room got its label: the sentences, from reasons written down here; and what each algorithm gives
-//! for rooms that anybody knows.
+//! Why a room got its label: the sentences, from reasons written down here; and the predictions of each
+//! algorithm for obvious rooms.
 
 use std::sync::Arc;
 

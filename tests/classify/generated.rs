@@ -1,5 +1,5 @@
-//! Rooms that nobody drew: labels that overlap about as much as in real buildings, for tests that must
-//! run where the real plans are not.
+//! Generated rooms whose labels overlap about as much as in real buildings, for tests that must run where
+//! the real plans are not available.
 
 use enfilade::base::random::Random;
 use enfilade::dataset::Row;

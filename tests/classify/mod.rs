@@ -1,5 +1,5 @@
-//! The four algorithms: scores beside Weka's, model files, explanations, and what bad data does to
-//! them.
+//! The four algorithms: scores compared with Weka's, model files, explanations, and the effect of bad
+//! data.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "a skipped test says so")]

@@ -1,4 +1,4 @@
-//! Rows of the real plans, which are no part of this repository: `enfilade dataset` of each folder. For
+//! Rows of the real plans, which are not part of this repository: `enfilade dataset` of each folder. For
 //! tests/classify/mod.rs and benches/classify.rs.
 
 use std::path::{Path, PathBuf};

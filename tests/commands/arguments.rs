@@ -1,4 +1,4 @@
-//! Arguments: what they do, and what is said of wrong ones.
+//! Arguments: their effects, and the messages about invalid ones.
 
 use enfilade::app::{Offscreen, OffscreenOptions};
 use enfilade::labels::Label;

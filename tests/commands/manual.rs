@@ -1,4 +1,4 @@
-//! The manual's page of commands, and `enfilade commands`, say what the table says.
+//! The manual's page of commands, and `enfilade commands`, agree with the table.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! The table of commands: each runs by its word with arguments, says why it cannot, and is told to a
-//! recorder so that running it again does the same.
+//! The table of commands: each runs by its id with arguments, says why it is unavailable, and is reported
+//! to a recorder such that repeating it does the same.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 

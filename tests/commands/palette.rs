@@ -1,4 +1,4 @@
-//! The palette: found by a few letters, done by the keyboard alone.
+//! The palette: finding commands by a few letters, and running them with the keyboard alone.
 
 use enfilade::app::{Offscreen, OffscreenOptions};
 use enfilade::labels::Label;

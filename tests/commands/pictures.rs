@@ -1,4 +1,5 @@
-//! The palette and the sheet of shortcuts as they look, in both themes and at both scales: a picture of them alone.
+//! The looks of the palette and the sheet of shortcuts, in both themes and at both scales: snapshots of
+//! just them.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! What a recorder sees: everything that was done, complete, so that doing it again gives the same.
+//! What a recorder receives: everything that was done, complete, so that repeating it gives the same.
 
 use egui::{Key, Modifiers, PointerButton, pos2, vec2};
 use enfilade::app::{Offscreen, OffscreenOptions};

@@ -1,4 +1,4 @@
-//! Shortcuts: every one does what the table says, and a person may change them.
+//! Shortcuts: each does what the table says, and users can change them.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,4 @@
-//! Drawing where no room is yet, and making one room of several.
+//! Drawing where there is no room yet, and merging rooms.
 
 use enfilade::edit;
 use enfilade::edit::{GAP_BETWEEN_ROOMS_M, draw_room, draw_room_in_free_space, draw_walls, merge_rooms, split_room};

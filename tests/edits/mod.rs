@@ -1,5 +1,5 @@
-//! Every edit: by example, by random sequences with undo and redo (the invariants hold after each,
-//! undo returns exactly the former plan, and what an edit refuses leaves no trace), and on real plans.
+//! Every edit: by example, by random sequences with undo and redo (the invariants hold after each, undo
+//! restores exactly the previous plan, and a refused edit leaves no trace), and on real plans.
 //! `PROPTEST_CASES=10000 cargo test --release --test library edits::` runs a campaign.
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "says why it was skipped")]

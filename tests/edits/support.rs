@@ -1,4 +1,4 @@
-//! What the tests of edits share.
+//! Shared by the tests of edits.
 
 use std::fmt::Debug;
 

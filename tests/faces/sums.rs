@@ -1,4 +1,4 @@
-//! What an arrangement's faces are compared by: the columns of `benches/faces_geos.py`.
+//! The values by which an arrangement's faces are compared: the columns of `benches/faces_geos.py`.
 
 use enfilade::geometry::arrangement::{Arrangement, Face};
 use enfilade::geometry::{Point, Segment};

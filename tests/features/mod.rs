@@ -1,5 +1,5 @@
-//! Features are a matter of shape and connections: the same after moving, turning and mirroring a
-//! plan, and after naming its rooms anew.
+//! Features depend on shape and connections only: they are unchanged after moving, rotating or mirroring
+//! a plan, and after renaming its rooms.
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 use enfilade::features::{Analysis, NeighbourLabels, analyse};

@@ -1,4 +1,4 @@
-//! The examples in the documents are what the program writes and reads.
+//! The examples in the documents match what the program writes and reads.
 
 use enfilade::formats::plan_json::{from_bytes, to_bytes};
 

@@ -1,4 +1,4 @@
-//! Plans that no one would draw, to test what is written against what is read.
+//! Plans that no one would draw, to test that what is written reads back the same.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Plan files and GeoJSON: what is written reads back, what is broken is refused in words.
+//! Plan files and GeoJSON: written files read back the same, broken ones are rejected with a message.
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "a skipped test says so")]
 

@@ -1,4 +1,4 @@
-//! The dwellings of `../shared/data/houses`, where they are.
+//! The dwellings of `../shared/data/houses`, if available.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! Saving never loses what was there: not to a full disk, not to a mistake, not to a reader's eye.
+//! Saving never loses the previous file: not to a full disk, a mistake, or a concurrent reader.
 
 use std::path::Path;
 use std::sync::Arc;

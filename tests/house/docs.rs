@@ -1,4 +1,4 @@
-//! What the pages on the house say stands in the code.
+//! What the documentation says about the architecture matches the code.
 
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,7 @@
-//! The house stands: imports run down the floors, no files import each other in a circle, and the core
-//! touches neither files, threads, clocks nor the window. Read from the `use` lines and the paths in the
-//! code; tests within a file may import what they like. docs/architecture.md draws the floors.
+//! The architecture holds: imports only go down the floors, no files import each other in a circle, and
+//! the core touches neither files, threads, clocks nor the window. Checked on the `use` lines and the
+//! paths in the code; tests within a file may import what they like. docs/architecture.md draws the
+//! floors.
 
 mod docs;
 

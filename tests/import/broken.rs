@@ -1,4 +1,4 @@
-//! Files that cannot be read: a clear error each, and nothing panics.
+//! Files that cannot be read: a clear error for each, and no panics.
 
 use enfilade::formats::{Import, ReadError, authors_xml, plan_json};
 use proptest::prelude::*;

@@ -1,5 +1,5 @@
-//! One behaviour of the reader a case: `cases/<behaviour>.xml` with what was mended in
-//! `….notes.txt` and the plan in `….plan.json` beside it.
+//! One case for each behaviour of the reader: `cases/<behaviour>.xml` with its notes in `….notes.txt` and
+//! the plan in `….plan.json` beside it.
 
 use std::path::PathBuf;
 

@@ -1,5 +1,5 @@
-//! The 56 files of the paper's authors, where they are: compared with a count of this test's own,
-//! which knows nothing of XML but its words, and with recorded areas.
+//! The 56 files of the paper's authors, if available: compared with this test's own counts, made by plain
+//! text search, and with recorded areas.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

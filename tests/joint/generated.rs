@@ -1,5 +1,5 @@
-//! Generated networks: floors with a corridor, whose rooms are told apart by their size in relation to
-//! each other only, since every building has its own scale.
+//! Generated networks: floors with a corridor, whose rooms can only be told apart by their relative size,
+//! since every building has its own scale.
 
 use enfilade::base::random::Random;
 use enfilade::dataset::{Form, NetworkDoor, NetworkRoom, RoomNetwork};

@@ -1,4 +1,4 @@
-//! The authors' schools and offices, and the dwellings, where they are present.
+//! The authors' schools and offices, and the dwellings, if available.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! One behaviour a case.
+//! One case per behaviour.
 
 use std::path::{Path, PathBuf};
 

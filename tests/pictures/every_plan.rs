@@ -1,4 +1,4 @@
-//! What must hold for every plan: the real ones (where they are at hand), and random, degenerate ones.
+//! What must hold for every plan: the real ones (if available), and random, degenerate ones.
 
 use std::path::{Path, PathBuf};
 

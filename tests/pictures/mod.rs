@@ -1,5 +1,5 @@
-//! Pictures of plans: one small picture a behaviour, compared pixel for pixel with its reference under
-//! `tests/pictures/`; what must hold for every plan; the command.
+//! Renderings of plans: one small picture per behaviour, compared pixel for pixel with its reference
+//! under `tests/pictures/`; what must hold for every plan; the command.
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod cases;

@@ -1,4 +1,4 @@
-//! Small plans in few words.
+//! Small plans in a concise notation.
 
 use enfilade::features::{Analysis, NeighbourLabels, analyse};
 use enfilade::geometry::Point;

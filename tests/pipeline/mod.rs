@@ -1,4 +1,4 @@
-//! The one way from a plan to its labels: the command line prints what the window holds.
+//! The single way from a plan to its labels: the command line prints what the window shows.
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Disks that are full: a real one of 64 kB where the system lets us have it.
+//! Full disks: a real one of 64 kB if the system allows.
 
 use std::path::Path;
 use std::process::Command;

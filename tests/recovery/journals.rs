@@ -1,4 +1,4 @@
-//! Journals: what is noted comes back, whatever became of the file.
+//! Journals: whatever was recorded comes back, however the file was damaged.
 
 use std::path::{Path, PathBuf};
 

@@ -1,8 +1,8 @@
-//! The program is killed at random moments of a scripted use: what it had acknowledged comes back, and the
-//! file on the disk is whole.
+//! The program is killed at random moments of a scripted session: what it had acknowledged comes back,
+//! and the file on disk is intact.
 //!
-//! A step is acknowledged when `enfilade replay --steps` has told of it. `ENFILADE_KILL_TRIALS=500 cargo
-//! test --test app recovery::killed -- --nocapture` runs so many trials, and prints what became of them.
+//! A step is acknowledged once `enfilade replay --steps` has reported it. `ENFILADE_KILL_TRIALS=500 cargo
+//! test --test app recovery::killed -- --nocapture` runs that many trials, and prints their results.
 
 use std::io::{BufRead as _, BufReader};
 use std::path::{Path, PathBuf};

@@ -1,5 +1,4 @@
-//! Never losing work: journals and what comes back from them, a program that is killed at any moment, disks
-//! that are full.
+//! Never losing work: journals and recovery from them, a program killed at any moment, full disks.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]

@@ -1,4 +1,4 @@
-//! `enfilade replay` as it is called.
+//! The `enfilade replay` command.
 
 use std::path::Path;
 

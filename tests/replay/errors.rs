@@ -1,4 +1,4 @@
-//! How wrong scripts end: what `enfilade replay` says of each is in a file beside it.
+//! Failing scripts: the message of `enfilade replay` for each is in a file beside it.
 
 use std::path::Path;
 

@@ -1,8 +1,8 @@
-//! Every script in the folders of `tests/replay/cases` is a test of its own: a new case is a new folder
-//! with a `script.replay`, its pictures and what else it needs. And what a script cannot say of itself:
-//! how wrong scripts end, that recordings replay, that the manual is complete.
+//! Every script in the folders of `tests/replay/cases` is a test of its own: to add a case, add a folder
+//! with a `script.replay`, its pictures and whatever else it needs. Also tests what a script cannot check
+//! about itself: the messages of failing scripts, that recordings replay, that the manual is complete.
 //!
-//! `UPDATE_GOLDEN=1 cargo test --test replay` makes what comes out the new references.
+//! `UPDATE_GOLDEN=1 cargo test --test replay` makes the results the new references.
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]
 

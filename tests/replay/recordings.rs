@@ -1,5 +1,5 @@
-//! Recordings: whatever is done in the window, the script that was recorded does it again. The plan is
-//! the same, byte for byte, and so is the picture of it.
+//! Recordings: replaying the recorded script repeats whatever was done in the window. The plan is the
+//! same, byte for byte, and so is its picture.
 
 use std::path::Path;
 

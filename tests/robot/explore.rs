@@ -1,4 +1,4 @@
-//! A simulated robot in a plan: it explores to the end by itself and finds the rooms.
+//! A simulated robot in a plan: it explores everything by itself and finds the rooms.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "a test writes into a folder of its own")]

@@ -1,4 +1,4 @@
-//! Laser logs to line maps: what the robot saw goes in, walls and poses come out.
+//! Laser logs to line maps: from the robot's readings to walls and poses.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};

@@ -1,4 +1,4 @@
-//! `enfilade segment`: rooms of grid maps, from files to files, and maps that are no maps.
+//! `enfilade segment`: rooms of grid maps, from files to files, and invalid maps.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]

@@ -1,9 +1,9 @@
-//! What tests share: calling the program in memory, and comparing with references beside the tests,
+//! Shared by tests: running the program in memory, and comparing with references beside the tests,
 //! pictures pixel for pixel, texts byte for byte.
 //!
-//! On a difference the actual thing is written beside the reference (`….out.png`, `….diff.png`,
-//! `….out.svg`); once it agrees again they are removed. `UPDATE_GOLDEN=1 cargo test` makes what comes
-//! out the new references: look at them before committing.
+//! If they differ, the actual result is written beside the reference (`….out.png`, `….diff.png`,
+//! `….out.svg`); once they agree again it is removed. `UPDATE_GOLDEN=1 cargo test` makes the results the
+//! new references: look at them before committing.
 #![allow(dead_code, reason = "each test binary uses a part")]
 #![allow(clippy::disallowed_methods, reason = "a test's output is no user's file")]
 

@@ -1,5 +1,5 @@
-//! Six real offices are traced at the window: scripts of clicks and keys, made by a person's plan from
-//! the truth, are replayed, and what comes out is compared with the truth.
+//! Tracing six real offices in the window: scripts of clicks and keys, generated from the truth the way a
+//! person would work, are replayed, and the result is compared with the truth.
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "the table is what the test is for")]

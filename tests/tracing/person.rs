@@ -1,5 +1,5 @@
-//! A person at the window: every gesture is a line of the script and is counted, and what it does is
-//! foreseen with the same functions that the tools call.
+//! A person at the window: every gesture is a line of the script and is counted, and its effect is
+//! predicted with the same functions that the tools call.
 
 use enfilade::edit::{self, GAP_BETWEEN_ROOMS_M, opening_at};
 use enfilade::geometry::{Bounds, Point, Vector};

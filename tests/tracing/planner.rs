@@ -1,6 +1,6 @@
 //! Chooses the gestures: for rows of rectangular rooms a rectangle and a split each, for the others
-//! whatever takes the fewest clicks. It knows of the drawing what a person sees who looks at it, and
-//! checks what it drew as a person does: by what came out.
+//! whatever takes the fewest clicks. It knows as much of the drawing as a person looking at it, and
+//! checks what it drew as a person does: by the result.
 
 use enfilade::geometry::{Bounds, Point, Segment, Vector, polygon};
 use enfilade::plan::{OpeningKind, RoomId};

@@ -1,4 +1,4 @@
-//! What an office is in truth, and how far a traced plan is from it.
+//! The true plan of an office, and how far a traced plan is from it.
 
 use std::collections::BTreeMap;
 

@@ -1,5 +1,5 @@
-//! The window without eyes and without a mouse: every control has a name, the keyboard reaches it and
-//! presses it, and one sees where the keyboard is.
+//! The window without eyes or a mouse: every control has a name, the keyboard reaches and presses it, and
+//! it is visible where the keyboard is.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Opening, saving, closing: what a person would be angry to lose.
+//! Opening, saving, closing: whatever a user would be angry to lose.
 
 use std::path::{Path, PathBuf};
 

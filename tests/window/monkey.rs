@@ -1,4 +1,4 @@
-//! Any input at all: nothing panics, the window comes to rest, and the plan keeps its invariants.
+//! Random input: nothing panics, the window settles, and the plan keeps its invariants.
 
 use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, TouchPhase, pos2, vec2};
 use enfilade::app::commands::COMMANDS;

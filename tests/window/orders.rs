@@ -1,4 +1,4 @@
-//! Work beside the frames that ends late, in another order, or not at all.
+//! Background work that ends late, in another order, or not at all.
 
 use std::path::Path;
 

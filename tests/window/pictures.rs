@@ -1,5 +1,5 @@
-//! Pictures of the window do not depend on how it came to what it shows. What they look like is
-//! compared by the scripts of `tests/replay/cases`.
+//! Snapshots of the window do not depend on how it reached its state. Their appearance is compared by the
+//! scripts of `tests/replay/cases`.
 
 use super::window_with;
 
