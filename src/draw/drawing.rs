@@ -168,7 +168,8 @@ impl Drawing {
         self
     }
 
-    /// What is said of a drawing that was simplified: walls and boundaries that cross so often that they were not joined.
+    /// A remark on a simplified drawing: walls and boundaries that cross so often that they were not
+    /// joined.
     pub fn remark(&self) -> Option<String> {
         let number = thousands(self.tangled as u64);
         (self.tangled > 0)

@@ -1,26 +1,27 @@
-//! Lines that cross each other so often that joining them would take minutes and gigabytes: what a fuzzer, a broken
-//! export or a scribble makes, and no building. They are drawn as plain lines.
+//! Tangles: lines that cross so often that joining them would take minutes and gigabytes. They come from
+//! a fuzzer, a broken export or a scribble, never from a building, and are drawn as plain lines.
 
 use rstar::primitives::{GeomWithData, Line};
 use rstar::{AABB, RTree};
 
 use crate::geometry::Segment;
 
-/// Crossings are counted up to this many a line.
+/// The most crossings counted per line.
 const MOST_COUNTED: usize = 64;
 
-/// So many neighbours are looked at for each line: lines whose boxes overlap without crossing cost no more.
+/// The most neighbours examined per line: lines whose boxes overlap without crossing cost no more.
 const MOST_NEIGHBOURS: usize = 2_000;
 
-/// A drawing is tangled with more than so many crossings a line, and some at all: walls that cross like a street grid
-/// have one or two. 400 walls through one point took 9 s to join, 100 take a tenth of a second.
+/// A drawing is tangled if it has more crossings than this per line, plus `SOME_CROSSINGS`: walls that
+/// cross like a street grid have one or two. 400 walls through one point took 9 s to join, 100 take a
+/// tenth of a second.
 const CROSSINGS_A_LINE: usize = 8;
 const SOME_CROSSINGS: usize = 2_000;
 
-/// In a tangled drawing, lines that cross more than so many others are the ones left unjoined.
+/// In a tangled drawing, the lines with more crossings than this are left unjoined.
 const MOST_OF_ONE: usize = 32;
 
-/// Which lines are tangled, in the order given; empty where none is, as in every real plan.
+/// Which lines are tangled, in input order; empty if none is, as in every real plan.
 pub(super) fn tangled(segments: &[Segment]) -> Vec<bool> {
     if segments.len() * segments.len().min(MOST_COUNTED) / 2 <= SOME_CROSSINGS {
         return Vec::new();
@@ -45,7 +46,8 @@ pub(super) fn tangled(segments: &[Segment]) -> Vec<bool> {
     counts.into_iter().map(|count| count > MOST_OF_ONE).collect()
 }
 
-/// Whether two segments cross within both: what meets at an end, or runs along, does not count.
+/// Whether the interiors of two segments cross: meeting at an end, or running along each other, does not
+/// count.
 fn cross(p: Segment, q: Segment) -> bool {
     let sides = |of: Segment, by: Segment| {
         let along = by.vector();

@@ -31,7 +31,7 @@ pub(super) struct Walls {
     pub boundaries: Vec<Segment>,
     /// Indices of the rooms that came without walls.
     pub unwalled: Vec<usize>,
-    /// So many walls and rooms' boundaries are a tangle, and drawn as lines.
+    /// The number of walls and room boundaries that are tangled, and drawn as lines.
     pub tangled: usize,
 }
 
@@ -90,7 +90,7 @@ impl Walls {
     }
 }
 
-/// Takes the rooms out of `unwalled` whose boundaries are a tangle; gives their boundaries.
+/// Removes the rooms with tangled boundaries from `unwalled`; returns these boundaries.
 fn tangled_rooms(rooms: &[RoomDrawing], unwalled: &mut Vec<usize>) -> Vec<Segment> {
     let edges_of = |room: usize| rooms[room].rings().flat_map(|ring| polygon::edges(ring));
     let edges: Vec<(usize, Segment)> =
@@ -136,8 +136,8 @@ fn by_tile(rings: Vec<Ring>, grid: &TileGrid) -> Vec<Vec<Ring>> {
     tiles
 }
 
-/// Whether a box is on the far side of an edge that has all of the ring on the other: a long slanting wall meets few of
-/// the tiles in its box.
+/// Whether an edge separates a box from the whole ring: a long oblique wall meets few of the tiles in its
+/// bounding box.
 fn lies_beside(ring: &Ring, box_m: Bounds) -> bool {
     const MOST_POINTS: usize = 8;
     if ring.len() > MOST_POINTS {
@@ -164,7 +164,7 @@ pub(super) fn without(solid: Vec<Shapes>, cuts: Vec<Ring>, grid: Option<&TileGri
 /// A spatial index of the drawn walls.
 struct WallIndex {
     tree: RTree<GeomWithData<Line<[f64; 2]>, f64>>,
-    /// Walls without thickness, and those of a tangle.
+    /// Walls without thickness, and tangled ones.
     lines: Vec<Segment>,
     tangled: BTreeSet<WallId>,
 }

@@ -71,8 +71,8 @@ impl TemporaryRule {
     }
 }
 
-/// The rules of a file. The last one must match every room, or every room at least as large as the upper
-/// bound of the rule before it.
+/// The rules of a file. Every room must match one: the last must be unconditional, or the bounds on areas
+/// must leave no gap.
 pub(super) fn rules(disk: Vec<DiskRule>) -> Result<Vec<TemporaryRule>, String> {
     let rules: Vec<TemporaryRule> = disk.into_iter().map(DiskRule::live).collect::<Result<_, _>>()?;
     // Rooms of any size, however shaped and without an opening: the area bounds must cover them.
