@@ -28,6 +28,8 @@ pub struct Drawing {
     pub(super) faces: Faces,
     picture: Option<PlacedPicture>,
     tangled: usize,
+    /// Whether so many rooms lie over each other that none is named.
+    are_piled: bool,
     bounds: Bounds,
     /// How a large plan is cut into tiles; `None` if in one piece.
     tiles: Option<Tiles>,
@@ -36,6 +38,11 @@ pub struct Drawing {
 /// Width in metres of the rim inside a room whose known label differs from the predicted one: wide enough
 /// to show beside the walls, which hide part of it.
 const RIM_M: f64 = 0.35;
+
+/// Rooms are piled up when more than so many lie over each other, and so many for each room: storeys drawn into
+/// each other have a few.
+const PILED_ROOMS: usize = 10_000;
+const PILED_A_ROOM: usize = 100;
 
 /// In a narrow room the rim takes at most this share of the width.
 const RIM_SHARE: f64 = 0.14;
@@ -74,10 +81,21 @@ impl Drawing {
                 openings: Vec::new(),
             })
             .collect();
+        // No building piles its rooms up: what a fuzzer makes is drawn in any order and without names.
+        let most_above = PILED_ROOMS + PILED_A_ROOM * rooms.len();
+        let mut all_above = 0;
         for i in 0..rooms.len() {
+            if all_above > most_above {
+                break;
+            }
             // Less a centimetre: neighbours meet at most along an edge.
             let near = analysis.shapes.near(rooms[i].bounds.inflated(-0.01));
             rooms[i].above = near.into_iter().filter(|&j| painting_order(&rooms, j, i).is_gt()).collect();
+            all_above += rooms[i].above.len();
+        }
+        let are_piled = all_above > most_above;
+        if are_piled {
+            rooms.iter_mut().for_each(|room| room.above = Vec::new());
         }
         let walls = Walls::new(plan, &rooms, grid.as_ref());
         let faces = Faces::new(&walls.solid, grid.as_ref());
@@ -135,6 +153,7 @@ impl Drawing {
             faces,
             picture: None,
             tangled: walls.tangled,
+            are_piled,
             bounds,
             tiles,
         }
@@ -168,12 +187,17 @@ impl Drawing {
         self
     }
 
-    /// A remark on a simplified drawing: walls and boundaries that cross so often that they were not
-    /// joined.
+    /// A remark on a simplified drawing: what crosses or overlaps so often that it was not worked out.
     pub fn remark(&self) -> Option<String> {
         let number = thousands(self.tangled as u64);
-        (self.tangled > 0)
-            .then(|| format!("{number} walls or rooms cross each other so often that they are drawn as lines"))
+        let lines = format!("{number} walls or rooms cross each other so often that they are drawn as lines");
+        let names = "so many rooms lie over each other that they are drawn without names";
+        match (self.tangled > 0, self.are_piled) {
+            (true, true) => Some(format!("{lines}, and {names}")),
+            (true, false) => Some(lines),
+            (false, true) => Some(names.to_owned()),
+            (false, false) => None,
+        }
     }
 
     /// The bounding box of all that is drawn, in metres.
@@ -342,6 +366,9 @@ impl Drawing {
 
     /// Indices of the rooms visible in a view that are large enough for the smallest text.
     pub fn rooms_to_name(&self, view: &View) -> Vec<usize> {
+        if self.are_piled {
+            return Vec::new();
+        }
         let seen = view.bounds();
         let is_meant = |&index: &usize| {
             let room = &self.rooms[index];
