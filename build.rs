@@ -29,7 +29,57 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
         write(&out.join(format!("{name}.rs")), format!("&[\n{list}]\n").as_bytes())?;
     }
+    println!("cargo::rustc-env=ENFILADE_VERSION={}", version(&root)?);
     Ok(())
+}
+
+/// '0.1.0 (commit 1a2b3c4d5e6f)': the package's version and, where it is known, the commit it is built from.
+/// In a debug build the commit is the one of the day when this script last ran, since running it at each commit
+/// would build all anew.
+fn version(root: &Path) -> Result<String, Box<dyn std::error::Error>> {
+    let package = std::env::var("CARGO_PKG_VERSION")?;
+    let is_debug = std::env::var("PROFILE")? == "debug";
+    let Some(commit) = packaged_commit(root).or_else(|| git_commit(root, !is_debug)) else { return Ok(package) };
+    let short = &commit[..commit.len().min(12)];
+    Ok(if is_debug {
+        format!("{package} (debug build, commit {short} or later)")
+    } else {
+        format!("{package} (commit {short})")
+    })
+}
+
+/// What `cargo package` notes.
+fn packaged_commit(root: &Path) -> Option<String> {
+    let text = std::fs::read_to_string(root.join(".cargo_vcs_info.json")).ok()?;
+    let (_, rest) = text.split_once("\"sha1\"")?;
+    hash(rest.split('"').nth(1)?)
+}
+
+/// What git says, if it is there and this is the root of a repository of its own. `watches`: build again at a
+/// commit.
+fn git_commit(root: &Path, watches: bool) -> Option<String> {
+    // A copy of the sources within another's repository is not of that one's commit.
+    root.join(".git").exists().then_some(())?;
+    let git = |arguments: &[&str]| {
+        let output = std::process::Command::new("git").arg("-C").arg(root).args(arguments).output().ok()?;
+        let text = String::from_utf8(output.stdout).ok()?.trim().to_owned();
+        (output.status.success() && !text.is_empty()).then_some(text)
+    };
+    if watches {
+        let branch = git(&["symbolic-ref", "-q", "HEAD"]);
+        for name in ["HEAD", "packed-refs"].into_iter().chain(branch.as_deref()) {
+            if let Some(path) = git(&["rev-parse", "--git-path", name]).map(|path| root.join(path))
+                && path.exists()
+            {
+                println!("cargo::rerun-if-changed={}", path.display());
+            }
+        }
+    }
+    hash(&git(&["rev-parse", "HEAD"])?)
+}
+
+fn hash(text: &str) -> Option<String> {
+    (text.len() >= 12 && text.bytes().all(|byte| byte.is_ascii_hexdigit())).then(|| text.to_owned())
 }
 
 /// Writes a file of the build's own: nobody's work is lost with it.

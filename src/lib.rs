@@ -9,6 +9,7 @@ pub mod app;
 pub mod base;
 pub mod check;
 pub mod classify;
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod dataset;
 pub mod draw;

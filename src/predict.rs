@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
-use crate::base::wording::sentence;
+use crate::base::wording::{count, sentence};
 use crate::classify::in_plan::{self, InPlan};
 use crate::classify::joint::FirstRound;
 use crate::classify::model_file::ModelFileError;
@@ -314,8 +314,12 @@ impl Predictions {
     /// How neighbours' labels were taken, in words.
     pub fn neighbours_in_words(&self) -> String {
         match (self.neighbours, self.result.settled) {
-            (NeighbourLabels::Predicted, true) => format!("predicted, stable after {} rounds", self.result.rounds),
-            (NeighbourLabels::Predicted, false) => format!("predicted, not stable after {} rounds", self.result.rounds),
+            (NeighbourLabels::Predicted, true) => {
+                format!("predicted, stable after {}", count(self.result.rounds, "round"))
+            }
+            (NeighbourLabels::Predicted, false) => {
+                format!("predicted, not stable after {}", count(self.result.rounds, "round"))
+            }
             (mode, _) => mode.name().to_owned(),
         }
     }

@@ -1,6 +1,7 @@
 //! What any program needs: cancellable work, random numbers, units, wording, hashes. Knows nothing of
 //! plans.
 
+pub mod file_name;
 pub mod hash;
 pub mod natural_order;
 pub mod numbers;

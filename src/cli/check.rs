@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value, json};
 
 use super::batch::{self, Input};
+use super::door::{Paint, one_line};
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::check::{Finding, Severity, check};
 use crate::formats::{FileError, Import, Note, NoteKind};
@@ -29,7 +30,7 @@ pub struct CheckCommand {
     /// Exit with 1 for warnings too, not only for errors
     #[arg(long)]
     strict: bool,
-    /// Print JSON (docs/checks.md describes it)
+    /// Print JSON (docs/json/check.md describes it)
     #[arg(long)]
     json: bool,
     /// Label scheme that extends the bundled ones (may be given several times)
@@ -54,7 +55,7 @@ impl Subcommand for CheckCommand {
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let schemes = inputs::schemes(&self.scheme)?;
-        let files = batch::inputs(&self.plans)?;
+        let files = batch::inputs(&self.plans);
         let mut totals = Totals::default();
         let mut json_files = Vec::new();
         let work = |input: &Input| {
@@ -73,7 +74,7 @@ impl Subcommand for CheckCommand {
                         json_files
                             .push(json!({ "file": file, "error": error.error.to_string(), "notes": [], "plans": [] }));
                     } else {
-                        writeln!(terminal.err, "enfilade: {error}")?;
+                        terminal.error(error)?;
                     }
                     return Ok(());
                 }
@@ -135,7 +136,7 @@ impl CheckCommand {
             }
             // Stable: the reader's notes come first within their severity.
             groups.sort_by_key(|group| std::cmp::Reverse(group.severity));
-            let _ = writeln!(text, "{}", heading(path, plan, checked.len()));
+            let _ = writeln!(text, "{}", one_line(&heading(path, plan, checked.len())));
             for group in &groups {
                 group.write(&mut text, if self.all { usize::MAX } else { LISTED });
             }
@@ -157,6 +158,16 @@ fn heading(path: &Path, plan: &Plan, plans_in_file: usize) -> String {
     heading
 }
 
+/// A severity in its colour, as wide as the longest.
+fn painted(severity: Severity) -> String {
+    let paint = match severity {
+        Severity::Error => Paint::Error,
+        Severity::Warning => Paint::Warning,
+        Severity::Info => Paint::Info,
+    };
+    paint.on(&format!("{:<7}", severity.name()))
+}
+
 fn counted(count: usize, noun: &str) -> String {
     format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }
@@ -173,7 +184,8 @@ struct Group {
 impl Group {
     fn write(&self, text: &mut String, listed: usize) {
         let count = if self.items.len() > 1 { format!(" ({})", self.items.len()) } else { String::new() };
-        let _ = writeln!(text, "  {:<7}  {}{count}: {}", self.severity, self.title, self.remedy);
+        let severity = painted(self.severity);
+        let _ = writeln!(text, "  {severity}  {}{count}: {}", self.title, self.remedy);
         // All in one column: the widest coordinates of those shown decide.
         let shown = &self.items[..listed.min(self.items.len())];
         let places: Vec<Option<(String, String)>> =
@@ -186,8 +198,7 @@ impl Group {
                 None if x_wide > 0 => " ".repeat(x_wide + y_wide + 6),
                 None => String::new(),
             };
-            // Whatever a file says must not move the terminal's cursor.
-            let what = what.replace(char::is_control, " ");
+            let what = one_line(what);
             let _ = writeln!(text, "           {place}{what}");
         }
         if shown.len() < self.items.len() {
@@ -280,7 +291,8 @@ impl Totals {
             let wide = self.kinds.keys().map(|(.., title)| title.chars().count()).max().unwrap_or(0);
             let _ = writeln!(text, "  {:<7}  {:<wide$}  findings  plans", "", "");
             for ((severity, _, title), (findings, plans)) in &self.kinds {
-                let _ = writeln!(text, "  {:<7}  {title:<wide$}  {findings:>8}  {plans:>5}", severity.0);
+                let severity = painted(severity.0);
+                let _ = writeln!(text, "  {severity}  {title:<wide$}  {findings:>8}  {plans:>5}");
             }
             text.push('\n');
         }

@@ -1,4 +1,5 @@
-use crate::base::wording::shortened;
+use crate::base::wording::{count, shortened};
+use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -7,6 +8,8 @@ use serde_json::json;
 
 use super::batch::{self, Input};
 use super::collect::neighbour_labels;
+use super::door::one_line;
+use super::outputs::{Care, Outputs, is_stdout};
 use super::train::{each_room, method};
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::classify::{Distribution, Method, models::Models};
@@ -18,7 +21,15 @@ use crate::labels::Label;
 use crate::pipeline::{Asked, Pipeline};
 use crate::plan::{LabelOrigin, OpeningId, Plan, RoomLabel};
 use crate::predict::{Agreement, DEFAULT_METHOD, ModelSet, Predictions, Predictor};
-use crate::store::{load_model, models_folder, models_in, save_plan};
+use crate::store::{MODEL_ENDING, checked_bytes, load_model, models_folder, models_in, save_plan};
+
+/// How plan files end.
+const PLAN_ENDING: &str = "plan.json";
+
+/// Whether an output is one plan file, by its name.
+fn is_plan_file(output: &Path) -> bool {
+    !output.is_dir() && output.to_string_lossy().ends_with(&format!(".{PLAN_ENDING}"))
+}
 
 /// `enfilade classify`: labels for the rooms of plans.
 #[derive(clap::Args)]
@@ -28,8 +39,8 @@ pub struct ClassifyCommand {
     plans: Vec<PathBuf>,
     #[command(flatten)]
     predictor: PredictorOptions,
-    /// Use the model of this file
-    #[arg(long, value_name = "FILE.model.json", conflicts_with_all = ["typology", "algorithm"])]
+    /// Use the model of this file, or your own of this name ('enfilade models' lists them)
+    #[arg(long, value_name = "FILE|NAME", conflicts_with_all = ["typology", "algorithm"])]
     model: Option<PathBuf>,
     /// Neighbours' labels: 'true' (where known, else temporary), 'temporary', or 'predicted' (where not
     /// known, repeated until stable); without it, as the model learned
@@ -47,7 +58,7 @@ pub struct ClassifyCommand {
     /// With --write: write to this plan file (.plan.json) instead; for several plans, into this folder
     #[arg(short, long, value_name = "FILE|DIR", requires = "write")]
     output: Option<PathBuf>,
-    /// Print JSON
+    /// Print JSON (docs/json/classify.md describes it)
     #[arg(long)]
     json: bool,
     /// Label scheme that extends the bundled ones (may be given several times)
@@ -91,11 +102,11 @@ impl ModelsOption {
     /// When the given folder does not exist, or stderr cannot be written.
     pub fn read(&self, terminal: &mut Terminal) -> Result<(Models, usize), CliError> {
         if let Some(folder) = self.folder.as_ref().filter(|folder| !folder.is_dir()) {
-            return Err(CliError::new(format!("{}: no such folder of models; check the path", folder.display())));
+            return Err(CliError::call(format!("{}: no such folder of models; check the path", folder.display())));
         }
         let (own, errors) = self.folder().as_deref().map(models_in).unwrap_or_default();
         for error in &errors {
-            writeln!(terminal.err, "enfilade: {error}")?;
+            terminal.error(error)?;
         }
         Ok((Models::bundled().with(own), errors.len()))
     }
@@ -108,7 +119,7 @@ impl PredictorOptions {
     /// When there are no models with the given name.
     pub fn read(&self, terminal: &mut Terminal) -> Result<(Predictor, Models), CliError> {
         let (models, _) = self.models.read(terminal)?;
-        let set = ModelSet::read(&self.typology, &models)?;
+        let set = ModelSet::read(&self.typology, &models).map_err(|error| CliError::call(error.to_string()))?;
         Ok((Predictor { set, method: self.algorithm }, models))
     }
 }
@@ -121,8 +132,23 @@ impl Subcommand for ClassifyCommand {
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let schemes = inputs::schemes(&self.scheme)?;
         let (predictor, models) = self.predictor.read(terminal)?;
-        let own = self.model.as_deref().map(load_model).transpose()?.map(Arc::new);
-        let files = batch::inputs(&self.plans)?;
+        let own_folder = self.predictor.models.folder();
+        let model_file =
+            |named: &Path| inputs::by_name(named, MODEL_ENDING, own_folder).unwrap_or_else(|| named.to_owned());
+        let own = self.model.as_deref().map(model_file);
+        let own = own.as_deref().map(load_model).transpose()?.map(Arc::new);
+        let folder = self.output.as_deref().filter(|output| !is_stdout(output) && !is_plan_file(output));
+        let files = batch::inputs_into(&self.plans, folder);
+        if let (Some(output), None, true) = (&self.output, folder, files.len() > 1) {
+            return Err(CliError::call(format!(
+                "-o {}: is one file, but {} plans are to be written; name a folder",
+                output.display(),
+                files.len()
+            )));
+        }
+        let mut outputs = Outputs::new(terminal);
+        // What a person reads goes where no plan goes.
+        let tells_on_stderr = self.output.as_deref().is_some_and(is_stdout);
         let mut objects: Vec<serde_json::Value> = Vec::new();
         let mut total = Agreement::default();
         let mut plans = 0;
@@ -142,23 +168,27 @@ impl Subcommand for ClassifyCommand {
                 if self.json {
                     objects.push(json(plan, said, self.unknown));
                 } else {
-                    if plans > 0 {
-                        writeln!(terminal.out)?;
+                    let gap = if plans > 0 { "\n" } else { "" };
+                    let text = gap.to_owned() + &text(plan, said, self.unknown)?;
+                    if tells_on_stderr && terminal.call.quiet {
+                    } else if tells_on_stderr {
+                        terminal.err.write_all(text.as_bytes())?;
+                    } else {
+                        terminal.out.write_all(text.as_bytes())?;
                     }
-                    print(plan, said, self.unknown, terminal)?;
                 }
                 plans += 1;
                 if self.write {
-                    let (target, rooms) = self.write(&file.path, storey, classified.len(), files.len(), plan, said)?;
-                    writeln!(terminal.err, "{}: {rooms} predictions written", target.display())?;
+                    let (target, rooms) = self.write(file, storey, folder, plan, said, &mut outputs, terminal)?;
+                    terminal.remark(format!("{}: {} written", target.display(), count(rooms, "prediction")))?;
                 }
             }
             Ok(())
         })?;
         if self.json {
-            serde_json::to_writer_pretty(&mut terminal.out, &objects)?;
+            serde_json::to_writer_pretty(&mut terminal.out, &json!({ "version": 1, "plans": objects }))?;
             writeln!(terminal.out)?;
-        } else if plans > 1 && total.known > 0 {
+        } else if !tells_on_stderr && plans > 1 && total.known > 0 {
             writeln!(terminal.out, "\nAll {plans} plans: {total}")?;
         }
         Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
@@ -170,25 +200,23 @@ impl ClassifyCommand {
     /// number.
     fn write(
         &self,
-        file: &Path,
+        file: &Input,
         storey: usize,
-        storeys: usize,
-        files: usize,
+        folder: Option<&Path>,
         plan: &Plan,
         said: &Predictions,
+        outputs: &mut Outputs,
+        terminal: &mut Terminal,
     ) -> Result<(PathBuf, usize), CliError> {
-        let name = inputs::target_name(file, storey, "plan.json");
-        let target = match &self.output {
-            Some(output) if files * storeys > 1 || output.is_dir() => {
-                std::fs::create_dir_all(output)?;
-                output.join(name)
-            }
-            Some(output) => output.clone(),
-            None if file.to_string_lossy().ends_with(".plan.json") => file.to_owned(),
-            None => {
+        let is_own = file.path.to_string_lossy().ends_with(&format!(".{PLAN_ENDING}"));
+        let target = match (folder, &self.output) {
+            (Some(folder), _) => file.mirrored(folder, storey, PLAN_ENDING, outputs),
+            (None, Some(output)) => output.clone(),
+            (None, None) if is_own => file.path.clone(),
+            (None, None) => {
                 return Err(CliError::new(format!(
                     "{}: predictions can be written into plan files (.plan.json) only; say with -o where to write one",
-                    file.display()
+                    file.path.display()
                 )));
             }
         };
@@ -199,40 +227,51 @@ impl ClassifyCommand {
             plan = edit::set_label(&plan, room.id, label)?;
             written += 1;
         }
-        save_plan(&target, &plan)?;
+        if self.output.is_none() {
+            // The plan's own file: that is what --write asks for.
+            save_plan(&target, &plan)?;
+            return Ok((target, written));
+        }
+        if let (Some(_), Some(parent)) = (folder, target.parent()) {
+            outputs.folder(parent)?;
+        }
+        outputs.save_from(&target, &checked_bytes(&target, &plan)?, Care::Flushed, &file.path, terminal)?;
         Ok((target, written))
     }
 }
 
-fn print(plan: &Plan, said: &Predictions, with_unknown: bool, terminal: &mut Terminal) -> Result<(), CliError> {
-    let name = if plan.meta().name.is_empty() { "Untitled plan" } else { &plan.meta().name };
+/// What is said of a plan, for people.
+fn text(plan: &Plan, said: &Predictions, with_unknown: bool) -> Result<String, std::fmt::Error> {
+    let name = if plan.meta().name.is_empty() { "Untitled plan".to_owned() } else { one_line(&plan.meta().name) };
     let rooms = &said.network.rooms;
     let width = |of: &dyn Fn(&NetworkRoom) -> usize, least: usize| {
         rooms.iter().map(of).max().unwrap_or_default().clamp(least, 28)
     };
     let keys = width(&|room| room.key.chars().count(), 4);
     let functions = width(&|room| room.function.chars().count(), 8);
-    let out = &mut terminal.out;
+    let mut out = String::new();
     writeln!(out, "{name}: typology {} ({}), model {}", said.choice.set, said.choice.because, said.model.name)?;
     if !said.choice.reasons.is_empty() {
         writeln!(out, "  {} because of {}", said.choice.set, said.choice.reasons.join("; "))?;
     }
     if rooms.is_empty() {
-        return Ok(writeln!(out, "  no rooms to classify")?);
+        writeln!(out, "  no rooms to classify")?;
+        return Ok(out);
     }
     writeln!(
         out,
-        "  {:<keys$}  {:<functions$}  {:<11}  {:<11}  prob.  reason",
+        "  {:<keys$}  {:<functions$}  {:<11}    {:<11}  prob.  reason",
         "room", "function", "label", "predicted"
     )?;
     for (room, distribution) in rooms.iter().zip(&said.result.distributions) {
         let label = distribution.label();
+        // Where the known label is another.
         let mark = if room.label.is_some_and(|known| known != label) { "≠" } else { " " };
         writeln!(
             out,
-            "  {:<keys$}  {:<functions$}  {:<11}{mark} {:<11}  {:>3.0} %  {}",
-            shortened(&room.key, keys),
-            shortened(&room.function, functions),
+            "  {:<keys$}  {:<functions$}  {:<11}  {mark} {:<11}  {:>3.0} %  {}",
+            one_line(&shortened(&room.key, keys)),
+            one_line(&shortened(&room.function, functions)),
             room.label.map_or("–", Label::name),
             label.name(),
             100.0 * distribution.probability(label),
@@ -250,12 +289,12 @@ fn print(plan: &Plan, said: &Predictions, with_unknown: bool, terminal: &mut Ter
             writeln!(
                 out,
                 "  behind opening {opening} of {}, if there is a room: {label} ({:.0} %)",
-                rooms[room].key,
+                one_line(&rooms[room].key),
                 100.0 * behind.probability(label)
             )?;
         }
     }
-    Ok(())
+    Ok(out)
 }
 
 fn json(plan: &Plan, said: &Predictions, with_unknown: bool) -> serde_json::Value {

@@ -1,7 +1,7 @@
 //! Labelled rooms to learn from, named on the command line: plans, folders of plans, or dataset files.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::batch::{self, Input};
 use super::dataset::report_left_out;
@@ -15,7 +15,8 @@ use crate::plan::Plan;
 /// Options of every subcommand that learns from labelled rooms.
 #[derive(clap::Args)]
 pub struct CollectOptions {
-    /// Plans, folders of plans, or datasets (.csv, of which neighbours are not known) with labelled rooms
+    /// Plans, folders of plans, or datasets (.csv, of which neighbours are not known; '-' reads one from stdin) with
+    /// labelled rooms
     #[arg(required = true, value_name = "DATA")]
     pub data: Vec<PathBuf>,
     /// Take at most about N rooms of each typology (whole buildings; the paper has about 2000 of each)
@@ -36,11 +37,14 @@ pub fn neighbour_labels(word: &str) -> Result<NeighbourLabels, String> {
 /// # Errors
 /// When nothing can be learned from: no labelled room, or plans mixed with dataset files.
 pub fn collect(options: &CollectOptions, seed: u64, terminal: &mut Terminal) -> Result<Collected, CliError> {
-    let is_table = |path: &PathBuf| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+    // A plan alone is nothing to learn from: what comes by stdin is a dataset.
+    let is_table = |path: &PathBuf| {
+        path == Path::new("-") || path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"))
+    };
     let (tables, plans): (Vec<PathBuf>, Vec<PathBuf>) = options.data.iter().cloned().partition(is_table);
     let (collection, blind, failed) = match (tables.is_empty(), plans.is_empty()) {
         (false, false) => {
-            return Err(CliError::new(
+            return Err(CliError::call(
                 "plans and datasets (.csv) cannot be mixed: a dataset does not tell which rooms are neighbours; make \
                  a dataset of the plans with 'enfilade dataset', or give the plans of the other",
             ));
@@ -91,7 +95,7 @@ struct Networks {
 /// The networks of plans, in the order of their paths.
 fn read_networks(paths: &[PathBuf], scheme_files: &[PathBuf], terminal: &mut Terminal) -> Result<Networks, CliError> {
     let schemes = inputs::schemes(scheme_files)?;
-    let files = batch::inputs(paths)?;
+    let files = batch::inputs(paths);
     let mut networks: Vec<RoomNetwork> = Vec::new();
     let mut blind: Vec<RoomNetwork> = Vec::new();
     let both = |plan: &Plan| (RoomNetwork::new(plan, &schemes), RoomNetwork::without_typology(plan, &schemes));
@@ -118,7 +122,7 @@ fn read_tables(paths: &[PathBuf]) -> Result<Vec<Row>, CliError> {
     let mut rows = Vec::new();
     for path in paths {
         let fail = |error: &dyn std::fmt::Display| CliError::new(format!("{}: {error}", path.display()));
-        let file = std::fs::File::open(path).map_err(|error| fail(&error))?;
+        let file = std::fs::File::open(inputs::from_stdin(path)).map_err(|error| fail(&error))?;
         rows.extend(csv::read(std::io::BufReader::new(file)).map_err(|error| fail(&error))?);
     }
     Ok(rows)

@@ -8,7 +8,7 @@ use crate::app::commands::{ArgumentKind, COMMANDS, Command, keys_of, manual};
 /// `enfilade commands`: what the window can do.
 #[derive(clap::Args)]
 pub struct CommandsCommand {
-    /// Print them as JSON
+    /// Print them as JSON (docs/json/commands.md describes it)
     #[arg(long)]
     json: bool,
     /// Print the manual's page of them

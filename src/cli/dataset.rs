@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::batch::{self, Input};
 use super::features::FeatureOptions;
+use super::outputs::Outputs;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::dataset::{LeftOut, Row, Statistics, csv, rows};
 use crate::formats::Import;
@@ -33,7 +34,7 @@ impl Subcommand for DatasetCommand {
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let schemes = inputs::schemes(&self.shared.scheme)?;
-        let files = batch::inputs(&self.plans)?;
+        let files = batch::inputs_into(&self.plans, self.output.as_deref());
         let mut collected: Vec<Row> = Vec::new();
         let mut left_out = LeftOut::default();
         let work = |_: &Input, import: Import| {
@@ -51,7 +52,7 @@ impl Subcommand for DatasetCommand {
         if self.output.is_some() || !self.stats {
             let mut bytes = Vec::new();
             csv::write(&mut bytes, &collected)?;
-            inputs::write_result(self.output.as_deref(), &bytes, terminal)?;
+            Outputs::new(terminal).result(self.output.as_deref(), &bytes, terminal)?;
         }
         if self.stats {
             terminal.out.write_all(statistics(&collected).as_bytes())?;
@@ -84,14 +85,14 @@ pub fn report_left_out(left_out: &LeftOut, terminal: &mut Terminal) -> Result<()
     if left_out.total() == 0 {
         return Ok(());
     }
-    writeln!(terminal.err, "left out {} rooms:", left_out.total())?;
+    terminal.remark(format!("left out {} rooms:", left_out.total()))?;
     let lines = [
         (left_out.not_classified, "not classified (balconies, shafts and the like)"),
         (left_out.without_function, "without a label or a function"),
         (left_out.without_area, "without a boundary"),
     ];
     for (rooms, why) in lines.into_iter().filter(|&(rooms, _)| rooms > 0) {
-        writeln!(terminal.err, "{rooms:>6}  {why}")?;
+        terminal.remark(format!("{rooms:>6}  {why}"))?;
     }
     for ((typology, function), rooms) in &left_out.unknown_functions {
         let scheme = if typology.is_empty() {
@@ -99,7 +100,7 @@ pub fn report_left_out(left_out: &LeftOut, terminal: &mut Terminal) -> Result<()
         } else {
             format!("not in the scheme of {typology}")
         };
-        writeln!(terminal.err, "{rooms:>6}  function '{function}' ({scheme}; add it with --scheme)")?;
+        terminal.remark(format!("{rooms:>6}  function '{function}' ({scheme}; add it with --scheme)"))?;
     }
     Ok(())
 }

@@ -2,6 +2,7 @@ use std::io::Write as _;
 use std::path::PathBuf;
 
 use super::collect::{CollectOptions, Collected, collect, neighbour_labels};
+use super::outputs::{Outputs, must_be_folder};
 use super::progress::with_progress;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::dataset::folds::Grouping;
@@ -27,9 +28,6 @@ pub struct EvaluateCommand {
     /// Seed of all that is random: the same seed gives the same bytes
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Threads to work on; the report does not depend on it
-    #[arg(long, value_name = "N")]
-    threads: Option<usize>,
     /// Folder for the report: report.html, report.json and a CSV file for each table
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
@@ -54,22 +52,23 @@ impl Subcommand for EvaluateCommand {
     const EXAMPLE: &'static str = "enfilade evaluate schools offices houses --most-rooms 2000 -o study";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
+        must_be_folder(&self.output)?;
+        let mut outputs = Outputs::new(terminal);
         let Collected { collection, blind, failed } = collect(&self.collect, self.seed, terminal)?;
         let options = Options { folds: self.folds, grouping: self.by, neighbours: self.neighbours, seed: self.seed };
-        let study =
-            with_progress("evaluating", self.threads, terminal, |work| study(&collection, &blind, options, work))?;
+        let study = with_progress("evaluating", None, terminal, |work| study(&collection, &blind, options, work))?;
         let files = report::files(&study)?;
-        std::fs::create_dir_all(&self.output)
-            .map_err(|error| CliError::new(format!("{}: {error}; choose another folder", self.output.display())))?;
+        outputs.folder(&self.output)?;
         for (name, bytes) in &files {
-            crate::store::save_bytes(&self.output.join(name), bytes)?;
+            outputs.save_in(&self.output, name, bytes, terminal)?;
             if self.json && name == "report.json" {
                 terminal.out.write_all(bytes)?;
             }
         }
         if !self.json {
             terminal.out.write_all(report::summary(&study).as_bytes())?;
-            writeln!(terminal.out, "\nThe report: {}", self.output.join("report.html").display())?;
+            writeln!(terminal.out)?;
+            terminal.report(format!("The report: {}", self.output.join("report.html").display()))?;
         }
         Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
     }

@@ -1,15 +1,16 @@
 use crate::classify::models::Models;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::builder::PossibleValuesParser;
 use serde_json::json;
 
+use super::inputs::{from_stdin, stem};
+use super::outputs::{Outputs, must_be_folder};
 use super::progress::with_progress;
-use super::{CliError, Outcome, Subcommand, Terminal, inputs};
+use super::{CliError, Outcome, Subcommand, Terminal};
 use crate::base::work::{Cancelled, Work};
 use crate::dataset::RoomNetwork;
 use crate::draw::line_map::LineMapDrawing;
@@ -30,7 +31,6 @@ use crate::robot::odometry::OdometryNoise;
 use crate::robot::rooms::{FoundRooms, RoomOptions};
 use crate::robot::score::{Fate, Score, score};
 use crate::robot::{Pose, Scanner, World, WorldOptions};
-use crate::store::save_bytes;
 
 /// `enfilade explore`: a simulated robot in a plan.
 #[derive(clap::Args)]
@@ -91,7 +91,8 @@ impl Subcommand for ExploreCommand {
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         self.check()?;
-        let import = formats::read_file(&self.plan)?;
+        must_be_folder(&self.output)?;
+        let import = formats::read_file(&from_stdin(&self.plan))?;
         let Some(truth) = import.plans.first() else {
             return Err(CliError::new(format!("{}: holds no plan", self.plan.display())));
         };
@@ -122,11 +123,10 @@ impl Subcommand for ExploreCommand {
             map.found.sides.iter().filter_map(|sides| Some((sides[0]?, sides[1]?))).collect();
         let score = score(&world, start, reach_m, &areas, &edges);
         let labels = labels_right(truth, &score, &explored);
-        self.write(&exploration, &map, &explored, &score, labels)?;
+        self.write(&exploration, &map, &explored, &score, labels, terminal)?;
 
         let ended = if exploration.activity == Activity::GaveUp { ", gave up" } else { "" };
-        writeln!(
-            terminal.out,
+        terminal.report(format!(
             "{}: {} of {} rooms found ({} split, {} merged, {} missed, {} invented, {} out of reach); \
              {} of {} edges right, {} wrong; {} of {} labels right; {:.0} m driven{ended}",
             self.output.display(),
@@ -143,7 +143,7 @@ impl Subcommand for ExploreCommand {
             labels.0,
             labels.1,
             driven_m(&exploration),
-        )?;
+        ))?;
         Ok(Outcome::Done)
     }
 }
@@ -161,7 +161,7 @@ impl ExploreCommand {
         let shares = [("--closed", self.closed), ("--ajar", self.ajar), ("--drop-out", self.drop_out.unwrap_or(0.0))];
         for (name, share) in shares {
             if !(0.0..=1.0).contains(&share) {
-                return Err(CliError::new(format!("{name} {share}: a share lies between 0 and 1")));
+                return Err(CliError::call(format!("{name} {share}: a share lies between 0 and 1")));
             }
         }
         let limits = [
@@ -172,7 +172,7 @@ impl ExploreCommand {
         ];
         for (name, value, least, most) in limits {
             if !(least..=most).contains(&value) {
-                return Err(CliError::new(format!("{name} {value}: use {least} to {most}")));
+                return Err(CliError::call(format!("{name} {value}: use {least} to {most}")));
             }
         }
         Ok(())
@@ -217,12 +217,12 @@ impl ExploreCommand {
         explored: &ExploredPlan,
         score: &Score,
         labels: (usize, usize),
+        terminal: &mut Terminal,
     ) -> Result<(), CliError> {
-        let name = inputs::target_name(&self.plan, 0, "");
-        let name = name.trim_end_matches('.');
-        std::fs::create_dir_all(&self.output)
-            .map_err(|error| CliError::new(format!("{}: {error}; choose another folder", self.output.display())))?;
-        let write = |name: &str, bytes: &[u8]| save_bytes(&self.output.join(name), bytes);
+        let name = stem(&from_stdin(&self.plan));
+        let mut outputs = Outputs::new(terminal);
+        outputs.folder(&self.output)?;
+        let mut write = |name: &str, bytes: &[u8]| outputs.save_in(&self.output, name, bytes, terminal);
         write("poses.csv", poses_csv(exploration, map).as_bytes())?;
         write("map.json", map_json(exploration, map).as_bytes())?;
         write("score.json", score_json(score, explored, labels).as_bytes())?;

@@ -1,14 +1,12 @@
-use std::collections::{BTreeMap, BTreeSet};
-use std::io::Write as _;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::batch::Input;
+use super::outputs::{Care, Outputs, is_stdout};
 use super::{CliError, Outcome, Subcommand, Terminal, batch, inputs};
 use crate::formats::registry::ending_of;
-use crate::formats::{Export, Exporter, FORMATS, Format, Holds, Import, NamedPlan, Options, manual};
-use crate::labels::Schemes;
+use crate::formats::{Export, Exporter, FORMATS, Format, Holds, Import, NamedPlan, OptionError, Options, manual};
 use crate::plan::Plan;
-use crate::store::save_bytes;
 
 /// The default format of files in a folder.
 const DEFAULT_FORMAT: &str = "geojson";
@@ -43,16 +41,26 @@ impl Subcommand for ExportCommand {
     }
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
-        let schemes = inputs::schemes(&self.scheme)?;
         let target = self.target()?;
-        let files = batch::inputs(&self.plans)?;
-        let mut writer = Writer { target, schemes: &schemes, written: BTreeSet::new(), lost: BTreeMap::new() };
+        let schemes = inputs::schemes(&self.scheme)?;
+        let folder = target.stem.is_none().then_some(self.output.as_path());
+        let files = batch::inputs_into(&self.plans, folder);
+        let (exporter, options) = (target.exporter, target.options.clone());
+        if target.stem.is_some() && files.len() > 1 && exporter.holds() == Holds::OnePlan {
+            return Err(CliError::call(format!(
+                "-o {}: is one file, but {} plans are to be written; name a folder",
+                self.output.display(),
+                files.len()
+            )));
+        }
+        let outputs = Outputs::new(terminal);
+        let mut writer = Writer { target, outputs, lost: BTreeMap::new() };
         let mut all: Vec<(String, Plan)> = Vec::new();
-        let (exporter, options) = (writer.target.exporter, writer.target.options.clone());
         let stem = writer.target.stem.clone();
         let work = |file: &Input, import: Import| -> Vec<Piece> {
             let piece = |(storey, plan): (usize, Plan)| {
-                let own = inputs::target_stem(&file.path, storey);
+                let own = inputs::stem(&file.path);
+                let own = if storey == 0 { own } else { format!("{own}-{}", storey + 1) };
                 let stem = stem.clone().unwrap_or_else(|| own.clone());
                 match exporter.holds() {
                     Holds::OnePlan => {
@@ -64,10 +72,10 @@ impl Subcommand for ExportCommand {
             };
             import.plans.into_iter().enumerate().map(piece).collect()
         };
-        let failed = batch::for_each_import(&files, "exporting", terminal, work, |_, pieces, terminal| {
-            for piece in pieces {
+        let failed = batch::for_each_import(&files, "exporting", terminal, work, |file, pieces, terminal| {
+            for (storey, piece) in pieces.into_iter().enumerate() {
                 match piece {
-                    Piece::Written(export) => writer.save(export, terminal)?,
+                    Piece::Written(export) => writer.save(export, Some((file, storey)), terminal)?,
                     Piece::Plan(stem, plan) => all.push((stem, plan)),
                 }
             }
@@ -75,7 +83,7 @@ impl Subcommand for ExportCommand {
         })?;
         if !all.is_empty() {
             let plans: Vec<NamedPlan<'_>> = all.iter().map(|(stem, plan)| NamedPlan { stem, plan }).collect();
-            writer.save(exporter.write(&plans, writer.schemes, &options), terminal)?;
+            writer.save(exporter.write(&plans, &schemes, &options), None, terminal)?;
         }
         writer.report_lost(terminal)?;
         Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
@@ -104,6 +112,13 @@ impl ExportCommand {
     fn target(&self) -> Result<Target, CliError> {
         let output_name = self.output.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         let is_folder = self.output.is_dir();
+        if is_stdout(&self.output) {
+            let (format, exporter) = writable_named(self.format.as_deref().unwrap_or(DEFAULT_FORMAT))?;
+            let options = self.options(exporter)?;
+            // The plan's name in files that tell of one.
+            let stem = Some("plan".to_owned());
+            return Ok(Target { format, exporter, options, output: self.output.clone(), stem });
+        }
         let named: Vec<_> =
             writable().filter(|(format, _)| ending_of(&output_name, format.endings).is_some()).collect();
         let told = self.format.as_deref().map(|word| writable_named(word)).transpose()?;
@@ -121,7 +136,7 @@ impl ExportCommand {
             (&[(format, exporter)], _) => (format, exporter, !is_folder),
             (several, _) => {
                 let ids: Vec<&str> = several.iter().map(|(format, _)| format.id).collect();
-                return Err(CliError::new(format!(
+                return Err(CliError::call(format!(
                     "{}: may be of the format {}; say which with --format",
                     self.output.display(),
                     ids.join(" or ")
@@ -129,68 +144,91 @@ impl ExportCommand {
             }
         };
         if !is_single && output_name.contains('.') && !is_folder {
-            return Err(CliError::new(format!(
+            return Err(CliError::call(format!(
                 "{}: neither a folder nor a file with a known ending ({})",
                 self.output.display(),
                 endings()
             )));
         }
-        Options::check_names(exporter.options(), &self.option)?;
-        let options = Options::parse(exporter.options(), &self.option)?;
+        let options = self.options(exporter)?;
         let ending = ending_of(&output_name, format.endings).filter(|_| is_single);
         let stem = ending.map(|ending| output_name[..output_name.len() - ending.len() - 1].to_owned());
         Ok(Target { format, exporter, options, output: self.output.clone(), stem })
     }
+
+    fn options(&self, exporter: &dyn Exporter) -> Result<Options, CliError> {
+        let wrong = |error: OptionError| CliError::call(error.to_string());
+        Options::check_names(exporter.options(), &self.option).map_err(wrong)?;
+        Options::parse(exporter.options(), &self.option).map_err(wrong)
+    }
 }
 
-/// Writes, and remembers what was written and what was lost.
-struct Writer<'a> {
+/// Writes, and remembers what was lost.
+struct Writer {
     target: Target,
-    schemes: &'a Schemes,
-    written: BTreeSet<PathBuf>,
-    /// What the format does not keep, and in how many plans.
+    outputs: Outputs,
+    /// What the format does not keep, and the plans that had it.
     lost: BTreeMap<String, Vec<String>>,
 }
 
-impl Writer<'_> {
-    fn save(&mut self, export: Export, terminal: &mut Terminal) -> Result<(), CliError> {
+impl Writer {
+    /// Writes what one plan gave, the storey of a file, or what all gave together.
+    fn save(&mut self, export: Export, of: Option<(&Input, usize)>, terminal: &mut Terminal) -> Result<(), CliError> {
         let Target { output, stem, format, .. } = &self.target;
         let Export { files, lost } = export;
         if stem.is_some() && files.len() > 1 {
-            return Err(CliError::new(format!(
+            return Err(CliError::call(format!(
                 "{}: {} needs several files; name a folder",
                 output.display(),
                 format.name
             )));
         }
+        let is_one = files.len() == 1;
         for file in files {
-            let path: &Path = &match stem {
-                Some(_) => output.clone(),
-                None => output.join(file.name),
+            let path = match (stem, of) {
+                (Some(_), _) => output.clone(),
+                (None, Some((input, storey))) => match ending_of(&file.name, format.endings).filter(|_| is_one) {
+                    Some(ending) => input.mirrored(output, storey, ending, &self.outputs),
+                    // Of several files each keeps the name that the others know it by.
+                    None => {
+                        let folder = input.within.parent().unwrap_or(Path::new(""));
+                        self.outputs.path_in(&output.join(folder), &file.name)?
+                    }
+                },
+                (None, None) => self.outputs.path_in(output, &file.name)?,
             };
-            if self.written.contains(path) {
-                return Err(CliError::new(format!(
-                    "{}: would be written twice; export into separate folders",
-                    path.display()
-                )));
-            }
             if let (None, Some(folder)) = (stem, path.parent()) {
-                std::fs::create_dir_all(folder)?;
+                self.outputs.folder(folder)?;
             }
-            save_bytes(path, &file.bytes)?;
-            writeln!(terminal.out, "{}", path.display())?;
-            self.written.insert(path.to_owned());
+            let from = of.map_or(Path::new(""), |(input, _)| &input.path);
+            self.outputs.save_from(&path, &file.bytes, Care::Flushed, from, terminal)?;
+            if !is_stdout(&path) {
+                terminal.report(path.display())?;
+            }
         }
         for lost in lost {
-            self.lost.entry(lost.stem).or_default().push(lost.what);
+            self.lost.entry(lost.what).or_default().push(lost.stem);
         }
         Ok(())
     }
 
-    /// Says on stderr what the format did not keep of each plan.
+    /// Says on stderr what the format did not keep, once for each kind, with the number of plans.
     fn report_lost(&self, terminal: &mut Terminal) -> Result<(), CliError> {
-        for (stem, what) in &self.lost {
-            writeln!(terminal.err, "{stem}: {} does not keep {}", self.target.format.name, what.join(", "))?;
+        // What the same plans lack is said together.
+        let mut of_plans: BTreeMap<&[String], Vec<&str>> = BTreeMap::new();
+        for (what, stems) in &self.lost {
+            of_plans.entry(stems).or_default().push(what);
+        }
+        for (stems, what) in of_plans {
+            let whose = match stems {
+                [stem] => stem.clone(),
+                stems => format!("{} plans", stems.len()),
+            };
+            let format = self.target.format.name;
+            terminal.remark(format!("{whose}: {format} does not keep {}", what.join(", ")))?;
+            if stems.len() > 1 {
+                terminal.detail(format!("  {}", stems.join(", ")))?;
+            }
         }
         Ok(())
     }
@@ -208,7 +246,7 @@ fn writable_named(word: &str) -> Result<Writable, CliError> {
     let word = word.trim_start_matches('.').to_lowercase();
     let by_ending = |(format, _): &Writable| format.endings.contains(&word.as_str());
     let found = writable().find(|(format, _)| format.id == word).or_else(|| writable().find(by_ending));
-    found.ok_or_else(|| CliError::new(format!("cannot write '.{word}'; known endings: {}", endings())))
+    found.ok_or_else(|| CliError::call(format!("cannot write '.{word}'; known endings: {}", endings())))
 }
 
 fn endings() -> String {

@@ -1,6 +1,7 @@
 use std::path::PathBuf;
 
 use super::batch::{self, Input};
+use super::outputs::Outputs;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::dataset::csv::feature_cells;
 use crate::features::{Features, NeighbourLabels};
@@ -17,9 +18,9 @@ pub struct FeaturesCommand {
     #[arg(required = true, value_name = "PLAN")]
     plans: Vec<PathBuf>,
     /// Write the table here instead of to stdout
-    #[arg(short, long, value_name = "FILE.csv")]
+    #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Print JSON instead of CSV
+    /// Print JSON instead of CSV (docs/json/features.md describes it)
     #[arg(long)]
     json: bool,
     #[command(flatten)]
@@ -49,7 +50,7 @@ impl Subcommand for FeaturesCommand {
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let schemes = inputs::schemes(&self.shared.scheme)?;
-        let files = batch::inputs(&self.plans)?;
+        let files = batch::inputs_into(&self.plans, self.output.as_deref());
         let mut writer = csv::Writer::from_writer(Vec::new());
         let mut objects: Vec<serde_json::Value> = Vec::new();
         writer.write_record(HEAD.into_iter().chain(Features::NAMES))?;
@@ -67,13 +68,13 @@ impl Subcommand for FeaturesCommand {
             Ok(())
         })?;
         let bytes = if self.json {
-            let mut text = serde_json::to_vec_pretty(&objects)?;
+            let mut text = serde_json::to_vec_pretty(&serde_json::json!({ "version": 1, "rooms": objects }))?;
             text.push(b'\n');
             text
         } else {
             writer.into_inner().map_err(|error| CliError::new(error.to_string()))?
         };
-        inputs::write_result(self.output.as_deref(), &bytes, terminal)?;
+        Outputs::new(terminal).result(self.output.as_deref(), &bytes, terminal)?;
         Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
     }
 }

@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 use self::file::{Content, File, ImportedPlan, Job, State};
 use self::report::{Report, list_notes, print_outcome, print_table, summarise_notes};
 use super::batch::{self, Input};
+use super::door::one_line;
+use super::outputs::{Care, Outputs, must_be_folder};
 use super::{CliError, Outcome, Subcommand, Terminal};
 use crate::base::wording::count;
 use crate::edit;
@@ -15,7 +17,6 @@ use crate::formats::registry::Found;
 use crate::formats::{self, FORMATS, Note, NoteKind, Place, Preview, Reading, building_name, manual, plan_json};
 use crate::labels::Typology;
 use crate::plan::Meta;
-use crate::store::save_bytes_fast;
 
 /// The extension of the files written.
 const ENDING: &str = "plan.json";
@@ -38,13 +39,7 @@ pub struct ImportCommand {
     /// Only say what is in each file, and write nothing
     #[arg(long)]
     preview: bool,
-    /// Replace plans that are there already and differ
-    #[arg(long)]
-    force: bool,
-    /// List each thing that was mended or left out with its place, instead of a summary
-    #[arg(short, long)]
-    verbose: bool,
-    /// Print the whole report as JSON
+    /// Print the whole report as JSON (docs/json/import.md describes it)
     #[arg(long)]
     json: bool,
 }
@@ -68,15 +63,17 @@ impl Subcommand for ImportCommand {
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let reading = Reading { from: self.from, options: self.option.clone() };
-        reading.check()?;
+        reading.check().map_err(|error| CliError::call(error.to_string()))?;
+        if let Some(output) = &self.output {
+            must_be_folder(output)?;
+        }
         // Nothing is written into it when previewing.
         let output = self.output.clone().unwrap_or_default();
-        let jobs = jobs(&self.inputs, &output)?;
+        let jobs = jobs(&self.inputs, &output);
         if self.preview {
             return preview(&jobs, &reading, terminal);
         }
-        std::fs::create_dir_all(&output)
-            .map_err(|error| CliError::new(format!("{}: {error}; choose another folder", output.display())))?;
+        let mut outputs = Outputs::new(terminal);
         let read = |input: &Input| content(input, &reading);
         let inputs: Vec<Input> = jobs.iter().map(|job| job.input.clone()).collect();
         let mut contents = Vec::with_capacity(jobs.len());
@@ -85,6 +82,13 @@ impl Subcommand for ImportCommand {
             Ok(())
         })?;
         let mut files: Vec<File> = jobs.into_iter().zip(contents).map(|(job, content)| File { job, content }).collect();
+        if files.iter().all(|file| matches!(file.content, Content::Failed(_))) && !self.json {
+            for file in &files {
+                file.report_errors(terminal)?;
+            }
+            return Err(batch::nothing_to_read());
+        }
+        outputs.folder(&output)?;
         same_buildings(&mut files);
         let mut targets = BTreeSet::new();
         for file in &mut files {
@@ -92,7 +96,7 @@ impl Subcommand for ImportCommand {
                 let count = plans.len();
                 for (index, plan) in plans.iter_mut().enumerate() {
                     plan.target = target(&output, &file.job.target, (count > 1).then_some(index), &mut targets);
-                    plan.state = save(plan, self.force);
+                    plan.state = save(plan, &mut outputs, terminal);
                 }
             }
             file.report_errors(terminal)?;
@@ -101,13 +105,15 @@ impl Subcommand for ImportCommand {
             serde_json::to_writer_pretty(&mut terminal.out, &Report::new(&files))?;
             writeln!(terminal.out)?;
         } else {
-            if self.verbose {
-                list_notes(&files, terminal)?
-            } else {
-                summarise_notes(&files, terminal)?
+            match () {
+                () if terminal.call.verbose => list_notes(&files, terminal)?,
+                () if terminal.call.quiet => {}
+                () => summarise_notes(&files, terminal)?,
             }
-            print_table(&files, terminal)?;
-            print_outcome(&files, &output, terminal)?;
+            if !terminal.call.quiet {
+                print_table(&files, terminal)?;
+                print_outcome(&files, &output, terminal)?;
+            }
         }
         let is_wrong = files.iter().any(File::is_wrong);
         Ok(if is_wrong { Outcome::InputWrong } else { Outcome::Done })
@@ -115,7 +121,7 @@ impl Subcommand for ImportCommand {
 }
 
 /// The files that the inputs name, in their order; those of a folder sorted by path.
-fn jobs(inputs: &[PathBuf], output: &Path) -> Result<Vec<Job>, CliError> {
+fn jobs(inputs: &[PathBuf], output: &Path) -> Vec<Job> {
     let output = output.canonicalize().ok();
     let is_output = |path: &Path| output.is_some() && path.canonicalize().ok() == output;
     // Plans that an earlier import wrote beside their sources are not sources.
@@ -124,25 +130,19 @@ fn jobs(inputs: &[PathBuf], output: &Path) -> Result<Vec<Job>, CliError> {
         let is_own = input.path.to_string_lossy().ends_with(ENDING);
         !is_own || input.root.as_ref().is_none_or(|root| !beside.contains(root))
     };
-    let found = batch::inputs_but(inputs, is_output, is_source)?;
-    Ok(found.into_iter().map(|input| job(input, inputs.len() > 1)).collect())
+    batch::inputs_but(inputs, is_output, is_source).into_iter().map(job).collect()
 }
 
-/// Where a file's plan goes. With several folders each keeps its name, so that equal paths in them do not collide.
-fn job(input: Input, has_several: bool) -> Job {
-    let Some(root) = &input.root else {
-        let folder = input.path.parent().unwrap_or(Path::new("")).to_owned();
-        let target = stem_of(&input.path);
-        return Job { input, folder, target };
+/// Where a file's plan goes.
+fn job(input: Input) -> Job {
+    let folder = match &input.root {
+        None => input.path.parent().unwrap_or(Path::new("")).to_owned(),
+        Some(root) => {
+            let within = input.path.strip_prefix(root).unwrap_or(&input.path);
+            root.join(within.parent().unwrap_or(Path::new(""))).components().collect()
+        }
     };
-    let prefix = match root.canonicalize() {
-        Ok(root) if has_several => root.file_name().map(PathBuf::from).unwrap_or_default(),
-        _ => PathBuf::new(),
-    };
-    let within = input.path.strip_prefix(root).unwrap_or(&input.path);
-    let below = within.parent().unwrap_or(Path::new(""));
-    let folder = root.join(below).components().collect();
-    let target = prefix.join(below).join(stem_of(within));
+    let target = input.within.parent().unwrap_or(Path::new("")).join(stem_of(&input.within));
     Job { input, folder, target }
 }
 
@@ -170,11 +170,12 @@ fn preview(jobs: &[Job], reading: &Reading, terminal: &mut Terminal) -> Result<O
     for job in jobs {
         match job.input.check().and_then(|()| reading.preview(&job.input.path)) {
             Ok((format, preview)) => {
-                writeln!(terminal.out, "{}: {}: {}", job.input.path.display(), format.name, in_words(&preview))?;
+                let text = format!("{}: {}: {}", job.input.path.display(), format.name, in_words(&preview));
+                writeln!(terminal.out, "{}", one_line(&text))?;
             }
             Err(error) => {
                 outcome = Outcome::InputWrong;
-                writeln!(terminal.err, "enfilade: {error}")?;
+                terminal.error(error)?;
             }
         }
     }
@@ -247,21 +248,22 @@ fn target(output: &Path, target: &Path, index: Option<usize>, taken: &mut BTreeS
     output.join(target)
 }
 
-fn save(plan: &ImportedPlan, force: bool) -> State {
+fn save(plan: &ImportedPlan, outputs: &mut Outputs, terminal: &mut Terminal) -> State {
     let bytes = plan_json::to_bytes(&plan.plan);
-    match std::fs::read(&plan.target) {
-        Ok(there) if there == bytes => return State::Unchanged,
-        Ok(_) if !force => return State::Kept,
-        _ => {}
+    if std::fs::read(&plan.target).is_ok_and(|there| there == bytes) {
+        return State::Unchanged;
+    }
+    if !outputs.may_replace(&plan.target, &bytes) {
+        return State::Kept;
     }
     if let Some(folder) = plan.target.parent()
-        && let Err(error) = std::fs::create_dir_all(folder)
+        && let Err(error) = outputs.folder(folder)
     {
-        return State::NotSaved(format!("{}: {error}", folder.display()));
+        return State::NotSaved(error.message);
     }
     // The source is still there: no need to wait for the disk.
-    match save_bytes_fast(&plan.target, &bytes) {
+    match outputs.save(&plan.target, &bytes, Care::Fast, terminal) {
         Ok(()) => State::Written,
-        Err(error) => State::NotSaved(error.to_string()),
+        Err(error) => State::NotSaved(error.message),
     }
 }

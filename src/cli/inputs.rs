@@ -1,12 +1,12 @@
-//! What several subcommands take: label schemes, words, and where to write.
+//! What several subcommands take: label schemes, words, and what to read.
 
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use super::{CliError, Terminal};
+use super::CliError;
+use crate::base::file_name::component;
 use crate::formats;
 use crate::labels::Schemes;
-use crate::store::{schemes_folder, schemes_in, with_scheme_file};
+use crate::store::{SCHEME_ENDING, schemes_folder, schemes_in, with_scheme_file};
 
 /// The bundled label schemes, extended by those in the user's folder and then by the files named.
 ///
@@ -17,7 +17,20 @@ pub fn schemes(files: &[PathBuf]) -> Result<Schemes, CliError> {
     if let Some(error) = errors.into_iter().next() {
         return Err(error.into());
     }
-    Ok(files.iter().try_fold(own, |schemes, file| with_scheme_file(schemes, file))?)
+    Ok(files.iter().try_fold(own, |schemes, file| with_scheme_file(schemes, &own_scheme(file)))?)
+}
+
+/// The file of a scheme that is named by its file, or by the name it has in the user's folder of schemes.
+fn own_scheme(named: &Path) -> PathBuf {
+    by_name(named, SCHEME_ENDING, schemes_folder()).unwrap_or_else(|| named.to_owned())
+}
+
+/// The file that a bare name means in a folder of the user's; `None` where a file of that very path is there, or no
+/// file has the name.
+pub fn by_name(named: &Path, ending: &str, folder: Option<PathBuf>) -> Option<PathBuf> {
+    let name = component(named.to_str()?).ok().filter(|_| !named.exists())?;
+    let file = folder?.join(format!("{}{ending}", name.strip_suffix(ending).unwrap_or(name)));
+    file.is_file().then_some(file)
 }
 
 /// Parses one of `all` by its name.
@@ -31,26 +44,13 @@ pub fn one_of<T: Copy>(word: &str, all: &[T], name: fn(T) -> &'static str) -> Re
     })
 }
 
-/// Writes to a file by way of [`crate::store::save_bytes`], or to stdout where there is none.
-///
-/// # Errors
-/// When it cannot be written.
-pub fn write_result(output: Option<&Path>, bytes: &[u8], terminal: &mut Terminal) -> Result<(), CliError> {
-    match output {
-        Some(path) => Ok(crate::store::save_bytes(path, bytes)?),
-        None => Ok(terminal.out.write_all(bytes)?),
-    }
+/// The path to read from: `-` is stdin.
+pub fn from_stdin(path: &Path) -> PathBuf {
+    if path == Path::new("-") { PathBuf::from("/dev/stdin") } else { path.to_owned() }
 }
 
-/// The exported file's name: the source's up to its first known ending; later storeys of one file
-/// are numbered from 2.
-pub fn target_name(file: &Path, storey: usize, ending: &str) -> String {
-    format!("{}.{ending}", target_stem(file, storey))
-}
-
-/// The exported file's name without its ending.
-pub fn target_stem(file: &Path, storey: usize) -> String {
+/// The name of what a file holds, for the files made of it: up to its first known ending.
+pub fn stem(file: &Path) -> String {
     let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let stem = formats::file_stem(&name);
-    if storey == 0 { stem.to_owned() } else { format!("{stem}-{}", storey + 1) }
+    formats::file_stem(&name).to_owned()
 }

@@ -1,9 +1,10 @@
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
 
+use super::inputs::from_stdin;
+use super::outputs::{Outputs, must_be_folder};
 use super::progress::with_progress;
 use super::{CliError, Outcome, Subcommand, Terminal};
 use crate::draw::line_map::LineMapDrawing;
@@ -12,7 +13,7 @@ use crate::geometry::{Point, Segment, trim_m};
 use crate::robot::carmen::Log;
 use crate::robot::log_map::{MappedLog, map_log};
 use crate::robot::{LineMap, MapperOptions};
-use crate::store::{load_log, save_bytes};
+use crate::store::load_log;
 
 /// `enfilade map`: a robot's laser log to a line map.
 #[derive(clap::Args)]
@@ -38,28 +39,28 @@ impl Subcommand for MapCommand {
     const EXAMPLE: &'static str = "enfilade map intel.log.gz -o intel   # map, picture, poses.csv";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
-        let loaded = load_log(&self.log)?;
+        must_be_folder(&self.output)?;
+        let mut outputs = Outputs::new(terminal);
+        let loaded = load_log(&from_stdin(&self.log))?;
         for note in &loaded.log.notes {
-            writeln!(terminal.err, "{}: {note}", self.log.display())?;
+            terminal.remark(format!("{}: {note}", self.log.display()))?;
         }
         if let Some(broken_off) = &loaded.broken_off {
-            writeln!(terminal.err, "{}: {broken_off}; read as far as it goes", self.log.display())?;
+            terminal.remark(format!("{}: {broken_off}; read as far as it goes", self.log.display()))?;
         }
         let log = loaded.log;
         if !log.has_odometry {
-            writeln!(
-                terminal.err,
+            terminal.remark(format!(
                 "{}: the odometry never moves; scans are matched from one another alone",
                 self.log.display()
-            )?;
+            ))?;
         }
         let options = MapperOptions { closes_loops: !self.no_loop_closing, ..MapperOptions::default() };
         let mapped = with_progress("mapping", Some(1), terminal, |work| map_log(&log, &options, work))?;
 
         let name = log_name(&self.log);
-        std::fs::create_dir_all(&self.output)
-            .map_err(|error| CliError::new(format!("{}: {error}; choose another folder", self.output.display())))?;
-        let write = |name: &str, bytes: &[u8]| save_bytes(&self.output.join(name), bytes);
+        outputs.folder(&self.output)?;
+        let mut write = |name: &str, bytes: &[u8]| outputs.save_in(&self.output, name, bytes, terminal);
         write("poses.csv", poses_csv(&log, &mapped).as_bytes())?;
         write(&format!("{name}.lines.json"), lines_json(&mapped.map, &options).as_bytes())?;
         let segments: Vec<Segment> = mapped.map.lines().map(|line| line.line.segment()).collect();
@@ -75,12 +76,11 @@ impl Subcommand for MapCommand {
         let (closures, doubted) = mapped.closures;
         let metres: f64 = segments.iter().map(|segment| segment.length()).sum();
         let doubted = if doubted > 0 { format!(", {doubted} of them not believed") } else { String::new() };
-        writeln!(
-            terminal.out,
+        terminal.report(format!(
             "{}: {scans} scans, {} lines of {metres:.0} m, {closures} places recognised{doubted}",
             self.output.display(),
             segments.len()
-        )?;
+        ))?;
         Ok(Outcome::Done)
     }
 }
@@ -93,7 +93,7 @@ fn log_name(path: &Path) -> String {
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let stem = name.strip_suffix(".gz").unwrap_or(&name);
     let stem = stem.strip_suffix(".log").unwrap_or(stem);
-    if stem.is_empty() { "map".to_owned() } else { stem.to_owned() }
+    if stem.is_empty() || stem == "-" { "map".to_owned() } else { stem.to_owned() }
 }
 
 /// `t,x,y,theta` of every reading, in seconds, metres and radians.

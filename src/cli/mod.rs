@@ -6,16 +6,21 @@ mod classify;
 mod collect;
 #[cfg(feature = "gui")]
 mod commands;
+mod completions;
 mod dataset;
+mod door;
 mod evaluate;
 mod explore;
 mod export;
 mod features;
 mod import;
 mod inputs;
+mod man;
 mod map;
+mod mistyped;
 mod models;
 mod open;
+mod outputs;
 mod progress;
 mod render;
 #[cfg(feature = "gui")]
@@ -23,10 +28,15 @@ mod replay;
 mod segment;
 mod train;
 
+use std::ffi::OsString;
+use std::fmt::Display;
 use std::io::{IsTerminal as _, Write};
 use std::path::PathBuf;
 
-use clap::{ArgMatches, Args, Command};
+use clap::{Arg, ArgAction, ArgMatches, Args, Command};
+
+pub use door::Door;
+use door::{Paint, one_line};
 
 /// All subcommands, in the order of the help.
 #[rustfmt::skip] // one line each
@@ -48,6 +58,8 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<replay::ReplayCommand>(),
     #[cfg(feature = "gui")]
     entry::<commands::CommandsCommand>(),
+    entry::<completions::CompletionsCommand>(),
+    entry::<man::ManCommand>(),
 ];
 
 /// A subcommand: its arguments (a clap `Args`) and its action.
@@ -67,7 +79,8 @@ pub trait Subcommand: Args {
     /// Does the work.
     ///
     /// # Errors
-    /// When the input is wrong so that there is no result; the message goes to stderr, exit code 1.
+    /// When the input is wrong so that there is no result (exit code 1), or the call is (exit code 2,
+    /// [`CliError::call`], before anything is read or written); the message goes to stderr.
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError>;
 }
 
@@ -86,40 +99,112 @@ pub struct CliError {
     pub message: String,
     /// The reader of our output has gone away (`| head`): nothing to say.
     pub broken_pipe: bool,
+    /// Whether the call is wrong, not what it was to work on.
+    pub wrong_call: bool,
 }
 
 impl<E: std::error::Error + 'static> From<E> for CliError {
     fn from(error: E) -> Self {
         let io = (&error as &dyn std::error::Error).downcast_ref::<std::io::Error>();
         let broken_pipe = io.is_some_and(|io| io.kind() == std::io::ErrorKind::BrokenPipe);
-        Self { message: error.to_string(), broken_pipe }
+        Self { message: error.to_string(), broken_pipe, wrong_call: false }
     }
 }
 
 impl CliError {
+    /// The input is wrong.
     pub fn new(message: impl Into<String>) -> Self {
-        Self { message: message.into(), broken_pipe: false }
+        Self { message: message.into(), broken_pipe: false, wrong_call: false }
+    }
+
+    /// The call is wrong: said before anything is done, exit code 2.
+    pub fn call(message: impl Into<String>) -> Self {
+        Self { wrong_call: true, ..Self::new(message) }
     }
 }
 
-/// Where a subcommand writes.
+/// Where a subcommand writes, and what its caller wants to hear.
 pub struct Terminal {
     /// Results.
-    pub out: Box<dyn Write>,
+    pub out: Door,
     /// Errors, warnings, reports.
-    pub err: Box<dyn Write>,
+    pub err: Door,
     /// Whether `err` is a terminal: progress is shown on one only.
     pub is_interactive: bool,
+    call: Call,
+}
+
+/// What every subcommand is told.
+#[derive(Clone, Copy, Debug, Default)]
+struct Call {
+    /// Its name; empty for the window.
+    command: &'static str,
+    quiet: bool,
+    verbose: bool,
+    /// Files that another made may be replaced.
+    force: bool,
+    /// Threads to work on; as many as there are processors without.
+    jobs: Option<usize>,
 }
 
 impl Terminal {
     /// The process's stdout (buffered) and stderr.
     pub fn standard() -> Self {
+        let is_interactive = std::io::stderr().is_terminal();
         Self {
-            out: Box::new(std::io::BufWriter::new(std::io::stdout())),
-            err: Box::new(std::io::stderr()),
-            is_interactive: std::io::stderr().is_terminal(),
+            out: Door::to(Box::new(std::io::BufWriter::new(std::io::stdout())), std::io::stdout().is_terminal()),
+            err: Door::to(Box::new(std::io::stderr()), is_interactive),
+            is_interactive,
+            call: Call::default(),
         }
+    }
+
+    /// Other places than the process's own, neither of them a terminal.
+    pub fn new(out: impl Write + 'static, err: impl Write + 'static) -> Self {
+        let (out, err) = (Door::new(Box::new(out)), Door::new(Box::new(err)));
+        Self { out, err, is_interactive: false, call: Call::default() }
+    }
+
+    /// Says on stderr what is wrong, in one line.
+    ///
+    /// # Errors
+    /// When stderr cannot be written.
+    pub fn error(&mut self, what: impl Display) -> std::io::Result<()> {
+        writeln!(self.err, "{}: {}", Paint::Error.on("enfilade"), one_line(&what.to_string()))?;
+        self.err.flush()
+    }
+
+    /// Says on stderr what is worth knowing, in one line; not with `--quiet`.
+    ///
+    /// # Errors
+    /// When stderr cannot be written.
+    pub fn remark(&mut self, what: impl Display) -> std::io::Result<()> {
+        if self.call.quiet {
+            return Ok(());
+        }
+        writeln!(self.err, "{}", one_line(&what.to_string()))?;
+        self.err.flush()
+    }
+
+    /// Says on stderr what only `--verbose` asks for, in one line.
+    ///
+    /// # Errors
+    /// When stderr cannot be written.
+    pub fn detail(&mut self, what: impl Display) -> std::io::Result<()> {
+        if self.call.verbose { self.remark(what) } else { Ok(()) }
+    }
+
+    /// Says on stdout what was done, in one line; not with `--quiet`.
+    ///
+    /// # Errors
+    /// When stdout cannot be written.
+    pub fn report(&mut self, what: impl Display) -> std::io::Result<()> {
+        if self.call.quiet {
+            return Ok(());
+        }
+        writeln!(self.out, "{}", one_line(&what.to_string()))?;
+        // Said at once: many files take a while.
+        self.out.flush()
     }
 }
 
@@ -136,12 +221,22 @@ const fn entry<S: Subcommand>() -> Entry {
             let more = S::more_help();
             let gap = if more.is_empty() { "" } else { "\n\n" };
             // After `augment_args`, which sets the type's docstring.
-            S::augment_args(Command::new(S::NAME))
+            let command = S::augment_args(Command::new(S::NAME))
                 .about(S::ABOUT)
                 .long_about(None)
-                .after_help(format!("{more}{gap}Example:\n  {}", S::EXAMPLE))
+                .after_help(format!("{more}{gap}Example:\n  {}", S::EXAMPLE));
+            with_common_options(command)
         },
         run: |matches, terminal| {
+            let flag = |name: &str| matches.try_get_one::<bool>(name).ok().flatten().is_some_and(|&is_set| is_set);
+            terminal.call = Call {
+                command: S::NAME,
+                quiet: flag("quiet"),
+                verbose: flag("verbose"),
+                force: flag("force"),
+                jobs: matches.try_get_one::<u16>("jobs").ok().flatten().map(|&jobs| usize::from(jobs)),
+            };
+            terminal.is_interactive &= !terminal.call.quiet;
             // The matches come from the command built from the same type: they always fit, and if
             // not, clap's message says how.
             let arguments = S::from_arg_matches(matches)?;
@@ -150,37 +245,76 @@ const fn entry<S: Subcommand>() -> Entry {
     }
 }
 
+/// The options that all subcommands have, and `--force` for those that write.
+fn with_common_options(command: Command) -> Command {
+    const HEADING: &str = "Common options";
+    let flag = |name: &'static str| Arg::new(name).long(name).action(ArgAction::SetTrue).help_heading(HEADING);
+    let writes = command.get_arguments().any(|argument| argument.get_id() == "output");
+    let force = flag("force").help("Replace files that are there, whoever made them");
+    let force = writes.then_some(force);
+    command
+        .args(force)
+        .arg(
+            Arg::new("jobs")
+                .long("jobs")
+                .alias("threads")
+                .short('j')
+                .value_name("N")
+                .value_parser(clap::value_parser!(u16).range(1..))
+                .help_heading(HEADING)
+                .help("Threads to work on [default: one a processor]; no result depends on it"),
+        )
+        .arg(flag("quiet").short('q').conflicts_with("verbose").help("Say nothing but results and what is wrong"))
+        .arg(flag("verbose").short('v').help("Say more: what readers mended or left out, and where"))
+}
+
 /// Runs the program with the process's arguments and gives its exit code: 0 done, 1 the input is
 /// wrong, 2 the call is wrong.
 pub fn main() -> u8 {
     run(std::env::args_os(), &mut Terminal::standard())
 }
 
-/// Runs the program with the given arguments (the program's name first).
-pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>, terminal: &mut Terminal) -> u8 {
-    let mut command = Command::new("enfilade")
-        .version(env!("CARGO_PKG_VERSION"))
+/// The whole command line as clap knows it.
+pub fn command() -> Command {
+    let command = Command::new("enfilade")
+        .version(VERSION)
         .about("Draw and label floor plans, classify their rooms by building typology, export datasets.")
         .long_about(
             "Draw and label floor plans, classify their rooms by building typology, export datasets.\n\n\
              Without a subcommand the window opens, on PLAN if one is given.",
         )
+        .after_help(
+            "A '-' in the place of a file means stdin or stdout. Exit codes: 0 done, 1 something is wrong with the \
+             input, 2 with the call.",
+        )
         .arg(
-            clap::Arg::new("plan")
+            Arg::new("plan")
                 .value_name("PLAN")
                 .value_parser(clap::value_parser!(PathBuf))
                 .help("Plan to open in the window"),
         )
         .args_conflicts_with_subcommands(true);
-    for entry in SUBCOMMANDS {
-        command = command.subcommand((entry.command)());
+    SUBCOMMANDS.iter().fold(command, |command, entry| command.subcommand((entry.command)()))
+}
+
+/// '0.1.0 (commit 1a2b3c4d5e6f)'; see `build.rs`.
+pub const VERSION: &str = env!("ENFILADE_VERSION");
+
+/// Runs the program with the given arguments (the program's name first).
+pub fn run(arguments: impl IntoIterator<Item = OsString>, terminal: &mut Terminal) -> u8 {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let command = command();
+    if let Some(what) = mistyped::subcommand(&arguments, &command) {
+        // Whoever closed stderr does not read it.
+        let _ = terminal.error(what);
+        return 2;
     }
     let matches = match command.try_get_matches_from(arguments) {
         Ok(matches) => matches,
         Err(error) => {
             let text = error.render();
             let _ = if error.use_stderr() {
-                write!(terminal.err, "{text}")
+                write!(terminal.err, "{text}").and_then(|()| terminal.err.flush())
             } else {
                 write!(terminal.out, "{text}").and_then(|()| terminal.out.flush())
             };
@@ -190,7 +324,7 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>, terminal: &m
     let result = match matches.subcommand() {
         Some((name, matches)) => match SUBCOMMANDS.iter().find(|entry| entry.name == name) {
             Some(entry) => (entry.run)(matches, terminal),
-            None => Err(CliError::new(format!("unknown subcommand {name}"))),
+            None => Err(CliError::call(format!("unknown subcommand {name}"))),
         },
         None => open::open(matches.get_one::<PathBuf>("plan").map(PathBuf::as_path), terminal),
     };
@@ -200,8 +334,11 @@ pub fn run(arguments: impl IntoIterator<Item = std::ffi::OsString>, terminal: &m
         Ok(Outcome::InputWrong) => 1,
         Err(error) if error.broken_pipe => 0,
         Err(error) => {
-            let _ = writeln!(terminal.err, "enfilade: {}", error.message);
-            1
+            let _ = terminal.error(&error.message);
+            if error.wrong_call && !terminal.call.command.is_empty() {
+                let _ = terminal.remark(format!("See 'enfilade {} --help'.", terminal.call.command));
+            }
+            if error.wrong_call { 2 } else { 1 }
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::classify::models::StoredModel;
 pub struct ModelsCommand {
     #[command(flatten)]
     models: ModelsOption,
-    /// Print JSON
+    /// Print JSON (docs/json/models.md describes it)
     #[arg(long)]
     json: bool,
 }
@@ -25,7 +25,7 @@ impl Subcommand for ModelsCommand {
         let models = at_hand.all()?;
         if self.json {
             let objects: Vec<serde_json::Value> = models.iter().map(|model| json(model)).collect();
-            serde_json::to_writer_pretty(&mut terminal.out, &objects)?;
+            serde_json::to_writer_pretty(&mut terminal.out, &serde_json::json!({ "version": 1, "models": objects }))?;
             writeln!(terminal.out)?;
         } else {
             print(&models, terminal)?;

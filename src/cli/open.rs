@@ -4,6 +4,7 @@
 use std::io::Write as _;
 use std::path::Path;
 
+use super::outputs::{Care, Outputs};
 use super::{CliError, Outcome, Terminal};
 use crate::dataset::{self, LeftOut, Row, Statistics};
 use crate::draw::sheet::{self, Furniture, PageSize};
@@ -12,7 +13,7 @@ use crate::features::NeighbourLabels;
 use crate::formats;
 use crate::pipeline::Pipeline;
 use crate::plan::Plan;
-use crate::store::{bundled_plans, save_bytes_fast};
+use crate::store::bundled_plans;
 
 /// The headless job's output folder, in the current folder.
 const OUTPUT: &str = "enfilade-out";
@@ -22,6 +23,11 @@ const PICTURE_PX: f64 = 1600.0;
 
 /// Opens the window on a plan, or on a bundled one; without a display, runs the headless job.
 pub fn open(plan: Option<&Path>, terminal: &mut Terminal) -> Result<Outcome, CliError> {
+    if let Some(plan) = plan
+        && !plan.exists()
+    {
+        return Err(CliError::new(format!("{}: there is no such file or folder; check the path", plan.display())));
+    }
     let why = match window(plan) {
         None => return Ok(Outcome::Done),
         Some(why) => why,
@@ -58,7 +64,8 @@ fn headless(plan: Option<&Path>, terminal: &mut Terminal) -> Result<Outcome, Cli
         None => bundled_plans()?.into_iter().map(|(name, plan)| (formats::file_stem(name).to_owned(), plan)).collect(),
     };
     let folder = Path::new(OUTPUT);
-    std::fs::create_dir_all(folder)?;
+    let mut outputs = Outputs::new(terminal);
+    outputs.folder(folder)?;
     let schemes = super::inputs::schemes(&[])?;
     let mut rows: Vec<Row> = Vec::new();
     let mut left_out = LeftOut::default();
@@ -67,15 +74,15 @@ fn headless(plan: Option<&Path>, terminal: &mut Terminal) -> Result<Outcome, Cli
         let furniture = Furniture { title: true, legend: true, scale: true };
         let scene =
             sheet::page(&Pipeline::new(plan, &schemes).drawing(None), &style, PageSize::Longest(PICTURE_PX), furniture);
-        save_bytes_fast(&folder.join(format!("{name}.png")), &png::png(&scene)?)?;
-        save_bytes_fast(&folder.join(format!("{name}.svg")), svg::svg(&scene).as_bytes())?;
+        outputs.save(&folder.join(format!("{name}.png")), &png::png(&scene)?, Care::Fast, terminal)?;
+        outputs.save(&folder.join(format!("{name}.svg")), svg::svg(&scene).as_bytes(), Care::Fast, terminal)?;
         let (rooms, openings) = (plan.rooms().len(), plan.openings().len());
         writeln!(terminal.out, "{OUTPUT}/{name}.png, .svg: {rooms} rooms, {openings} openings")?;
         rows.extend(dataset::rows(plan, &schemes, NeighbourLabels::True, &mut left_out));
     }
     let mut table = Vec::new();
     dataset::csv::write(&mut table, &rows)?;
-    save_bytes_fast(&folder.join("rooms.csv"), &table)?;
+    outputs.save(&folder.join("rooms.csv"), &table, Care::Fast, terminal)?;
     writeln!(terminal.out, "{OUTPUT}/rooms.csv: F_r and label of {} rooms", rows.len())?;
     super::dataset::report_left_out(&left_out, terminal)?;
     writeln!(terminal.out, "\n{}", Statistics::of(&rows).table("All rooms").trim_end())?;

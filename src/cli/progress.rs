@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use super::Terminal;
+use super::door::one_line;
 use crate::base::work::Work;
 
 /// The minimum time between updates.
@@ -27,7 +28,7 @@ impl Progress {
     pub fn new(title: &str, count: usize, terminal: &Terminal) -> Self {
         #[expect(clippy::disallowed_methods, reason = "the time left is for a person to read; no result depends on it")]
         let start = Instant::now();
-        let (title, last, never) = (title.to_owned(), Mutex::new(Duration::ZERO), AtomicBool::new(false));
+        let (title, last, never) = (one_line(title), Mutex::new(Duration::ZERO), AtomicBool::new(false));
         Self { title, count, is_shown: terminal.is_interactive, start, last, never }
     }
 
@@ -68,7 +69,7 @@ pub fn with_progress<T>(
     terminal: &Terminal,
     work: impl FnOnce(&Work<'_>) -> T,
 ) -> T {
-    let quiet = match threads {
+    let quiet = match threads.or(terminal.call.jobs) {
         Some(threads) => Work::quiet().on_threads(threads),
         None => Work::quiet(),
     };

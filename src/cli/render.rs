@@ -1,5 +1,3 @@
-use std::collections::BTreeSet;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -7,6 +5,7 @@ use clap::builder::PossibleValuesParser;
 
 use super::batch::{self, Input};
 use super::classify::PredictorOptions;
+use super::outputs::{Care, Outputs, is_stdout};
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::draw::{
     Fill, LabelColours, Layers, Scene, Style, Theme, png,
@@ -58,10 +57,10 @@ pub struct RenderCommand {
     /// Leave out the rooms' names and areas
     #[arg(long)]
     no_names: bool,
-    /// Leave out title, legend, scale bar and north arrow
+    /// Leave out title, legend and scale bar
     #[arg(long)]
     bare: bool,
-    /// The ending of the pictures to write into a folder
+    /// The ending of the pictures to write into a folder or to stdout
     #[arg(long, value_name = "ENDING", default_value = "png", value_parser = ["png", "svg"])]
     format: String,
     /// Label scheme that extends the bundled ones (may be given several times)
@@ -75,20 +74,29 @@ impl Subcommand for RenderCommand {
     const EXAMPLE: &'static str = "enfilade render plans/office.plan.json -o office.png --size 2000 --graph";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
-        let schemes = inputs::schemes(&self.scheme)?;
-        let (predictor, models) = self.predictor.read(terminal)?;
-        let asked = Asked::by(&predictor, &models);
-        let files = batch::inputs(&self.plans)?;
-        let style = self.style();
+        let to_stdout = is_stdout(&self.output);
         let single = picture_ending(&self.output).filter(|_| !self.output.is_dir());
         if single.is_none() && self.output.extension().is_some() && !self.output.is_dir() {
-            return Err(CliError::new(format!(
+            return Err(CliError::call(format!(
                 "{}: neither a folder nor a picture; pictures end in .png or .svg",
                 self.output.display()
             )));
         }
+        let schemes = inputs::schemes(&self.scheme)?;
+        let (predictor, models) = self.predictor.read(terminal)?;
+        let asked = Asked::by(&predictor, &models);
+        let is_single = to_stdout || single.is_some();
+        let files = batch::inputs_into(&self.plans, (!is_single).then_some(self.output.as_path()));
+        if is_single && files.len() > 1 {
+            return Err(CliError::call(format!(
+                "-o {}: is one picture, but {} plans are to be drawn; name a folder",
+                self.output.display(),
+                files.len()
+            )));
+        }
+        let style = self.style();
         let ending = single.unwrap_or(&self.format);
-        let mut written: BTreeSet<PathBuf> = BTreeSet::new();
+        let mut outputs = Outputs::new(terminal);
         let work = |input: &Input, import: Import| -> Vec<Picture> {
             import
                 .plans
@@ -99,35 +107,28 @@ impl Subcommand for RenderCommand {
         let mut not_drawn = 0;
         let failed = batch::for_each_import(&files, "drawing", terminal, work, |input, pictures, terminal| {
             for (storey, picture) in pictures.into_iter().enumerate() {
-                let target = match single {
-                    Some(_) => self.output.clone(),
-                    None => self.output.join(inputs::target_name(&input.path, storey, ending)),
+                let target = match is_single {
+                    true => self.output.clone(),
+                    false => input.mirrored(&self.output, storey, ending, &outputs),
                 };
-                if written.contains(&target) {
-                    return Err(CliError::new(format!(
-                        "{}: would be written twice; give a folder, and each file its own name",
-                        target.display()
-                    )));
-                }
                 if let Some(warning) = picture.warning {
-                    writeln!(terminal.err, "{warning}")?;
+                    terminal.remark(warning)?;
                 }
                 let bytes = match picture.bytes {
                     Ok(bytes) => bytes,
                     Err(error) => {
                         not_drawn += 1;
-                        writeln!(terminal.err, "enfilade: {}: {}", input.path.display(), error.message)?;
+                        terminal.error(format!("{}: {}", input.path.display(), error.message))?;
                         continue;
                     }
                 };
-                if let (None, Some(folder)) = (single, target.parent()) {
-                    std::fs::create_dir_all(folder)?;
+                if let (false, Some(folder)) = (is_single, target.parent()) {
+                    outputs.folder(folder)?;
                 }
-                crate::store::save_bytes_fast(&target, &bytes)?;
-                writeln!(terminal.out, "{}", target.display())?;
-                // Said at once: of many plans each takes a blink.
-                terminal.out.flush()?;
-                written.insert(target);
+                outputs.save_from(&target, &bytes, Care::Fast, &input.path, terminal)?;
+                if !to_stdout {
+                    terminal.report(target.display())?;
+                }
             }
             Ok(())
         })?;

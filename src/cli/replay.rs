@@ -20,17 +20,14 @@ pub struct ReplayCommand {
     #[arg(long)]
     update: bool,
     /// Keep what the scripts save, and every picture, a folder a script
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    #[arg(short, long, alias = "out", value_name = "DIR")]
+    output: Option<PathBuf>,
     /// Tell of each step, by its line, as soon as it is done; runs one script after the other
     #[arg(long, conflicts_with = "json")]
     steps: bool,
-    /// Report as JSON
+    /// Report as JSON (docs/json/replay.md describes it)
     #[arg(long)]
     json: bool,
-    /// How many scripts run at a time [default: as many as there are processors]
-    #[arg(short, long, value_name = "N")]
-    jobs: Option<usize>,
     /// Print every verb, place and expectation of scripts; every command of the window is a step too
     #[arg(long)]
     list: bool,
@@ -39,7 +36,7 @@ pub struct ReplayCommand {
 impl Subcommand for ReplayCommand {
     const NAME: &'static str = "replay";
     const ABOUT: &'static str = "Run scripts that drive the window without a display, and compare its pictures";
-    const EXAMPLE: &'static str = "enfilade replay tests/replay --out pictures";
+    const EXAMPLE: &'static str = "enfilade replay tests/replay -o pictures";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         if self.list {
@@ -47,8 +44,8 @@ impl Subcommand for ReplayCommand {
             return Ok(Outcome::Done);
         }
         let scripts = replay::find_scripts(&self.scripts)?;
-        let options = ReplayOptions { snapshots: self.snapshots, out: self.out, update: self.update };
-        let work = match self.jobs {
+        let options = ReplayOptions { snapshots: self.snapshots, out: self.output, update: self.update };
+        let work = match terminal.call.jobs {
             Some(threads) => Work::quiet().on_threads(threads),
             None => Work::quiet(),
         };

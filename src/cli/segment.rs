@@ -1,8 +1,9 @@
 use std::collections::BTreeMap;
-use std::io::Write as _;
 use std::path::PathBuf;
 
 use super::classify::PredictorOptions;
+use super::inputs::from_stdin;
+use super::outputs::{Outputs, must_be_folder};
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::dataset::RoomNetwork;
 use crate::draw::{
@@ -22,7 +23,7 @@ use crate::robot::{
     segment::{Segmentation, segment},
     semantics::{self, DoorSide, SemanticDoor, SemanticMap, SemanticRoom},
 };
-use crate::store::{is_map_yaml, load_map, load_picture_as_map, save_bytes, save_plan};
+use crate::store::{checked_bytes, is_map_yaml, load_map, load_picture_as_map};
 
 /// `enfilade segment`: the rooms of a robot's grid map.
 #[derive(clap::Args)]
@@ -56,9 +57,13 @@ impl Subcommand for SegmentCommand {
     const EXAMPLE: &'static str = "enfilade segment floor.yaml -o floor";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
+        must_be_folder(&self.output)?;
+        self.check()?;
         let schemes = inputs::schemes(&self.scheme)?;
+        let (predictor, models) = self.predictor.read(terminal)?;
         let map = self.load()?;
-        let name = self.map.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let file = from_stdin(&self.map);
+        let name = file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         let semantics_name = format!("{name}_semantics.yaml");
         let before = self.before(&semantics_name)?;
 
@@ -69,7 +74,6 @@ impl Subcommand for SegmentCommand {
             Some(before) => semantics::known_rooms(&map, &segmentation, &rooms, before),
             None => vec![grid_plan::Known::default(); rooms.len()],
         };
-        let (predictor, models) = self.predictor.read(terminal)?;
         let known_doorways = match &before {
             Some(before) => semantics::known_doorways(&doorways, &rooms, &known, before),
             None => vec![String::new(); doorways.len()],
@@ -84,7 +88,8 @@ impl Subcommand for SegmentCommand {
 
         let found = Found { map: &map, rooms: &rooms, doorways: &doorways, room_ids: &room_ids, door_ids: &door_ids };
         let semantic = found.semantics(&format!("{name}.yaml"), &self.frame, &plan, &said);
-        std::fs::create_dir_all(&self.output)?;
+        let mut outputs = Outputs::new(terminal);
+        outputs.folder(&self.output)?;
         let analysis = analyse(&plan, &schemes, NeighbourLabels::True);
         let style = Style { fill: Fill::Prediction, ..Style::default() };
         let furniture = Furniture { title: true, legend: true, scale: true };
@@ -94,8 +99,9 @@ impl Subcommand for SegmentCommand {
             PageSize::Longest(PICTURE_SIDE_PX),
             furniture,
         );
-        save_plan(&self.output.join(format!("{name}.plan.json")), &plan)?;
-        let write = |name: &str, bytes: &[u8]| save_bytes(&self.output.join(name), bytes);
+        let mut write = |name: &str, bytes: &[u8]| outputs.save_in(&self.output, name, bytes, terminal);
+        let plan_name = format!("{name}.plan.json");
+        write(&plan_name, &checked_bytes(&self.output.join(&plan_name), &plan)?)?;
         write(&format!("{name}.png"), &png::png(&scene)?)?;
         write("segmentation.png", &segmentation_png(&map, &segmentation)?)?;
         write(&format!("{name}.pgm"), &map_server::pgm(&map))?;
@@ -105,15 +111,14 @@ impl Subcommand for SegmentCommand {
 
         let kept = known.iter().filter(|known| !known.id.is_empty()).count();
         let update = before.map_or(String::new(), |_| format!(", {kept} of the rooms known before"));
-        writeln!(
-            terminal.out,
+        terminal.report(format!(
             "{}: {}, {}, typology {} ({}){update}",
             self.output.display(),
             counted(rooms.len(), "room"),
             counted(doorways.len(), "doorway"),
             said.choice.set,
             said.choice.because
-        )?;
+        ))?;
         Ok(Outcome::Done)
     }
 }
@@ -127,19 +132,29 @@ fn counted(count: usize, noun: &str) -> String {
 const PICTURE_SIDE_PX: f64 = 1600.0;
 
 impl SegmentCommand {
-    fn load(&self) -> Result<GridMap, CliError> {
+    /// Whether the options fit the map.
+    fn check(&self) -> Result<(), CliError> {
         match (is_map_yaml(&self.map), self.resolution) {
-            (true, None) => Ok(load_map(&self.map)?),
-            (true, Some(_)) => Err(CliError::new(format!(
+            (true, Some(_)) => Err(CliError::call(format!(
                 "{}: says its resolution itself; leave out --resolution",
                 self.map.display()
             ))),
-            (false, Some(resolution)) => Ok(load_picture_as_map(&self.map, resolution, PictureReading::PLAIN_PICTURE)?),
-            (false, None) => Err(CliError::new(format!(
+            (false, None) => Err(CliError::call(format!(
                 "{}: a picture needs --resolution, in metres a pixel (0.05 is usual)",
                 self.map.display()
             ))),
+            (false, Some(resolution)) if !(resolution.is_finite() && resolution > 0.0) => {
+                Err(CliError::call(format!("--resolution {resolution}: metres a pixel are more than 0")))
+            }
+            _ => Ok(()),
         }
+    }
+
+    fn load(&self) -> Result<GridMap, CliError> {
+        Ok(match self.resolution {
+            None => load_map(&self.map)?,
+            Some(resolution) => load_picture_as_map(&from_stdin(&self.map), resolution, PictureReading::PLAIN_PICTURE)?,
+        })
     }
 
     /// The semantic map to take ids from.

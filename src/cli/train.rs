@@ -1,10 +1,11 @@
 use std::collections::BTreeSet;
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::collect::{CollectOptions, Collected, collect, neighbour_labels};
+use super::outputs::{Care, Outputs, is_stdout};
 use super::progress::with_progress;
 use super::{CliError, Outcome, Subcommand, Terminal};
+use crate::base::file_name::component;
 use crate::base::wording::or_words;
 use crate::base::work::Work;
 use crate::classify::{
@@ -89,7 +90,14 @@ impl Subcommand for TrainCommand {
             (None, Collection::Plans(_)) => Method::ALL.to_vec(),
             (None, Collection::Rows(_)) => Algorithm::ALL.map(Method::Each).to_vec(),
         };
-        let is_file = self.output.to_string_lossy().ends_with(MODEL_ENDING);
+        let is_file = is_stdout(&self.output) || self.output.to_string_lossy().ends_with(MODEL_ENDING);
+        let mut outputs = Outputs::new(terminal);
+        for (typology, _) in &parts {
+            // The name of a typology becomes a part of the model's: said before any is learned.
+            component(set_name(typology.as_ref())).map_err(|error| {
+                CliError::new(format!("a model cannot be named after its typology: {error}; change it in the plans"))
+            })?;
+        }
         if is_file && parts.len() * methods.len() > 1 {
             return Err(CliError::new(format!(
                 "{}: is one file, but {} models are to be trained; name a folder, or choose with --algorithm and --typology",
@@ -111,15 +119,15 @@ impl Subcommand for TrainCommand {
                 let path = if is_file {
                     self.output.clone()
                 } else {
-                    self.output.join(format!("{set}-{}{MODEL_ENDING}", method.name()))
+                    outputs.path_in(&self.output, &format!("{set}-{}{MODEL_ENDING}", method.name()))?
                 };
-                write_model(&path, &bytes)?;
+                write_model(&path, &bytes, &mut outputs, terminal)?;
                 let told: Vec<String> = scores
                     .iter()
                     .map(|(by, scores)| format!("{:.1} % by {}", 100.0 * scores.accuracy, by.name()))
                     .collect();
                 let told = if told.is_empty() { "not validated".to_owned() } else { told.join(", ") };
-                writeln!(terminal.out, "{}: {set}, {method}: {told}", path.display())?;
+                terminal.report(format!("{}: {set}, {method}: {told}", path.display()))?;
             }
         }
         if !is_file && self.typology.is_none() && parts.len() > 1 {
@@ -127,8 +135,8 @@ impl Subcommand for TrainCommand {
                 let path = self.output.join("typologies.json");
                 let mut bytes = serde_json::to_vec_pretty(&model.to_value())?;
                 bytes.push(b'\n');
-                write_model(&path, &bytes)?;
-                writeln!(terminal.out, "{}: what tells the typologies apart", path.display())?;
+                write_model(&path, &bytes, &mut outputs, terminal)?;
+                terminal.report(format!("{}: what tells the typologies apart", path.display()))?;
             }
             let mut unknown = serde_json::Map::new();
             for (typology, part) in &parts {
@@ -140,8 +148,8 @@ impl Subcommand for TrainCommand {
                 let path = self.output.join("unknown.json");
                 let mut bytes = serde_json::to_vec(&unknown)?;
                 bytes.push(b'\n');
-                write_model(&path, &bytes)?;
-                writeln!(terminal.out, "{}: what lies behind openings", path.display())?;
+                write_model(&path, &bytes, &mut outputs, terminal)?;
+                terminal.report(format!("{}: what lies behind openings", path.display()))?;
             }
         }
         Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
@@ -205,13 +213,13 @@ impl TrainCommand {
         match result {
             Ok((cells, notes)) => {
                 for note in notes.iter().filter(|note| note.starts_with(&of_part)) {
-                    writeln!(terminal.err, "{note}")?;
+                    terminal.remark(note)?;
                 }
                 let of_cell = |cell: Cell| (Method::Each(cell.algorithm), (cell.condition.by, cell.scores));
                 scores.extend(cells.into_iter().map(of_cell));
             }
             Err(StudyError::Cancelled) => return Err(StudyError::Cancelled.into()),
-            Err(StudyError::Data(what)) => writeln!(terminal.err, "{set}: not validated: {what}")?,
+            Err(StudyError::Data(what)) => terminal.remark(format!("{set}: not validated: {what}"))?,
         }
         if methods.contains(&Method::Joint) {
             let networks: Vec<&RoomNetwork> = part.networks().iter().collect();
@@ -221,7 +229,7 @@ impl TrainCommand {
             });
             match result {
                 Ok(validated) => scores.push((Method::Joint, (Grouping::Building, validated.scores))),
-                Err(error) => writeln!(terminal.err, "{set}, joint classifier: not validated: {error}")?,
+                Err(error) => terminal.remark(format!("{set}, joint classifier: not validated: {error}"))?,
             }
         }
         Ok(scores)
@@ -304,10 +312,9 @@ fn buildings(networks: &[&RoomNetwork]) -> usize {
     labelled.map(|network| network.building.as_str()).collect::<BTreeSet<_>>().len()
 }
 
-fn write_model(path: &Path, bytes: &[u8]) -> Result<(), CliError> {
-    if let Some(folder) = path.parent() {
-        std::fs::create_dir_all(folder)
-            .map_err(|error| CliError::new(format!("{}: {error}; choose another folder", folder.display())))?;
+fn write_model(path: &Path, bytes: &[u8], outputs: &mut Outputs, terminal: &mut Terminal) -> Result<(), CliError> {
+    if let (Some(folder), false) = (path.parent(), is_stdout(path)) {
+        outputs.folder(folder)?;
     }
-    Ok(crate::store::save_bytes(path, bytes)?)
+    outputs.save(path, bytes, Care::Flushed, terminal)
 }

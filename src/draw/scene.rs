@@ -100,7 +100,7 @@ pub enum Layer {
     Graph,
     /// Names and areas; one group per room.
     Names,
-    /// Title, legend, scale bar, north arrow.
+    /// Title, legend, scale bar.
     Sheet,
 }
 

@@ -1,4 +1,5 @@
-//! A plan on a page: title above, scale bar, north arrow and legend below, nothing over the plan.
+//! A plan on a page: title above, scale bar and legend below, nothing over the plan. Plans do not tell where north is,
+//! so neither does the page.
 
 use super::drawing::Drawing;
 use super::font::{CAP_HEIGHT, Font, LINE_HEIGHT};
@@ -22,7 +23,7 @@ pub enum PageSize {
 pub struct Furniture {
     pub title: bool,
     pub legend: bool,
-    /// The scale bar and the north arrow.
+    /// The scale bar.
     pub scale: bool,
 }
 
@@ -128,7 +129,6 @@ pub fn page(drawing: &Drawing, style: &Style, size: PageSize, furniture: Furnitu
     let foot = height - margin;
     if furniture.scale && !drawing.bounds().is_empty() {
         items.extend(scale_bar(palette, &view, Point::new(margin, foot), text));
-        items.extend(north_arrow(palette, Point::new(margin + SCALE_WIDTH * text + 2.2 * text, foot), text));
     }
     items.extend(legend(palette, &entries, &band, width - margin, foot, text));
     if !items.is_empty() {
@@ -273,7 +273,7 @@ struct Band {
 
 impl Band {
     fn new(entries: &[Entry], width: f64, margin: f64, text: f64, has_scale: bool) -> Self {
-        let scale_width = if has_scale { (SCALE_WIDTH + 5.5) * text } else { 0.0 };
+        let scale_width = if has_scale { (SCALE_WIDTH + 3.0) * text } else { 0.0 };
         let scale_height = if has_scale { SCALE_HEIGHT * text } else { 0.0 };
         // Whether there is room for an entry or two.
         let is_stacked = has_scale && !entries.is_empty() && width - 2.0 * margin - scale_width < 22.0 * text;
@@ -419,32 +419,6 @@ fn scale_bar(palette: &Palette, view: &View, foot: Point, text: f64) -> Vec<Item
 fn plain_number(value: f64) -> String {
     let text = format!("{value:.2}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-/// An arrow along the plan's y axis, taken as north; `foot` is the middle of its lower end.
-fn north_arrow(palette: &Palette, foot: Point, text: f64) -> Vec<Item> {
-    let height = 1.35 * text;
-    let half = 0.42 * text;
-    let at = |x: f64, y: f64| Point::new(foot.x + x, foot.y - y);
-    let (tip, notch) = (at(0.0, height), at(0.0, 0.3 * text));
-    vec![
-        Item::Polygon { outer: vec![tip, at(-half, 0.0), notch], holes: Vec::new(), colour: palette.ink },
-        Item::Line {
-            points: vec![tip, at(-half, 0.0), notch, at(half, 0.0)],
-            closed: true,
-            colour: palette.ink,
-            width: Length::Px((text * 0.07).max(1.0)),
-            dash: None,
-        },
-        text_item(
-            at(0.0, height + 0.35 * text),
-            "N".to_owned(),
-            text * 0.88,
-            Weight::SemiBold,
-            palette.ink,
-            Anchor::Middle,
-        ),
-    ]
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ mod bundled;
 mod grid_maps;
 mod journal;
 mod logs;
+mod made;
 mod models;
 pub mod pictures;
 mod plan_file;
@@ -20,6 +21,7 @@ pub use journal::{
     read_journal,
 };
 pub use logs::{LoadedLog, load_log, read_log};
+pub use made::MadeFiles;
 pub use models::{LARGEST_BYTES, MODEL_ENDING, MODELS_VARIABLE, ModelError, load_model, models_folder, models_in};
 pub use plan_file::{checked_bytes, load_plan, save_plan};
 pub use plan_folder::{FoundPlan, plans_below};

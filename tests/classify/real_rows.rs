@@ -24,8 +24,7 @@ pub fn real_rows(folders: &[&str]) -> Option<Vec<Row>> {
     let scratch = tempfile::tempdir().unwrap();
     let file = scratch.path().join("rows.csv");
     let arguments = ["enfilade".into(), "dataset".into(), "-o".into(), file.clone().into_os_string()];
-    let mut terminal =
-        Terminal { out: Box::new(std::io::sink()), err: Box::new(std::io::sink()), is_interactive: false };
+    let mut terminal = Terminal::new(std::io::sink(), std::io::sink());
     let exit = run(arguments.into_iter().chain(folders.into_iter().map(PathBuf::into_os_string)), &mut terminal);
     assert_eq!(exit, 0, "enfilade dataset");
     Some(csv::read(std::fs::read(file).unwrap().as_slice()).unwrap())

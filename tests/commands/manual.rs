@@ -8,8 +8,7 @@ use enfilade::cli::{Terminal, run};
 /// What the program prints, and its exit code.
 fn printed(arguments: &[&str]) -> (String, u8) {
     let out = tempfile::NamedTempFile::new().unwrap();
-    let mut terminal =
-        Terminal { out: Box::new(out.reopen().unwrap()), err: Box::new(std::io::sink()), is_interactive: false };
+    let mut terminal = Terminal::new(out.reopen().unwrap(), std::io::sink());
     let words = ["enfilade", "commands"].iter().chain(arguments).map(std::ffi::OsString::from);
     let code = run(words, &mut terminal);
     drop(terminal);

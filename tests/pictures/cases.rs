@@ -321,7 +321,7 @@ fn titled_offices() -> Sketch {
 }
 
 #[test]
-fn pages_have_title_legend_scale_and_north() {
+fn pages_have_title_legend_and_scale_and_invent_no_north() {
     let size = PageSize::Longest(480.0);
     assert_scene("page", &page(titled_offices(), size, &named()));
     let narrow = PageSize::Exact(330.0, 360.0);
@@ -334,7 +334,9 @@ fn pages_have_title_legend_scale_and_north() {
 fn svg_has_text_ids_and_titles() {
     let layers = Layers { graph: true, ..Layers::default() };
     let scene = page(titled_offices(), PageSize::Longest(480.0), &Style { layers, ..named() });
-    assert_text(&reference("page.svg"), &svg::svg(&scene));
+    let text = svg::svg(&scene);
+    assert!(!text.contains(">N<"), "a north that the plan does not tell");
+    assert_text(&reference("page.svg"), &text);
 }
 
 #[test]

@@ -243,11 +243,7 @@ fn a_log_gives_the_same_files_every_time_packed_or_not() {
 /// The files that `enfilade map` writes, by name.
 fn run(log: &Path, output: &Path) -> BTreeMap<String, Vec<u8>> {
     let arguments = ["enfilade".as_ref(), "map".as_ref(), log.as_os_str(), "-o".as_ref(), output.as_os_str()];
-    let mut terminal = enfilade::cli::Terminal {
-        out: Box::new(std::io::sink()),
-        err: Box::new(std::io::sink()),
-        is_interactive: false,
-    };
+    let mut terminal = enfilade::cli::Terminal::new(std::io::sink(), std::io::sink());
     assert_eq!(enfilade::cli::run(arguments.map(Into::into), &mut terminal), 0);
     let entries = std::fs::read_dir(output).unwrap().map(|entry| entry.unwrap().path());
     entries

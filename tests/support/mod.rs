@@ -37,7 +37,7 @@ impl Sink {
 /// Calls the program as with these words behind its name, and gives its exit code, stdout and stderr.
 pub fn enfilade(words: impl IntoIterator<Item = impl Into<OsString>>) -> (u8, String, String) {
     let (out, err) = (Sink::default(), Sink::default());
-    let mut terminal = Terminal { out: Box::new(out.clone()), err: Box::new(err.clone()), is_interactive: false };
+    let mut terminal = Terminal::new(out.clone(), err.clone());
     let words = std::iter::once(OsString::from("enfilade")).chain(words.into_iter().map(Into::into));
     let code = cli::run(words, &mut terminal);
     (code, out.text(), err.text())

@@ -92,7 +92,9 @@ fn entries(app: &App) -> Vec<Entry> {
         for path in &app.session.list.files {
             let origin = Origin::File { path: path.clone(), storey: 0 };
             let open = document.filter(|document| document.origin.path() == Some(path) && document.storeys.len() > 1);
-            entries.push(Entry::Plan { text: file_name(path), origin });
+            // Of plans in folders below, the way there as well.
+            let within = path.strip_prefix(folder).map_or_else(|_| file_name(path), |way| way.display().to_string());
+            entries.push(Entry::Plan { text: within, origin });
             for (storey, plan) in open.iter().flat_map(|document| document.storeys.iter().enumerate()) {
                 let name = if plan.meta().storey.is_empty() { &plan.meta().name } else { &plan.meta().storey };
                 let text = if name.is_empty() { format!("Plan {}", storey + 1) } else { name.clone() };

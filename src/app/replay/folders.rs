@@ -1,10 +1,12 @@
 //! The folders of a script. It reads what is beside it and never changes that: every file it opens is
 //! first copied to a folder of its own, and all it saves goes there.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use super::fault::Fault;
 use super::words::written;
+use crate::app::session::plan_list::Depth;
+use crate::base::file_name::inner_path;
 use crate::formats;
 use crate::store::save_bytes_fast;
 
@@ -33,10 +35,11 @@ impl Folders {
         }
         let source = self.script.join(path);
         if source.is_dir() {
-            let plans = crate::app::session::plan_list::plans_in(&source);
+            let plans = crate::app::session::plan_list::plans_in(&source, Depth::All);
             std::fs::create_dir_all(&target).map_err(|error| cannot_copy(path, &error.to_string()))?;
             for plan in plans {
-                copy_plan(&plan, &target.join(file_name(&plan))).map_err(|what| cannot_copy(path, &what))?;
+                let within = plan.strip_prefix(&source).map_or_else(|_| file_name(&plan), Path::to_owned);
+                copy_plan(&plan, &target.join(within)).map_err(|what| cannot_copy(path, &what))?;
             }
         } else if source.is_file() {
             copy_plan(&source, &target).map_err(|what| cannot_copy(path, &what))?;
@@ -54,7 +57,7 @@ impl Folders {
     pub(super) fn to_write(&self, path: &str) -> Result<PathBuf, Fault> {
         let target = self.work.join(inner(path).ok_or_else(|| {
             Fault::new(format!("{} leads out of the script's own folder", written(path)))
-                .hint("scripts save nowhere else; enfilade replay --out DIR keeps what they save")
+                .hint("scripts save nowhere else; enfilade replay --output DIR keeps what they save")
         })?);
         if let Some(folder) = target.parent() {
             std::fs::create_dir_all(folder).map_err(|error| Fault::new(format!("{path}: {error}")))?;
@@ -69,15 +72,7 @@ fn cannot_copy(path: &str, what: &str) -> Fault {
 
 /// A relative path that stays inside the folder it starts from.
 pub(super) fn inner(path: &str) -> Option<PathBuf> {
-    let mut inner = PathBuf::new();
-    for component in Path::new(path).components() {
-        match component {
-            Component::Normal(part) => inner.push(part),
-            Component::CurDir => {}
-            _ => return None,
-        }
-    }
-    (!inner.as_os_str().is_empty()).then_some(inner)
+    inner_path(path).ok()
 }
 
 fn file_name(path: &Path) -> PathBuf {

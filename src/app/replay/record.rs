@@ -22,7 +22,7 @@ use crate::app::session::{
     jobs::{Kind, Mode},
     messages::Severity,
     origin::Origin,
-    plan_list,
+    plan_list::{self, Depth},
     questions::Intent,
     wishes::Wish,
 };

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::app::session::jobs::Wanted;
-use crate::app::session::plan_list;
+use crate::app::session::plan_list::{self, Depth};
 use crate::edit;
 use crate::formats::{self, FileError, Note, Place, ReadError};
 use crate::geometry::Bounds;
@@ -34,6 +34,8 @@ pub(crate) struct Opened {
     pub notes: Vec<Note>,
     /// The state of the file when it was read; `None` if it cannot be saved in place.
     pub stamp: Option<Stamp>,
+    /// The folder that was opened, all of whose plans are listed; without it those beside the file are.
+    pub listed: Option<PathBuf>,
     /// The first step of a plan that begins as something else.
     pub begun: Option<Box<Begun>>,
 }
@@ -53,7 +55,14 @@ impl Opened {
     pub(crate) fn untitled() -> Self {
         let scale = Scale { origin: ScaleOrigin::Drawn, ..Scale::default() };
         let plan = edit::set_meta(&Plan::default(), Meta { scale, ..Meta::default() });
-        Self { origin: Origin::Untitled, storeys: vec![plan], notes: Vec::new(), stamp: None, begun: None }
+        Self {
+            origin: Origin::Untitled,
+            storeys: vec![plan],
+            notes: Vec::new(),
+            stamp: None,
+            listed: None,
+            begun: None,
+        }
     }
 }
 
@@ -69,14 +78,17 @@ pub(crate) fn open(origin: Origin) -> Result<Opened, FileError> {
         }
         Origin::Untitled => return Ok(Opened::untitled()),
         Origin::File { path, storey } if path.is_dir() => {
-            let first = plan_list::plans_in(path).into_iter().next();
+            let folder = path.clone();
+            let first = plan_list::plans_in(path, Depth::All).into_iter().next();
             let Some(path) = first else {
                 let what = "there is no plan in this folder".to_owned();
                 let hint = format!("open a plan file; {}", formats::known_formats());
                 let error = ReadError { place: Place::default(), what, hint };
                 return Err(FileError { path: path.clone(), error });
             };
-            return open(Origin::File { path, storey: *storey });
+            let opened = open(Origin::File { path, storey: *storey })?;
+            // With all its plans, not those beside the first only.
+            return Ok(Opened { listed: Some(folder), ..opened });
         }
         Origin::File { path, .. } => {
             // Before reading the plan: a change in between is then noticed when saving, not lost.
@@ -85,7 +97,7 @@ pub(crate) fn open(origin: Origin) -> Result<Opened, FileError> {
             (import.plans, import.notes, stamp)
         }
     };
-    Ok(Opened { origin, storeys, notes, stamp, begun: None })
+    Ok(Opened { origin, storeys, notes, stamp, listed: None, begun: None })
 }
 
 /// Whether a path is a file in Enfilade's own format, which can be saved in place.
@@ -125,7 +137,7 @@ struct Awaited {
 
 impl Document {
     pub(crate) fn new(number: u64, opened: Opened) -> Self {
-        let Opened { origin, storeys, notes, stamp, begun } = opened;
+        let Opened { origin, storeys, notes, stamp, begun, listed: _ } = opened;
         let storey = match origin {
             Origin::Bundled(_) | Origin::Untitled => 0,
             Origin::File { storey, .. } => storey,

@@ -16,7 +16,7 @@ use crate::app::session::{
     jobs::Kind,
     messages::{Message, Remedy, Severity},
     origin::Origin,
-    plan_list,
+    plan_list::{self, Depth},
     questions::{Intent, Question},
     selection::Selection,
 };
@@ -129,7 +129,10 @@ impl Session {
 
     pub(crate) fn show(&mut self, opened: Opened) {
         self.end_journal();
-        let folder = opened.origin.folder().map(Path::to_owned);
+        let folder = opened.listed.clone().map(|folder| (folder, Depth::All)).or_else(|| {
+            let folder = opened.origin.folder().map(Path::to_owned)?;
+            Some(self.list.listed_for(folder))
+        });
         self.selection = Selection::default();
         self.field = None;
         self.wishes.push(Wish::ForgetPlan);
@@ -145,15 +148,15 @@ impl Session {
         self.ghost = below.map(|below| Ghost::new(below, None, &self.schemes));
         self.documents += 1;
         self.document = Some(Document::new(self.documents, opened));
-        if let Some(folder) = folder {
-            self.list_folder(folder);
+        if let Some((folder, depth)) = folder {
+            self.list_folder(folder, depth);
         }
     }
 
-    fn list_folder(&mut self, folder: PathBuf) {
+    fn list_folder(&mut self, folder: PathBuf, depth: Depth) {
         self.jobs.start(Kind::new("list the plans of a folder").newest_of("list of plans"), move |_| {
-            let files = plan_list::plans_in(&folder);
-            move |session: &mut Session, _: &_| session.list.set_folder(folder, files)
+            let files = plan_list::plans_in(&folder, depth);
+            move |session: &mut Session, _: &_| session.list.set_folder(folder, depth, files)
         });
     }
 
@@ -271,8 +274,8 @@ impl Session {
                     document.was_saved(plan, path, stamp);
                     self.is_saved(context);
                 }
-                if let Some(folder) = folder {
-                    self.list_folder(folder);
+                if let Some((folder, depth)) = folder.map(|folder| self.list.listed_for(folder)) {
+                    self.list_folder(folder, depth);
                 }
                 // Asks again if there were changes since.
                 if let Some(intent) = then {

@@ -10,14 +10,34 @@ use crate::store;
 #[derive(Debug, Default)]
 pub(crate) struct PlanList {
     pub folder: Option<PathBuf>,
+    pub depth: Depth,
     /// The plans in it, in natural order of their names.
     pub files: Vec<PathBuf>,
 }
 
+/// Which plans of a folder are listed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Depth {
+    /// Those in the folder itself: beside a file that was opened.
+    #[default]
+    One,
+    /// All below it: of a folder that was opened.
+    All,
+}
+
 impl PlanList {
-    pub(crate) fn set_folder(&mut self, folder: PathBuf, files: Vec<PathBuf>) {
+    pub(crate) fn set_folder(&mut self, folder: PathBuf, depth: Depth, files: Vec<PathBuf>) {
         self.folder = Some(folder);
+        self.depth = depth;
         self.files = files;
+    }
+
+    /// What is listed for a plan's folder: the same as now where that holds the folder already.
+    pub(crate) fn listed_for(&self, folder: PathBuf) -> (PathBuf, Depth) {
+        match &self.folder {
+            Some(listed) if self.depth == Depth::All && folder.starts_with(listed) => (listed.clone(), Depth::All),
+            _ => (folder, Depth::One),
+        }
     }
 
     /// How many plans are listed, bundled ones included.
@@ -46,13 +66,14 @@ impl PlanList {
 /// The most plans listed from one folder: nobody reads a longer list.
 const LIST_LIMIT: usize = 20_000;
 
-/// The plan files in a folder, in natural order of their names; none when it cannot be read.
-pub(crate) fn plans_in(folder: &Path) -> Vec<PathBuf> {
+/// The plan files in a folder, in natural order of their paths; none when it cannot be read.
+pub(crate) fn plans_in(folder: &Path, depth: Depth) -> Vec<PathBuf> {
     let listed = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let found = store::plans_below(listed, 1, |_| false).filter(|found| found.problem.is_none());
+    let folders_deep = if depth == Depth::All { usize::MAX } else { 1 };
+    let found = store::plans_below(listed, folders_deep, |_| false).filter(|found| found.problem.is_none());
     let mut files: Vec<PathBuf> = found
         .filter(|found| found.path.exists())
-        .filter_map(|found| Some(folder.join(found.path.file_name()?)))
+        .filter_map(|found| Some(folder.join(found.path.strip_prefix(listed).ok()?)))
         .take(LIST_LIMIT)
         .collect();
     files.sort_by_cached_key(|path| NaturalKey::of(&path.to_string_lossy()));

@@ -124,6 +124,7 @@ impl Session {
             storeys: vec![recovered.base().clone()],
             notes: Vec::new(),
             stamp: recovered.start.stamp,
+            listed: None,
             begun: None,
         };
         let changes = crate::base::wording::count(recovered.history.position(), "change");

@@ -4,7 +4,6 @@ use super::super::batch::Input;
 use super::super::{CliError, Terminal};
 use crate::formats::{self, Note};
 use crate::plan::Plan;
-use std::io::Write as _;
 use std::path::PathBuf;
 
 /// A file to import.
@@ -85,17 +84,16 @@ impl File {
 
     pub(super) fn report_errors(&self, terminal: &mut Terminal) -> Result<(), CliError> {
         if let Content::Failed(error) = &self.content {
-            writeln!(terminal.err, "enfilade: {error}")?;
+            terminal.error(error)?;
         }
         for plan in self.plans() {
             match &plan.state {
-                State::Kept => writeln!(
-                    terminal.err,
-                    "enfilade: {}: kept: it differs from what {} gives; --force replaces it",
+                State::Kept => terminal.error(format!(
+                    "{}: kept: it differs from what {} gives; --force replaces it",
                     plan.target.display(),
                     self.job.input.path.display()
-                )?,
-                State::NotSaved(why) => writeln!(terminal.err, "enfilade: {why}")?,
+                ))?,
+                State::NotSaved(why) => terminal.error(why)?,
                 State::Waiting | State::Written | State::Unchanged => {}
             }
         }

@@ -187,6 +187,7 @@ pub(super) fn print_outcome(files: &[File], output: &Path, terminal: &mut Termin
 /// The report for machines.
 #[derive(Serialize)]
 pub(super) struct Report {
+    version: u32,
     total: Counts,
     folders: Vec<FolderReport>,
     files: Vec<FileReport>,
@@ -249,7 +250,7 @@ impl Report {
     pub(super) fn new(files: &[File]) -> Self {
         let (folders, total) = counts(files);
         let folders = folders.into_iter().map(|(folder, counts)| FolderReport { folder, counts }).collect();
-        Self { total, folders, files: files.iter().map(FileReport::new).collect() }
+        Self { version: 1, total, folders, files: files.iter().map(FileReport::new).collect() }
     }
 }
 

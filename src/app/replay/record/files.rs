@@ -28,7 +28,7 @@ impl Files {
     pub(super) fn add_file(&mut self, path: &Path) -> Option<String> {
         if path.is_dir() {
             // A folder stands for its first plan.
-            return self.add_file(plan_list::plans_in(path).first().filter(|plan| plan.is_file())?);
+            return self.add_file(plan_list::plans_in(path, Depth::All).first().filter(|plan| plan.is_file())?);
         }
         let bytes = formats::read_bytes(path).ok()?;
         let folder = path.parent().unwrap_or(Path::new(""));

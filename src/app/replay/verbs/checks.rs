@@ -11,6 +11,7 @@ use crate::app::replay::snapshot::{self, Look, Region};
 use crate::app::replay::stage::{Stage, count};
 use crate::app::replay::verbs::window::{is_dark, scale, size};
 use crate::app::replay::words::{Words, did_you_mean, in_quotes, told, written};
+use crate::base::file_name::inner_path;
 use crate::features::RoomStatus;
 use crate::formats::{self, plan_json};
 use crate::labels::Label;
@@ -391,10 +392,12 @@ fn present(words: &mut Words<'_>) -> Result<bool, String> {
     choice(words.text("present or absent")?, [("present", true), ("absent", false)])
 }
 
-/// The file behind `equals`.
+/// The file behind `equals`, from the script's folder.
 fn equals(words: &mut Words<'_>) -> Result<PathBuf, String> {
     if words.keyword("equals") {
-        Ok(PathBuf::from(words.text("the file")?))
+        // It is written with --update: nowhere but beside the script.
+        inner_path(words.text("the file")?)
+            .map_err(|error| format!("{error}; what is expected lies beside the script, or in a folder there"))
     } else {
         Err("equals and a file are missing".to_owned())
     }
