@@ -1,8 +1,22 @@
 //! Enfilade: draw and label floor plans, classify their rooms by building typology, export datasets.
 //!
-//! The pipeline is a pure function from a [`plan::Plan`] to rooms, openings, a graph and the
-//! features `F_r` of every room. Arrows point up: `geometry` knows nothing, `plan` knows geometry,
-//! and so on to `app` and `cli`, which know everything.
+//! Three lines from a file to labels:
+//!
+//! ```
+//! let plan = enfilade::open("plans/office.plan.json")?;
+//! let features = plan.analyse();
+//! let labels = plan.classify()?;
+//! # assert_eq!(features.rooms.len(), plan.plan().rooms().len());
+//! # assert!(!labels.labels().is_empty());
+//! # Ok::<(), enfilade::Error>(())
+//! ```
+//!
+//! Below that, the pipeline is a pure function from a [`plan::Plan`] to rooms, openings, a graph and the features `F_r` of
+//! every room. `geometry` knows nothing, `plan` knows geometry, and so on up to the window (`app`) and the command line
+//! (`cli`), which know everything.
+//!
+//! Cargo features, all on by default: `cli` (the command line, which the program needs), `gui` (the window), `pictures`
+//! (readers of scans to trace over). `default-features = false` gives the library alone.
 
 #[cfg(feature = "gui")]
 pub mod app;
@@ -14,6 +28,7 @@ pub mod cli;
 pub mod dataset;
 pub mod draw;
 pub mod edit;
+mod facade;
 pub mod features;
 pub mod formats;
 pub mod geometry;
@@ -27,3 +42,5 @@ pub mod snapping;
 pub mod store;
 pub mod study;
 pub mod topology;
+
+pub use facade::{Error, OpenPlan, open, open_all};

@@ -8,6 +8,7 @@ mod backdrop;
 mod bundled_plans;
 mod check;
 mod classify;
+mod commandline;
 mod edits;
 mod faces;
 mod features;

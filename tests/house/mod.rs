@@ -21,6 +21,7 @@ const FLOORS: &[&[&str]] = &[
     &["robot"],
     &["predict", "store", "study"],
     &["pipeline"],
+    &["facade"],
     &["app/look"],
     &["app/paint"],
     &["app/session", "app/value"],

@@ -4,6 +4,8 @@ mod charts;
 mod page;
 mod tables;
 
+use serde::Serialize;
+
 use super::{Study, set_title};
 use crate::classify::Algorithm;
 
@@ -12,13 +14,22 @@ use crate::classify::Algorithm;
 /// # Errors
 /// When a table cannot be written, which only lack of memory could cause.
 pub fn files(study: &Study) -> Result<Vec<(String, Vec<u8>)>, std::io::Error> {
-    let mut json = serde_json::to_vec_pretty(study)?;
+    let mut json = serde_json::to_vec_pretty(&Versioned { version: 1, study })?;
     json.push(b'\n');
     let mut files = vec![("report.html".to_owned(), page::page(study).into_bytes()), ("report.json".to_owned(), json)];
     for (name, table) in tables::tables(study) {
         files.push((format!("{name}.csv"), table.csv().map_err(std::io::Error::other)?));
     }
     Ok(files)
+}
+
+/// The report for machines.
+#[derive(Serialize)]
+struct Versioned<'a> {
+    /// Of the form of `report.json`.
+    version: u32,
+    #[serde(flatten)]
+    study: &'a Study,
 }
 
 /// The accuracies under the main condition in a few lines of text, for a terminal.
