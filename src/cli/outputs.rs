@@ -27,6 +27,8 @@ pub enum Care {
 pub struct Outputs {
     made: MadeFiles,
     force: bool,
+    /// Files of which what people wrote there was read, and is written again.
+    taken_over: Vec<PathBuf>,
     /// The files written by now, in lower case, since some systems do not tell them apart; and from what.
     written: BTreeMap<String, PathBuf>,
 }
@@ -34,7 +36,12 @@ pub struct Outputs {
 impl Outputs {
     /// Of the subcommand that runs.
     pub fn new(terminal: &Terminal) -> Self {
-        Self { made: MadeFiles::by(terminal.call.command), force: terminal.call.force, written: BTreeMap::new() }
+        Self {
+            made: MadeFiles::by(terminal.call.command),
+            force: terminal.call.force,
+            taken_over: Vec::new(),
+            written: BTreeMap::new(),
+        }
     }
 
     /// Whether something was written there by this call.
@@ -88,7 +95,12 @@ impl Outputs {
 
     /// Whether a file may be written there.
     pub fn may_replace(&mut self, path: &Path, bytes: &[u8]) -> bool {
-        self.force || self.made.may_replace(path, bytes)
+        self.force || self.taken_over.iter().any(|taken| taken == path) || self.made.may_replace(path, bytes)
+    }
+
+    /// Lets a file be replaced whose content the command has read and keeps.
+    pub fn take_over(&mut self, path: PathBuf) {
+        self.taken_over.push(path);
     }
 
     fn refusal(&self, path: &Path, terminal: &Terminal) -> String {

@@ -90,6 +90,10 @@ impl Subcommand for SegmentCommand {
         let semantic = found.semantics(&format!("{name}.yaml"), &self.frame, &plan, &said);
         let mut outputs = Outputs::new(terminal);
         outputs.folder(&self.output)?;
+        if before.is_some() && self.update.is_none() {
+            // What people wrote into it stays in it.
+            outputs.take_over(self.output.join(&semantics_name));
+        }
         let analysis = analyse(&plan, &schemes, NeighbourLabels::True);
         let style = Style { fill: Fill::Prediction, ..Style::default() };
         let furniture = Furniture { title: true, legend: true, scale: true };

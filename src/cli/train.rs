@@ -78,6 +78,7 @@ impl Subcommand for TrainCommand {
     const EXAMPLE: &'static str = "enfilade train schools --algorithm tree --typology school -o school.model.json";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
+        self.check()?;
         let Collected { collection, blind, failed } = collect(&self.collect, self.seed, terminal)?;
         let parts = self.parts(&collection)?;
         let methods: Vec<Method> = match (self.algorithm, &collection) {
@@ -157,6 +158,25 @@ impl Subcommand for TrainCommand {
 }
 
 impl TrainCommand {
+    /// What is wrong with the call, whatever the data hold.
+    fn check(&self) -> Result<(), CliError> {
+        let is_file = is_stdout(&self.output) || self.output.to_string_lossy().ends_with(MODEL_ENDING);
+        if is_file && self.algorithm.is_none() {
+            return Err(CliError::call(format!(
+                "-o {}: is one file, but a model of each algorithm is to be trained; name a folder, or choose with \
+                 --algorithm",
+                self.output.display()
+            )));
+        }
+        let is_table = |path: &PathBuf| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+        if self.algorithm == Some(Method::Joint) && self.collect.data.iter().all(is_table) {
+            return Err(CliError::call(
+                "rows of a dataset file do not tell which rooms belong together; give the plans instead",
+            ));
+        }
+        Ok(())
+    }
+
     /// The parts of the data to learn from; `None` is the typology of a standard model.
     fn parts(&self, collection: &Collection) -> Result<Vec<(Option<Typology>, Collection)>, CliError> {
         let typologies = collection.typologies();

@@ -251,6 +251,10 @@ fn results_replace_only_what_the_same_command_made() {
 
         // Somebody works on them.
         for (path, bytes) in &first {
+            // A semantic map is there to be worked on: what people write into it is taken over.
+            if path.to_string_lossy().ends_with("_semantics.yaml") {
+                continue;
+            }
             let mut changed = bytes.clone();
             changed.extend_from_slice(b"\nmine\n");
             std::fs::write(path, changed).unwrap();

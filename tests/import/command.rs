@@ -147,7 +147,7 @@ fn wrong_calls_say_what_is_wrong() {
         (&["empty", "-o", "out"], 1, "empty: no plan files in this folder"),
         (&["missing.xml", "-o", "out"], 1, "missing.xml: No such file"),
         (&["picture.png", "-o", "out"], 1, "picture.png: is of no known plan format; known are"),
-        (&["x.xml", "-o", "x.xml"], 1, "x.xml: File exists"),
+        (&["x.xml", "-o", "x.xml"], 2, "x.xml: is a file; name a folder"),
     ] {
         let output = import(folder.path(), arguments);
         assert_eq!(output.status.code(), Some(code), "{arguments:?}");

@@ -49,9 +49,9 @@ fn wrong_calls_and_wrong_input_say_what_to_do() {
     let cases: [(&[&Path], u8, &str); 5] = [
         (&[&office, Path::new("-o"), &out("a.png"), Path::new("--size"), Path::new("100000")], 2, "outside 16 to 8192"),
         (&[&office, Path::new("-o"), &out("a.png"), Path::new("--size"), Path::new("big")], 2, "no number of pixels"),
-        (&[&office, Path::new("-o"), &out("a.bmp")], 1, "pictures end in .png or .svg"),
+        (&[&office, Path::new("-o"), &out("a.bmp")], 2, "pictures end in .png or .svg"),
         (&[&out("missing.plan.json"), Path::new("-o"), &out("a.png")], 1, "missing.plan.json"),
-        (&[&office, &office, Path::new("-o"), &out("a.png")], 1, "written twice"),
+        (&[&office, &office, Path::new("-o"), &out("a.png")], 2, "is one picture, but 2 plans"),
     ];
     for (arguments, expected, word) in cases {
         let (code, _, err) = render(arguments);

@@ -147,7 +147,7 @@ fn what_is_no_map_is_refused_with_file_reason_and_help() {
     refused(&YAML.replace("0.05", "-1"), Some(b"P5\n1 1\n255\n\xfe"), &["resolution"]);
     let picture = folder.path().join("floor.pgm");
     let (code, _, err) = enfilade(["segment", picture.to_str().unwrap(), "-o", "nowhere"]);
-    assert!(code == 1 && err.contains("--resolution"), "{err}");
+    assert!(code == 2 && err.contains("--resolution"), "{err}");
 }
 
 #[test]

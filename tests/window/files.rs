@@ -75,6 +75,29 @@ fn files_come_by_path_by_dialog_by_drop_and_by_list() {
 }
 
 #[test]
+#[expect(clippy::disallowed_methods, reason = "a test's files are no user's")]
+fn a_folder_opens_with_all_plans_below_it() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, (_, text)) in ["east/a.plan.json", "west/deep/b.plan.json"].into_iter().zip(&BUNDLED[..2]) {
+        let path = folder.path().join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
+    }
+    // Links in a circle end nothing.
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("..", folder.path().join("east/round")).unwrap();
+    let mut window = open(folder.path());
+    assert_eq!(name(&window), "Office on a corner");
+    press(&mut window, "west/deep/b.plan.json");
+    window.settle().unwrap();
+    assert_eq!(name(&window), "School round a court");
+    // The list stays that of the folder that was opened.
+    press(&mut window, "east/a.plan.json");
+    window.settle().unwrap();
+    assert_eq!(name(&window), "Office on a corner");
+}
+
+#[test]
 fn what_cannot_be_opened_is_said_and_nothing_is_lost() {
     let folder = folder();
     let mut window = window_with("dwelling");
