@@ -145,6 +145,8 @@ struct Call {
     force: bool,
     /// Threads to work on; as many as there are processors without.
     jobs: Option<usize>,
+    /// Whether a result went to stdout: then nothing else does.
+    out_is_result: bool,
 }
 
 impl Terminal {
@@ -194,11 +196,14 @@ impl Terminal {
         if self.call.verbose { self.remark(what) } else { Ok(()) }
     }
 
-    /// Says on stdout what was done, in one line; not with `--quiet`.
+    /// Says on stdout what was done, in one line, or on stderr when a result is on stdout; not with `--quiet`.
     ///
     /// # Errors
-    /// When stdout cannot be written.
+    /// When it cannot be written.
     pub fn report(&mut self, what: impl Display) -> std::io::Result<()> {
+        if self.call.out_is_result {
+            return self.remark(what);
+        }
         if self.call.quiet {
             return Ok(());
         }
@@ -234,6 +239,7 @@ const fn entry<S: Subcommand>() -> Entry {
                 quiet: flag("quiet"),
                 verbose: flag("verbose"),
                 force: flag("force"),
+                out_is_result: false,
                 jobs: matches.try_get_one::<u16>("jobs").ok().flatten().map(|&jobs| usize::from(jobs)),
             };
             terminal.is_interactive &= !terminal.call.quiet;

@@ -78,6 +78,7 @@ impl Outputs {
             )));
         }
         if is_stdout(path) {
+            terminal.call.out_is_result = true;
             write_out(bytes, terminal)?;
         } else {
             if !self.may_replace(path, bytes) {

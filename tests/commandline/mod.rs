@@ -64,10 +64,10 @@ struct Workshop(tempfile::TempDir);
 /// Two rooms of 4 x 3 m with a door between them, labelled.
 fn small_plan(name: &str) -> enfilade::plan::Plan {
     let text = format!(
-        r#"{{"type":"FeatureCollection","enfilade":{{"name":"{name}","typology":"school"}},"features":[
-{{"type":"Feature","geometry":{{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,3],[0,3],[0,0]]]}},"properties":{{"element":"room","name":"{name} one","function":"classroom","label":"M"}}}},
-{{"type":"Feature","geometry":{{"type":"Polygon","coordinates":[[[4,0],[8,0],[8,3],[4,3],[4,0]]]}},"properties":{{"element":"room","name":"two","function":"corridor","label":"C"}}}},
-{{"type":"Feature","geometry":{{"type":"LineString","coordinates":[[4,1],[4,2]]}},"properties":{{"element":"opening","kind":"door"}}}}]}}"#
+        r#"{{"type":"FeatureCollection","units":"m","name":"{name}","typology":"school","features":[
+{{"type":"Feature","geometry":{{"type":"Polygon","coordinates":[[[0,0],[4,0],[4,3],[0,3],[0,0]]]}},"properties":{{"kind":"room","name":"{name} one","function":"classroom","label":"M"}}}},
+{{"type":"Feature","geometry":{{"type":"Polygon","coordinates":[[[4,0],[8,0],[8,3],[4,3],[4,0]]]}},"properties":{{"kind":"room","name":"two","function":"corridor","label":"C"}}}},
+{{"type":"Feature","geometry":{{"type":"LineString","coordinates":[[4,1],[4,2]]}},"properties":{{"kind":"opening","opening":"door"}}}}]}}"#
     );
     let import = enfilade::formats::read_from(Path::new("small.geojson"), text.as_bytes()).unwrap();
     import.plans.into_iter().next().unwrap()
