@@ -16,7 +16,8 @@
 //! (`cli`), which know everything.
 //!
 //! Cargo features, all on by default: `cli` (the command line, which the program needs), `gui` (the window), `pictures`
-//! (readers of scans to trace over). `default-features = false` gives the library alone.
+//! (readers of scans to trace over; the other two bring it
+//! along). `default-features = false` gives the library alone.
 
 #[cfg(feature = "gui")]
 pub mod app;

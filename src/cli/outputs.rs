@@ -175,7 +175,8 @@ pub fn must_be_folder(output: &Path) -> Result<(), CliError> {
 /// Writes a result to stdout: text by the door, all else as it is.
 fn write_out(bytes: &[u8], terminal: &mut Terminal) -> Result<(), CliError> {
     let is_text = !bytes.contains(&0) && std::str::from_utf8(bytes).is_ok();
-    Ok(if is_text { terminal.out.write_all(bytes)? } else { terminal.out.write_binary(bytes)? })
+    let written = if is_text { terminal.out.write_all(bytes) } else { terminal.out.write_binary(bytes) };
+    Ok(written?)
 }
 
 fn key(path: &Path) -> String {

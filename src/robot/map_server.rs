@@ -1,8 +1,10 @@
 //! Maps in the format of the ROS `map_server`: a YAML description and a picture, from bytes and to bytes.
 //! Format: wiki.ros.org/map_server and `nav2_map_server` (map_io.cpp).
 
+#[cfg(feature = "pictures")]
 use std::io::Cursor;
 
+#[cfg(feature = "pictures")]
 use image::{ImageDecoder as _, ImageReader, Limits};
 use serde::Deserialize;
 
@@ -172,12 +174,14 @@ fn check_is_beside(image: &str) -> Result<(), MapServerError> {
 }
 
 /// Decoders may take so many bytes: the most cells in four channels of 16 bits.
+#[cfg(feature = "pictures")]
 const DECODER_BYTES: u64 = super::grid_map::MOST_CELLS as u64 * 8;
 
 /// Reads a map's picture: PGM (P2 or P5), PNG, or another known format.
 ///
 /// # Errors
 /// When it is no such picture, is cut short, or has too many pixels.
+#[cfg(feature = "pictures")]
 pub fn picture_cells(bytes: &[u8], reading: PictureReading) -> Result<(usize, usize, Vec<Cell>), MapServerError> {
     reading.check()?;
     let no_picture = |error: image::ImageError| {
@@ -219,6 +223,7 @@ pub fn picture_cells(bytes: &[u8], reading: PictureReading) -> Result<(usize, us
 }
 
 /// `shade` is from 0, black, to 1, white.
+#[cfg(feature = "pictures")]
 fn cell(shade: f64, is_opaque: bool, reading: PictureReading) -> Cell {
     let taken = match reading.mode {
         MapMode::Trinary => None,

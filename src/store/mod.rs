@@ -2,11 +2,13 @@
 //! journal of unsaved changes.
 
 mod bundled;
+#[cfg(feature = "pictures")]
 mod grid_maps;
 mod journal;
 mod logs;
 mod made;
 mod models;
+#[cfg(feature = "pictures")]
 pub mod pictures;
 mod plan_file;
 mod plan_folder;
@@ -15,6 +17,7 @@ mod schemes;
 mod stamp;
 
 pub use bundled::{BUNDLED, bundled_plans};
+#[cfg(feature = "pictures")]
 pub use grid_maps::{MapFileError, is_map_yaml, load_map, load_picture_as_map};
 pub use journal::{
     Journal, JournalFailure, JournalStart, Leftover, Predecessor, Recovered, STATE_VARIABLE, journal_folder, leftovers,
