@@ -30,7 +30,7 @@ pub struct Context<'a> {
     /// The openings with a length.
     pub openings: Vec<PlacedOpening<'a>>,
     /// How many times too long the plan's lengths seem, judging by its rooms' areas, and from how many
-    /// rooms, see [`sizes::length_factor`].
+    /// rooms, see `sizes::length_factor`.
     pub length_factor: Option<(f64, usize)>,
 }
 

@@ -8,7 +8,7 @@ use crate::plan::{ElementId, THICKEST_WALL_M};
 pub struct OpeningIsFarFromItsRooms {
     pub opening: OpeningName,
     pub room: RoomName,
-    /// From the opening's middle to the room, in metres; `None` if beyond [`LOOK_M`].
+    /// From the opening's middle to the room, in metres; `None` if beyond `LOOK_M`.
     pub distance_m: Option<f64>,
     pub at: Point,
 }

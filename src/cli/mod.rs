@@ -1,4 +1,4 @@
-//! The command line. One file per subcommand, and one line in [`SUBCOMMANDS`] to register it.
+//! The command line. One file per subcommand, and one line in `SUBCOMMANDS` to register it.
 
 mod batch;
 mod check;

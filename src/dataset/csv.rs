@@ -51,7 +51,7 @@ impl fmt::Display for CsvError {
 
 impl std::error::Error for CsvError {}
 
-/// Reads rows written by [`write`]; columns may come in any order and others are passed over.
+/// Reads rows written by `write`; columns may come in any order and others are passed over.
 /// `plan`, `building`, `typology`, `room` and `function` may be missing.
 ///
 /// # Errors

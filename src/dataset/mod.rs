@@ -25,7 +25,7 @@ pub struct Row {
     /// Its building: the unit that cross-validation must never split.
     pub building: String,
     pub typology: Option<Typology>,
-    /// What the room is called, see [`room_keys`].
+    /// What the room is called, see `room_keys`.
     pub room: String,
     pub function: String,
     /// The true label.
@@ -65,7 +65,7 @@ impl LeftOut {
     }
 }
 
-/// The labelled rooms of a plan as rows, in the order of [`room_keys`]; omissions are counted in
+/// The labelled rooms of a plan as rows, in the order of `room_keys`; omissions are counted in
 /// `left_out`.
 pub fn rows(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels, left_out: &mut LeftOut) -> Vec<Row> {
     let network = RoomNetwork::new(plan, schemes);

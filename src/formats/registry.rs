@@ -98,7 +98,7 @@ impl Head<'_> {
 pub enum Recognition {
     /// It is not.
     No,
-    /// It is not, although its name suggests it; the text says what it is: 'XML with the root <svg>'.
+    /// It is not, although its name suggests it; the text says what it is: 'XML with the root `<svg>`'.
     /// Skipped when importing a folder.
     Foreign(String),
     /// Possibly, but not certainly: only the name fits, or it is damaged.

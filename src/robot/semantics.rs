@@ -247,7 +247,7 @@ pub fn known_doorways(
     ids
 }
 
-/// A point in a room as far from its rings as possible, to [`CENTRE_PRECISION_M`]: the best of a grid of
+/// A point in a room as far from its rings as possible, to `CENTRE_PRECISION_M`: the best of a grid of
 /// points, refined around it.
 pub fn centre(room: &GridRoom) -> Point {
     const CENTRE_PRECISION_M: f64 = 0.05;

@@ -93,7 +93,7 @@ pub struct Study {
 /// A data set.
 #[derive(Clone, Debug, Serialize)]
 pub struct Set {
-    /// A typology, or [`STANDARD`].
+    /// A typology, or `STANDARD`.
     pub name: String,
     pub rooms: usize,
     pub plans: usize,

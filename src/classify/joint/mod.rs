@@ -2,8 +2,8 @@
 //! readers in `docs/joint.md`, with its gains and what did not help.
 //!
 //! It has two rounds. In the first, a forest of random trees looks at each room's size, form and openings
-//! in relation to the rest of its plan ([`view`]); it knows no labels. In the second, another forest also
-//! sees what the first predicted for the surrounding rooms, or labels given by the user ([`around`]), so
+//! in relation to the rest of its plan (`view`); it knows no labels. In the second, another forest also
+//! sees what the first predicted for the surrounding rooms, or labels given by the user (`around`), so
 //! that the labels of a plan agree. The second forest is trained on predictions of forests that had not
 //! seen the building, as in use; and in half of its examples some rooms are known, so that it learns how
 //! much to trust known labels.

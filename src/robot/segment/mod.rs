@@ -3,8 +3,8 @@
 //! method, reported separately (`docs/robot-maps.md`).
 //!
 //! Clutter is removed by size; the free space is cut wherever the free end of a wall faces another wall
-//! across a gap ([`wall_ends`]) and wherever it is narrow ([`narrows`]); then pieces are rejoined across
-//! cuts that are neither narrow nor continue a wall between them ([`regions`]).
+//! across a gap (`wall_ends`) and wherever it is narrow (`narrows`); then pieces are rejoined across
+//! cuts that are neither narrow nor continue a wall between them (`regions`).
 
 mod contours;
 mod distance;
