@@ -65,7 +65,7 @@ pub fn open_all(path: impl AsRef<Path>) -> Result<Vec<OpenPlan>, Error> {
 }
 
 /// A plan, and by which label schemes its rooms are read.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct OpenPlan {
     plan: Plan,
     notes: Vec<Note>,
@@ -117,7 +117,7 @@ impl OpenPlan {
     /// // As if nobody had labelled a room.
     /// let labels = plan.classify_as(&Asked { hides_labels: true, ..Asked::default() })?;
     /// println!("{}", labels.agreement());
-    /// # assert!(labels.agreement().known == 0);
+    /// # assert!(labels.agreement().known > labels.agreement().right);
     /// # Ok::<(), enfilade::Error>(())
     /// ```
     ///
