@@ -28,6 +28,8 @@ use std::path::PathBuf;
 
 use clap::{ArgMatches, Args, Command};
 
+use crate::store::pictures;
+
 /// All subcommands, in the order of the help.
 #[rustfmt::skip] // one line each
 const SUBCOMMANDS: &[Entry] = &[
@@ -153,6 +155,10 @@ const fn entry<S: Subcommand>() -> Entry {
 /// Runs the program with the process's arguments and gives its exit code: 0 done, 1 the input is
 /// wrong, 2 the call is wrong.
 pub fn main() -> u8 {
+    if let Some(code) = pictures::answer_if_asked() {
+        return code;
+    }
+    pictures::decode_by_this_program();
     run(std::env::args_os(), &mut Terminal::standard())
 }
 
