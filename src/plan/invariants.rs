@@ -8,8 +8,8 @@ use super::{
 use crate::geometry::COORDINATE_LIMIT_M;
 use crate::geometry::Point;
 
-/// An invariant of the model that a plan breaks: never a matter of taste (those are checks), always
-/// a bug of an edit or a damaged file.
+/// A broken invariant of the model: never a matter of taste (those are checks), always a bug in an edit
+/// or a damaged file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Violation {
     pub element: ElementId,
@@ -23,7 +23,7 @@ impl fmt::Display for Violation {
 }
 
 impl Plan {
-    /// Everything that breaks an invariant, by element; empty for every plan an edit may return:
+    /// All broken invariants, by element; empty for every plan an edit may return:
     ///
     /// - positions are finite, within [`COORDINATE_LIMIT_M`], and on the 0.1 mm grid;
     /// - a wall joins two different corners that exist, its thickness is within 0..=10 m;
