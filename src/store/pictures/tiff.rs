@@ -134,7 +134,7 @@ impl Unusual {
         if samples > 1 && directory.number(PLANAR_CONFIGURATION) == Some(2) {
             return Err(unsupported("its channels lie apart"));
         }
-        announce(u64::from(width) * u64::from(height) * 8);
+        announce(u64::from(width) * u64::from(height) * 4);
         let row_bytes = (u64::from(width) * u64::from(bits * samples)).div_ceil(8) as usize;
         let rows = self.rows(bytes, directory, row_bytes)?;
         let most = (1u32 << bits) - 1;
@@ -144,11 +144,12 @@ impl Unusual {
         Ok(match photometric {
             PALETTE => {
                 let colours = palette(directory, bits)?;
-                let data: Option<Vec<u8>> = pixels
-                    .map(|[index, ..]| colours.get(index as usize))
-                    .collect::<Option<Vec<_>>>()
-                    .map(|colours| colours.into_iter().flatten().copied().collect());
-                let data = data.ok_or_else(|| damaged("a pixel has a colour that the palette lacks"))?;
+                let mut data = Vec::with_capacity(width as usize * height as usize * 3);
+                for [index, ..] in pixels {
+                    let colour = colours.get(index as usize);
+                    let colour = colour.ok_or_else(|| damaged("a pixel has a colour that the palette lacks"))?;
+                    data.extend_from_slice(colour);
+                }
                 DynamicImage::ImageRgb8(whole(RgbImage::from_raw(width, height, data))?)
             }
             WHITE_IS_ZERO | BLACK_IS_ZERO => {
