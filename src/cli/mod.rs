@@ -38,6 +38,8 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command};
 pub use door::Door;
 use door::{Paint, one_line};
 
+use crate::store::pictures;
+
 /// All subcommands, in the order of the help.
 #[rustfmt::skip] // one line each
 const SUBCOMMANDS: &[Entry] = &[
@@ -277,6 +279,10 @@ fn with_common_options(command: Command) -> Command {
 /// Runs the program with the process's arguments and gives its exit code: 0 done, 1 the input is
 /// wrong, 2 the call is wrong.
 pub fn main() -> u8 {
+    if let Some(code) = pictures::answer_if_asked() {
+        return code;
+    }
+    pictures::decode_by_this_program();
     run(std::env::args_os(), &mut Terminal::standard())
 }
 

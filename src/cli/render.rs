@@ -54,6 +54,9 @@ pub struct RenderCommand {
     /// Leave out the picture that the plan was traced over
     #[arg(long)]
     no_picture: bool,
+    /// Also read pictures from this folder and below; without, only from each plan's own (may be given several times)
+    #[arg(long, value_name = "DIR")]
+    pictures_from: Vec<PathBuf>,
     /// Leave out the rooms' names and areas
     #[arg(long)]
     no_names: bool,
@@ -172,6 +175,12 @@ impl RenderCommand {
         let backdrop = plan.backdrop().filter(|_| !self.no_picture);
         let traced = backdrop.and_then(|backdrop| {
             let path = pictures::resolved_path(&backdrop.path, file.parent());
+            if !pictures::is_allowed(&path, file.parent(), &self.pictures_from) {
+                let what = pictures::is_outside().what;
+                let hint = "give its folder with --pictures-from if you know the plan";
+                warning = Some(format!("{}: left out: the picture {what}; {hint}", path.display()));
+                return None;
+            }
             match pictures::load_picture(&path, backdrop.page) {
                 Ok(loaded) => Some((Arc::new(loaded.levels), backdrop)),
                 // The plan can be drawn all the same.

@@ -65,7 +65,7 @@ impl Walls {
         }
         let unwalled_count = unwalled.len();
         let mut tangle = tangled_rooms(rooms, &mut unwalled);
-        boundaries.extend(tangle.drain(..));
+        boundaries.append(&mut tangle);
         let tangled = unwalled_count - unwalled.len() + index.tangled.len();
         let mut rings = index.rings(plan);
         let derived = (!unwalled.is_empty()).then(|| Derived::new(rooms, &unwalled)).map(|derived| {

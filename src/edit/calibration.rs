@@ -7,24 +7,14 @@ use std::sync::Arc;
 
 use crate::edit::{EditError, checked_position, fail, set_backdrop, set_meta};
 use crate::geometry::{Point, Vector, trim_m};
-use crate::plan::{Backdrop, Measurement, Place, Plan, Scale, ScaleOrigin};
+use crate::plan::{Backdrop, METRES_PER_PIXEL, Measurement, Place, Plan, Scale, ScaleOrigin};
 
 /// Size of a pixel in metres for a backdrop without a measured scale: a hundred pixels per metre, about
 /// what a scan of a 1:100 drawing at 250 dpi has.
 pub const UNMEASURED_METRES_PER_PIXEL: f64 = 0.01;
 
-/// Plausible pixel sizes of a plan: from a nanometre to a kilometre.
-const METRES_PER_PIXEL: std::ops::RangeInclusive<f64> = 1e-9..=1e3;
-
 /// The shortest distance, in pixels of the picture, that can be measured: a click is no more precise.
 const SHORTEST_PX: f64 = 2.0;
-
-impl Measurement {
-    /// The distance between its ends in pixels of the picture.
-    pub fn length_px(&self) -> f64 {
-        self.from.distance(self.to)
-    }
-}
 
 impl Backdrop {
     /// A new backdrop: its upper left corner at the origin, not rotated, of unknown scale.

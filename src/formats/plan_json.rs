@@ -572,6 +572,12 @@ fn live(text: &str, disk: DiskPlan) -> Result<Plan, ReadError> {
         extra: kept(disk.extra),
         ..Plan::default()
     };
+    if let Some(fault) = plan.backdrop().and_then(Backdrop::fault) {
+        let line = text.find("\"metres_per_pixel\"").map(|at| super::text::line_of(text.as_bytes(), at));
+        let place = Place { line, element: String::new() };
+        let hint = "correct \"backdrop\" by hand, or take it out and add the picture anew";
+        return Err(ReadError { place, what: format!("the picture under the plan {fault}"), hint: hint.to_owned() });
+    }
     let twice = |element: ElementId| {
         refuse(text, element, 1, "is in the file twice", "remove one of the two, or give it an id of its own")
     };

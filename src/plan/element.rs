@@ -227,6 +227,13 @@ pub struct Measurement {
     pub length_m: f64,
 }
 
+impl Measurement {
+    /// The distance between its ends in pixels of the picture.
+    pub fn length_px(&self) -> f64 {
+        self.from.distance(self.to)
+    }
+}
+
 impl Opening {
     /// An opening of a kind at a place; nothing pinned, its swing left to the drawing code.
     pub const fn new(kind: OpeningKind, place: Place) -> Self {

@@ -29,7 +29,7 @@ pub use element::{
 pub use guides::{Guide, GuideAxis};
 pub use history::{History, Step};
 pub use id::{CornerId, ElementId, IdError, OpeningId, RoomId, WallId, name_bits};
-pub use invariants::Violation;
+pub use invariants::{METRES_PER_PIXEL, Violation};
 pub use meta::{Meta, Scale, ScaleOrigin};
 pub(crate) use positions::Positions;
 

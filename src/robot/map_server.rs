@@ -1,15 +1,11 @@
 //! Maps in the format of the ROS `map_server`: a YAML description and a picture, from bytes and to bytes.
 //! Format: wiki.ros.org/map_server and `nav2_map_server` (map_io.cpp).
 
-#[cfg(feature = "pictures")]
-use std::io::Cursor;
-
-#[cfg(feature = "pictures")]
-use image::{ImageDecoder as _, ImageReader, Limits};
 use serde::Deserialize;
 
 use super::Pose;
 use super::grid_map::{Cell, GridMap, GridMapError};
+use crate::picture::{Level, Samples};
 
 /// The contents of a map's YAML file.
 #[derive(Clone, Debug, PartialEq)]
@@ -173,57 +169,32 @@ fn check_is_beside(image: &str) -> Result<(), MapServerError> {
     Ok(())
 }
 
-/// Decoders may take so many bytes: the most cells in four channels of 16 bits.
-#[cfg(feature = "pictures")]
-const DECODER_BYTES: u64 = super::grid_map::MOST_CELLS as u64 * 8;
-
-/// Reads a map's picture: PGM (P2 or P5), PNG, or another known format.
+/// The cells of a map's picture.
 ///
 /// # Errors
-/// When it is no such picture, is cut short, or has too many pixels.
-#[cfg(feature = "pictures")]
-pub fn picture_cells(bytes: &[u8], reading: PictureReading) -> Result<(usize, usize, Vec<Cell>), MapServerError> {
+/// When it has too many pixels.
+pub fn picture_cells(picture: &Level, reading: PictureReading) -> Result<(usize, usize, Vec<Cell>), MapServerError> {
     reading.check()?;
-    let no_picture = |error: image::ImageError| {
-        MapServerError(format!("no picture that can be read: {error}; a map's picture is a PGM or PNG file"))
-    };
-    let mut reader = match ImageReader::new(Cursor::new(bytes)).with_guessed_format() {
-        Ok(reader) => reader,
-        Err(error) => return wrong(error.to_string()),
-    };
-    if reader.format().is_none() {
-        return wrong("no picture of a known format; a map's picture is a PGM or PNG file");
-    }
-    let mut limits = Limits::default();
-    limits.max_alloc = Some(DECODER_BYTES);
-    reader.limits(limits);
-    let decoder = reader.into_decoder().map_err(no_picture)?;
-    let (width, height) = decoder.dimensions();
-    let (width, height) = (width as usize, height as usize);
+    let (width, height) = (picture.width_px as usize, picture.height_px as usize);
     GridMap::check_size(width, height)?;
-    let picture = image::DynamicImage::from_decoder(decoder).map_err(no_picture)?;
-    let has_alpha = picture.color().has_alpha();
-    let cells = if picture.color().has_color() || has_alpha {
-        let pixels = picture.into_rgba8();
-        pixels
-            .pixels()
-            .map(|pixel| {
-                let [red, green, blue, alpha] = pixel.0;
-                // The mean of the channels, as map_server takes it.
-                let shade = (f64::from(red) + f64::from(green) + f64::from(blue)) / (3.0 * 255.0);
-                cell(shade, alpha == u8::MAX, reading)
-            })
-            .collect()
-    } else {
-        // One lookup a shade: most maps are grey with 8 bits.
-        let of_shade: Vec<Cell> = (0..=u8::MAX).map(|shade| cell(f64::from(shade) / 255.0, true, reading)).collect();
-        picture.into_luma8().into_raw().into_iter().map(|shade| of_shade[usize::from(shade)]).collect()
+    // The mean of the channels, as map_server takes it.
+    let mean = |red: u8, green: u8, blue: u8| (f64::from(red) + f64::from(green) + f64::from(blue)) / (3.0 * 255.0);
+    let cells = match picture.samples {
+        Samples::Grey => {
+            // One lookup a shade: most maps are grey with 8 bits.
+            let of_shade: Vec<Cell> =
+                (0..=u8::MAX).map(|shade| cell(f64::from(shade) / 255.0, true, reading)).collect();
+            picture.data.iter().map(|&shade| of_shade[usize::from(shade)]).collect()
+        }
+        Samples::Rgb => picture.data.chunks_exact(3).map(|p| cell(mean(p[0], p[1], p[2]), true, reading)).collect(),
+        Samples::Rgba => {
+            picture.data.chunks_exact(4).map(|p| cell(mean(p[0], p[1], p[2]), p[3] == u8::MAX, reading)).collect()
+        }
     };
     Ok((width, height, cells))
 }
 
 /// `shade` is from 0, black, to 1, white.
-#[cfg(feature = "pictures")]
 fn cell(shade: f64, is_opaque: bool, reading: PictureReading) -> Cell {
     let taken = match reading.mode {
         MapMode::Trinary => None,
@@ -286,9 +257,17 @@ pub fn yaml(map: &GridMap, image: &str, semantics: &str) -> Result<String, MapSe
 
 #[cfg(test)]
 mod tests {
+    use std::io::Cursor;
+
     use proptest::prelude::*;
 
     use super::*;
+
+    /// The cells of a picture's file.
+    fn cells_of(bytes: &[u8], reading: PictureReading) -> Result<(usize, usize, Vec<Cell>), String> {
+        let picture = crate::store::pictures::decode_pixels(bytes).map_err(|error| error.to_string())?;
+        picture_cells(&picture, reading).map_err(|error| error.to_string())
+    }
 
     const YAML: &str = "image: floor.pgm\nresolution: 0.05\norigin: [-10.0, -2.5, 0.1]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\nmode: scale\n";
 
@@ -332,7 +311,7 @@ mod tests {
         let raw = b"P5\n3 1\n255\n\xfe\x00\xcd";
         let cells = vec![Cell::Free, Cell::Occupied, Cell::Unknown];
         for bytes in [&plain[..], &raw[..]] {
-            assert_eq!(picture_cells(bytes, PictureReading::MAP_SERVER).unwrap(), (3, 1, cells.clone()));
+            assert_eq!(cells_of(bytes, PictureReading::MAP_SERVER).unwrap(), (3, 1, cells.clone()));
         }
     }
 
@@ -354,8 +333,8 @@ mod tests {
 
     #[test]
     fn a_huge_picture_is_refused_before_it_is_read() {
-        let error = picture_cells(b"P5\n20000 20000\n255\n\x00", PictureReading::MAP_SERVER).unwrap_err();
-        assert!(error.0.contains("20000 x 20000"), "{error}");
+        let error = cells_of(b"P5\n20000 20000\n255\n\x00", PictureReading::MAP_SERVER).unwrap_err();
+        assert!(error.contains("20000 x 20000"), "{error}");
     }
 
     #[test]
@@ -364,7 +343,7 @@ mod tests {
         let map = GridMap::new(3, 2, 0.05, Pose::new(-1.5, 2.0, 0.25), cells).unwrap();
         let read = description(&yaml(&map, "a b.pgm", "a b_semantics.yaml").unwrap()).unwrap();
         assert_eq!((read.image.as_str(), read.resolution_m, read.origin), ("a b.pgm", 0.05, map.map_from_grid));
-        let (width, height, cells) = picture_cells(&pgm(&map), read.reading).unwrap();
+        let (width, height, cells) = cells_of(&pgm(&map), read.reading).unwrap();
         assert_eq!((width, height, cells.as_slice()), (3, 2, map.cells()));
     }
 
@@ -391,7 +370,7 @@ mod tests {
                 }
                 for mode in [MapMode::Trinary, MapMode::Scale, MapMode::Raw] {
                     let reading = PictureReading { mode, ..PictureReading::MAP_SERVER };
-                    if let Ok((width, height, cells)) = picture_cells(&bytes, reading) {
+                    if let Ok((width, height, cells)) = cells_of(&bytes, reading) {
                         prop_assert_eq!(width * height, cells.len());
                     }
                 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::robot::Pose;
 use crate::robot::grid_map::GridMap;
 use crate::robot::map_server::{self, MapServerError, PictureReading};
+use crate::store::pictures;
 
 /// The largest picture file read: 256 MB, several times the most cells in 16 bits.
 const LARGEST_PICTURE_BYTES: u64 = 256 << 20;
@@ -58,7 +59,10 @@ pub fn load_picture_as_map(path: &Path, resolution_m: f64, reading: PictureReadi
 fn map_of(path: &Path, resolution_m: f64, origin: Pose, reading: PictureReading) -> Result<GridMap, MapFileError> {
     let fail = |what: String| MapFileError { path: path.to_owned(), what };
     let bytes = bytes_of(path, LARGEST_PICTURE_BYTES)?;
-    let (width, height, cells) = map_server::picture_cells(&bytes, reading).map_err(|error| fail(error.0))?;
+    let picture = pictures::decode_pixels(&bytes).map_err(|error| {
+        fail(format!("no picture that can be read: it {}; a map's picture is a PGM or PNG file", error.what))
+    })?;
+    let (width, height, cells) = map_server::picture_cells(&picture, reading).map_err(|error| fail(error.0))?;
     GridMap::new(width, height, resolution_m, origin, cells).map_err(|error| fail(error.to_string()))
 }
 

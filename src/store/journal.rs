@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 use super::stamp::Stamp;
 use crate::base::hash;
 use crate::formats::plan_json;
-use crate::plan::{History, Plan, Step};
+use crate::plan::{Backdrop, History, Plan, Step};
 
 /// The environment variable for another folder for data that must survive a crash; if empty, no journals
 /// are kept.
@@ -517,6 +517,9 @@ pub struct Recovered {
     /// Whether something after the last complete record was dropped: a record being written when the
     /// program ended, or damage.
     pub is_cut: bool,
+    /// What is wrong with the plan of the first step that was left out, where it was written whole: no
+    /// plan that breaks an invariant comes back, nor what was built on it.
+    pub unsound: Option<String>,
 }
 
 impl Recovered {
@@ -571,7 +574,9 @@ fn leftover(path: PathBuf) -> Option<Leftover> {
     }
     let content = read_file(&mut file);
     let leftover = Leftover { path, modified, content, _file: file };
-    if leftover.content.as_ref().is_ok_and(|recovered| recovered.history.plan() == recovered.base()) {
+    let keeps_nothing =
+        |recovered: &Recovered| recovered.unsound.is_none() && recovered.history.plan() == recovered.base();
+    if leftover.content.as_ref().is_ok_and(keeps_nothing) {
         let _ = leftover.remove();
         return None;
     }
@@ -587,7 +592,8 @@ fn read_file(file: &mut File) -> Result<Recovered, String> {
     read_journal(&bytes)
 }
 
-/// What a journal's bytes keep. Whatever stands behind the last whole record is left out.
+/// What a journal's bytes keep. Whatever stands behind the last whole record is left out, and so is a step
+/// whose plan breaks an invariant, with all that follows it.
 ///
 /// # Errors
 /// When they are no journal, or one of a newer version, or not even its start is whole.
@@ -607,6 +613,7 @@ pub fn read_journal(bytes: &[u8]) -> Result<Recovered, String> {
     let mut steps = vec![Step { title: "Open".to_owned(), plan: base }];
     let mut at = 0;
     let mut is_cut = false;
+    let mut unsound = None;
     while !rest.is_empty() {
         let Some((head, body)) = next_record(&mut rest, &mut checksum) else {
             is_cut = true;
@@ -615,10 +622,16 @@ pub fn read_journal(bytes: &[u8]) -> Result<Recovered, String> {
         match head {
             Head::Jump { to } if to < steps.len() => at = to,
             Head::Step { title } => {
-                let Ok(plan) = plan_json::apply_change(&steps[at].plan, body) else {
+                let before = &steps[at].plan;
+                let Ok(plan) = plan_json::apply_change(before, body) else {
                     is_cut = true;
                     break;
                 };
+                if let Some(what) = what_is_unsound(&plan, before) {
+                    is_cut = true;
+                    unsound = Some(format!("{title}: {what}"));
+                    break;
+                }
                 steps.truncate(at + 1);
                 steps.push(Step { title, plan });
                 at += 1;
@@ -629,14 +642,15 @@ pub fn read_journal(bytes: &[u8]) -> Result<Recovered, String> {
             }
         }
     }
-    // A plan that breaks an invariant would be refused by the file it is to be saved in.
-    while at > 0 && !steps[at].plan.violations().is_empty() {
-        steps.truncate(at);
-        at -= 1;
-        is_cut = true;
-    }
     let history = History::of_steps(steps, at).ok_or("it holds no plan")?;
-    Ok(Recovered { start, history, is_cut })
+    Ok(Recovered { start, history, is_cut, unsound })
+}
+
+/// Why a plan would be refused by the file it is to be saved in; `before` would not. Costs what differs.
+fn what_is_unsound(plan: &Plan, before: &Plan) -> Option<String> {
+    let of_picture =
+        || plan.backdrop().and_then(Backdrop::fault).map(|fault| format!("the picture under the plan {fault}"));
+    plan.violations_since(before).first().map(ToString::to_string).or_else(of_picture)
 }
 
 /// Takes the next record; `None` if it is incomplete.

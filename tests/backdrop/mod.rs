@@ -4,11 +4,15 @@
 #![allow(clippy::print_stdout, reason = "says why it was skipped")]
 #![allow(clippy::disallowed_methods, reason = "a test's files are no user's")]
 
+mod apart;
 mod files;
+mod mutated;
+mod outside;
 mod pdf;
 mod read;
 mod real;
 mod render;
 mod scan;
+mod tiff;
 #[cfg(feature = "gui")]
 mod window;

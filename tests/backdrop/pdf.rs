@@ -2,6 +2,8 @@
 
 use enfilade::store::pictures::{DOTS_PER_INCH, decode_picture};
 
+use super::scan::fixture;
+
 /// A PDF whose pages have a size in points and a content each.
 pub fn pdf(pages: &[(f64, f64, &str)]) -> Vec<u8> {
     let kids: Vec<String> = (0..pages.len()).map(|i| format!("{} 0 R", 3 + 2 * i)).collect();
@@ -16,6 +18,11 @@ pub fn pdf(pages: &[(f64, f64, &str)]) -> Vec<u8> {
         ));
         objects.push(format!("<< /Length {} >>\nstream\n{content}\nendstream", content.len()));
     }
+    file_of(&objects)
+}
+
+/// A PDF of objects, the first of which is its catalogue.
+pub fn file_of(objects: &[String]) -> Vec<u8> {
     let mut file = "%PDF-1.4\n".to_owned();
     let mut places = Vec::new();
     for (i, object) in objects.iter().enumerate() {
@@ -43,6 +50,27 @@ fn a_page_is_drawn_at_a_known_resolution() {
     assert_eq!(second.levels.all()[0].pixel(75, 75), [255, 0, 0, 255]);
     let error = decode_picture(&bytes, 3).expect_err("there are two");
     assert!(error.what.contains("2 pages"), "{error}");
+}
+
+#[test]
+fn a_page_may_count_in_units_of_its_own() {
+    // 8.5 by 11 units of an inch each.
+    let sheet = decode_picture(&fixture("pdf-letter-page-in-inches.pdf"), 1).unwrap();
+    assert_eq!(sheet.levels.size_px(), [2550, 3300]);
+}
+
+#[test]
+fn a_pdf_with_a_password_is_refused_in_words() {
+    let mut objects: Vec<String> =
+        ["<< /Type /Catalog /Pages 2 0 R >>", "<< /Type /Pages /Kids [3 0 R] /Count 1 >>"].map(str::to_owned).to_vec();
+    objects.push("<< /Type /Page /Parent 2 0 R /MediaBox [0 0 72 72] >>".to_owned());
+    // No password opens it: neither of the two checks is met (ISO 32000-1, 7.6.3).
+    let digits = "00".repeat(32);
+    objects.push(format!("<< /Filter /Standard /V 1 /R 2 /O <{digits}> /U <{digits}> /P -4 >>"));
+    let text = String::from_utf8(file_of(&objects)).unwrap();
+    let encrypted = text.replace("/Root 1 0 R", "/Root 1 0 R /Encrypt 4 0 R /ID [<00> <00>]");
+    let error = decode_picture(encrypted.as_bytes(), 1).expect_err("there is no password");
+    assert!(error.what.contains("needs a password"), "{error}");
 }
 
 #[test]

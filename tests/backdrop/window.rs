@@ -157,6 +157,30 @@ fn a_picture_that_is_gone_is_found_or_relinked() {
 }
 
 #[test]
+fn a_picture_outside_the_plans_folder_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let bytes = encoded(&walls(), ImageFormat::Png);
+    put(folder.path(), "private/a.png", &bytes);
+    let path = folder.path().join("plans/a.plan.json");
+    std::fs::create_dir(path.parent().unwrap()).unwrap();
+    save_plan(&path, &traced("../private/a.png", &content_hash(&bytes))).unwrap();
+    let mut window = opened(&path);
+    assert!(said(&window)[0].contains("lies outside the plan's folder"), "{:?}", said(&window));
+    assert_eq!(window.app().messages()[0].remedies, [Remedy::ShowPicture]);
+    assert!(window.click_control("Show it"));
+    window.settle().unwrap();
+    assert_eq!(said(&window), Vec::<String>::new());
+    // It is shown now, and the plan is as it was.
+    assert!(window.run_command_with("show-outside-picture", &[]).is_err(), "it is shown already");
+    assert!(!window.app().has_unsaved_changes());
+    // In another window it is asked for again; who names it need not be asked.
+    let mut window = opened(&path);
+    assert!(said(&window)[0].contains("lies outside"), "{:?}", said(&window));
+    run(&mut window, "relink-picture", &[&folder.path().join("private/a.png").to_string_lossy()]);
+    assert_eq!(said(&window), Vec::<String>::new());
+}
+
+#[test]
 fn what_is_no_picture_is_refused_and_the_plan_stays() {
     let folder = tempfile::tempdir().unwrap();
     let path = put(folder.path(), "a.png", b"no picture");

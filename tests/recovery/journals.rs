@@ -328,6 +328,96 @@ fn of_walls(number: usize) -> Plan {
 }
 
 #[test]
+fn a_step_that_is_not_sound_ends_the_recovery() {
+    // A step, rightly signed, gives a room without its corners; the next makes it good again.
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/recovery/undo-invalid.journal");
+    let bytes = std::fs::read(path).unwrap();
+    let recovered = read_journal(&bytes).unwrap();
+    assert!(recovered.is_cut);
+    assert!(recovered.unsound.as_ref().is_some_and(|what| what.starts_with("Bad room: ")), "{:?}", recovered.unsound);
+    for step in recovered.history.steps() {
+        assert_eq!(step.plan.violations(), []);
+    }
+    // It is offered, though nothing is left of it, and stays.
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("plan-a.journal"), &bytes).unwrap();
+    assert_eq!(leftovers(folder.path()).len(), 1);
+    assert_eq!(files(folder.path()).len(), 1);
+}
+
+#[test]
+fn whatever_a_step_breaks_is_noticed() {
+    let plan = small();
+    let room = plan.rooms().next().unwrap().0;
+    let corners: Vec<_> = plan.corners().map(|(id, corner)| (id, corner.position)).collect();
+    let walled = edit::add_wall(&plan, corners[0].0, corners[1].0, 0.1).unwrap().0;
+    let mut start = b"{\"do\":\"start\",\"storey\":0}\n".to_vec();
+    start.extend(plan_json::to_bytes(&walled));
+    let step = |change: &str| format!("{{\"do\":\"step\",\"title\":\"s\"}}\n{change}").into_bytes();
+    let (first, at) = corners[0];
+    let hosted = |at: f64| {
+        format!(
+            r#""openings":[{{"id":"o000000000001","kind":"door","on":["{first}","{}"],"at":{at},"width":0.9}}]"#,
+            corners[1].0
+        )
+    };
+    let door = step(&format!("{{{}}}", hosted(1.0)));
+    let pinned = step(&format!(
+        r#"{{"openings":[{{"id":"o000000000002","kind":"door","from":[1,0],"to":[2,0],"joins":["{room}",null]}}]}}"#
+    ));
+    let picture =
+        |size: &str| step(&format!(r#"{{"backdrop":[{{"path":"a.png","x":0,"y":0,"metres_per_pixel":{size}}}]}}"#));
+    for (before, wrong, words) in [
+        (Vec::new(), step(&format!(r#"{{"gone":["{first}"]}}"#)), "does not exist"),
+        (Vec::new(), step(&format!("{{{}}}", hosted(99.0))), "beyond its edge"),
+        // What depends on what changed: the door's edge, the room that it joins.
+        (
+            vec![door.clone()],
+            step(&format!(r#"{{"corners":[{{"id":"{}","x":{},"y":{}}}]}}"#, corners[1].0, at.x, at.y)),
+            "has no length",
+        ),
+        (vec![pinned], step(&format!(r#"{{"gone":["{room}"]}}"#)), "is pinned to the room"),
+        (vec![door], picture("0"), "metres_per_pixel"),
+        (vec![picture("0.01")], picture("1e308"), "metres_per_pixel"),
+        (Vec::new(), picture("-1"), "metres_per_pixel"),
+    ] {
+        let sound = before.len();
+        let records = [vec![start.clone()], before, vec![wrong, step(r#"{"meta":{"name":"later"}}"#)]].concat();
+        let recovered = read_journal(&with_records(&records)).unwrap();
+        assert_eq!(recovered.history.steps().len(), 1 + sound, "{words}");
+        assert!(
+            recovered.unsound.as_ref().is_some_and(|what| what.contains(words)),
+            "{words}: {:?}",
+            recovered.unsound
+        );
+    }
+}
+
+#[test]
+#[ignore = "prints how long reading a large journal takes"]
+fn what_reading_costs() {
+    use std::time::Instant;
+    for walls in [40, 4_000, 50_000] {
+        let folder = tempfile::tempdir().unwrap();
+        let mut history = History::new("Open", of_walls(walls));
+        let corners: Vec<_> = history.plan().corners().map(|(id, position)| (id, position.position)).collect();
+        let mut journal = begin(folder.path(), history.plan(), None);
+        for edit in 0..5_000 {
+            let (id, at) = corners[edit * 7 % corners.len()];
+            let to = Point::new(at.x + 0.1, at.y + 0.001 * (edit % 400) as f64);
+            history.push("Move corner", edit::move_corners(history.plan(), &[(id, to)]).unwrap());
+            journal.note(&history);
+        }
+        journal.wait().unwrap();
+        let bytes = std::fs::read(&files(folder.path())[0]).unwrap();
+        let began = Instant::now();
+        let recovered = read_journal(&bytes).unwrap();
+        let took = began.elapsed();
+        println!("{walls} walls: {} steps of {} bytes in {took:.1?}", recovered.history.steps().len(), bytes.len());
+    }
+}
+
+#[test]
 #[ignore = "prints the figures of docs/recovery.md"]
 fn what_noting_costs() {
     use std::time::{Duration, Instant};

@@ -209,3 +209,19 @@ fn what_arrives_while_something_is_asked_waits_for_the_answer() {
     assert!(!window.is_closed());
     assert_eq!(window.app().plan(), Some(&plan));
 }
+
+#[test]
+fn a_journal_with_an_unsound_step_says_so_and_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let sample = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/recovery/undo-invalid.journal");
+    std::fs::copy(sample, folder.path().join("plan-a.journal")).unwrap();
+    let mut window = Offscreen::new(OffscreenOptions { width: 1000, height: 560, ..OffscreenOptions::default() });
+    window.use_journal(folder.path());
+    window.settle().unwrap();
+    run(&mut window, "recover", &["1"]);
+    let said: Vec<String> = window.app().messages().iter().map(|message| message.text.clone()).collect();
+    assert!(said.iter().any(|text| text.contains("not sound")), "{said:?}");
+    assert_eq!(window.app().plan().unwrap().violations(), []);
+    assert!(window.run_command_with("undo", &[]).is_err(), "nothing before it");
+    assert_eq!(files(folder.path()), [folder.path().join("plan-a.journal")]);
+}

@@ -142,7 +142,7 @@ fn what_is_no_map_is_refused_with_file_reason_and_help() {
     refused(YAML, None, &["floor.pgm", "does not exist"]);
     refused(&YAML.replace("floor.pgm", "../floor.pgm"), None, &["not in the map's folder"]);
     refused(YAML, Some(b"hello"), &["floor.pgm", "picture"]);
-    refused(YAML, Some(b"P5\n20000 20000\n255\n\x00"), &["20000 x 20000", "too large"]);
+    refused(YAML, Some(b"P5\n20000 20000\n255\n\x00"), &["20000 x 20000", "more than can be held"]);
     refused(YAML, Some(b"P5\n200 200\n255\n\x00"), &["floor.pgm"]);
     refused(&YAML.replace("0.05", "-1"), Some(b"P5\n1 1\n255\n\xfe"), &["resolution"]);
     let picture = folder.path().join("floor.pgm");

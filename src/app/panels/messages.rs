@@ -49,6 +49,7 @@ impl Remedy {
             Self::KeepMine => Call::new("keep-mine", []),
             Self::Save => Call::new("save", []),
             Self::SaveElsewhere => Call::new("save-as", []),
+            Self::ShowPicture => Call::new("show-outside-picture", []),
             Self::RelinkPicture | Self::KeepPicture => Call::new("relink-picture", []),
         }
     }

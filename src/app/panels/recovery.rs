@@ -153,7 +153,9 @@ fn one(
                     if let Some(step) = recovered.history.steps().get(recovered.history.position()) {
                         caption(ui, format!("The last: {}", step.title));
                     }
-                    if recovered.is_cut {
+                    if recovered.unsound.is_some() {
+                        caption(ui, "A change that gives a plan that is not sound is left out, with what followed.");
+                    } else if recovered.is_cut {
                         caption(ui, "What was being written at the end is incomplete and left out.");
                     }
                 }

@@ -31,6 +31,8 @@ pub enum Remedy {
     SaveElsewhere,
     /// Find the missing backdrop.
     RelinkPicture,
+    /// Show the picture though it lies outside the plan's folder.
+    ShowPicture,
     /// Take the picture that is shown as the one that the plan means.
     KeepPicture,
 }
@@ -45,6 +47,7 @@ impl Remedy {
             Self::Save => "Save",
             Self::SaveElsewhere => "Save in another place…",
             Self::RelinkPicture => "Relink…",
+            Self::ShowPicture => "Show it",
             Self::KeepPicture => "Keep this picture",
         }
     }

@@ -99,6 +99,8 @@ pub(crate) struct Session {
     pub(crate) executed: Option<Vec<Executed>>,
     /// The name of a picture being loaded as a backdrop.
     pub(crate) reading_picture: Option<String>,
+    /// Pictures that a person has named, and may be read wherever they lie.
+    pub(crate) pictures_allowed: Vec<PathBuf>,
     /// What the pointer points at on the canvas.
     pub(crate) pointed: Pointed,
     /// The state of the backdrop.
@@ -149,6 +151,7 @@ impl Session {
             documents: 0,
             executed: None,
             reading_picture: None,
+            pictures_allowed: Vec::new(),
             pointed: Pointed::default(),
             backdrop: BackdropView::default(),
             field: None,

@@ -116,8 +116,7 @@ impl Session {
     /// Opens a journal's contents, as unsaved changes of its plan.
     pub(crate) fn show_recovered(&mut self, path: &Path, context: &Context) {
         let Some(Offered { leftover, .. }) = self.take_offered(path) else { return };
-        let Ok(recovered) = &leftover.content else { return };
-        let recovered = recovered.clone();
+        let Ok(recovered) = leftover.content.clone() else { return };
         let origin = origin_of(&recovered.start);
         let opened = Opened {
             origin: origin.clone(),
@@ -138,12 +137,18 @@ impl Session {
         };
         let title = self.document.as_ref().map(Document::title).unwrap_or_default();
         self.say(Severity::Info, format!("Recovered {changes} of {title}"), detail);
-        if recovered.is_cut {
+        // What was left behind stays until the new journal holds it; what cannot be held stays for good.
+        let mut replaced = Some(Predecessor::Leftover(leftover));
+        if let Some(what) = &recovered.unsound {
+            let text = "A change in the journal gives a plan that is not sound: it and what followed are left out";
+            let detail = format!("{what}\nEverything before it is here. The journal is kept, and offered again.");
+            self.say(Severity::Warning, text, detail);
+            replaced = None;
+        } else if recovered.is_cut {
             let text = "The last change was not written completely when the program ended";
             self.say(Severity::Warning, text, "Everything before it is here.");
         }
-        // What was left behind stays until the new journal holds it.
-        self.begin_journal(Some(Predecessor::Leftover(leftover)), context);
+        self.begin_journal(replaced, context);
         self.keep_journal(context);
     }
 }

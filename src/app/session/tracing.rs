@@ -38,8 +38,9 @@ impl Session {
                 session.backdrop_was_read(wanted, &Read::Missing { error, candidate: None });
             }
         });
-        self.jobs.start(kind, move |_| {
-            let read = read(&wanted, &backdrop, folder.as_deref());
+        let allowed = self.pictures_allowed.clone();
+        self.jobs.start(kind, move |work| {
+            let read = read(&wanted, &backdrop, folder.as_deref(), &allowed, work);
             move |session: &mut Session, _: &_| session.backdrop_was_read(wanted, &read)
         });
     }
@@ -64,14 +65,42 @@ impl Session {
                 (Severity::Info, text, detail, Remedy::KeepPicture)
             }
             Read::Missing { error, candidate } => {
-                let text = format!("The picture under the plan is missing: {} {}", file_name(&wanted.path), error.what);
+                let is = if wanted.path.exists() { "not shown" } else { "missing" };
+                let text = format!("The picture under the plan is {is}: {} {}", file_name(&wanted.path), error.what);
                 let also = candidate.as_ref().map_or(String::new(), |candidate| {
                     format!("\nThere is another picture of this name: {}", self.shown_path(candidate))
                 });
                 (Severity::Warning, text, format!("{shown}{also}"), Remedy::RelinkPicture)
             }
+            Read::Outside => {
+                let text = format!(
+                    "The picture under the plan is not shown: {} lies outside the plan's folder",
+                    file_name(&wanted.path)
+                );
+                let detail =
+                    format!("A plan from elsewhere may name any picture. Show it if you know the plan.\n{shown}");
+                (Severity::Warning, text, detail, Remedy::ShowPicture)
+            }
         };
         self.add_message(Message { severity, text, detail, remedies: vec![remedy], stays: false });
+    }
+
+    /// Shows the picture though it lies outside the plan's folder, until the window closes.
+    pub(crate) fn allow_picture(&mut self) {
+        let Some(document) = &self.document else { return };
+        let Some(backdrop) = document.plan().backdrop() else { return };
+        let path = pictures::resolved_path(&backdrop.path, document.origin.folder());
+        self.messages.retain(|message| !message.remedies.contains(&Remedy::ShowPicture));
+        self.allow_path(&path);
+        self.backdrop.forget();
+    }
+
+    fn allow_path(&mut self, path: &Path) {
+        if let Ok(path) = path.canonicalize()
+            && !self.pictures_allowed.contains(&path)
+        {
+            self.pictures_allowed.push(path);
+        }
     }
 
     /// Asks which picture to use.
@@ -88,8 +117,17 @@ impl Session {
         let Some(document) = self.document.as_ref().map(|document| document.number) else { return };
         self.reading_picture = Some(file_name(&path));
         let kind = Kind::new("read a picture").if_broken(|session| session.reading_picture = None);
-        self.jobs.start(kind, move |_| {
-            let result = pictures::load_picture(&path, page).map(Box::new);
+        // Who names it wants it.
+        self.allow_path(&path);
+        self.jobs.start(kind, move |work| {
+            let mut page = page;
+            let mut result = pictures::load_picture_while(&path, page, work);
+            // The page was another file's: a scan in place of a document has one.
+            if use_ == PictureUse::Relink && page > 1 && result.as_ref().is_err_and(PictureError::lacks_page) {
+                page = 1;
+                result = pictures::load_picture_while(&path, page, work);
+            }
+            let result = result.map(Box::new);
             move |session: &mut Session, _: &_| session.picture_was_read(document, use_, &path, page, result)
         });
     }
@@ -121,7 +159,9 @@ impl Session {
         let (title, backdrop) = match (use_, before) {
             (PictureUse::Relink, Some(before)) => {
                 self.messages.retain(|message| {
-                    !message.remedies.iter().any(|remedy| matches!(remedy, Remedy::RelinkPicture | Remedy::KeepPicture))
+                    !message.remedies.iter().any(|remedy| {
+                        matches!(remedy, Remedy::RelinkPicture | Remedy::KeepPicture | Remedy::ShowPicture)
+                    })
                 });
                 if !before.content_hash.is_empty() && before.content_hash != hash {
                     self.say(
@@ -170,7 +210,10 @@ impl Session {
 
     pub(crate) fn remove_picture(&mut self) {
         self.messages.retain(|message| {
-            !message.remedies.iter().any(|remedy| matches!(remedy, Remedy::RelinkPicture | Remedy::KeepPicture))
+            !message
+                .remedies
+                .iter()
+                .any(|remedy| matches!(remedy, Remedy::RelinkPicture | Remedy::KeepPicture | Remedy::ShowPicture))
         });
         self.edit("Remove picture", |plan| Ok(edit::set_backdrop(plan, None)));
     }

@@ -1,21 +1,25 @@
 //! Backdrops: reading and hashing their files, and finding one that has moved.
 
+mod apart;
+mod decode;
 mod find;
 mod path;
 mod pdf;
+mod pixels;
+mod tiff;
 
 use std::fmt;
-use std::io::{Cursor, Read as _};
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::io::Read as _;
 use std::path::Path;
 
-use image::metadata::Orientation;
-use image::{DynamicImage, ImageDecoder as _, ImageError, ImageReader, Limits};
 use sha2::{Digest as _, Sha256};
 
-use crate::picture::{Level, PictureLevels, Samples};
+use crate::base::work::Work;
+use crate::picture::{Level, PictureLevels};
+pub use apart::{Decoding, decode_apart};
+pub(crate) use apart::{answer_if_asked, decode_by_this_program};
 pub use find::{Found, find_picture};
-pub use path::{relative_path, relocated, resolved_path};
+pub use path::{is_allowed, is_outside, relative_path, relocated, resolved_path};
 pub use pdf::DOTS_PER_INCH;
 
 /// Extensions of the files read as pictures, in lower case.
@@ -45,6 +49,11 @@ impl PictureError {
     fn new(what: impl Into<String>, hint: impl Into<String>) -> Self {
         Self { what: what.into(), hint: hint.into() }
     }
+
+    /// Whether the file lacks the page, and no more is wrong.
+    pub fn lacks_page(&self) -> bool {
+        self.hint == pixels::CHOOSE_PAGE
+    }
 }
 
 impl fmt::Display for PictureError {
@@ -61,7 +70,7 @@ pub struct LoadedPicture {
     pub levels: PictureLevels,
     /// As [`content_hash`].
     pub content_hash: String,
-    /// How many pages the file has; 1 for anything but a PDF.
+    /// How many pages the file has; 1 for anything but a PDF or TIFF.
     pub pages: u32,
 }
 
@@ -102,14 +111,23 @@ pub fn read_picture_bytes(path: &Path) -> Result<Vec<u8>, PictureError> {
     Ok(bytes)
 }
 
-/// Reads a picture: PNG, JPEG, TIFF, WebP, BMP, GIF (the first frame), or a page of a PDF. The kind
-/// follows from the content, not the name. Photographs are turned upright as their EXIF orientation
-/// says; whatever the depth, eight bits a channel are kept.
+/// Reads a picture: PNG, JPEG, TIFF, WebP, BMP, GIF (the first frame), or a page of a PDF or TIFF. The
+/// kind follows from the content, not the name. Photographs are turned upright as their EXIF orientation
+/// says; whatever the depth, eight bits a channel are kept. Decoded as [`decode_apart`] says.
 ///
 /// # Errors
-/// When there is no such file, it is none of these, damaged or too large, or lacks the page.
+/// When there is no such file, it is none of these, damaged or too large, lacks the page, or takes more
+/// time or memory than it may.
 pub fn load_picture(path: &Path, page: u32) -> Result<LoadedPicture, PictureError> {
-    decode_picture(&read_picture_bytes(path)?, page)
+    load_picture_while(path, page, &Work::quiet())
+}
+
+/// As [`load_picture`], as long as it is wanted.
+///
+/// # Errors
+/// As [`load_picture`], and when the work is cancelled.
+pub fn load_picture_while(path: &Path, page: u32, work: &Work<'_>) -> Result<LoadedPicture, PictureError> {
+    decode_picture_by(apart::chosen(), &read_picture_bytes(path)?, page, work)
 }
 
 /// Reads a picture from a file's bytes, like [`load_picture`].
@@ -117,12 +135,29 @@ pub fn load_picture(path: &Path, page: u32) -> Result<LoadedPicture, PictureErro
 /// # Errors
 /// As [`load_picture`].
 pub fn decode_picture(bytes: &[u8], page: u32) -> Result<LoadedPicture, PictureError> {
-    // Decoders are others' work and files are of any making: should one break, only this picture does.
-    let read = catch_unwind(AssertUnwindSafe(|| {
-        let (full, pages) = if pdf::is_pdf(bytes) { pdf::page(bytes, page)? } else { (raster(bytes)?, 1) };
-        Ok(LoadedPicture { levels: PictureLevels::new(full), content_hash: content_hash(bytes), pages })
-    }));
-    read.unwrap_or_else(|_| Err(PictureError::new("cannot be read", "save it anew, as PNG or JPEG")))
+    decode_picture_by(apart::chosen(), bytes, page, &Work::quiet())
+}
+
+/// The pixels of a picture, or of the first page, at their full size alone; read as by [`load_picture`].
+///
+/// # Errors
+/// As [`load_picture`].
+pub fn decode_pixels(bytes: &[u8]) -> Result<Level, PictureError> {
+    apart::chosen().decode(bytes, 1, &Work::quiet()).map(|decoded| decoded.full)
+}
+
+/// Reads a picture from a file's bytes, as [`load_picture`], decoded here or apart.
+///
+/// # Errors
+/// As [`load_picture`], and when the work is cancelled.
+pub fn decode_picture_by(
+    decoding: &Decoding,
+    bytes: &[u8],
+    page: u32,
+    work: &Work<'_>,
+) -> Result<LoadedPicture, PictureError> {
+    let pixels::Decoded { full, pages } = decoding.decode(bytes, page, work)?;
+    Ok(LoadedPicture { levels: PictureLevels::new(full), content_hash: content_hash(bytes), pages })
 }
 
 /// Rejects sizes that would not fit into memory.
@@ -142,55 +177,4 @@ fn check_size(width_px: u32, height_px: u32) -> Result<(), PictureError> {
         return Err(PictureError::new("has no pixels", "choose another file"));
     }
     Ok(())
-}
-
-fn raster(bytes: &[u8]) -> Result<Level, PictureError> {
-    let mut reader = ImageReader::new(Cursor::new(bytes))
-        .with_guessed_format()
-        .map_err(|error| PictureError::new(format!("cannot be read: {error}"), "check the file"))?;
-    if reader.format().is_none() {
-        return Err(PictureError::new("is of no known kind", "choose a PNG, JPEG, TIFF, WebP, BMP, GIF or PDF"));
-    }
-    let mut limits = Limits::default();
-    limits.max_alloc = Some(DECODER_BYTES);
-    limits.max_image_width = Some(LONGEST_SIDE_PX);
-    limits.max_image_height = Some(LONGEST_SIDE_PX);
-    reader.limits(limits);
-    let mut decoder = reader.into_decoder().map_err(|error| refused(&error))?;
-    let (width_px, height_px) = decoder.dimensions();
-    check_size(width_px, height_px)?;
-    if decoder.total_bytes() > DECODER_BYTES * 2 {
-        return Err(PictureError::new("needs more memory than it may", "save it with 8 bits a channel"));
-    }
-    // Damaged metadata are no reason to refuse a picture.
-    let orientation = decoder.orientation().unwrap_or(Orientation::NoTransforms);
-    let mut image = DynamicImage::from_decoder(decoder).map_err(|error| refused(&error))?;
-    image.apply_orientation(orientation);
-    let (width_px, height_px) = (image.width(), image.height());
-    let has_alpha = image.color().has_alpha();
-    let (samples, data) = if !image.color().has_color() && !has_alpha {
-        (Samples::Grey, image.into_luma8().into_raw())
-    } else if has_alpha {
-        (Samples::Rgba, image.into_rgba8().into_raw())
-    } else {
-        (Samples::Rgb, image.into_rgb8().into_raw())
-    };
-    Ok(Level { width_px, height_px, samples, data }.simplified())
-}
-
-/// What a decoder says, in words for people.
-fn refused(error: &ImageError) -> PictureError {
-    match error {
-        ImageError::Limits(_) => PictureError::new(
-            "has more pixels than can be held",
-            format!(
-                "make it smaller: at most {LONGEST_SIDE_PX} pixels a side and {} million in all",
-                MOST_PIXELS / 1_000_000
-            ),
-        ),
-        ImageError::Unsupported(_) => {
-            PictureError::new(format!("is of a kind that is not supported ({error})"), "save it as PNG or JPEG")
-        }
-        _ => PictureError::new(format!("is damaged ({error})"), "scan it or save it again"),
-    }
 }

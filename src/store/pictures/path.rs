@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::PictureError;
 use crate::plan::Backdrop;
 
 /// The path of a picture as stored in a plan in `folder`: relative with forward slashes; absolute if the
@@ -23,6 +24,24 @@ pub fn relative_path(picture: &Path, folder: Option<&Path>) -> String {
 pub fn resolved_path(path: &str, folder: Option<&Path>) -> PathBuf {
     // Joining an absolute path gives that path.
     folder.unwrap_or(Path::new("")).join(path)
+}
+
+/// Whether a picture may be read without being asked for: it lies in the plan's folder or below it, or in one
+/// of the folders in `allowed`, or is one of them itself. Links are followed, so that none leads out. One that
+/// is not there harms nobody.
+///
+/// A plan comes from anywhere, and may name any picture on the disk.
+pub fn is_allowed(picture: &Path, folder: Option<&Path>, allowed: &[PathBuf]) -> bool {
+    let Ok(picture) = picture.canonicalize() else { return true };
+    // No folder at all is the one the program works in.
+    let here = |path: &Path| if path.as_os_str().is_empty() { PathBuf::from(".") } else { path.to_owned() };
+    let folders = folder.map(here).into_iter().chain(allowed.iter().map(|path| here(path)));
+    folders.filter_map(|path| path.canonicalize().ok()).any(|path| picture.starts_with(path))
+}
+
+/// Why a picture that is not allowed is not read.
+pub fn is_outside() -> PictureError {
+    PictureError::new("lies outside the plan's folder", "show it only if you know the plan")
 }
 
 /// The same picture as seen from another folder: for a plan that is saved there.

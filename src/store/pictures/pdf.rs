@@ -1,10 +1,12 @@
 //! A page of a PDF as pixels.
 
 use hayro::hayro_interpret::InterpreterSettings;
-use hayro::hayro_syntax::Pdf;
+use hayro::hayro_syntax::object::dict::keys::USER_UNIT;
+use hayro::hayro_syntax::{DecryptionError, LoadPdfError, Pdf};
 use hayro::vello_cpu::color::palette::css::WHITE;
 use hayro::{PixmapSettings, RenderCache, RenderSettings, render};
 
+use super::pixels::{Announce, Decoded, check_page};
 use super::{MOST_PIXELS, PictureError};
 use crate::picture::{Level, Samples};
 
@@ -29,19 +31,19 @@ pub(super) fn is_pdf(bytes: &[u8]) -> bool {
 ///
 /// # Errors
 /// When the file is damaged or encrypted, or lacks the page.
-pub(super) fn page(bytes: &[u8], number: u32) -> Result<(Level, u32), PictureError> {
-    let pdf = Pdf::new(bytes.to_vec()).map_err(|error| {
-        PictureError::new(format!("is a PDF that cannot be read ({error:?})"), "save its page as PNG")
-    })?;
+pub(super) fn page(bytes: &[u8], number: u32, announce: Announce<'_>) -> Result<Decoded, PictureError> {
+    let pdf = Pdf::new(bytes.to_vec()).map_err(|error| refused(&error))?;
     let pages = pdf.pages();
     let count = pages.len() as u32;
-    let index = (number as usize).wrapping_sub(1);
-    let Some(page) = pages.get(index) else {
-        let has = if count == 1 { "has one page".to_owned() } else { format!("has {count} pages") };
-        return Err(PictureError::new(format!("{has}, and none with the number {number}"), "choose another page"));
-    };
+    if count == 0 {
+        return Err(PictureError::new("is a PDF without pages", "choose another file"));
+    }
+    check_page(number, count)?;
+    let Some(page) = pages.get(number as usize - 1) else { return Err(refused(&LoadPdfError::Invalid)) };
     let (width_pt, height_pt) = page.render_dimensions();
-    let (width_pt, height_pt) = (f64::from(width_pt), f64::from(height_pt));
+    // Large sheets count in units of their own, so many points each (ISO 32000-1, 14.11.2 and table 30).
+    let unit = page.raw().get::<f64>(USER_UNIT).filter(|unit| unit.is_finite() && *unit > 0.0).unwrap_or(1.0);
+    let (width_pt, height_pt) = (f64::from(width_pt) * unit, f64::from(height_pt) * unit);
     if !(width_pt > 0.0 && height_pt > 0.0 && width_pt.is_finite() && height_pt.is_finite()) {
         return Err(PictureError::new("is a page without a size", "choose another page"));
     }
@@ -54,6 +56,9 @@ pub(super) fn page(bytes: &[u8], number: u32) -> Result<(Level, u32), PictureErr
     if width_pt.min(height_pt) * scale < 1.0 {
         return Err(PictureError::new("is a page that is thinner than a dot", "choose another page"));
     }
+    announce((width_pt * height_pt * scale * scale) as u64 * 4);
+    // The page is drawn in its own units.
+    let scale = scale * unit;
     let pixmap = render(
         page,
         &RenderCache::new(),
@@ -64,5 +69,17 @@ pub(super) fn page(bytes: &[u8], number: u32) -> Result<(Level, u32), PictureErr
     let (width_px, height_px) = (u32::from(pixmap.width()), u32::from(pixmap.height()));
     // On white paper every pixel is opaque.
     let data: Vec<u8> = pixmap.data_as_u8_slice().chunks_exact(4).flat_map(|pixel| &pixel[..3]).copied().collect();
-    Ok((Level { width_px, height_px, samples: Samples::Rgb, data }.simplified(), count))
+    Ok(Decoded { full: Level { width_px, height_px, samples: Samples::Rgb, data }.simplified(), pages: count })
+}
+
+/// Why a file cannot be read, in words for people.
+fn refused(error: &LoadPdfError) -> PictureError {
+    let hint = "save its page as PNG";
+    match error {
+        LoadPdfError::Decryption(DecryptionError::PasswordProtected) => {
+            PictureError::new("is a PDF that needs a password", "save it without one, or its page as PNG")
+        }
+        LoadPdfError::Decryption(_) => PictureError::new("is a PDF encrypted in a way that cannot be read", hint),
+        LoadPdfError::Invalid => PictureError::new("is a PDF that is damaged", hint),
+    }
 }

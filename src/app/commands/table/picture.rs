@@ -1,9 +1,11 @@
 //! The backdrop.
 
 use super::*;
+use crate::app::paint::backdrop::Known;
 use crate::app::session::picture_change::PictureUse;
 use crate::edit::DrawingMoves;
 use crate::plan::{DEFAULT_DOOR_WIDTH_M, ElementId};
+use crate::store::pictures;
 
 const DRAWING: Arg<Option<DrawingMoves>> = optional(
     "DRAWING",
@@ -11,7 +13,7 @@ const DRAWING: Arg<Option<DrawingMoves>> = optional(
     "whether the drawing goes along with the picture; without, it is asked where something is drawn",
 );
 
-const PAGE: Arg<Option<usize>> = optional("PAGE", COUNT, "which page of a PDF, from 1");
+const PAGE: Arg<Option<usize>> = optional("PAGE", COUNT, "which page of a PDF or TIFF, from 1");
 
 const fn coordinate(name: &'static str, help: &'static str) -> Arg<f64> {
     needed(name, metres(-FAR_M, FAR_M), help)
@@ -40,6 +42,12 @@ fn selected_opening(app: &App) -> Option<crate::plan::OpeningId> {
     }
 }
 
+fn is_outside(app: &App) -> Availability {
+    has_backdrop(app)?;
+    let is = matches!(app.session.backdrop.state(), Some(Known::Missing(error)) if *error == pictures::is_outside());
+    when(is, "the picture lies in the plan's folder, or is shown already")
+}
+
 fn has_pages(app: &App) -> Availability {
     has_backdrop(app)?;
     when(app.session.backdrop.pages() > 1, "the picture has one page")
@@ -56,7 +64,7 @@ fn done(result: Result<(), String>) -> Ran {
 
 pub(super) const COMMANDS: &[Command] = &[
     with("picture", "Add picture…", "Lay a picture under the plan, or under a new one, to trace over: PNG, JPEG, TIFF, WebP, BMP, GIF or a page of a \
-         PDF", always, &given2(needed("PATH", PICTURE_FILE, "the picture's file"), PAGE, |app, path, page, _| {
+         PDF or TIFF", always, &given2(needed("PATH", PICTURE_FILE, "the picture's file"), PAGE, |app, path, page, _| {
             app.session.use_picture(PictureUse::Add, path, page.map_or(1, page_number));
             Ran::Done
         }), Some(|app, _| app.session.choose_picture(PictureUse::Add)))
@@ -70,7 +78,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "picture-page",
         "Page…",
-        "Show another page of the PDF under the plan",
+        "Show another page of the PDF or TIFF under the plan",
         has_pages,
         &given1(needed("PAGE", COUNT, "from 1"), |app, page, _| {
             let page = page_number(page);
@@ -81,6 +89,14 @@ pub(super) const COMMANDS: &[Command] = &[
             Ran::Done
         }),
         None,
+    )
+    .menu(Menu::Picture, 0),
+    command(
+        "show-outside-picture",
+        "Show picture from elsewhere",
+        "Show the picture under the plan though it lies outside the plan's folder",
+        is_outside,
+        |app, _| app.session.allow_picture(),
     )
     .menu(Menu::Picture, 0),
     command("remove-picture", "Remove picture", "Take the picture away from under the plan", has_backdrop, |app, _| {

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use crate::base::work::Work;
 use crate::plan::Backdrop;
 use crate::store::pictures::{self, Found, LoadedPicture, PictureError};
 
@@ -38,11 +39,23 @@ pub(crate) enum Read {
         /// A file with the same name but different content.
         candidate: Option<PathBuf>,
     },
+    /// It lies outside the plan's folder, and nobody has asked for it.
+    Outside,
 }
 
-/// Reads the picture; where it is not, looks for it in the plan's folder.
-pub(crate) fn read(wanted: &Wanted, backdrop: &Backdrop, folder: Option<&Path>) -> Read {
-    let error = match pictures::load_picture(&wanted.path, wanted.page) {
+/// Reads the picture as long as it is wanted; where it is not, looks for it in the plan's folder. `allowed`: files
+/// and folders that may be read though they lie elsewhere.
+pub(crate) fn read(
+    wanted: &Wanted,
+    backdrop: &Backdrop,
+    folder: Option<&Path>,
+    allowed: &[PathBuf],
+    work: &Work<'_>,
+) -> Read {
+    if !pictures::is_allowed(&wanted.path, folder, allowed) {
+        return Read::Outside;
+    }
+    let error = match pictures::load_picture_while(&wanted.path, wanted.page, work) {
         Ok(picture) => return Read::Shown { picture: Arc::new(picture), found_at: None },
         Err(error) => error,
     };
@@ -50,7 +63,7 @@ pub(crate) fn read(wanted: &Wanted, backdrop: &Backdrop, folder: Option<&Path>) 
         return Read::Missing { error, candidate: None };
     }
     match folder.and_then(|folder| pictures::find_picture(backdrop, folder)) {
-        Some(Found { path, is_same: true }) => match pictures::load_picture(&path, wanted.page) {
+        Some(Found { path, is_same: true }) => match pictures::load_picture_while(&path, wanted.page, work) {
             Ok(picture) => Read::Shown { picture: Arc::new(picture), found_at: Some(path) },
             Err(error) => Read::Missing { error, candidate: None },
         },

@@ -15,7 +15,7 @@ use crate::app::paint::backdrop::tiles::{Shown, Tiles};
 use crate::draw::View;
 use crate::geometry::{Bounds, Point};
 use crate::plan::Backdrop;
-use crate::store::pictures::{LoadedPicture, PictureError};
+use crate::store::pictures::{self, LoadedPicture, PictureError};
 
 /// While this is held, the backdrop is hidden, to see the drawing alone.
 const HIDING_KEY: Key = Key::Backtick;
@@ -100,8 +100,14 @@ impl BackdropView {
                 State::Shown { wanted, picture: picture.clone(), found_at: found_at.clone() }
             }
             Read::Missing { error, .. } => State::Missing { wanted, error: error.clone() },
+            Read::Outside => State::Missing { wanted, error: pictures::is_outside() },
         };
         true
+    }
+
+    /// Has the picture read again.
+    pub(crate) fn forget(&mut self) {
+        *self = Self::default();
     }
 
     /// Shows a picture that was read for the plan before the plan asks for it.

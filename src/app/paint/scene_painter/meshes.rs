@@ -367,6 +367,7 @@ pub(super) fn cross(p: Vec2, q: Vec2) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use super::{cross, outward_normals};
     use crate::app::paint::scene_painter::*;
 
     fn view() -> View {
