@@ -6,6 +6,7 @@ pub mod hash;
 pub mod natural_order;
 pub mod numbers;
 pub mod random;
+pub mod separated;
 pub mod units;
 pub mod wording;
 pub mod work;

@@ -5,6 +5,7 @@
 //! it) and one line in the list below. What each check says, and how often it fires on real plans, is in
 //! `docs/checks.md`.
 
+mod axes_ratio_is_implausible;
 mod context;
 mod corners_nearly_coincide;
 mod finding;
@@ -29,6 +30,7 @@ mod room_has_no_boundary;
 mod room_has_no_function;
 mod room_has_no_opening;
 mod room_hole_is_not_inside;
+mod room_hole_lies_along_its_boundary;
 mod room_holes_overlap;
 mod room_is_drawn_twice;
 mod room_lies_inside_another;
@@ -41,6 +43,7 @@ mod sizes;
 mod typology_has_no_scheme;
 mod wall_ends_freely;
 mod wall_has_no_length;
+mod wall_stands_in_an_opening;
 mod walls_overlap;
 
 pub use context::Context;
@@ -117,6 +120,7 @@ checks! {
     room_boundary_crosses_itself::RoomBoundaryCrossesItself,
     room_boundary_touches_itself::RoomBoundaryTouchesItself,
     room_hole_is_not_inside::RoomHoleIsNotInside,
+    room_hole_lies_along_its_boundary::RoomHoleLiesAlongItsBoundary,
     room_holes_overlap::RoomHolesOverlap,
     room_is_drawn_twice::RoomIsDrawnTwice,
     room_lies_inside_another::RoomLiesInsideAnother,
@@ -136,10 +140,12 @@ checks! {
     function_is_unknown::FunctionIsUnknown,
     room_has_no_function::RoomHasNoFunction,
     scale_is_implausible::ScaleIsImplausible,
+    axes_ratio_is_implausible::AxesRatioIsImplausible,
     room_area_is_unusual::RoomAreaIsUnusual,
     room_name_repeats::RoomNameRepeats,
     wall_has_no_length::WallHasNoLength,
     walls_overlap::WallsOverlap,
+    wall_stands_in_an_opening::WallStandsInAnOpening,
     wall_ends_freely::WallEndsFreely,
     corners_nearly_coincide::CornersNearlyCoincide,
 }

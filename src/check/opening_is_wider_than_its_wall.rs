@@ -3,7 +3,7 @@ use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
 use crate::geometry::segments::{SegmentIndex, are_parallel};
 use crate::geometry::{Point, Segment};
 use crate::plan::titles::OpeningName;
-use crate::plan::{DEFAULT_DOOR_WIDTH_M, ElementId, THICKEST_WALL_M};
+use crate::plan::{ElementId, THICKEST_WALL_M};
 
 /// An opening that extends past the end of its wall.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,10 +31,6 @@ impl Check for OpeningIsWiderThanItsWall {
         let mut found = Vec::new();
         for placed in &context.openings {
             let width_m = placed.segment.length();
-            // A door drawn as a point has our default width, not the source's.
-            if (width_m - DEFAULT_DOOR_WIDTH_M).abs() <= crate::geometry::GRID_M {
-                continue;
-            }
             let ends = [placed.segment.a, placed.segment.b];
             let excess_m = ends
                 .into_iter()

@@ -1,6 +1,7 @@
 use std::collections::BTreeMap;
 
 use super::{Check, Context, Kind, Place, Severity};
+use crate::geometry::segments::SegmentIndex;
 use crate::geometry::{Bounds, Point, Segment, TOUCH_M};
 use crate::plan::{CornerId, ElementId, WallId};
 
@@ -32,10 +33,13 @@ impl Check for WallEndsFreely {
             *uses.entry(wall.to).or_default() += 1;
         }
         let (walls, edges) = (&context.walls, &context.edges.index);
+        let openings = SegmentIndex::new(context.openings.iter().map(|placed| placed.segment).collect());
         let meets_nothing = |id: WallId, at: Point| {
             let around = Bounds::of([at]).inflated(TOUCH_M);
             let touches = |segment: Segment| segment.distance(at) <= TOUCH_M;
-            !walls.index.near(around).any(|other| walls.ids[other] != id && touches(walls.index.get(other)))
+            // Where walls are drawn with gaps for doors, a wall ends at the door that closes the gap.
+            !openings.near(around).any(|opening| touches(openings.get(opening)))
+                && !walls.index.near(around).any(|other| walls.ids[other] != id && touches(walls.index.get(other)))
                 && !edges.near(around).any(|edge| touches(edges.get(edge)))
         };
         let mut found = Vec::new();

@@ -4,6 +4,7 @@ use std::fmt;
 use std::io::{Read, Write};
 
 use super::Row;
+use crate::base::separated::{Separated, SeparatedRow};
 use crate::features::Features;
 use crate::labels::Typology;
 
@@ -51,47 +52,40 @@ impl fmt::Display for CsvError {
 
 impl std::error::Error for CsvError {}
 
-/// Reads rows written by `write`; columns may come in any order and others are passed over.
-/// `plan`, `building`, `typology`, `room` and `function` may be missing.
+/// Reads rows written by [`write`]; columns may come in any order and others are passed over.
+/// `plan`, `building`, `typology`, `room` and `function` may be missing. Cells may be apart by semicolons or
+/// tabs too, and numbers then have a decimal comma, see [`crate::base::separated`].
 ///
 /// # Errors
-/// When a needed column is missing, a label is unknown, or a number is not finite or negative; with
-/// the line and column.
-pub fn read(input: impl Read) -> Result<Vec<Row>, CsvError> {
-    let mut reader = csv::ReaderBuilder::new().flexible(false).trim(csv::Trim::All).from_reader(input);
+/// When it cannot be read or is no table, a needed column is missing, a label is unknown, or a number is not
+/// finite or negative; with the line and column.
+pub fn read(mut input: impl Read) -> Result<Vec<Row>, CsvError> {
     let fail = |line: u64, what: String| CsvError { line, what };
-    let headers = reader.headers().map_err(|error| fail(0, error.to_string()))?.clone();
-    let column = |name: &str| headers.iter().position(|header| header.trim_start_matches('\u{feff}') == name);
+    let mut bytes = Vec::new();
+    input.read_to_end(&mut bytes).map_err(|error| fail(0, error.to_string()))?;
+    let table = Separated::read(&bytes).map_err(|error| fail(error.line, error.what))?;
+    drop(bytes);
     let needed = |name: &str| {
-        column(name)
+        table
+            .column(name)
             .ok_or_else(|| fail(1, format!("no column '{name}'; a dataset has the columns {}", COLUMNS.join(","))))
     };
-    let texts = ["plan", "building", "typology", "room", "function"].map(column);
+    let texts = ["plan", "building", "typology", "room", "function"].map(|name| table.column(name));
     let label = needed("label")?;
     let mut numbers = [0; 8];
     for (index, name) in Features::NAMES.into_iter().enumerate() {
         numbers[index] = needed(name)?;
     }
     let mut rows = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(|error| {
-            let what = match error.kind() {
-                csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-                    format!("has {len} cells, the header {expected_len}")
-                }
-                _ => error.to_string(),
-            };
-            fail(error.position().map_or(0, csv::Position::line), what)
-        })?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let text = |index: Option<usize>| index.and_then(|index| record.get(index)).unwrap_or_default().to_owned();
+    for SeparatedRow { line, cells } in &table.rows {
+        let line = *line;
+        let text = |index: Option<usize>| index.and_then(|index| cells.get(index)).cloned().unwrap_or_default();
         let mut values = [0.0; 8];
         for (name, (&index, value)) in Features::NAMES.into_iter().zip(numbers.iter().zip(&mut values)) {
-            let cell = record.get(index).unwrap_or_default();
-            *value = cell
-                .parse()
-                .ok()
-                .filter(|number: &f64| number.is_finite() && *number >= 0.0)
+            let cell = cells.get(index).map(String::as_str).unwrap_or_default();
+            *value = table
+                .number(cell)
+                .filter(|number| *number >= 0.0)
                 .ok_or_else(|| fail(line, format!("column '{name}': '{cell}' is not a number from 0 up")))?;
             // `d` and `l_s` are counts.
             if !matches!(name, "a" | "rt") && (value.fract() != 0.0 || *value > f64::from(u32::MAX)) {
@@ -135,6 +129,18 @@ mod tests {
         let mut bytes = Vec::new();
         write(&mut bytes, &rows).expect("writing to memory");
         assert_eq!(read(bytes.as_slice()), Ok(rows));
+    }
+
+    #[test]
+    fn a_spreadsheet_of_half_of_europe_is_read() {
+        let plain = "plan,label,a,rt,d,l_S,l_M,l_B,l_C,l_H\np,M,12.5,1.2,1,0,0,0,1,0\n";
+        let expected = read(plain.as_bytes()).expect("a table");
+        assert_eq!((expected.len(), expected[0].features.area_m2), (1, 12.5));
+        let semicolons = plain.replace(',', ";").replace('.', ",").replace('\n', "\r\n");
+        assert_eq!(read(semicolons.as_bytes()), Ok(expected.clone()));
+        assert_eq!(read(plain.replace(',', "\t").as_bytes()), Ok(expected));
+        let crlf = "label,a,rt,d,l_S,l_M,l_B,l_C,l_H\r\nM,1,1,1,0,0,0,0,0\r\nQ,1,1,1,0,0,0,0,0\r\n";
+        assert_eq!(read(crlf.as_bytes()).map_err(|error| error.line), Err(3));
     }
 
     #[test]

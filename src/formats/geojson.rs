@@ -2,8 +2,14 @@
 //! the properties for outsiders.
 
 mod coordinates;
+mod crs;
 mod disk;
+mod edges;
+mod item;
+mod properties;
 mod read;
+mod shapes;
+mod units;
 mod words;
 mod write;
 
@@ -25,11 +31,11 @@ pub const FORMAT: Format = Format {
     exporter: Some(&GeoJson),
 };
 
-/// For files without units whose sizes look like degrees.
+/// For files whose sizes look like degrees, or which GIS programs marked as longitude and latitude.
 static METRES: Switch = Switch {
     name: "metres",
     default: false,
-    help: "Take a file that names no units as metres, whatever the sizes suggest",
+    help: "Take a file as metres, whatever its sizes suggest and its coordinate reference system says",
 };
 
 static ROOMS_ONLY: Switch =

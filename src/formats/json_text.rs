@@ -36,13 +36,76 @@ pub(super) fn line_of_id(text: &str, id: &str, nth: usize) -> Option<usize> {
         .map(|(offset, _)| line_of(text.as_bytes(), offset))
 }
 
-/// The value of the first member `"id": "…"` of a line, when it is of plain characters.
-pub(super) fn id_on_line(text: &str, line: usize) -> Option<&str> {
-    let line = text.split('\n').nth(line.checked_sub(1)?)?;
-    let (_, rest) = line.split_once("\"id\"")?;
-    let value = rest.trim_start().strip_prefix(':')?.trim_start().strip_prefix('"')?;
-    let (id, _) = value.split_once('"')?;
-    (!id.is_empty() && id.len() <= 80 && !id.contains('\\')).then_some(id)
+/// The id of the element that an error of the JSON reader lies in, when it is a text of plain characters.
+/// `depth`: how many objects the element lies in; 0 for an element that is a text by itself.
+pub(super) fn id_around<'a>(text: &'a str, error: &serde_json::Error, depth: usize) -> Option<&'a str> {
+    let line_start = match error.line() {
+        0 => return None,
+        1 => 0,
+        line => text.match_indices('\n').nth(line - 2)?.0 + 1,
+    };
+    // The column counts the bytes read: the last of them may close the element.
+    let at = line_start + error.column().saturating_sub(1);
+    // Objects that are open, each with where its id stands: whether the key just read was "id" comes before.
+    let mut open: Vec<Option<&str>> = Vec::new();
+    let mut lists = Vec::new();
+    let mut key_is_id = false;
+    let bytes = text.as_bytes();
+    let mut i = 0;
+    let is_plain = |id: &&str| !id.is_empty() && id.len() <= 80 && !id.contains('\\');
+    while i < bytes.len() {
+        if i >= at {
+            // The id may stand behind the error, but not behind the end of the element.
+            match open.get(depth) {
+                // The error may be that an element starts here at all.
+                None if bytes[i] == b'{' && open.len() == depth => {}
+                None => return None,
+                Some(Some(id)) => return Some(*id).filter(is_plain),
+                Some(None) => {}
+            }
+        }
+        match bytes[i] {
+            b'"' => {
+                let start = i + 1;
+                i = start;
+                while i < bytes.len() && bytes[i] != b'"' && bytes[i] != b'\n' {
+                    i += if bytes[i] == b'\\' { 2 } else { 1 };
+                }
+                let word = text.get(start..i.min(text.len()))?;
+                let is_key = text[(i + 1).min(text.len())..].trim_start().starts_with(':');
+                if !is_key
+                    && key_is_id
+                    && lists.last() == Some(&false)
+                    && let Some(last) = open.last_mut()
+                {
+                    *last = last.or(Some(word));
+                }
+                key_is_id = is_key && word == "id";
+            }
+            b'{' => {
+                open.push(None);
+                lists.push(false);
+                key_is_id = false;
+            }
+            b'[' => {
+                lists.push(true);
+                key_is_id = false;
+            }
+            b'}' => {
+                if i >= at && open.len() == depth + 1 {
+                    return open.pop().flatten().filter(is_plain);
+                }
+                open.pop();
+                lists.pop();
+            }
+            b']' => {
+                lists.pop();
+            }
+            _ => {}
+        }
+        i += 1;
+    }
+    open.get(depth).copied().flatten().filter(is_plain)
 }
 
 /// A JSON reader's error: what is wrong and, if obvious, what to do.

@@ -13,6 +13,7 @@ pub mod manual;
 mod notes;
 pub mod options;
 pub mod plan_json;
+mod point_openings;
 pub mod registry;
 mod text;
 

@@ -14,10 +14,10 @@ use serde::de::{Error as _, IgnoredAny};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Map, Value};
 
-use super::json_text::{Number, ObjectLines, decode, id_on_line, json_fault, line_of_id};
+use super::json_text::{Number, ObjectLines, decode, id_around, json_fault, line_of_id};
 use super::{
-    Export, Exporter, Format, Head, Import, Importer, NamedBytes, NamedPlan, Options, Place, ReadError, Recognition,
-    Source,
+    Export, Exporter, Format, Head, Import, Importer, NamedBytes, NamedPlan, Note, NoteKind, Options, Place, ReadError,
+    Recognition, Source,
 };
 use crate::geometry::{COORDINATE_LIMIT_M, Point, trim_m};
 use crate::labels::{Label, Schemes, Typology};
@@ -63,12 +63,13 @@ impl Importer for PlanJson {
     }
 
     fn read(&self, source: &Source<'_>, _options: &Options) -> Result<Import, ReadError> {
-        let mut plan = from_bytes(source.bytes()?)?;
+        let Import { mut plans, notes } = read(source.bytes()?)?;
+        let mut plan = plans.pop().unwrap_or_default();
         if plan.meta().name.is_empty() && !source.stem().is_empty() {
             let meta = Meta { name: source.stem().to_owned(), ..plan.meta().clone() };
             plan = crate::edit::set_meta(&plan, meta);
         }
-        Ok(Import { plans: vec![plan], notes: Vec::new() })
+        Ok(Import { plans: vec![plan], notes })
     }
 }
 
@@ -85,6 +86,11 @@ impl Exporter for PlanJson {
 /// When the bytes are not a plan file of a known version, or their content breaks an invariant of the
 /// model; with the line and the element if known.
 pub fn from_bytes(bytes: &[u8]) -> Result<Plan, ReadError> {
+    read(bytes).map(|mut import| import.plans.pop().unwrap_or_default())
+}
+
+/// As [`from_bytes`], with notes on what is not in the plan.
+fn read(bytes: &[u8]) -> Result<Import, ReadError> {
     let text = decode(bytes)?;
     let head: DiskHead = serde_json::from_str(text).map_err(|error| refuse_json(text, &error))?;
     if head.format.as_ref().and_then(Value::as_str) != Some(MAGIC) {
@@ -109,7 +115,18 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Plan, ReadError> {
         },
     }
     let disk: DiskPlan = serde_json::from_str(text).map_err(|error| refuse_json(text, &error))?;
-    live(text, disk)
+    let beyond = disk.guides.len().saturating_sub(guides::MOST_GUIDES);
+    let notes = (beyond > 0).then(|| Note {
+        kind: NoteKind::Skipped,
+        place: Place { line: None, element: "guides".to_owned() },
+        what: format!(
+            "{} more than the {} that a plan may have; the last {} left out, and gone from the file when it is saved",
+            beyond,
+            guides::MOST_GUIDES,
+            if beyond == 1 { "is" } else { "are" },
+        ),
+    });
+    Ok(Import { plans: vec![live(text, disk)?], notes: notes.into_iter().collect() })
 }
 
 /// The complete bytes of a plan's file.
@@ -738,7 +755,7 @@ fn refuse(text: &str, element: ElementId, nth: usize, what: &str, hint: &str) ->
 /// Converts an error of the JSON reader: a syntax error, or a value of the wrong type.
 fn refuse_json(text: &str, error: &serde_json::Error) -> ReadError {
     let line = (error.line() > 0).then_some(error.line());
-    let element = line.and_then(|line| id_on_line(text, line)).map(element_name).unwrap_or_default();
+    let element = id_around(text, error, 1).map(element_name).unwrap_or_default();
     let fault = json_fault(text, error);
     let hint =
         fault.hint.unwrap_or("correct it by hand (docs/plan-file.md describes the file), or restore it from a copy");

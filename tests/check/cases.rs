@@ -100,6 +100,16 @@ pub fn cases() -> Vec<Case> {
             })
         ),
         case!(
+            room_hole_lies_along_its_boundary,
+            flat!(|draft| {
+                // One that only touches it at a corner.
+                draft.room_with_holes("garden", &BESIDE, &[&[(12.0, 2.0), (13.0, 1.0), (14.0, 2.0), (13.0, 3.0)]]);
+            }),
+            flat!(|draft| {
+                draft.room_with_holes("garden", &BESIDE, &[&rectangle((12.0, 1.0), (14.0, 3.0))]);
+            })
+        ),
+        case!(
             room_holes_overlap,
             flat!(|draft| {
                 let holes = [rectangle((12.5, 1.0), (14.0, 3.0)), rectangle((14.0, 1.0), (15.0, 3.0))];
@@ -281,6 +291,15 @@ pub fn cases() -> Vec<Case> {
             only!(|draft| { doors_of_width(&mut draft, 1.6) })
         ),
         case!(
+            axes_ratio_is_implausible,
+            flat!(|draft| {
+                draft.room("corridor", &rectangle((12.0, 0.0), (42.0, 1.0)));
+            }),
+            flat!(|draft| {
+                draft.room("corridor", &rectangle((12.0, 0.0), (42.0, 0.5)));
+            })
+        ),
+        case!(
             room_area_is_unusual,
             flat!(|draft| {
                 draft.room("closet", &rectangle((12.0, 0.0), (15.0, 6.0)));
@@ -320,6 +339,14 @@ pub fn cases() -> Vec<Case> {
                 draft.wall((0.0, 0.0), (4.0, 0.0));
                 draft.wall((3.0, 0.0), (9.0, 0.0));
             })
+        ),
+        case!(
+            wall_stands_in_an_opening,
+            flat!(|draft| {
+                // Beside a door, up to its very edge.
+                draft.wall((5.85, 4.0), (5.85, 0.0));
+            }),
+            flat!(|draft| { draft.wall((5.4, 4.0), (5.4, 0.0)) })
         ),
         case!(
             wall_ends_freely,

@@ -203,6 +203,89 @@ proptest! {
     }
 }
 
+fn findings_of(name: &str) -> BTreeMap<&'static str, Vec<String>> {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/check").join(name);
+    let import = enfilade::formats::read_file(&path).unwrap();
+    let mut kinds: BTreeMap<&'static str, Vec<String>> = BTreeMap::new();
+    for finding in findings(&import.plans[0]) {
+        kinds.entry(finding.kind().name).or_default().push(finding.what());
+    }
+    kinds
+}
+
+/// A door of the usual width is measured as any other.
+#[test]
+fn a_door_wider_than_its_wall_is_found_whatever_its_width() {
+    for (file, excess) in [
+        ("door_of_90_cm_in_a_wall_of_50_cm.plan.json", "0.45 m"),
+        ("door_of_91_cm_in_a_wall_of_50_cm.plan.json", "0.46 m"),
+    ] {
+        let found = findings_of(file);
+        let [what] = &found["opening_is_wider_than_its_wall"][..] else { panic!("{file}: {found:?}") };
+        assert!(what.contains(&format!("reaches {excess} beyond its wall")), "{file}: {what}");
+    }
+}
+
+/// Other programs refuse such a polygon (GEOS: 'Self-intersection[2 0]').
+#[test]
+fn a_hole_along_the_boundary_is_found() {
+    let found = findings_of("hole_along_the_edge.geojson");
+    assert_eq!(
+        found["room_hole_lies_along_its_boundary"],
+        ["a hole of kitchen 'A' runs along its boundary for 2.00 m"]
+    );
+}
+
+#[test]
+fn holes_that_share_a_side_and_holes_that_touch_it_are_told_apart() {
+    let hole = draft::rectangle;
+    let found = |holes: &[[(f64, f64); 4]]| {
+        let mut draft = Draft::flat();
+        let holes: Vec<&[(f64, f64)]> = holes.iter().map(|hole| hole.as_slice()).collect();
+        draft.room_with_holes("garden", &hole((12.0, 0.0), (20.0, 6.0)), &holes);
+        findings(&draft.plan()).iter().map(Finding::what).filter(|what| what.contains("a hole")).collect::<Vec<_>>()
+    };
+    let beside = [hole((13.0, 1.0), (15.0, 3.0)), hole((15.0, 2.0), (17.0, 4.0))];
+    assert_eq!(found(&beside), ["a hole of garden R6 runs along another hole for 1.00 m"]);
+    let at_a_corner = [hole((13.0, 1.0), (15.0, 3.0)), hole((15.0, 3.0), (17.0, 4.0))];
+    assert_eq!(found(&at_a_corner), [] as [&str; 0]);
+    // Its corners lie on two sides of the room, which it cuts in two.
+    let across = [[(12.0, 3.0), (16.0, 2.0), (20.0, 3.0), (16.0, 4.0)]];
+    assert_eq!(found(&across), ["a hole of garden R6 touches its boundary in 2 places"]);
+    let along = [hole((12.0, 0.0), (14.0, 2.0))];
+    assert_eq!(found(&along), ["a hole of garden R6 runs along its boundary for 4.00 m"]);
+}
+
+/// Two rooms and a door, as of a file in millimetres: too little for what is usual, enough for what is possible.
+#[test]
+fn rooms_of_square_kilometres_are_found_without_labels() {
+    let mut draft = Draft::empty(|point| point);
+    draft.room("", &draft::rectangle((0.0, 0.0), (4000.0, 3000.0)));
+    draft.room("", &draft::rectangle((4000.0, 0.0), (8000.0, 3000.0)));
+    draft.door((4000.0, 1000.0), (4000.0, 1900.0));
+    let found = findings(&draft.plan());
+    let scale = found.iter().find(|finding| finding.kind().name == "scale_is_implausible").unwrap();
+    assert!(
+        scale.what().contains("lengths seem 632.5 times too long: its median room has 12\u{202f}000\u{202f}000 m²"),
+        "{scale}"
+    );
+    assert_eq!(scale.severity(), enfilade::check::Severity::Error);
+}
+
+/// Walls that are drawn with gaps, each closed by a door, meet something.
+#[test]
+fn a_wall_that_ends_at_the_side_of_a_door_does_not_end_freely() {
+    let mut draft = Draft::flat();
+    draft.wall((14.0, 0.0), (14.0, 2.0));
+    draft.wall((14.0, 2.9), (14.0, 5.0));
+    draft.wall((14.0, 0.0), (18.0, 0.0));
+    draft.wall((18.0, 0.0), (18.0, 5.0));
+    draft.wall((18.0, 5.0), (14.0, 5.0));
+    assert_eq!(kinds(&draft.plan()).get("wall_ends_freely"), Some(&2));
+    draft.door((14.0, 2.0), (14.0, 2.9));
+    assert_eq!(kinds(&draft.plan()).get("wall_ends_freely"), None);
+}
+
 #[test]
 fn thin_partitions_are_no_gaps_in_a_plan_that_draws_its_walls() {
     let plan = |wall_m: f64| {

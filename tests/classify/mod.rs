@@ -405,6 +405,16 @@ fn bad_tables_are_refused_with_a_reason() {
     support::assert_text(&fixture("bad_tables.txt"), &said);
 }
 
+/// Tables as spreadsheets write them.
+#[test]
+fn tables_of_spreadsheets_are_read_and_their_lines_counted() {
+    let read = |name: &str| csv::read(std::fs::File::open(fixture(&format!("tables/{name}"))).expect(name));
+    let rows = read("semicolons.csv").expect("a table");
+    assert_eq!((rows.len(), rows[0].features.area_m2, rows[0].features.axes_ratio), (1, 12.0, 1.2));
+    let error = read("crlf_wrong_label_on_line_3.csv").expect_err("Q is no label");
+    assert!(error.to_string().starts_with("line 3: column 'label': unknown label 'Q'"), "{error}");
+}
+
 #[test]
 fn columns_of_unequal_length_are_cut_to_the_shortest() {
     let source = RoomSource { plan: Arc::from("p"), room: Arc::from("r") };

@@ -86,7 +86,7 @@ struct RoomSpec {
     extra: Extra,
 }
 
-fn room() -> impl Strategy<Value = RoomSpec> {
+fn room(point: fn() -> BoxedStrategy<Point>) -> impl Strategy<Value = RoomSpec> {
     let rectangle = (-20i32..20, -20i32..20, 1i32..9, 1i32..9).prop_map(|(x, y, width, height)| {
         let [x0, y0, x1, y1] = [x, y, x + width, y + height].map(f64::from);
         vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)]
@@ -110,8 +110,12 @@ struct OpeningSpec {
     extra: Extra,
 }
 
-fn opening() -> impl Strategy<Value = OpeningSpec> {
-    let host = (0usize..1000, 0.0..1.0f64, 0.1..3.0f64);
+fn opening(
+    point: fn() -> BoxedStrategy<Point>,
+    fraction: fn() -> BoxedStrategy<f64>,
+    width_m: fn() -> BoxedStrategy<f64>,
+) -> impl Strategy<Value = OpeningSpec> {
+    let host = (0usize..1000, fraction(), width_m());
     (
         text(),
         select(OpeningKind::ALL.as_slice()),
@@ -134,9 +138,31 @@ fn opening() -> impl Strategy<Value = OpeningSpec> {
 
 /// Any plan that keeps the invariants.
 pub fn plans() -> impl Strategy<Value = Plan> {
+    let point = || point().boxed();
+    let opening = || opening(point, || (0.0..1.0f64).boxed(), || (0.1..3.0f64).boxed());
     let walls = vec((point(), point(), 0.0..10.0f64), 0..6);
-    (meta(), option::of(backdrop()), walls, vec(room(), 0..8), vec(opening(), 0..10))
+    (meta(), option::of(backdrop()), walls, vec(room(point), 0..8), vec(opening(), 0..10))
         .prop_map(|(meta, backdrop, walls, rooms, openings)| build(meta, backdrop, &walls, rooms, openings))
+}
+
+/// Any plan at the edges of what a plan may hold: corners on the edge of the drawing area, openings of any
+/// width at the very ends of their walls, walls of any thickness.
+pub fn plans_at_the_limits() -> impl Strategy<Value = Plan> {
+    fn metre() -> impl Strategy<Value = f64> {
+        let limit = enfilade::plan::COORDINATE_LIMIT_M;
+        prop_oneof![
+            3 => select(vec![-limit, limit]),
+            3 => (0.0..3.0f64).prop_map(move |inside| limit - inside),
+            1 => (0.0..3.0f64).prop_map(move |inside| inside - limit),
+            2 => -9.0..9.0f64,
+        ]
+    }
+    let point = || (metre(), metre()).prop_map(|(x, y)| Point::new(x, y)).boxed();
+    let fraction = || prop_oneof![Just(0.0), Just(1.0), 0.0..1.0f64].boxed();
+    let width_m = || prop_oneof![0.1..3.0f64, Just(1e-4), Just(1000.0)].boxed();
+    let walls = vec((point(), point(), prop_oneof![Just(0.0), Just(10.0), 0.0..10.0f64]), 1..6);
+    (meta(), walls, vec(room(point), 0..5), vec(opening(point, fraction, width_m), 1..10))
+        .prop_map(|(meta, walls, rooms, openings)| build(meta, None, &walls, rooms, openings))
 }
 
 fn build(

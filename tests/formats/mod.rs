@@ -8,6 +8,7 @@ mod docs;
 mod generated;
 mod geojson;
 mod golden;
+mod others;
 mod plan_json;
 mod real;
 mod registry;

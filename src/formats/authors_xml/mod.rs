@@ -2,7 +2,6 @@
 //! repaired and how is described for users in `docs/authors-xml.md`.
 
 mod document;
-mod openings;
 mod scale;
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
@@ -10,8 +9,8 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use serde_json::{Map, Value};
 
 use self::document::{DAMAGED_HINT, Document, Floor, Offset, Portal, Space};
-use self::openings::Ring;
 use super::options::Number;
+use super::point_openings::{self, Ring};
 use super::{
     Format, FormatOption, Head, Import, Importer, Note, NoteKind, Options, Place, Preview, ReadError, Recognition,
     Source,
@@ -618,7 +617,7 @@ impl<'a> Storey<'a, '_> {
             .collect();
         let point = match point_px {
             Some(point) => Some(self.metres(point)),
-            None => openings::likely_point(&own),
+            None => point_openings::likely_point(&own),
         };
         let Some(point) = point.filter(|point| point.x.abs().max(point.y.abs()) < COORDINATE_LIMIT_M) else {
             let what =
@@ -630,7 +629,7 @@ impl<'a> Storey<'a, '_> {
             let what = "its line segment is missing; put where its rooms are next to each other";
             self.note_portal(NoteKind::Healed, space, opening.portal, what);
         }
-        let place = match openings::place(&own, point) {
+        let place = match point_openings::place(&own, point) {
             Some(placed) => {
                 if placed.off_m > THICKEST_WALL_M {
                     let what = format!("lies {:.1} m from the walls of its rooms; put on the nearest", placed.off_m);

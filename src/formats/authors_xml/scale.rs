@@ -21,7 +21,32 @@ const MEDIAN_ROOM_M2: f64 = 30.0;
 const FALLBACK_M: f64 = 0.05;
 
 /// The units that a distance may be in, with their length in metres; the likeliest first.
-const UNITS: [(&str, f64); 5] = [("cm", 0.01), ("m", 1.0), ("mm", 0.001), ("in", 0.0254), ("ft", 0.3048)];
+const UNITS: [(&str, f64); 7] =
+    [("cm", 0.01), ("m", 1.0), ("mm", 0.001), ("in", 0.0254), ("ft", 0.3048), ("dm", 0.1), ("yd", 0.9144)];
+
+/// Other names of [`UNITS`], in English and in the language of the program.
+const UNIT_NAMES: [(&str, &[&str]); 7] = [
+    ("cm", &["centimetre", "centimetres", "centimeter", "centimeters", "centimetro", "centimetri", "cms"]),
+    ("m", &["metre", "metres", "meter", "meters", "metro", "metri", "mt", "mts"]),
+    ("mm", &["millimetre", "millimetres", "millimeter", "millimeters", "millimetro", "millimetri", "mms"]),
+    (
+        "in",
+        &[
+            "inch", "inches", "ins", "\"", "″", "”", "''", "pollice", "pollici", "pouce", "pouces", "pulgada",
+            "pulgadas", "zoll",
+        ],
+    ),
+    ("ft", &["foot", "feet", "'", "′", "’", "piede", "piedi", "pied", "pieds", "pie", "pies", "fuß"]),
+    ("dm", &["decimetre", "decimetres", "decimeter", "decimeters", "decimetro", "decimetri"]),
+    ("yd", &["yard", "yards", "yds", "iarda", "iarde"]),
+];
+
+/// The unit of a name, upper or lower case, with a full stop or without.
+fn unit_named(name: &str) -> Option<(&'static str, f64)> {
+    let name = name.trim().trim_end_matches('.').to_lowercase();
+    let short = UNIT_NAMES.iter().find(|(short, names)| *short == name || names.contains(&name.as_str()))?.0;
+    UNITS.iter().copied().find(|(unit, _)| *unit == short)
+}
 
 /// A scale, and what was repaired to get it.
 #[derive(Debug)]
@@ -53,6 +78,11 @@ pub fn find(document: &Document) -> Found {
         let at = document.represented.as_ref().or(document.real.as_ref()).map(|length| length.at);
         return estimated(median_px2, at, "the scale is missing or no number above 0");
     };
+    let drawn = document.represented.as_ref().filter(|drawn| !is_pixels(&drawn.unit));
+    if let Some(drawn) = drawn {
+        let what = format!("the drawn distance of {pixels} is in '{}', not in pixels; taken as pixels", drawn.unit);
+        healings.push((Some(drawn.at), what));
+    }
     // The program that writes <image_scale> halved the pixels of the scale but not those of the
     // rooms: three pictures of known size prove it (see docs/authors-xml.md).
     let factor = if document.image_scale.is_some() { 0.5 } else { 1.0 };
@@ -60,10 +90,10 @@ pub fn find(document: &Document) -> Found {
         Some(median_px2) => PLAUSIBLE_MEDIAN_M2.contains(&(median_px2 * (value * unit_m / pixels * factor).powi(2))),
         None => PLAUSIBLE_DOOR_M.contains(&(value * unit_m)),
     };
-    let stated = UNITS.iter().find(|(name, _)| real.unit.eq_ignore_ascii_case(name));
+    let stated = unit_named(&real.unit);
     let likely = UNITS.iter().find(|&&(_, unit_m)| is_plausible(unit_m));
     let ((unit, unit_m), origin) = match (stated, likely) {
-        (Some(&(name, unit_m)), _) if is_plausible(unit_m) => ((name, unit_m), ScaleOrigin::Imported),
+        (Some((name, unit_m)), _) if is_plausible(unit_m) => ((name, unit_m), ScaleOrigin::Imported),
         (_, Some(&(name, unit_m))) => {
             let size = match median_px2 {
                 Some(_) => "the rooms would have implausible sizes",
@@ -76,6 +106,11 @@ pub fn find(document: &Document) -> Found {
                         "the scale's distance of {value} '{}' cannot be meant: {size}; taken as {name}",
                         real.unit
                     ),
+                    None if real.unit.is_empty() => {
+                        format!(
+                            "the scale's distance of {value} has no unit; taken as {name}, by the sizes of the rooms"
+                        )
+                    }
                     None => format!(
                         "the unit '{}' of the scale's distance is not known; {value} taken as {name}",
                         real.unit
@@ -108,6 +143,12 @@ pub fn find(document: &Document) -> Found {
     Found { scale: Scale { origin, metres_per_unit: Some(metres_per_pixel), note }, metres_per_pixel, healings }
 }
 
+/// Whether a drawn distance says nothing, or that it is in pixels.
+fn is_pixels(unit: &str) -> bool {
+    let unit = unit.trim().trim_end_matches('.').to_lowercase();
+    ["", "pixel", "pixels", "px", "pix"].contains(&unit.as_str())
+}
+
 /// A scale where the file gives none that can be used.
 fn estimated(median_px2: Option<f64>, at: Option<Offset>, why: &str) -> Found {
     let (metres_per_pixel, how) = match median_px2 {
@@ -135,4 +176,36 @@ fn median_room_px2(document: &Document) -> Option<f64> {
     let mut areas: Vec<f64> =
         spaces.map(|space| polygon::signed_area(&space.boundary).abs()).filter(|&area| area > 0.0).collect();
     upper_median(&mut areas)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_known_by_many_names() {
+        for (name, unit) in [
+            ("cm", "cm"),
+            ("CM", "cm"),
+            ("centimetri", "cm"),
+            ("Centimeters", "cm"),
+            ("inch", "in"),
+            ("Inches", "in"),
+            ("in.", "in"),
+            ("\"", "in"),
+            ("foot", "ft"),
+            ("feet", "ft"),
+            ("'", "ft"),
+            ("metri", "m"),
+            ("Meter", "m"),
+            ("millimetre", "mm"),
+            ("dm", "dm"),
+            ("yards", "yd"),
+        ] {
+            assert_eq!(unit_named(name).map(|(name, _)| name), Some(unit), "{name}");
+        }
+        for unknown in ["", "pixel", "cubit", "c"] {
+            assert_eq!(unit_named(unknown), None, "{unknown}");
+        }
+    }
 }

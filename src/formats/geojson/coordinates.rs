@@ -135,16 +135,3 @@ impl Serialize for Coordinates {
         }
     }
 }
-
-impl Coordinates {
-    /// All positions, in order.
-    pub(super) fn positions(&self) -> Box<dyn Iterator<Item = Point> + '_> {
-        match self {
-            Self::Empty => Box::new(std::iter::empty()),
-            Self::Position(position) => Box::new(std::iter::once(position.0)),
-            Self::Line(line) => Box::new(line.iter().map(|position| position.0)),
-            Self::Rings(rings) => Box::new(rings.iter().flatten().map(|position| position.0)),
-            Self::Polygons(polygons) => Box::new(polygons.iter().flatten().flatten().map(|position| position.0)),
-        }
-    }
-}

@@ -47,15 +47,23 @@ pub(super) struct DiskMeta {
     pub other: Map<String, Value>,
 }
 
-#[derive(Serialize, Deserialize)]
+/// A feature as it is read: its properties are looked at one by one, see [`super::properties`].
+#[derive(Deserialize)]
 #[serde(expecting = "a feature")]
-pub(super) struct DiskFeature {
-    #[serde(rename = "type", default)]
-    pub kind: Words,
+pub(super) struct ReadFeature {
     #[serde(default)]
     pub id: Words,
     pub geometry: Option<DiskGeometry>,
-    #[serde(default)]
+    pub properties: Option<Value>,
+}
+
+/// A feature as it is written.
+#[derive(Serialize)]
+pub(super) struct DiskFeature {
+    #[serde(rename = "type")]
+    pub kind: Words,
+    pub id: Words,
+    pub geometry: Option<DiskGeometry>,
     pub properties: Option<DiskProperties>,
 }
 
@@ -65,25 +73,27 @@ pub(super) struct DiskGeometry {
     #[serde(rename = "type", default)]
     pub kind: Words,
     pub coordinates: Option<Coordinates>,
+    /// Of a GeometryCollection; never written.
+    #[serde(skip_serializing)]
+    pub geometries: Option<Vec<DiskGeometry>>,
 }
 
-#[derive(Default, Serialize, Deserialize)]
-#[serde(expecting = "an object of properties")]
+#[derive(Default, Serialize)]
 pub(super) struct DiskProperties {
-    #[serde(default, skip_serializing_if = "Words::is_empty")]
+    #[serde(skip_serializing_if = "Words::is_empty")]
     pub kind: Words,
-    #[serde(default, skip_serializing_if = "Words::is_empty")]
+    #[serde(skip_serializing_if = "Words::is_empty")]
     pub function: Words,
-    #[serde(default, skip_serializing_if = "Words::is_empty")]
+    #[serde(skip_serializing_if = "Words::is_empty")]
     pub label: Words,
-    #[serde(default, skip_serializing_if = "Words::is_empty")]
+    #[serde(skip_serializing_if = "Words::is_empty")]
     pub label_origin: Words,
-    #[serde(default, skip_serializing_if = "Words::is_empty")]
+    #[serde(skip_serializing_if = "Words::is_empty")]
     pub name: Words,
-    #[serde(default, skip_serializing_if = "Words::is_empty")]
+    #[serde(skip_serializing_if = "Words::is_empty")]
     pub note: Words,
     /// The kind of an opening.
-    #[serde(default, skip_serializing_if = "Words::is_empty")]
+    #[serde(skip_serializing_if = "Words::is_empty")]
     pub opening: Words,
     /// Feature ids of the rooms an opening joins; null is the outside.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -102,7 +112,7 @@ pub(super) struct DiskProperties {
     pub opens: Option<DiskSide>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness_m: Option<Number>,
-    #[serde(default, skip_serializing_if = "Words::is_empty")]
+    #[serde(skip_serializing_if = "Words::is_empty")]
     pub source_id: Words,
     #[serde(flatten)]
     pub other: Map<String, Value>,

@@ -130,7 +130,11 @@ fn room_names(id: RoomId, room: &Room) -> (Words, Words) {
 }
 
 fn feature(id: Words, kind: &str, coordinates: Option<Coordinates>, properties: DiskProperties) -> DiskFeature {
-    let geometry = coordinates.map(|coordinates| DiskGeometry { kind: kind.into(), coordinates: Some(coordinates) });
+    let geometry = coordinates.map(|coordinates| DiskGeometry {
+        kind: kind.into(),
+        coordinates: Some(coordinates),
+        geometries: None,
+    });
     DiskFeature { kind: "Feature".into(), id, geometry, properties: Some(properties) }
 }
 
