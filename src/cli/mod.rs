@@ -15,6 +15,7 @@ mod import;
 mod inputs;
 mod map;
 mod models;
+mod numbers;
 mod open;
 mod progress;
 mod render;
