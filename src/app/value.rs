@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use crate::app::look::keys::Keys;
 pub(crate) use crate::app::session::words::{
-    UNKNOWN, element, elements_word, is_own_word, point, points_word, room, room_word, sample_word, switch_word,
+    UNKNOWN, element, elements_word, is_own_word, point_in, points_word, room, room_word, sample_word, switch_word,
 };
 use crate::app::session::{bulk::Order, selection::SelectMode};
 use crate::classify::Method;

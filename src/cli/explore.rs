@@ -10,7 +10,8 @@ use serde_json::json;
 use super::inputs::{from_stdin, stem};
 use super::outputs::{Outputs, must_be_folder};
 use super::progress::with_progress;
-use super::{CliError, Outcome, Subcommand, Terminal};
+use super::{CliError, Outcome, Subcommand, Terminal, numbers};
+use crate::base::units::parse_number;
 use crate::base::work::{Cancelled, Work};
 use crate::dataset::RoomNetwork;
 use crate::draw::line_map::LineMapDrawing;
@@ -42,19 +43,19 @@ pub struct ExploreCommand {
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Noise of scanners and odometry in units of the usual one; 0 for none
-    #[arg(long, value_name = "FACTOR", default_value_t = 1.0)]
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = numbers::share)]
     noise: f64,
     /// Standard deviation of a range reading, instead of the usual 0.005
-    #[arg(long, value_name = "METRES")]
+    #[arg(long, value_name = "METRES", value_parser = numbers::metres)]
     range_noise: Option<f64>,
     /// Share of range readings that are lost, instead of the usual 0.001
-    #[arg(long, value_name = "SHARE")]
+    #[arg(long, value_name = "SHARE", value_parser = numbers::share)]
     drop_out: Option<f64>,
     /// How far the scanners see
-    #[arg(long, value_name = "METRES", default_value_t = 20.0)]
+    #[arg(long, value_name = "METRES", default_value_t = 20.0, value_parser = numbers::metres)]
     range: f64,
     /// Angle from one beam to the next
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.5)]
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.5, value_parser = numbers::degrees)]
     resolution: f64,
     /// Noise of the odometry: alpha 1 to 4 of the standard motion model
     #[arg(long, value_name = "A1,A2,A3,A4", value_parser = alphas)]
@@ -63,10 +64,10 @@ pub struct ExploreCommand {
     #[arg(long, value_name = "N", default_value_t = 0)]
     furniture: usize,
     /// Share of the inner doors that are closed
-    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = numbers::share)]
     closed: f64,
     /// Share of the inner doors that are ajar: seen through, not passed
-    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = numbers::share)]
     ajar: f64,
     /// Leave the doors to the outside open
     #[arg(long)]
@@ -253,7 +254,7 @@ impl ExploreCommand {
 
 /// Reads the four alphas of the motion model.
 fn alphas(text: &str) -> Result<OdometryNoise, String> {
-    let numbers: Result<Vec<f64>, _> = text.split(',').map(|part| part.trim().parse::<f64>()).collect();
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(parse_number).collect();
     let numbers = numbers.unwrap_or_default();
     match numbers[..] {
         [alpha_1, alpha_2, alpha_3, alpha_4] if numbers.iter().all(|alpha| (0.0..=10.0).contains(alpha)) => {

@@ -19,6 +19,7 @@ mod man;
 mod map;
 mod mistyped;
 mod models;
+mod numbers;
 mod open;
 mod outputs;
 mod progress;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use super::classify::PredictorOptions;
 use super::inputs::from_stdin;
 use super::outputs::{Outputs, must_be_folder};
-use super::{CliError, Outcome, Subcommand, Terminal, inputs};
+use super::{CliError, Outcome, Subcommand, Terminal, inputs, numbers};
 use crate::dataset::RoomNetwork;
 use crate::draw::{
     Drawing, Fill, Style, png,
@@ -32,7 +32,7 @@ pub struct SegmentCommand {
     #[arg(value_name = "MAP.yaml|IMAGE")]
     map: PathBuf,
     /// Metres a pixel, for a plain picture: white is free, all else is not
-    #[arg(long, value_name = "METRES")]
+    #[arg(long, value_name = "METRES", value_parser = numbers::metres)]
     resolution: Option<f64>,
     /// The folder to write to
     #[arg(short, long, value_name = "DIR")]

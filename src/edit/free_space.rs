@@ -25,42 +25,88 @@ use crate::topology::plan_faces::{EdgeFaces, is_sliver};
 /// paper's data, rooms are drawn one by one).
 pub const GAP_BETWEEN_ROOMS_M: f64 = 0.3;
 
-/// Draws a room in the part of an area that no room covers yet; rooms inside it leave holes.
+/// A piece of what is free is a room of its own where it is larger than this, in square metres: smaller ones are what
+/// is left at the edge of a generous stroke. No round number: rounding never decides.
+const LEAST_PIECE_M2: f64 = 0.2497;
+
+/// Rooms that were drawn where no room was.
+#[derive(Clone, Debug)]
+pub struct DrawnInFreeSpace {
+    pub plan: Plan,
+    /// The new rooms, the largest first; never empty.
+    pub rooms: Vec<RoomId>,
+    /// Free pieces that became no room, in square metres together.
+    pub left_out_m2: f64,
+}
+
+/// Draws a room with what of an area no room covers yet; holes are left where rooms lie inside it.
 ///
-/// Of several pieces the largest becomes the room. Arms at most `gap_m` wide (see
-/// [`GAP_BETWEEN_ROOMS_M`]) that extend between or along existing rooms are cut off; slivers are dropped.
-/// Edges along rooms are shared with them. Walls as in [`super::draw_room`].
+/// Where that is in several pieces each becomes a room, but for those that are smaller than any room. Arms that reach
+/// between or along existing rooms and are no wider than `gap_m` (see [`GAP_BETWEEN_ROOMS_M`]) are cut off; slivers are
+/// dropped. Edges along rooms are shared with them. Walls as for [`super::draw_room`].
 ///
 /// # Errors
-/// When the boundary crosses itself or encloses nothing, lies outside the drawing area, or is fully
-/// covered by rooms.
+/// When the boundary crosses itself or encloses nothing, lies outside the drawing area, or rooms
+/// cover all of it.
 pub fn draw_room_in_free_space(
     plan: &Plan,
     outer: &[Point],
     wall_thickness_m: Option<f64>,
     gap_m: f64,
-) -> Result<(Plan, RoomId), EditError> {
-    // Alone on an empty plan: checks whether it is a valid boundary.
+) -> Result<DrawnInFreeSpace, EditError> {
+    // Alone on an empty plan: whether it is a boundary at all.
     let (alone, ring) = overlay_ring(&Plan::default(), outer)?;
     let outer = alone.ring_points(&ring);
     let shapes = RoomShapes::new(plan);
     let near: Vec<&RoomShape> =
         shapes.near(polygon::bounds(&outer).inflated(TOUCH_M)).into_iter().map(|index| &shapes.all()[index]).collect();
     let free = free_pieces(&outer, &near, gap_m);
-    let largest = free
+    let mut pieces: Vec<_> = free
         .into_iter()
         .filter(|(outer, holes)| !is_sliver(outer, holes))
-        .max_by(|(p, in_p), (q, in_q)| polygon::area(p, in_p).total_cmp(&polygon::area(q, in_q)));
-    let Some((outer, holes)) = largest else { return fail("rooms cover this place already") };
+        .map(|(outer, holes)| (polygon::area(&outer, &holes), outer, holes))
+        .collect();
+    pieces.sort_by(|(p, ..), (q, ..)| q.total_cmp(p));
+    if pieces.is_empty() {
+        return fail("rooms cover this place already");
+    }
+    let mut drawn = DrawnInFreeSpace { plan: plan.clone(), rooms: Vec::new(), left_out_m2: 0.0 };
+    let mut corners = Vec::new();
+    for (area_m2, outer, holes) in pieces {
+        if !drawn.rooms.is_empty() && area_m2 < LEAST_PIECE_M2 {
+            drawn.left_out_m2 += area_m2;
+            continue;
+        }
+        match draw_piece(&drawn.plan, &outer, &holes, wall_thickness_m) {
+            Ok((next, id, laid)) => {
+                drawn.plan = next;
+                drawn.rooms.push(id);
+                corners.extend(laid);
+            }
+            Err(error) if drawn.rooms.is_empty() => return Err(error),
+            Err(_) => drawn.left_out_m2 += area_m2,
+        }
+    }
+    drawn.plan = without_leftovers(plan, &drawn.plan, added(plan, &corners));
+    Ok(drawn)
+}
+
+/// Draws one piece of what is free; also gives the corners that its rings came through.
+fn draw_piece(
+    plan: &Plan,
+    outer: &[Point],
+    holes: &[Vec<Point>],
+    wall_thickness_m: Option<f64>,
+) -> Result<(Plan, RoomId, Vec<CornerId>), EditError> {
     let OverlayArea { plan: mut next, boundary: Boundary { outer, holes }, corners } =
-        overlay_area(plan, &outer, &holes)?;
+        overlay_area(plan, outer, holes)?;
     if let Some(thickness_m) = wall_thickness_m {
         for ring in std::iter::once(&outer).chain(&holes) {
             next = add_walls(&next, &[(&closed(ring), thickness_m)])?.0;
         }
     }
     let (next, id) = edit::add_room(&next, Room { outer, holes, ..Room::default() })?;
-    Ok((without_leftovers(plan, &next, added(plan, &corners)), id))
+    Ok((next, id, corners))
 }
 
 /// An area overlaid on a plan.

@@ -16,6 +16,7 @@ mod offset;
 mod openings;
 pub(crate) mod overlay;
 pub(crate) mod split;
+mod square_up;
 pub mod storey;
 mod weld;
 
@@ -40,14 +41,15 @@ pub use calibration::{
 pub use copy::{Array, array, copy_elements, fragment, insert};
 pub use draw::{Drawn, cut_out, draw_room, draw_walls, split_room};
 pub use fill::{Filled, fill_all, fill_at};
-pub use free_space::{GAP_BETWEEN_ROOMS_M, draw_room_in_free_space};
+pub use free_space::{DrawnInFreeSpace, GAP_BETWEEN_ROOMS_M, draw_room_in_free_space};
 pub use merge::merge_rooms;
-pub use moving::{Alignment, align, corners_of, distribute, move_elements, set_thickness, square_up};
+pub use moving::{Alignment, align, corners_of, distribute, move_elements, set_thickness};
 pub use offset::{offset_room, offset_walls};
 pub use openings::{
     OpeningPreview, flip_hinge, flip_side, opening_at, opening_on, opening_preview, place_opening, resize_opening,
     set_opening_kind, set_swing, slide_opening,
 };
+pub use square_up::square_up;
 pub use weld::{Weld, settle, weld};
 
 /// Why an edit failed, worded for the status line.

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::edit::{EditError, checked_position, fail, move_corners, require_corners};
-use crate::geometry::{Bounds, Point, Segment, TOUCH_M, Transform, Vector, polygon, trim_m};
-use crate::plan::{CornerId, ElementId, OpeningId, Place, Plan, RoomId, WallId, ring_edges};
+use crate::geometry::{Bounds, Point, TOUCH_M, Transform, Vector, polygon, trim_m};
+use crate::plan::{CornerId, ElementId, OpeningId, Place, Plan, WallId};
 
 /// Moves elements: each corner they use once, and with it everything that shares it; also free openings.
 /// An opening selected without its wall slides along it.
@@ -235,103 +235,6 @@ fn groups(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<Vec<Group>, Edi
     Ok(groups)
 }
 
-/// A drawing whose main direction is within this angle (1 degree) of the axes is meant to be aligned with
-/// them.
-const UPRIGHT_RAD: f64 = std::f64::consts::PI / 180.0;
-
-/// Makes nearly right angles exact, in rooms or (`None`) in the whole plan, walls included.
-///
-/// The main direction is the one that the greatest length of edges follows, or is perpendicular to,
-/// within `max_angle_rad`, averaged over these; or the axes of the drawing if within a degree of them. An
-/// edge within `max_angle_rad` of it or its perpendicular becomes parallel to it: its ends get the same
-/// coordinate across. Corners linked that way get the mean of their coordinates, which moves them least
-/// (in the sum of squares). Shared corners stay shared; edges at other angles keep their corners.
-///
-/// # Errors
-/// When a room does not exist, there are no edges, an edge would lose its length, or a room would turn
-/// inside out.
-pub fn square_up(plan: &Plan, rooms: Option<&BTreeSet<RoomId>>, max_angle_rad: f64) -> Result<Plan, EditError> {
-    let mut edges: Vec<(CornerId, CornerId)> = Vec::new();
-    match rooms {
-        Some(rooms) => {
-            for &id in rooms {
-                super::require_room(plan, id)?;
-                let rings = plan.room(id).into_iter().flat_map(|room| room.rings());
-                edges.extend(rings.flat_map(|ring| ring_edges(ring)));
-            }
-        }
-        None => edges.extend(crate::edit::overlay::plan_edges(plan)),
-    }
-    let segment = |(a, b): (CornerId, CornerId)| Some(Segment::new(plan.position(a)?, plan.position(b)?));
-    let Some(main_rad) = main_direction(edges.iter().filter_map(|&edge| segment(edge)), max_angle_rad) else {
-        return fail("there is no main direction to square up to");
-    };
-    let (along, across) = (Vector::new(1.0, 0.0).rotated(main_rad), Vector::new(0.0, 1.0).rotated(main_rad));
-    // Corners linked by edges along the main direction share the coordinate across it, and vice versa.
-    let mut linked = [Links::default(), Links::default()];
-    for &(a, b) in &edges {
-        let Some(edge) = segment((a, b)) else { continue };
-        let vector = edge.vector();
-        let (u, v) = (vector.dot(along).abs(), vector.dot(across).abs());
-        if v <= u * max_angle_rad.tan() {
-            linked[1].link(a, b);
-        } else if u <= v * max_angle_rad.tan() {
-            linked[0].link(a, b);
-        }
-    }
-    let origin = edges.first().and_then(|&(a, _)| plan.position(a)).unwrap_or_default();
-    let mut by: BTreeMap<CornerId, Vector> = BTreeMap::new();
-    for (links, axis) in linked.into_iter().zip([along, across]) {
-        for group in links.groups() {
-            let at = |id: &CornerId| plan.position(*id).map_or(0.0, |point| (point - origin).dot(axis));
-            let mean = group.iter().map(at).sum::<f64>() / group.len() as f64;
-            for id in group {
-                let shift = axis * (mean - at(&id));
-                *by.entry(id).or_default() = *by.entry(id).or_default() + shift;
-            }
-        }
-    }
-    let targets: Vec<(CornerId, Point)> = by
-        .iter()
-        .filter_map(|(&id, &shift)| Some((id, plan.position(id)? + shift)))
-        .filter(|&(id, to)| plan.position(id) != Some(to.trimmed()))
-        .collect();
-    let next = move_corners(plan, &targets)?;
-    check_shapes(plan, &next, &targets.iter().map(|&(id, _)| id).collect(), "squaring up")?;
-    Ok(next)
-}
-
-/// The direction most edges share, up to quarter turns, in radians in -π/4..=π/4; see [`square_up`].
-fn main_direction(edges: impl Iterator<Item = Segment>, max_angle_rad: f64) -> Option<f64> {
-    const QUARTER_RAD: f64 = std::f64::consts::FRAC_PI_2;
-    /// A quarter of a degree each: a fraction of the deviation of a hand-drawn line.
-    const BINS: usize = 360;
-    let stray = |angle_rad: f64, from_rad: f64| {
-        (angle_rad - from_rad + QUARTER_RAD / 2.0).rem_euclid(QUARTER_RAD) - QUARTER_RAD / 2.0
-    };
-    let directions: Vec<(f64, f64)> = edges
-        .map(|edge| (edge.vector().angle_rad(), edge.length()))
-        .filter(|&(_, length_m)| length_m > TOUCH_M)
-        .collect();
-    let center = |bin: usize| QUARTER_RAD * bin as f64 / BINS as f64;
-    let mut lengths_m = vec![0.0; BINS];
-    for &(angle_rad, length_m) in &directions {
-        let bin = (angle_rad.rem_euclid(QUARTER_RAD) / QUARTER_RAD * BINS as f64).round() as usize % BINS;
-        lengths_m[bin] += length_m;
-    }
-    let window_rad = max_angle_rad.max(UPRIGHT_RAD);
-    let within = |bin: usize| -> f64 {
-        (0..BINS).filter(|&other| stray(center(other), center(bin)).abs() <= window_rad).map(|i| lengths_m[i]).sum()
-    };
-    let best = (0..BINS).map(|bin| (within(bin), bin)).max_by(|p, q| p.0.total_cmp(&q.0).then(q.1.cmp(&p.1)))?.1;
-    let near = directions.iter().map(|&(angle_rad, length_m)| (stray(angle_rad, center(best)), length_m));
-    let (weighted, length_m) = near
-        .filter(|(stray_rad, _)| stray_rad.abs() <= window_rad)
-        .fold((0.0, 0.0), |(sum, total), (stray_rad, length_m)| (sum + stray_rad * length_m, total + length_m));
-    let main_rad = (length_m > 0.0).then(|| stray(center(best) + weighted / length_m, 0.0))?;
-    Some(if main_rad.abs() <= UPRIGHT_RAD { 0.0 } else { main_rad })
-}
-
 /// Rejects an edit that moved corners if an edge lost its length, or a room turned inside out or began to
 /// cross itself.
 ///
@@ -366,41 +269,4 @@ pub(crate) fn check_shapes(
         }
     }
     Ok(())
-}
-
-/// Corners linked with each other, directly or through others (union-find).
-#[derive(Default)]
-struct Links {
-    parent: BTreeMap<CornerId, CornerId>,
-}
-
-impl Links {
-    fn root(&mut self, mut id: CornerId) -> CornerId {
-        while let Some(&parent) = self.parent.get(&id)
-            && parent != id
-        {
-            let above = self.parent.get(&parent).copied().unwrap_or(parent);
-            self.parent.insert(id, above);
-            id = above;
-        }
-        id
-    }
-
-    fn link(&mut self, a: CornerId, b: CornerId) {
-        for id in [a, b] {
-            self.parent.entry(id).or_insert(id);
-        }
-        let (p, q) = (self.root(a), self.root(b));
-        self.parent.insert(p.max(q), p.min(q));
-    }
-
-    /// The groups of linked corners, by their smallest.
-    fn groups(mut self) -> Vec<Vec<CornerId>> {
-        let mut groups: BTreeMap<CornerId, Vec<CornerId>> = BTreeMap::new();
-        let all: Vec<CornerId> = self.parent.keys().copied().collect();
-        for id in all {
-            groups.entry(self.root(id)).or_default().push(id);
-        }
-        groups.into_values().collect()
-    }
 }

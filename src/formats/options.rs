@@ -87,7 +87,9 @@ impl FormatOption {
                 _ => None,
             },
             Self::Number(option) => {
-                let number = text.parse().ok().filter(|number| (option.least..=option.most).contains(number));
+                let number = crate::base::units::parse_number(text)
+                    .ok()
+                    .filter(|number| (option.least..=option.most).contains(number));
                 number.map(Value::Number)
             }
             Self::Choice(option) => option.words.iter().find(|word| **word == text).map(|word| Value::Word(word)),

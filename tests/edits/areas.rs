@@ -12,7 +12,8 @@ fn a_room_drawn_over_others_takes_what_is_free() {
     let (plan, left) = draw_room(&Plan::default(), &rectangle(0., 0., 4., 3.), Some(0.1)).unwrap();
     let (plan, right) = draw_room(&plan, &rectangle(4.1, 0.02, 8., 3.), None).unwrap();
     // A corridor above both, drawn generously into them; the gap between them stays free.
-    let draw = |plan: &Plan, outer: &[Point]| draw_room_in_free_space(plan, outer, None, GAP_BETWEEN_ROOMS_M);
+    let draw_all = |plan: &Plan, outer: &[Point]| draw_room_in_free_space(plan, outer, None, GAP_BETWEEN_ROOMS_M);
+    let draw = |plan: &Plan, outer: &[Point]| draw_all(plan, outer).map(|drawn| (drawn.plan, drawn.rooms[0]));
     let (next, corridor) = draw(&plan, &rectangle(0., 1.5, 8., 5.)).unwrap();
     assert_eq!(next.violations(), []);
     let room = next.room(corridor).unwrap();
@@ -26,9 +27,14 @@ fn a_room_drawn_over_others_takes_what_is_free() {
     let room = next.room(around).unwrap();
     assert_eq!((room.holes.len(), next.violations()), (1, vec![]));
     assert!((area_m2(&next, room) - (84.0 - 12.0 - 3.9 * 2.98 - 0.1 * 2.98)).abs() < 0.02, "{}", area_m2(&next, room));
-    // Of two pieces the larger; nothing is left within a room.
-    let (next, piece) = draw(&plan, &rectangle(-1., 1., 12., 2.)).unwrap();
-    assert_eq!(area_m2(&next, next.room(piece).unwrap()), 4.0);
+    // Two pieces are two rooms, the larger first; nothing is left within a room.
+    let drawn = draw_all(&plan, &rectangle(-1., 1., 12., 2.)).unwrap();
+    let pieces: Vec<f64> = drawn.rooms.iter().map(|&id| area_m2(&drawn.plan, drawn.plan.room(id).unwrap())).collect();
+    assert_eq!((pieces, drawn.left_out_m2, drawn.plan.violations()), (vec![4.0, 1.0], 0.0, vec![]));
+    // A piece that is smaller than any room is left out, and known to be.
+    let drawn = draw_all(&plan, &rectangle(-0.5, 1., 12., 1.4)).unwrap();
+    assert_eq!(drawn.rooms.len(), 1);
+    assert!((drawn.left_out_m2 - 0.2).abs() < 1e-9, "{}", drawn.left_out_m2);
     assert!(draw(&plan, &rectangle(1., 1., 3., 2.)).unwrap_err().0.contains("cover"));
     assert!(draw(&plan, &points(&[(0., 5.), (4., 8.), (4., 5.), (0., 8.)])).unwrap_err().0.contains("crosses"));
     // A narrow room drawn on purpose is kept, and so is a sharp corner in the open.
@@ -37,7 +43,7 @@ fn a_room_drawn_over_others_takes_what_is_free() {
     let (sharp, id) = draw(&plan, &points(&[(0., 3.), (8., 3.), (8., 9.), (7.9, 9.)])).unwrap();
     assert!((area_m2(&sharp, sharp.room(id).unwrap()) - 24.3).abs() < 0.05);
     // With walls: only where none stands yet.
-    let (walled, _) = draw_room_in_free_space(&plan, &rectangle(0., 1.5, 4., 5.), Some(0.1), 0.3).unwrap();
+    let walled = draw_room_in_free_space(&plan, &rectangle(0., 1.5, 4., 5.), Some(0.1), 0.3).unwrap().plan;
     assert_eq!((plan.walls().len(), walled.walls().len()), (4, 7));
 }
 
@@ -50,8 +56,8 @@ fn what_is_left_out_beside_rooms_does_not_hang_on_where_they_lie() {
         let shifted =
             |ring: &[(f64, f64)]| -> Vec<Point> { ring.iter().map(|&(x, y)| Point::new(x + by_x, y + by_y)).collect() };
         let (plan, _) = draw_room(&Plan::default(), &shifted(&room), None).unwrap();
-        let (plan, id) = draw_room_in_free_space(&plan, &shifted(&outer), None, GAP_BETWEEN_ROOMS_M).unwrap();
-        let area_m2 = area_m2(&plan, plan.room(id).unwrap());
+        let drawn = draw_room_in_free_space(&plan, &shifted(&outer), None, GAP_BETWEEN_ROOMS_M).unwrap();
+        let area_m2 = area_m2(&drawn.plan, drawn.plan.room(drawn.rooms[0]).unwrap());
         assert!((area_m2 - 15.8946).abs() < 1e-3, "{area_m2} m² at {by_x} {by_y}");
     }
 }

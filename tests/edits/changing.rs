@@ -259,3 +259,111 @@ fn doors_flip_and_survive() {
     assert_eq!(slid.opening_segment(slid.opening(free).unwrap()).unwrap().midpoint(), Point::new(5., 1.));
     assert!(area_m2(&plan, plan.room(left).unwrap()) == area_m2(&plan, plan.room(right).unwrap()));
 }
+
+/// How far the corners of a room are from right angles at most, in degrees.
+fn most_off_right_deg(plan: &Plan, id: RoomId) -> f64 {
+    let ring = plan.ring_points(&plan.room(id).unwrap().outer);
+    let n = ring.len();
+    let off = |i: usize| {
+        let (u, v) = (ring[(i + 1) % n] - ring[i], ring[(i + 2) % n] - ring[(i + 1) % n]);
+        (u.dot(v) / (u.length() * v.length())).asin().to_degrees().abs()
+    };
+    (0..n).map(off).fold(0.0, f64::max)
+}
+
+/// A nearly rectangular room, turned about its first corner.
+fn turned(at: (f64, f64), turn_deg: f64) -> Vec<Point> {
+    let at = Point::new(at.0, at.1);
+    let ring = points(&[(0., 0.), (6., 0.05), (5.96, 4.), (0.04, 3.95)]);
+    let turn = Transform::rotation(Point::default(), turn_deg.to_radians());
+    ring.into_iter().map(|corner| (at + (turn.point(corner) - Point::default())).trimmed()).collect()
+}
+
+#[test]
+fn each_wing_is_squared_up_in_its_own_direction() {
+    for turn_deg in [15.0, 30.0, 45.0, 62.0, 80.0] {
+        let (plan, first) = draw_room(&Plan::default(), &turned((0., 0.), 0.3), Some(0.1)).unwrap();
+        let (plan, second) = draw_room(&plan, &turned((20., 0.), turn_deg), Some(0.1)).unwrap();
+        let squared = edit::square_up(&plan, None, 0.1745).unwrap();
+        for id in [first, second] {
+            assert!(most_off_right_deg(&squared, id) < 0.01, "{turn_deg}");
+            let alone = edit::square_up(&plan, Some(&[id].into()), 0.1745).unwrap();
+            assert_eq!(
+                squared.ring_points(&squared.room(id).unwrap().outer),
+                alone.ring_points(&alone.room(id).unwrap().outer)
+            );
+        }
+        assert_eq!(edit::square_up(&squared, None, 0.1745).unwrap(), squared, "done is done");
+    }
+    // Turned by less than the threshold, and drawn too well to be drawn badly.
+    let exact = |x: f64, turn_deg: f64| -> Vec<Point> {
+        let turn = Transform::rotation(Point::default(), turn_deg.to_radians());
+        rectangle(0., 0., 6., 4.).into_iter().map(|corner| turn.point(corner) + Vector::new(x, 0.)).collect()
+    };
+    let (plan, _) = draw_room(&Plan::default(), &exact(0., 0.), None).unwrap();
+    let (plan, wing) = draw_room(&plan, &exact(20., 7.), None).unwrap();
+    let squared = edit::square_up(&plan, None, 0.1745).unwrap();
+    for (id, corner) in squared.corners() {
+        assert!(corner.position.distance(plan.position(id).unwrap()) < 2e-4);
+    }
+    assert!(most_off_right_deg(&squared, wing) < 0.01);
+    // Where two wings share a wall, both come out right.
+    let (plan, main) =
+        draw_room(&Plan::default(), &points(&[(0., 0.), (6., 0.04), (9., 3.02), (9., 8.), (0., 8.03)]), None).unwrap();
+    let (plan, side) = draw_room(&plan, &points(&[(6., 0.04), (10.02, -4.), (13., -0.97), (9., 3.02)]), None).unwrap();
+    let squared = edit::square_up(&plan, None, 0.1745).unwrap();
+    assert!(most_off_right_deg(&squared, side) < 0.01);
+    let ring = squared.ring_points(&squared.room(main).unwrap().outer);
+    assert!((ring[0].y - ring[1].y).abs() < 1e-3 && (ring[2].x - ring[3].x).abs() < 1e-3, "{ring:?}");
+    // Walls that bound no room have wings as well.
+    let walls = |plan: &Plan, path: &[(f64, f64)]| edit::draw_walls(plan, &points(path), 0.1).unwrap().plan;
+    let plan = walls(&Plan::default(), &[(0., 0.), (8., 0.1), (8., 4.), (0., 4.1)]);
+    let plan = walls(&plan, &[(12.01, 0.02), (16.27, 4.28), (13.43, 7.11), (9.13, 2.83)]);
+    let squared = edit::square_up(&plan, None, 0.1745).unwrap();
+    for (_, wall) in squared.walls() {
+        let degrees = squared.wall_segment(wall).unwrap().vector().angle_rad().to_degrees().rem_euclid(45.0);
+        assert!(degrees.min(45.0 - degrees) < 1.0, "{degrees}");
+    }
+    let corners: Vec<Point> = [(16.27, 4.28), (13.43, 7.11)].map(|(x, y)| Point::new(x, y)).to_vec();
+    let near = |at: Point| {
+        squared.corners().map(|(_, it)| it.position).min_by(|p, q| p.distance(at).total_cmp(&q.distance(at))).unwrap()
+    };
+    let (a, b, c) = (near(Point::new(12.01, 0.02)), near(corners[0]), near(corners[1]));
+    assert!(((b - a).dot(c - b) / ((b - a).length() * (c - b).length())).abs() < 1e-4);
+}
+
+#[test]
+fn round_walls_are_left_alone_when_squaring_up() {
+    let chords = |from: (f64, f64), by: (f64, f64), to: (f64, f64)| {
+        let [from, by, to] = [from, by, to].map(|(x, y)| Point::new(x, y));
+        enfilade::geometry::path::arc(from, by, to, 0.02).into_iter().map(Point::trimmed).collect::<Vec<Point>>()
+    };
+    // A hall with an apse: its straight walls become right, its chords stay.
+    let apse = chords((8., 6.), (4., 10.), (0., 6.04));
+    let mut outline = points(&[(0., 0.), (8., 0.06)]);
+    outline.extend(&apse);
+    let (plan, hall) = draw_room(&Plan::default(), &outline, Some(0.1)).unwrap();
+    let squared = edit::square_up(&plan, None, 0.1745).unwrap();
+    let ring = squared.ring_points(&squared.room(hall).unwrap().outer);
+    assert!(ring.iter().any(|p| p.y.abs() > 1e-3));
+    for corner in &apse[1..apse.len() - 1] {
+        assert!(ring.contains(corner), "{corner:?} moved");
+    }
+    // A round room beside a square one; a round wall that bounds none.
+    let mut round = chords((20., 0.), (23., 3.), (20., 6.));
+    round.extend(chords((20., 6.), (17., 3.), (20., 0.)).into_iter().skip(1));
+    round.pop();
+    let (plan, tower) = draw_room(&plan, &round, None).unwrap();
+    let bow = chords((30., 0.), (33., 3.), (36., 0.));
+    let plan = edit::draw_walls(&plan, &bow, 0.1).unwrap().plan;
+    let squared = edit::square_up(&plan, None, 0.1745).unwrap();
+    assert_eq!(
+        squared.ring_points(&squared.room(tower).unwrap().outer),
+        plan.ring_points(&plan.room(tower).unwrap().outer)
+    );
+    let is_corner = |at: &Point| squared.corners().any(|(_, corner)| corner.position == *at);
+    assert!(bow.iter().all(is_corner));
+    // Alone there is nothing to square up.
+    let (alone, _) = draw_room(&Plan::default(), &round, None).unwrap();
+    assert!(edit::square_up(&alone, None, 0.1745).is_err());
+}

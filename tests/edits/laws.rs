@@ -157,9 +157,10 @@ fn applied(plan: &Plan, step: &Step) -> Option<Plan> {
         Step::Room(outer, walls) => draw_room(plan, outer, walls.then_some(0.1)).ok().map(|(plan, _)| plan),
         Step::FreeSpace(outer, walls) => {
             let before = plan.rooms().filter(|(_, room)| room.holes.is_empty()).count();
-            let (next, id) = draw_room_in_free_space(plan, outer, walls.then_some(0.1), 0.3).ok()?;
-            assert!(next.room(id).is_some() && next.rooms().count() > before);
-            Some(next)
+            let drawn = draw_room_in_free_space(plan, outer, walls.then_some(0.1), 0.3).ok()?;
+            assert!(drawn.rooms.iter().all(|&id| drawn.plan.room(id).is_some()) && !drawn.rooms.is_empty());
+            assert!(drawn.plan.rooms().count() > before);
+            Some(drawn.plan)
         }
         Step::Fill(Some(at)) => fill_at(plan, *at).ok().map(|filled| filled.plan),
         Step::Fill(None) => fill_all(plan).ok().map(|filled| filled.plan),
@@ -297,10 +298,14 @@ proptest! {
             if let Ok(drawn) = draw_walls(&here, path, 0.1) { here = drawn.plan; }
             if let Ok(drawn) = draw_walls(&moved, &map(path), 0.1) { moved = drawn.plan; }
             let room = |plan: &Plan, outer: &[Point]| {
-                if *in_free_space { draw_room_in_free_space(plan, outer, None, 0.3) } else { draw_room(plan, outer, None) }
+                if *in_free_space {
+                    draw_room_in_free_space(plan, outer, None, 0.3).map(|drawn| drawn.plan)
+                } else {
+                    draw_room(plan, outer, None).map(|(plan, _)| plan)
+                }
             };
-            if let Ok((next, _)) = room(&here, outer) { here = next; }
-            if let Ok((next, _)) = room(&moved, &map(outer)) { moved = next; }
+            if let Ok(next) = room(&here, outer) { here = next; }
+            if let Ok(next) = room(&moved, &map(outer)) { moved = next; }
         }
         prop_assert_eq!(here.rooms().len(), moved.rooms().len());
         let length_m = |plan: &Plan| -> f64 {
@@ -374,11 +379,14 @@ proptest! {
     fn rooms_drawn_in_free_space_never_overlap(outers in proptest::collection::vec(boundary(), 1..6)) {
         let mut plan = Plan::default();
         for outer in &outers {
-            if let Ok((next, id)) = draw_room_in_free_space(&plan, outer, None, 0.3) {
+            if let Ok(drawn) = draw_room_in_free_space(&plan, outer, None, 0.3) {
+                let next = drawn.plan;
                 let (before, after) = (total_area(&plan), total_area(&next));
-                let ring = next.ring_points(&next.room(id).unwrap().outer);
-                let box_m2 = enfilade::geometry::polygon::bounds(&ring);
-                prop_assert!(after - before <= box_m2.width() * box_m2.height() + 0.01);
+                let boxes_m2 = drawn.rooms.iter().map(|&id| {
+                    let bounds = enfilade::geometry::polygon::bounds(&next.ring_points(&next.room(id).unwrap().outer));
+                    bounds.width() * bounds.height()
+                });
+                prop_assert!(after - before <= boxes_m2.sum::<f64>() + 0.01);
                 plan = next;
             }
         }

@@ -107,7 +107,8 @@ fn a_room_taken_out_of_a_real_plan_is_drawn_back_with_generous_strokes() {
             let (p, q) = (generous.min, generous.max);
             let stroke = [p, Point::new(q.x, p.y), q, Point::new(p.x, q.y)];
             let without = edit::remove(&plan, &[ElementId::Room(id)]).unwrap();
-            let Ok((next, new)) = draw_room_in_free_space(&without, &stroke, None, 0.3) else { continue };
+            let Ok(drawn_again) = draw_room_in_free_space(&without, &stroke, None, 0.3) else { continue };
+            let (next, new) = (drawn_again.plan, drawn_again.rooms[0]);
             assert_eq!(next.violations(), [], "{}", path.display());
             let area = area_m2(&next, next.room(new).unwrap());
             drawn += 1;

@@ -4,6 +4,7 @@
 //! floors.
 
 mod docs;
+mod numbers;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

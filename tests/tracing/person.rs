@@ -184,7 +184,8 @@ impl Person {
         if self.is_over {
             return edit::draw_room(&self.plan, corners, thickness_m).ok();
         }
-        edit::draw_room_in_free_space(&self.plan, corners, thickness_m, GAP_BETWEEN_ROOMS_M).ok()
+        let drawn = edit::draw_room_in_free_space(&self.plan, corners, thickness_m, GAP_BETWEEN_ROOMS_M).ok()?;
+        Some((drawn.plan, *drawn.rooms.first()?))
     }
 
     /// Draws a rectangle from corner to corner; `alt` says at which click nothing attracts.

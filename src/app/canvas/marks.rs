@@ -15,7 +15,7 @@ use crate::app::paint::scene_painter::{earcut, outline_mesh, polygon_mesh};
 use crate::app::session::Session;
 use crate::app::session::document::{Derived, Document};
 use crate::app::session::questions::Shown;
-use crate::app::tools::{self, Scope};
+use crate::app::tools::{self, Scope, Toolbox};
 use crate::base::units::Units;
 use crate::draw::{Palette, Style, View};
 use crate::geometry::{Bounds, Point, Segment};
@@ -176,21 +176,31 @@ pub(super) fn more_to_snap_to(session: &Session, view: &View, pointer: Point) ->
 /// Snapping reach for the storey below, in points.
 const GHOST_REACH_PX: f64 = 16.0;
 
-/// What has been typed for the tool, beside the pointer.
+/// What has been typed for the tool, beside the pointer: what is understood of it, or why it is not taken.
 pub(super) fn paint_typed(
     painter: &Painter,
     rect: Rect,
     view: &View,
     palette: &Palette,
     scope: &Scope<'_>,
-    typed: &str,
+    toolbox: &Toolbox,
 ) {
+    let Toolbox { typed, refused, .. } = toolbox;
     if typed.is_empty() {
         return;
     }
     let at = on_screen(rect, view, scope.at()) + vec2(14.0, 40.0);
     let ink = theme::colour(palette.ink);
-    tools::tag(painter, at, egui::Align2::LEFT_TOP, &format!("{typed}|   Enter"), ink, palette);
+    let understood = toolbox.understood(scope.units);
+    let text = if understood.is_empty() { format!("{typed}|") } else { format!("{typed}|   = {understood}   Enter") };
+    let tag = tools::tag(painter, at, egui::Align2::LEFT_TOP, &text, ink, palette);
+    if !refused.is_empty() {
+        let below = tag.left_bottom() + vec2(0.0, 4.0);
+        let colour = theme::colour(palette.error);
+        // What is wrong, and below it what would be right.
+        let lines = refused.replacen("; ", "\n", 1);
+        tools::tag(painter, below, egui::Align2::LEFT_TOP, &lines, colour, palette);
+    }
 }
 
 /// How an element is marked.

@@ -225,7 +225,7 @@ impl Canvas {
         if tool.snaps() && self.pointed.at.is_some() {
             tools::paint_snap(&painter, rect, &view, palette, &scope.snap);
         }
-        paint_typed(&painter, rect, &view, palette, &scope, &toolbox.typed);
+        paint_typed(&painter, rect, &view, palette, &scope, toolbox);
         let is_blank =
             document.plan().is_empty() && document.plan().backdrop().is_none() && session.ghost_plan().is_none();
         if is_blank && toolbox.is_selecting() {
@@ -330,7 +330,7 @@ impl Canvas {
         if !calls.is_empty() {
             *act = Some(Act::Calls(calls));
         }
-        toolbox.hint = toolbox.tool().hint(&scope);
+        toolbox.hint = toolbox.hint(&scope);
         if response.contains_pointer() && !self.is_panning && !is_space_held(ui) {
             ui.ctx().set_cursor_icon(toolbox.tool().cursor(&scope));
         }

@@ -11,10 +11,11 @@ use crate::app::session::words::Choice;
 use crate::app::session::{origin::bundled, settings::Keyed};
 use crate::app::state::{App, SidePanel};
 use crate::app::value::{
-    UNKNOWN, Value, element, elements_word, is_own_word, point, points_word, room, room_word, sample_word, switch_word,
+    UNKNOWN, Value, element, elements_word, is_own_word, point_in, points_word, room, room_word, sample_word,
+    switch_word,
 };
 use crate::base::{
-    units::Units,
+    units::{NotUnderstood, Units, parse_angle_deg, parse_number, parse_percent, parse_ratio},
     wording::{or_list, sentence, similar},
 };
 use crate::features::RoomStatus;
@@ -35,6 +36,24 @@ pub struct Argument {
     pub help: &'static str,
 }
 
+impl Argument {
+    /// What it is, with the unit of numbers that are typed without one.
+    pub(crate) fn asked(&self, units: Units) -> String {
+        let unit = match units {
+            Units::Metric => "metres",
+            Units::Imperial => "feet",
+        };
+        match self.kind {
+            ArgumentKind::Length { .. } | ArgumentKind::Coordinate { .. } | ArgumentKind::Points { .. } => {
+                // What is written in scripts is in metres whatever is set; what is typed here is not.
+                let help = self.help.replace(", in metres", "").replace(" in metres", "");
+                format!("{help}, in {unit} or with a unit")
+            }
+            _ => self.help.to_owned(),
+        }
+    }
+}
+
 /// What an argument can be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ArgumentKind {
@@ -46,10 +65,20 @@ pub enum ArgumentKind {
     PictureFile,
     /// Any text, empty included.
     Text,
-    /// A number with a decimal point.
-    Number { unit: &'static str, least: f64, most: f64 },
     /// A length, typed in the units that are set or with its own; see [`crate::base::units`].
     Length { least_m: f64, most_m: f64 },
+    /// A place on an axis, or a way along one: in scripts in metres whatever is set, as points are.
+    Coordinate { least_m: f64, most_m: f64 },
+    /// An angle in degrees, or with its unit.
+    Angle { least_deg: f64, most_deg: f64 },
+    /// A factor: a number, or one with a percent sign.
+    Ratio { least: f64, most: f64 },
+    /// A number of percent.
+    Percent,
+    /// A number of something that is neither a length nor an angle nor a share.
+    Number { unit: &'static str, least: f64, most: f64 },
+    /// A whole number from 0 on.
+    Whole { most: usize },
     /// 1, 2, 3, …
     Count,
     /// A room of the open plan: its name, if unique, or its id.
@@ -89,21 +118,32 @@ pub enum ArgumentKind {
 const MOST_SIMILAR: usize = 3;
 
 impl ArgumentKind {
-    /// What is expected, for an error message: 'a number of metres from 0 to 100'.
+    /// What is expected, for an error message: 'a length from 0 m to 10 m'.
     pub fn expected(self) -> String {
+        self.expected_in(Units::Metric)
+    }
+
+    /// The same with lengths in some units.
+    pub(crate) fn expected_in(self, units: Units) -> String {
         match self {
             Self::PlanFile => "a file with a plan, or a folder".to_owned(),
             Self::NewPlanFile => "a file to write the plan to".to_owned(),
             Self::PictureFile => "a file with a picture".to_owned(),
             Self::Text => "a text".to_owned(),
             Self::Number { unit, least, most } => format!("a number{unit} from {least} to {most}"),
+            // Beyond the drawing area nothing is limited any more.
+            Self::Length { least_m, most_m } if most_m >= COORDINATE_LIMIT_M => match least_m > 0.0 {
+                true => format!("a length of at least {}", units.exact_length(least_m)),
+                false => "a length".to_owned(),
+            },
             Self::Length { least_m, most_m } => {
-                format!(
-                    "a length from {} to {}",
-                    Units::Metric.exact_length(least_m),
-                    Units::Metric.exact_length(most_m)
-                )
+                format!("a length from {} to {}", units.exact_length(least_m), units.exact_length(most_m))
             }
+            Self::Coordinate { least_m, most_m } => format!("a number of metres from {least_m} to {most_m}"),
+            Self::Angle { least_deg, most_deg } => format!("an angle from {least_deg}° to {most_deg}°"),
+            Self::Ratio { least, most } => format!("a number from {least} to {most}"),
+            Self::Percent => "a number of percent from 0 to 100".to_owned(),
+            Self::Whole { most } => format!("a whole number from 0 to {most}"),
             Self::Count => "1, 2, 3, …".to_owned(),
             Self::Room => "the name of a room of this plan, or its id".to_owned(),
             Self::Opening => "the id of an opening of this plan".to_owned(),
@@ -141,100 +181,132 @@ impl ArgumentKind {
         }
     }
 
-    /// Reads an argument.
+    /// Reads an argument as a person types it where it is asked for: numbers of points and coordinates, too, are in
+    /// the units that are set. Gives it as it is written in a call.
     ///
     /// # Errors
     /// What is expected instead.
+    pub(crate) fn read_typed(self, app: &App, text: &str) -> Result<String, String> {
+        let value = match self {
+            Self::Points { least } => self.points(app, text, app.units(), least),
+            Self::Coordinate { .. } => self.number(app, app.units().parse_length(text)),
+            // As it was typed: what is shown of it is then not another's spelling.
+            _ => return self.read(app, text).map(|_| text.to_owned()),
+        };
+        value.map(|value| self.write(app, &value))
+    }
+
+    /// A number that was read, where it is within its limits.
+    fn number(self, app: &App, read: Result<f64, NotUnderstood>) -> Result<Value, String> {
+        let number = read.map_err(|error| error.to_string())?;
+        self.take(app, Value::Number(number))
+    }
+
+    fn points(self, app: &App, text: &str, units: Units, least: usize) -> Result<Value, String> {
+        let found: Option<Vec<Point>> = text.split_whitespace().map(|word| point_in(word, units)).collect();
+        found.filter(|found| found.len() >= least).map(Value::Points).ok_or_else(|| self.wrong(app))
+    }
+
+    /// Why something else is not taken.
+    fn wrong(self, app: &App) -> String {
+        format!("expected {}", self.expected_in(app.units()))
+    }
+
+    /// Reads an argument.
+    ///
+    /// # Errors
+    /// What is not understood, or what is expected instead, as a clause: 'expected 1, 2, 3, …'.
     pub(crate) fn read(self, app: &App, text: &str) -> Result<Value, String> {
-        let with_choices = |expected: String| {
+        let with_choices = |wrong: String| {
             let choices = self.choices(app).unwrap_or_default();
             let similar = similar(text, choices.iter().map(|choice| choice.word.as_str()), MOST_SIMILAR);
             match (similar.is_empty(), choices.len()) {
-                (false, _) => format!("{expected}; did you mean {}?", or_list(&similar)),
+                (false, _) => format!("{wrong}; did you mean {}?", or_list(&similar)),
                 (true, 1..=8) => {
                     let words: Vec<&str> = choices.iter().map(|choice| choice.word.as_str()).collect();
-                    format!("{expected}: {}", or_list(&words))
+                    format!("{wrong}: {}", or_list(&words))
                 }
-                (true, _) => expected,
+                (true, _) => wrong,
             }
         };
         match self {
-            Self::PlanFile | Self::NewPlanFile | Self::PictureFile if text.is_empty() => Err(self.expected()),
+            Self::PlanFile | Self::NewPlanFile | Self::PictureFile if text.is_empty() => Err(self.wrong(app)),
             Self::PlanFile | Self::NewPlanFile | Self::PictureFile => Ok(Value::Path(PathBuf::from(text))),
             Self::Text | Self::Function => Ok(Value::Text(text.trim().to_owned())),
-            Self::Number { least, most, .. } => {
-                let number = text.trim().parse::<f64>().ok().filter(|number| (least..=most).contains(number));
-                number.map(Value::Number).ok_or_else(|| self.expected())
+            Self::Length { .. } => self.number(app, app.units().parse_length(text)),
+            Self::Coordinate { .. } => {
+                let number = Units::Metric.parse_length(text).map_err(|_| self.wrong(app))?;
+                self.take(app, Value::Number(number))
             }
-            Self::Length { least_m, most_m } => {
-                let length_m = app.units().parse_length(text).map_err(|error| error.to_string())?;
-                let length_m = trim_m(length_m);
-                if (least_m..=most_m).contains(&length_m) { Ok(Value::Number(length_m)) } else { Err(self.expected()) }
+            Self::Angle { .. } => self.number(app, parse_angle_deg(text)),
+            Self::Ratio { .. } => self.number(app, parse_ratio(text)),
+            Self::Percent => self.number(app, parse_percent(text)),
+            Self::Number { .. } => self.number(app, parse_number(text)),
+            Self::Whole { most } => {
+                let number = text.trim().parse::<usize>().ok().filter(|number| *number <= most);
+                number.map(Value::Count).ok_or_else(|| self.wrong(app))
             }
             Self::Count => {
                 let count = text.trim().parse::<usize>().ok().filter(|count| *count > 0);
-                count.map(Value::Count).ok_or_else(|| self.expected())
+                count.map(Value::Count).ok_or_else(|| self.wrong(app))
             }
             Self::Room => {
-                let plan = app.plan().ok_or_else(|| self.expected())?;
+                let plan = app.plan().ok_or_else(|| self.wrong(app))?;
                 room(plan, text.trim())
                     .map(Value::Room)
-                    .map_err(|several| several.unwrap_or_else(|| with_choices(self.expected())))
+                    .map_err(|several| several.unwrap_or_else(|| with_choices(self.wrong(app))))
             }
             Self::Opening => {
                 let id = text.trim().parse::<OpeningId>().ok();
                 let id = id.filter(|&id| app.plan().is_some_and(|plan| plan.opening(id).is_some()));
-                id.map(Value::Opening).ok_or_else(|| self.expected())
+                id.map(Value::Opening).ok_or_else(|| self.wrong(app))
             }
             Self::Elements => {
-                let plan = app.plan().ok_or_else(|| self.expected())?;
+                let plan = app.plan().ok_or_else(|| self.wrong(app))?;
                 let found: Option<Vec<ElementId>> = text.split_whitespace().map(|word| element(plan, word)).collect();
-                found.filter(|found| !found.is_empty()).map(Value::Elements).ok_or_else(|| self.expected())
+                found.filter(|found| !found.is_empty()).map(Value::Elements).ok_or_else(|| self.wrong(app))
             }
-            Self::Points { least } => {
-                let found: Option<Vec<Point>> = text.split_whitespace().map(point).collect();
-                found.filter(|found| found.len() >= least).map(Value::Points).ok_or_else(|| self.expected())
-            }
+            Self::Points { least } => self.points(app, text, Units::Metric, least),
             Self::Typology if text.trim().eq_ignore_ascii_case(UNKNOWN) => Ok(Value::Typology(None)),
             Self::Typology => {
                 let wanted = text.trim();
                 let found =
                     app.session.schemes.typologies().find(|typology| typology.as_str().eq_ignore_ascii_case(wanted));
-                found.cloned().map(|found| Value::Typology(Some(found))).ok_or_else(|| with_choices(self.expected()))
+                found.cloned().map(|found| Value::Typology(Some(found))).ok_or_else(|| with_choices(self.wrong(app)))
             }
             Self::ModelSet => {
                 let set = ModelSet::read(text, &app.session.models).ok();
-                set.map(Value::ModelSet).ok_or_else(|| with_choices(self.expected()))
+                set.map(Value::ModelSet).ok_or_else(|| with_choices(self.wrong(app)))
             }
-            Self::Method => text.parse().map(Value::Method).map_err(|_| with_choices(self.expected())),
+            Self::Method => text.parse().map(Value::Method).map_err(|_| with_choices(self.wrong(app))),
             Self::Sample => {
                 let wanted = text.trim();
                 let index = bundled().iter().position(|(name, _)| formats::file_stem(name) == wanted);
-                index.map(Value::Sample).ok_or_else(|| with_choices(self.expected()))
+                index.map(Value::Sample).ok_or_else(|| with_choices(self.wrong(app)))
             }
             Self::Switch => match text.trim() {
                 "on" => Ok(Value::Switch(true)),
                 "off" => Ok(Value::Switch(false)),
-                _ => Err(self.expected()),
+                _ => Err(self.wrong(app)),
             },
             Self::Answer => {
                 let answers = answers(app);
                 let found = answers.iter().find(|(word, _)| *word == text.trim());
-                found.map(|&(word, _)| Value::Word(word)).ok_or_else(|| with_choices(self.expected()))
+                found.map(|&(word, _)| Value::Word(word)).ok_or_else(|| with_choices(self.wrong(app)))
             }
             Self::Command => {
                 let mut commands = app.session.settings.commands().iter();
                 let command = commands.find(|command| command.id == text.trim() && command.menu.is_some());
-                command.map(|command| Value::Command(command.id)).ok_or_else(|| with_choices(self.expected()))
+                command.map(|command| Value::Command(command.id)).ok_or_else(|| with_choices(self.wrong(app)))
             }
             Self::SidePanel => {
                 let panel = app.panels.others().find(|panel| panel.id == text.trim());
-                panel.map(|panel| Value::SidePanel(panel.id)).ok_or_else(|| with_choices(self.expected()))
+                panel.map(|panel| Value::SidePanel(panel.id)).ok_or_else(|| with_choices(self.wrong(app)))
             }
-            Self::Keys => text.parse().map(Value::Keys).map_err(|error: NoKeys| error.to_string()),
+            Self::Keys => text.parse().map(Value::Keys).map_err(|error: NoKeys| format!("expected {error}")),
             Self::Word(words) => {
                 let found = words.iter().find(|(word, _)| *word == text.trim());
-                found.map(|(word, _)| Value::Word(word)).ok_or_else(|| self.expected())
+                found.map(|(word, _)| Value::Word(word)).ok_or_else(|| self.wrong(app))
             }
         }
     }
@@ -250,13 +322,21 @@ impl ArgumentKind {
         };
         let is_taken = match (self, &value) {
             (Self::PlanFile | Self::NewPlanFile | Self::PictureFile, Value::Path(path)) => !path.as_os_str().is_empty(),
-            (Self::Number { least, most, .. }, Value::Number(number)) => (least..=most).contains(number),
+            (
+                Self::Number { least, most, .. }
+                | Self::Ratio { least, most }
+                | Self::Angle { least_deg: least, most_deg: most }
+                | Self::Coordinate { least_m: least, most_m: most },
+                Value::Number(number),
+            ) => (least..=most).contains(number),
+            (Self::Percent, Value::Number(number)) => (0.0..=100.0).contains(number),
+            (Self::Whole { most }, Value::Count(count)) => *count <= most,
             (Self::Length { least_m, most_m }, Value::Number(length_m)) => {
                 let length_m = trim_m(*length_m);
                 return if (least_m..=most_m).contains(&length_m) {
                     Ok(Value::Number(length_m))
                 } else {
-                    Err(self.expected())
+                    Err(self.wrong(app))
                 };
             }
             (Self::Count, Value::Count(count)) => *count > 0,
@@ -279,7 +359,7 @@ impl ArgumentKind {
             | (Self::Keys, Value::Keys(_)) => true,
             _ => false,
         };
-        if is_taken { Ok(value) } else { Err(self.expected()) }
+        if is_taken { Ok(value) } else { Err(self.wrong(app)) }
     }
 
     /// An argument as text, such that parsing it gives the same value.
@@ -323,6 +403,11 @@ impl ArgumentKind {
             | Self::Text
             | Self::Number { .. }
             | Self::Length { .. }
+            | Self::Coordinate { .. }
+            | Self::Angle { .. }
+            | Self::Ratio { .. }
+            | Self::Percent
+            | Self::Whole { .. }
             | Self::Count
             | Self::Keys
             | Self::Elements

@@ -136,21 +136,37 @@ pub(super) const ON_OR_OFF: Kind<bool> = kind(ArgumentKind::Switch);
 pub(super) const ANSWER: Kind<&'static str> = kind(ArgumentKind::Answer);
 pub(super) const A_COMMAND: Kind<CommandId> = kind(ArgumentKind::Command);
 pub(super) const PANEL: Kind<SidePanelId> = kind(ArgumentKind::SidePanel);
+pub(super) const PERCENT: Kind<f64> = kind(ArgumentKind::Percent);
 pub(super) const KEYS: Kind<Keys> = kind(ArgumentKind::Keys);
 
-/// A number: what it counts with a blank before (' of degrees'), and its range.
+/// A number of what is neither a length nor an angle nor a share: what it counts, with a blank before, and its range.
 pub(super) const fn number(unit: &'static str, least: f64, most: f64) -> Kind<f64> {
     kind(ArgumentKind::Number { unit, least, most })
 }
 
-/// A number of metres.
-pub(super) const fn metres(least_m: f64, most_m: f64) -> Kind<f64> {
-    number(" of metres", least_m, most_m)
+/// A place on an axis, in scripts in metres whatever is set.
+pub(super) const fn coordinate(least_m: f64, most_m: f64) -> Kind<f64> {
+    kind(ArgumentKind::Coordinate { least_m, most_m })
 }
 
 /// A length in the current units, or with its own.
 pub(super) const fn length(least_m: f64, most_m: f64) -> Kind<f64> {
     kind(ArgumentKind::Length { least_m, most_m })
+}
+
+/// An angle; what a command gets is in degrees.
+pub(super) const fn angle(least_deg: f64, most_deg: f64) -> Kind<f64> {
+    kind(ArgumentKind::Angle { least_deg, most_deg })
+}
+
+/// A factor.
+pub(super) const fn ratio(least: f64, most: f64) -> Kind<f64> {
+    kind(ArgumentKind::Ratio { least, most })
+}
+
+/// A whole number from 0 on.
+pub(super) const fn whole(most: usize) -> Kind<usize> {
+    kind(ArgumentKind::Whole { most })
 }
 
 /// At least so many points.

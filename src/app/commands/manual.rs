@@ -27,6 +27,14 @@ know in the file stays in it. A damaged file is kept aside as `settings.damaged.
 it that cannot be. Letters without Ctrl go to a text field when one has the keyboard.
 ";
 
+/// What stands above the table of arguments.
+const LENGTHS: &str = "\
+A length may have a unit, such as `90cm` or `3'`; without one it is in metres or in feet, as is
+set. Numbers of points and coordinates are metres, whatever is set, unless they have a unit: `0,0 4m,3ft`. Numbers may be
+sums, and have a decimal comma where no comma stands between them (see [naming](naming.md#units)).
+
+";
+
 /// The page.
 pub fn manual() -> String {
     let mut page = INTRODUCTION.to_owned();
@@ -35,7 +43,8 @@ pub fn manual() -> String {
         section(&mut page, menu.title(), true, COMMANDS.iter().filter(of_menu));
     }
     section(&mut page, "Only in scripts", false, COMMANDS.iter().filter(|command| command.menu.is_none()));
-    page.push_str("\n## Arguments\n\nWhat stands in brackets may be left out.\n\n");
+    page.push_str("\n## Arguments\n\nWhat stands in brackets may be left out. ");
+    page.push_str(LENGTHS);
     page.push_str("| Argument | Of | What it is |\n| --- | --- | --- |\n");
     let mut told: Vec<&Argument> = Vec::new();
     for argument in COMMANDS.iter().flat_map(|command| command.arguments) {
@@ -47,7 +56,13 @@ pub fn manual() -> String {
         let of: Vec<String> = COMMANDS.iter().filter(has).map(|command| format!("`{}`", command.id)).collect();
         let Argument { name, help, kind, .. } = argument;
         let limits = match kind {
-            ArgumentKind::Number { least, most, .. } => format!(", from {least} to {most}"),
+            ArgumentKind::Number { least, most, .. } | ArgumentKind::Ratio { least, most } => {
+                format!(", from {least} to {most}")
+            }
+            ArgumentKind::Coordinate { least_m: least, most_m: most }
+            | ArgumentKind::Angle { least_deg: least, most_deg: most } => format!(", from {least} to {most}"),
+            ArgumentKind::Percent => ", from 0 to 100".to_owned(),
+            ArgumentKind::Length { .. } | ArgumentKind::Whole { .. } => format!(": {}", kind.expected()),
             _ => String::new(),
         };
         let _ = writeln!(page, "| {name} | {} | {help}{limits} |", of.join(", "));

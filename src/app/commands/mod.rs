@@ -235,11 +235,92 @@ mod tests {
                 let (id, kind) = match option {
                     ToolOption::Switch { command, .. } => (*command, ArgumentKind::Switch),
                     ToolOption::Length { command, least_m, most_m, .. } => {
-                        (*command, ArgumentKind::Number { unit: " of metres", least: *least_m, most: *most_m })
+                        (*command, ArgumentKind::Length { least_m: *least_m, most_m: *most_m })
                     }
                 };
                 let command = find(id).unwrap_or_else(|| panic!("{} asks for {id}", tool.id));
                 assert_eq!(command.arguments.iter().map(|argument| argument.kind).collect::<Vec<_>>(), [kind], "{id}");
+            }
+        }
+    }
+
+    /// A new argument that is a length, an angle or a share is one by its kind: by its kind it is read.
+    #[test]
+    fn every_argument_with_a_number_has_the_kind_of_what_it_counts() {
+        let arguments = || COMMANDS.iter().flat_map(|command| command.arguments.iter().map(move |it| (command.id, it)));
+        for (id, argument) in arguments() {
+            let Argument { name, kind, help, .. } = argument;
+            let is_length = matches!(
+                kind,
+                ArgumentKind::Length { .. } | ArgumentKind::Coordinate { .. } | ArgumentKind::Points { .. }
+            );
+            let is_named_so =
+                ["THICKNESS", "WIDTH", "HEIGHT", "LENGTH", "DISTANCE", "TOLERANCE", "POSITION", "DX", "DY"];
+            let says = |words: &[&str]| words.iter().any(|word| help.contains(word));
+            if is_named_so.contains(name)
+                || (says(&["metre", "feet", "how far", "how wide", "how thick"]) && *name != "ANGLE")
+            {
+                // Of the scale and of the size of a tile, say, a number is no length.
+                let is_other = matches!(kind, ArgumentKind::Number { unit: " of pixels to the metre", .. });
+                assert!(is_length || is_other, "{name} of {id} is a length by its name or its help");
+            }
+            let is_angle = matches!(kind, ArgumentKind::Angle { .. });
+            assert_eq!(*name == "ANGLE" || says(&["degree"]), is_angle, "{name} of {id}");
+            let is_number = matches!(kind, ArgumentKind::Number { .. });
+            // A length, an angle, a factor and a percentage are no bare numbers.
+            assert_eq!(is_number, (id, *name) == ("view", "SCALE"), "{name} of {id}");
+        }
+        let lengths = arguments().filter(|(_, argument)| matches!(argument.kind, ArgumentKind::Length { .. })).count();
+        assert!(lengths >= 16, "{lengths}");
+    }
+
+    #[test]
+    fn every_argument_with_a_number_is_read_by_the_one_reader() {
+        let mut window = crate::app::Offscreen::new(crate::app::OffscreenOptions::default());
+        let read = |window: &crate::app::Offscreen, kind: ArgumentKind, text: &str| match kind.read(window.app(), text)
+        {
+            Ok(crate::app::value::Value::Number(number)) => Some(number),
+            _ => None,
+        };
+        for units in ["units-metric", "units-imperial"] {
+            window.run_command(units);
+            let unit_m = if units == "units-metric" { 1.0 } else { crate::base::units::METRES_PER_FOOT };
+            for (id, argument) in
+                COMMANDS.iter().flat_map(|command| command.arguments.iter().map(move |it| (command.id, it)))
+            {
+                let kind = argument.kind;
+                let cases: &[(&str, f64)] = match kind {
+                    ArgumentKind::Length { .. } => &[
+                        ("2 1/2\"", 0.0635),
+                        ("1'3-1/2\"", 0.3937),
+                        ("1’ 3½”", 0.3937),
+                        ("0,3 METRES", 0.3),
+                        ("3*(60cm+12mm)", 1.836),
+                        ("2.5", 2.5 * unit_m),
+                        ("2,5", 2.5 * unit_m),
+                    ],
+                    ArgumentKind::Coordinate { .. } => &[("2,5", 2.5), ("1'3-1/2\"", 0.3937), ("3 - 1/2", 2.5)],
+                    ArgumentKind::Angle { .. } => &[("22,5°", 22.5), ("90/4", 22.5), ("(10 + 12.5) deg", f64::NAN)],
+                    ArgumentKind::Ratio { .. } => &[("1,5", 1.5), ("3/2", 1.5), ("150 %", 1.5)],
+                    ArgumentKind::Percent => &[("12,5", 12.5), ("12.5 %", 12.5), ("100/8", 12.5)],
+                    ArgumentKind::Number { .. } => &[("12,5", 12.5), ("100/8", 12.5)],
+                    _ => continue,
+                };
+                let what = |text: &str| format!("{} of {id} in {units}: {text}", argument.name);
+                for &(text, expected) in cases {
+                    match read(&window, kind, text) {
+                        // Beyond the argument's limits, or a spelling that is refused.
+                        None => {
+                            let said = kind.read(window.app(), text).unwrap_err();
+                            let is_limit = said.starts_with("expected ") && !said.contains("is not understood");
+                            assert!(is_limit || expected.is_nan(), "{}: {said}", what(text));
+                        }
+                        Some(number) => assert!((number - expected).abs() < 1e-4, "{}: {number}", what(text)),
+                    }
+                }
+                for wrong in ["", "wide", "3 parsec", "1.2.3", "1e3", "NaN", "3m²", "2x3"] {
+                    assert!(kind.read(window.app(), wrong).is_err(), "{}", what(wrong));
+                }
             }
         }
     }

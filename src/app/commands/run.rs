@@ -39,8 +39,8 @@ pub enum CommandError {
         /// The argument's name: 'ROOM'.
         argument: &'static str,
         given: String,
-        /// What it should be, with words that are like the given one.
-        expected: String,
+        /// What is not understood, or what it should be, with words that are like the given one.
+        what: String,
     },
     /// More arguments were given than the command takes.
     TooManyArguments { id: &'static str, given: usize, most: usize },
@@ -54,8 +54,8 @@ impl fmt::Display for CommandError {
                 write!(f, "there is no command '{id}'; did you mean {}?", or_list(similar))
             }
             Self::NotNow { id, reason } => write!(f, "'{id}' cannot be done now: {reason}"),
-            Self::WrongArgument { id, argument, given, expected } => {
-                write!(f, "{argument} of '{id}' is '{given}': expected {expected}")
+            Self::WrongArgument { id, argument, given, what } => {
+                write!(f, "{argument} of '{id}' is '{given}': {what}")
             }
             Self::TooManyArguments { id, given, most: 0 } => write!(f, "'{id}' takes no arguments, {given} are given"),
             Self::TooManyArguments { id, given, most: 1 } => write!(f, "'{id}' takes 1 argument, {given} are given"),
@@ -140,9 +140,9 @@ impl App {
             return Err(CommandError::TooManyArguments { id, given: arguments.len(), most });
         }
         let read = command.arguments.iter().zip(arguments).map(|(argument, text)| {
-            argument.kind.read(self, text).map_err(|expected| {
+            argument.kind.read(self, text).map_err(|what| {
                 let given = (*text).to_owned();
-                CommandError::WrongArgument { id, argument: argument.name, given, expected }
+                CommandError::WrongArgument { id, argument: argument.name, given, what }
             })
         });
         read.collect::<Result<_, _>>().map(Values)
@@ -155,11 +155,11 @@ impl App {
         }
         let taken = command.arguments.iter().zip(values).map(|(argument, value)| {
             let given = argument.kind.write(self, &value);
-            argument.kind.take(self, value).map_err(|expected| CommandError::WrongArgument {
+            argument.kind.take(self, value).map_err(|what| CommandError::WrongArgument {
                 id,
                 argument: argument.name,
                 given,
-                expected,
+                what,
             })
         });
         taken.collect::<Result<_, _>>().map(Values)

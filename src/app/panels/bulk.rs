@@ -204,7 +204,7 @@ impl NameForm {
             if !is_done {
                 return End::Cancel;
             }
-            let start = Value::Number(f64::from(start.unwrap_or(1)));
+            let start = Value::Count(start.unwrap_or(1) as usize);
             let (pattern, which) = (Value::Text(self.pattern.clone()), Value::Text(self.which.word()));
             End::Do(Call::new("name-rooms", [pattern, which, Value::word(self.order), start]))
         })

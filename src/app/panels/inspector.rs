@@ -1,5 +1,7 @@
 //! What is known of what is picked: a room, an opening, or the plan as a whole.
 
+use std::ops::RangeInclusive;
+
 use egui::{Id, Key, Popup, PopupCloseBehavior, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::picture::{self, PictureAct};
@@ -7,6 +9,7 @@ use super::prediction;
 use crate::app::commands;
 use crate::app::look::{
     icons::Icon,
+    length_field::LengthField,
     theme,
     widgets::{Lead, Row, Segment, caption, colours, follow_focus, hairline, link, section, segmented, strong, value},
 };
@@ -19,6 +22,7 @@ use crate::base::{
 };
 use crate::draw::Palette;
 use crate::features::{Features, RoomAnalysis, RoomStatus};
+use crate::geometry::trim_m;
 use crate::labels::{Label, Meaning, normalised_function};
 use crate::plan::{
     ElementId, Joint, LabelOrigin, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, ScaleOrigin,
@@ -411,7 +415,7 @@ impl Inspected<'_> {
             let length_m: f64 = walls.iter().map(|(length_m, _)| length_m).sum();
             value(ui, if walls.len() == 1 { "Length" } else { "Length together" }, &self.app.units().length(length_m));
             if walls.iter().all(|(_, other_m)| *other_m == thickness_m) {
-                value(ui, "Thickness", &thickness(self.app.units(), thickness_m));
+                act = act.or(self.length(ui, "Thickness", thickness_m, 0.0..=10.0, "set-thickness"));
             }
         }
         let areas_m2: Vec<f64> = self.document.derived().map_or_else(Vec::new, |derived| {
@@ -429,6 +433,28 @@ impl Inspected<'_> {
         act
     }
 
+    /// A length of what is selected, which a command changes.
+    fn length(
+        &self,
+        ui: &mut Ui,
+        name: &str,
+        now_m: f64,
+        range_m: RangeInclusive<f64>,
+        command: &'static str,
+    ) -> Option<Act> {
+        // What stands in the field is in line with the values below and above.
+        let name_width = Some((ui.available_width() * 0.42).min(110.0) - 10.0);
+        let field =
+            LengthField { name, now_m: trim_m(now_m), range_m, units: self.app.units(), width: 100.0, name_width };
+        // Of another wall or door, what was begun is forgotten.
+        let selected: Vec<ElementId> = self.app.selection().iter().collect();
+        let entered = ui.push_id(selected, |ui| ui.horizontal(|ui| field.show(ui)).inner).inner;
+        if !entered.refused.is_empty() {
+            ui.label(RichText::new(&entered.refused).size(theme::SMALL).color(colours(ui).error));
+        }
+        entered.length_m.map(|length_m| Act::Choose(command, format!("{length_m}m")))
+    }
+
     // An opening.
 
     fn opening(&self, ui: &mut Ui, id: OpeningId, opening: &Opening, hovered: &mut Option<ElementId>) -> Option<Act> {
@@ -438,18 +464,21 @@ impl Inspected<'_> {
         };
         header(ui, None, Some(opening_icon(opening.kind)), &sentence(opening.kind.name()), subtitle);
         ui.add_space(6.0);
+        let mut act = None;
         if let Some(segment) = self.plan.opening_segment(opening) {
-            value(ui, "Width", &self.app.units().length(segment.length()));
+            act = self.length(ui, "Width", segment.length(), 0.01..=1000.0, "set-opening-width");
         }
         if !opening.kind.is_passable() {
             caption(ui, "Windows are for drawing only: they join nothing.");
-            return None;
+            return act;
         }
         hairline(ui);
         section(ui, "Joins");
-        let derived = self.document.derived()?;
-        let connection = derived.analysis.graph.connections().iter().find(|connection| connection.opening == id)?;
-        let mut act = None;
+        let joins = self.document.derived().and_then(|derived| {
+            let connections = derived.analysis.graph.connections();
+            Some((derived, connections.iter().find(|connection| connection.opening == id)?))
+        });
+        let Some((derived, connection)) = joins else { return act };
         unindented(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
             for (side, joint) in connection.sides.into_iter().enumerate() {
@@ -668,14 +697,6 @@ fn feature(ui: &mut Ui, name: &str, symbol: &str, number: &str, is_zero: bool, h
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, format!("{name}: {number}")));
     if let Some(help) = help {
         response.on_hover_text(help);
-    }
-}
-
-/// A wall's thickness, which is stated in millimetres.
-fn thickness(units: Units, thickness_m: f64) -> String {
-    match units {
-        Units::Metric => format!("{:.0} mm", thickness_m * 1000.0),
-        Units::Imperial => units.length(thickness_m),
     }
 }
 

@@ -20,6 +20,7 @@ use crate::app::look::{
 };
 use crate::app::state::App;
 use crate::app::state::{After, Dialog, Entry, Purpose};
+use crate::base::units::Units;
 use crate::base::wording::sentence;
 
 /// Width of the palette, in points.
@@ -49,6 +50,8 @@ pub(crate) struct Palette {
     is_stepped: bool,
     /// Whether the field has been shown: the first time, its text is selected.
     is_shown: bool,
+    /// What numbers are in that are typed without a unit.
+    units: Units,
 }
 
 struct Asking {
@@ -142,6 +145,7 @@ impl Dialog for Palette {
         if app.session.question.is_some() {
             return After::Close;
         }
+        self.units = app.units();
         let lines = self.lines(app, ui);
         let act = self.show_in(ui, &lines);
         let is_done = act.is_some();
@@ -221,11 +225,13 @@ impl Palette {
     fn take_argument(&mut self, app: &mut App, ui: &Ui, word: String) -> bool {
         let Some(asking) = &mut self.asking else { return false };
         let Some(argument) = asking.argument() else { return false };
-        if let Err(expected) = argument.kind.read(app, &word) {
-            asking.error = format!("Expected {expected}");
-            return true;
+        match argument.kind.read_typed(app, &word) {
+            Ok(word) => asking.given.push(word),
+            Err(what) => {
+                asking.error = sentence(&what);
+                return true;
+            }
         }
-        asking.given.push(word);
         asking.choices = None;
         if asking.rest.is_empty() && asking.command.asked_in_palette(asking.given.len()).is_some() {
             self.query.clear();
@@ -294,8 +300,8 @@ impl Palette {
         let asked = self.asking.as_ref().and_then(|asking| Some((asking, asking.argument()?)));
         let (hint, name) = match asked {
             Some((asking, argument)) => {
-                let name = format!("{}: {}", asking.command.plain_title(), argument.help);
-                (sentence(argument.help), name)
+                let asked = argument.asked(self.units);
+                (sentence(&asked), format!("{}: {asked}", asking.command.plain_title()))
             }
             None => ("Find a command".to_owned(), "Find a command".to_owned()),
         };
@@ -367,7 +373,8 @@ impl Palette {
                 Some(asking) if asking.is_free() => {
                     let argument = asking.argument();
                     let name = argument.map_or("", |argument| argument.name).to_lowercase();
-                    format!("{}: {}", sentence(&name), argument.map_or("", |argument| argument.help))
+                    let asked = argument.map(|argument| argument.asked(self.units)).unwrap_or_default();
+                    format!("{}: {asked}", sentence(&name))
                 }
                 Some(_) => format!("Nothing fits ‘{query}’"),
             };

@@ -1,17 +1,18 @@
 //! The options of the active tool, in a bar floating over the canvas, so that nothing moves when it
 //! appears.
 
-use egui::{Area, DragValue, Frame, Id, Margin, Order, RichText, Ui, vec2};
+use egui::{Area, Frame, Id, Margin, Order, RichText, Ui, vec2};
 
 use crate::app::commands;
 use crate::app::look::{
+    length_field::LengthField,
     theme,
     widgets::{colours, toggle},
 };
 use crate::app::state::App;
 use crate::app::tools::ToolOption;
 use crate::app::value::{Call, Value};
-use crate::base::units::Units;
+use crate::geometry::trim_m;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let tool = app.tools.entry();
@@ -30,6 +31,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         frame.show(ui, |ui| {
             // On a narrow canvas it wraps to two lines or more.
             ui.set_max_width((canvas.width() - SPACE - EDGE - frame.total_margin().sum().x).max(LEAST_WIDTH));
+            let mut refused = String::new();
             ui.horizontal_wrapped(|ui| {
                 ui.spacing_mut().item_spacing = vec2(8.0, 4.0);
                 ui.label(crate::app::look::widgets::strong(tool.title, theme::BODY));
@@ -38,8 +40,30 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
                     let (id, name) = match option {
                         ToolOption::Length { command, name, least_m, most_m, now_m, is_shown } => {
                             let options = app.tools.options;
-                            if is_shown(&options) {
-                                length(app, ui, name, command, now_m(&options), *least_m..=*most_m);
+                            if !is_shown(&options) {
+                                continue;
+                            }
+                            let (range_m, units) = (*least_m..=*most_m, app.units());
+                            let field = LengthField {
+                                name,
+                                now_m: now_m(&options),
+                                range_m,
+                                units,
+                                width: FIELD,
+                                name_width: None,
+                            };
+                            let entered = field.show(ui);
+                            if let Some(length_m) = entered.length_m {
+                                let to_the_millimetre = (length_m * 1000.0).round() / 1000.0;
+                                let context = ui.ctx().clone();
+                                app.act_on(Call::new(command, [Value::Number(to_the_millimetre)]), &context);
+                                if trim_m(length_m) != to_the_millimetre {
+                                    let taken = units.exact_length(to_the_millimetre);
+                                    app.session.status = format!("{name}: {taken}, to the millimetre");
+                                }
+                            }
+                            if !entered.refused.is_empty() {
+                                refused = entered.refused;
                             }
                             continue;
                         }
@@ -56,6 +80,10 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
                     }
                 }
             });
+            if !refused.is_empty() {
+                let colour = colours(ui).error;
+                ui.label(RichText::new(refused).size(theme::SMALL).color(colour));
+            }
         });
     });
 }
@@ -66,32 +94,8 @@ const SPACE: f32 = 30.0;
 /// Margin left at the canvas's edges, in points.
 const EDGE: f32 = 4.0;
 
+/// Width of a field for a length, in points.
+const FIELD: f32 = 72.0;
+
 /// The bar is at least so wide, in points, on however small a canvas.
 const LEAST_WIDTH: f32 = 120.0;
-
-/// A length that is dragged or typed, in metres.
-fn length(
-    app: &mut App,
-    ui: &mut Ui,
-    name: &str,
-    command: &'static str,
-    now_m: f64,
-    range: std::ops::RangeInclusive<f64>,
-) {
-    let label = ui.label(RichText::new(name).color(colours(ui).text_weak));
-    let mut value_m = now_m;
-    let units = app.units();
-    let field = DragValue::new(&mut value_m).speed(0.005).range(range);
-    let field = match units {
-        Units::Metric => field.max_decimals(3).min_decimals(2).suffix(" m"),
-        Units::Imperial => field
-            .custom_formatter(move |value_m, _| units.exact_length(value_m))
-            .custom_parser(move |typed| units.parse_length(typed).ok()),
-    };
-    let response = ui.add(field).labelled_by(label.id);
-    if response.changed() {
-        let to_the_millimetre = Value::Number((value_m * 1000.0).round() / 1000.0);
-        let context = ui.ctx().clone();
-        app.act_on(Call::new(command, [to_the_millimetre]), &context);
-    }
-}

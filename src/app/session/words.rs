@@ -1,6 +1,7 @@
 //! Names of the things in a plan as command arguments, and choices among such names.
 
 use crate::app::session::origin::bundled;
+use crate::base::units::Units;
 use crate::features::RoomStatus;
 use crate::formats;
 use crate::geometry::{COORDINATE_LIMIT_M, Point};
@@ -80,10 +81,17 @@ pub(crate) fn elements_word(elements: impl IntoIterator<Item = ElementId>) -> St
     words.join(" ")
 }
 
-/// The point that a word means.
+/// The point that a word means: two numbers of metres, or lengths with their units.
 pub(crate) fn point(word: &str) -> Option<Point> {
+    point_in(word, Units::Metric)
+}
+
+/// The same with numbers without a unit in some units.
+pub(crate) fn point_in(word: &str, units: Units) -> Option<Point> {
     let (x, y) = word.split_once(',')?;
-    let point = Point::new(x.parse().ok()?, y.parse().ok()?);
+    // Of more commas nobody knows which are decimal ones.
+    let coordinate = |text: &str| units.parse_length(text).ok().filter(|_| !text.contains(','));
+    let point = Point::new(coordinate(x)?, coordinate(y)?);
     (point.is_finite() && point.x.abs() <= COORDINATE_LIMIT_M && point.y.abs() <= COORDINATE_LIMIT_M).then_some(point)
 }
 

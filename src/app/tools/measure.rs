@@ -139,6 +139,10 @@ impl Tool for Measure {
         self.path.points.clone()
     }
 
+    fn is_drawing(&self) -> bool {
+        false
+    }
+
     // Nothing is drawn: no length is typed.
     fn typing(&self) -> Option<Typing> {
         None

@@ -7,7 +7,7 @@ use super::{Call, Entry, Input, Scope, Tool, Typed, Typing, Value};
 use crate::app::look::icons::Icon;
 use crate::app::paint::preview::{Look, Preview};
 use crate::edit::opening_on;
-use crate::geometry::{Point, Segment};
+use crate::geometry::{Point, Segment, trim_m};
 use crate::plan::titles::room_title;
 use crate::plan::{Joint, LeafSide, Opening as PlanOpening, OpeningKind, Swing};
 use crate::snapping::IndexedEdge;
@@ -68,12 +68,16 @@ impl Opening {
         Self { kind, from: None }
     }
 
-    /// The opening that a click would make.
-    fn planned(&self, scope: &Scope<'_>) -> Option<PlanOpening> {
+    /// Where the middle of an opening is meant to be, and how wide it is meant to be.
+    fn wanted(&self, scope: &Scope<'_>) -> (Point, f64) {
         let dragged = self.from.map(|from| Segment::new(from, scope.pointer));
         let dragged = dragged.filter(|way| way.length() >= LEAST_WIDTH_M);
-        let at = dragged.map_or(scope.pointer, Segment::midpoint);
-        let width_m = dragged.map_or(self.width_m(scope), Segment::length);
+        (dragged.map_or(scope.pointer, Segment::midpoint), dragged.map_or(self.width_m(scope), Segment::length))
+    }
+
+    /// The opening that a click would make.
+    fn planned(&self, scope: &Scope<'_>) -> Option<PlanOpening> {
+        let (at, width_m) = self.wanted(scope);
         // A wall before a boundary, the nearer first.
         let near = scope.derived?.index.edges_near(at, scope.metres(REACH_PX));
         let is_there = |edge: &&IndexedEdge| edge.corners.iter().all(|&id| scope.plan.corner(id).is_some());
@@ -106,7 +110,8 @@ impl Opening {
         }
         let planned = self.planned(scope);
         let Some(segment) = planned.and_then(|opening| scope.plan.opening_segment(&opening)) else { return Vec::new() };
-        let width_m = (segment.length() * 1e4).round() / 1e4;
+        // As it was meant, not as the wall lets it: what differs is said.
+        let width_m = trim_m(segment.length().max(self.wanted(scope).1));
         let values = [
             Value::word(self.kind),
             Value::point(segment.midpoint()),

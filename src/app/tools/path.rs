@@ -143,14 +143,14 @@ impl Path {
     }
 
     /// The corner that a typed length means: towards the pointer, or at the typed angle from the last
-    /// line.
+    /// line; straight on where the pointer is on the last corner.
     pub(super) fn typed_point(&self, typed: Typed, scope: &Scope<'_>) -> Option<Point> {
         let Typed::Length { length_m, angle_rad } = typed else { return None };
         let last = self.last()?;
         let along = self.along().unwrap_or(Vector::new(1.0, 0.0));
         let way = match angle_rad {
             Some(angle_rad) => along.rotated(angle_rad),
-            None => (scope.at() - last).unit().or_else(|| (scope.pointer - last).unit())?,
+            None => (scope.at() - last).unit().or_else(|| (scope.pointer - last).unit()).unwrap_or(along),
         };
         Some((last + way * length_m).trimmed())
     }

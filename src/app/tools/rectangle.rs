@@ -3,6 +3,7 @@
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::tool::{GRID, Group, OVER_ROOMS, SNAPPING, THICKNESS_WITH_ROOMS, WITH_WALLS};
+use super::typing::LEAST_SIDE_M;
 use super::{Call, Entry, Input, Scope, TakenBack, Tool, Typed, Typing};
 use crate::app::look::icons::Icon;
 use crate::app::look::icons::Part::{Disc, Fill, Loop};
@@ -35,9 +36,6 @@ enum Rectangle {
         along: Vector,
     },
 }
-
-/// Sides shorter than this are a slip of the hand: half of the smallest shaft.
-const LEAST_SIDE_M: f64 = 0.1;
 
 impl Rectangle {
     /// Ready -> Sized

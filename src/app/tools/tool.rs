@@ -131,6 +131,11 @@ pub(crate) trait Tool {
         self.path().is_some_and(|path| !path.is_empty())
     }
 
+    /// Whether that is being drawn, so that no letter may be a shortcut: another tool would drop it.
+    fn is_drawing(&self) -> bool {
+        self.is_busy()
+    }
+
     /// Whether places snap.
     fn snaps(&self) -> bool {
         true

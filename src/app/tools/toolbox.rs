@@ -3,7 +3,7 @@
 use egui::{Context, Event, Key};
 
 use super::TOOLS;
-use super::input::{DrawOptions, Ground, Input};
+use super::input::{DrawOptions, Ground, Input, Scope};
 use super::tool::{Entry, TakenBack, Tool};
 use super::typing;
 use crate::app::paint::places::canvas_id;
@@ -17,6 +17,8 @@ pub(crate) struct Toolbox {
     tool: Box<dyn Tool>,
     /// The text typed for the tool.
     pub typed: String,
+    /// Why that is not taken; empty while nothing is wrong.
+    pub refused: String,
     /// Keys that were pressed since the canvas was last shown.
     pending: Vec<Input>,
     /// How often Tab was pressed here, to cycle through snap targets.
@@ -37,6 +39,7 @@ impl Default for Toolbox {
             entry,
             tool: (entry.make)(),
             typed: String::new(),
+            refused: String::new(),
             pending: Vec::new(),
             cycled: 0,
             cycled_at: None,
@@ -69,7 +72,7 @@ impl Toolbox {
     /// Cancels the work in progress.
     pub(crate) fn drop_work(&mut self) {
         self.tool = (self.entry.make)();
-        self.typed.clear();
+        self.clear_typed();
         self.pending.clear();
         self.cycled = 0;
         self.attracts = false;
@@ -98,82 +101,126 @@ impl Toolbox {
         self.entry
     }
 
-    pub(crate) fn take_back(&mut self) -> TakenBack {
+    fn clear_typed(&mut self) {
         self.typed.clear();
+        self.refused.clear();
+    }
+
+    pub(crate) fn take_back(&mut self) -> TakenBack {
+        self.clear_typed();
         self.tool.take_back()
     }
 
+    /// What can be done now, or why what was typed is not taken.
+    pub(crate) fn hint(&self, scope: &Scope<'_>) -> String {
+        if self.refused.is_empty() { self.tool.hint(scope) } else { self.refused.clone() }
+    }
+
     /// Takes the keys that are for the tool out of the input, and gives what is for the clipboard.
+    ///
+    /// While something is drawn or typed every letter, figure and sign is for what is typed: none reaches a
+    /// shortcut, and none is passed over.
     pub(crate) fn take_keys(&mut self, context: &Context, units: Units) -> Vec<Event> {
-        let typing = self.tool.typing();
-        let is_busy = self.tool.is_busy();
-        let letters = if is_busy { self.tool.keys() } else { &[] };
-        let cycled_before = self.cycled;
-        let (typed, pending, cycled) = (&mut self.typed, &mut self.pending, &mut self.cycled);
         // Tab is for the next thing to snap to only where something attracts a drawing tool, and the keyboard
         // is not in a panel.
         let has_keyboard = context.memory(|memory| memory.focused().is_none_or(|id| id == canvas_id()));
         let takes_tab = self.entry.id != TOOLS[0].id && self.attracts && has_keyboard;
+        let was_typing = !self.typed.is_empty();
+        let cycled_before = self.cycled;
         let mut clipboard = Vec::new();
         context.input_mut(|input| {
             input.events.retain(|event| match event {
+                Event::Paste(text) if !self.typed.is_empty() => {
+                    self.type_text(text.trim());
+                    false
+                }
                 Event::Copy | Event::Cut | Event::Paste(_) => {
                     clipboard.push(event.clone());
                     false
                 }
-                Event::Text(text) if typing.is_some() => {
-                    let is_for_tool = typing::is_part(typed, text);
-                    if is_for_tool {
-                        typed.push_str(text);
-                    }
-                    !is_for_tool
-                }
+                Event::Text(text) => !self.takes_text(text),
                 Event::Key { key, pressed: true, modifiers, .. } if modifiers.is_none() || modifiers.shift_only() => {
-                    match key {
-                        Key::Backspace if !typed.is_empty() => {
-                            typed.pop();
-                            false
-                        }
-                        Key::Escape if !typed.is_empty() => {
-                            typed.clear();
-                            false
-                        }
-                        Key::Escape if is_busy => {
-                            pending.push(Input::Escape);
-                            false
-                        }
-                        Key::Enter if !typed.is_empty() => {
-                            if let Some(value) = typing.and_then(|typing| typing::read(typing, typed, units)) {
-                                typed.clear();
-                                pending.push(Input::Typed(value));
-                            }
-                            false
-                        }
-                        Key::Enter if is_busy => {
-                            pending.push(Input::Enter);
-                            false
-                        }
-                        Key::Tab if takes_tab => {
-                            *cycled += 1;
-                            false
-                        }
-                        key if letters.contains(key) && typed.is_empty() => {
-                            pending.push(Input::Key(*key));
-                            false
-                        }
-                        // Their text is taken; a shortcut they are not.
-                        key if typing.is_some() && typing::is_key(typed, *key) => false,
-                        _ => true,
-                    }
+                    !self.takes_key(*key, units, takes_tab)
                 }
                 _ => true,
             });
         });
-        if self.cycled != cycled_before {
+        if self.cycled != cycled_before || was_typing {
             // The keyboard stays where it is.
             context.memory_mut(|memory| memory.move_focus(egui::FocusDirection::None));
         }
         clipboard
+    }
+
+    /// Takes a text that was typed, where it is for the tool.
+    fn takes_text(&mut self, text: &str) -> bool {
+        if self.tool.typing().is_none() {
+            return false;
+        }
+        if self.typed.is_empty() {
+            let is_busy = self.tool.is_busy();
+            // The text of a letter that the tool itself asks for, and of the key that moves the view.
+            let is_letter = |key: &Key| key.name().eq_ignore_ascii_case(text);
+            if text.trim().is_empty() || (is_busy && self.tool.keys().iter().any(is_letter)) {
+                return is_busy;
+            }
+            if !is_busy && !typing::begins(text) {
+                return false;
+            }
+        }
+        self.type_text(text);
+        true
+    }
+
+    fn type_text(&mut self, text: &str) {
+        self.typed.push_str(text);
+        self.refused.clear();
+    }
+
+    /// Takes a key that was pressed, where it is for the tool.
+    fn takes_key(&mut self, key: Key, units: Units, takes_tab: bool) -> bool {
+        let is_busy = self.tool.is_busy();
+        let is_typed = !self.typed.is_empty();
+        match key {
+            Key::Backspace if is_typed => {
+                self.typed.pop();
+                self.refused.clear();
+            }
+            Key::Escape if is_typed => self.clear_typed(),
+            Key::Escape if is_busy => self.pending.push(Input::Escape),
+            Key::Enter | Key::Tab if is_typed => self.enter(key, units),
+            Key::Enter if is_busy => self.pending.push(Input::Enter),
+            Key::Tab if takes_tab => self.cycled += 1,
+            key if is_busy && !is_typed && self.tool.keys().contains(&key) => self.pending.push(Input::Key(key)),
+            // Their text is taken; a shortcut they are not.
+            key if self.tool.typing().is_some() => {
+                return if is_typed || is_busy { typing::writes(key) } else { typing::begins_by(key) };
+            }
+            // Nothing can be typed, but something is begun that another tool would drop.
+            key => return self.tool.is_drawing() && typing::writes_letter(key),
+        }
+        true
+    }
+
+    /// Takes what was typed, or says why not.
+    fn enter(&mut self, key: Key, units: Units) {
+        let Some(typing) = self.tool.typing() else { return self.clear_typed() };
+        if key == Key::Tab && typing::needs_other_side(typing, &self.typed) {
+            self.typed.push('x');
+            return;
+        }
+        match typing::read(typing, &self.typed, units) {
+            Ok(value) => {
+                self.clear_typed();
+                self.pending.push(Input::Typed(value));
+            }
+            Err(why) => self.refused = why,
+        }
+    }
+
+    /// What is understood of what was typed, as lengths are shown; empty where that is nothing yet.
+    pub(crate) fn understood(&self, units: Units) -> String {
+        self.tool.typing().map(|typing| typing::understood(typing, &self.typed, units)).unwrap_or_default()
     }
 
     /// The keys taken since the canvas was last shown.

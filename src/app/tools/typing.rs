@@ -3,6 +3,7 @@
 use egui::Key;
 
 use crate::base::units::{Units, parse_angle_rad};
+use crate::geometry::trim_m;
 
 /// What can be typed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,61 +25,89 @@ pub(crate) enum Typed {
     Size { width_m: f64, height_m: f64 },
 }
 
-/// Whether a text goes on with what was typed.
-pub(super) fn is_part(typed: &str, text: &str) -> bool {
-    let is_first = typed.is_empty();
-    !text.is_empty()
-        && text.chars().all(|c| {
-            c.is_ascii_digit()
-                || matches!(c, '.' | ',')
-                || (!is_first && matches!(c, '\'' | '"' | '<' | 'x' | '*' | ' ' | '/' | '+' | '-' | '°'))
-                || (!is_first && "mcftin".contains(c))
-        })
+/// Whether a text begins a length where nothing is drawn or typed yet: letters are shortcuts there.
+pub(super) fn begins(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_numeric() || matches!(c, '.' | ',' | '('))
 }
 
-/// Whether a key writes such a text.
-pub(super) fn is_key(typed: &str, key: Key) -> bool {
-    let is_digit = (Key::Num0..=Key::Num9).contains(&key) || matches!(key, Key::Period | Key::Comma);
-    is_digit
-        || (!typed.is_empty()
-            && matches!(
-                key,
-                Key::Quote
-                    | Key::Minus
-                    | Key::Plus
-                    | Key::Slash
-                    | Key::Space
-                    | Key::X
-                    | Key::M
-                    | Key::C
-                    | Key::F
-                    | Key::T
-                    | Key::I
-                    | Key::N
-            ))
+/// Whether a key may write such a text.
+pub(super) fn begins_by(key: Key) -> bool {
+    (Key::Num0..=Key::Num9).contains(&key) || matches!(key, Key::Period | Key::Comma)
 }
 
-/// Reads what was typed; `None` where it means nothing.
-pub(super) fn read(typing: Typing, typed: &str, units: Units) -> Option<Typed> {
-    let length_m = |text: &str| units.parse_length(text).ok().filter(|length_m| *length_m > 0.0);
+/// Whether a key writes a letter, a figure or a sign: its text is taken, and a shortcut it is not.
+pub(super) fn writes(key: Key) -> bool {
+    matches!(key, Key::Space | Key::Quote) || (key.symbol_or_name().chars().count() == 1 && !is_arrow(key))
+}
+
+/// Whether a key writes a letter or a figure.
+pub(super) fn writes_letter(key: Key) -> bool {
+    let mut letters = key.symbol_or_name().chars();
+    letters.next().is_some_and(char::is_alphanumeric) && letters.next().is_none()
+}
+
+fn is_arrow(key: Key) -> bool {
+    matches!(key, Key::ArrowDown | Key::ArrowLeft | Key::ArrowRight | Key::ArrowUp)
+}
+
+/// A side of a rectangle is at least so long, in metres: shorter ones are a slip of the hand, half of the smallest
+/// shaft.
+pub(super) const LEAST_SIDE_M: f64 = 0.1;
+
+/// Reads what was typed.
+///
+/// # Errors
+/// What is not understood, and what would be.
+pub(super) fn read(typing: Typing, typed: &str, units: Units) -> Result<Typed, String> {
+    let length_m = |text: &str| {
+        let length_m = units.parse_length(text).map_err(|error| error.to_string())?;
+        if trim_m(length_m) > 0.0 { Ok(length_m) } else { Err("a length is at least 0.1 mm".to_owned()) }
+    };
     match typing {
         Typing::Length => {
-            let (length, angle) = match typed.split_once('<') {
+            let (length, angle) = match typed.split_once(['<', '∠']) {
                 Some((length, angle)) => (length, Some(angle)),
                 None => (typed, None),
             };
             let length_m = length_m(length)?;
-            let angle_rad = match angle {
-                None => None,
-                Some(text) => Some(parse_angle_rad(text).ok()?),
-            };
-            Some(Typed::Length { length_m, angle_rad })
+            let angle_rad = angle.map(parse_angle_rad).transpose().map_err(|error| error.to_string())?;
+            Ok(Typed::Length { length_m, angle_rad })
         }
-        Typing::Width => Some(Typed::Length { length_m: length_m(typed)?, angle_rad: None }),
+        Typing::Width => Ok(Typed::Length { length_m: length_m(typed)?, angle_rad: None }),
         Typing::Size => {
-            let (width, height) = typed.split_once(['x', '*'])?;
-            Some(Typed::Size { width_m: length_m(width)?, height_m: length_m(height)? })
+            let Some((width, height)) = sides(typed) else {
+                return Err("both sides are needed, with an x between, such as 4x3".to_owned());
+            };
+            let (width_m, height_m) = (length_m(width)?, length_m(height)?);
+            if width_m.min(height_m) < LEAST_SIDE_M {
+                return Err(format!("a side is at least {}", units.length(LEAST_SIDE_M)));
+            }
+            Ok(Typed::Size { width_m, height_m })
         }
+    }
+}
+
+/// The two sides: what stands before and behind an x, or a star where there is no x.
+fn sides(typed: &str) -> Option<(&str, &str)> {
+    const TIMES: [char; 3] = ['x', 'X', '×'];
+    let sides = typed.split_once(TIMES).or_else(|| typed.split_once('*'));
+    sides.filter(|(_, height)| !height.contains(TIMES))
+}
+
+/// Whether the second side can still be begun: Tab goes on to it.
+pub(super) fn needs_other_side(typing: Typing, typed: &str) -> bool {
+    typing == Typing::Size && sides(typed).is_none()
+}
+
+/// What is understood so far, as lengths are shown; empty where that is nothing yet.
+pub(super) fn understood(typing: Typing, typed: &str, units: Units) -> String {
+    match read(typing, typed, units) {
+        Ok(Typed::Length { length_m, angle_rad: None }) => units.length(length_m),
+        Ok(Typed::Length { length_m, angle_rad: Some(angle_rad) }) => {
+            format!("{} < {}", units.length(length_m), crate::base::units::angle(angle_rad))
+        }
+        Ok(Typed::Size { width_m, height_m }) => format!("{} x {}", units.length(width_m), units.length(height_m)),
+        Err(_) => String::new(),
     }
 }
 
@@ -88,21 +117,45 @@ mod tests {
 
     #[test]
     fn lengths_angles_and_sizes() {
-        let length = |text: &str| read(Typing::Length, text, Units::Metric);
+        let length = |text: &str| read(Typing::Length, text, Units::Metric).ok();
         assert_eq!(length("3.2"), Some(Typed::Length { length_m: 3.2, angle_rad: None }));
         assert_eq!(
             length("3,2<90"),
             Some(Typed::Length { length_m: 3.2, angle_rad: Some(std::f64::consts::FRAC_PI_2) })
         );
-        assert_eq!(read(Typing::Size, "4x3", Units::Metric), Some(Typed::Size { width_m: 4.0, height_m: 3.0 }));
-        for wrong in ["", "<", "x", "3<", "-2", "0", "1e999"] {
+        assert_eq!(length("3.2 m < 22.5° * 4"), length("320 CM∠90"));
+        for wrong in ["", "<", "x", "3<", "-2", "0", "1e999", "4x3", "3<45<45", "0.00001"] {
             assert_eq!(length(wrong), None, "{wrong}");
         }
-        assert_eq!(read(Typing::Size, "4", Units::Metric), None);
+        let size = |text: &str| read(Typing::Size, text, Units::Metric);
+        for text in ["4x3", "4 X 3", "4×3", "4*3", "400 cm x 3000 mm", "2*2x3", "4x(1+2)", "4 metres x 3 metres"] {
+            assert_eq!(size(text), Ok(Typed::Size { width_m: 4.0, height_m: 3.0 }), "{text}");
+        }
+        for wrong in ["4", "4x", "x3", "4x3x2", "4x0.05", "-4x3", "4y3"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(understood(Typing::Length, "5'6-1/2\"<45", Units::Imperial), "5' 6 1/2\" < 45°");
+        assert_eq!(understood(Typing::Size, "4x3", Units::Metric), "4.00 m x 3.00 m");
+        assert_eq!(understood(Typing::Size, "4x", Units::Metric), "");
     }
 
     #[test]
-    fn letters_start_nothing() {
-        assert!(!is_part("", "m") && is_part("3", "m") && is_part("", "3") && !is_part("3", "q"));
+    fn letters_begin_nothing() {
+        assert!(
+            !begins("m") && !begins("-") && !begins(" ") && begins("3") && begins(".5") && begins("½") && begins("(")
+        );
+        for key in Key::ALL {
+            let is_name_of_one = key.symbol_or_name().chars().count() == 1;
+            assert!(!writes(*key) || is_name_of_one || matches!(key, Key::Space | Key::Quote), "{key:?}");
+        }
+        for key in [Key::M, Key::Num3, Key::Comma, Key::Minus, Key::Plus, Key::Questionmark, Key::Quote, Key::Space] {
+            assert!(writes(key), "{key:?}");
+        }
+        for key in
+            [Key::Enter, Key::Tab, Key::Backspace, Key::Delete, Key::F2, Key::ArrowLeft, Key::Escape, Key::PageUp]
+        {
+            assert!(!writes(key) && !writes_letter(key), "{key:?}");
+        }
+        assert!(writes_letter(Key::M) && writes_letter(Key::Num3) && !writes_letter(Key::Minus));
     }
 }

@@ -1,4 +1,7 @@
-//! Parses typed lengths and angles: numbers with units, and arithmetic on them.
+//! The one reader of what somebody types for a length, an angle or a number: numbers with units, and sums of them.
+//!
+//! Every place where one can be typed comes here: the canvas while something is drawn, fields, prompts, scripts,
+//! options of subcommands. What is not understood is refused with a word on what is; nothing is passed over.
 
 use std::fmt;
 
@@ -8,7 +11,7 @@ pub const METRES_PER_FOOT: f64 = 12.0 * METRES_PER_INCH;
 /// Metres in an inch, by its definition of 1959.
 pub const METRES_PER_INCH: f64 = 0.0254;
 
-/// Why a typed text is not a length or angle, and what would be.
+/// Why a typed text is no length, angle or number, with what would be.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NotUnderstood(String);
 
@@ -20,45 +23,108 @@ impl fmt::Display for NotUnderstood {
 
 impl std::error::Error for NotUnderstood {}
 
-/// The longest text accepted: nobody types a longer length.
+/// A longer text is no length: nobody types so much.
 const MOST_LETTERS: usize = 200;
 
-/// How deep parentheses and signs may nest.
+/// Parentheses and signs stand in each other at most so deep.
 const MOST_DEPTH: usize = 32;
 
-/// Nothing in a plan is longer, in metres, or turned further, in radians.
+/// Nothing in a plan is longer, in metres, and no turn larger.
 const MOST: f64 = 1e9;
 
-/// A unit: its spellings and its size.
-type Unit = (&'static [&'static str], f64);
+/// What a unit is, where that matters for what stands beside it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Is {
+    Feet,
+    Inches,
+    Other,
+}
 
-const METRES: Unit = (&["m", "metre", "metres", "meter", "meters"], 1.0);
-const FEET: Unit = (&["'", "′", "’", "ft", "foot", "feet"], METRES_PER_FOOT);
-const INCHES: Unit = (&["\"", "″", "”", "''", "′′", "in", "inch", "inches"], METRES_PER_INCH);
+/// A unit: its words in lower case, what it is, and its size.
+type Unit = (&'static [&'static str], Is, f64);
 
-const LENGTHS: &[Unit] = &[METRES, (&["cm"], 0.01), (&["mm"], 0.001), (&["dm"], 0.1), (&["km"], 1000.0), INCHES, FEET];
+const LENGTHS: &[Unit] = &[
+    (&["m", "metre", "metres", "meter", "meters"], Is::Other, 1.0),
+    (&["cm", "centimetre", "centimetres", "centimeter", "centimeters"], Is::Other, 0.01),
+    (&["mm", "millimetre", "millimetres", "millimeter", "millimeters"], Is::Other, 0.001),
+    (&["dm", "decimetre", "decimetres", "decimeter", "decimeters"], Is::Other, 0.1),
+    (&["km", "kilometre", "kilometres", "kilometer", "kilometers"], Is::Other, 1000.0),
+    (&["in", "inch", "inches"], Is::Inches, METRES_PER_INCH),
+    (&["ft", "foot", "feet"], Is::Feet, METRES_PER_FOOT),
+    (&["yd", "yard", "yards"], Is::Other, 3.0 * METRES_PER_FOOT),
+];
 
-const ANGLES: &[Unit] =
-    &[(&["°", "º", "deg", "degree", "degrees"], std::f64::consts::PI / 180.0), (&["rad", "radian", "radians"], 1.0)];
+/// What stands for feet behind a number: an apostrophe, or what a keyboard, a word processor or a table of
+/// characters has for one. Two of them stand for inches.
+const FEET_MARKS: &[char] = &['\'', '’', '‘', '′', 'ʹ', 'ʼ', '´', '`', '＇'];
 
-/// What is being parsed: its units, and words for errors.
+/// What stands for inches.
+const INCH_MARKS: &[char] = &['"', '”', '“', '„', '″', 'ʺ', '˝', '＂'];
+
+const ANGLES: &[Unit] = &[
+    (&["deg", "degree", "degrees"], Is::Other, 1.0),
+    (&["rad", "radian", "radians"], Is::Other, 180.0 / std::f64::consts::PI),
+];
+
+const DEGREE_MARKS: &[char] = &['°', 'º', '˚'];
+
+/// What joins feet and inches, or inches and their fraction, where no blank stands beside it: hyphens, and the dash
+/// that word processors make of one.
+const HYPHENS: &[char] = &['-', '‐', '‑', '–'];
+
+/// What takes away.
+const MINUS: &[char] = &['-', '−', '–', '‐', '‑'];
+
+/// Between the parts of a fraction.
+const SLASHES: &[char] = &['/', '⁄', '∕'];
+
+/// Fractions that are one character.
+const FRACTIONS: &[(char, f64)] = &[
+    ('½', 1.0 / 2.0),
+    ('¼', 1.0 / 4.0),
+    ('¾', 3.0 / 4.0),
+    ('⅛', 1.0 / 8.0),
+    ('⅜', 3.0 / 8.0),
+    ('⅝', 5.0 / 8.0),
+    ('⅞', 7.0 / 8.0),
+    ('⅓', 1.0 / 3.0),
+    ('⅔', 2.0 / 3.0),
+    ('⅕', 1.0 / 5.0),
+    ('⅖', 2.0 / 5.0),
+    ('⅗', 3.0 / 5.0),
+    ('⅘', 4.0 / 5.0),
+    ('⅙', 1.0 / 6.0),
+    ('⅚', 5.0 / 6.0),
+    ('⅐', 1.0 / 7.0),
+    ('⅑', 1.0 / 9.0),
+    ('⅒', 1.0 / 10.0),
+];
+
+/// What is typed: its units, and words for errors.
 struct Kind {
     units: &'static [Unit],
+    /// Characters that are units.
+    marks: &'static [(&'static [char], Is, f64)],
     /// The size of a number without a unit.
     unit: f64,
-    /// 'a length'.
+    /// Whether `6-1/2` alone may mean six and a half.
+    may_join: bool,
+    /// 'length'.
     name: &'static str,
-    /// What the product of two of them is.
+    /// What two of them multiplied are.
     square: &'static str,
-    /// Examples of valid input, for errors.
+    /// What is understood.
     examples: &'static str,
 }
 
-/// Parses a length in metres; `unit_m` is the unit of a number without one.
-pub(super) fn length_m(text: &str, unit_m: f64) -> Result<f64, NotUnderstood> {
+/// A typed length in metres; `unit_m` is the size of a number without a unit, `may_join` whether `6-1/2` alone may
+/// mean six and a half.
+pub(super) fn length_m(text: &str, unit_m: f64, may_join: bool) -> Result<f64, NotUnderstood> {
     let kind = Kind {
         units: LENGTHS,
+        marks: &[(FEET_MARKS, Is::Feet, METRES_PER_FOOT), (INCH_MARKS, Is::Inches, METRES_PER_INCH)],
         unit: unit_m,
+        may_join,
         name: "length",
         square: "is an area",
         examples: "a length is a number, with m, cm, mm, ft or in if need be, such as 3.25, 325 cm, 10' 8 1/2\" or 3.2 + 0.4",
@@ -66,15 +132,17 @@ pub(super) fn length_m(text: &str, unit_m: f64) -> Result<f64, NotUnderstood> {
     kind.read(text)
 }
 
-/// Parses an angle in radians: degrees (`45`, `45°`, `22,5 deg`), `0.5 rad`, and sums of them with + - *
-/// / and parentheses.
+/// An angle that somebody typed, in degrees: `45`, `45°`, `22,5 deg`, `0.5 rad`, and sums of them with + - * / and
+/// parentheses.
 ///
 /// # Errors
-/// When the text is not understood; the error says what would be.
-pub fn parse_angle_rad(text: &str) -> Result<f64, NotUnderstood> {
+/// What is not understood, and what would be.
+pub fn parse_angle_deg(text: &str) -> Result<f64, NotUnderstood> {
     let kind = Kind {
         units: ANGLES,
-        unit: std::f64::consts::PI / 180.0,
+        marks: &[(DEGREE_MARKS, Is::Other, 1.0)],
+        unit: 1.0,
+        may_join: false,
         name: "angle",
         square: "is no angle",
         examples: "an angle is a number of degrees, such as 45, 22.5° or 90/4, or of radians with rad",
@@ -82,12 +150,51 @@ pub fn parse_angle_rad(text: &str) -> Result<f64, NotUnderstood> {
     kind.read(text)
 }
 
-/// An intermediate value.
+/// The same in radians.
+///
+/// # Errors
+/// As [`parse_angle_deg`].
+pub fn parse_angle_rad(text: &str) -> Result<f64, NotUnderstood> {
+    parse_angle_deg(text).map(f64::to_radians)
+}
+
+/// A number that somebody typed, without a unit: `1.5`, `1,5`, `3/4`, and sums.
+///
+/// # Errors
+/// What is not understood, and what would be.
+pub fn parse_number(text: &str) -> Result<f64, NotUnderstood> {
+    let examples = "a number is such as 2, 1.5 or 3/4";
+    plain(&[], examples).read(text)
+}
+
+/// A share or a factor that somebody typed: `0.25`, `1/4`, `25 %`.
+///
+/// # Errors
+/// What is not understood, and what would be.
+pub fn parse_ratio(text: &str) -> Result<f64, NotUnderstood> {
+    let examples = "this takes a number, such as 0.25, 1/4 or 25 %";
+    plain(&[(&['%'], Is::Other, 0.01)], examples).read(text)
+}
+
+/// A number of percent that somebody typed: `40`, `40 %`.
+///
+/// # Errors
+/// What is not understood, and what would be.
+pub fn parse_percent(text: &str) -> Result<f64, NotUnderstood> {
+    let examples = "this takes a number of percent, such as 40 or 12.5 %";
+    plain(&[(&['%'], Is::Other, 1.0)], examples).read(text)
+}
+
+const fn plain(marks: &'static [(&'static [char], Is, f64)], examples: &'static str) -> Kind {
+    Kind { units: &[], marks, unit: 1.0, may_join: false, name: "share", square: "is no share", examples }
+}
+
+/// A value on the way.
 #[derive(Clone, Copy)]
 enum Value {
-    /// Without a unit: a factor, or a length once all is read.
+    /// A number without a unit: a factor, or in the end a length.
     Number(f64),
-    /// With a unit, in metres or radians.
+    /// With a unit, in metres, degrees or parts of one.
     Quantity(f64),
 }
 
@@ -132,7 +239,7 @@ impl<'a> Reader<'a> {
         self.rest = self.rest.trim_start();
     }
 
-    /// Skips spaces and consumes one of the wanted characters.
+    /// Takes one of some characters behind blanks.
     fn take(&mut self, wanted: &[char]) -> Option<char> {
         let rest = self.rest.trim_start();
         let first = rest.chars().next().filter(|first| wanted.contains(first))?;
@@ -140,7 +247,7 @@ impl<'a> Reader<'a> {
         Some(first)
     }
 
-    /// The error for what stands here.
+    /// What stands where something else should.
     fn unexpected(&self) -> NotUnderstood {
         let rest = self.rest.trim_start();
         if rest.is_empty() {
@@ -157,21 +264,24 @@ impl<'a> Reader<'a> {
 
     fn sum(&mut self) -> Result<Value, NotUnderstood> {
         let mut value = self.product()?;
-        while let Some(sign) = self.take(&['+', '-', '−', '–']) {
+        loop {
+            let sign = match self.take(MINUS) {
+                Some(_) => -1.0,
+                None if self.take(&['+']).is_some() => 1.0,
+                None => return Ok(value),
+            };
             let other = self.product()?;
-            let sign = if sign == '+' { 1.0 } else { -1.0 };
             value = match (value, other) {
                 (Value::Number(a), Value::Number(b)) => Value::Number(a + sign * b),
                 (a, b) => Value::Quantity(self.kind.quantity(a) + sign * self.kind.quantity(b)),
             };
         }
-        Ok(value)
     }
 
     fn product(&mut self) -> Result<Value, NotUnderstood> {
         let mut value = self.signed()?;
         let name = self.kind.name;
-        while let Some(sign) = self.take(&['*', '×', '·', '/', '÷', ':']) {
+        while let Some(sign) = self.take(&['*', '×', '·', '/', '⁄', '∕', '÷', ':']) {
             let other = self.signed()?;
             let is_product = matches!(sign, '*' | '×' | '·');
             value = match (value, other) {
@@ -201,121 +311,182 @@ impl<'a> Reader<'a> {
             return Err(self.kind.not("this is too deep"));
         }
         self.depth += 1;
-        let value = match self.take(&['-', '−', '–', '+', '(']) {
-            Some('(') => {
-                let value = self.sum()?;
-                if self.take(&[')']).is_none() {
-                    return Err(self.kind.not("a ')' is missing"));
-                }
-                value
+        let value = if self.take(&['(']).is_some() {
+            let value = self.sum()?;
+            if self.take(&[')']).is_none() {
+                let is_open = self.rest.trim_start().is_empty();
+                return Err(if is_open { self.kind.not("a ')' is missing") } else { self.unexpected() });
             }
-            Some('+') => self.signed()?,
-            Some(_) => match self.signed()? {
+            value
+        } else if self.take(&['+']).is_some() {
+            self.signed()?
+        } else if self.take(MINUS).is_some() {
+            match self.signed()? {
                 Value::Number(number) => Value::Number(-number),
                 Value::Quantity(quantity) => Value::Quantity(-quantity),
-            },
-            None => self.quantity()?,
+            }
+        } else {
+            self.quantity()?
         };
         self.depth -= 1;
         Ok(value)
     }
 
-    /// A number with or without a unit, or feet and inches.
+    /// A number with a unit or without, or feet and inches.
     fn quantity(&mut self) -> Result<Value, NotUnderstood> {
         self.skip_blanks();
-        let number = self.number()?;
-        let Some((unit, size)) = self.unit() else { return Ok(Value::Number(number)) };
+        let number = self.number(false)?;
+        let Some((is, size)) = self.unit()? else { return Ok(Value::Number(number)) };
         let feet_m = number * size;
-        if unit != FEET.0 {
+        let Some((rest, must_be_inches)) = (is == Is::Feet).then(|| behind_feet(self.rest)).flatten() else {
             return Ok(Value::Quantity(feet_m));
-        }
-        // Inches, after a space, nothing, or a hyphen without spaces around it.
-        let before = self.rest;
-        self.rest = self.rest.strip_prefix('-').unwrap_or(self.rest);
-        if self.rest.trim_start().starts_with(|c: char| c.is_ascii_digit() || c == '.')
-            && (self.rest.len() == before.len() || !self.rest.starts_with(char::is_whitespace))
-        {
-            self.skip_blanks();
-            let inches = self.number()?;
-            match self.unit() {
-                Some((unit, size)) if unit == INCHES.0 => return Ok(Value::Quantity(feet_m + inches * size)),
-                None => return Ok(Value::Quantity(feet_m + inches * METRES_PER_INCH)),
-                // Two lengths in a row.
-                Some(_) => {}
+        };
+        let before = std::mem::replace(&mut self.rest, rest);
+        let inches = self.number(true)?;
+        match self.unit()? {
+            Some((Is::Inches, size)) => Ok(Value::Quantity(feet_m + inches * size)),
+            None if !must_be_inches => Ok(Value::Quantity(feet_m + inches * METRES_PER_INCH)),
+            // Two lengths side by side.
+            _ => {
+                self.rest = before;
+                Ok(Value::Quantity(feet_m))
             }
         }
-        self.rest = before;
-        Ok(Value::Quantity(feet_m))
     }
 
-    /// `3.25`, `3,25`, `8 1/2`, and `1/2` where a unit follows.
-    fn number(&mut self) -> Result<f64, NotUnderstood> {
+    /// `3.25`, `3,25`, `8 1/2`, `8½`; `8-1/2` and `1/2` as parts of an inch or a foot, which they are behind feet
+    /// (`is_inches`) or where such a unit follows.
+    fn number(&mut self, is_inches: bool) -> Result<f64, NotUnderstood> {
+        if let Some((part, rest)) = sign_of_fraction(self.rest) {
+            self.rest = rest;
+            return Ok(part);
+        }
         let is_part = |c: char| c.is_ascii_digit() || c == '.' || c == ',';
         let end = self.rest.find(|c: char| !is_part(c)).unwrap_or(self.rest.len());
         let word = &self.rest[..end];
         let marks = word.chars().filter(|c| !c.is_ascii_digit()).count();
         let value = word.replace(',', ".").parse::<f64>().ok().filter(|_| marks <= 1 && marks < word.len());
         let Some(value) = value else { return Err(self.unexpected()) };
-        self.rest = &self.rest[end..];
+        let from = self.rest;
+        self.rest = &from[end..];
         if marks > 0 {
             return Ok(value);
         }
         // A whole number and a fraction.
-        if self.rest.starts_with(char::is_whitespace)
-            && let Some((part, rest)) = fraction(self.rest.trim_start())
+        let is_apart = self.rest.starts_with(char::is_whitespace);
+        if let Some((part, rest)) = sign_of_fraction(self.rest.trim_start())
+            .or_else(|| if is_apart { fraction(self.rest.trim_start()) } else { None })
         {
             self.rest = rest;
             return Ok(value + part);
         }
-        // A fraction alone counts only with a unit after it: 1/2", but 7/2 and 10'/2 are divisions.
-        if let Some((whole, rest)) = fraction_of(value, self.rest) {
-            let mut ahead = Reader { kind: self.kind, rest, depth: 0 };
-            if ahead.unit().is_some() {
-                self.rest = rest;
-                return Ok(whole);
+        if let Some(joined) = self.rest.strip_prefix(HYPHENS)
+            && let Some((part, rest)) = fraction(joined)
+        {
+            match (is_inches, self.unit_behind(rest)) {
+                (true, _) | (false, Some(Is::Feet | Is::Inches)) => {
+                    self.rest = rest;
+                    return Ok(value + part);
+                }
+                (false, None) if self.kind.may_join => {
+                    let typed = &from[..from.len() - rest.len()];
+                    let part = &joined[..joined.len() - rest.len()];
+                    let what =
+                        format_args!("'{typed}' can be read in two ways: type '{value} {part}' or '{value} - {part}'");
+                    return Err(self.kind.not(what));
+                }
+                _ => {}
             }
+        }
+        // A fraction alone is one only with a unit behind it: 1/2", but 7/2 and 10'/2 divide.
+        if let Some((part, rest)) = fraction_of(value, self.rest)
+            && (is_inches || self.unit_behind(rest).is_some())
+        {
+            self.rest = rest;
+            return Ok(part);
         }
         Ok(value)
     }
 
-    /// A unit, after optional spaces.
-    fn unit(&mut self) -> Option<(&'static [&'static str], f64)> {
+    /// What a unit at the start of a text is.
+    fn unit_behind(&self, rest: &'a str) -> Option<Is> {
+        Reader { kind: self.kind, rest, depth: 0 }.unit().ok().flatten().map(|(is, _)| is)
+    }
+
+    /// A unit, behind blanks.
+    fn unit(&mut self) -> Result<Option<(Is, f64)>, NotUnderstood> {
         let rest = self.rest.trim_start();
-        let end = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
+        let end = rest.find(|c: char| !c.is_alphabetic()).unwrap_or(rest.len());
         let word = rest[..end].to_lowercase();
-        let mut found: Option<(&'static [&'static str], f64, usize)> = None;
-        for &(spellings, size) in self.kind.units {
-            for spelling in spellings {
-                let is_it = if spelling.is_ascii() && spelling.starts_with(|c: char| c.is_ascii_alphabetic()) {
-                    word == *spelling
-                } else {
-                    rest.starts_with(spelling)
-                };
-                // Two apostrophes are inches, one is feet.
-                if is_it && found.is_none_or(|(_, _, length)| spelling.len() > length) {
-                    found = Some((spellings, size, spelling.len()));
+        if let Some(&(_, is, size)) = self.kind.units.iter().find(|(words, ..)| words.contains(&word.as_str())) {
+            self.rest = &rest[end..];
+            // The full stop of an abbreviation: 'ft.'
+            if let Some(behind) = self.rest.strip_prefix('.') {
+                if behind.starts_with(|c: char| c.is_ascii_digit()) {
+                    return Err(self.unexpected());
                 }
+                self.rest = behind;
             }
+            return Ok(Some((is, size)));
         }
-        let (spellings, size, length) = found?;
-        self.rest = &rest[length..];
-        Some((spellings, size))
+        let mut letters = rest.chars();
+        let Some(first) = letters.next() else { return Ok(None) };
+        let Some(&(_, is, size)) = self.kind.marks.iter().find(|(marks, ..)| marks.contains(&first)) else {
+            return Ok(None);
+        };
+        self.rest = letters.as_str();
+        if is == Is::Feet && self.rest.starts_with(FEET_MARKS) {
+            letters.next();
+            self.rest = letters.as_str();
+            return Ok(Some((Is::Inches, METRES_PER_INCH)));
+        }
+        Ok(Some((is, size)))
     }
 }
 
-/// `1/2` at the start of a text, and the rest.
+/// The inches behind feet: after blanks, nothing, or a hyphen without blanks about it; and whether they must have
+/// their unit, as behind 'and' and a comma.
+fn behind_feet(rest: &str) -> Option<(&str, bool)> {
+    let begins =
+        |text: &str| text.starts_with(|c: char| c.is_ascii_digit() || c == '.') || sign_of_fraction(text).is_some();
+    let near = rest.trim_start();
+    if begins(near) {
+        return Some((near, false));
+    }
+    if let Some(joined) = rest.strip_prefix(HYPHENS).filter(|joined| begins(joined)) {
+        return Some((joined, false));
+    }
+    let listed = near
+        .strip_prefix(',')
+        .or_else(|| near.get(..3).filter(|word| word.eq_ignore_ascii_case("and")).map(|_| &near[3..]))?;
+    let inches = listed.trim_start();
+    (listed.len() > inches.len() && begins(inches)).then_some((inches, true))
+}
+
+/// `1/2` or `½` at the start of a text, and what follows.
 fn fraction(text: &str) -> Option<(f64, &str)> {
+    if let Some(found) = sign_of_fraction(text) {
+        return Some(found);
+    }
     let (part, rest) = whole(text)?;
     fraction_of(part, rest)
 }
 
-/// `/2` after a whole number, and the rest.
+/// `½` at the start of a text, and what follows.
+fn sign_of_fraction(text: &str) -> Option<(f64, &str)> {
+    let mut letters = text.chars();
+    let first = letters.next()?;
+    let &(_, part) = FRACTIONS.iter().find(|(sign, _)| *sign == first)?;
+    Some((part, letters.as_str()))
+}
+
+/// `/2` behind a whole number, and what follows.
 fn fraction_of(part: f64, rest: &str) -> Option<(f64, &str)> {
-    let (of, rest) = whole(rest.strip_prefix('/')?)?;
+    let (of, rest) = whole(rest.strip_prefix(SLASHES)?)?;
     (of > 0.0 && !rest.starts_with(['.', ','])).then(|| (part / of, rest))
 }
 
-/// A whole number at the start of a text, and the rest.
+/// A whole number at the start of a text, and what follows.
 fn whole(text: &str) -> Option<(f64, &str)> {
     let end = text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
     Some((text[..end].parse().ok()?, &text[end..]))

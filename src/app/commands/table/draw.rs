@@ -2,14 +2,14 @@
 
 use super::*;
 use crate::edit;
-use crate::plan::OpeningKind;
+use crate::geometry::GRID_M;
+use crate::plan::{OpeningId, OpeningKind};
 
 const PATH: Arg<Vec<Point>> =
     needed("POINTS", points(2), "points in metres, as '0,0 4.2,0', where the last may be the first");
 const RING: Arg<Vec<Point>> = needed("CORNERS", points(3), "corners in metres, as '0,0 4,0 4,3 0,3'");
 const PLACE: Arg<Point> = needed("PLACE", POINT, "a point in metres, as '2,1.5'");
-const THICKNESS: Arg<Option<f64>> =
-    optional("THICKNESS", metres(0.0, 10.0), "of walls, in metres; what is set without");
+const THICKNESS: Arg<Option<f64>> = optional("THICKNESS", length(0.0, 10.0), "of walls; what is set without");
 
 /// Applies an edit; if the edit is refused, so is the command.
 pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) -> Ran {
@@ -96,7 +96,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Wall thickness…",
         "Say how thick new walls are",
         always,
-        &given1(needed("THICKNESS", metres(0.0, 10.0), "of new walls, in metres"), |app, thickness_m, _| {
+        &given1(needed("THICKNESS", length(0.0, 10.0), "of new walls"), |app, thickness_m, _| {
             app.tools.options.thickness_m = thickness_m;
             Ran::Done
         }),
@@ -108,7 +108,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Opening width…",
         "Say how wide new doors, passages and windows are; double doors are twice as wide",
         always,
-        &given1(needed("WIDTH", metres(0.1, 100.0), "of new openings, in metres"), |app, width_m, _| {
+        &given1(needed("WIDTH", length(0.1, 100.0), "of new openings"), |app, width_m, _| {
             app.tools.options.opening_width_m = width_m;
             Ran::Done
         }),
@@ -120,10 +120,13 @@ pub(super) const COMMANDS: &[Command] = &[
         "Arc tolerance…",
         "Say how near the chords stay to the arcs that they draw; press A while drawing for an arc",
         always,
-        &given1(needed("TOLERANCE", metres(0.0005, 10.0), "in metres"), |app, tolerance_m, _| {
-            app.tools.options.arc_tolerance_m = tolerance_m;
-            Ran::Done
-        }),
+        &given1(
+            needed("TOLERANCE", length(0.0005, 10.0), "how far a chord may be from its arc"),
+            |app, tolerance_m, _| {
+                app.tools.options.arc_tolerance_m = tolerance_m;
+                Ran::Done
+            },
+        ),
         None,
     )
     .menu(Menu::Draw, 4),
@@ -155,14 +158,20 @@ pub(super) const COMMANDS: &[Command] = &[
             |app, points, space, thickness_m, _| {
                 let own_m = app.tools.options.walls_with_rooms.then_some(app.tools.options.thickness_m);
                 let thickness_m = thickness_m.or(own_m).filter(|thickness_m| *thickness_m > 0.0);
-                edited(app, "Draw room", |plan| {
+                let mut said = String::new();
+                let units = app.units();
+                let ran = edited(app, "Draw room", |plan| {
                     if space == Some(Space::Free) {
                         let gap_m = edit::GAP_BETWEEN_ROOMS_M;
-                        Ok(edit::draw_room_in_free_space(plan, &points, thickness_m, gap_m)?.0)
+                        let drawn = edit::draw_room_in_free_space(plan, &points, thickness_m, gap_m)?;
+                        said = pieces_said(&drawn, units);
+                        Ok(drawn.plan)
                     } else {
                         Ok(edit::draw_room(plan, &points, thickness_m)?.0)
                     }
-                })
+                });
+                app.session.status = said;
+                ran
             },
         ),
         None,
@@ -203,18 +212,51 @@ pub(super) const COMMANDS: &[Command] = &[
         &given4(
             needed("KIND", one_of::<OpeningKind>(), "door, double-door, passage or window"),
             PLACE,
-            optional("WIDTH", metres(0.01, 1000.0), "in metres; what is set without"),
+            optional("WIDTH", length(0.01, 1000.0), "how wide; what is set without"),
             optional("TOWARDS", POINT, "a point on the side that a door opens to"),
             |app, kind, at, width_m, towards, _| {
                 let width_m = width_m.unwrap_or(app.tools.options.opening_width_m);
-                edited(app, &format!("Add {}", kind.name()), |plan| {
-                    Ok(edit::place_opening(plan, kind, at, width_m, OPENING_REACH_M, towards)?.0)
-                })
+                let mut made = None;
+                let ran = edited(app, &format!("Add {}", kind.name()), |plan| {
+                    let (next, id) = edit::place_opening(plan, kind, at, width_m, OPENING_REACH_M, towards)?;
+                    made = Some(id);
+                    Ok(next)
+                });
+                app.say_narrower(width_m, made.as_slice());
+                ran
             },
         ),
         None,
     ),
 ];
+
+impl App {
+    /// Says where openings became narrower than was wanted, for their walls are no longer.
+    pub(super) fn say_narrower(&mut self, wanted_m: f64, openings: &[OpeningId]) {
+        let Some(plan) = self.plan() else { return };
+        let widths_m = openings.iter().filter_map(|&id| Some(plan.opening_segment(plan.opening(id)?)?.length()));
+        let narrowest_m = widths_m.fold(f64::INFINITY, f64::min);
+        // Half of the grid is rounding, at whatever angle the wall stands.
+        if narrowest_m < wanted_m - 1.5 * GRID_M {
+            let [narrowest, wanted] = [narrowest_m, wanted_m].map(|width_m| self.units().length(width_m));
+            self.session.status = format!("The wall is no longer: {narrowest} wide, not {wanted}");
+        }
+    }
+}
+
+/// What is to be said of a room that came in pieces; nothing of one that did not.
+fn pieces_said(drawn: &edit::DrawnInFreeSpace, units: Units) -> String {
+    let left_out = if drawn.left_out_m2 > 0.0 {
+        format!("; {} in small pieces are left free", units.area(drawn.left_out_m2))
+    } else {
+        String::new()
+    };
+    match drawn.rooms.len() {
+        1 if left_out.is_empty() => String::new(),
+        1 => format!("Made a room of the largest piece that is free{left_out}"),
+        number => format!("Made {number} rooms: what is free here lies in pieces{left_out}"),
+    }
+}
 
 /// An opening goes into a wall this near to the point that a script names: points are rounded, and a
 /// drawing is not known to the millimetre.

@@ -318,10 +318,10 @@ fn is_asked(app: &App) -> Availability {
 /// The half side of the drawing area in metres: no plan has coordinates beyond it.
 const FAR_M: f64 = 1e6;
 
-const X: Arg<f64> = needed("X", metres(-FAR_M, FAR_M), "to the right, in metres");
-const Y: Arg<f64> = needed("Y", metres(-FAR_M, FAR_M), "up, in metres");
-const WIDTH: Arg<f64> = needed("WIDTH", metres(0.001, FAR_M), "in metres");
-const HEIGHT: Arg<f64> = needed("HEIGHT", metres(0.001, FAR_M), "in metres");
+const X: Arg<f64> = needed("X", coordinate(-FAR_M, FAR_M), "to the right, in metres");
+const Y: Arg<f64> = needed("Y", coordinate(-FAR_M, FAR_M), "up, in metres");
+const WIDTH: Arg<f64> = needed("WIDTH", coordinate(0.001, FAR_M), "how wide, in metres");
+const HEIGHT: Arg<f64> = needed("HEIGHT", coordinate(0.001, FAR_M), "how high, in metres");
 const SCALE: Arg<f64> =
     needed("SCALE", number(" of pixels to the metre", 0.001, 1e5), "how many pixels a metre is long");
 

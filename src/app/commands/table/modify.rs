@@ -127,7 +127,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Turn what is selected about its middle, counter-clockwise; what shares its corners follows",
         has_picked,
         &given2(
-            needed("ANGLE", number(" of degrees", -360.0, 360.0), "in degrees, counter-clockwise"),
+            needed("ANGLE", angle(-360.0, 360.0), "in degrees, counter-clockwise"),
             CENTRE,
             |app, angle, about, _| {
                 let angle_rad = angle.to_radians();
@@ -173,7 +173,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Scale…",
         "Make what is selected larger or smaller about its middle",
         has_picked,
-        &given2(needed("FACTOR", number("", 0.001, 1000.0), "2 is twice as large"), CENTRE, |app, factor, about, _| {
+        &given2(needed("FACTOR", ratio(0.001, 1000.0), "2 is twice as large"), CENTRE, |app, factor, about, _| {
             let about = app.centre_of_selection(about);
             moved(app, "Scale", Transform::scaling(about, factor))
         }),
@@ -188,7 +188,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &given3(
             needed("COLUMNS", COUNT, "how many side by side, the original among them"),
             needed("ROWS", COUNT, "how many above each other"),
-            needed("STEP", POINT, "from column to column and from row to row, in metres, as '4,3'"),
+            needed("STEP", POINT, "from column to column and from row to row, as '4,3'"),
             |app, columns, rows, step, _| {
                 let (column_step, row_step) = (Vector::new(step.x, 0.0), Vector::new(0.0, step.y));
                 copied(app, Array::Grid { columns, rows, column_step, row_step })
@@ -203,9 +203,9 @@ pub(super) const COMMANDS: &[Command] = &[
         "Copy what is selected around a point",
         has_picked,
         &given3(
-            needed("ABOUT", POINT, "the point, in metres, as '4,3'"),
+            needed("ABOUT", POINT, "the point, as '4,3'"),
             needed("COUNT", COUNT, "how many, the original among them"),
-            needed("ANGLE", number(" of degrees", -360.0, 360.0), "from one to the next, in degrees"),
+            needed("ANGLE", angle(-360.0, 360.0), "from one to the next, in degrees"),
             |app, about, count, step, _| {
                 let step_rad = step.to_radians();
                 copied(app, Array::Polar { about, count, step_rad })
@@ -250,7 +250,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &given1(
             optional(
                 "ANGLE",
-                number(" of degrees", 0.01, 44.0),
+                angle(0.01, 44.0),
                 "how far from right an angle may be, in degrees; 10 without, the paper's threshold",
             ),
             |app, angle, _| {
@@ -268,7 +268,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Weld corners…",
         "Join corners that are no further apart than a tolerance; shows what it does before it does it",
         has_drawing,
-        &given1(needed("TOLERANCE", metres(0.0001, 10.0), "in metres"), |app, tolerance_m, _| {
+        &given1(needed("TOLERANCE", length(0.0001, 10.0), "how far apart at most"), |app, tolerance_m, _| {
             app.ask_to_weld(tolerance_m)
         }),
         None,
@@ -280,7 +280,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Draw walls beside the selected walls, or inside or outside the selected room",
         has_picked,
         &given2(
-            needed("DISTANCE", metres(0.001, 1000.0), "in metres"),
+            needed("DISTANCE", length(0.001, 1000.0), "how far away"),
             optional("TOWARDS", POINT, "a point on the side where the copy goes; without, where the pointer is"),
             |app, distance_m, towards, _| app.offset_selected(distance_m, towards),
         ),
@@ -292,7 +292,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Thickness…",
         "Make the selected walls as thick as this",
         has_picked,
-        &given1(needed("THICKNESS", metres(0.0, 10.0), "in metres"), |app, thickness_m, _| {
+        &given1(needed("THICKNESS", length(0.0, 10.0), "how thick"), |app, thickness_m, _| {
             let walls: Vec<_> = app.session.selection.walls().collect();
             if walls.is_empty() {
                 return Ran::Refused("select a wall first".to_owned());
@@ -361,8 +361,13 @@ pub(super) const COMMANDS: &[Command] = &[
         "Width of opening…",
         "Make the selected openings as wide as this",
         has_opening,
-        &given1(needed("WIDTH", metres(0.01, 1000.0), "in metres"), |app, width_m, _| {
-            app.change_openings("Set width", |plan, id, _| edit::resize_opening(plan, id, width_m))
+        &given1(needed("WIDTH", length(0.01, 1000.0), "how wide"), |app, width_m, _| {
+            let ran = app.change_openings("Set width", |plan, id, _| edit::resize_opening(plan, id, width_m));
+            let openings: Vec<OpeningId> = app.session.selection.openings().collect();
+            if ran == Ran::Done {
+                app.say_narrower(width_m, &openings);
+            }
+            ran
         }),
         None,
     )

@@ -15,11 +15,15 @@ const DRAWING: Arg<Option<DrawingMoves>> = optional(
 
 const PAGE: Arg<Option<usize>> = optional("PAGE", COUNT, "which page of a PDF or TIFF, from 1");
 
-const fn coordinate(name: &'static str, help: &'static str) -> Arg<f64> {
-    needed(name, metres(-FAR_M, FAR_M), help)
+const fn place(name: &'static str, help: &'static str) -> Arg<f64> {
+    needed(name, coordinate(-FAR_M, FAR_M), help)
 }
 
-const LENGTH: Kind<f64> = metres(0.001, FAR_M);
+const fn way(name: &'static str, help: &'static str) -> Arg<f64> {
+    needed(name, length(-FAR_M, FAR_M), help)
+}
+
+const LENGTH: Kind<f64> = length(0.001, FAR_M);
 
 /// The change in opacity per key press.
 const OPACITY_STEP: f64 = 0.1;
@@ -106,14 +110,14 @@ pub(super) const COMMANDS: &[Command] = &[
     tool(&tools::CALIBRATE_BY_LENGTH, has_backdrop)    .menu(Menu::Picture, 1),
     tool(&tools::CALIBRATE_BY_DOOR, has_backdrop)    .menu(Menu::Picture, 1),
     with("calibrate", "Set scale", "Set the scale by the true length between two points of the picture; of several lengths, each added to those \
-         before, the scale is the best fit", has_backdrop, &given6(coordinate("X1", "the first point, in metres as the plan is now"), coordinate("Y1", "its height"), coordinate("X2", "the second point"), coordinate("Y2", "its height"), needed("LENGTH", LENGTH, "the true length between them in metres"), DRAWING, |app, x1, y1, x2, y2, length_m, drawing, _| done(app.session.add_measurement(Point::new(x1, y1), Point::new(x2, y2), length_m, drawing))), None),
+         before, the scale is the best fit", has_backdrop, &given6(place("X1", "the first point, in metres as the plan is now"), place("Y1", "its height"), place("X2", "the second point"), place("Y2", "its height"), needed("LENGTH", LENGTH, "the true length between them"), DRAWING, |app, x1, y1, x2, y2, length_m, drawing, _| done(app.session.add_measurement(Point::new(x1, y1), Point::new(x2, y2), length_m, drawing))), None),
     with(
         "calibrate-by-door",
         "Set scale by the selected door",
         "Set the scale by a door that was drawn over the picture and whose true width is known: 0.9 m unless another is \
          given",
         has_opening_on_picture,
-        &given2(optional("WIDTH", LENGTH, "its true width in metres"), DRAWING,
+        &given2(optional("WIDTH", LENGTH, "its true width"), DRAWING,
         |app, width_m, drawing, _| {
             let width_m = width_m.unwrap_or(DEFAULT_DOOR_WIDTH_M);
             let Some(opening) = selected_opening(app) else { return Ran::Done };
@@ -134,24 +138,24 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .menu(Menu::Picture, 1),
     tool(&tools::STRAIGHTEN, has_backdrop)    .menu(Menu::Picture, 2),
-    with("straighten", "Straighten by a line", "Turn the picture so that a line between two of its points is level or upright, whichever is nearer", has_backdrop, &given5(coordinate("X1", "the first point, in metres"), coordinate("Y1", "its height"), coordinate("X2", "the second point"), coordinate("Y2", "its height"), DRAWING, |app, x1, y1, x2, y2, drawing, _| done(app.session.straighten(Point::new(x1, y1), Point::new(x2, y2), drawing))), None),
+    with("straighten", "Straighten by a line", "Turn the picture so that a line between two of its points is level or upright, whichever is nearer", has_backdrop, &given5(place("X1", "the first point, in metres"), place("Y1", "its height"), place("X2", "the second point"), place("Y2", "its height"), DRAWING, |app, x1, y1, x2, y2, drawing, _| done(app.session.straighten(Point::new(x1, y1), Point::new(x2, y2), drawing))), None),
     with("turn-picture", "Turn picture…", "Turn the picture about its middle", has_backdrop, &given2(needed(
                 "ANGLE",
-                number(" of degrees", -360.0, 360.0),
+                angle(-360.0, 360.0),
                 "counter-clockwise, in degrees",
             ), DRAWING, |app, angle, drawing, _| {
             app.session.turn_picture(angle, drawing);
             Ran::Done
         }), None)
     .menu(Menu::Picture, 2),
-    with("move-picture", "Move picture…", "Move the picture under the plan; what is drawn stays", has_backdrop, &given2(coordinate("DX", "to the right, in metres"), coordinate("DY", "up, in metres"), |app, dx, dy, _| {
+    with("move-picture", "Move picture…", "Move the picture under the plan; what is drawn stays", has_backdrop, &given2(way("DX", "how far to the right"), way("DY", "how far up"), |app, dx, dy, _| {
             app.session.move_picture(Vector::new(dx, dy));
             Ran::Done
         }), None)
     .menu(Menu::Picture, 2),
     with("picture-opacity", "Opacity…", "Say how strongly the picture is seen", has_backdrop, &given1(needed(
             "PERCENT",
-            number(" of percent", 0.0, 100.0),
+            PERCENT,
             "0 not at all, 100 as it is",
         ), |app, percent, _| {
             let opacity = percent / 100.0;

@@ -114,11 +114,11 @@ pub(super) const COMMANDS: &[Command] = &[
                 "unnamed (without), selected, all, 'function office', 'label big' or 'along 1,2 5,2'",
             ),
             optional("ORDER", one_of::<Order>(), "rows (without) or columns, from the top left"),
-            optional("START", number("", 0.0, 1e6), "the first number, 1 without"),
+            optional("START", whole(1_000_000), "the first number, 1 without"),
             |app, pattern, which, order, start, _| {
                 let which = Which::of_word(which.as_deref().unwrap_or("unnamed"));
                 let order = order.unwrap_or(Order::Rows);
-                let start = start.map_or(1, |start| start.round() as u32);
+                let start = start.and_then(|start| u32::try_from(start).ok()).unwrap_or(1);
                 match which.and_then(|which| app.session.name_rooms(&pattern, &which, order, start)) {
                     Ok(()) => Ran::Done,
                     Err(reason) => Ran::Refused(reason),
