@@ -164,7 +164,7 @@ impl Neighbours {
         left_out.truncate(LEFT_OUT);
         let prior = prior_of(table);
         let mut best: Option<Trial> = None;
-        for transform in [Transform::Identity, Transform::Logarithm] {
+        for transform in [Transform::Identity, Transform::LightRatio, Transform::Logarithm] {
             let (points, tree) = arranged(table, &Scale::of(table.values(), transform));
             for metric in Metric::ALL {
                 work.goes_on()?;
