@@ -8,6 +8,7 @@ use std::sync::Arc;
 use crate::base::wording::{count, sentence};
 use crate::classify::in_plan::{self, InPlan};
 use crate::classify::joint::FirstRound;
+use crate::classify::learned::Acquaintance;
 use crate::classify::model_file::ModelFileError;
 use crate::classify::models::{Models, StoredModel, bundled_typologies, bundled_unknown};
 use crate::classify::{Distribution, Method, PlanClassifier};
@@ -309,6 +310,11 @@ impl Predictions {
             known: sum.known + 1,
             right: sum.right + usize::from(right),
         })
+    }
+
+    /// What the model has to do with the plan, where it learned from it.
+    pub fn acquaintance(&self) -> Option<Acquaintance> {
+        self.model.about.learned.as_ref()?.acquaintance(&self.network)
     }
 
     /// How neighbours' labels were taken, in words.

@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use super::joint::Joint;
+use super::learned::{DiskLearned, Learned};
 use super::{Classifier, Method, PlanClassifier, Scores};
 use crate::base::hash;
 use crate::dataset::Row;
@@ -44,6 +45,8 @@ pub struct About {
     pub data: DataSummary,
     /// The results of cross-validation on the same rooms.
     pub scores: Vec<ScoreSummary>,
+    /// What tells the rooms again; `None` in files of earlier versions, and where only their features were known.
+    pub learned: Option<Learned>,
 }
 
 /// The rooms a classifier learned from.
@@ -77,7 +80,9 @@ pub struct ScoreSummary {
 impl DataSummary {
     /// The summary of rows and their table.
     pub fn of(rows: &[Row], table: &Table) -> Self {
-        let plans: BTreeSet<(&str, &str)> = rows.iter().map(|row| (building_of(row), row.plan.as_str())).collect();
+        // Names repeat: a plan is known by its file, and within one file by its name and storey.
+        let plan = |row: &Row| [&row.file, building_of(row), &row.plan, &row.storey].map(str::to_owned);
+        let plans: BTreeSet<[String; 4]> = rows.iter().map(plan).collect();
         let buildings: BTreeSet<&str> = rows.iter().map(building_of).collect();
         let counts = table.label_counts();
         Self {
@@ -256,6 +261,8 @@ struct DiskAbout {
     licence: String,
     data: DataSummary,
     scores: Vec<ScoreSummary>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    learned: Option<DiskLearned>,
 }
 
 impl Disk {
@@ -273,7 +280,7 @@ impl Disk {
 
 impl DiskAbout {
     fn of(about: &About) -> Self {
-        let About { typology, neighbours, command, program, seed, licence, data, scores } = about.clone();
+        let About { typology, neighbours, command, program, seed, licence, data, scores, learned } = about.clone();
         Self {
             typology: typology.map(|typology| typology.as_str().to_owned()),
             neighbours: neighbours.name().to_owned(),
@@ -283,16 +290,21 @@ impl DiskAbout {
             licence,
             data,
             scores,
+            learned: learned.as_ref().map(DiskLearned::of),
         }
     }
 
     fn live(self) -> Option<About> {
-        let Self { typology, neighbours, command, program, seed, licence, data, scores } = self;
+        let Self { typology, neighbours, command, program, seed, licence, data, scores, learned } = self;
         let typology = match typology {
             Some(name) => Some(Typology::new(&name)?),
             None => None,
         };
         let neighbours = NeighbourLabels::ALL.into_iter().find(|mode| mode.name() == neighbours)?;
-        Some(About { typology, neighbours, command, program, seed, licence, data, scores })
+        let learned = match learned {
+            Some(learned) => Some(learned.live()?),
+            None => None,
+        };
+        Some(About { typology, neighbours, command, program, seed, licence, data, scores, learned })
     }
 }

@@ -87,6 +87,19 @@ pub struct LabelCounts {
     pub false_negatives: usize,
 }
 
+/// How well one label is told, each 0..=1, 0 where nothing is there to divide by.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LabelRates {
+    /// Rooms with the label.
+    pub rooms: usize,
+    /// Of the rooms with the label, those that got it.
+    pub recall: f64,
+    /// Of the rooms that got the label, those that have it.
+    pub precision: f64,
+    /// The harmonic mean of both.
+    pub f1: f64,
+}
+
 impl Confusion {
     /// Number of rooms.
     pub fn rooms(&self) -> usize {
@@ -109,6 +122,26 @@ impl Confusion {
             false_positives: given - true_positives,
             false_negatives: with_label - true_positives,
             true_negatives: self.rooms() + true_positives - with_label - given,
+        }
+    }
+
+    /// The mean over the labels that occur of the share of their rooms that is right, 0..=1; 0 without rooms.
+    pub fn balanced_accuracy(&self) -> f64 {
+        let rates = Label::ALL.map(|label| self.label_rates(label));
+        let occurring: Vec<f64> = rates.iter().filter(|rates| rates.rooms > 0).map(|rates| rates.recall).collect();
+        share(occurring.iter().sum(), occurring.len() as f64)
+    }
+
+    /// How well one label is told.
+    pub fn label_rates(&self, label: Label) -> LabelRates {
+        let counts = self.counts(label);
+        let (found, rooms) = (counts.true_positives as f64, counts.true_positives + counts.false_negatives);
+        let given = (counts.true_positives + counts.false_positives) as f64;
+        LabelRates {
+            rooms,
+            recall: share(found, rooms as f64),
+            precision: share(found, given),
+            f1: share(2.0 * found, given + rooms as f64),
         }
     }
 
@@ -232,6 +265,10 @@ mod tests {
         assert_eq!((counts.true_negatives, counts.false_negatives), (1, 0));
         let rates = scores.confusion.table_rates(hall);
         assert_eq!((rates.tp, rates.fp, rates.tn, rates.fn_), (0.5, 0.5, 1.0, 0.0));
+        // Both small rooms are found, one of two halls; three rooms are said to be small, two rightly.
+        assert_eq!(scores.confusion.balanced_accuracy(), 0.75);
+        let rates = scores.confusion.label_rates(small);
+        assert_eq!((rates.rooms, rates.recall, rates.precision, rates.f1), (2, 1.0, 2.0 / 3.0, 0.8));
     }
 
     #[test]

@@ -453,8 +453,8 @@ fn urn(counts: &[u32; 5], shares: &[f64; 5]) -> f64 {
 }
 
 /// The fold of each network: the buildings of each typology are assigned in random order.
-fn building_folds(networks: &[&RoomNetwork], folds: usize, seed: u64) -> Vec<usize> {
-    let building = |network: &RoomNetwork| (network.typology.clone(), network.building.clone());
+pub fn building_folds(networks: &[&RoomNetwork], folds: usize, seed: u64) -> Vec<usize> {
+    let building = |network: &RoomNetwork| (network.typology.clone(), network.group.clone());
     let mut buildings: Vec<_> = networks.iter().map(|network| building(network)).collect();
     buildings.sort_unstable();
     buildings.dedup();

@@ -76,7 +76,7 @@ impl Place {
 fn openings(networks: &[&RoomNetwork]) -> Vec<Seen> {
     let mut seen = Vec::new();
     for (index, network) in networks.iter().enumerate() {
-        for (room, of) in network.rooms.iter().enumerate() {
+        for (room, of) in network.rooms.iter().enumerate().filter(|(_, of)| !of.is_repeat) {
             for (door, opening) in of.doors.iter().enumerate() {
                 let behind = opening.to.and_then(|to| network.rooms.get(to)?.label);
                 let place = of.label.and_then(|label| Place::new(network, Some(label), room, door));
@@ -161,7 +161,7 @@ impl Unknown {
     pub fn score(networks: &[&RoomNetwork], folds: usize, seed: u64) -> Result<UnknownScores, FoldsError> {
         let seen = openings(networks);
         let labels: Vec<Label> = seen.iter().map(|seen| seen.behind).collect();
-        let buildings: Vec<&str> = seen.iter().map(|seen| networks[seen.network].building.as_str()).collect();
+        let buildings: Vec<&str> = seen.iter().map(|seen| networks[seen.network].group.as_str()).collect();
         let folds = Folds::grouped(&labels, &buildings, folds, seed_of_part(seed, 0))?;
         let mut predictions = vec![Distribution::UNIFORM; seen.len()];
         let mut frequent = 0;

@@ -6,9 +6,13 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value, json};
 
 use super::batch::{self, Input};
+use super::collect::content_of;
 use super::door::{Paint, one_line};
+use super::repeats::repeats_in_words;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::check::{Finding, Severity, check};
+use crate::dataset::repeats::{Likeness, Pair, Repeats, Sighting};
+use crate::features::Analysis;
 use crate::formats::{FileError, Import, Note, NoteKind};
 use crate::geometry::Point;
 use crate::labels::Schemes;
@@ -45,6 +49,12 @@ fn severity(word: &str) -> Result<Severity, String> {
     })
 }
 
+/// What came of one file.
+type Checked = (Import, Vec<(Vec<Finding>, Sighting)>);
+
+/// So many plans that are read twice are listed without `--all`.
+const LISTED_PAIRS: usize = 10;
+
 /// So many findings of a kind in a plan are listed without `--all`: enough to see what is meant.
 const LISTED: usize = 3;
 
@@ -58,12 +68,19 @@ impl Subcommand for CheckCommand {
         let files = batch::inputs(&self.plans);
         let mut totals = Totals::default();
         let mut json_files = Vec::new();
+        let mut sightings: Vec<Sighting> = Vec::new();
         let work = |input: &Input| {
             let import = input.read()?;
-            let found: Vec<Vec<Finding>> = import.plans.iter().map(|plan| self.findings(plan, &schemes)).collect();
+            let (file, content) = (input.path.display().to_string(), content_of(&input.path));
+            let each = |(storey, plan): (usize, &Plan)| {
+                let pipeline = Pipeline::new(plan, &schemes);
+                let seen = Sighting::of(plan, pipeline.analysis(), &file, &content, storey);
+                (self.findings(plan, pipeline.analysis(), &schemes), seen)
+            };
+            let found: Vec<(Vec<Finding>, Sighting)> = import.plans.iter().enumerate().map(each).collect();
             Ok((import, found))
         };
-        let take = |input: &Input, result: Result<(Import, Vec<Vec<Finding>>), FileError>, terminal: &mut Terminal| {
+        let take = |input: &Input, result: Result<Checked, FileError>, terminal: &mut Terminal| {
             totals.files += 1;
             let (import, found) = match result {
                 Ok(result) => result,
@@ -79,6 +96,8 @@ impl Subcommand for CheckCommand {
                     return Ok(());
                 }
             };
+            let (found, seen): (Vec<Vec<Finding>>, Vec<Sighting>) = found.into_iter().unzip();
+            sightings.extend(seen);
             let checked: Vec<(&Plan, Vec<Finding>)> = import.plans.iter().zip(found).collect();
             totals.add(&checked, &import.notes, self.least);
             if self.json {
@@ -90,11 +109,22 @@ impl Subcommand for CheckCommand {
             Ok(())
         };
         batch::for_each(&files, "checking", terminal, work, take)?;
+        let repeats = Repeats::find(&sightings);
+        totals.repeats = repeats.pairs.iter().filter(|pair| pair.likeness == Likeness::Same).count();
         if self.json {
-            let report = json!({ "version": 1, "files": json_files, "totals": totals.json() });
+            let pairs: Vec<Value> = repeats.pairs.iter().map(|pair| json_pair(&sightings, pair)).collect();
+            let report = json!({ "version": 1, "files": json_files, "repeats": pairs, "totals": totals.json() });
             serde_json::to_writer_pretty(&mut terminal.out, &report)?;
             writeln!(terminal.out)?;
         } else {
+            let listed = if self.all { usize::MAX } else { LISTED_PAIRS };
+            let lines = repeats_in_words(&sightings, &repeats, false, listed);
+            for line in lines.iter().filter(|_| self.least <= Severity::Warning) {
+                writeln!(terminal.out, "{line}")?;
+            }
+            if !lines.is_empty() && self.least <= Severity::Warning {
+                writeln!(terminal.out)?;
+            }
             terminal.out.write_all(totals.text().as_bytes())?;
         }
         let worst = if self.strict { Severity::Warning } else { Severity::Error };
@@ -104,8 +134,8 @@ impl Subcommand for CheckCommand {
 }
 
 impl CheckCommand {
-    fn findings(&self, plan: &Plan, schemes: &Schemes) -> Vec<Finding> {
-        let mut found = check(plan, Pipeline::new(plan, schemes).analysis(), schemes);
+    fn findings(&self, plan: &Plan, analysis: &Analysis, schemes: &Schemes) -> Vec<Finding> {
+        let mut found = check(plan, analysis, schemes);
         found.retain(|finding| finding.severity() >= self.least);
         found
     }
@@ -241,6 +271,8 @@ struct Totals {
     unreadable: usize,
     plans: usize,
     plans_without_findings: usize,
+    /// Plans that are read again.
+    repeats: usize,
     /// Findings, and plans with such, by severity (the worst first), place in the list of kinds, and
     /// title.
     kinds: BTreeMap<(std::cmp::Reverse<Severity>, usize, &'static str), (usize, usize)>,
@@ -271,7 +303,9 @@ impl Totals {
     }
 
     fn by_severity(&self, severity: Severity) -> usize {
-        self.kinds.iter().filter(|((key, ..), _)| key.0 == severity).map(|(_, (findings, _))| findings).sum()
+        let of_plans: usize =
+            self.kinds.iter().filter(|((key, ..), _)| key.0 == severity).map(|(_, (findings, _))| findings).sum();
+        of_plans + if severity == Severity::Warning { self.repeats } else { 0 }
     }
 
     fn json(&self) -> Value {
@@ -334,6 +368,13 @@ fn json_file(path: &Path, import: &Import, checked: &[(&Plan, Vec<Finding>)]) ->
         })
         .collect();
     json!({ "file": path.display().to_string(), "error": null, "notes": notes, "plans": plans })
+}
+
+/// Two readings that have rooms in common.
+fn json_pair(sightings: &[Sighting], pair: &Pair) -> Value {
+    let of = |index: usize| json!({ "file": sightings[index].file, "plan": sightings[index].plan });
+    let kind = if pair.likeness == Likeness::Same { "same" } else { "near_twins" };
+    json!({ "kind": kind, "first": of(pair.first), "second": of(pair.second), "rooms": pair.rooms.len() })
 }
 
 fn json_finding(finding: &Finding) -> Value {

@@ -279,6 +279,9 @@ fn text(plan: &Plan, said: &Predictions, with_unknown: bool) -> Result<String, s
         )?;
     }
     writeln!(out, "  {}; neighbours' labels: {}", said.agreement(), said.neighbours_in_words())?;
+    if let Some(known) = said.acquaintance() {
+        writeln!(out, "  the model {}", known.words())?;
+    }
     if with_unknown {
         let unknown = said.unknown();
         if unknown.is_empty() {
@@ -347,6 +350,12 @@ fn json(plan: &Plan, said: &Predictions, with_unknown: bool) -> serde_json::Valu
         "settled": said.result.settled,
         "labelled_rooms": agreement.known,
         "agreeing_rooms": agreement.right,
+        "learned_from": said.acquaintance().map(|known| json!({
+            "rooms": known.rooms,
+            "of": known.of,
+            "out_of_fold_agreement": known.out_of_fold.map(|share| (share * 1e4).round() / 1e4),
+            "folds_by": known.folds_by,
+        })),
         "rooms": rooms,
         "unknown": unknown,
     })

@@ -1,14 +1,17 @@
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write as _;
 use std::path::PathBuf;
 
-use super::batch::{self, Input};
+use serde_json::json;
+
+use super::collect::{FoldsFrom, PlansRead, fold_table, grouping, read_plans, report_left_out};
 use super::features::FeatureOptions;
+use super::manifest::{self, Manifest};
 use super::outputs::Outputs;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
-use crate::dataset::{LeftOut, Row, Statistics, csv, rows};
-use crate::formats::Import;
-use crate::labels::Typology;
+use crate::dataset::folds::{Grouping, building_of};
+use crate::dataset::{Collection, LeftOut, Row, Statistics, csv, fold_table, schema};
+use crate::labels::{Label, Typology};
 
 /// `enfilade dataset`: the labelled rooms of many plans.
 #[derive(clap::Args)]
@@ -16,13 +19,29 @@ pub struct DatasetCommand {
     /// Folders of plans, or plans, of any known format
     #[arg(required = true, value_name = "DIR")]
     plans: Vec<PathBuf>,
-    /// Write the dataset here instead of to stdout
+    /// Write the dataset here instead of to stdout; beside it what its columns mean (.schema.json) and how it came about
+    /// (.manifest.json)
     #[arg(short, long, value_name = "FILE.csv")]
     output: Option<PathBuf>,
     /// Print the paper's Table 2 for the rooms: per label its share, mean and deviation of a and d,
     /// mean rt. Without --output the dataset itself is not printed
     #[arg(long)]
     stats: bool,
+    /// Folds of the column 'fold': how many, the same that 'evaluate' tests with; or a table (.csv) with the columns file, id, fold
+    #[arg(long, value_name = "N|FILE", default_value = "10", value_parser = FoldsFrom::read)]
+    folds: FoldsFrom,
+    /// What is assigned to folds: 'building', which folds then never split, or 'room'
+    #[arg(long, value_name = "UNIT", default_value = "building", value_parser = grouping)]
+    by: Grouping,
+    /// Seed of the folds
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Keep rooms that are read twice
+    #[arg(long)]
+    keep_repeats: bool,
+    /// Put an apostrophe before texts that begin with = + - @, which a spreadsheet would run as formulas
+    #[arg(long)]
+    guard_formulas: bool,
     #[command(flatten)]
     shared: FeatureOptions,
 }
@@ -34,31 +53,73 @@ impl Subcommand for DatasetCommand {
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let schemes = inputs::schemes(&self.shared.scheme)?;
-        let files = batch::inputs_into(&self.plans, self.output.as_deref());
-        let mut collected: Vec<Row> = Vec::new();
-        let mut left_out = LeftOut::default();
-        let work = |_: &Input, import: Import| {
-            let mut left_out = LeftOut::default();
-            let of_plan = |plan| rows(plan, &schemes, self.shared.neighbours, &mut left_out);
-            let rows: Vec<Row> = import.plans.iter().flat_map(of_plan).collect();
-            (rows, left_out)
+        let given = match &self.folds {
+            FoldsFrom::File(file) => Some(fold_table(file)?),
+            FoldsFrom::Count(_) => None,
         };
-        let failed = batch::for_each_import(&files, "collecting rooms", terminal, work, |_, (rows, without), _| {
-            collected.extend(rows);
-            left_out.add(&without);
-            Ok(())
-        })?;
+        let mut read = read_plans(&self.plans, &schemes, false, self.keep_repeats, terminal)?;
+        let left_out = read.left_out();
         report_left_out(&left_out, terminal)?;
+        let plans = Collection::Plans(std::mem::take(&mut read.networks));
+        let mut rows = plans.rows(self.shared.neighbours).unwrap_or_default();
+        match given {
+            Some(table) => rows.iter_mut().for_each(|row| row.fold = table.fold_of(&row.file, &row.id)),
+            None => {
+                // Said in the manifest: who asked for no folds need not hear of few buildings.
+                fold_table::deal(&mut rows, self.by, self.folds.count(), self.seed);
+            }
+        }
         if self.output.is_some() || !self.stats {
             let mut bytes = Vec::new();
-            csv::write(&mut bytes, &collected)?;
+            let guard = if self.guard_formulas { csv::Guard::On } else { csv::Guard::Off };
+            csv::write_guarded(&mut bytes, &rows, guard)?;
             Outputs::new(terminal).result(self.output.as_deref(), &bytes, terminal)?;
+            if let Some(path) = self.output.as_deref().filter(|path| manifest::is_file(path)) {
+                let folds = match &self.folds {
+                    FoldsFrom::Count(count) => json!({ "count": count, "by": self.by.name(), "seed": self.seed }),
+                    FoldsFrom::File(file) => json!({ "file": file.display().to_string() }),
+                };
+                let table = Manifest::of_table(path, &bytes, rows.len());
+                let told = table.with("folds", folds).with("neighbours", json!(self.shared.neighbours.name()));
+                told_of(told, &rows, &read, &left_out)
+                    .with_schemes(&schemes, &self.shared.scheme)
+                    .save(path, Some(schema()))?;
+            }
         }
         if self.stats {
-            terminal.out.write_all(statistics(&collected).as_bytes())?;
+            terminal.out.write_all(statistics(&rows).as_bytes())?;
         }
-        Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
+        Ok(if read.failed == 0 { Outcome::Done } else { Outcome::InputWrong })
     }
+}
+
+/// A manifest with the counts of rows, and with where they come from.
+fn told_of(manifest: Manifest, rows: &[Row], read: &PlansRead, left_out: &LeftOut) -> Manifest {
+    let plans: BTreeSet<(&str, &str, &str)> =
+        rows.iter().map(|row| (row.file.as_str(), row.plan.as_str(), row.storey.as_str())).collect();
+    let buildings: BTreeSet<(Option<&Typology>, &str)> =
+        rows.iter().map(|row| (row.typology.as_ref(), building_of(row))).collect();
+    let mut labels: BTreeMap<&str, usize> = Label::ALL.iter().map(|label| (label.letter(), 0)).collect();
+    let mut typologies: BTreeMap<&str, usize> = BTreeMap::new();
+    for row in rows {
+        *labels.entry(row.label.letter()).or_default() += 1;
+        *typologies.entry(row.typology.as_ref().map(Typology::as_str).unwrap_or_default()).or_default() += 1;
+    }
+    manifest
+        .with(
+            "counts",
+            json!({
+                "rooms": rows.len(),
+                "plans": plans.len(),
+                "buildings": buildings.len(),
+                "labels": labels,
+                "typologies": typologies,
+                "without_fold": rows.iter().filter(|row| row.fold.is_none()).count(),
+                "files_not_read": read.failed,
+            }),
+        )
+        .with_left_out(left_out)
+        .with_plans(read)
 }
 
 /// Table 2 for each typology and, where there are several, for all.
@@ -78,29 +139,4 @@ pub fn statistics(rows: &[Row]) -> String {
         tables.push(Statistics::of(rows).table("All"));
     }
     tables.join("\n")
-}
-
-/// Says which rooms did not become rows, and which functions no scheme knows.
-pub fn report_left_out(left_out: &LeftOut, terminal: &mut Terminal) -> Result<(), CliError> {
-    if left_out.total() == 0 {
-        return Ok(());
-    }
-    terminal.remark(format!("left out {} rooms:", left_out.total()))?;
-    let lines = [
-        (left_out.not_classified, "not classified (balconies, shafts and the like)"),
-        (left_out.without_function, "without a label or a function"),
-        (left_out.without_area, "without a boundary"),
-    ];
-    for (rooms, why) in lines.into_iter().filter(|&(rooms, _)| rooms > 0) {
-        terminal.remark(format!("{rooms:>6}  {why}"))?;
-    }
-    for ((typology, function), rooms) in &left_out.unknown_functions {
-        let scheme = if typology.is_empty() {
-            "the plan has no typology".to_owned()
-        } else {
-            format!("not in the scheme of {typology}")
-        };
-        terminal.remark(format!("{rooms:>6}  function '{function}' ({scheme}; add it with --scheme)"))?;
-    }
-    Ok(())
 }

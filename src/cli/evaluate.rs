@@ -1,26 +1,29 @@
 use std::io::Write as _;
 use std::path::PathBuf;
 
-use super::collect::{CollectOptions, Collected, collect, neighbour_labels};
+use super::call::{quoted, sha256};
+use super::collect::{CollectOptions, Collected, FoldsFrom, collect, grouping, neighbour_labels};
+use super::manifest::Manifest;
 use super::outputs::{Outputs, must_be_folder};
+use super::predictions::save_predictions;
 use super::progress::with_progress;
-use super::{CliError, Outcome, Subcommand, Terminal, inputs};
+use super::{CliError, Outcome, Subcommand, Terminal};
 use crate::dataset::folds::Grouping;
 use crate::features::NeighbourLabels;
-use crate::study::{Options, report, study};
+use crate::study::{About, Options, report, study_with_predictions};
 
 /// `enfilade evaluate`: the paper's study on one's own data.
 #[derive(clap::Args)]
 pub struct EvaluateCommand {
     #[command(flatten)]
     collect: CollectOptions,
-    /// Folds of each cross-validation
-    #[arg(long, value_name = "N", default_value_t = 10, value_parser = folds)]
-    folds: usize,
+    /// Folds of each cross-validation: how many, or a table (.csv) with the columns file, id, fold, such as a dataset
+    #[arg(long, value_name = "N|FILE", default_value = "10", value_parser = FoldsFrom::read)]
+    folds: FoldsFrom,
     /// What is assigned to folds: 'room', as in the paper, or 'building', which none is tested on that was
-    /// learned from
-    #[arg(long, value_name = "UNIT", default_value = "room", value_parser = grouping)]
-    by: Grouping,
+    /// learned from; 'room' unless a table of folds splits no building
+    #[arg(long, value_name = "UNIT", value_parser = grouping)]
+    by: Option<Grouping>,
     /// Neighbours' labels: 'true' (given, as in the paper), 'temporary' (the naive classifier's) or
     /// 'predicted' (repeated until stable)
     #[arg(long, value_name = "MODE", default_value = "true", value_parser = neighbour_labels)]
@@ -28,22 +31,22 @@ pub struct EvaluateCommand {
     /// Seed of all that is random: the same seed gives the same bytes
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+    /// Write what was said of each room by classifiers that did not learn from it (CSV): a line for each room, set and algorithm,
+    /// on buildings never seen and under the condition of the report
+    #[arg(long, value_name = "FILE.csv")]
+    predictions: Option<PathBuf>,
+    /// Put an apostrophe before texts of the predictions that begin with = + - @, which a spreadsheet would run as formulas
+    #[arg(long)]
+    guard_formulas: bool,
+    /// The date that the report is to name; without it, it names none
+    #[arg(long, value_name = "TEXT")]
+    date: Option<String>,
     /// Folder for the report: report.html, report.json and a CSV file for each table
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
     /// Print the report's JSON as well
     #[arg(long)]
     json: bool,
-}
-
-/// A number of folds, as an option's value.
-fn folds(word: &str) -> Result<usize, String> {
-    word.parse().ok().filter(|&folds| folds >= 2).ok_or_else(|| "use a whole number from 2 up".to_owned())
-}
-
-/// What is assigned to folds, as an option's value.
-fn grouping(word: &str) -> Result<Grouping, String> {
-    inputs::one_of(word, &Grouping::ALL, Grouping::name)
 }
 
 impl Subcommand for EvaluateCommand {
@@ -54,9 +57,27 @@ impl Subcommand for EvaluateCommand {
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         must_be_folder(&self.output)?;
         let mut outputs = Outputs::new(terminal);
-        let Collected { collection, blind, failed } = collect(&self.collect, self.seed, terminal)?;
-        let options = Options { folds: self.folds, grouping: self.by, neighbours: self.neighbours, seed: self.seed };
-        let study = with_progress("evaluating", None, terminal, |work| study(&collection, &blind, options, work))?;
+        let mut collected = collect(&self.collect, self.seed, terminal)?;
+        let given = collected.folds_of(&self.folds, self.by, terminal)?;
+        let options = Options {
+            folds: self.folds.count(),
+            grouping: given.or(self.by).unwrap_or(Grouping::Room),
+            neighbours: self.neighbours,
+            seed: self.seed,
+            given: given.is_some(),
+        };
+        let Collected { collection, blind, failed, read } = collected;
+        let (mut study, predictions) = with_progress("evaluating", None, terminal, |work| {
+            study_with_predictions(&collection, &blind, options, work)
+        })?;
+        let hashes: Vec<&str> = read.sources.iter().map(|source| source.sha256.as_str()).collect();
+        study.about = About {
+            command: self.command_line(),
+            data: self.collect.data.iter().map(|path| path.display().to_string()).collect(),
+            files: read.sources.len(),
+            sha256: sha256(hashes.join("\n").as_bytes()),
+            date: self.date.clone(),
+        };
         let files = report::files(&study)?;
         outputs.folder(&self.output)?;
         for (name, bytes) in &files {
@@ -65,11 +86,36 @@ impl Subcommand for EvaluateCommand {
                 terminal.out.write_all(bytes)?;
             }
         }
+        let told = serde_json::to_value(&study.about)?;
+        Manifest::of_folder(files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())))
+            .with("study", told)
+            .with_plans(&read)
+            .save(&self.output.join("report.csv"), None)?;
+        if let Some(path) = &self.predictions {
+            let rows = collection.rows(NeighbourLabels::True).unwrap_or_default();
+            save_predictions(path, &rows, &predictions, self.guard_formulas, &read)?;
+        }
         if !self.json {
             terminal.out.write_all(report::summary(&study).as_bytes())?;
             writeln!(terminal.out)?;
             terminal.report(format!("The report: {}", self.output.join("report.html").display()))?;
         }
         Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
+    }
+}
+
+impl EvaluateCommand {
+    /// The call that makes this report: what the numbers depend on, and nothing else.
+    fn command_line(&self) -> String {
+        let mut words = vec!["enfilade evaluate".to_owned()];
+        words.extend(self.collect.words());
+        let folds = match &self.folds {
+            FoldsFrom::Count(count) => count.to_string(),
+            FoldsFrom::File(file) => quoted(&file.to_string_lossy()),
+        };
+        words.push(format!("--folds {folds}"));
+        words.extend(self.by.map(|by| format!("--by {}", by.name())));
+        words.push(format!("--neighbours {} --seed {}", self.neighbours.name(), self.seed));
+        words.join(" ")
     }
 }

@@ -1,6 +1,7 @@
 //! The command line. One file per subcommand, and one line in `SUBCOMMANDS` to register it.
 
 mod batch;
+mod call;
 mod check;
 mod classify;
 mod collect;
@@ -15,18 +16,23 @@ mod export;
 mod features;
 mod import;
 mod inputs;
+mod label;
 mod man;
+mod manifest;
 mod map;
 mod mistyped;
 mod models;
 mod numbers;
 mod open;
 mod outputs;
+mod predictions;
 mod progress;
 mod render;
+mod repeats;
 #[cfg(feature = "gui")]
 mod replay;
 mod segment;
+mod suspects;
 mod train;
 
 use std::ffi::OsString;
@@ -52,6 +58,8 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<render::RenderCommand>(),
     entry::<classify::ClassifyCommand>(),
     entry::<evaluate::EvaluateCommand>(),
+    entry::<suspects::SuspectsCommand>(),
+    entry::<label::LabelCommand>(),
     entry::<train::TrainCommand>(),
     entry::<models::ModelsCommand>(),
     entry::<explore::ExploreCommand>(),
@@ -316,6 +324,7 @@ pub const VERSION: &str = env!("ENFILADE_VERSION");
 /// Runs the program with the given arguments (the program's name first).
 pub fn run(arguments: impl IntoIterator<Item = OsString>, terminal: &mut Terminal) -> u8 {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
+    call::remember_command(&arguments);
     let command = command();
     if let Some(what) = mistyped::subcommand(&arguments, &command) {
         // Whoever closed stderr does not read it.

@@ -84,7 +84,7 @@ fn headless(plan: Option<&Path>, terminal: &mut Terminal) -> Result<Outcome, Cli
     dataset::csv::write(&mut table, &rows)?;
     outputs.save(&folder.join("rooms.csv"), &table, Care::Fast, terminal)?;
     writeln!(terminal.out, "{OUTPUT}/rooms.csv: F_r and label of {} rooms", rows.len())?;
-    super::dataset::report_left_out(&left_out, terminal)?;
+    super::collect::report_left_out(&left_out, terminal)?;
     writeln!(terminal.out, "\n{}", Statistics::of(&rows).table("All rooms").trim_end())?;
     Ok(Outcome::Done)
 }

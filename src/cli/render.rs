@@ -17,6 +17,7 @@ use crate::labels::Schemes;
 use crate::picture::PictureLevels;
 use crate::pipeline::{Asked, Pipeline};
 use crate::plan::{Backdrop, Plan};
+use crate::predict::Predictions;
 use crate::store::pictures;
 
 /// `enfilade render`: plans as pictures.
@@ -212,7 +213,11 @@ impl RenderCommand {
         let furniture = Furniture { title: !self.bare, legend: !self.bare, scale: !self.bare };
         let asked = (style.fill == Fill::Prediction).then_some(asked);
         let predictions = asked.map(|asked| pipeline.predictions(asked)).transpose()?;
+        let known = predictions.as_ref().and_then(Predictions::acquaintance);
         let mut drawing = pipeline.drawing(predictions.as_ref());
+        if let Some(known) = known {
+            drawing = drawing.with_caveat(&known.short_words());
+        }
         let mut style = style.clone();
         if let Some((levels, backdrop)) = traced {
             drawing = drawing.with_picture(levels, backdrop);

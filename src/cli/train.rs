@@ -1,8 +1,10 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use super::collect::{CollectOptions, Collected, collect, neighbour_labels};
+use super::call::quoted;
+use super::collect::{CollectOptions, Collected, FoldsFrom, collect, neighbour_labels};
 use super::outputs::{Care, Outputs, is_stdout};
+use super::predictions::save_predictions;
 use super::progress::with_progress;
 use super::{CliError, Outcome, Subcommand, Terminal};
 use crate::base::file_name::component;
@@ -10,20 +12,23 @@ use crate::base::wording::or_words;
 use crate::base::work::Work;
 use crate::classify::{
     Algorithm, Classifier, Method, PlanClassifier, Scores, in_plan,
-    joint::{self, Joint},
+    joint::{self, Joint, JointValidationError},
+    learned::Learned,
     model_file::{self, About, DataSummary, ScoreSummary},
     typology::TypologyModel,
     unknown::Unknown,
 };
 use crate::dataset::{
     Collection, RoomNetwork, Row,
-    folds::Grouping,
+    fingerprint::RoomPrint,
+    folds::{Folds, Grouping},
     sets::{STANDARD, set_name},
     table::Table,
 };
 use crate::features::NeighbourLabels;
 use crate::labels::Typology;
 use crate::store::MODEL_ENDING;
+use crate::study::predictions::Prediction;
 use crate::study::{Cell, Condition, Options, StudyError, validate};
 
 /// `enfilade train`: classifiers from labelled rooms.
@@ -45,12 +50,19 @@ pub struct TrainCommand {
     /// the paper)
     #[arg(long, value_name = "MODE", value_parser = neighbour_labels)]
     neighbours: Option<NeighbourLabels>,
-    /// Folds of the cross-validation whose scores the model file tells; 0 for none
-    #[arg(long, value_name = "N", default_value_t = 10)]
-    folds: usize,
+    /// Folds of the cross-validation whose scores the model file tells: how many, 0 for none, or a table (.csv) with the columns
+    /// file, id, fold, such as a dataset
+    #[arg(long, value_name = "N|FILE", default_value = "10", value_parser = FoldsFrom::read_or_none)]
+    folds: FoldsFrom,
     /// Seed of all that is random: the same data and seed give the same bytes
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+    /// Write what cross-validation said of each room (CSV): a line for each room, set, algorithm and way of dealing folds
+    #[arg(long, value_name = "FILE.csv")]
+    predictions: Option<PathBuf>,
+    /// Put an apostrophe before texts of the predictions that begin with = + - @, which a spreadsheet would run as formulas
+    #[arg(long)]
+    guard_formulas: bool,
     /// Under which terms the models may be used, and whose data they hold
     #[arg(long, value_name = "TEXT", default_value = "")]
     licence: String,
@@ -79,7 +91,10 @@ impl Subcommand for TrainCommand {
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         self.check()?;
-        let Collected { collection, blind, failed } = collect(&self.collect, self.seed, terminal)?;
+        let mut collected = collect(&self.collect, self.seed, terminal)?;
+        let given = collected.folds_of(&self.folds, None, terminal)?;
+        let Collected { collection, blind, failed, read } = collected;
+        let mut told_of_rooms: Vec<(Row, Prediction)> = Vec::new();
         let parts = self.parts(&collection)?;
         let methods: Vec<Method> = match (self.algorithm, &collection) {
             (Some(Method::Joint), Collection::Rows(_)) => {
@@ -112,11 +127,12 @@ impl Subcommand for TrainCommand {
                 Collection::Plans(_) => NeighbourLabels::Predicted,
                 Collection::Rows(_) => NeighbourLabels::True,
             });
-            let scores_of = self.validated(part, set, &methods, neighbours, terminal)?;
+            let (scores_of, predictions) = self.validated(part, set, &methods, neighbours, given, terminal)?;
             for &method in &methods {
                 let scores: Vec<&(Grouping, Scores)> =
                     scores_of.iter().filter(|(of, _)| *of == method).map(|(_, scores)| scores).collect();
-                let bytes = self.model(typology.as_ref(), part, method, neighbours, &scores, terminal)?;
+                let learned = learned(part, method, &predictions);
+                let bytes = self.model(typology.as_ref(), part, method, neighbours, &scores, learned, terminal)?;
                 let path = if is_file {
                     self.output.clone()
                 } else {
@@ -130,6 +146,15 @@ impl Subcommand for TrainCommand {
                 let told = if told.is_empty() { "not validated".to_owned() } else { told.join(", ") };
                 terminal.report(format!("{}: {set}, {method}: {told}", path.display()))?;
             }
+            if self.predictions.is_some() {
+                let rows = part.rows(NeighbourLabels::True).unwrap_or_default();
+                told_of_rooms.extend(predictions.into_iter().filter_map(|it| Some((rows.get(it.row)?.clone(), it))));
+            }
+        }
+        if let Some(path) = &self.predictions {
+            let (rows, mut predictions): (Vec<Row>, Vec<Prediction>) = told_of_rooms.into_iter().unzip();
+            predictions.iter_mut().enumerate().for_each(|(index, it)| it.row = index);
+            save_predictions(path, &rows, &predictions, self.guard_formulas, &read)?;
         }
         if !is_file && self.typology.is_none() && parts.len() > 1 {
             if let Ok(model) = TypologyModel::train(&blind.iter().collect::<Vec<_>>()) {
@@ -214,14 +239,17 @@ impl TrainCommand {
         set: &str,
         methods: &[Method],
         neighbours: NeighbourLabels,
+        given: Option<Grouping>,
         terminal: &mut Terminal,
-    ) -> Result<ScoresOf, CliError> {
-        if self.folds == 0 {
-            return Ok(Vec::new());
+    ) -> Result<(ScoresOf, Vec<Prediction>), CliError> {
+        let mut predictions = Vec::new();
+        if self.folds == FoldsFrom::Count(0) {
+            return Ok((Vec::new(), predictions));
         }
         let algorithms: Vec<Algorithm> =
             Algorithm::ALL.into_iter().filter(|&algorithm| methods.contains(&Method::Each(algorithm))).collect();
-        let options = Options { folds: self.folds, neighbours, seed: self.seed, grouping: Grouping::Room };
+        let (grouping, is_given) = (given.unwrap_or(Grouping::Room), given.is_some());
+        let options = Options { folds: self.folds.count(), neighbours, seed: self.seed, grouping, given: is_given };
         let conditions = Grouping::ALL.map(|by| Condition { by, neighbours });
         // A single typology makes a set with its own name, never a standard one.
         let typologies = part.typologies();
@@ -231,7 +259,10 @@ impl TrainCommand {
         });
         let mut scores = ScoresOf::new();
         match result {
-            Ok((cells, notes)) => {
+            Ok((cells, notes, said)) => {
+                predictions.extend(
+                    said.into_iter().filter(|it| it.set == of_part).map(|it| Prediction { set: set.to_owned(), ..it }),
+                );
                 for note in notes.iter().filter(|note| note.starts_with(&of_part)) {
                     terminal.remark(note)?;
                 }
@@ -243,16 +274,36 @@ impl TrainCommand {
         }
         if methods.contains(&Method::Joint) {
             let networks: Vec<&RoomNetwork> = part.networks().iter().collect();
-            let folds = self.folds.min(buildings(&networks));
             let result = with_progress(&format!("validating {set}, joint"), None, terminal, |work| {
-                joint::cross_validate(&networks, folds, self.seed, work)
+                match part.given_folds().filter(|_| given == Some(Grouping::Building)) {
+                    Some(folds) => {
+                        let folds = Folds::given(folds).map_err(JointValidationError::Folds)?;
+                        joint::cross_validate_on(&networks, &folds, self.seed, work)
+                    }
+                    None => {
+                        let folds = self.folds.count().min(buildings(&networks));
+                        joint::cross_validate(&networks, folds, self.seed, work)
+                    }
+                }
             });
             match result {
-                Ok(validated) => scores.push((Method::Joint, (Grouping::Building, validated.scores))),
+                Ok(validated) => {
+                    let condition = Condition { by: Grouping::Building, neighbours: NeighbourLabels::Predicted };
+                    let said = validated.predictions.iter().zip(&validated.folds).enumerate();
+                    predictions.extend(said.map(|(row, (said, &fold))| Prediction {
+                        row,
+                        set: set.to_owned(),
+                        method: Method::Joint,
+                        condition,
+                        fold,
+                        said: *said,
+                    }));
+                    scores.push((Method::Joint, (Grouping::Building, validated.scores)));
+                }
                 Err(error) => terminal.remark(format!("{set}, joint classifier: not validated: {error}"))?,
             }
         }
-        Ok(scores)
+        Ok((scores, predictions))
     }
 
     fn model(
@@ -262,6 +313,7 @@ impl TrainCommand {
         method: Method,
         neighbours: NeighbourLabels,
         scores: &[&(Grouping, Scores)],
+        learned: Option<Learned>,
         terminal: &Terminal,
     ) -> Result<Vec<u8>, CliError> {
         let mut rows: Vec<Row> = part.rows(neighbours).ok_or_else(|| {
@@ -305,31 +357,48 @@ impl TrainCommand {
             licence: self.licence.clone(),
             data: DataSummary::of(&rows, &table),
             scores: scores.iter().map(|(by, scores)| ScoreSummary::of(scores, *by, self.seed)).collect(),
+            learned,
         };
         Ok(model_file::to_bytes(&classifier, &about))
     }
 
     /// The command line that makes this one model from the same data.
     fn command_line(&self, typology: Option<&Typology>, method: Method, neighbours: NeighbourLabels) -> String {
-        let quoted = |path: &PathBuf| {
-            let text = path.display().to_string();
-            let is_plain = text.chars().all(|c| c.is_alphanumeric() || "/._-".contains(c));
-            if is_plain { text } else { format!("'{}'", text.replace('\'', "'\\''")) }
-        };
         let mut words = vec!["enfilade train".to_owned()];
-        words.extend(self.collect.data.iter().map(quoted));
-        words.extend(self.collect.most_rooms.map(|most| format!("--most-rooms {most}")));
-        words.extend(self.collect.scheme.iter().map(|path| format!("--scheme {}", quoted(path))));
+        words.extend(self.collect.words());
         words.push(format!("--algorithm {} --typology {}", method.name(), set_name(typology)));
-        words.push(format!("--neighbours {} --folds {} --seed {}", neighbours.name(), self.folds, self.seed));
+        let folds = match &self.folds {
+            FoldsFrom::Count(count) => count.to_string(),
+            FoldsFrom::File(file) => quoted(&file.to_string_lossy()),
+        };
+        words.push(format!("--neighbours {} --folds {folds} --seed {}", neighbours.name(), self.seed));
         words.join(" ")
     }
 }
 
+/// What tells the rooms of a part again, and which of them were right out of fold: on buildings never seen, or else by room. `None` for
+/// rows of a file.
+fn learned(part: &Collection, method: Method, predictions: &[Prediction]) -> Option<Learned> {
+    let places = part.places();
+    let prints: Vec<&RoomPrint> =
+        places.iter().map(|place| &part.networks()[place.network].rooms[place.room].print).collect();
+    let rows = part.rows(NeighbourLabels::True)?;
+    let right_by = |by: Grouping| {
+        let mut right: Vec<Option<bool>> = vec![None; rows.len()];
+        for it in predictions.iter().filter(|it| it.method == method && it.condition.by == by) {
+            right[it.row] = Some(it.said.label() == rows[it.row].label);
+        }
+        Some((right.into_iter().collect::<Option<Vec<bool>>>()?, by.name()))
+    };
+    let right = [Grouping::Building, Grouping::Room].into_iter().find_map(right_by);
+    let right = right.as_ref().map(|(right, by)| (right.as_slice(), *by));
+    (!prints.is_empty()).then(|| Learned::new(prints, right))
+}
+
 /// Number of buildings with a labelled room.
 fn buildings(networks: &[&RoomNetwork]) -> usize {
-    let labelled = networks.iter().filter(|network| network.rooms.iter().any(|room| room.label.is_some()));
-    labelled.map(|network| network.building.as_str()).collect::<BTreeSet<_>>().len()
+    let labelled = networks.iter().filter(|network| network.labelled().next().is_some());
+    labelled.map(|network| network.group.as_str()).collect::<BTreeSet<_>>().len()
 }
 
 fn write_model(path: &Path, bytes: &[u8], outputs: &mut Outputs, terminal: &mut Terminal) -> Result<(), CliError> {

@@ -1,6 +1,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::folds::building_of;
+use super::folds::group_of;
 use super::{LeftOut, RoomNetwork, Row};
 use crate::base::random::Random;
 use crate::features::NeighbourLabels;
@@ -45,8 +45,7 @@ impl Collection {
     pub fn places(&self) -> Vec<RoomPlace> {
         let mut places = Vec::new();
         for (index, network) in self.networks().iter().enumerate() {
-            let labelled = (0..network.rooms.len()).filter(|&room| network.rooms[room].label.is_some());
-            places.extend(labelled.map(|room| RoomPlace { network: index, room }));
+            places.extend(network.labelled().map(|room| RoomPlace { network: index, room }));
         }
         places
     }
@@ -57,6 +56,11 @@ impl Collection {
             Self::Plans(_) => &NeighbourLabels::ALL,
             Self::Rows(_) => &[NeighbourLabels::True],
         }
+    }
+
+    /// The folds that the rows carry, see [`Row::fold`]; `None` where one carries none.
+    pub fn given_folds(&self) -> Option<Vec<usize>> {
+        self.rows(NeighbourLabels::True)?.iter().map(|row| row.fold).collect()
     }
 
     /// What the plans left out.
@@ -85,14 +89,14 @@ impl Collection {
         self.filtered(|of_part, _| of_part == Some(typology))
     }
 
-    /// At most about `most_rooms` labelled rooms of each typology: whole buildings in random order, the
+    /// At most about `most_rooms` labelled rooms of each typology: whole buildings (with their near twins) in random order, the
     /// last one included that makes the number full. The same seed gives the same part.
     #[must_use]
     pub fn at_most(&self, most_rooms: usize, seed: u64) -> Self {
         let mut kept: BTreeSet<(Option<Typology>, String)> = BTreeSet::new();
         let mut rooms_of: BTreeMap<(Option<Typology>, String), usize> = BTreeMap::new();
         for row in self.rows(NeighbourLabels::True).unwrap_or_default() {
-            *rooms_of.entry((row.typology.clone(), building_of(&row).to_owned())).or_default() += 1;
+            *rooms_of.entry((row.typology.clone(), group_of(&row).to_owned())).or_default() += 1;
         }
         let mut typologies: Vec<Option<Typology>> = rooms_of.keys().map(|(typology, _)| typology.clone()).collect();
         typologies.dedup();
@@ -114,11 +118,11 @@ impl Collection {
     fn filtered(&self, keep: impl Fn(Option<&Typology>, &str) -> bool) -> Self {
         match self {
             Self::Plans(networks) => {
-                let kept = |network: &&RoomNetwork| keep(network.typology.as_ref(), &network.building);
+                let kept = |network: &&RoomNetwork| keep(network.typology.as_ref(), &network.group);
                 Self::Plans(networks.iter().filter(kept).cloned().collect())
             }
             Self::Rows(rows) => {
-                let kept = |row: &&Row| keep(row.typology.as_ref(), building_of(row));
+                let kept = |row: &&Row| keep(row.typology.as_ref(), group_of(row));
                 Self::Rows(rows.iter().filter(kept).cloned().collect())
             }
         }

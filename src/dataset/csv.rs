@@ -4,28 +4,77 @@ use std::fmt;
 use std::io::{Read, Write};
 
 use super::Row;
+use super::folds::group_of;
 use crate::base::separated::{Separated, SeparatedRow};
 use crate::features::Features;
 use crate::labels::Typology;
 
 /// The columns of a dataset file, in order.
-pub const COLUMNS: [&str; 14] =
-    ["plan", "building", "typology", "room", "function", "label", "a", "rt", "d", "l_S", "l_M", "l_B", "l_C", "l_H"];
+#[rustfmt::skip] // as they belong together
+pub const COLUMNS: [&str; 20] = [
+    "file", "id", "building", "typology", "storey", "plan", "room", "function", "label", "label_origin", "fold",
+    "a", "rt", "d", "l_S", "l_M", "l_B", "l_C", "l_H", "group",
+];
+
+/// Whether texts that a spreadsheet would take for a formula are guarded.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Guard {
+    /// Texts stand as they are: what programs expect.
+    #[default]
+    Off,
+    /// A text that begins like a formula gets an apostrophe in front; [`read`] takes it off again.
+    On,
+}
+
+impl Guard {
+    /// A text as a cell.
+    pub fn cell(self, text: &str) -> String {
+        if self == Self::On && begins_like_a_formula(text) { format!("'{text}") } else { text.to_owned() }
+    }
+}
+
+/// Whether spreadsheets may take a text for a formula (OWASP, CSV injection).
+fn begins_like_a_formula(text: &str) -> bool {
+    text.starts_with(['=', '+', '-', '@', '\t', '\r'])
+}
+
+/// A text without the apostrophe that [`Guard::On`] put in front.
+pub fn unguarded(cell: &str) -> &str {
+    cell.strip_prefix('\'').filter(|text| begins_like_a_formula(text)).unwrap_or(cell)
+}
 
 /// Writes rows with a header.
 ///
 /// # Errors
 /// When the writer fails.
 pub fn write(out: impl Write, rows: &[Row]) -> Result<(), csv::Error> {
+    write_guarded(out, rows, Guard::Off)
+}
+
+/// The same, with texts guarded or not.
+///
+/// # Errors
+/// As [`write`].
+pub fn write_guarded(out: impl Write, rows: &[Row], guard: Guard) -> Result<(), csv::Error> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record(COLUMNS)?;
     for row in rows {
-        let typology = row.typology.as_ref().map(Typology::as_str).unwrap_or_default();
-        let head = [&row.plan, &row.building, typology, &row.room, &row.function, row.label.letter()];
-        writer.write_record(head.into_iter().map(str::to_owned).chain(feature_cells(&row.features)))?;
+        let texts = head_cells(row).into_iter().map(|cell| guard.cell(&cell));
+        let cells = texts.chain(feature_cells(&row.features)).chain([guard.cell(group_of(row))]);
+        writer.write_record(cells)?;
     }
     writer.flush()?;
     Ok(())
+}
+
+/// The cells of [`COLUMNS`] before the features.
+fn head_cells(row: &Row) -> [String; 11] {
+    let typology = row.typology.as_ref().map(Typology::as_str).unwrap_or_default();
+    let fold = row.fold.map(|fold| (fold + 1).to_string()).unwrap_or_default();
+    let texts = [&row.file, &row.id, &row.building, typology, &row.storey, &row.plan, &row.room, &row.function];
+    let [file, id, building, typology, storey, plan, room, function] = texts.map(str::to_owned);
+    let (label, origin) = (row.label.letter().to_owned(), row.label_origin.clone());
+    [file, id, building, typology, storey, plan, room, function, label, origin, fold]
 }
 
 /// The eight features as cells: at most six decimals, no trailing zeros.
@@ -53,8 +102,9 @@ impl fmt::Display for CsvError {
 impl std::error::Error for CsvError {}
 
 /// Reads rows written by [`write`]; columns may come in any order and others are passed over.
-/// `plan`, `building`, `typology`, `room` and `function` may be missing. Cells may be apart by semicolons or
-/// tabs too, and numbers then have a decimal comma, see [`crate::base::separated`].
+/// All but the label and the features may be missing. The folds of the file are not taken: who wants them reads them as a
+/// [`super::fold_table::FoldTable`].
+/// Cells may be apart by semicolons or tabs too, and numbers then have a decimal comma, see [`crate::base::separated`].
 ///
 /// # Errors
 /// When it cannot be read or is no table, a needed column is missing, a label is unknown, or a number is not
@@ -71,6 +121,7 @@ pub fn read(mut input: impl Read) -> Result<Vec<Row>, CsvError> {
             .ok_or_else(|| fail(1, format!("no column '{name}'; a dataset has the columns {}", COLUMNS.join(","))))
     };
     let texts = ["plan", "building", "typology", "room", "function"].map(|name| table.column(name));
+    let more = ["file", "id", "storey", "label_origin", "group"].map(|name| table.column(name));
     let label = needed("label")?;
     let mut numbers = [0; 8];
     for (index, name) in Features::NAMES.into_iter().enumerate() {
@@ -79,7 +130,9 @@ pub fn read(mut input: impl Read) -> Result<Vec<Row>, CsvError> {
     let mut rows = Vec::new();
     for SeparatedRow { line, cells } in &table.rows {
         let line = *line;
-        let text = |index: Option<usize>| index.and_then(|index| cells.get(index)).cloned().unwrap_or_default();
+        let text = |index: Option<usize>| {
+            unguarded(index.and_then(|index| cells.get(index)).map(String::as_str).unwrap_or_default()).to_owned()
+        };
         let mut values = [0.0; 8];
         for (name, (&index, value)) in Features::NAMES.into_iter().zip(numbers.iter().zip(&mut values)) {
             let cell = cells.get(index).map(String::as_str).unwrap_or_default();
@@ -93,7 +146,14 @@ pub fn read(mut input: impl Read) -> Result<Vec<Row>, CsvError> {
             }
         }
         let count = |index: usize| values[index] as u32;
+        let [file, id, storey, label_origin, group] = more.map(text);
         rows.push(Row {
+            file,
+            id,
+            storey,
+            label_origin,
+            group,
+            fold: None,
             plan: text(texts[0]),
             building: text(texts[1]),
             typology: Typology::new(&text(texts[2])),
@@ -117,18 +177,27 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read() {
+        let features = Features { area_m2: 12.25, axes_ratio: 1.333333, doors: 3, doors_to: [0, 1, 0, 2, 0] };
         let rows = vec![Row {
+            file: "plans/casa.plan.json".to_owned(),
+            id: "r1".to_owned(),
             plan: "Casa \"Rossi\", piano 1".to_owned(),
             building: "b".to_owned(),
+            storey: "-1".to_owned(),
             typology: Typology::new("house"),
-            room: "R1".to_owned(),
+            room: "=SUM(A1)".to_owned(),
             function: "bath,room".to_owned(),
-            label: crate::labels::Label::SmallRoom,
-            features: Features { area_m2: 12.25, axes_ratio: 1.333333, doors: 3, doors_to: [0, 1, 0, 2, 0] },
+            label_origin: "person".to_owned(),
+            group: "b and c".to_owned(),
+            ..Row::new(crate::labels::Label::SmallRoom, features)
         }];
-        let mut bytes = Vec::new();
-        write(&mut bytes, &rows).expect("writing to memory");
-        assert_eq!(read(bytes.as_slice()), Ok(rows));
+        for guard in [Guard::Off, Guard::On] {
+            let mut bytes = Vec::new();
+            write_guarded(&mut bytes, &rows, guard).expect("writing to memory");
+            let text = String::from_utf8(bytes).expect("text");
+            assert_eq!(text.contains(",'=SUM(A1),") && text.contains(",'-1,"), guard == Guard::On, "{text}");
+            assert_eq!(read(text.as_bytes()), Ok(rows.clone()));
+        }
     }
 
     #[test]

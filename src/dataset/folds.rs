@@ -30,7 +30,7 @@ impl Grouping {
     }
 }
 
-/// A partition of rows into folds. Every fold has at least one row.
+/// A partition of rows into folds. Every fold that was dealt has at least one row; of folds that were given some may have none.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Folds {
     count: usize,
@@ -72,7 +72,7 @@ impl Folds {
         match grouping {
             Grouping::Room => Self::stratified(&labels, count, seed),
             Grouping::Building => {
-                let buildings: Vec<&str> = rows.iter().map(building_of).collect();
+                let buildings: Vec<&str> = rows.iter().map(group_of).collect();
                 Self::grouped(&labels, &buildings, count, seed)
             }
         }
@@ -121,6 +121,15 @@ impl Folds {
         Ok(Self { count, of_row: groups_of_rows.into_iter().map(|group| of_group[group]).collect() })
     }
 
+    /// The folds that are given for each row, from 0.
+    ///
+    /// # Errors
+    /// When they are fewer than two.
+    pub fn given(of_row: Vec<usize>) -> Result<Self, FoldsError> {
+        let count = of_row.iter().max().map_or(0, |most| most + 1);
+        if count < 2 { Err(FoldsError::TooFewFolds(count)) } else { Ok(Self { count, of_row }) }
+    }
+
     /// Number of folds, at least 2.
     pub fn count(&self) -> usize {
         self.count
@@ -144,6 +153,11 @@ impl Folds {
     fn rows_where(&self, wanted: impl Fn(usize) -> bool) -> Vec<usize> {
         self.of_row.iter().enumerate().filter(|&(_, &fold)| wanted(fold)).map(|(row, _)| row).collect()
     }
+}
+
+/// What folds never split of a row: its group where there is one, else its building.
+pub fn group_of(row: &Row) -> &str {
+    if row.group.is_empty() { building_of(row) } else { &row.group }
 }
 
 /// The building of a row; a plan that names none stands for itself.

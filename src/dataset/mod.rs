@@ -2,14 +2,19 @@
 
 mod collection;
 pub mod csv;
+pub mod fingerprint;
+pub mod fold_table;
 pub mod folds;
 mod network;
+pub mod repeats;
+mod schema;
 pub mod sets;
 mod statistics;
 pub mod table;
 
 pub use collection::{Collection, RoomPlace};
 pub use network::{Form, NetworkDoor, NetworkRoom, RoomNetwork};
+pub use schema::schema;
 pub use statistics::{LabelStatistics, Moments, Statistics};
 
 use crate::features::{Features, NeighbourLabels};
@@ -17,20 +22,56 @@ use crate::labels::{Label, Schemes, Typology};
 use crate::plan::Plan;
 use std::collections::BTreeMap;
 
-/// One labelled room of a dataset.
+/// One labelled room of a dataset. With `file` and `id` it is found again; names may repeat.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
+    /// The file it was read from, as it was named; empty where unknown.
+    pub file: String,
+    /// The room's id in its plan; with the file, the row's key. Empty where unknown.
+    pub id: String,
     /// Name of the plan it stands in.
     pub plan: String,
     /// Its building: the unit that cross-validation must never split.
     pub building: String,
     pub typology: Option<Typology>,
+    /// Which storey of the building; empty where unknown.
+    pub storey: String,
     /// What the room is called, see `room_keys`.
     pub room: String,
     pub function: String,
     /// The true label.
     pub label: Label,
+    /// Who gave the label: a word of [`crate::plan::LabelOrigin`], or [`BY_SCHEME`]; empty where unknown.
+    pub label_origin: String,
+    /// The fold it is tested in, from 0, where folds were given.
+    pub fold: Option<usize>,
+    /// What folds never split: the building, and with it the buildings of its near twins. Empty: the building alone.
+    pub group: String,
     pub features: Features,
+}
+
+/// The origin of a label that follows from the room's function.
+pub const BY_SCHEME: &str = "scheme";
+
+impl Row {
+    /// A row of which nothing else is known.
+    pub fn new(label: Label, features: Features) -> Self {
+        Self {
+            file: String::new(),
+            id: String::new(),
+            plan: String::new(),
+            building: String::new(),
+            typology: None,
+            storey: String::new(),
+            room: String::new(),
+            function: String::new(),
+            label,
+            label_origin: String::new(),
+            fold: None,
+            group: String::new(),
+            features,
+        }
+    }
 }
 
 /// Why rooms of plans did not become rows.

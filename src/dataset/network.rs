@@ -1,12 +1,13 @@
 use crate::plan::titles::room_keys;
 use std::collections::BTreeMap;
 
-use super::{LeftOut, Row};
+use super::fingerprint::{self, RoomPrint};
+use super::{BY_SCHEME, LeftOut, Row};
 use crate::edit;
 use crate::features::{Analysis, Features, NeighbourLabels, RoomStatus, analyse};
 use crate::geometry::{hull, polygon, runs};
 use crate::labels::{Label, Schemes, Typology};
-use crate::plan::{Meta, OpeningId, OpeningKind, Plan, RoomId};
+use crate::plan::{LabelOrigin, Meta, OpeningId, OpeningKind, Plan, Room, RoomId};
 use crate::topology::RoomShape;
 
 /// The rooms of one plan as classifiers see them: each room's own properties, its label if known, and
@@ -14,10 +15,16 @@ use crate::topology::RoomShape;
 /// without going back to the plan's geometry.
 #[derive(Clone, Debug)]
 pub struct RoomNetwork {
+    /// The file it was read from, as it was named; empty where unknown.
+    pub file: String,
     /// Name of the plan.
     pub plan: String,
     /// Its building; if the plan names none, the plan alone.
     pub building: String,
+    /// What folds never split: the building, unless it has near twins elsewhere.
+    pub group: String,
+    /// Which storey of the building; empty where unknown.
+    pub storey: String,
     pub typology: Option<Typology>,
     /// The rooms to classify, in the order of [`room_keys`]: those with an area whose function the scheme
     /// does not leave blank. All others count as the outside.
@@ -35,6 +42,14 @@ pub struct NetworkRoom {
     pub function: String,
     /// Its label, if known: its own, or the scheme's for its function.
     pub label: Option<Label>,
+    /// Who gave the label; `None` for one that follows from the function, or without a label.
+    pub label_origin: Option<LabelOrigin>,
+    /// Whether it is a second reading of a room that counts elsewhere: then it is a neighbour only, never a row.
+    pub is_repeat: bool,
+    /// The fold it is tested in, from 0, where folds were given.
+    pub fold: Option<usize>,
+    /// What tells it again.
+    pub print: RoomPrint,
     /// The naive classifier's label.
     pub temporary: Label,
     /// `a` in m².
@@ -93,6 +108,11 @@ pub struct NetworkDoor {
     pub to: Option<usize>,
 }
 
+/// Who gave a room its label; a prediction is none.
+fn origin_of(room: &Room) -> Option<LabelOrigin> {
+    room.label.map(|label| label.origin).filter(|&origin| origin != LabelOrigin::Prediction)
+}
+
 impl RoomNetwork {
     /// The network of a plan.
     pub fn new(plan: &Plan, schemes: &Schemes) -> Self {
@@ -105,6 +125,7 @@ impl RoomNetwork {
         let mut left_out = LeftOut::default();
         let mut rooms: Vec<NetworkRoom> = Vec::new();
         let mut index_of: BTreeMap<RoomId, usize> = BTreeMap::new();
+        let prints = fingerprint::prints(&analysis.shapes);
         for (id, key) in room_keys(plan) {
             let (Some(room), Some(result)) = (plan.room(id), analysis.room(id)) else { continue };
             match result.status {
@@ -121,13 +142,17 @@ impl RoomNetwork {
                 RoomStatus::Labelled(_) => {}
             }
             let (Some(features), Some(temporary)) = (result.features, result.temporary) else { continue };
-            let Some(shape) = analysis.shapes.get(id) else { continue };
+            let (Some(shape), Some(&print)) = (analysis.shapes.get(id), prints.get(&id)) else { continue };
             index_of.insert(id, rooms.len());
             rooms.push(NetworkRoom {
                 id,
                 key,
                 function: room.function.clone(),
                 label: result.status.label(),
+                label_origin: origin_of(room),
+                is_repeat: false,
+                fold: None,
+                print,
                 temporary,
                 area_m2: features.area_m2,
                 axes_ratio: features.axes_ratio,
@@ -147,7 +172,9 @@ impl RoomNetwork {
         }
         let meta = plan.meta();
         let building = if meta.building.is_empty() { meta.name.clone() } else { meta.building.clone() };
-        Self { plan: meta.name.clone(), building, typology: typology.cloned(), rooms, left_out }
+        let (group, storey) = (building.clone(), meta.storey.clone());
+        let (file, plan) = (String::new(), meta.name.clone());
+        Self { file, plan, building, group, storey, typology: typology.cloned(), rooms, left_out }
     }
 
     /// The network of a plan as if its typology were unknown: no label scheme says which rooms are not
@@ -157,6 +184,7 @@ impl RoomNetwork {
         let unknown = edit::set_meta(plan, Meta { typology: None, ..plan.meta().clone() });
         let mut network = Self { typology: typology.clone(), ..Self::new(&unknown, schemes) };
         for it in &mut network.rooms {
+            it.label_origin = plan.room(it.id).and_then(origin_of);
             it.label = plan.room(it.id).and_then(|room| RoomStatus::of(plan, schemes, room).label());
         }
         network
@@ -188,18 +216,29 @@ impl RoomNetwork {
         Features { area_m2: *area_m2, axes_ratio: *axes_ratio, doors: doors.len() as u32, doors_to }
     }
 
+    /// The rooms to learn from and to test on: those with a label that are no second reading.
+    pub fn labelled(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.rooms.len()).filter(|&room| self.rooms[room].label.is_some() && !self.rooms[room].is_repeat)
+    }
+
     /// The labelled rooms as rows of a dataset, when the rooms carry the labels `seen`.
     pub fn rows_seeing(&self, seen: &[Label]) -> impl Iterator<Item = Row> + '_ {
-        let features: Vec<Features> = (0..self.rooms.len()).map(|room| self.features(room, seen)).collect();
-        self.rooms.iter().zip(features).filter_map(|(room, features)| {
+        let rows: Vec<(usize, Features)> = self.labelled().map(|room| (room, self.features(room, seen))).collect();
+        rows.into_iter().filter_map(|(room, features)| {
+            let room = &self.rooms[room];
             Some(Row {
+                file: self.file.clone(),
+                id: room.id.to_string(),
                 plan: self.plan.clone(),
                 building: self.building.clone(),
+                storey: self.storey.clone(),
                 typology: self.typology.clone(),
                 room: room.key.clone(),
                 function: room.function.clone(),
-                label: room.label?,
-                features,
+                label_origin: room.label_origin.map_or(BY_SCHEME, LabelOrigin::name).to_owned(),
+                fold: room.fold,
+                group: self.group.clone(),
+                ..Row::new(room.label?, features)
             })
         })
     }

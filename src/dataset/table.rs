@@ -180,15 +180,8 @@ mod tests {
     use super::*;
 
     fn row(area_m2: f64) -> Row {
-        Row {
-            plan: "p".to_owned(),
-            building: "b".to_owned(),
-            typology: None,
-            room: "r".to_owned(),
-            function: String::new(),
-            label: Label::Hall,
-            features: Features { area_m2, axes_ratio: 1.0, doors: 0, doors_to: [0; 5] },
-        }
+        let features = Features { area_m2, axes_ratio: 1.0, doors: 0, doors_to: [0; 5] };
+        Row { plan: "p".to_owned(), building: "b".to_owned(), room: "r".to_owned(), ..Row::new(Label::Hall, features) }
     }
 
     #[test]

@@ -30,6 +30,8 @@ pub struct Drawing {
     tangled: usize,
     /// Whether so many rooms lie over each other that none is named.
     are_piled: bool,
+    /// What to know before believing what is shown, below the title; empty for most.
+    pub(super) caveat: String,
     bounds: Bounds,
     /// How a large plan is cut into tiles; `None` if in one piece.
     tiles: Option<Tiles>,
@@ -154,6 +156,7 @@ impl Drawing {
             picture: None,
             tangled: walls.tangled,
             are_piled,
+            caveat: String::new(),
             bounds,
             tiles,
         }
@@ -170,6 +173,13 @@ impl Drawing {
                 room.within_rim = areas::inset(&room.outer, &room.holes, RIM_M.min(narrow_m * RIM_SHARE));
             }
         }
+        self
+    }
+
+    /// The same with a line below the title that says what to know before believing what is shown.
+    #[must_use]
+    pub fn with_caveat(mut self, caveat: &str) -> Self {
+        caveat.clone_into(&mut self.caveat);
         self
     }
 

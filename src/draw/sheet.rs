@@ -186,6 +186,9 @@ fn title_lines(drawing: &Drawing) -> Vec<(String, Weight, f64)> {
     if !details.is_empty() {
         lines.push((details.join(" · "), Weight::Regular, 1.0));
     }
+    if !drawing.caveat.is_empty() {
+        lines.push((drawing.caveat.clone(), Weight::Regular, 1.0));
+    }
     lines
 }
 

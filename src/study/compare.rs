@@ -3,17 +3,18 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::measure::{CURVE_SHARES, Experiment, Outcome, SHUFFLES, SetRows, Task};
+use super::predictions::Prediction;
 use super::{
-    Average, Cell, Comparison, Condition, ConfusionTable, Curve, CurvePoint, Importance, JointCell, LabelLine, Rival,
-    RoomsTable, Set, Study, UnknownCell,
+    Average, Cell, Comparison, Condition, ConfusionTable, Curve, CurvePoint, HONEST, Importance, JointCell, LabelLine,
+    Rival, RoomsTable, Set, Study, UnknownCell,
 };
-use crate::classify::{Algorithm, Confusion, Distribution, Scores};
-use crate::dataset::folds::{Grouping, building_of};
+use crate::classify::{Algorithm, Confusion, Distribution, Method, Scores};
+use crate::dataset::folds::{Grouping, building_of, group_of};
 use crate::dataset::sets::STANDARD;
 use crate::dataset::table::{FEATURES, Table};
 use crate::dataset::{Moments, Row, Statistics};
 use crate::features::NeighbourLabels;
-use crate::labels::Label;
+use crate::labels::{Label, Typology};
 
 /// Tasks with their outcomes, sorted.
 pub(super) struct Results(Vec<(Task, Outcome)>);
@@ -25,9 +26,11 @@ impl Experiment<'_> {
         let main = self.main_condition();
         let mut study = Study {
             program: format!("enfilade {}", env!("CARGO_PKG_VERSION")),
+            about: super::About::default(),
             seed: self.options.seed,
             folds: self.options.folds,
             condition: main,
+            honest: None,
             sets: self.sets.iter().map(|set| self.describe(set)).collect(),
             accuracy: self.cells(results),
             averages: Vec::new(),
@@ -40,6 +43,8 @@ impl Experiment<'_> {
             joint: Vec::new(),
             unknown: Vec::new(),
             typologies: Vec::new(),
+            typology_ways: Vec::new(),
+            own_against_standard_honest: Vec::new(),
             notes: self.notes.clone(),
         };
         for (at, set) in self.sets.iter().enumerate() {
@@ -67,7 +72,12 @@ impl Experiment<'_> {
         }
         study.joint = (0..self.sets.len()).filter_map(|set| self.compare_jointly(results, set, &study)).collect();
         study.unknown = (0..self.sets.len()).filter_map(|set| self.compare_behind(results, set)).collect();
-        self.compare(results, &self.right(results), &mut study);
+        study.honest = self.honest_condition(&study);
+        self.compare(results, &self.right(results, main), main.by, &mut study);
+        if let Some(honest) = study.honest.filter(|honest| *honest != main) {
+            let right = self.right(results, honest);
+            study.own_against_standard_honest = self.against_standard(&right, honest.by);
+        }
         study
     }
 
@@ -88,9 +98,39 @@ impl Experiment<'_> {
         cells
     }
 
+    /// What was said of each room out of fold under some conditions: by set, algorithm and room. The joint classifier is tested on
+    /// buildings never seen, no label known.
+    pub(super) fn predictions(&self, results: &Results, wanted: &[Condition]) -> Vec<Prediction> {
+        let mut predictions = Vec::new();
+        for (index, condition) in self.conditions().into_iter().enumerate().filter(|(_, it)| wanted.contains(it)) {
+            for (at, set) in self.sets.iter().enumerate() {
+                let mut tell = |method: Method, said: Vec<(usize, usize, &Distribution)>| {
+                    let mut said = said;
+                    said.sort_unstable_by_key(|(_, row, _)| *row);
+                    let set = &set.name;
+                    predictions.extend(said.into_iter().map(|(fold, row, said)| Prediction {
+                        row,
+                        set: set.clone(),
+                        method,
+                        condition,
+                        fold,
+                        said: *said,
+                    }));
+                };
+                for algorithm in Algorithm::ALL {
+                    tell(Method::Each(algorithm), results.folds(index, at, algorithm));
+                }
+                if condition == HONEST {
+                    tell(Method::Joint, results.jointly(at));
+                }
+            }
+        }
+        predictions
+    }
+
     /// The joint classifier beside the best of the learners where no building and no label is known.
     fn compare_jointly(&self, results: &Results, set: usize, study: &Study) -> Option<JointCell> {
-        let condition = Condition { by: Grouping::Building, neighbours: NeighbourLabels::Predicted };
+        let condition = HONEST;
         let at = self.conditions().iter().position(|other| *other == condition)?;
         let name = &self.sets[set].name;
         let accuracy =
@@ -105,7 +145,7 @@ impl Experiment<'_> {
             results.folds(at, set, best).into_iter().map(|(_, row, said)| (row, is_right(row, said))).collect();
         let pairs = of_joint.iter().filter_map(|(_, row, said)| {
             let first = f64::from(u8::from(is_right(*row, said)));
-            Some((building_of(&self.rows[*row]), first, f64::from(u8::from(*by_best.get(row)?))))
+            Some((group_of(&self.rows[*row]), first, f64::from(u8::from(*by_best.get(row)?))))
         });
         let comparison = Comparison::of(pairs, self.options.seed)?;
         let scores = Scores::of(of_joint.iter().map(|(fold, row, said)| (*fold, *said, self.rows[*row].label)));
@@ -130,10 +170,20 @@ impl Experiment<'_> {
         Some(UnknownCell { set: self.sets[wanted].name.clone(), comparison })
     }
 
-    /// How right each set's algorithms are on each row, under the main condition; `None` for rows that
+    /// The condition a new building is met under, as far as it was measured: buildings never seen; no label given, or where only
+    /// features are known, theirs.
+    fn honest_condition(&self, study: &Study) -> Option<Condition> {
+        let by_features = Condition { neighbours: NeighbourLabels::True, ..HONEST };
+        let measured = |condition: &Condition| {
+            study.accuracy.iter().any(|cell| cell.condition == *condition && cell.scores.rooms > 0)
+        };
+        [HONEST, by_features].into_iter().find(measured)
+    }
+
+    /// How right each set's algorithms are on each row, under a condition; `None` for rows that
     /// are not of the set.
-    fn right(&self, results: &Results) -> Vec<Vec<Vec<Option<bool>>>> {
-        let main = self.conditions().iter().position(|condition| *condition == self.main_condition());
+    fn right(&self, results: &Results, condition: Condition) -> Vec<Vec<Vec<Option<bool>>>> {
+        let main = self.conditions().iter().position(|other| *other == condition);
         let of_algorithm = |set: usize, algorithm: Algorithm| {
             let mut right = vec![None; self.rows.len()];
             for (_, row, said) in results.folds(main.unwrap_or_default(), set, algorithm) {
@@ -146,48 +196,9 @@ impl Experiment<'_> {
     }
 
     /// The typologies' own classifiers against standard and foreign ones.
-    fn compare(&self, results: &Results, right: &[Vec<Vec<Option<bool>>>], study: &mut Study) {
-        let standard = self.sets.iter().position(|set| set.typology.is_none());
-        let main = self.options.grouping;
+    fn compare(&self, results: &Results, right: &[Vec<Vec<Option<bool>>>], by: Grouping, study: &mut Study) {
+        study.own_against_standard = self.against_standard(right, by);
         for (own, set) in self.typology_sets() {
-            let Some(folds) = set.folds_by(main) else { continue };
-            let rivals = |rival: &[Vec<Option<bool>>], name: &str| -> Vec<Rival> {
-                let algorithms = Algorithm::ALL.into_iter().map(Some).chain([None]);
-                let rival_of = |algorithm: Option<Algorithm>| {
-                    let of = algorithm.map_or(Algorithm::ALL.to_vec(), |algorithm| vec![algorithm]);
-                    let share = |right: &[Vec<Option<bool>>], row: usize| -> Option<f64> {
-                        let right: Option<Vec<bool>> = of.iter().map(|of| right[of.index()][row]).collect();
-                        right.map(|right| right.iter().filter(|&&right| right).count() as f64 / right.len() as f64)
-                    };
-                    let pairs: Vec<(usize, f64, f64)> = set
-                        .rows
-                        .iter()
-                        .enumerate()
-                        .filter_map(|(index, &row)| Some((index, share(&right[own], row)?, share(rival, row)?)))
-                        .collect();
-                    let mut of_folds = vec![(0.0, 0.0); folds.count];
-                    for &(index, _, second) in &pairs {
-                        let fold = &mut of_folds[folds.of_rows[index]];
-                        *fold = (fold.0 + second, fold.1 + 1.0);
-                    }
-                    let accuracies: Vec<f64> =
-                        of_folds.iter().filter(|fold| fold.1 > 0.0).map(|(right, rooms)| right / rooms).collect();
-                    let rooms = pairs
-                        .iter()
-                        .map(|&(index, first, second)| (building_of(&self.rows[set.rows[index]]), first, second));
-                    Some(Rival {
-                        rooms_of: set.name.clone(),
-                        rival: name.to_owned(),
-                        algorithm,
-                        rival_deviation: Moments::of(accuracies).deviation,
-                        comparison: Comparison::of(rooms, self.options.seed)?,
-                    })
-                };
-                algorithms.filter_map(rival_of).collect()
-            };
-            if let Some(standard) = standard {
-                study.own_against_standard.extend(rivals(&right[standard], STANDARD));
-            }
             for (model, other) in self.typology_sets().filter(|(model, _)| *model != own) {
                 let foreign = Algorithm::ALL.map(|algorithm| {
                     let mut right = vec![None; self.rows.len()];
@@ -196,22 +207,71 @@ impl Experiment<'_> {
                     }
                     right
                 });
-                study.own_against_foreign.extend(rivals(&foreign, &other.name));
+                study.own_against_foreign.extend(self.rivals(set, by, &right[own], &foreign, &other.name));
             }
         }
     }
 
+    /// The typologies' own classifiers against standard ones.
+    fn against_standard(&self, right: &[Vec<Vec<Option<bool>>>], by: Grouping) -> Vec<Rival> {
+        let Some(standard) = self.sets.iter().position(|set| set.typology.is_none()) else { return Vec::new() };
+        let of_set = |(own, set): (usize, &SetRows)| self.rivals(set, by, &right[own], &right[standard], STANDARD);
+        self.typology_sets().flat_map(of_set).collect()
+    }
+
+    /// A typology's own classifiers against others on its rooms: by algorithm, then averaged.
+    fn rivals(
+        &self,
+        set: &SetRows,
+        by: Grouping,
+        own: &[Vec<Option<bool>>],
+        rival: &[Vec<Option<bool>>],
+        name: &str,
+    ) -> Vec<Rival> {
+        let Some(folds) = set.folds_by(by) else { return Vec::new() };
+        let algorithms = Algorithm::ALL.into_iter().map(Some).chain([None]);
+        let rival_of = |algorithm: Option<Algorithm>| {
+            let of = algorithm.map_or(Algorithm::ALL.to_vec(), |algorithm| vec![algorithm]);
+            let share = |right: &[Vec<Option<bool>>], row: usize| -> Option<f64> {
+                let right: Option<Vec<bool>> = of.iter().map(|of| right[of.index()][row]).collect();
+                right.map(|right| right.iter().filter(|&&right| right).count() as f64 / right.len() as f64)
+            };
+            let pairs: Vec<(usize, f64, f64)> = set
+                .rows
+                .iter()
+                .enumerate()
+                .filter_map(|(index, &row)| Some((index, share(own, row)?, share(rival, row)?)))
+                .collect();
+            let mut of_folds = vec![(0.0, 0.0); folds.count];
+            for &(index, _, second) in &pairs {
+                let fold = &mut of_folds[folds.of_rows[index]];
+                *fold = (fold.0 + second, fold.1 + 1.0);
+            }
+            let accuracies: Vec<f64> =
+                of_folds.iter().filter(|fold| fold.1 > 0.0).map(|(right, rooms)| right / rooms).collect();
+            let rooms =
+                pairs.iter().map(|&(index, first, second)| (group_of(&self.rows[set.rows[index]]), first, second));
+            Some(Rival {
+                rooms_of: set.name.clone(),
+                rival: name.to_owned(),
+                algorithm,
+                rival_deviation: Moments::of(accuracies).deviation,
+                comparison: Comparison::of(rooms, self.options.seed)?,
+            })
+        };
+        algorithms.filter_map(rival_of).collect()
+    }
+
     fn describe(&self, set: &SetRows) -> Set {
         let rows: Vec<&Row> = set.rows.iter().map(|&row| &self.rows[row]).collect();
-        let distinct =
-            |key: &dyn Fn(&Row) -> (String, String)| rows.iter().map(|row| key(row)).collect::<BTreeSet<_>>().len();
+        let distinct = |key: fn(&Row) -> [&str; 4]| rows.iter().map(|row| key(row)).collect::<BTreeSet<_>>().len();
         let table = Table::from_rows(rows.iter().copied()).ok();
         let most = table.as_ref().and_then(|table| table.label_counts().into_iter().max()).unwrap_or_default();
         Set {
             name: set.name.clone(),
             rooms: rows.len(),
-            plans: distinct(&|row| (building_of(row).to_owned(), row.plan.clone())),
-            buildings: distinct(&|row| (building_of(row).to_owned(), String::new())),
+            plans: distinct(|row| [&row.file, building_of(row), &row.plan, &row.storey]),
+            buildings: distinct(|row| [row.typology.as_ref().map_or("", Typology::as_str), building_of(row), "", ""]),
             most_frequent: most as f64 / rows.len().max(1) as f64,
             fingerprint: table.map(|table| format!("{:016x}", table.fingerprint())).unwrap_or_default(),
         }

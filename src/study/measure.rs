@@ -1,18 +1,19 @@
 //! The measurements of a study, each a separate task: a fold predicted by classifiers trained on the
 //! others, a foreign test, a point of a learning curve.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-use super::{Condition, Options, StudyError, TypologyCount, TypologyLine};
+use super::{Condition, Options, StudyError};
 use crate::base::random::{Random, seed_of_part};
 use crate::base::work::{Cancelled, Work};
 use crate::classify::joint::Joint;
 use crate::classify::unknown::{PlanScore, Unknown};
-use crate::classify::{Algorithm, Classifier, Distribution, in_plan, typology};
-use crate::dataset::folds::{Folds, FoldsError, Grouping, building_of};
+use crate::classify::{Algorithm, Classifier, Distribution, in_plan};
+use crate::dataset::fold_table;
+use crate::dataset::folds::{Folds, Grouping, group_of};
 use crate::dataset::sets::STANDARD;
 use crate::dataset::table::{FEATURES, Table, Values};
-use crate::dataset::{Collection, Moments, RoomNetwork, RoomPlace, Row};
+use crate::dataset::{Collection, RoomNetwork, RoomPlace, Row};
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
 
@@ -118,24 +119,22 @@ impl<'a> Experiment<'a> {
             by_typology.into_iter().map(|(typology, rows)| (typology.cloned(), rows)).collect();
         let all: Vec<usize> = (0..self.rows.len()).collect();
         let mut notes = Vec::new();
+        let given = options.given.then(|| self.collection.given_folds()).flatten();
         let assign = |rows: &[usize], grouping: Grouping, name: &str, notes: &mut Vec<String>| {
-            let own: Vec<Row> = rows.iter().map(|&row| self.rows[row].clone()).collect();
-            let mut count = options.folds;
-            let folds = match Folds::new(&own, grouping, count, options.seed) {
-                Err(FoldsError::TooFewRows { have, .. }) if have >= 2 => {
-                    notes.push(format!("{name}: {have} {}s give {have} folds, not {count}", grouping.name()));
-                    count = have;
-                    Folds::new(&own, grouping, count, options.seed)
+            let folds = match given.as_ref().filter(|_| grouping == options.grouping) {
+                Some(given) => Folds::given(rows.iter().map(|&row| given[row]).collect()),
+                None => {
+                    let own: Vec<Row> = rows.iter().map(|&row| self.rows[row].clone()).collect();
+                    fold_table::deal_set(&own, grouping, options.folds, options.seed, name, notes)
                 }
-                folds => folds,
             };
-            folds.map(|folds| FoldsOfSet { count, of_rows: folds.of_rows().to_vec() })
+            folds.map(|folds| FoldsOfSet { count: folds.count(), of_rows: folds.of_rows().to_vec() })
         };
         let several = groups.len() > 1;
         let mut joined = [vec![0; all.len()], vec![0; all.len()]];
         let mut joined_count = [Some(0), Some(0)];
         for (typology, rows) in groups {
-            let name = typology.as_ref().map_or("rooms without a typology", Typology::as_str).to_owned();
+            let name = fold_table::set_title(typology.as_ref()).to_owned();
             let mut of_set = Vec::new();
             for (way, grouping) in Grouping::ALL.into_iter().enumerate() {
                 let folds = assign(&rows, grouping, &name, &mut notes);
@@ -385,13 +384,13 @@ impl<'a> Experiment<'a> {
         let mut random = Random::new(seed_of_part(self.options.seed, fold));
         // Smaller parts are subsets of larger ones, and buildings stay whole if folds keep them whole.
         if self.options.grouping == Grouping::Building {
-            let mut buildings: Vec<&str> = learned.iter().map(|&row| building_of(&self.rows[row])).collect();
+            let mut buildings: Vec<&str> = learned.iter().map(|&row| group_of(&self.rows[row])).collect();
             buildings.sort_unstable();
             buildings.dedup();
             random.shuffle(&mut buildings);
             let rank: BTreeMap<&str, usize> =
                 buildings.into_iter().enumerate().map(|(rank, name)| (name, rank)).collect();
-            learned.sort_by_key(|&row| rank.get(building_of(&self.rows[row])));
+            learned.sort_by_key(|&row| rank.get(group_of(&self.rows[row])));
         } else {
             random.shuffle(&mut learned);
         }
@@ -422,38 +421,4 @@ fn right_when_shuffled(classifier: &Classifier, values: &[Values], truths: &[Lab
         }
         right
     })
-}
-
-/// How typologies are inferred, folds by building. Nothing without several typologies.
-pub(super) fn infer_typologies(collection: &Collection, blind: &[RoomNetwork], options: Options) -> Vec<TypologyLine> {
-    let typologies = collection.typologies();
-    if typologies.len() < 2 || blind.is_empty() {
-        return Vec::new();
-    }
-    let blind: Vec<&RoomNetwork> = blind.iter().collect();
-    let inferred = typology::cross_validate(&blind, &BTreeSet::new(), options.folds, options.seed);
-    let line = |typology: &Typology| {
-        let of_truth: Vec<_> = inferred.iter().filter(|plan| plan.truth == *typology).collect();
-        let best = |plan: &typology::Inferred| plan.posterior.first().map(|(best, _)| best.clone());
-        let mut buildings: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
-        for plan in &of_truth {
-            let right = f64::from(u8::from(best(plan).as_ref() == Some(typology)));
-            buildings.entry(&plan.building).or_default().push(right);
-        }
-        let mean = |numbers: &[f64]| Moments::of(numbers.iter().copied()).mean;
-        let of_buildings: Vec<f64> = buildings.values().map(|of_plans| mean(of_plans)).collect();
-        let of_plans: Vec<f64> = buildings.values().flatten().copied().collect();
-        let taken_for = |other: &Typology| TypologyCount {
-            taken_for: other.as_str().to_owned(),
-            plans: of_truth.iter().filter(|plan| best(plan).as_ref() == Some(other)).count(),
-        };
-        TypologyLine {
-            typology: typology.as_str().to_owned(),
-            plans: typologies.iter().map(taken_for).collect(),
-            plan_accuracy: mean(&of_plans),
-            building_accuracy: mean(&of_buildings),
-            buildings: buildings.len(),
-        }
-    };
-    typologies.iter().map(line).collect()
 }

@@ -6,15 +6,18 @@ mod compare;
 mod comparison;
 mod measure;
 pub mod paper;
+pub mod predictions;
 pub mod report;
 mod run;
+pub mod suspects;
+mod typologies;
 
 use std::fmt;
 
 use serde::{Serialize, Serializer};
 
 pub use comparison::Comparison;
-pub use run::{study, validate};
+pub use run::{Validation, study, study_with_predictions, validate};
 
 use crate::base::work::Cancelled;
 use crate::classify::{Algorithm, Confusion, Scores, TableRates};
@@ -33,11 +36,13 @@ pub struct Options {
     /// Neighbours' labels in the main condition. The paper: true.
     pub neighbours: NeighbourLabels,
     pub seed: u64,
+    /// Whether the folds of the main condition's grouping are those that the rows carry ([`crate::dataset::Row::fold`]).
+    pub given: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { folds: 10, grouping: Grouping::Room, neighbours: NeighbourLabels::True, seed: 1 }
+        Self { folds: 10, grouping: Grouping::Room, neighbours: NeighbourLabels::True, seed: 1, given: false }
     }
 }
 
@@ -56,14 +61,21 @@ impl fmt::Display for Condition {
     }
 }
 
+/// What a new building is met under: it was not learned from, and no label of it is known.
+pub const HONEST: Condition = Condition { by: Grouping::Building, neighbours: NeighbourLabels::Predicted };
+
 /// What a study found. All shares 0..=1.
 #[derive(Clone, Debug, Serialize)]
 pub struct Study {
     pub program: String,
+    /// What it was made from, and how; empty where nobody said.
+    pub about: About,
     pub seed: u64,
     pub folds: usize,
-    /// The condition of all tables but [`Study::accuracy`], which has every condition.
+    /// The condition of all tables but [`Study::accuracy`], which has every condition, and those that say otherwise.
     pub condition: Condition,
+    /// The condition under which a new building is met, see [`HONEST`]; `None` where it could not be measured.
+    pub honest: Option<Condition>,
     /// Data sets: one of each typology, and the standard set of all where there are several.
     pub sets: Vec<Set>,
     /// Fig. 4 and beyond: each set, algorithm and condition.
@@ -76,6 +88,8 @@ pub struct Study {
     pub rooms: Vec<RoomsTable>,
     /// Typology classifiers against standard ones on the same rooms.
     pub own_against_standard: Vec<Rival>,
+    /// The same under [`Study::honest`], where that is another condition.
+    pub own_against_standard_honest: Vec<Rival>,
     /// Typology classifiers against those of other typologies.
     pub own_against_foreign: Vec<Rival>,
     pub learning_curves: Vec<Curve>,
@@ -84,10 +98,27 @@ pub struct Study {
     pub joint: Vec<JointCell>,
     /// What lies behind openings into unexplored space, on buildings never seen.
     pub unknown: Vec<UnknownCell>,
-    /// How well typologies are inferred from plans of buildings never seen.
+    /// How well typologies are inferred from plans of buildings never seen, as the program does it.
     pub typologies: Vec<TypologyLine>,
+    /// The same by several ways, beside each other.
+    pub typology_ways: Vec<TypologyWay>,
     /// What could not be measured, and why.
     pub notes: Vec<String>,
+}
+
+/// What a study was made from, and how.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct About {
+    /// The call that made it.
+    pub command: String,
+    /// What was named on the command line, as it was named.
+    pub data: Vec<String>,
+    /// Files that were read.
+    pub files: usize,
+    /// SHA-256 over the files' hashes, in order.
+    pub sha256: String,
+    /// When, as somebody said; the program looks at no clock, so that the same input gives the same bytes.
+    pub date: Option<String>,
 }
 
 /// A data set.
@@ -252,6 +283,19 @@ pub struct TypologyLine {
     pub plan_accuracy: f64,
     pub building_accuracy: f64,
     pub buildings: usize,
+}
+
+/// A way of inferring typologies.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TypologyWay {
+    /// What it does, in words.
+    pub way: String,
+    /// Share of plans, and of buildings (each the mean over its plans), taken for what they are: means over the typologies, which
+    /// count alike however many plans they have.
+    pub plan_accuracy: f64,
+    pub building_accuracy: f64,
+    /// The same share of plans by typology, in the order of [`Study::typologies`].
+    pub plans_of: Vec<f64>,
 }
 
 /// Plans taken for a typology.

@@ -2,7 +2,9 @@
 //! are busy to the end and progress is even.
 
 use super::compare::Results;
-use super::measure::{Experiment, Task, infer_typologies};
+use super::measure::{Experiment, Task};
+use super::predictions::Prediction;
+use super::typologies::infer_typologies;
 use super::{Cell, Condition, Options, Study, StudyError};
 use crate::base::random::Random;
 use crate::base::work::{Cancelled, Work};
@@ -21,16 +23,36 @@ pub fn study(
     options: Options,
     work: &Work<'_>,
 ) -> Result<Study, StudyError> {
+    Ok(study_with_predictions(collection, blind, options, work)?.0)
+}
+
+/// The same, and what was said of each room out of fold under the honest condition and under the main one.
+///
+/// # Errors
+/// As [`study`].
+pub fn study_with_predictions(
+    collection: &Collection,
+    blind: &[RoomNetwork],
+    options: Options,
+    work: &Work<'_>,
+) -> Result<(Study, Vec<Prediction>), StudyError> {
     let experiment = Experiment::new(collection, options)?;
     let mut tasks = experiment.tasks();
     Random::new(options.seed).shuffle(&mut tasks);
-    let mut study = experiment.gather(&perform(&experiment, tasks, work)?);
-    study.typologies = infer_typologies(collection, blind, options);
-    Ok(study)
+    let results = perform(&experiment, tasks, work)?;
+    let mut study = experiment.gather(&results);
+    let inferred = infer_typologies(collection, blind, options, work)?;
+    (study.typologies, study.typology_ways) = inferred;
+    let told: Vec<Condition> = study.honest.into_iter().filter(|honest| *honest != study.condition).collect();
+    let conditions: Vec<Condition> = told.into_iter().chain([study.condition]).collect();
+    Ok((study, experiment.predictions(&results, &conditions)))
 }
 
+/// Scores, notes on what could not be measured, and what was said of each room.
+pub type Validation = (Vec<Cell>, Vec<String>, Vec<Prediction>);
+
 /// Cross-validates some algorithms on one set under some conditions, without the rest of a study.
-/// Conditions that cannot be measured are left out and named in the notes beside the cells.
+/// Conditions that cannot be measured are left out and named in the notes beside the cells; behind them what was said of each room.
 ///
 /// # Errors
 /// As [`study`].
@@ -41,7 +63,7 @@ pub fn validate(
     algorithms: &[Algorithm],
     conditions: &[Condition],
     work: &Work<'_>,
-) -> Result<(Vec<Cell>, Vec<String>), StudyError> {
+) -> Result<Validation, StudyError> {
     let experiment = Experiment::new(collection, options)?;
     let all = experiment.conditions();
     let is_wanted = |task: &Task| match *task {
@@ -53,7 +75,8 @@ pub fn validate(
     let tasks: Vec<Task> = experiment.tasks().into_iter().filter(is_wanted).collect();
     let results = perform(&experiment, tasks, work)?;
     let cells = experiment.cells(&results).into_iter().filter(|cell| cell.scores.rooms > 0).collect();
-    Ok((cells, experiment.notes))
+    let predictions = experiment.predictions(&results, conditions);
+    Ok((cells, experiment.notes, predictions))
 }
 
 fn perform(experiment: &Experiment<'_>, tasks: Vec<Task>, work: &Work<'_>) -> Result<Results, Cancelled> {

@@ -43,19 +43,18 @@ pub fn generated_rows(rooms: usize, seed: u64) -> Vec<Row> {
             }
         }
         let rounded = |value: f64| (value * 1e4).round() / 1e4;
+        let features = Features {
+            area_m2: rounded(area_m2 * scale * spread.powf(bell(&mut random))),
+            axes_ratio: rounded(1.0 + (axes_ratio - 1.0) * 1.5f64.powf(bell(&mut random))),
+            doors,
+            doors_to,
+        };
         rows.push(Row {
             plan: format!("School {}, floor {}", plan / 3 + 1, plan % 3),
             building: format!("School {}", plan / 3 + 1),
             typology: Typology::new("school"),
             room: format!("Room {}", room + 1),
-            function: String::new(),
-            label,
-            features: Features {
-                area_m2: rounded(area_m2 * scale * spread.powf(bell(&mut random))),
-                axes_ratio: rounded(1.0 + (axes_ratio - 1.0) * 1.5f64.powf(bell(&mut random))),
-                doors,
-                doors_to,
-            },
+            ..Row::new(label, features)
         });
     }
     rows

@@ -155,6 +155,7 @@ fn about(rows: &[Row]) -> About {
         licence: "MIT: nobody's rooms, ünbekannt".to_owned(),
         data: DataSummary::of(rows, &table),
         scores: vec![ScoreSummary::of(&validated.scores, Grouping::Room, 1)],
+        learned: None,
     }
 }
 

@@ -2,6 +2,7 @@
 //! since every building has its own scale.
 
 use enfilade::base::random::Random;
+use enfilade::dataset::fingerprint::RoomPrint;
 use enfilade::dataset::{Form, NetworkDoor, NetworkRoom, RoomNetwork};
 use enfilade::labels::{Label, Typology};
 use enfilade::plan::{OpeningId, OpeningKind, RoomId};
@@ -13,6 +14,10 @@ pub fn room(key: &str, label: Option<Label>, length_m: f64, width_m: f64) -> Net
         key: key.to_owned(),
         function: String::new(),
         label,
+        label_origin: None,
+        is_repeat: false,
+        fold: None,
+        print: RoomPrint::default(),
         temporary: Label::MediumRoom,
         area_m2: length_m * width_m,
         axes_ratio: length_m / width_m,
@@ -31,8 +36,11 @@ pub fn join(rooms: &mut [NetworkRoom], a: usize, b: usize) {
 
 pub fn network(building: &str, typology: &str, rooms: Vec<NetworkRoom>) -> RoomNetwork {
     RoomNetwork {
+        file: String::new(),
         plan: building.to_owned(),
         building: building.to_owned(),
+        group: building.to_owned(),
+        storey: String::new(),
         typology: Typology::new(typology),
         rooms,
         left_out: Default::default(),

@@ -34,6 +34,7 @@ fn networks(folders: &[&str], of: fn(&Plan, &Schemes) -> RoomNetwork) -> Option<
             for plan in formats::read_file(&file).map(|import| import.plans).unwrap_or_default() {
                 let mut network = of(&plan, &schemes);
                 network.building = building_name::key(&network.building);
+                network.group.clone_from(&network.building);
                 networks.push(network);
             }
         }

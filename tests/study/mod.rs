@@ -3,6 +3,9 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
+mod repeats;
+mod suspects;
+
 use std::path::{Path, PathBuf};
 
 use enfilade::classify::{
@@ -53,7 +56,7 @@ fn the_same_seed_gives_the_same_report_on_any_number_of_threads() {
     let (one, four) = (report(&["--threads", "1"]), report(&["--threads", "4"]));
     let mut names: Vec<_> = std::fs::read_dir(one.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     names.sort();
-    assert_eq!(names.len(), 13, "{names:?}");
+    assert_eq!(names.len(), 17, "{names:?}");
     for name in &names {
         let read = |folder: &tempfile::TempDir| std::fs::read(folder.path().join(name)).unwrap();
         assert!(read(&one) == read(&four), "{name:?} depends on the number of threads");
@@ -259,6 +262,7 @@ fn predictions_as_json() {
             "settled",
             "labelled_rooms",
             "agreeing_rooms",
+            "learned_from",
             "rooms",
             "unknown"
         ]

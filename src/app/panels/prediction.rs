@@ -65,6 +65,9 @@ pub(super) fn of_plan(ui: &mut Ui, app: &App, predictions: &Predictions) -> Opti
             format!("{} of {} known labels predicted ({:.0} %)", agreement.right, agreement.known, 100.0 * share);
         caption(ui, text);
     }
+    if let Some(known) = predictions.acquaintance() {
+        caption(ui, format!("The model {}.", known.words()));
+    }
     let mut asked = None;
     if commands::find("accept-all-predictions").is_some_and(|command| command.why_not(app).is_none()) {
         let unknown = predictions.network.rooms.iter().filter(|room| room.label.is_none()).count();

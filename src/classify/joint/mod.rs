@@ -97,6 +97,8 @@ pub struct JointValidated {
     pub places: Vec<RoomPlace>,
     /// For each of these, the prediction by a classifier that had not seen its building.
     pub predictions: Vec<Distribution>,
+    /// For each the fold it was tested in.
+    pub folds: Vec<usize>,
     pub scores: Scores,
 }
 
@@ -159,7 +161,7 @@ fn group_of(feature: usize) -> Option<Group> {
 
 impl Joint {
     /// Learns from the labelled rooms of plans. Plans of one building, by the name in
-    /// [`RoomNetwork::building`], are taken for each other's witnesses: opinions on one never come from
+    /// [`RoomNetwork::group`], are taken for each other's witnesses: opinions on one never come from
     /// another. The same networks and seed give the same classifier on any number of threads. Progress
     /// counts trees, for each round anew.
     ///
@@ -283,10 +285,8 @@ impl Joint {
 
 /// The positions of the labelled rooms, in the order of the networks.
 fn labelled(networks: &[&RoomNetwork]) -> Vec<RoomPlace> {
-    let rooms = networks.iter().enumerate().flat_map(|(index, network)| {
-        network.rooms.iter().enumerate().map(move |(room, of)| (RoomPlace { network: index, room }, of.label))
-    });
-    rooms.filter(|(_, label)| label.is_some()).map(|(place, _)| place).collect()
+    let rooms = networks.iter().enumerate();
+    rooms.flat_map(|(index, of)| of.labelled().map(move |room| RoomPlace { network: index, room })).collect()
 }
 
 /// The label of a room returned by [`labelled`].
@@ -297,7 +297,7 @@ fn label(networks: &[&RoomNetwork], place: RoomPlace) -> Label {
 /// Folds by building; by room if there is only one building; `None` for a single room.
 fn inner_folds(networks: &[&RoomNetwork], places: &[RoomPlace], seed: u64) -> Option<Folds> {
     let labels: Vec<Label> = places.iter().map(|&place| label(networks, place)).collect();
-    let buildings: Vec<&str> = places.iter().map(|place| networks[place.network].building.as_str()).collect();
+    let buildings: Vec<&str> = places.iter().map(|place| networks[place.network].group.as_str()).collect();
     let distinct = buildings.iter().collect::<BTreeSet<_>>().len();
     Folds::grouped(&labels, &buildings, INNER_FOLDS.min(distinct), seed)
         .or_else(|_| Folds::stratified(&labels, INNER_FOLDS.min(labels.len()), seed))
@@ -367,8 +367,34 @@ pub fn cross_validate_without(
 ) -> Result<JointValidated, JointValidationError> {
     let places = labelled(networks);
     let labels: Vec<Label> = places.iter().map(|&place| label(networks, place)).collect();
-    let buildings: Vec<&str> = places.iter().map(|place| networks[place.network].building.as_str()).collect();
+    let buildings: Vec<&str> = places.iter().map(|place| networks[place.network].group.as_str()).collect();
     let folds = Folds::grouped(&labels, &buildings, folds, seed).map_err(JointValidationError::Folds)?;
+    validate(networks, left_out, &folds, known, seed, work)
+}
+
+/// The same on folds that are given: one for each labelled room, such that no plan is split.
+///
+/// # Errors
+/// When the work is cancelled.
+pub fn cross_validate_on(
+    networks: &[&RoomNetwork],
+    folds: &Folds,
+    seed: u64,
+    work: &Work<'_>,
+) -> Result<JointValidated, JointValidationError> {
+    validate(networks, &BTreeSet::new(), folds, 0.0, seed, work)
+}
+
+fn validate(
+    networks: &[&RoomNetwork],
+    left_out: &BTreeSet<Group>,
+    folds: &Folds,
+    known: f64,
+    seed: u64,
+    work: &Work<'_>,
+) -> Result<JointValidated, JointValidationError> {
+    let places = labelled(networks);
+    let labels: Vec<Label> = places.iter().map(|&place| label(networks, place)).collect();
     let predicted = work
         .map(folds.count(), |fold| {
             let seed = seed_of_part(seed, fold);
@@ -394,5 +420,5 @@ pub fn cross_validate_without(
     let predictions: Vec<Distribution> = places.iter().map(|place| of_network[place.network][place.room]).collect();
     let rooms = folds.of_rows().iter().zip(&predictions).zip(&labels);
     let scores = Scores::of(rooms.map(|((&fold, prediction), &label)| (fold, prediction, label)));
-    Ok(JointValidated { places, predictions, scores })
+    Ok(JointValidated { places, predictions, folds: folds.of_rows().to_vec(), scores })
 }

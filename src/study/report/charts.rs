@@ -8,6 +8,8 @@ pub(super) struct Bar {
     pub value: f64,
     pub deviation: f64,
     pub title: String,
+    /// Its colour's number.
+    pub colour: usize,
 }
 
 /// Related bars, side by side.
@@ -30,8 +32,10 @@ fn at(value: f64) -> String {
     text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
 }
 
-/// Grouped bars of shares, 0..=1, on an axis from 0 to 100 %.
-pub(super) fn bars(groups: &[Group]) -> Markup {
+/// Grouped bars of shares, 0..=1, on an axis from 0 to 100 %. Who cannot see the chart hears its name and what each bar says.
+pub(super) fn bars(groups: &[Group], name: &str) -> Markup {
+    let told: Vec<&str> = groups.iter().flat_map(|group| &group.bars).map(|bar| bar.title.as_str()).collect();
+    let told = format!("{name}. {}", told.join("; "));
     const HEIGHT: f64 = 300.0;
     const TOP: f64 = 12.0;
     const LEFT: f64 = 44.0;
@@ -41,7 +45,7 @@ pub(super) fn bars(groups: &[Group]) -> Markup {
     let group_width = (width - LEFT) / groups.len().max(1) as f64;
     let bar_width = |group: &Group| (group_width * 0.72 / group.bars.len().max(1) as f64).min(44.0);
     html! {
-        svg.chart viewBox=(format!("0 0 {width} {HEIGHT}")) role="img" {
+        svg.chart viewBox=(format!("0 0 {width} {HEIGHT}")) role="img" aria-label=(told) {
             @for step in 0..=5 {
                 @let share = f64::from(step) / 5.0;
                 line.grid x1=(LEFT) x2=(width) y1=(at(y(share))) y2=(at(y(share))) {}
@@ -60,7 +64,7 @@ pub(super) fn bars(groups: &[Group]) -> Markup {
                     @let centre = x + bar_width(group) / 2.0;
                     g {
                         title { (bar.title) }
-                        rect class=(format!("fill{number}")) x=(at(x + 2.0)) width=(at(bar_width(group) - 4.0))
+                        rect class=(format!("fill{}", bar.colour)) x=(at(x + 2.0)) width=(at(bar_width(group) - 4.0))
                             y=(at(y(bar.value))) height=(at(FLOOR - y(bar.value))) rx="2" {}
                         line.whisker x1=(at(centre)) x2=(at(centre)) y1=(at(y(bar.value - bar.deviation)))
                             y2=(at(y(bar.value + bar.deviation))) {}
@@ -88,7 +92,8 @@ pub(super) struct Axis {
 }
 
 /// Lines in a small square chart; with `diagonal`, the line on which both axes are equal.
-pub(super) fn lines(lines: &[Line], across: &Axis, up: &Axis, diagonal: bool) -> Markup {
+/// `name` says what it shows to who cannot see it; the figures stand in tables beside.
+pub(super) fn lines(lines: &[Line], across: &Axis, up: &Axis, diagonal: bool, name: &str) -> Markup {
     const WIDTH: f64 = 300.0;
     const HEIGHT: f64 = 230.0;
     const LEFT: f64 = 40.0;
@@ -103,7 +108,7 @@ pub(super) fn lines(lines: &[Line], across: &Axis, up: &Axis, diagonal: bool) ->
         points.join(" ")
     };
     html! {
-        svg.chart viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" {
+        svg.chart viewBox=(format!("0 0 {WIDTH} {HEIGHT}")) role="img" aria-label=(name) {
             @for (value, text) in &up.ticks {
                 line.grid x1=(LEFT) x2=(RIGHT) y1=(at(y(*value))) y2=(at(y(*value))) {}
                 text.axis x=(LEFT - 6.0) y=(at(y(*value) + 4.0)) text-anchor="end" { (text) }

@@ -1,12 +1,13 @@
 //! A study as a self-contained page, as tables, and as JSON.
 
 mod charts;
+mod lead;
 mod page;
 mod tables;
 
 use serde::Serialize;
 
-use super::{Study, set_title};
+use super::{Condition, HONEST, Study, set_title};
 use crate::classify::Algorithm;
 
 /// The report's files: name and content.
@@ -34,12 +35,23 @@ struct Versioned<'a> {
 
 /// The accuracies under the main condition in a few lines of text, for a terminal.
 pub fn summary(study: &Study) -> String {
-    let mut text = format!(
-        "Accuracy in %, {} folds by {}, {} neighbour labels\n\n",
-        study.folds,
-        study.condition.by.name(),
-        study.condition.neighbours.name()
-    );
+    let mut text = String::new();
+    if let Some(honest) = study.honest.filter(|honest| *honest != study.condition) {
+        text.push_str(&format!("Buildings never seen: accuracy in %, {honest}\n\n"));
+        accuracies(study, honest, &mut text);
+        text.push('\n');
+    }
+    text.push_str(&format!("Accuracy in %, {} folds by {}", study.folds, study.condition.by.name()));
+    text.push_str(&format!(", {} neighbour labels\n\n", study.condition.neighbours.name()));
+    accuracies(study, study.condition, &mut text);
+    for note in &study.notes {
+        text.push_str(&format!("\n{note}"));
+    }
+    text
+}
+
+/// A line an algorithm under a condition.
+fn accuracies(study: &Study, condition: Condition, text: &mut String) {
     let width = 24;
     text.push_str(&format!("{:<width$}", ""));
     for set in &study.sets {
@@ -57,14 +69,20 @@ pub fn summary(study: &Study) -> String {
     };
     for algorithm in Algorithm::ALL {
         line(algorithm.title(), &|set| {
-            study.scores(set, algorithm, study.condition).map(|scores| (scores.accuracy, scores.accuracy_deviation))
+            study.scores(set, algorithm, condition).map(|scores| (scores.accuracy, scores.accuracy_deviation))
         });
     }
-    line("average", &|set| study.averages.iter().find(|average| average.set == set).map(|of| (of.mean, of.deviation)));
-    for note in &study.notes {
-        text.push_str(&format!("\n{note}"));
+    if condition == HONEST && !study.joint.is_empty() {
+        line("joint classifier", &|set| {
+            let cell = study.joint.iter().find(|cell| cell.set == set)?;
+            Some((cell.scores.accuracy, cell.scores.accuracy_deviation))
+        });
     }
-    text
+    if condition == study.condition {
+        let average =
+            |set: &str| study.averages.iter().find(|average| average.set == set).map(|of| (of.mean, of.deviation));
+        line("average", &average);
+    }
 }
 
 /// A share in percent with one decimal.

@@ -3,6 +3,7 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::charts::{Axis, Bar, Group, Line, bars, lines};
+use super::lead::{joint_colour, labels, lead, provenance};
 use super::percent;
 use crate::classify::{Algorithm, Scores};
 use crate::dataset::sets::STANDARD;
@@ -25,6 +26,8 @@ pub(super) fn page(study: &Study) -> String {
             body {
                 main {
                     (head(study))
+                    (lead(study))
+                    (labels(study))
                     (accuracy(study, paper))
                     (typology(study))
                     (foreign(study, paper))
@@ -42,7 +45,9 @@ pub(super) fn page(study: &Study) -> String {
             }
         }
     };
-    page.into_string()
+    // Each table scrolls by itself where the page is narrow, by finger and by key.
+    let scrolled = "<div class=\"scroll\" role=\"region\" aria-label=\"Table\" tabindex=\"0\"><table";
+    page.into_string().replace("<table", scrolled).replace("</table>", "</table></div>")
 }
 
 fn head(study: &Study) -> Markup {
@@ -56,7 +61,11 @@ fn head(study: &Study) -> Markup {
                  Luperto, Quattrini Li and Amigoni, and beyond. Grey figures in brackets and grey bands are the \
                  paper's, measured on its own buildings."
             }
-            p { "Condition of this report: " strong { (study.condition) } ", " (study.folds) " folds, seed " (study.seed) "." }
+            (provenance(study))
+            p {
+                "The page leads with what a new building meets: " em { "never seen" } ". All sections that do not say otherwise stand under "
+                strong { (study.condition) } ", " (study.folds) " folds, seed " (study.seed) "."
+            }
         }
         table.wide {
             thead { tr { th.left { "Set" } th { "Rooms" } th { "Plans" } th { "Buildings" } th { "Most frequent label, %" } } }
@@ -87,13 +96,13 @@ const COLOURS: usize = 4;
 /// Styles of the other learners: hues a golden angle apart, so that they differ however many there are.
 fn further_colours() -> String {
     let style = |index: usize| {
-        let colour = format!("hsl({:.0} 50% 55%)", (40.0 + 137.5 * index as f64) % 360.0);
+        let colour = format!("hsl({:.0} 35% var(--further))", (137.5 * index as f64) % 360.0);
         format!(
             ".swatch{index} {{ background: {colour} }} .fill{index} {{ fill: {colour} }} \
              .line{index} {{ fill: none; stroke-width: 1.8; stroke: {colour} }}\n"
         )
     };
-    (COLOURS..Algorithm::ALL.len()).map(style).collect()
+    (COLOURS..=joint_colour()).map(style).collect()
 }
 
 /// The names of the algorithms with their colours.
@@ -121,6 +130,7 @@ fn accuracy(study: &Study, paper: Option<&PaperFigures>) -> Markup {
                     Some(Bar {
                         value: scores.accuracy,
                         deviation: scores.accuracy_deviation,
+                        colour: algorithm.index(),
                         title: format!("{}, {algorithm}: {} %", set_title(&set.name), percent(scores.accuracy)),
                     })
                 })
@@ -132,9 +142,9 @@ fn accuracy(study: &Study, paper: Option<&PaperFigures>) -> Markup {
         .collect();
     html! {
         section {
-            h2 { "Accuracy (Fig. 4)" }
+            h2 { "Accuracy, " (study.condition) " (Fig. 4)" }
             (legend(true))
-            (bars(&groups))
+            (bars(&groups, "Accuracy of each algorithm on each set, with the paper's average"))
             table {
                 thead { tr {
                     th.left { "Accuracy, %" }
@@ -184,7 +194,7 @@ fn with_deviation(scores: Option<&Scores>) -> Markup {
 /// A difference of accuracies with its interval, coloured when chance does not explain it.
 fn difference(comparison: &Comparison) -> Markup {
     let class = match comparison {
-        Comparison { p, .. } if *p >= 0.05 => "even",
+        _ if !is_settled(comparison) => "even",
         Comparison { difference, .. } if *difference > 0.0 => "better",
         _ => "worse",
     };
@@ -192,6 +202,15 @@ fn difference(comparison: &Comparison) -> Markup {
         span class=(class) { (format!("{:+.1}", 100.0 * comparison.difference)) }
         small { (format!(" [{:+.1}, {:+.1}]", 100.0 * comparison.low, 100.0 * comparison.high)) }
     }
+}
+
+/// Whether the interval leaves out no difference, and chance alone would seldom do it: only then a sentence may say which is better.
+fn is_settled(comparison: &Comparison) -> bool {
+    leaves_out_zero(comparison) && comparison.p < 0.05
+}
+
+fn leaves_out_zero(comparison: &Comparison) -> bool {
+    comparison.low > 0.0 || comparison.high < 0.0
 }
 
 fn p_value(p: f64) -> String {
@@ -206,56 +225,77 @@ fn typology(study: &Study) -> Markup {
     if study.own_against_standard.is_empty() {
         return html! {};
     }
-    let averages: Vec<&Rival> = study.own_against_standard.iter().filter(|rival| rival.algorithm.is_none()).collect();
     html! {
         section {
             h2 { "Does knowing the typology help?" }
-            @for rival in &averages { p.finding { (verdict(rival)) } }
-            table {
-                thead { tr {
-                    th.left { "Rooms of" } th.left { "Algorithm" } th { "Own, %" } th { "Standard, %" }
-                    th { "Difference [95 %]" } th { "p" }
-                } }
-                tbody {
-                    @for rival in &study.own_against_standard {
-                        @let first = rival.algorithm == Some(Algorithm::ALL[0]);
-                        tr.total[rival.algorithm.is_none()].first[first] {
-                            th.left { @if first { (set_title(&rival.rooms_of)) } }
-                            td.left { (algorithm_title(rival.algorithm)) }
-                            td { (percent(rival.comparison.first)) }
-                            td { (percent(rival.comparison.second)) }
-                            td { (difference(&rival.comparison)) }
-                            td { (p_value(rival.comparison.p)) }
-                        }
-                    }
-                }
+            @if let Some(honest) = study.honest.filter(|_| !study.own_against_standard_honest.is_empty()) {
+                h3 { "On buildings never seen (" (honest) ")" }
+                (own_against_standard(&study.own_against_standard_honest))
+                h3 { "Under " (study.condition) }
             }
+            (own_against_standard(&study.own_against_standard))
             p.caption {
                 "Both are tested on the same rooms and learned without the same rooms. Intervals are bootstrapped over \
                  buildings, p-values come from a paired permutation test that flips whole buildings: rooms of one \
-                 building are not independent."
+                 building are not independent. A sentence says which is better only where the interval leaves out 0 and p is below 0.05."
+            }
+        }
+    }
+}
+
+fn own_against_standard(rivals: &[Rival]) -> Markup {
+    html! {
+        @for rival in rivals.iter().filter(|rival| rival.algorithm.is_none()) { p.finding { (verdict(rival)) } }
+        table {
+            thead { tr {
+                th.left { "Rooms of" } th.left { "Algorithm" } th { "Own, %" } th { "Standard, %" }
+                th { "Difference [95 %]" } th { "p" }
+            } }
+            tbody {
+                @for rival in rivals {
+                    @let first = rival.algorithm == Some(Algorithm::ALL[0]);
+                    tr.total[rival.algorithm.is_none()].first[first] {
+                        th.left { @if first { (set_title(&rival.rooms_of)) } }
+                        td.left { (algorithm_title(rival.algorithm)) }
+                        td { (percent(rival.comparison.first)) }
+                        td { (percent(rival.comparison.second)) }
+                        td { (difference(&rival.comparison)) }
+                        td { (p_value(rival.comparison.p)) }
+                    }
+                }
             }
         }
     }
 }
 
 fn verdict(rival: &Rival) -> Markup {
-    let Comparison { difference, p, low, high, buildings, .. } = rival.comparison;
+    let comparison = &rival.comparison;
+    let Comparison { difference, p, low, high, buildings, .. } = *comparison;
     let set = set_title(&rival.rooms_of);
-    let points = format!("{:.1}", 100.0 * difference.abs());
-    let interval = format!("95 % interval {:+.1} to {:+.1}, p {}", 100.0 * low, 100.0 * high, p_value(p));
+    let points =
+        format!("{:.1} points {}", 100.0 * difference.abs(), if difference < 0.0 { "worse" } else { "better" });
+    let interval = format!(
+        "95 % interval {:+.1} to {:+.1}, p {}, {}",
+        100.0 * low,
+        100.0 * high,
+        p_value(p),
+        crate::base::wording::count(buildings, "building")
+    );
     html! {
-        @if p >= 0.05 {
-            strong { (set) ": no effect shown. " }
-            "Own and standard classifiers differ by " (points) " points on average, which chance explains ("
-            (interval) ", " (buildings) " buildings)."
-        } @else if difference > 0.0 {
+        @if is_settled(comparison) && difference > 0.0 {
             strong { (set) ": it helps. " }
-            "The typology's own classifiers are " (points) " points better on average (" (interval) ")."
-        } @else {
+            "The typology's own classifiers are " (points) " on average (" (interval) ")."
+        } @else if is_settled(comparison) {
             strong { (set) ": it hurts. " }
-            "The typology's own classifiers are " (points) " points worse on average (" (interval)
+            "The typology's own classifiers are " (points) " on average (" (interval)
             "): the rooms of other typologies teach them something."
+        } @else if leaves_out_zero(comparison) || p < 0.05 {
+            strong { (set) ": not settled. " }
+            "The typology's own classifiers are " (points) " on average, and interval and test do not agree whether chance explains it ("
+            (interval) ")."
+        } @else {
+            strong { (set) ": no effect shown. " }
+            "The typology's own classifiers are " (points) " on average, which chance may explain: the interval holds 0 (" (interval) ")."
         }
     }
 }
@@ -438,7 +478,27 @@ fn typologies(study: &Study) -> Markup {
                     }
                 }
             }
-            p.caption { "From the plan alone, no label known, folds that never split a building." }
+            p.caption { "From measures of the plan alone, no label known, folds that never split a building." }
+            @if !study.typology_ways.is_empty() {
+                h3 { "By several ways" }
+                table {
+                    thead { tr {
+                        th.left { "Way" } th { "Plans right, %" } th { "Buildings right, %" }
+                        @for line in &study.typologies { th { (set_title(&line.typology)) ", %" } }
+                    } }
+                    tbody {
+                        @for way in &study.typology_ways {
+                            tr {
+                                th.left { (way.way) }
+                                td { (percent(way.plan_accuracy)) }
+                                td { (percent(way.building_accuracy)) }
+                                @for share in &way.plans_of { td { (percent(*share)) } }
+                            }
+                        }
+                    }
+                }
+                p.caption { "Means over the typologies, which count alike however many plans they have; plans right by typology behind them." }
+            }
         }
     }
 }
@@ -574,7 +634,7 @@ fn curves(study: &Study) -> Markup {
                     }).collect();
                     figure {
                         figcaption { (set_title(&set.name)) }
-                        (lines(&drawn, &axis, &percent_axis("accuracy, %", from, 1.0), false))
+                        (lines(&drawn, &axis, &percent_axis("accuracy, %", from, 1.0), false, &format!("{}: accuracy by number of training rooms, one line an algorithm; the figures are in learning_curves.csv", set_title(&set.name))))
                     }
                 }
             }
@@ -658,7 +718,7 @@ fn calibration(study: &Study) -> Markup {
                     }).collect();
                     figure {
                         figcaption { (set_title(&set.name)) }
-                        (lines(&drawn, &percent_axis("probability said, %", 0.0, 1.0), &percent_axis("right, %", 0.0, 1.0), true))
+                        (lines(&drawn, &percent_axis("probability said, %", 0.0, 1.0), &percent_axis("right, %", 0.0, 1.0), true, &format!("{}: share of rooms right by the probability said, one line an algorithm; the figures are in reliability.csv", set_title(&set.name))))
                     }
                 }
             }

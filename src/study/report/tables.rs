@@ -3,8 +3,9 @@
 use super::percent;
 use crate::classify::Algorithm;
 use crate::features::Features;
+use crate::labels::Label;
 use crate::study::paper::PaperFigures;
-use crate::study::{Rival, Study, letters};
+use crate::study::{HONEST, Rival, Study, letters};
 
 /// A table with a header.
 pub(super) struct Table {
@@ -47,15 +48,18 @@ pub(super) fn tables(study: &Study) -> Vec<(&'static str, Table)> {
     let paper = PaperFigures::bundled();
     vec![
         ("accuracy", accuracy(study, paper.as_ref())),
+        ("labels", labels(study)),
         ("confusion", confusion(study, paper.as_ref())),
         ("rooms", rooms(study, paper.as_ref())),
         ("own_against_standard", rivals(&study.own_against_standard, None)),
+        ("own_against_standard_never_seen", rivals(&study.own_against_standard_honest, None)),
         ("own_against_foreign", rivals(&study.own_against_foreign, paper.as_ref())),
         ("learning_curves", learning_curves(study)),
         ("importance", importance(study)),
         ("reliability", reliability(study)),
         ("joint", joint(study)),
         ("typologies", typologies(study)),
+        ("typology_ways", typology_ways(study)),
         ("unknown", unknown(study)),
     ]
 }
@@ -70,6 +74,7 @@ fn accuracy(study: &Study, paper: Option<&PaperFigures>) -> Table {
         "rooms",
         "accuracy",
         "deviation",
+        "balanced_accuracy",
         "log_loss",
         "brier",
         "calibration_error",
@@ -86,11 +91,50 @@ fn accuracy(study: &Study, paper: Option<&PaperFigures>) -> Table {
             scores.rooms.to_string(),
             number(scores.accuracy),
             number(scores.accuracy_deviation),
+            number(scores.confusion.balanced_accuracy()),
             number(scores.log_loss),
             number(scores.brier),
             number(scores.calibration_error),
             printed(paper.and_then(|paper| Some(paper.accuracy.get(&cell.set)?.mean))),
         ]);
+    }
+    table
+}
+
+fn labels(study: &Study) -> Table {
+    let mut table = Table::new(&[
+        "set",
+        "algorithm",
+        "folds_by",
+        "neighbour_labels",
+        "label",
+        "rooms",
+        "recall",
+        "precision",
+        "f1",
+    ]);
+    let of_learners =
+        study.accuracy.iter().map(|cell| (&cell.set, cell.algorithm.name(), cell.condition, &cell.scores));
+    let of_joint = study.joint.iter().map(|cell| (&cell.set, "joint", HONEST, &cell.scores));
+    for (set, algorithm, condition, scores) in of_learners.chain(of_joint) {
+        for label in Label::ALL {
+            let rates = scores.confusion.label_rates(label);
+            let head = [set.as_str(), algorithm, condition.by.name(), condition.neighbours.name(), label.letter()];
+            let numbers = [rates.recall, rates.precision, rates.f1].map(number);
+            table.push(head.map(str::to_owned).into_iter().chain([rates.rooms.to_string()]).chain(numbers));
+        }
+    }
+    table
+}
+
+fn typology_ways(study: &Study) -> Table {
+    let of: Vec<String> = study.typologies.iter().map(|line| format!("plans_right_{}", line.typology)).collect();
+    let header: Vec<&str> =
+        ["way", "plans_right", "buildings_right"].into_iter().chain(of.iter().map(String::as_str)).collect();
+    let mut table = Table::new(&header);
+    for way in &study.typology_ways {
+        let numbers = [way.plan_accuracy, way.building_accuracy].into_iter().chain(way.plans_of.iter().copied());
+        table.push([way.way.clone()].into_iter().chain(numbers.map(number)));
     }
     table
 }

@@ -1,0 +1,261 @@
+//! Labels that are probably wrong: rooms by the probability that classifiers give their label which did not learn from them
+//! (confident learning without a threshold; Northcutt, Jiang and Chuang 2021). Several classifiers are asked, since each alone is wrong
+//! about rooms of its own, and the mean of their log-probabilities counts.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::StudyError;
+use crate::base::random::seed_of_part;
+use crate::base::work::{Cancelled, Work};
+use crate::classify::joint::{FirstRound, Joint};
+use crate::classify::{Algorithm, Distribution, Validation, evaluate_all};
+use crate::dataset::folds::{Folds, Grouping};
+use crate::dataset::table::Table;
+use crate::dataset::{Collection, RoomNetwork, RoomPlace, Row, fold_table};
+use crate::features::NeighbourLabels;
+use crate::labels::{Label, Typology, normalised_function};
+
+/// A room and what is said of its label.
+#[derive(Clone, Debug)]
+pub struct Suspect {
+    pub row: Row,
+    /// What classifiers say that did not learn from the room, together.
+    pub said: Distribution,
+    /// Why another label is more likely, in words; empty where the given one is the likeliest.
+    pub reason: String,
+}
+
+impl Suspect {
+    /// The probability of the label that is given, 0..=1.
+    pub fn probability(&self) -> f64 {
+        self.said.probability(self.row.label)
+    }
+}
+
+/// Opinions of classifiers that did not learn from a room, by kind of classifier, for each labelled room.
+pub struct Opinions {
+    /// Where each room stands, in the order of the collection's rows.
+    pub places: Vec<RoomPlace>,
+    pub rows: Vec<Row>,
+    /// A name, and for each room what is said; `None` for rooms of which nobody could be asked.
+    pub of: Vec<(String, Vec<Option<Distribution>>)>,
+    /// By room: why, as the joint classifier sees it.
+    reasons: Vec<String>,
+}
+
+/// All rooms, those whose given label is least probable first. Each typology is judged by itself. `work` counts folds.
+///
+/// # Errors
+/// When the collection holds rows of a file rather than plans, has too few rooms, or the work is cancelled.
+pub fn suspects(
+    collection: &Collection,
+    folds: usize,
+    seed: u64,
+    given: bool,
+    work: &Work<'_>,
+) -> Result<Vec<Suspect>, StudyError> {
+    let opinions = opinions(collection, folds, seed, given, work)?;
+    let mut suspects: Vec<Suspect> = opinions
+        .rows
+        .iter()
+        .enumerate()
+        .map(|(index, row)| {
+            let said = together(opinions.of.iter().filter_map(|(name, of)| Some((name.as_str(), of[index]?))));
+            let reason = if said.label() == row.label { String::new() } else { opinions.reasons[index].clone() };
+            Suspect { row: row.clone(), said, reason }
+        })
+        .collect();
+    suspects.sort_by(|p, q| p.probability().total_cmp(&q.probability()));
+    Ok(suspects)
+}
+
+/// What several say together: the geometric mean of their probabilities.
+fn together<'a>(said: impl Iterator<Item = (&'a str, Distribution)>) -> Distribution {
+    /// No opinion alone rules a label out.
+    const LEAST: f64 = 0.002;
+    let mut sums = [0.0; 5];
+    let mut weights = 0.0;
+    for (name, said) in said {
+        let weight = weight_of(name);
+        // Rooms that agree with each other may.
+        let least = if name == BY_FUNCTION { f64::MIN_POSITIVE } else { LEAST };
+        weights += weight;
+        for (sum, probability) in sums.iter_mut().zip(said.probabilities()) {
+            *sum += weight * probability.max(least).ln();
+        }
+    }
+    let weights = if weights > 0.0 { weights } else { 1.0 };
+    Distribution::from_weights(sums.map(|sum| (sum / weights).exp()))
+}
+
+/// How much a kind of classifier counts. The joint one is asked once, and knows as much as the others together.
+fn weight_of(name: &str) -> f64 {
+    match name {
+        JOINT => 4.0,
+        // Rooms of one function seldom differ in label.
+        BY_FUNCTION => 16.0,
+        _ => 1.0,
+    }
+}
+
+/// The name of what other rooms of a function say, among [`Opinions::of`].
+const BY_FUNCTION: &str = "by function";
+
+/// The name of the joint classifier among [`Opinions::of`].
+const JOINT: &str = "joint";
+
+/// Asks classifiers of several kinds of every room.
+///
+/// # Errors
+/// As [`suspects`].
+pub fn opinions(
+    collection: &Collection,
+    folds: usize,
+    seed: u64,
+    given: bool,
+    work: &Work<'_>,
+) -> Result<Opinions, StudyError> {
+    let Collection::Plans(networks) = collection else {
+        return Err(StudyError::Data(
+            "rows of a dataset file do not tell which rooms are neighbours; give the plans".to_owned(),
+        ));
+    };
+    let rows = collection.rows(NeighbourLabels::True).unwrap_or_default();
+    let mut opinions =
+        Opinions { places: collection.places(), of: Vec::new(), reasons: vec![String::new(); rows.len()], rows };
+    let typologies: BTreeSet<Option<Typology>> = opinions.rows.iter().map(|row| row.typology.clone()).collect();
+    let mut asked = false;
+    for typology in typologies {
+        let of_set: Vec<usize> =
+            (0..opinions.rows.len()).filter(|&row| opinions.rows[row].typology == typology).collect();
+        asked |= opinions.ask(networks, &of_set, folds, seed, given, work)?;
+    }
+    if asked {
+        return Ok(opinions);
+    }
+    Err(StudyError::Data("there are too few labelled rooms to doubt any; label some more".to_owned()))
+}
+
+impl Opinions {
+    /// Asks of the rows of one set; whether anybody could be asked.
+    fn ask(
+        &mut self,
+        networks: &[RoomNetwork],
+        of_set: &[usize],
+        folds: usize,
+        seed: u64,
+        given: bool,
+        work: &Work<'_>,
+    ) -> Result<bool, Cancelled> {
+        let own: Vec<Row> = of_set.iter().map(|&row| self.rows[row].clone()).collect();
+        let Ok(table) = Table::from_rows(&own) else { return Ok(false) };
+        let mut asked = false;
+        for by in Grouping::ALL {
+            let of_rows: Option<Vec<usize>> = own.iter().map(|row| row.fold).collect();
+            let folds = match of_rows.filter(|_| given && by == Grouping::Building) {
+                Some(of_rows) => Folds::given(of_rows),
+                None => fold_table::deal_set(&own, by, folds, seed, "", &mut Vec::new()),
+            };
+            let Ok(folds) = folds else { continue };
+            asked = true;
+            let validations: Vec<Validation<'_>> =
+                Algorithm::ALL.map(|algorithm| Validation { table: &table, folds: &folds, algorithm, seed }).to_vec();
+            for (algorithm, validated) in Algorithm::ALL.into_iter().zip(evaluate_all(&validations, work)?) {
+                self.tell(&format!("{}, folds by {}", algorithm.name(), by.name()), of_set, &validated.predictions);
+            }
+            if by == Grouping::Building {
+                self.ask_jointly(networks, of_set, &folds, seed, work)?;
+            }
+        }
+        self.ask_by_function(of_set, &own);
+        Ok(asked)
+    }
+
+    /// What other rooms of the same function are labelled, where they agree with each other and not with the room. Rooms whose label goes
+    /// with their function are not judged by it: a wrong function gives a wrong label too.
+    fn ask_by_function(&mut self, of_set: &[usize], own: &[Row]) {
+        /// Fewer other rooms tell nothing.
+        const LEAST: f64 = 3.0;
+        /// From this share on they agree.
+        const AGREE: f64 = 0.8;
+        let mut counts: BTreeMap<String, [f64; 5]> = BTreeMap::new();
+        for row in own.iter().filter(|row| !row.function.is_empty()) {
+            counts.entry(normalised_function(&row.function)).or_default()[row.label.index()] += 1.0;
+        }
+        for (&index, row) in of_set.iter().zip(own) {
+            let Some(mut others) = counts.get(&normalised_function(&row.function)).copied() else { continue };
+            others[row.label.index()] -= 1.0;
+            let all: f64 = others.iter().sum();
+            let said = Distribution::smoothed(others, &Distribution::UNIFORM, 0.02);
+            if all >= LEAST && said.label() != row.label && others[said.label().index()] >= AGREE * all {
+                self.tell(BY_FUNCTION, &[index], &[said]);
+            }
+        }
+    }
+
+    fn tell(&mut self, name: &str, of_set: &[usize], said: &[Distribution]) {
+        let known = self.of.iter().position(|(of, _)| of == name);
+        let index = known.unwrap_or_else(|| {
+            self.of.push((name.to_owned(), vec![None; self.rows.len()]));
+            self.of.len() - 1
+        });
+        for (&row, &said) in of_set.iter().zip(said) {
+            self.of[index].1[row] = Some(said);
+        }
+    }
+
+    /// The joint classifier, which learned from other buildings and knows the labels of the room's own plan, its own excepted.
+    fn ask_jointly(
+        &mut self,
+        networks: &[RoomNetwork],
+        of_set: &[usize],
+        folds: &Folds,
+        seed: u64,
+        work: &Work<'_>,
+    ) -> Result<(), Cancelled> {
+        let network_of = |index: usize| self.places[of_set[index]].network;
+        let of_fold = |fold: usize| {
+            let tested: BTreeSet<usize> = folds.test_rows(fold).into_iter().map(network_of).collect();
+            let taught: BTreeSet<usize> = folds
+                .training_rows(fold)
+                .into_iter()
+                .map(network_of)
+                .filter(|network| !tested.contains(network))
+                .collect();
+            let taught: Vec<&RoomNetwork> = taught.into_iter().map(|network| &networks[network]).collect();
+            let joint = Joint::train(&taught, seed_of_part(seed, fold), &work.alone()).ok()?;
+            let said = |row: usize| {
+                let RoomPlace { network, room } = self.places[of_set[row]];
+                (row, network, room)
+            };
+            let mut predicted: Vec<(usize, Distribution, String)> = Vec::new();
+            let mut round: Option<(usize, FirstRound, Vec<Distribution>)> = None;
+            for (row, network, room) in folds.test_rows(fold).into_iter().map(said) {
+                let of = &networks[network];
+                let known = of.known_labels();
+                if round.as_ref().is_none_or(|(at, ..)| *at != network) {
+                    let first = joint.first_round(of);
+                    let distributions = joint.predict_from(&first, &known);
+                    round = Some((network, first, distributions));
+                }
+                let Some((_, first, distributions)) = &round else { continue };
+                let doubted = of.rooms[room].label.is_some_and(|label| distributions[room].label() != label);
+                let why = doubted.then(|| joint.explain_from(first, of, &known, room)).flatten();
+                predicted.push((row, distributions[room], why.map(|why| why.words()).unwrap_or_default()));
+            }
+            Some(predicted)
+        };
+        let told: Vec<Option<Vec<(usize, Distribution, String)>>> = work.map(folds.count(), of_fold)?;
+        for (row, said, why) in told.into_iter().flatten().flatten() {
+            self.tell(JOINT, &of_set[row..=row], &[said]);
+            self.reasons[of_set[row]] = why;
+        }
+        Ok(())
+    }
+}
+
+/// What a label scheme says of a function, where that differs from the label given: a sentence, or nothing.
+pub fn contradiction(row: &Row, by_scheme: Option<Label>) -> Option<String> {
+    let by_scheme = by_scheme.filter(|&label| label != row.label)?;
+    Some(format!("By its function, {}, it would be a {}.", row.function, by_scheme.name()))
+}
