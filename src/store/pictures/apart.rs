@@ -8,7 +8,7 @@
 //! picture WIDTH HEIGHT BYTES_OF_A_PIXEL PAGES\n  and the pixels, rows from the top
 //! refused\nWHAT\nHINT                            and nothing else
 //! ```
-
+#![cfg_attr(not(feature = "cli"), allow(dead_code, reason = "the program, which has a command line, is who answers"))]
 #![expect(
     clippy::disallowed_methods,
     reason = "a decoder that hangs is known by the clock alone; what is decoded never depends on it"

@@ -17,6 +17,7 @@ use sha2::{Digest as _, Sha256};
 use crate::base::work::Work;
 use crate::picture::{Level, PictureLevels};
 pub use apart::{Decoding, decode_apart};
+#[cfg(feature = "cli")]
 pub(crate) use apart::{answer_if_asked, decode_by_this_program};
 pub use find::{Found, find_picture};
 pub use path::{is_allowed, is_outside, relative_path, relocated, resolved_path};
