@@ -2,7 +2,6 @@
 //! once, whatever it is called.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use super::batch::{self, Input};

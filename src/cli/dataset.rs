@@ -73,7 +73,8 @@ impl Subcommand for DatasetCommand {
             let mut bytes = Vec::new();
             let guard = if self.guard_formulas { csv::Guard::On } else { csv::Guard::Off };
             csv::write_guarded(&mut bytes, &rows, guard)?;
-            Outputs::new(terminal).result(self.output.as_deref(), &bytes, terminal)?;
+            let mut outputs = Outputs::new(terminal);
+            outputs.result(self.output.as_deref(), &bytes, terminal)?;
             if let Some(path) = self.output.as_deref().filter(|path| manifest::is_file(path)) {
                 let folds = match &self.folds {
                     FoldsFrom::Count(count) => json!({ "count": count, "by": self.by.name(), "seed": self.seed }),
@@ -81,9 +82,12 @@ impl Subcommand for DatasetCommand {
                 };
                 let table = Manifest::of_table(path, &bytes, rows.len());
                 let told = table.with("folds", folds).with("neighbours", json!(self.shared.neighbours.name()));
-                told_of(told, &rows, &read, &left_out)
-                    .with_schemes(&schemes, &self.shared.scheme)
-                    .save(path, Some(schema()))?;
+                told_of(told, &rows, &read, &left_out).with_schemes(&schemes, &self.shared.scheme).save(
+                    path,
+                    Some(schema()),
+                    &mut outputs,
+                    terminal,
+                )?;
             }
         }
         if self.stats {

@@ -90,10 +90,10 @@ impl Subcommand for EvaluateCommand {
         Manifest::of_folder(files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())))
             .with("study", told)
             .with_plans(&read)
-            .save(&self.output.join("report.csv"), None)?;
+            .save(&self.output.join("report.csv"), None, &mut outputs, terminal)?;
         if let Some(path) = &self.predictions {
             let rows = collection.rows(NeighbourLabels::True).unwrap_or_default();
-            save_predictions(path, &rows, &predictions, self.guard_formulas, &read)?;
+            save_predictions(path, &rows, &predictions, self.guard_formulas, &read, &mut outputs, terminal)?;
         }
         if !self.json {
             terminal.out.write_all(report::summary(&study).as_bytes())?;

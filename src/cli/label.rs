@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use super::batch::{self, Input};
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
+use crate::base::separated::{Separated, SeparatedRow};
 use crate::base::wording::count;
 use crate::dataset::csv::unguarded;
 use crate::edit;
@@ -26,7 +27,7 @@ pub struct LabelCommand {
     /// Say what would be done, and write nothing
     #[arg(long)]
     dry_run: bool,
-    /// Print JSON (docs/json.md describes it)
+    /// Print JSON (docs/json/label.md describes it)
     #[arg(long)]
     json: bool,
     /// Label scheme that extends the bundled ones (may be given several times)
@@ -98,9 +99,11 @@ struct Correction {
 fn read_table(path: &Path) -> Result<Vec<Correction>, CliError> {
     let fail = |what: String| CliError::new(format!("{}: {what}", path.display()));
     let bytes = std::fs::read(path).map_err(|error| fail(error.to_string()))?;
-    let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(bytes.as_slice());
-    let headers = reader.headers().map_err(|error| fail(error.to_string()))?.clone();
-    let column = |name: &str| headers.iter().position(|header| header.trim_start_matches('\u{feff}') == name);
+    let read = Separated::read(&bytes).map_err(|error| match error.line {
+        0 => fail(error.what),
+        line => fail(format!("line {line}: {}", error.what)),
+    })?;
+    let column = |name: &str| read.column(name);
     let needed = |name: &str| {
         let hint = "corrections have the columns file, id, and label or function";
         column(name).ok_or_else(|| fail(format!("line 1: no column '{name}'; {hint}")))
@@ -111,15 +114,11 @@ fn read_table(path: &Path) -> Result<Vec<Correction>, CliError> {
         needed("label")?;
     }
     let mut table = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(|error| {
-            let line = error.position().map_or(0, csv::Position::line);
-            fail(format!("line {line}: {error}"))
-        })?;
-        let cell = |index: usize| unguarded(record.get(index).unwrap_or_default()).to_owned();
+    for SeparatedRow { line, cells } in &read.rows {
+        let cell = |index: usize| unguarded(cells.get(index).map(String::as_str).unwrap_or_default()).to_owned();
         let text = |index: Option<usize>| index.map(cell).filter(|text| !text.is_empty());
         let mut row = Correction {
-            line: record.position().map_or(0, csv::Position::line),
+            line: *line,
             file: cell(file),
             id: cell(id),
             label: None,
@@ -133,8 +132,6 @@ fn read_table(path: &Path) -> Result<Vec<Correction>, CliError> {
         }
         if row.file.is_empty() || row.id.is_empty() {
             row.refused = Some("names no file and id".to_owned());
-        } else if record.len() != headers.len() {
-            row.refused = Some(format!("has {} cells, the header {}", record.len(), headers.len()));
         } else if row.label.is_none() && row.function.is_none() && row.refused.is_none() {
             row.refused = Some("gives neither a label nor a function".to_owned());
         }

@@ -4,13 +4,13 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
-use super::CliError;
 use super::call::{command, program, sha256};
 use super::collect::{PlansRead, Source};
+use super::outputs::{Care, Outputs, is_stdout};
+use super::{CliError, Terminal};
 use crate::dataset::LeftOut;
 use crate::dataset::repeats::Likeness;
 use crate::labels::Schemes;
-use crate::store::save_bytes;
 
 /// A manifest: how a table came about. The same input, call and version give the same bytes; no date stands in it.
 pub struct Manifest(serde_json::Map<String, Value>);
@@ -88,12 +88,18 @@ impl Manifest {
     /// Writes it beside its table, and the schema of the table's columns where there is one.
     ///
     /// # Errors
-    /// When a file cannot be written.
-    pub fn save(self, table: &Path, schema: Option<Value>) -> Result<(), CliError> {
+    /// As [`Outputs::save`].
+    pub fn save(
+        self,
+        table: &Path,
+        schema: Option<Value>,
+        outputs: &mut Outputs,
+        terminal: &mut Terminal,
+    ) -> Result<(), CliError> {
         if let Some(schema) = schema {
-            save_bytes(&beside(table, "schema.json"), &text(&schema)?)?;
+            outputs.save(&beside(table, "schema.json"), &text(&schema)?, Care::Flushed, terminal)?;
         }
-        Ok(save_bytes(&beside(table, "manifest.json"), &text(&Value::Object(self.0))?)?)
+        outputs.save(&beside(table, "manifest.json"), &text(&Value::Object(self.0))?, Care::Flushed, terminal)
     }
 }
 
@@ -106,7 +112,7 @@ pub fn beside(table: &Path, ending: &str) -> PathBuf {
 
 /// Whether something may stand beside it: not beside a pipe or a device.
 pub fn is_file(table: &Path) -> bool {
-    std::fs::metadata(table).map_or(true, |data| data.is_file())
+    !is_stdout(table) && std::fs::metadata(table).map_or(true, |data| data.is_file())
 }
 
 pub fn sources(sources: &[Source]) -> Value {

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use super::CliError;
 use super::collect::PlansRead;
 use super::manifest::{self, Manifest};
+use super::outputs::{Care, Outputs};
+use super::{CliError, Terminal};
 use crate::dataset::Row;
 use crate::dataset::csv::Guard;
 use crate::study::predictions::{Prediction, csv};
@@ -12,18 +13,20 @@ use crate::study::predictions::{Prediction, csv};
 /// Writes what was said of each room, with a manifest beside it.
 ///
 /// # Errors
-/// When a file cannot be written.
+/// As [`Outputs::save`].
 pub fn save_predictions(
     path: &Path,
     rows: &[Row],
     predictions: &[Prediction],
     guard: bool,
     read: &PlansRead,
+    outputs: &mut Outputs,
+    terminal: &mut Terminal,
 ) -> Result<(), CliError> {
     let bytes = csv(rows, predictions, if guard { Guard::On } else { Guard::Off })?;
-    crate::store::save_bytes(path, &bytes)?;
+    outputs.save(path, &bytes, Care::Flushed, terminal)?;
     if manifest::is_file(path) {
-        Manifest::of_table(path, &bytes, predictions.len()).with_plans(read).save(path, None)?;
+        Manifest::of_table(path, &bytes, predictions.len()).with_plans(read).save(path, None, outputs, terminal)?;
     }
     Ok(())
 }

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use super::collect::{CollectOptions, FoldsFrom, collect};
 use super::manifest::{self, Manifest};
+use super::outputs::{Care, Outputs};
 use super::progress::with_progress;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::base::wording::{count, shortened};
@@ -34,7 +35,7 @@ pub struct SuspectsCommand {
     /// Put an apostrophe before texts that begin with = + - @, which a spreadsheet would run as formulas
     #[arg(long)]
     guard_formulas: bool,
-    /// Print JSON (docs/json.md describes it)
+    /// Print JSON (docs/json/suspects.md describes it)
     #[arg(long)]
     json: bool,
 }
@@ -55,12 +56,13 @@ impl Subcommand for SuspectsCommand {
         let told: Vec<Told<'_>> = found.iter().map(|suspect| Told::new(suspect, &schemes)).collect();
         if let Some(path) = &self.output {
             let bytes = table(&told, if self.guard_formulas { Guard::On } else { Guard::Off })?;
-            crate::store::save_bytes(path, &bytes)?;
+            let mut outputs = Outputs::new(terminal);
+            outputs.save(path, &bytes, Care::Flushed, terminal)?;
             if manifest::is_file(path) {
                 Manifest::of_table(path, &bytes, told.len())
                     .with_plans(&collected.read)
                     .with_schemes(&schemes, &self.collect.scheme)
-                    .save(path, None)?;
+                    .save(path, None, &mut outputs, terminal)?;
             }
         }
         let most = if self.most == 0 { told.len() } else { self.most.min(told.len()) };

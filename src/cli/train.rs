@@ -154,7 +154,7 @@ impl Subcommand for TrainCommand {
         if let Some(path) = &self.predictions {
             let (rows, mut predictions): (Vec<Row>, Vec<Prediction>) = told_of_rooms.into_iter().unzip();
             predictions.iter_mut().enumerate().for_each(|(index, it)| it.row = index);
-            save_predictions(path, &rows, &predictions, self.guard_formulas, &read)?;
+            save_predictions(path, &rows, &predictions, self.guard_formulas, &read, &mut outputs, terminal)?;
         }
         if !is_file && self.typology.is_none() && parts.len() > 1 {
             if let Ok(model) = TypologyModel::train(&blind.iter().collect::<Vec<_>>()) {

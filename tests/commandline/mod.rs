@@ -46,6 +46,8 @@ const CALLS: &[Call] = &[
     call("classify", "plan.plan.json --algorithm tree --write -o {out}", "plan.plan.json", Output::File("x.plan.json")),
     call("evaluate", "rooms.csv --folds 2 -o {out}", "rooms.csv", Output::Folder),
     call("train", "rooms.csv --algorithm tree --folds 0 --typology standard -o {out}", "rooms.csv", Output::File("x.model.json")),
+    call("suspects", "rooms.csv --folds 2 -o {out}", "rooms.csv", Output::File("suspects.csv")),
+    call("label", "plans --from {fixes} --dry-run", "plans", Output::None),
     call("models", "", "", Output::None),
     call("explore", "plan.plan.json --range 5 -o {out}", "plan.plan.json", Output::Folder),
     call("map", "robot.log -o {out}", "robot.log", Output::Folder),
@@ -93,6 +95,7 @@ impl Workshop {
             rows += &format!("school,b{},0,p{i},r{i},f,{label},{area}.{i},1.{i},{doors},0,0,0,1,0\n", i / 3);
         }
         write("rooms.csv", rows.as_bytes());
+        write("fixes.csv", b"file,id,label\nplans/a/x.plan.json,r000000000001,B\n");
         let mut log = String::new();
         for i in 0..6 {
             let ranges = ["2.0"; 180].join(" ");
@@ -113,6 +116,7 @@ impl Workshop {
     fn words(&self, call: &Call, out: &Path, instead: Option<&str>) -> Vec<String> {
         let word = |word: &str| match word {
             "{out}" => out.display().to_string(),
+            "{fixes}" => self.path("fixes.csv").display().to_string(),
             word if Some(word) == call.reads => self.path(instead.unwrap_or(word)).display().to_string(),
             word => word.to_owned(),
         };

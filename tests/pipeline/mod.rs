@@ -49,8 +49,8 @@ fn held(plan: &Plan) -> Vec<Value> {
 fn printed(path: &Path) -> Vec<Value> {
     let (code, out, err) = enfilade(["classify".as_ref(), path.as_os_str(), "--json".as_ref()]);
     assert_eq!((code, err.as_str()), (0, ""));
-    let plans: Vec<Value> = serde_json::from_str(&out).unwrap();
-    plans[0]["rooms"].as_array().unwrap().clone()
+    let printed: Value = serde_json::from_str(&out).unwrap();
+    printed["plans"][0]["rooms"].as_array().unwrap().clone()
 }
 
 #[expect(clippy::disallowed_methods, reason = "a test's output is no user's file")]
