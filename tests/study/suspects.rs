@@ -45,11 +45,9 @@ fn planted(errors: usize, seed: u64) -> Option<(Collection, Vec<(String, String)
         let label = others[random.below(4)];
         network.rooms[place.room].label = Some(label);
         // A wrong function that goes with the wrong label: nothing but the plan can tell.
-        let of_label = |networks: &[RoomNetwork]| {
-            let rooms = networks.iter().flat_map(|network| &network.rooms);
-            rooms.filter(|room| room.label == Some(label)).map(|room| room.function.clone()).next().unwrap()
-        };
-        network.rooms[place.room].function = of_label(&untouched);
+        let mut rooms = untouched.iter().flat_map(|network| &network.rooms);
+        network.rooms[place.room].function =
+            rooms.find(|room| room.label == Some(label)).map(|room| room.function.clone()).unwrap();
         changed.push((network.file.clone(), network.rooms[place.room].id.to_string()));
     }
     Some((Collection::Plans(networks), changed))

@@ -197,6 +197,11 @@ fn list(ui: &mut Ui, lines: &[(MarkKind, String)]) {
     }
 }
 
+/// The call that closes the dialog: a command, so that it is recorded.
+fn closed() -> Call {
+    Call::new("differences", [Value::Switch(false)])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -215,9 +220,4 @@ mod tests {
         assert_eq!(meta.in_words(&BTreeMap::new()), "what is known of the plan differs");
         assert_eq!(Difference::default().in_words(&BTreeMap::new()), "nothing differs");
     }
-}
-
-/// The call that closes the dialog: a command, so that it is recorded.
-fn closed() -> Call {
-    Call::new("differences", [Value::Switch(false)])
 }
