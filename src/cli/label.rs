@@ -44,6 +44,14 @@ impl Subcommand for LabelCommand {
         let schemes = inputs::schemes(&self.scheme)?;
         let mut table = read_table(&self.from)?;
         let files = batch::inputs(&self.plans);
+        let is_missing = |file: &&Input| file.check().is_err() || !file.path.is_file();
+        let missing: Vec<&Input> = files.iter().filter(is_missing).collect();
+        for error in missing.iter().filter_map(|file| file.read().err()) {
+            writeln!(terminal.err, "enfilade: {error}")?;
+        }
+        if missing.len() == files.len() {
+            return Err(batch::nothing_to_read());
+        }
         let targets = Targets::new(&files);
         let mut by_file: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (index, row) in table.iter_mut().enumerate() {
@@ -54,7 +62,7 @@ impl Subcommand for LabelCommand {
                 }
             }
         }
-        let mut report = Report { dry_run: self.dry_run, ..Report::default() };
+        let mut report = Report { dry_run: self.dry_run, failed: missing.len(), ..Report::default() };
         for (file, rows) in by_file {
             let path = &files[file].path;
             match load_plan(path) {

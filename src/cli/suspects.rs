@@ -71,6 +71,9 @@ impl Subcommand for SuspectsCommand {
             let report = json!({ "version": 1, "rooms_judged": told.len(), "rooms": rooms });
             serde_json::to_writer_pretty(&mut terminal.out, &report)?;
             writeln!(terminal.out)?;
+        } else if self.output.is_some() {
+            terminal
+                .remark(format!("{} judged by classifiers that did not learn from them", count(told.len(), "room")))?;
         } else {
             print(&told, most, terminal)?;
         }

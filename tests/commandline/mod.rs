@@ -46,7 +46,7 @@ const CALLS: &[Call] = &[
     call("classify", "plan.plan.json --algorithm tree --write -o {out}", "plan.plan.json", Output::File("x.plan.json")),
     call("evaluate", "rooms.csv --folds 2 -o {out}", "rooms.csv", Output::Folder),
     call("train", "rooms.csv --algorithm tree --folds 0 --typology standard -o {out}", "rooms.csv", Output::File("x.model.json")),
-    call("suspects", "rooms.csv --folds 2 -o {out}", "rooms.csv", Output::File("suspects.csv")),
+    call("suspects", "labelled --folds 2 -o {out}", "labelled", Output::File("suspects.csv")),
     call("label", "plans --from {fixes} --dry-run", "plans", Output::None),
     call("models", "", "", Output::None),
     call("explore", "plan.plan.json --range 5 -o {out}", "plan.plan.json", Output::Folder),
@@ -88,6 +88,10 @@ impl Workshop {
         write("plan.plan.json", &bytes("plan"));
         write("plans/a/x.plan.json", &bytes("ax"));
         write("plans/b/x.plan.json", &bytes("bx"));
+        for name in ["dwelling", "office", "school"] {
+            let plan = Path::new(env!("CARGO_MANIFEST_DIR")).join("plans").join(format!("{name}.plan.json"));
+            write(&format!("labelled/{name}.plan.json"), &std::fs::read(plan).unwrap());
+        }
         std::fs::create_dir(folder.join("empty")).unwrap();
         let mut rows = String::from("typology,building,storey,plan,room,function,label,a,rt,d,l_S,l_M,l_B,l_C,l_H\n");
         for i in 0..24 {
@@ -95,7 +99,8 @@ impl Workshop {
             rows += &format!("school,b{},0,p{i},r{i},f,{label},{area}.{i},1.{i},{doors},0,0,0,1,0\n", i / 3);
         }
         write("rooms.csv", rows.as_bytes());
-        write("fixes.csv", b"file,id,label\nplans/a/x.plan.json,r000000000001,B\n");
+        let room = small_plan("ax").rooms().next().unwrap().0;
+        write("fixes.csv", format!("file,id,label\nplans/a/x.plan.json,{room},B\n").as_bytes());
         let mut log = String::new();
         for i in 0..6 {
             let ranges = ["2.0"; 180].join(" ");

@@ -222,7 +222,7 @@ fn a_model_says_that_it_learned_from_a_plan() {
     assert!(out.contains(said), "{out}");
     let (_, out, _) = enfilade(["classify", text_of(&moved), "--model", text_of(&model), "--json"]);
     let json: serde_json::Value = serde_json::from_str(&out).unwrap();
-    let learned = &json[0]["learned_from"];
+    let learned = &json["plans"][0]["learned_from"];
     assert!(learned["rooms"].as_u64() >= Some(37), "{learned}");
     let share = learned["out_of_fold_agreement"].as_f64().unwrap();
     assert!((0.2..0.95).contains(&share), "{learned}");
@@ -230,7 +230,7 @@ fn a_model_says_that_it_learned_from_a_plan() {
     let old = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/classify/tree.model.json");
     let (code, out, _) = enfilade(["classify", text_of(&moved), "--model", text_of(&old), "--json"]);
     let json: serde_json::Value = serde_json::from_str(&out).unwrap();
-    assert!(code == 0 && json[0]["learned_from"].is_null(), "{out}");
+    assert!(code == 0 && json["plans"][0]["learned_from"].is_null(), "{out}");
 }
 
 /// Corrections are applied as the table says; lines that are not clear are refused, with their numbers.
