@@ -175,7 +175,7 @@ fn slashed(path: &str) -> String {
 struct Targets {
     /// As named on the command line, or found in a folder that was.
     whole: BTreeMap<String, usize>,
-    /// Below the folder that was named, and by the name alone; `None` where that fits several.
+    /// The path's last names, one or more; `None` where that fits several.
     part: BTreeMap<String, Option<usize>>,
     is_plan_file: Vec<bool>,
 }
@@ -185,16 +185,13 @@ impl Targets {
         let mut targets = Self { whole: BTreeMap::new(), part: BTreeMap::new(), is_plan_file: Vec::new() };
         for (index, input) in files.iter().enumerate() {
             let path = slashed(&input.path.to_string_lossy());
-            let below = input.root.as_ref().and_then(|root| input.path.strip_prefix(root).ok());
-            let below = below.map(|below| slashed(&below.to_string_lossy()));
-            let name = path.rsplit('/').next().unwrap_or_default().to_owned();
             targets.is_plan_file.push(path.ends_with(".plan.json"));
             if targets.whole.contains_key(&path) {
                 continue;
             }
-            let parts: BTreeSet<String> = below.into_iter().chain([name]).filter(|part| *part != path).collect();
-            for part in parts {
-                targets.part.entry(part).and_modify(|file| *file = None).or_insert(Some(index));
+            // The last names of the path, as many as were written: 'office.plan.json', 'plans/office.plan.json'.
+            for (at, _) in path.match_indices('/') {
+                targets.part.entry(path[at + 1..].to_owned()).and_modify(|file| *file = None).or_insert(Some(index));
             }
             targets.whole.insert(path, index);
         }
