@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use egui::Context;
 
-use super::{Argument, ArgumentKind, Ran};
+use super::{Argument, ArgumentKind, Outcome};
 use crate::app::look::keys::Keys;
 use crate::app::state::App;
 use crate::app::value::{Value, Values, Worded};
@@ -213,7 +213,7 @@ impl<T> Arg<T> {
 
 /// What a command does with its arguments.
 pub(super) trait Run: Sync {
-    fn run(&self, app: &mut App, values: &Values, context: &Context) -> Ran;
+    fn run(&self, app: &mut App, values: &Values, context: &Context) -> Outcome;
 }
 
 /// The arguments, how to get each, and the function to run.
@@ -230,16 +230,16 @@ macro_rules! given {
     ($($name:ident $n:literal: $($a:ident $T:ident),*;)*) => {$(
         pub(super) const fn $name<$($T),*>(
             $($a: Arg<$T>,)*
-            run: fn(&mut App, $($T,)* &Context) -> Ran,
-        ) -> Given<$n, ($(Get<$T>,)*), fn(&mut App, $($T,)* &Context) -> Ran> {
+            run: fn(&mut App, $($T,)* &Context) -> Outcome,
+        ) -> Given<$n, ($(Get<$T>,)*), fn(&mut App, $($T,)* &Context) -> Outcome> {
             Given { arguments: [$($a.argument),*], get: ($($a.get,)*), run }
         }
 
-        impl<$($T),*> Run for Given<$n, ($(Get<$T>,)*), fn(&mut App, $($T,)* &Context) -> Ran> {
-            fn run(&self, app: &mut App, values: &Values, context: &Context) -> Ran {
+        impl<$($T),*> Run for Given<$n, ($(Get<$T>,)*), fn(&mut App, $($T,)* &Context) -> Outcome> {
+            fn run(&self, app: &mut App, values: &Values, context: &Context) -> Outcome {
                 let ($($a,)*) = self.get;
                 let mut values = values.0.iter();
-                let ($(Some($a),)*) = ($($a(values.next()),)*) else { return Ran::Refused(MISFIT.to_owned()) };
+                let ($(Some($a),)*) = ($($a(values.next()),)*) else { return Outcome::Refused(MISFIT.to_owned()) };
                 (self.run)(app, $($a,)* context)
             }
         }
@@ -256,12 +256,12 @@ given! {
 }
 
 /// A command without arguments.
-pub(super) const fn given0(run: fn(&mut App, &Context) -> Ran) -> Given<0, (), fn(&mut App, &Context) -> Ran> {
+pub(super) const fn given0(run: fn(&mut App, &Context) -> Outcome) -> Given<0, (), fn(&mut App, &Context) -> Outcome> {
     Given { arguments: [], get: (), run }
 }
 
-impl Run for Given<0, (), fn(&mut App, &Context) -> Ran> {
-    fn run(&self, app: &mut App, _: &Values, context: &Context) -> Ran {
+impl Run for Given<0, (), fn(&mut App, &Context) -> Outcome> {
+    fn run(&self, app: &mut App, _: &Values, context: &Context) -> Outcome {
         (self.run)(app, context)
     }
 }

@@ -84,7 +84,7 @@ enum Action {
 
 /// The outcome of a command.
 #[derive(Clone, Debug, PartialEq, Eq)]
-enum Ran {
+enum Outcome {
     Done,
     /// It was done, and repeating it with these arguments does the same.
     DoneWith(Vec<String>),

@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 
 use egui::Context;
 
-use super::{Action, COMMANDS, Command, Ran, find};
+use super::{Action, COMMANDS, Command, Outcome, find};
 use crate::app::look::keys::Keys;
 use crate::app::session::{
     messages::Severity,
@@ -189,10 +189,10 @@ impl App {
                 self.session.note_executed(command.id, vec![switch_word(wanted).to_owned()]);
             }
             Action::With { run, .. } if is_complete => match run.run(self, &values, context) {
-                Ran::Done => self.session.note_executed(command.id, written),
-                Ran::DoneWith(arguments) => self.session.note_executed(command.id, arguments),
-                Ran::Asks => {}
-                Ran::Refused(reason) => return Err(reason),
+                Outcome::Done => self.session.note_executed(command.id, written),
+                Outcome::DoneWith(arguments) => self.session.note_executed(command.id, arguments),
+                Outcome::Asks => {}
+                Outcome::Refused(reason) => return Err(reason),
             },
             Action::With { ask: Some(ask), .. } => ask(self, context),
             Action::With { ask: None, .. } => self.ask_for_argument(Asked { given: written, ..Asked::of(command.id) }),
@@ -248,17 +248,17 @@ impl App {
         self.session.settings.keys_of(command.id).first().map(|keys| keys.text(context)).unwrap_or_default()
     }
 
-    pub(super) fn set_shortcut(&mut self, id: &'static str, keys: Option<Keys>) -> Ran {
+    pub(super) fn set_shortcut(&mut self, id: &'static str, keys: Option<Keys>) -> Outcome {
         match self.session.settings.set_keys(id, keys) {
             Ok(()) => self.keep_settings(),
-            Err(refused) => Ran::Refused(refused.reason(&keys.map(|keys| keys.to_string()).unwrap_or_default())),
+            Err(refused) => Outcome::Refused(refused.reason(&keys.map(|keys| keys.to_string()).unwrap_or_default())),
         }
     }
 
-    pub(super) fn reset_shortcut(&mut self, id: &'static str) -> Ran {
+    pub(super) fn reset_shortcut(&mut self, id: &'static str) -> Outcome {
         match self.session.settings.reset_keys(id) {
             Ok(()) => self.keep_settings(),
-            Err((keys, refused)) => Ran::Refused(refused.reason(&keys.to_string())),
+            Err((keys, refused)) => Outcome::Refused(refused.reason(&keys.to_string())),
         }
     }
 
@@ -278,10 +278,10 @@ impl App {
         self.keep_settings();
     }
 
-    fn keep_settings(&mut self) -> Ran {
+    fn keep_settings(&mut self) -> Outcome {
         if let Err(problem) = self.session.settings.write() {
             self.session.add_message(problem);
         }
-        Ran::Done
+        Outcome::Done
     }
 }

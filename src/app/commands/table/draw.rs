@@ -12,10 +12,10 @@ const PLACE: Arg<Point> = needed("PLACE", POINT, "a point in metres, as '2,1.5'"
 const THICKNESS: Arg<Option<f64>> = optional("THICKNESS", length(0.0, 10.0), "of walls; what is set without");
 
 /// Applies an edit; if the edit is refused, so is the command.
-pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) -> Ran {
+pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) -> Outcome {
     match app.session.try_edit(title, change) {
-        Ok(()) => Ran::Done,
-        Err(error) => Ran::Refused(error.to_string()),
+        Ok(()) => Outcome::Done,
+        Err(error) => Outcome::Refused(error.to_string()),
     }
 }
 
@@ -32,8 +32,8 @@ pub(super) const COMMANDS: &[Command] = &[
                 filled = all.rooms.len();
                 Ok(all.plan)
             });
-            if filled == 0 && ran == Ran::Done {
-                return Ran::Refused("walls enclose nothing that has no room yet".to_owned());
+            if filled == 0 && ran == Outcome::Done {
+                return Outcome::Refused("walls enclose nothing that has no room yet".to_owned());
             }
             app.session.status = format!("Made {}", crate::base::wording::count(filled, "room"));
             ran
@@ -98,7 +98,7 @@ pub(super) const COMMANDS: &[Command] = &[
         always,
         &given1(needed("THICKNESS", length(0.0, 10.0), "of new walls"), |app, thickness_m, _| {
             app.tools.options.thickness_m = thickness_m;
-            Ran::Done
+            Outcome::Done
         }),
         None,
     )
@@ -110,7 +110,7 @@ pub(super) const COMMANDS: &[Command] = &[
         always,
         &given1(needed("WIDTH", length(0.1, 100.0), "of new openings"), |app, width_m, _| {
             app.tools.options.opening_width_m = width_m;
-            Ran::Done
+            Outcome::Done
         }),
         None,
     )
@@ -124,7 +124,7 @@ pub(super) const COMMANDS: &[Command] = &[
             needed("TOLERANCE", length(0.0005, 10.0), "how far a chord may be from its arc"),
             |app, tolerance_m, _| {
                 app.tools.options.arc_tolerance_m = tolerance_m;
-                Ran::Done
+                Outcome::Done
             },
         ),
         None,

@@ -8,7 +8,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Undo",
         "Take the last change back; while something is drawn, its last corner",
         can_undo, // A corner in the making is no change of the plan.
-        &given0(|app, _| if app.undo() { Ran::Done } else { Ran::Asks }),
+        &given0(|app, _| if app.undo() { Outcome::Done } else { Outcome::Asks }),
         None,
     )
     .keys(&[ctrl(Key::Z)])
@@ -25,8 +25,8 @@ pub(super) const COMMANDS: &[Command] = &[
         has_plan,
         &given1(needed("STEP", COUNT, "which step of the history, the plan as it came being 1"), |app, step, _| {
             match app.session.jump_to_step(step - 1) {
-                Ok(()) => Ran::Done,
-                Err(reason) => Ran::Refused(reason),
+                Ok(()) => Outcome::Done,
+                Err(reason) => Outcome::Refused(reason),
             }
         }),
         Some(|app, _| app.panels.set_shown(panels::HISTORY, true)),
@@ -44,7 +44,7 @@ pub(super) const COMMANDS: &[Command] = &[
         has_plan,
         &given1(needed("NAME", TEXT, "the plan's name"), |app, name, _| {
             app.session.change_meta("Rename plan", |meta| meta.name = name);
-            Ran::Done
+            Outcome::Done
         }),
         Some(|app, _| {
             let text = app.plan().map(|plan| plan.meta().name.clone()).unwrap_or_default();
@@ -59,7 +59,7 @@ pub(super) const COMMANDS: &[Command] = &[
         has_plan,
         &given1(needed("TYPOLOGY", TYPOLOGY, "a typology with a label scheme, or 'unknown'"), |app, typology, _| {
             app.session.change_meta("Set typology", |meta| meta.typology = typology);
-            Ran::Done
+            Outcome::Done
         }),
         None,
     )

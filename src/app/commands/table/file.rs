@@ -19,10 +19,10 @@ pub(super) const COMMANDS: &[Command] = &[
             optional("KEEP", one_of::<Keep>(), "what rooms keep: functions (without), all or outlines"),
             |app, storey, keep, _| {
                 if storey.is_empty() {
-                    return Ran::Refused("the new storey needs a name".to_owned());
+                    return Outcome::Refused("the new storey needs a name".to_owned());
                 }
                 app.session.copy_storey(&storey, keep.unwrap_or(Keep::Functions));
-                Ran::Done
+                Outcome::Done
             },
         ),
         None,
@@ -39,7 +39,7 @@ pub(super) const COMMANDS: &[Command] = &[
             |app, path, storey, _| {
                 let storey = storey.map_or(0, |storey| storey - 1);
                 app.session.open(Origin::File { path, storey });
-                Ran::Done
+                Outcome::Done
             },
         ),
         Some(|app, _| app.session.choose_plan()),
@@ -53,7 +53,7 @@ pub(super) const COMMANDS: &[Command] = &[
         always,
         &given1(needed("SAMPLE", SAMPLE, "the sample's file name without the ending"), |app, Sample(sample), _| {
             app.session.open(Origin::Bundled(sample));
-            Ran::Done
+            Outcome::Done
         }),
         None,
     )
@@ -63,7 +63,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Save",
         "Save the plan in its file",
         has_plan,
-        &given0(|app, _| if app.session.save(None) { Ran::Done } else { Ran::Asks }),
+        &given0(|app, _| if app.session.save(None) { Outcome::Done } else { Outcome::Asks }),
         None,
     )
     .keys(&[ctrl(Key::S)])
@@ -77,7 +77,7 @@ pub(super) const COMMANDS: &[Command] = &[
             needed("PATH", NEW_PLAN_FILE, "the file, which is replaced if it exists; '.plan.json' is added"),
             |app, path, _| {
                 app.session.save_in(path, None);
-                Ran::Done
+                Outcome::Done
             },
         ),
         Some(|app, _| app.session.ask_where_to_save(None, None)),
@@ -99,7 +99,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Open what was not saved when Enfilade was ended; nothing is written until it is saved",
         can_recover,
         &given1(needed("NUMBER", COUNT, "which, from the top"), |app, number, _| {
-            app.session.recover(number).map_or_else(Ran::Refused, |()| Ran::Done)
+            app.session.recover(number).map_or_else(Outcome::Refused, |()| Outcome::Done)
         }),
         None,
     ),
@@ -109,7 +109,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Give up what was not saved when Enfilade was ended, after asking once more",
         has_leftovers,
         &given1(needed("NUMBER", COUNT, "which, from the top"), |app, number, _| {
-            app.session.ask_to_discard(number).map_or_else(Ran::Refused, |()| Ran::Done)
+            app.session.ask_to_discard(number).map_or_else(Outcome::Refused, |()| Outcome::Done)
         }),
         None,
     ),

@@ -10,7 +10,7 @@ pub(super) const COMMANDS: &[Command] = &[
         always,
         &given0(|app, _| {
             app.open_dialog(dialogs::PALETTE);
-            Ran::Asks
+            Outcome::Asks
         }),
         None,
     )
@@ -23,7 +23,7 @@ pub(super) const COMMANDS: &[Command] = &[
         always,
         &given0(|app, _| {
             app.open_dialog(dialogs::SHORTCUTS);
-            Ran::Asks
+            Outcome::Asks
         }),
         None,
     )
@@ -84,7 +84,7 @@ pub(super) const COMMANDS: &[Command] = &[
         always,
         &given0(|app, _| {
             app.open_dialog(dialogs::ABOUT);
-            Ran::Asks
+            Outcome::Asks
         }),
         None,
     )

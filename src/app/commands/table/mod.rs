@@ -17,7 +17,7 @@ use std::sync::LazyLock;
 use egui::{Context, Key, KeyboardShortcut, Modifiers};
 
 use super::given::*;
-use super::{Action, Argument, Availability, Command, Menu, Ran};
+use super::{Action, Argument, Availability, Command, Menu, Outcome};
 use crate::app::look::{icons::Icon, theme::ThemeChoice};
 use crate::app::session::{fields::FieldKind, questions::Intent, selection::SelectMode, settings::GRID_RANGE_M};
 use crate::app::state::{App, Asked, Purpose, dialogs, panels};

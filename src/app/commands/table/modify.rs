@@ -35,7 +35,7 @@ pub(super) const COMMANDS: &[Command] = &[
             needed("LABEL", one_of::<Wanted>(), "small, medium, big, corridor, hall or none"),
             MODE,
             |app, Wanted(wanted), mode, _| {
-                let Some(plan) = app.plan() else { return Ran::Done };
+                let Some(plan) = app.plan() else { return Outcome::Done };
                 let found: Vec<ElementId> = plan
                     .rooms()
                     .filter(|(_, room)| is_labelled(RoomStatus::of(plan, &app.session.schemes, room), wanted))
@@ -54,7 +54,7 @@ pub(super) const COMMANDS: &[Command] = &[
         has_rooms,
         &given2(needed("FUNCTION", FUNCTION, "what the rooms are for"), MODE, |app, function, mode, _| {
             let wanted = normalised_function(&function);
-            let Some(plan) = app.plan() else { return Ran::Done };
+            let Some(plan) = app.plan() else { return Outcome::Done };
             let found: Vec<ElementId> = plan
                 .rooms()
                 .filter(|(_, room)| normalised_function(&room.function) == wanted)
@@ -92,7 +92,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Keep what is selected, to paste it, and delete it here",
         has_picked,
         &given0(|app, context| match app.copy_selected(context) {
-            Ran::Done => app.delete_selected(),
+            Outcome::Done => app.delete_selected(),
             other => other,
         }),
         None,
@@ -111,7 +111,7 @@ pub(super) const COMMANDS: &[Command] = &[
         has_picked,
         &given0(|app, context| {
             let ran = app.copy_selected(context);
-            if ran == Ran::Done {
+            if ran == Outcome::Done {
                 app.tools.take_up(tools::PASTE.id);
             }
             ran
@@ -162,7 +162,7 @@ pub(super) const COMMANDS: &[Command] = &[
             };
             match Transform::reflection(about, about + way) {
                 Some(transform) => moved(app, "Mirror", transform),
-                None => Ran::Done,
+                None => Outcome::Done,
             }
         }),
         None,
@@ -295,7 +295,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &given1(needed("THICKNESS", length(0.0, 10.0), "how thick"), |app, thickness_m, _| {
             let walls: Vec<_> = app.session.selection.walls().collect();
             if walls.is_empty() {
-                return Ran::Refused("select a wall first".to_owned());
+                return Outcome::Refused("select a wall first".to_owned());
             }
             edited(app, "Set thickness", |plan| edit::set_thickness(plan, &walls, thickness_m))
         }),
@@ -310,7 +310,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &given0(|app, _| {
             let rooms: Vec<RoomId> = app.session.selection.rooms().collect();
             if rooms.len() < 2 {
-                return Ran::Refused("select two rooms or more first".to_owned());
+                return Outcome::Refused("select two rooms or more first".to_owned());
             }
             edited(app, "Merge rooms", |plan| edit::merge_rooms(plan, &rooms))
         }),
@@ -364,7 +364,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &given1(needed("WIDTH", length(0.01, 1000.0), "how wide"), |app, width_m, _| {
             let ran = app.change_openings("Set width", |plan, id, _| edit::resize_opening(plan, id, width_m));
             let openings: Vec<OpeningId> = app.session.selection.openings().collect();
-            if ran == Ran::Done {
+            if ran == Outcome::Done {
                 app.say_narrower(width_m, &openings);
             }
             ran
@@ -414,7 +414,7 @@ pub(super) const COMMANDS: &[Command] = &[
                 let touches = boxed == Some(Boxed::Touching);
                 let found = app.elements_in(bounds, touches);
                 app.session.select(found, mode.unwrap_or(SelectMode::Replace));
-                Ran::Done
+                Outcome::Done
             },
         ),
         None,
@@ -468,7 +468,7 @@ pub(super) const COMMANDS: &[Command] = &[
             needed("TO", POINT, "where to, in metres"),
             |app, elements, to, _| {
                 let Some(ElementId::Corner(corner)) = elements.first().copied() else {
-                    return Ran::Refused("this is no corner".to_owned());
+                    return Outcome::Refused("this is no corner".to_owned());
                 };
                 edited(app, "Move corner", |plan| {
                     edit::settle(&edit::move_corners(plan, &[(corner, to)])?, &BTreeSet::from([corner]))

@@ -62,21 +62,21 @@ fn page_number(page: usize) -> u32 {
     u32::try_from(page).unwrap_or(u32::MAX)
 }
 
-fn done(result: Result<(), String>) -> Ran {
-    result.map_or_else(Ran::Refused, |()| Ran::Done)
+fn done(result: Result<(), String>) -> Outcome {
+    result.map_or_else(Outcome::Refused, |()| Outcome::Done)
 }
 
 pub(super) const COMMANDS: &[Command] = &[
     with("picture", "Add picture…", "Lay a picture under the plan, or under a new one, to trace over: PNG, JPEG, TIFF, WebP, BMP, GIF or a page of a \
          PDF or TIFF", always, &given2(needed("PATH", PICTURE_FILE, "the picture's file"), PAGE, |app, path, page, _| {
             app.session.use_picture(PictureUse::Add, path, page.map_or(1, page_number));
-            Ran::Done
+            Outcome::Done
         }), Some(|app, _| app.session.choose_picture(PictureUse::Add)))
     .menu(Menu::Picture, 0),
     with("relink-picture", "Relink picture…", "Say where the picture under the plan is now; its place and scale stay", has_backdrop, &given1(needed("PATH", PICTURE_FILE, "the picture's file"), |app, path, _| {
             let page = app.plan().and_then(crate::plan::Plan::backdrop).map_or(1, |backdrop| backdrop.page);
             app.session.use_picture(PictureUse::Relink, path, page);
-            Ran::Done
+            Outcome::Done
         }), Some(|app, _| app.session.choose_picture(PictureUse::Relink)))
     .menu(Menu::Picture, 0),
     with(
@@ -87,10 +87,10 @@ pub(super) const COMMANDS: &[Command] = &[
         &given1(needed("PAGE", COUNT, "from 1"), |app, page, _| {
             let page = page_number(page);
             if page > app.session.backdrop.pages() {
-                return Ran::Refused(format!("it has {} pages", app.session.backdrop.pages()));
+                return Outcome::Refused(format!("it has {} pages", app.session.backdrop.pages()));
             }
             app.session.change_backdrop("Show page", |backdrop| backdrop.page = page);
-            Ran::Done
+            Outcome::Done
         }),
         None,
     )
@@ -120,7 +120,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &given2(optional("WIDTH", LENGTH, "its true width"), DRAWING,
         |app, width_m, drawing, _| {
             let width_m = width_m.unwrap_or(DEFAULT_DOOR_WIDTH_M);
-            let Some(opening) = selected_opening(app) else { return Ran::Done };
+            let Some(opening) = selected_opening(app) else { return Outcome::Done };
             done(app.session.measure_opening(opening, width_m, drawing))
         }),
         None,
@@ -145,12 +145,12 @@ pub(super) const COMMANDS: &[Command] = &[
                 "counter-clockwise, in degrees",
             ), DRAWING, |app, angle, drawing, _| {
             app.session.turn_picture(angle, drawing);
-            Ran::Done
+            Outcome::Done
         }), None)
     .menu(Menu::Picture, 2),
     with("move-picture", "Move picture…", "Move the picture under the plan; what is drawn stays", has_backdrop, &given2(way("DX", "how far to the right"), way("DY", "how far up"), |app, dx, dy, _| {
             app.session.move_picture(Vector::new(dx, dy));
-            Ran::Done
+            Outcome::Done
         }), None)
     .menu(Menu::Picture, 2),
     with("picture-opacity", "Opacity…", "Say how strongly the picture is seen", has_backdrop, &given1(needed(
@@ -160,7 +160,7 @@ pub(super) const COMMANDS: &[Command] = &[
         ), |app, percent, _| {
             let opacity = percent / 100.0;
             app.session.change_backdrop("Set opacity", |backdrop| backdrop.opacity = opacity);
-            Ran::Done
+            Outcome::Done
         }), None)
     .menu(Menu::Picture, 3),
     command("picture-fainter", "Fainter", "Show the picture less strongly", has_backdrop, |app, _| {

@@ -12,7 +12,7 @@ pub(super) const COMMANDS: &[Command] = &[
             needed("MODELS", MODEL_SET, "'plan', 'auto' (inferred), a typology, 'standard', or a model's name"),
             |app, set, _| {
                 app.session.predictor.set = set;
-                Ran::Done
+                Outcome::Done
             },
         ),
         None,
@@ -27,7 +27,7 @@ pub(super) const COMMANDS: &[Command] = &[
             needed("ALGORITHM", METHOD, "an algorithm, or 'joint' for all rooms of the plan together"),
             |app, method, _| {
                 app.session.predictor.method = method;
-                Ran::Done
+                Outcome::Done
             },
         ),
         None,

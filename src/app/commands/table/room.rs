@@ -24,18 +24,18 @@ where
     with(id, title, help, has_target, given, None).when_complete(has_rooms).shown_on(is_on).menu(Menu::Room, 2)
 }
 
-fn label_target(app: &mut App, room: Option<RoomId>, label: Option<Label>) -> Ran {
+fn label_target(app: &mut App, room: Option<RoomId>, label: Option<Label>) -> Outcome {
     on_target(app, room, &[], |app, target| app.session.label_rooms(target, label))
 }
 
 /// Acts on the rooms a command applies to; a recording names a room that was just under the pointer.
-fn on_target(app: &mut App, named: Option<RoomId>, given: &[&str], act: impl FnOnce(&mut App, &Target)) -> Ran {
+fn on_target(app: &mut App, named: Option<RoomId>, given: &[&str], act: impl FnOnce(&mut App, &Target)) -> Outcome {
     let Some((plan, target)) = app.plan().zip(app.session.target(named)) else {
-        return Ran::Refused("pick a room first, or point at one".to_owned());
+        return Outcome::Refused("pick a room first, or point at one".to_owned());
     };
     let words = given.iter().map(|word| (*word).to_owned()).chain(target.word(plan)).collect();
     act(app, &target);
-    Ran::DoneWith(words)
+    Outcome::DoneWith(words)
 }
 
 pub(super) const COMMANDS: &[Command] = &[
@@ -47,7 +47,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &given1(ROOM, |app, room, _| {
             app.session.pick(Some(ElementId::Room(room)));
             app.canvas.reveal(ElementId::Room(room));
-            Ran::Done
+            Outcome::Done
         }),
         None,
     )
@@ -60,7 +60,7 @@ pub(super) const COMMANDS: &[Command] = &[
         has_room,
         &given1(needed("NAME", TEXT, "the room's name"), |app, name, _| {
             app.session.write_field(FieldKind::Name, &name);
-            Ran::Done
+            Outcome::Done
         }),
         Some(|app, _| app.ask_for_field(FieldKind::Name)),
     )
@@ -96,7 +96,7 @@ pub(super) const COMMANDS: &[Command] = &[
         has_room,
         &given1(needed("TEXT", TEXT, "the note"), |app, note, _| {
             app.session.write_field(FieldKind::Note, &note);
-            Ran::Done
+            Outcome::Done
         }),
         Some(|app, _| app.ask_for_field(FieldKind::Note)),
     )
@@ -120,8 +120,8 @@ pub(super) const COMMANDS: &[Command] = &[
                 let order = order.unwrap_or(Order::Rows);
                 let start = start.and_then(|start| u32::try_from(start).ok()).unwrap_or(1);
                 match which.and_then(|which| app.session.name_rooms(&pattern, &which, order, start)) {
-                    Ok(()) => Ran::Done,
-                    Err(reason) => Ran::Refused(reason),
+                    Ok(()) => Outcome::Done,
+                    Err(reason) => Outcome::Refused(reason),
                 }
             },
         ),
@@ -140,10 +140,10 @@ pub(super) const COMMANDS: &[Command] = &[
             |app, points, _| {
                 let which = Which::Along(points);
                 if app.session.rooms_of(&which).is_empty() {
-                    return Ran::Refused("the line goes through no room".to_owned());
+                    return Outcome::Refused("the line goes through no room".to_owned());
                 }
                 app.open_dialog_for(dialogs::BULK, Purpose::NameRooms(which));
-                Ran::Asks
+                Outcome::Asks
             },
         ),
         None,
@@ -161,8 +161,8 @@ pub(super) const COMMANDS: &[Command] = &[
                 let which = Which::of_word(&which);
                 let change = Change::of_word(&change);
                 match which.and_then(|which| app.session.change_rooms(&which, &change?)) {
-                    Ok(()) => Ran::Done,
-                    Err(reason) => Ran::Refused(reason),
+                    Ok(()) => Outcome::Done,
+                    Err(reason) => Outcome::Refused(reason),
                 }
             },
         ),

@@ -10,7 +10,7 @@ pub(super) const COMMANDS: &[Command] = &[
         has_rooms,
         &given1(ROOM, |app, room, _| {
             app.session.pick(Some(ElementId::Room(room)));
-            Ran::Done
+            Outcome::Done
         }),
         None,
     ),
@@ -24,7 +24,7 @@ pub(super) const COMMANDS: &[Command] = &[
             optional("MODE", one_of::<SelectMode>(), "replace (without), add or toggle"),
             |app, elements, mode, _| {
                 app.session.select(elements, mode.unwrap_or(SelectMode::Replace));
-                Ran::Done
+                Outcome::Done
             },
         ),
         None,
@@ -43,7 +43,7 @@ pub(super) const COMMANDS: &[Command] = &[
                 if is_shown == Some(true) {
                     app.canvas.reveal(picked);
                 }
-                Ran::Done
+                Outcome::Done
             },
         ),
         None,
@@ -60,7 +60,7 @@ pub(super) const COMMANDS: &[Command] = &[
                 Direction::Up => Vector::new(0.0, 1.0),
                 Direction::Down => Vector::new(0.0, -1.0),
             });
-            Ran::Done
+            Outcome::Done
         }),
         None,
     ),
@@ -72,7 +72,7 @@ pub(super) const COMMANDS: &[Command] = &[
         &given4(X, Y, WIDTH, HEIGHT, |app, x, y, width, height, _| {
             let corner = Point::new(x, y);
             app.canvas.zoom_to(Bounds::of([corner, corner + Vector::new(width, height)]));
-            Ran::Done
+            Outcome::Done
         }),
         None,
     ),
@@ -83,7 +83,7 @@ pub(super) const COMMANDS: &[Command] = &[
         has_plan,
         &given3(X, Y, SCALE, |app, x, y, scale, _| {
             app.canvas.look_at(Point::new(x, y), scale);
-            Ran::Done
+            Outcome::Done
         }),
         None,
     ),
@@ -96,10 +96,10 @@ pub(super) const COMMANDS: &[Command] = &[
             let newest = app.session.messages.len();
             let number = number.unwrap_or(newest);
             if number > newest {
-                return Ran::Refused(format!("there are {newest} messages"));
+                return Outcome::Refused(format!("there are {newest} messages"));
             }
             app.session.messages.remove(number - 1);
-            Ran::Done
+            Outcome::Done
         }),
         None,
     ),
@@ -112,7 +112,7 @@ pub(super) const COMMANDS: &[Command] = &[
             needed("ANSWER", ANSWER, "the button: save, discard, replace, elsewhere, delete or cancel"),
             optional("PATH", NEW_PLAN_FILE, "the file to save in, where a dialog would ask for it"),
             |app, word, path, _| {
-                if app.session.answer(word, path) { Ran::Done } else { Ran::Asks }
+                if app.session.answer(word, path) { Outcome::Done } else { Outcome::Asks }
             },
         ),
         None,

@@ -21,15 +21,15 @@ fn has_guides(app: &App) -> Availability {
 
 impl App {
     /// Changes guides, and shows them.
-    fn change_guides(&mut self, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) -> Ran {
-        let Some(plan) = self.plan() else { return Ran::Done };
+    fn change_guides(&mut self, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) -> Outcome {
+        let Some(plan) = self.plan() else { return Outcome::Done };
         match change(plan) {
             Ok(plan) => {
                 self.session.layers.guides = true;
                 self.session.edit(title, |_| Ok(plan));
-                Ran::Done
+                Outcome::Done
             }
-            Err(error) => Ran::Refused(error.0),
+            Err(error) => Outcome::Refused(error.0),
         }
     }
 }
@@ -190,7 +190,7 @@ pub(super) const COMMANDS: &[Command] = &[
             ),
             |app, path, storey, _| {
                 app.session.read_ghost(path, storey.map(|storey| storey - 1));
-                Ran::Done
+                Outcome::Done
             },
         ),
         Some(|app, _| {
@@ -259,18 +259,18 @@ pub(super) const COMMANDS: &[Command] = &[
         &given1(needed("SPACING", TEXT, "a length, or 'auto'"), |app, text, _| {
             if text == AUTO {
                 app.set_grid_m(None);
-                return Ran::DoneWith(vec![AUTO.to_owned()]);
+                return Outcome::DoneWith(vec![AUTO.to_owned()]);
             }
             match app.units().parse_length(&text).map(trim_m) {
                 Ok(grid_m) if GRID_RANGE_M.contains(&grid_m) => {
                     app.set_grid_m(Some(grid_m));
-                    Ran::DoneWith(vec![format!("{grid_m}m")])
+                    Outcome::DoneWith(vec![format!("{grid_m}m")])
                 }
                 Ok(_) => {
                     let [least, most] = [GRID_RANGE_M.start(), GRID_RANGE_M.end()].map(|end| app.units().length(*end));
-                    Ran::Refused(format!("the grid's lines are {least} to {most} apart"))
+                    Outcome::Refused(format!("the grid's lines are {least} to {most} apart"))
                 }
-                Err(error) => Ran::Refused(error.to_string()),
+                Err(error) => Outcome::Refused(error.to_string()),
             }
         }),
         Some(|app, _| {
@@ -340,7 +340,7 @@ pub(super) const COMMANDS: &[Command] = &[
             |app, SidePanelId(id), is_on, _| {
                 let is_on = is_on.unwrap_or(!app.panels.is_shown(id));
                 app.panels.set_shown(id, is_on);
-                Ran::DoneWith(vec![id.to_owned(), switch_word(is_on).to_owned()])
+                Outcome::DoneWith(vec![id.to_owned(), switch_word(is_on).to_owned()])
             },
         ),
         None,

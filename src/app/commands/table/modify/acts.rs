@@ -53,7 +53,7 @@ impl Worded for Wanted {
 pub(super) const NO_GAPS: &str = "there is no gap of 30 to 150 cm between collinear walls";
 
 /// Moves the selection.
-pub(super) fn moved(app: &mut App, title: &str, transform: Transform) -> Ran {
+pub(super) fn moved(app: &mut App, title: &str, transform: Transform) -> Outcome {
     let selected = app.session.selection.elements().clone();
     edited(app, title, |plan| {
         let next = edit::move_elements(plan, &selected, transform)?;
@@ -63,7 +63,7 @@ pub(super) fn moved(app: &mut App, title: &str, transform: Transform) -> Ran {
 }
 
 /// Copies the selection and selects the copies.
-pub(super) fn copied(app: &mut App, array: Array) -> Ran {
+pub(super) fn copied(app: &mut App, array: Array) -> Outcome {
     let selected = app.session.selection.elements().clone();
     let mut made = BTreeSet::new();
     let ran = edited(app, "Array", |plan| {
@@ -103,13 +103,13 @@ pub(super) fn is_labelled(status: RoomStatus, wanted: Option<Label>) -> bool {
 }
 
 /// Selects the search results.
-pub(super) fn select_found(app: &mut App, found: Vec<ElementId>, mode: Option<SelectMode>) -> Ran {
+pub(super) fn select_found(app: &mut App, found: Vec<ElementId>, mode: Option<SelectMode>) -> Outcome {
     if found.is_empty() {
-        return Ran::Refused("there is no such room".to_owned());
+        return Outcome::Refused("there is no such room".to_owned());
     }
     app.session.status = format!("Found {}", crate::base::wording::count(found.len(), "room"));
     app.session.select(found, mode.unwrap_or(SelectMode::Replace));
-    Ran::Done
+    Outcome::Done
 }
 
 pub(super) fn has_drawing(app: &App) -> Availability {
@@ -154,8 +154,8 @@ impl App {
     }
 
     /// Reports why an action was refused, when there is no command to do so.
-    pub(super) fn report(&mut self, act: impl FnOnce(&mut Self) -> Ran) {
-        if let Ran::Refused(reason) = act(self) {
+    pub(super) fn report(&mut self, act: impl FnOnce(&mut Self) -> Outcome) {
+        if let Outcome::Refused(reason) = act(self) {
             self.session.status = reason;
         }
     }
@@ -170,17 +170,17 @@ impl App {
     }
 
     /// Copies the selection, here and to the system's clipboard.
-    pub(super) fn copy_selected(&mut self, context: &Context) -> Ran {
-        let Some(plan) = self.plan() else { return Ran::Done };
+    pub(super) fn copy_selected(&mut self, context: &Context) -> Outcome {
+        let Some(plan) = self.plan() else { return Outcome::Done };
         match edit::fragment(plan, self.session.selection.elements()) {
             Ok(fragment) => {
                 let text = String::from_utf8_lossy(&crate::formats::plan_json::to_bytes(&fragment)).into_owned();
                 context.copy_text(text);
                 self.session.status = format!("Copied {} elements", self.session.selection.len());
                 self.session.copied = Some(fragment);
-                Ran::Done
+                Outcome::Done
             }
-            Err(error) => Ran::Refused(error.to_string()),
+            Err(error) => Outcome::Refused(error.to_string()),
         }
     }
 
@@ -193,8 +193,8 @@ impl App {
         }
     }
 
-    pub(super) fn paste_at(&mut self, at: Point) -> Ran {
-        let Some(fragment) = self.session.copied.clone() else { return Ran::Done };
+    pub(super) fn paste_at(&mut self, at: Point) -> Outcome {
+        let Some(fragment) = self.session.copied.clone() else { return Outcome::Done };
         let by = at - fragment.bounds().center();
         let mut made = BTreeSet::new();
         let ran = edited(self, "Paste", |plan| {
@@ -207,12 +207,12 @@ impl App {
     }
 
     /// Shows which corners would be welded, and asks.
-    pub(super) fn ask_to_weld(&mut self, tolerance_m: f64) -> Ran {
-        let Some(plan) = self.plan() else { return Ran::Done };
+    pub(super) fn ask_to_weld(&mut self, tolerance_m: f64) -> Outcome {
+        let Some(plan) = self.plan() else { return Outcome::Done };
         match edit::weld(plan, tolerance_m) {
-            Err(error) => Ran::Refused(error.to_string()),
+            Err(error) => Outcome::Refused(error.to_string()),
             Ok(weld) if weld.is_empty() => {
-                Ran::Refused(format!("no corners are within {}", self.units().length(tolerance_m)))
+                Outcome::Refused(format!("no corners are within {}", self.units().length(tolerance_m)))
             }
             Ok(weld) => {
                 let place = |id| plan.position(id).unwrap_or_default();
@@ -227,33 +227,33 @@ impl App {
                 );
                 let answer = ("weld", "Weld");
                 self.session.ask(Question::change("Weld these corners?", text, answer, "Weld", weld.plan, marks));
-                Ran::Asks
+                Outcome::Asks
             }
         }
     }
 
     /// Shows the gaps in walls, and asks.
-    pub(super) fn ask_to_bridge(&mut self) -> Ran {
-        let Some(plan) = self.plan() else { return Ran::Done };
+    pub(super) fn ask_to_bridge(&mut self) -> Outcome {
+        let Some(plan) = self.plan() else { return Outcome::Done };
         let gaps = topology::gaps(plan);
         if gaps.is_empty() {
-            return Ran::Refused(NO_GAPS.to_owned());
+            return Outcome::Refused(NO_GAPS.to_owned());
         }
         match edit::bridge_gaps(plan, &gaps, OpeningKind::Door) {
-            Err(error) => Ran::Refused(error.to_string()),
+            Err(error) => Outcome::Refused(error.to_string()),
             Ok((next, _)) => {
                 let gaps_said = crate::base::wording::count(gaps.len(), "gap");
                 let (title, answer) = ("Put doors into these gaps?", ("bridge", "Put doors in"));
                 let text = format!("{gaps_said} between collinear walls, 30 to 150 cm wide: marked on the plan.");
                 let marks = gaps.into_iter().map(|gap| gap.segment).collect();
                 self.session.ask(Question::change(title, text, answer, "Bridge gaps", next, marks));
-                Ran::Asks
+                Outcome::Asks
             }
         }
     }
 
     /// Draws walls parallel to the selection.
-    pub(super) fn offset_selected(&mut self, distance_m: f64, named: Option<Point>) -> Ran {
+    pub(super) fn offset_selected(&mut self, distance_m: f64, named: Option<Point>) -> Outcome {
         let towards = named.or(self.session.pointed.at).unwrap_or_default();
         let walls: Vec<_> = self.session.selection.walls().collect();
         let room = self.session.selection.rooms().next();
@@ -274,7 +274,7 @@ impl App {
         &mut self,
         title: &str,
         change: impl Fn(&Plan, OpeningId, Swing) -> Result<Plan, EditError>,
-    ) -> Ran {
+    ) -> Outcome {
         let derived = self.session.document.as_ref().and_then(Document::derived).cloned();
         let drawn = |id: OpeningId| derived.as_ref().and_then(|derived| derived.drawing.swing_of(id));
         let openings: Vec<(OpeningId, Swing)> = self
@@ -289,8 +289,8 @@ impl App {
     }
 
     /// Deletes the selection; asks first if more would be deleted with it.
-    pub(super) fn delete_selected(&mut self) -> Ran {
-        let Some(plan) = self.plan() else { return Ran::Done };
+    pub(super) fn delete_selected(&mut self) -> Outcome {
+        let Some(plan) = self.plan() else { return Outcome::Done };
         let selected: Vec<ElementId> = self.session.selection.iter().collect();
         let gone = edit::removed_with(plan, &selected);
         // Corners that become unused are no loss.
@@ -299,9 +299,9 @@ impl App {
         };
         if gone.iter().any(is_loss) {
             self.session.ask(Question::delete(selected, gone));
-            return Ran::Asks;
+            return Outcome::Asks;
         }
         self.session.delete(&selected);
-        Ran::Done
+        Outcome::Done
     }
 }
