@@ -5,6 +5,7 @@ use super::elements::{GraphEdge, NODE_RADIUS_PX, RoomDrawing, WallDrawing, paint
 use super::names::Around;
 use super::openings::OpeningDrawing;
 use super::scene::{Frame, Group, Item, Layer, Length, PlacedPicture, Scene, View};
+use super::tangle::one_line_in;
 use super::tile_grid::TileGrid;
 use super::tiles::{Contents, Tile, Tiles};
 use super::walls::{self, Faces, Walls};
@@ -200,7 +201,11 @@ impl Drawing {
     /// A remark on a simplified drawing: what crosses or overlaps so often that it was not worked out.
     pub fn remark(&self) -> Option<String> {
         let number = thousands(self.tangled as u64);
-        let lines = format!("{number} walls or rooms cross each other so often that they are drawn as lines");
+        let mut lines = format!("{number} walls or rooms cross each other so often that they are drawn as lines");
+        let step = one_line_in(self.tangled);
+        if step > 1 {
+            lines.push_str(&format!(", one in {step} of them"));
+        }
         let names = "so many rooms lie over each other that they are drawn without names";
         match (self.tangled > 0, self.are_piled) {
             (true, true) => Some(format!("{lines}, and {names}")),

@@ -21,6 +21,14 @@ const SOME_CROSSINGS: usize = 2_000;
 /// In a tangled drawing, the lines with more crossings than this are left unjoined.
 const MOST_OF_ONE: usize = 32;
 
+/// Of a tangle so many lines are drawn: more would only make it blacker, at a fifth of a millisecond each.
+const MOST_DRAWN: usize = 4_000;
+
+/// Of how many tangled lines one is drawn.
+pub(super) fn one_line_in(tangled: usize) -> usize {
+    tangled.div_ceil(MOST_DRAWN).max(1)
+}
+
 /// Which lines are tangled, in input order; empty if none is, as in every real plan.
 pub(super) fn tangled(segments: &[Segment]) -> Vec<bool> {
     if segments.len() * segments.len().min(MOST_COUNTED) / 2 <= SOME_CROSSINGS {

@@ -13,7 +13,7 @@ use rstar::primitives::{GeomWithData, Line};
 use rstar::{AABB, RTree};
 
 use super::elements::RoomDrawing;
-use super::tangle::tangled;
+use super::tangle::{one_line_in, tangled};
 use super::tile_grid::TileGrid;
 use crate::geometry::areas::{
     self, Ring, SHARPEST_RAD, Shapes, area_m2, directed, offset, points, ring, without_slivers,
@@ -189,8 +189,11 @@ impl WallIndex {
         let is_tangled = tangled(&segments.iter().map(|(_, _, segment)| *segment).collect::<Vec<_>>());
         let tangled: BTreeSet<WallId> =
             segments.iter().zip(&is_tangled).filter(|(_, is_tangled)| **is_tangled).map(|((id, ..), _)| *id).collect();
+        let (step, mut seen) = (one_line_in(tangled.len()), 0);
         for (id, thickness_m, segment) in segments {
-            if thickness_m <= 0.0 || tangled.contains(&id) {
+            let is_tangled = tangled.contains(&id);
+            seen += usize::from(is_tangled);
+            if (thickness_m <= 0.0 && !is_tangled) || (is_tangled && seen.is_multiple_of(step)) {
                 lines.push(segment);
             }
             let line = Line::new([segment.a.x, segment.a.y], [segment.b.x, segment.b.y]);
