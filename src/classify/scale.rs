@@ -7,7 +7,7 @@ use crate::dataset::table::{FEATURES, Values};
 pub enum Transform {
     /// None.
     Identity,
-    /// None, and the axes ratio weighs [`LIGHT_RATIO`] of the others: where rooms of all labels have much the
+    /// None, and the axes ratio weighs `LIGHT_RATIO` of the others: where rooms of all labels have much the
     /// same shape, as in small dwellings, its differences are mostly chance.
     LightRatio,
     /// ln(value + offset) per feature: twice the area is as far away as half the area, which suits sizes

@@ -1,6 +1,10 @@
 use std::path::PathBuf;
 
+use serde_json::json;
+
 use super::batch::{self, Input};
+use super::collect::content_of;
+use super::manifest::{self, Manifest};
 use super::outputs::Outputs;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::dataset::csv::feature_cells;
@@ -53,6 +57,7 @@ impl Subcommand for FeaturesCommand {
         let files = batch::inputs_into(&self.plans, self.output.as_deref());
         let mut writer = csv::Writer::from_writer(Vec::new());
         let mut objects: Vec<serde_json::Value> = Vec::new();
+        let mut rooms_written = 0;
         writer.write_record(HEAD.into_iter().chain(Features::NAMES))?;
         let rooms = |_: &Input, import: Import| -> Vec<RoomFeatures> {
             import.plans.iter().flat_map(|plan| self.rooms(plan, &schemes)).collect()
@@ -62,6 +67,7 @@ impl Subcommand for FeaturesCommand {
                 if self.json {
                     objects.push(room.json());
                 } else {
+                    rooms_written += 1;
                     writer.write_record(room.cells())?;
                 }
             }
@@ -74,7 +80,17 @@ impl Subcommand for FeaturesCommand {
         } else {
             writer.into_inner().map_err(|error| CliError::new(error.to_string()))?
         };
-        Outputs::new(terminal).result(self.output.as_deref(), &bytes, terminal)?;
+        let mut outputs = Outputs::new(terminal);
+        outputs.result(self.output.as_deref(), &bytes, terminal)?;
+        if let Some(path) = self.output.as_deref().filter(|path| !self.json && manifest::is_file(path)) {
+            let source =
+                |file: &Input| json!({ "file": file.path.display().to_string(), "sha256": content_of(&file.path) });
+            Manifest::of_table(path, &bytes, rooms_written)
+                .with("neighbours", json!(self.shared.neighbours.name()))
+                .with("sources", files.iter().map(source).collect())
+                .with_schemes(&schemes, &self.shared.scheme)
+                .save(path, None, &mut outputs, terminal)?;
+        }
         Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
     }
 }

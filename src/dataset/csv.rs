@@ -54,7 +54,7 @@ pub fn write(out: impl Write, rows: &[Row]) -> Result<(), csv::Error> {
 /// The same, with texts guarded or not.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write()`].
 pub fn write_guarded(out: impl Write, rows: &[Row], guard: Guard) -> Result<(), csv::Error> {
     let mut writer = csv::Writer::from_writer(out);
     writer.write_record(COLUMNS)?;
@@ -101,7 +101,7 @@ impl fmt::Display for CsvError {
 
 impl std::error::Error for CsvError {}
 
-/// Reads rows written by [`write`]; columns may come in any order and others are passed over.
+/// Reads rows written by [`write()`]; columns may come in any order and others are passed over.
 /// All but the label and the features may be missing. The folds of the file are not taken: who wants them reads them as a
 /// [`super::fold_table::FoldTable`].
 /// Cells may be apart by semicolons or tabs too, and numbers then have a decimal comma, see [`crate::base::separated`].

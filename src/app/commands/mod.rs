@@ -187,7 +187,7 @@ impl Command {
         Some(with(&|word| word == current, choices))
     }
 
-    /// Its usage: 'open PATH [STOREY]'. Arguments in brackets are optional.
+    /// Its usage: `open PATH [STOREY]`. Arguments in brackets are optional.
     pub fn usage(&self) -> String {
         let mut usage = self.id.to_owned();
         for argument in self.arguments {

@@ -51,7 +51,7 @@ impl Script {
     /// Parses a script.
     ///
     /// # Errors
-    /// Every invalid line, up to [`MOST_ERRORS`], each with the nearest valid alternative.
+    /// Every invalid line, up to `MOST_ERRORS`, each with the nearest valid alternative.
     pub fn parse(bytes: &[u8]) -> Result<Self, Vec<SyntaxError>> {
         let whole =
             |what: &str, hint: &str| vec![SyntaxError { line: 1, what: what.to_owned(), hint: hint.to_owned() }];

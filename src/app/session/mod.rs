@@ -47,7 +47,6 @@ use crate::app::session::safety::Safety;
 use crate::app::session::selection::Selection;
 use crate::app::session::settings::Settings;
 use crate::app::session::wishes::Wish;
-use crate::base::wording::sentence;
 use crate::classify::models::Models;
 use crate::draw;
 use crate::draw::Palette;
@@ -181,14 +180,6 @@ impl Session {
     pub(crate) fn messages(&self) -> Vec<Message> {
         let mut messages = self.messages.clone();
         messages.extend(self.bars());
-        let derived = self.document.as_ref().and_then(Document::derived);
-        messages.extend(derived.and_then(|derived| derived.drawing.remark()).map(|remark| Message {
-            severity: Severity::Warning,
-            text: sentence(&remark),
-            detail: "Zoom in to tell them apart.".to_owned(),
-            remedies: Vec::new(),
-            stays: true,
-        }));
         messages
     }
 

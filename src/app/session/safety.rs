@@ -15,6 +15,7 @@ use crate::app::session::{
     wishes::Wish,
     words::sample_word,
 };
+use crate::base::wording::sentence;
 use crate::store::{Journal, JournalFailure, JournalStart, Predecessor, SaveError};
 
 /// The state of keeping work safe.
@@ -135,6 +136,10 @@ impl Session {
         let mut bar = |severity, text: String, detail: String, remedies: &[Remedy]| {
             bars.push(Message { severity, text, detail, remedies: remedies.to_vec(), stays: true });
         };
+        let derived = self.document.as_ref().and_then(Document::derived);
+        if let Some(remark) = derived.and_then(|derived| derived.drawing.remark()) {
+            bar(Severity::Warning, sentence(&remark), "Measures and exports are not affected.".to_owned(), &[]);
+        }
         if let Some(theirs) = &self.safety.theirs
             && let Some(document) = &self.document
         {
