@@ -7,10 +7,10 @@ use super::collect::content_of;
 use super::manifest::{self, Manifest};
 use super::outputs::Outputs;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
-use crate::dataset::csv::feature_cells;
+use crate::dataset::{BY_SCHEME, csv::feature_cells};
 use crate::features::{Features, NeighbourLabels};
 use crate::formats::Import;
-use crate::labels::{Label, Schemes};
+use crate::labels::{Label, Schemes, Typology};
 use crate::pipeline::Pipeline;
 use crate::plan::titles::room_keys;
 use crate::plan::{Plan, RoomId};
@@ -59,8 +59,9 @@ impl Subcommand for FeaturesCommand {
         let mut objects: Vec<serde_json::Value> = Vec::new();
         let mut rooms_written = 0;
         writer.write_record(HEAD.into_iter().chain(Features::NAMES))?;
-        let rooms = |_: &Input, import: Import| -> Vec<RoomFeatures> {
-            import.plans.iter().flat_map(|plan| self.rooms(plan, &schemes)).collect()
+        let rooms = |input: &Input, import: Import| -> Vec<RoomFeatures> {
+            let file = input.path.display().to_string();
+            import.plans.iter().flat_map(|plan| self.rooms(plan, &file, &schemes)).collect()
         };
         let failed = batch::for_each_import(&files, "computing features", terminal, rooms, |_, rooms, _| {
             for room in rooms {
@@ -96,23 +97,34 @@ impl Subcommand for FeaturesCommand {
 }
 
 /// The columns that identify a room, before its features.
-const HEAD: [&str; 4] = ["plan", "room", "function", "label"];
+const HEAD: [&str; 10] =
+    ["file", "id", "building", "typology", "storey", "plan", "room", "function", "label", "label_origin"];
 
 /// A room with its features, if it has an area.
 struct RoomFeatures {
     /// The texts for [`HEAD`].
-    texts: [String; 4],
+    texts: [String; 10],
     features: Option<Features>,
 }
 
 impl FeaturesCommand {
-    fn rooms(&self, plan: &Plan, schemes: &Schemes) -> Vec<RoomFeatures> {
+    fn rooms(&self, plan: &Plan, file: &str, schemes: &Schemes) -> Vec<RoomFeatures> {
         let pipeline = Pipeline::counting(plan, schemes, self.shared.neighbours);
         let analysis = pipeline.analysis();
         let room = |(id, key): (RoomId, String)| {
             let (room, result) = (plan.room(id)?, analysis.room(id)?);
-            let label = result.status.label().map(Label::letter).unwrap_or_default().to_owned();
-            let texts = [plan.meta().name.clone(), key, room.function.clone(), label];
+            let label = result.status.label().map(Label::letter).unwrap_or_default();
+            let origin = match (label, room.label) {
+                ("", _) => "",
+                (_, Some(own)) => own.origin.name(),
+                (_, None) => BY_SCHEME,
+            };
+            let meta = plan.meta();
+            let building = if meta.building.is_empty() { &meta.name } else { &meta.building };
+            let typology = meta.typology.as_ref().map(Typology::as_str).unwrap_or_default();
+            let id = id.to_string();
+            let texts = [file, &id, building, typology, &meta.storey, &meta.name, &key, &room.function, label, origin];
+            let texts = texts.map(str::to_owned);
             Some(RoomFeatures { texts, features: result.features })
         };
         room_keys(plan).into_iter().filter_map(room).collect()
