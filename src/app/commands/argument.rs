@@ -1,5 +1,8 @@
 //! Command arguments: files, rooms, functions, numbers. Each kind parses its text and, where possible,
 //! offers choices.
+//!
+//! One file, though a long one: how a kind is read, taken, written and offered stands side by side, so that a new kind
+//! forgets none of them.
 
 use crate::classify::Method;
 use crate::predict::ModelSet;
