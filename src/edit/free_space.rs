@@ -29,6 +29,10 @@ pub const GAP_BETWEEN_ROOMS_M: f64 = 0.3;
 /// is left at the edge of a generous stroke. No round number: rounding never decides.
 const LEAST_PIECE_M2: f64 = 0.2497;
 
+/// Nor is a piece of less than this share of the largest: over a scan, what a rectangle leaves beside its neighbours is a
+/// remnant of a wall or a niche.
+const LEAST_SHARE: f64 = 0.25;
+
 /// Rooms that were drawn where no room was.
 #[derive(Clone, Debug)]
 pub struct DrawnInFreeSpace {
@@ -72,8 +76,10 @@ pub fn draw_room_in_free_space(
     }
     let mut drawn = DrawnInFreeSpace { plan: plan.clone(), rooms: Vec::new(), left_out_m2: 0.0 };
     let mut corners = Vec::new();
+    let least_m2 =
+        pieces.first().map_or(LEAST_PIECE_M2, |(largest_m2, ..)| (largest_m2 * LEAST_SHARE).max(LEAST_PIECE_M2));
     for (area_m2, outer, holes) in pieces {
-        if !drawn.rooms.is_empty() && area_m2 < LEAST_PIECE_M2 {
+        if !drawn.rooms.is_empty() && area_m2 < least_m2 {
             drawn.left_out_m2 += area_m2;
             continue;
         }
