@@ -120,7 +120,7 @@ impl FeaturesCommand {
                 (_, None) => BY_SCHEME,
             };
             let meta = plan.meta();
-            let building = if meta.building.is_empty() { &meta.name } else { &meta.building };
+            let building = meta.building_or_name();
             let typology = meta.typology.as_ref().map(Typology::as_str).unwrap_or_default();
             let id = id.to_string();
             let texts = [file, &id, building, typology, &meta.storey, &meta.name, &key, &room.function, label, origin];

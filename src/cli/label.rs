@@ -156,14 +156,21 @@ fn refuse_contradictions(table: &mut [Correction]) {
         of_room.entry((slashed(&row.file), row.id.clone())).or_default().push(index);
     }
     for rows in of_room.into_values().filter(|rows| rows.len() > 1) {
-        let labels: BTreeSet<Label> = rows.iter().filter_map(|&row| table[row].label).collect();
-        let functions: BTreeSet<&str> = rows.iter().filter_map(|&row| table[row].function.as_deref()).collect();
-        if labels.len() > 1 || functions.len() > 1 {
-            let lines: Vec<String> = rows.iter().map(|&row| table[row].line.to_string()).collect();
-            let why = format!("lines {} say different things of one room", lines.join(" and "));
-            rows.into_iter().for_each(|row| table[row].refused = Some(why.clone()));
-        }
+        refuse_if_contradicting(table, &rows);
     }
+}
+
+/// Refuses lines of one room where they give it different labels or functions. Returns whether they did.
+fn refuse_if_contradicting(table: &mut [Correction], rows: &[usize]) -> bool {
+    let labels: BTreeSet<Label> = rows.iter().filter_map(|&row| table[row].label).collect();
+    let functions: BTreeSet<&str> = rows.iter().filter_map(|&row| table[row].function.as_deref()).collect();
+    if labels.len() <= 1 && functions.len() <= 1 {
+        return false;
+    }
+    let lines: Vec<String> = rows.iter().map(|&row| table[row].line.to_string()).collect();
+    let why = format!("lines {} say different things of one room", lines.join(" and "));
+    rows.iter().for_each(|&row| table[row].refused = Some(why.clone()));
+    true
 }
 
 fn slashed(path: &str) -> String {
@@ -256,20 +263,17 @@ fn apply(
     for (id, rows) in meant {
         let Some(room) = plan.room(id) else { continue };
         // One room may be called by its id and by its source's.
-        let labels: BTreeSet<Label> = rows.iter().filter_map(|&row| table[row].label).collect();
-        let functions: BTreeSet<&str> = rows.iter().filter_map(|&row| table[row].function.as_deref()).collect();
-        if labels.len() > 1 || functions.len() > 1 {
-            let lines: Vec<String> = rows.iter().map(|&row| table[row].line.to_string()).collect();
-            let why = format!("lines {} say different things of one room", lines.join(" and "));
-            rows.into_iter().for_each(|row| table[row].refused = Some(why.clone()));
+        if refuse_if_contradicting(table, &rows) {
             continue;
         }
-        let function = functions.first().map(|&function| function.to_owned());
+        // They agree.
+        let label = rows.iter().find_map(|&row| table[row].label);
+        let function = rows.iter().find_map(|&row| table[row].function.clone());
         let mut after = changed.clone();
         if let Some(function) = function.as_deref().filter(|&function| function != room.function) {
             after = edit::set_function(&after, id, function).unwrap_or(after);
         }
-        if let Some(&label) = labels.first() {
+        if let Some(label) = label {
             // A label that follows from the function already need not be pinned to the room.
             if status(&after, schemes, id) != Some(label) {
                 let given = RoomLabel { label, origin: LabelOrigin::Person };
@@ -279,7 +283,7 @@ fn apply(
         let (was, is) = (said(plan, schemes, id), said(&after, schemes, id));
         let lines = rows.iter().map(|&row| table[row].line).collect();
         let overruled =
-            function.is_some() && labels.is_empty() && after.room(id).is_some_and(|room| room.label.is_some());
+            function.is_some() && label.is_none() && after.room(id).is_some_and(|room| room.label.is_some());
         report.rooms.push(Done {
             file: path.display().to_string(),
             id: id.to_string(),

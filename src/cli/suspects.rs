@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use serde_json::{Value, json};
 
 use super::collect::{CollectOptions, FoldsFrom, collect};
+use super::door::one_line;
 use super::manifest::{self, Manifest};
 use super::outputs::{Care, Outputs};
 use super::progress::with_progress;
@@ -185,7 +186,7 @@ fn print(told: &[Told<'_>], most: usize, terminal: &mut Terminal) -> Result<(), 
             shortened(&printable(&row.room), 28),
             shortened(&function, 28),
             row.id,
-            printable_path(&row.file),
+            one_line(&row.file),
         )?;
         if !told.reason.is_empty() {
             writeln!(out, "      {}", told.reason)?;
@@ -196,9 +197,4 @@ fn print(told: &[Told<'_>], most: usize, terminal: &mut Terminal) -> Result<(), 
         "\nA label may be right all the same: look at the room. 'enfilade label' applies a table of corrections (file, id, label)."
     )?;
     Ok(())
-}
-
-/// A path on one line of a terminal.
-fn printable_path(path: &str) -> String {
-    path.replace(char::is_control, " ")
 }

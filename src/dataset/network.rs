@@ -171,7 +171,7 @@ impl RoomNetwork {
                 .collect();
         }
         let meta = plan.meta();
-        let building = if meta.building.is_empty() { meta.name.clone() } else { meta.building.clone() };
+        let building = meta.building_or_name().to_owned();
         let (group, storey) = (building.clone(), meta.storey.clone());
         let (file, plan) = (String::new(), meta.name.clone());
         Self { file, plan, building, group, storey, typology: typology.cloned(), rooms, left_out }

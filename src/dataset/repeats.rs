@@ -497,7 +497,7 @@ impl Sighting {
     /// A reading of a plan. `content` is a hash of the file's bytes, `storey_of_file` which plan of its file it is, from 0.
     pub fn of(plan: &Plan, analysis: &Analysis, file: &str, content: &str, storey_of_file: usize) -> Self {
         let meta = plan.meta();
-        let building = if meta.building.is_empty() { &meta.name } else { &meta.building };
+        let building = meta.building_or_name();
         let prints = fingerprint::prints(&analysis.shapes);
         let room = |(id, key): (RoomId, String)| {
             let room = plan.room(id)?;

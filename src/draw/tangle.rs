@@ -4,7 +4,7 @@
 use rstar::primitives::{GeomWithData, Line};
 use rstar::{AABB, RTree};
 
-use crate::geometry::Segment;
+use crate::geometry::{Point, Segment};
 
 /// The most crossings counted per line.
 const MOST_COUNTED: usize = 64;
@@ -29,25 +29,35 @@ pub(super) fn one_line_in(tangled: usize) -> usize {
     tangled.div_ceil(MOST_DRAWN).max(1)
 }
 
-/// Which lines are tangled, in input order; empty if none is, as in every real plan.
-pub(super) fn tangled(segments: &[Segment]) -> Vec<bool> {
+/// Lines by place, each with something that belongs to it.
+pub(super) type LineTree<T> = RTree<GeomWithData<Line<[f64; 2]>, T>>;
+
+/// The entry of a segment in a [`LineTree`].
+pub(super) fn entry<T>(segment: Segment, data: T) -> GeomWithData<Line<[f64; 2]>, T> {
+    GeomWithData::new(Line::new([segment.a.x, segment.a.y], [segment.b.x, segment.b.y]), data)
+}
+
+/// The segment of an entry.
+pub(super) fn segment_of<T>(entry: &GeomWithData<Line<[f64; 2]>, T>) -> Segment {
+    let Line { from, to } = *entry.geom();
+    Segment::new(Point::new(from[0], from[1]), Point::new(to[0], to[1]))
+}
+
+/// Which of the segments in a tree are tangled, in the order of `segments`; empty if none is, as in every real plan.
+pub(super) fn tangled<T>(segments: &[Segment], tree: &LineTree<T>) -> Vec<bool> {
     if segments.len() * segments.len().min(MOST_COUNTED) / 2 <= SOME_CROSSINGS {
         return Vec::new();
     }
-    let line = |(index, segment): (usize, &Segment)| {
-        GeomWithData::new(Line::new([segment.a.x, segment.a.y], [segment.b.x, segment.b.y]), index)
-    };
-    let tree = RTree::bulk_load(segments.iter().enumerate().map(line).collect());
-    let count = |(index, segment): (usize, &Segment)| {
+    let count = |segment: &Segment| {
         let bounds = segment.bounds();
         let near = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
         tree.locate_in_envelope_intersecting(near)
             .take(MOST_NEIGHBOURS)
-            .filter(|other| other.data != index && cross(*segment, segments[other.data]))
+            .filter(|other| cross(*segment, segment_of(other)))
             .take(MOST_COUNTED)
             .count()
     };
-    let counts: Vec<usize> = segments.iter().enumerate().map(count).collect();
+    let counts: Vec<usize> = segments.iter().map(count).collect();
     if counts.iter().sum::<usize>() / 2 <= CROSSINGS_A_LINE * segments.len() + SOME_CROSSINGS {
         return Vec::new();
     }
@@ -67,7 +77,10 @@ fn cross(p: Segment, q: Segment) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Point;
+
+    fn tangled(segments: &[Segment]) -> Vec<bool> {
+        super::tangled(segments, &RTree::bulk_load(segments.iter().map(|&segment| entry(segment, ())).collect()))
+    }
 
     /// Segments through one point.
     fn star(number: usize) -> Vec<Segment> {

@@ -9,11 +9,11 @@ use i_overlay::float::simplify::SimplifyShape as _;
 use i_overlay::float::single::SingleFloatOverlay as _;
 use i_overlay::mesh::float::stroke::offset::StrokeOffset as _;
 use i_overlay::mesh::float::style::{LineJoin, StrokeStyle};
-use rstar::primitives::{GeomWithData, Line};
+use rstar::primitives::Line;
 use rstar::{AABB, RTree};
 
 use super::elements::RoomDrawing;
-use super::tangle::{one_line_in, tangled};
+use super::tangle::{LineTree, entry, one_line_in, segment_of, tangled};
 use super::tile_grid::TileGrid;
 use crate::geometry::areas::{
     self, Ring, SHARPEST_RAD, Shapes, area_m2, directed, offset, points, ring, without_slivers,
@@ -95,7 +95,8 @@ fn tangled_rooms(rooms: &[RoomDrawing], unwalled: &mut Vec<usize>) -> Vec<Segmen
     let edges_of = |room: usize| rooms[room].rings().flat_map(|ring| polygon::edges(ring));
     let edges: Vec<(usize, Segment)> =
         unwalled.iter().flat_map(|&room| edges_of(room).map(move |edge| (room, edge))).collect();
-    let is_tangled = tangled(&edges.iter().map(|(_, edge)| *edge).collect::<Vec<_>>());
+    let segments: Vec<Segment> = edges.iter().map(|(_, edge)| *edge).collect();
+    let is_tangled = tangled(&segments, &RTree::bulk_load(segments.iter().map(|&edge| entry(edge, ())).collect()));
     let rooms: BTreeSet<usize> =
         edges.iter().zip(&is_tangled).filter(|(_, is_tangled)| **is_tangled).map(|((room, _), _)| *room).collect();
     unwalled.retain(|room| !rooms.contains(room));
@@ -163,7 +164,7 @@ pub(super) fn without(solid: Vec<Shapes>, cuts: Vec<Ring>, grid: Option<&TileGri
 
 /// A spatial index of the drawn walls.
 struct WallIndex {
-    tree: RTree<GeomWithData<Line<[f64; 2]>, f64>>,
+    tree: LineTree<f64>,
     /// Walls without thickness, and tangled ones.
     lines: Vec<Segment>,
     tangled: BTreeSet<WallId>,
@@ -178,28 +179,28 @@ struct Uncovered {
 impl WallIndex {
     fn new(plan: &Plan) -> Self {
         let mut lines = Vec::new();
-        let mut entries = Vec::new();
-        let segments: Vec<(WallId, f64, Segment)> = plan
+        let walls: Vec<(WallId, f64, Segment)> = plan
             .walls()
             .filter_map(|(id, wall)| {
                 let segment = plan.wall_segment(wall).filter(|segment| segment.length() > 0.0)?;
                 Some((id, wall.thickness_m, segment))
             })
             .collect();
-        let is_tangled = tangled(&segments.iter().map(|(_, _, segment)| *segment).collect::<Vec<_>>());
+        let entries = walls.iter().map(|&(_, thickness_m, segment)| entry(segment, thickness_m / 2.0));
+        let tree = RTree::bulk_load(entries.collect());
+        let segments: Vec<Segment> = walls.iter().map(|(_, _, segment)| *segment).collect();
+        let is_tangled = tangled(&segments, &tree);
         let tangled: BTreeSet<WallId> =
-            segments.iter().zip(&is_tangled).filter(|(_, is_tangled)| **is_tangled).map(|((id, ..), _)| *id).collect();
+            walls.iter().zip(&is_tangled).filter(|(_, is_tangled)| **is_tangled).map(|((id, ..), _)| *id).collect();
         let (step, mut seen) = (one_line_in(tangled.len()), 0);
-        for (id, thickness_m, segment) in segments {
+        for (id, thickness_m, segment) in walls {
             let is_tangled = tangled.contains(&id);
             seen += usize::from(is_tangled);
             if (thickness_m <= 0.0 && !is_tangled) || (is_tangled && seen.is_multiple_of(step)) {
                 lines.push(segment);
             }
-            let line = Line::new([segment.a.x, segment.a.y], [segment.b.x, segment.b.y]);
-            entries.push(GeomWithData::new(line, thickness_m / 2.0));
         }
-        Self { tree: RTree::bulk_load(entries), lines, tangled }
+        Self { tree, lines, tangled }
     }
 
     /// A rectangle for each wall, and at each corner the mitre that closes the joint on its outer side.
@@ -240,11 +241,7 @@ impl WallIndex {
             let near = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
             for wall in self.tree.locate_in_envelope_intersecting(near) {
                 let reach = wall.data + COVER_TOLERANCE_M;
-                let axis = Segment::new(
-                    Point::new(wall.geom().from[0], wall.geom().from[1]),
-                    Point::new(wall.geom().to[0], wall.geom().to[1]),
-                );
-                covered.extend(stretch_within(edge, along, length, axis, reach));
+                covered.extend(stretch_within(edge, along, length, segment_of(wall), reach));
             }
             uncovered.whole &= covered.iter().all(|(from, to)| to - from < 0.5 * length.min(1.0));
             covered.sort_by(|p, q| p.0.total_cmp(&q.0));

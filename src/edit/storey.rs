@@ -30,9 +30,9 @@ pub fn copied(plan: &Plan, storey: &str, keep: Keep) -> Plan {
     let mut next = plan.clone();
     let meta = plan.meta();
     let storey = storey.trim();
-    let base = if meta.building.is_empty() { &meta.name } else { &meta.building };
+    let base = meta.building_or_name();
     let name = if base.is_empty() { storey.to_owned() } else { format!("{base}, {storey}") };
-    let building = base.clone();
+    let building = base.to_owned();
     next.meta = Arc::new(Meta { name, building, storey: storey.to_owned(), extra: None, ..meta.clone() });
     next.backdrop = None;
     next.extra = None;

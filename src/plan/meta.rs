@@ -20,6 +20,13 @@ pub struct Meta {
     pub extra: Extra,
 }
 
+impl Meta {
+    /// The building; where none is stated, the plan is one of its own.
+    pub fn building_or_name(&self) -> &str {
+        if self.building.is_empty() { &self.name } else { &self.building }
+    }
+}
+
 /// How the plan got its scale. Scale is uncertain in real plans, so its origin is kept with it and shown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scale {

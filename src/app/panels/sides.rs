@@ -2,7 +2,6 @@
 
 use egui::{Frame, Panel, Rect, ScrollArea, Ui, UiBuilder};
 
-use super::SIDE_PANELS;
 use crate::app::look::theme;
 use crate::app::state::{App, Height, Side, SidePanel};
 
@@ -11,7 +10,7 @@ pub(super) fn shown(app: &App, side: Side) -> Vec<&'static SidePanel> {
     let has_plan = app.session.document.is_some();
     let is_shown =
         |panel: &&SidePanel| panel.side == side && app.panels.is_shown(panel.id) && (has_plan || !panel.needs_plan);
-    SIDE_PANELS.iter().filter(is_shown).collect()
+    app.panels.list.iter().filter(is_shown).collect()
 }
 
 /// Shows panels stacked.
