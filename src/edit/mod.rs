@@ -9,6 +9,7 @@ mod draw;
 mod fill;
 mod free_space;
 pub mod guides;
+pub mod ignore;
 mod merge;
 mod moving;
 pub mod naming;
@@ -50,7 +51,7 @@ pub use openings::{
     set_opening_kind, set_swing, slide_opening,
 };
 pub use square_up::square_up;
-pub use weld::{Weld, settle, weld};
+pub use weld::{Weld, settle, weld, weld_corners};
 
 /// Why an edit failed, worded for the status line.
 #[derive(Clone, Debug, PartialEq, Eq)]
