@@ -15,7 +15,7 @@ use crate::check::{Finding, Severity};
 
 /// Height in points: the initial one, and the minimum.
 const USUAL_HEIGHT: f32 = 280.0;
-const LEAST_HEIGHT: f32 = 110.0;
+const LEAST_HEIGHT: f32 = 170.0;
 
 /// The most findings listed of a plan: nobody reads more, and each is laid out in every frame.
 const MOST: usize = 200;
