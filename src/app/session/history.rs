@@ -3,7 +3,7 @@
 use super::Session;
 use crate::app::session::fields::Field;
 use crate::app::session::fields::FieldKind;
-use crate::app::session::messages::Severity;
+use crate::app::session::messages::{Message, Remedy, Severity};
 use crate::edit;
 use crate::edit::EditError;
 use crate::plan::ElementId;
@@ -25,7 +25,14 @@ impl Session {
         let Some(document) = &mut self.document else { return Ok(()) };
         let plan = change(document.plan())?;
         document.history.push(title, plan);
+        self.withdraw_offers();
         Ok(())
+    }
+
+    /// Takes back offers that were made for the plan as it was.
+    fn withdraw_offers(&mut self) {
+        let is_offer = |message: &Message| message.remedies.iter().any(|it| matches!(it, Remedy::MergeRooms(_)));
+        self.messages.retain(|message| !is_offer(message));
     }
 
     /// Commits the text field's contents to the plan.
@@ -58,6 +65,7 @@ impl Session {
     }
 
     pub(crate) fn redo(&mut self) {
+        self.withdraw_offers();
         if let Some(title) = self.document.as_mut().and_then(|document| document.history.redo()) {
             self.status = format!("Redone: {title}");
         }
@@ -71,23 +79,37 @@ impl Session {
             return Err(format!("the history has {}", crate::base::wording::count(number, "step")));
         };
         document.history.jump_to(step);
+        self.withdraw_offers();
         self.status = format!("Step {} of {number}: {title}", step + 1);
         Ok(())
     }
 
     /// Undoes the last change.
     pub(crate) fn undo(&mut self) {
+        self.withdraw_offers();
         if let Some(title) = self.document.as_mut().and_then(|document| document.history.undo()) {
             self.status = format!("Undone: {title}");
         }
     }
 
-    /// Deletes elements and what depends on them.
+    /// Deletes elements and what depends on them. Where a wall between two rooms went, offers to merge them.
     pub(crate) fn delete(&mut self, elements: &[ElementId]) {
+        let before = self.plan().cloned();
         let title = match elements {
             [one] => format!("Delete {}", one.kind()),
             several => format!("Delete {} elements", several.len()),
         };
         self.edit(&title, |plan| edit::remove(plan, elements));
+        let Some((before, after)) = before.zip(self.plan()) else { return };
+        if let Some(rooms) = edit::rooms_joined_by(&before, after, elements) {
+            let names = rooms.map(|id| after.room(id).map(|room| room.name.clone()).unwrap_or_default());
+            let text = match names {
+                [a, b] if !a.is_empty() && !b.is_empty() => format!("No wall divides {a} and {b} any more"),
+                _ => "No wall divides these two rooms any more".to_owned(),
+            };
+            let remedies = vec![Remedy::MergeRooms(rooms)];
+            let detail = String::new();
+            self.add_message(Message { severity: Severity::Info, text, detail, remedies, stays: false });
+        }
     }
 }

@@ -1,5 +1,7 @@
 //! Messages that stay until they are dismissed.
 
+use crate::plan::RoomId;
+
 /// A message that stays until it is dismissed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
@@ -35,6 +37,8 @@ pub enum Remedy {
     ShowPicture,
     /// Take the picture that is shown as the one that the plan means.
     KeepPicture,
+    /// Make one room of two that have no wall between them any more.
+    MergeRooms([RoomId; 2]),
 }
 
 impl Remedy {
@@ -49,6 +53,7 @@ impl Remedy {
             Self::RelinkPicture => "Relink…",
             Self::ShowPicture => "Show it",
             Self::KeepPicture => "Keep this picture",
+            Self::MergeRooms(_) => "Merge rooms",
         }
     }
 }
