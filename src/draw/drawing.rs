@@ -226,6 +226,11 @@ impl Drawing {
         self.openings[index].swing()
     }
 
+    /// What the leaves of doors swing through: hinge, end of the closed leaf, end of the open leaf.
+    pub fn sweeps(&self) -> impl Iterator<Item = (OpeningId, [Point; 3])> + '_ {
+        self.openings.iter().flat_map(|opening| opening.sweeps().map(|sweep| (opening.id, sweep)))
+    }
+
     /// The scene in a view. Only names are culled outside the view: panning at the same zoom just moves
     /// the rest.
     pub fn scene(&self, style: &Style, view: &View) -> Scene {

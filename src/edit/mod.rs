@@ -2,6 +2,7 @@
 //! says what is in the way; the given plan is never changed.
 
 mod across;
+mod along;
 mod bridge;
 mod calibration;
 mod copy;
@@ -33,6 +34,10 @@ use crate::plan::{
 };
 
 pub use across::{Across, room_around, split_rooms, straight_across};
+pub use along::{
+    Beside, End, NARROWEST_OPENING_M, beside_opening, change_swing, next_swing, set_opening_distance, set_wall_length,
+    stretch_opening,
+};
 pub use bridge::bridge_gaps;
 pub use calibration::{
     Calibration, DrawingMoves, UNMEASURED_METRES_PER_PIXEL, move_picture, set_measurements, straightening_rad,

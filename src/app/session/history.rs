@@ -3,7 +3,6 @@
 use super::Session;
 use crate::app::session::fields::Field;
 use crate::app::session::fields::FieldKind;
-use crate::app::session::messages::Severity;
 use crate::edit;
 use crate::edit::EditError;
 use crate::plan::ElementId;
@@ -12,7 +11,7 @@ use crate::plan::Plan;
 impl Session {
     pub(crate) fn edit(&mut self, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) {
         if let Err(error) = self.try_edit(title, change) {
-            self.say(Severity::Warning, format!("Nothing was changed: {error}"), "");
+            self.say_refused(format!("Nothing was changed: {error}"));
         }
     }
 
@@ -25,13 +24,14 @@ impl Session {
         let Some(document) = &mut self.document else { return Ok(()) };
         let plan = change(document.plan())?;
         document.history.push(title, plan);
+        self.fresh = None;
         Ok(())
     }
 
     /// Commits the text field's contents to the plan.
     pub(crate) fn commit_field(&mut self) {
         if let Some(field) = self.field.take() {
-            self.edit(field.title(), |plan| field.apply(plan));
+            self.keeping_fresh(|session| session.edit(field.title(), |plan| field.apply(plan)));
             // The field's room is the picked one: picking another ends the editing first.
             let (id, text) = field.as_command();
             if id == "set-function" {
@@ -45,7 +45,7 @@ impl Session {
     pub(crate) fn write_field(&mut self, kind: FieldKind, text: &str) {
         let Some((room, _)) = self.picked_room() else { return };
         let field = Field::new(room, kind, text);
-        self.edit(field.title(), |plan| field.apply(plan));
+        self.keeping_fresh(|session| session.edit(field.title(), |plan| field.apply(plan)));
     }
 
     /// Changes the plan's metadata.
@@ -58,6 +58,7 @@ impl Session {
     }
 
     pub(crate) fn redo(&mut self) {
+        self.fresh = None;
         if let Some(title) = self.document.as_mut().and_then(|document| document.history.redo()) {
             self.status = format!("Redone: {title}");
         }
@@ -77,6 +78,7 @@ impl Session {
 
     /// Undoes the last change.
     pub(crate) fn undo(&mut self) {
+        self.fresh = None;
         if let Some(title) = self.document.as_mut().and_then(|document| document.history.undo()) {
             self.status = format!("Undone: {title}");
         }

@@ -10,6 +10,7 @@ mod input;
 mod measure;
 mod number;
 mod opening;
+mod opening_grips;
 mod paste;
 mod path;
 mod rectangle;
@@ -25,13 +26,13 @@ mod walls;
 pub(crate) use crate::app::paint::preview::{paint_snap, tag};
 pub(crate) use crate::app::value::{Call, Value};
 pub(crate) use calibrate::{BY_DOOR as CALIBRATE_BY_DOOR, BY_LENGTH as CALIBRATE_BY_LENGTH};
-pub(crate) use input::{Anchor, DrawOptions, Ground, Input, Scope};
+pub(crate) use input::{Anchor, DrawOptions, Ground, Input, NUDGES_MORE, Scope};
 pub(crate) use number::ENTRY as NUMBER;
 pub(crate) use paste::ENTRY as PASTE;
 pub(crate) use select::{REACH_PX, hit};
 pub(crate) use straighten::ENTRY as STRAIGHTEN;
 pub(crate) use tool::{Entry, Group, TakenBack, Tool, ToolOption};
-pub(crate) use toolbox::Toolbox;
+pub(crate) use toolbox::{Toolbox, attracting_grid_m};
 pub(crate) use typing::{Typed, Typing};
 
 /// Every tool. The first one is the default.

@@ -5,13 +5,13 @@ mod acts;
 use std::collections::BTreeSet;
 
 use self::acts::{
-    Mirror, NO_GAPS, Wanted, Way, copied, has_copied, has_drawing, has_opening, is_labelled, is_selectable, moved,
-    select_found,
+    Mirror, NO_GAPS, Wanted, Way, copied, has_copied, has_door, has_drawing, has_opening, has_wall, is_labelled,
+    is_selectable, moved, select_found,
 };
 use super::draw::edited;
 use super::*;
 use crate::app::session::{document::Document, questions::Question};
-use crate::edit::{self, Alignment, Array};
+use crate::edit::{self, Alignment, Array, End};
 use crate::geometry::Transform;
 use crate::plan::{LeafSide, OpeningId, Swing};
 use crate::topology;
@@ -25,7 +25,8 @@ pub(super) const COMMANDS: &[Command] = &[
         app.session.select(all, SelectMode::Replace);
     })
     .keys(&[ctrl(Key::A)])
-    .menu(Menu::Modify, 0),
+    .menu(Menu::Modify, 0)
+    .on(&[On::FreeSpace]),
     with(
         "select-by-label",
         "Select by label…",
@@ -74,7 +75,8 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[key(Key::Delete)])
-    .menu(Menu::Modify, 1),
+    .menu(Menu::Modify, 1)
+    .on(&[On::Room, On::Wall, On::Opening, On::Corner, On::Several]),
     // The clipboard.
     with(
         "copy",
@@ -85,7 +87,8 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[ctrl(Key::C)])
-    .menu(Menu::Modify, 2),
+    .menu(Menu::Modify, 2)
+    .on(&[On::Room, On::Wall, On::Opening, On::Several]),
     with(
         "cut",
         "Cut",
@@ -98,12 +101,14 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[ctrl(Key::X)])
-    .menu(Menu::Modify, 2),
+    .menu(Menu::Modify, 2)
+    .on(&[On::Room, On::Wall, On::Opening, On::Several]),
     command(tools::PASTE.id, tools::PASTE.title, tools::PASTE.help, has_copied, |app, _| {
         app.tools.take_up(tools::PASTE.id);
     })
     .keys(&[ctrl(Key::V)])
-    .menu(Menu::Modify, 2),
+    .menu(Menu::Modify, 2)
+    .on(&[On::FreeSpace]),
     with(
         "duplicate",
         "Duplicate",
@@ -119,7 +124,8 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[ctrl(Key::D)])
-    .menu(Menu::Modify, 2),
+    .menu(Menu::Modify, 2)
+    .on(&[On::Room, On::Wall, On::Opening, On::Several]),
     // Rotating and the like.
     with(
         "rotate",
@@ -137,7 +143,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     )
-    .menu(Menu::Modify, 3),
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Several]),
     command(
         "rotate-left",
         "Rotate left",
@@ -148,7 +155,8 @@ pub(super) const COMMANDS: &[Command] = &[
             app.report(|app| moved(app, "Rotate", Transform::rotation(about, std::f64::consts::FRAC_PI_2)));
         },
     )
-    .menu(Menu::Modify, 3),
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Wall, On::Several]),
     with(
         "mirror",
         "Mirror…",
@@ -167,7 +175,8 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Modify, 3),
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Wall, On::Several]),
     with(
         "scale-selection",
         "Scale…",
@@ -179,7 +188,8 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Modify, 3),
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Several]),
     with(
         "array",
         "Array…",
@@ -196,7 +206,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     )
-    .menu(Menu::Modify, 3),
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Several]),
     with(
         "polar-array",
         "Array around a point…",
@@ -228,7 +239,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     )
-    .menu(Menu::Modify, 4),
+    .menu(Menu::Modify, 4)
+    .on(&[On::Several]),
     with(
         "distribute",
         "Distribute…",
@@ -241,7 +253,8 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Modify, 4),
+    .menu(Menu::Modify, 4)
+    .on(&[On::Several]),
     with(
         "square-up",
         "Square up",
@@ -262,7 +275,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     )
-    .menu(Menu::Modify, 5),
+    .menu(Menu::Modify, 5)
+    .on(&[On::Room]),
     with(
         "weld",
         "Weld corners…",
@@ -273,7 +287,8 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Modify, 5),
+    .menu(Menu::Modify, 5)
+    .on(&[On::Corner]),
     with(
         "offset",
         "Offset copy…",
@@ -286,7 +301,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     )
-    .menu(Menu::Modify, 5),
+    .menu(Menu::Modify, 5)
+    .on(&[On::Room, On::Wall]),
     with(
         "set-thickness",
         "Thickness…",
@@ -301,7 +317,28 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Modify, 5),
+    .menu(Menu::Modify, 5)
+    .on(&[On::Wall, On::Several]),
+    with(
+        "set-wall-length",
+        "Length of wall…",
+        "Make the selected wall so long: one end moves along it, with the walls that meet it there at a right angle",
+        has_wall,
+        &given2(
+            needed("LENGTH", length(0.001, 1e5), "how long, along its middle"),
+            optional("END", one_of::<End>(), "which end moves: start or end (without)"),
+            |app, length_m, end, _| {
+                let Some(ElementId::Wall(wall)) = app.picked() else {
+                    return Outcome::Refused("select one wall first".to_owned());
+                };
+                let end = end.unwrap_or(End::End);
+                edited(app, "Set length", |plan| edit::set_wall_length(plan, wall, length_m, end))
+            },
+        ),
+        None,
+    )
+    .menu(Menu::Modify, 5)
+    .on(&[On::Wall]),
     with(
         "merge-rooms",
         "Merge rooms",
@@ -317,7 +354,8 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[key(Key::J)])
-    .menu(Menu::Modify, 6),
+    .menu(Menu::Modify, 6)
+    .on(&[On::Several]),
     with(
         "bridge-gaps",
         "Doors into all gaps",
@@ -328,6 +366,17 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .menu(Menu::Modify, 6),
     with(
+        "flip",
+        "Flip",
+        "Hang the selected doors, or the one just placed, the next way: at the other end, to the other side; Space on \
+         the plan does it",
+        has_door,
+        &given0(|app, _| app.flip_doors()),
+        None,
+    )
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening]),
+    with(
         "flip-hinge",
         "Hinge at the other end",
         "Hinge the selected doors at their other end",
@@ -335,7 +384,8 @@ pub(super) const COMMANDS: &[Command] = &[
         &given0(|app, _| app.change_openings("Flip hinge", edit::flip_hinge)),
         None,
     )
-    .menu(Menu::Modify, 7),
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening]),
     with(
         "flip-side",
         "Open to the other side",
@@ -344,7 +394,8 @@ pub(super) const COMMANDS: &[Command] = &[
         &given0(|app, _| app.change_openings("Flip side", edit::flip_side)),
         None,
     )
-    .menu(Menu::Modify, 7),
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening]),
     with(
         "set-opening-kind",
         "Kind of opening…",
@@ -355,7 +406,8 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Modify, 7),
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening, On::Several]),
     with(
         "set-opening-width",
         "Width of opening…",
@@ -369,6 +421,56 @@ pub(super) const COMMANDS: &[Command] = &[
             }
             ran
         }),
+        None,
+    )
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening, On::Several]),
+    with(
+        "set-opening-distance",
+        "Distance of opening…",
+        "Move the selected opening along its wall until it is so far from what lies beside it",
+        has_opening,
+        &given2(
+            needed("DISTANCE", length(0.0, 1000.0), "from its end to the next opening, or the next wall's face"),
+            optional("END", one_of::<End>(), "which of its ends: start (without) or end"),
+            |app, distance_m, end, _| {
+                let Some(ElementId::Opening(opening)) = app.picked() else {
+                    return Outcome::Refused("select one opening first".to_owned());
+                };
+                let end = end.unwrap_or(End::Start);
+                edited(app, "Set distance", |plan| edit::set_opening_distance(plan, opening, end, distance_m))
+            },
+        ),
+        None,
+    )
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening]),
+    with(
+        "set-hinge",
+        "Hinge…",
+        "Hinge the selected doors at an end",
+        has_opening,
+        &given1(needed("END", one_of::<End>(), "start or end, as the opening lies"), |app, end, _| {
+            app.change_openings("Set hinge", |plan, id, shown| {
+                edit::change_swing(plan, id, shown, |swing| Swing { hinge_at_start: end == End::Start, ..swing })
+            })
+        }),
+        None,
+    )
+    .menu(Menu::Modify, 7),
+    with(
+        "set-side",
+        "Side that a door opens to…",
+        "Let the selected doors open to a side",
+        has_opening,
+        &given1(
+            needed("SIDE", one_of::<LeafSide>(), "left or right, from the opening's start to its end"),
+            |app, side, _| {
+                app.change_openings("Set side", |plan, id, shown| {
+                    edit::change_swing(plan, id, shown, |swing| Swing { side, ..swing })
+                })
+            },
+        ),
         None,
     )
     .menu(Menu::Modify, 7),
@@ -473,6 +575,33 @@ pub(super) const COMMANDS: &[Command] = &[
                 edited(app, "Move corner", |plan| {
                     edit::settle(&edit::move_corners(plan, &[(corner, to)])?, &BTreeSet::from([corner]))
                 })
+            },
+        ),
+        None,
+    ),
+    with(
+        "nudge",
+        "Nudge",
+        "Move what is selected a little, as an arrow key on the plan does; an opening along its wall",
+        has_picked,
+        &given2(
+            needed("DIRECTION", one_of::<Direction>(), "left, right, up or down"),
+            needed("DISTANCE", length(0.0001, 1000.0), "how far"),
+            |app, direction, distance_m, _| app.nudge(direction, distance_m),
+        ),
+        None,
+    ),
+    with(
+        "stretch-opening",
+        "Stretch an opening",
+        "Move one end of an opening along its wall, as near to a point as there is space; its other end stays",
+        has_openings,
+        &given3(
+            needed("OPENING", OPENING, "the opening's id"),
+            needed("END", one_of::<End>(), "start or end, as the opening lies"),
+            needed("TOWARDS", POINT, "a point, in metres"),
+            |app, opening, end, towards, _| {
+                edited(app, "Set width", |plan| edit::stretch_opening(plan, opening, end, towards))
             },
         ),
         None,
