@@ -12,6 +12,7 @@ mod fill;
 mod free_space;
 pub mod guides;
 mod heal;
+pub mod ignore;
 mod merge;
 mod moving;
 pub mod naming;
@@ -61,7 +62,7 @@ pub use picked::{Part, corners_of};
 pub use refit::{Changed, Refit, Refitted};
 pub use removing::{remove, removed_with, rooms_joined_by};
 pub use square_up::square_up;
-pub use weld::{Weld, settle, weld};
+pub use weld::{Weld, settle, weld, weld_corners};
 
 /// Why an edit failed, worded for the status line.
 #[derive(Clone, Debug, PartialEq, Eq)]
