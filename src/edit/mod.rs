@@ -2,6 +2,7 @@
 //! says what is in the way; the given plan is never changed.
 
 mod across;
+mod along;
 mod bridge;
 mod calibration;
 mod copy;
@@ -11,6 +12,7 @@ mod fill;
 mod free_space;
 pub mod guides;
 mod heal;
+pub mod ignore;
 mod merge;
 mod moving;
 pub mod naming;
@@ -35,6 +37,10 @@ use crate::plan::{
 };
 
 pub use across::{Across, room_around, split_rooms, straight_across};
+pub use along::{
+    Beside, End, NARROWEST_OPENING_M, beside_opening, change_swing, next_swing, set_opening_distance, set_wall_length,
+    stretch_opening,
+};
 pub use bridge::bridge_gaps;
 pub use calibration::{
     Calibration, DrawingMoves, UNMEASURED_METRES_PER_PIXEL, move_picture, set_measurements, straightening_rad,
@@ -56,7 +62,7 @@ pub use picked::{Part, corners_of};
 pub use refit::{Changed, Refit, Refitted};
 pub use removing::{remove, removed_with, rooms_joined_by};
 pub use square_up::square_up;
-pub use weld::{Weld, settle, weld};
+pub use weld::{Weld, settle, weld, weld_corners};
 
 /// Why an edit failed, worded for the status line.
 #[derive(Clone, Debug, PartialEq, Eq)]

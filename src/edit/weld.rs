@@ -90,6 +90,14 @@ fn on_lines(plan: &Plan, moved: &BTreeSet<CornerId>) -> Plan {
     next
 }
 
+/// Welds corners with each other and with what lies within a tolerance in metres of them.
+///
+/// # Errors
+/// As [`weld`].
+pub fn weld_corners(plan: &Plan, corners: &BTreeSet<CornerId>, tolerance_m: f64) -> Result<Plan, EditError> {
+    weld_some(plan, tolerance_m, Some(corners)).map(|weld| weld.plan)
+}
+
 /// Welds everything, or only where one of the given corners is involved.
 fn weld_some(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -> Result<Weld, EditError> {
     if !(tolerance_m > 0.0 && tolerance_m.is_finite()) {

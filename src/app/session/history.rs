@@ -3,7 +3,7 @@
 use super::Session;
 use crate::app::session::fields::Field;
 use crate::app::session::fields::FieldKind;
-use crate::app::session::messages::{Message, Remedy, Severity};
+use crate::app::session::messages::{Lasts, Message, Remedy, Severity};
 use crate::edit;
 use crate::edit::EditError;
 use crate::plan::ElementId;
@@ -12,7 +12,7 @@ use crate::plan::Plan;
 impl Session {
     pub(crate) fn edit(&mut self, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) {
         if let Err(error) = self.try_edit(title, change) {
-            self.say(Severity::Warning, format!("Nothing was changed: {error}"), "");
+            self.say_refused(format!("Nothing was changed: {error}"));
         }
     }
 
@@ -25,20 +25,14 @@ impl Session {
         let Some(document) = &mut self.document else { return Ok(()) };
         let plan = change(document.plan())?;
         document.history.push(title, plan);
-        self.withdraw_offers();
+        self.fresh = None;
         Ok(())
-    }
-
-    /// Takes back offers that were made for the plan as it was.
-    fn withdraw_offers(&mut self) {
-        let is_offer = |message: &Message| message.remedies.iter().any(|it| matches!(it, Remedy::MergeRooms(_)));
-        self.messages.retain(|message| !is_offer(message));
     }
 
     /// Commits the text field's contents to the plan.
     pub(crate) fn commit_field(&mut self) {
         if let Some(field) = self.field.take() {
-            self.edit(field.title(), |plan| field.apply(plan));
+            self.keeping_fresh(|session| session.edit(field.title(), |plan| field.apply(plan)));
             // The field's room is the picked one: picking another ends the editing first.
             let (id, text) = field.as_command();
             if id == "set-function" {
@@ -52,7 +46,7 @@ impl Session {
     pub(crate) fn write_field(&mut self, kind: FieldKind, text: &str) {
         let Some((room, _)) = self.picked_room() else { return };
         let field = Field::new(room, kind, text);
-        self.edit(field.title(), |plan| field.apply(plan));
+        self.keeping_fresh(|session| session.edit(field.title(), |plan| field.apply(plan)));
     }
 
     /// Changes the plan's metadata.
@@ -65,7 +59,7 @@ impl Session {
     }
 
     pub(crate) fn redo(&mut self) {
-        self.withdraw_offers();
+        self.fresh = None;
         if let Some(title) = self.document.as_mut().and_then(|document| document.history.redo()) {
             self.status = format!("Redone: {title}");
         }
@@ -79,14 +73,13 @@ impl Session {
             return Err(format!("the history has {}", crate::base::wording::count(number, "step")));
         };
         document.history.jump_to(step);
-        self.withdraw_offers();
         self.status = format!("Step {} of {number}: {title}", step + 1);
         Ok(())
     }
 
     /// Undoes the last change.
     pub(crate) fn undo(&mut self) {
-        self.withdraw_offers();
+        self.fresh = None;
         if let Some(title) = self.document.as_mut().and_then(|document| document.history.undo()) {
             self.status = format!("Undone: {title}");
         }
@@ -108,8 +101,8 @@ impl Session {
                 _ => "No wall divides these two rooms any more".to_owned(),
             };
             let remedies = vec![Remedy::MergeRooms(rooms)];
-            let detail = String::new();
-            self.add_message(Message { severity: Severity::Info, text, detail, remedies, stays: false });
+            let lasts = Lasts::Step(self.document.as_ref().map_or(0, |document| document.history.position()));
+            self.add_message(Message::new(Severity::Info, text, "").with(remedies).lasting(lasts));
         }
     }
 }

@@ -87,8 +87,13 @@ pub(crate) struct Scope<'a> {
     /// The snapped position.
     pub snap: Snap,
     pub px_per_m: f64,
+    /// How far an arrow key moves what is selected, in metres.
+    pub nudge_m: f64,
     pub modifiers: Modifiers,
 }
+
+/// With Shift an arrow key goes so many times as far, with Alt that part of the way.
+pub(crate) const NUDGES_MORE: f64 = 10.0;
 
 impl Scope<'_> {
     /// The intended point.

@@ -5,8 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use egui::{CursorIcon, Key, KeyboardShortcut, Modifiers};
 
 use super::moving::{Moving, preview_moved};
+use super::opening_grips::{self, Grip};
 use super::tool::Group;
-use super::{Anchor, Call, Entry, Input, Scope, Tool, Value};
+use super::{Anchor, Call, Entry, Input, NUDGES_MORE, Scope, Tool, Value};
 use crate::app::look::icons::Icon;
 use crate::app::look::icons::Part::Loop;
 use crate::app::paint::preview::{Look, Preview};
@@ -15,8 +16,8 @@ use crate::app::session::layers::LayerSettings;
 use crate::app::session::selection::{SelectMode, Selection};
 use crate::app::value::Boxed;
 use crate::edit::Reach;
-use crate::geometry::{Point, Segment};
-use crate::plan::{CornerId, ElementId, OpeningId, Place, Plan};
+use crate::geometry::Point;
+use crate::plan::{CornerId, ElementId, Place, Plan};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "tool-select",
@@ -55,8 +56,8 @@ enum State {
     MovingCorner { corner: CornerId, from: Point },
     /// Dragging the selection; `from` is the point that snaps.
     Moving { from: Point, what: Moving },
-    /// Sliding an opening along its wall.
-    Sliding { opening: OpeningId },
+    /// Dragging a grip of an opening.
+    Gripping(Grip),
 }
 
 /// Repeated clicks at one position cycle through all elements there.
@@ -120,12 +121,25 @@ impl Select {
         }
     }
 
+    /// What was clicked first is meant, and changed where it is.
+    fn double_clicked(&mut self) -> Vec<Call> {
+        let Some(cycle) = &mut self.cycle else { return Vec::new() };
+        let number = cycle.candidates.len();
+        if number == 0 {
+            return Vec::new();
+        }
+        cycle.index = (cycle.index + number - 1) % number;
+        let Some(&element) = cycle.candidates.get(cycle.index) else { return Vec::new() };
+        let one = || Value::Elements(vec![element]);
+        vec![Call::new("select", [one()]), Call::new("change-here", [one()])]
+    }
+
     /// Ready -> whatever is dragged
     fn drag_start(&mut self, at: Point, pointer: Point, scope: &Scope<'_>) {
         self.cycle = None;
         self.state = match self.grabbed(pointer, scope) {
             Some(Grabbed::Corner(corner, from)) => State::MovingCorner { corner, from },
-            Some(Grabbed::Opening(opening)) => State::Sliding { opening },
+            Some(Grabbed::Opening(grip)) => State::Gripping(grip),
             Some(Grabbed::Selection) => State::Moving { from: at, what: Moving::of(scope) },
             None => State::Boxing { from: pointer },
         };
@@ -137,6 +151,9 @@ impl Select {
             return None;
         }
         let reach_m = scope.metres(REACH_PX);
+        if let Some(grip) = opening_grips::grip_at(scope, pointer, reach_m) {
+            return Some(Grabbed::Opening(grip));
+        }
         let handles = handles_of(scope.plan, scope.selection);
         let nearest = handles
             .iter()
@@ -152,7 +169,7 @@ impl Select {
             (ElementId::Opening(id), Some(_))
                 if scope.plan.opening(id).is_some_and(|opening| matches!(opening.place, Place::Hosted { .. })) =>
             {
-                Some(Grabbed::Opening(id))
+                Some(Grabbed::Opening(Grip::Middle(id)))
             }
             _ => Some(Grabbed::Selection),
         }
@@ -182,9 +199,7 @@ impl Select {
                 }
                 vec![call]
             }
-            State::Sliding { opening } => {
-                vec![Call::new("slide-opening", [Value::Opening(opening), Value::point(scope.pointer)])]
-            }
+            State::Gripping(grip) => vec![grip.drop(scope)],
             State::MovingCorner { .. } => Vec::new(),
         }
     }
@@ -192,7 +207,7 @@ impl Select {
 
 enum Grabbed {
     Corner(CornerId, Point),
-    Opening(OpeningId),
+    Opening(Grip),
     /// Whatever is selected.
     Selection,
 }
@@ -239,6 +254,8 @@ impl Tool for Select {
     fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
         match input {
             Input::Click => return self.clicked(scope),
+            // It follows a click, the second at the place, which has gone on to what lies below.
+            Input::DoubleClick => return self.double_clicked(),
             Input::DragStart { at, pointer } => self.drag_start(at, pointer, scope),
             Input::Drop => return self.drop(scope),
             // Whatever is dragged -> Ready
@@ -250,7 +267,14 @@ impl Tool for Select {
 
     fn hint(&self, scope: &Scope<'_>) -> String {
         match &self.state {
-            State::Ready => String::new(),
+            State::Ready if scope.selection.is_empty() => String::new(),
+            State::Ready => {
+                let [step, more, less] =
+                    [1.0, NUDGES_MORE, 1.0 / NUDGES_MORE].map(|times| scope.units.length(scope.nudge_m * times));
+                format!(
+                    "Arrow keys move it by {step}, with Shift by {more}, with Alt by {less} · double-click to change it"
+                )
+            }
             State::Boxing { from } if is_inside(*from, scope.pointer) => {
                 "Selects what lies inside · pull to the left for what is touched · Shift adds".to_owned()
             }
@@ -259,7 +283,7 @@ impl Tool for Select {
                 "Everything that shares the corner follows · Alt suspends snapping · Esc drops it".to_owned()
             }
             State::Moving { what, .. } => what.hint(scope),
-            State::Sliding { .. } => "The opening slides along its wall · Esc drops it".to_owned(),
+            State::Gripping(grip) => grip.hint(scope),
         }
     }
 
@@ -271,6 +295,7 @@ impl Tool for Select {
                         preview.handle(place, Look::New);
                     }
                 }
+                opening_grips::show(scope, preview);
             }
             &State::Boxing { from } => {
                 let to = scope.pointer;
@@ -297,22 +322,16 @@ impl Tool for Select {
                 preview.dashed(vec![from, from + by], false, Look::Guide);
                 preview.label(scope.at(), format!("moved {}", scope.units.length(by.length())), Look::New);
             }
-            &State::Sliding { opening } => {
-                let segment =
-                    scope.plan.opening(opening).and_then(|opening| slid(scope.plan, opening.place, scope.pointer));
-                if let Some(segment) = segment {
-                    preview.wall(segment, scope.metres(8.0), Look::New);
-                }
-            }
+            State::Gripping(grip) => grip.preview(scope, preview),
         }
     }
 
     fn cursor(&self, scope: &Scope<'_>) -> CursorIcon {
         match self.state {
-            State::Moving { .. } | State::MovingCorner { .. } | State::Sliding { .. } => CursorIcon::Grabbing,
+            State::Moving { .. } | State::MovingCorner { .. } | State::Gripping(_) => CursorIcon::Grabbing,
             State::Boxing { .. } => CursorIcon::Crosshair,
             State::Ready => match self.grabbed(scope.pointer, scope) {
-                Some(Grabbed::Corner(..)) => CursorIcon::Grab,
+                Some(Grabbed::Corner(..) | Grabbed::Opening(Grip::End(..))) => CursorIcon::Grab,
                 Some(_) => CursorIcon::Move,
                 None => CursorIcon::Default,
             },
@@ -335,15 +354,4 @@ impl Tool for Select {
             _ => None,
         }
     }
-}
-
-/// The segment of an opening slid as close to a point as its wall allows.
-fn slid(plan: &Plan, place: Place, towards: Point) -> Option<Segment> {
-    let Place::Hosted { from, to, width_m, .. } = place else { return None };
-    let edge = Segment::new(plan.position(from)?, plan.position(to)?);
-    let half_m = (width_m / 2.0).min(edge.length() / 2.0);
-    let along = edge.vector().unit()?;
-    let at_m = (towards - edge.a).dot(along).clamp(half_m, edge.length() - half_m);
-    let middle = edge.a + along * at_m;
-    Some(Segment::new(middle + -along * half_m, middle + along * half_m))
 }

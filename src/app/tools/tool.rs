@@ -151,6 +151,18 @@ pub(crate) trait Tool {
         Vec::new()
     }
 
+    /// The points of what is half drawn: they are kept as safe as the plan.
+    fn draft(&self) -> Vec<Point> {
+        self.path().map(|path| path.points.clone()).unwrap_or_default()
+    }
+
+    /// Goes on with points that were half drawn when the program ended.
+    fn resume(&mut self, points: Vec<Point>) {
+        if let Some(path) = self.path_mut() {
+            *path = Path::through(points);
+        }
+    }
+
     /// What can be typed now.
     fn typing(&self) -> Option<Typing> {
         self.path().filter(|path| !path.is_empty()).map(|_| Typing::Length)

@@ -60,7 +60,8 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[shift(Key::E)])
-    .menu(Menu::Draw, 3),
+    .menu(Menu::Draw, 3)
+    .on(&[On::FreeSpace]),
     switch(
         "right-angles",
         "Right angles",
@@ -174,21 +175,25 @@ pub(super) const COMMANDS: &[Command] = &[
                 "exact (without) for this boundary, free for what no room covers of it",
             ),
             THICKNESS,
-            |app, points, space, thickness_m, _| {
+            |app, points, space, thickness_m, context| {
                 let thickness_m = app.new_walls_m(thickness_m);
-                let mut said = String::new();
+                let (mut said, mut made) = (String::new(), Vec::new());
                 let units = app.units();
                 let ran = edited(app, "Draw room", |plan| {
                     if space == Some(Space::Free) {
                         let gap_m = edit::GAP_BETWEEN_ROOMS_M;
                         let drawn = edit::draw_room_in_free_space(plan, &points, thickness_m, gap_m)?;
                         said = pieces_said(&drawn, units);
+                        made = drawn.rooms;
                         Ok(drawn.plan)
                     } else {
-                        Ok(edit::draw_room(plan, &points, thickness_m)?.0)
+                        let (plan, room) = edit::draw_room(plan, &points, thickness_m)?;
+                        made = vec![room];
+                        Ok(plan)
                     }
                 });
                 app.session.status = said;
+                app.has_drawn_rooms(&made, context);
                 ran
             },
         ),
@@ -199,7 +204,16 @@ pub(super) const COMMANDS: &[Command] = &[
         "Fill at a place",
         "Make a room of what encloses a point",
         has_plan,
-        &given1(PLACE, |app, point, _| edited(app, "Fill", |plan| Ok(edit::fill_at(plan, point)?.plan))),
+        &given1(PLACE, |app, point, context| {
+            let mut made = Vec::new();
+            let ran = edited(app, "Fill", |plan| {
+                let filled = edit::fill_at(plan, point)?;
+                made = filled.rooms;
+                Ok(filled.plan)
+            });
+            app.has_drawn_rooms(&made, context);
+            ran
+        }),
         None,
     ),
     with(
@@ -245,6 +259,7 @@ pub(super) const COMMANDS: &[Command] = &[
                     Ok(next)
                 });
                 app.say_narrower(width_m, made.as_slice());
+                app.session.has_drawn(made.map(ElementId::Opening));
                 ran
             },
         ),
@@ -253,6 +268,19 @@ pub(super) const COMMANDS: &[Command] = &[
 ];
 
 impl App {
+    /// Records the rooms that were just drawn: of one, the next key means it, wherever the pointer stands.
+    fn has_drawn_rooms(&mut self, rooms: &[RoomId], context: &Context) {
+        let &[room] = rooms else { return };
+        self.session.has_drawn(Some(ElementId::Room(room)));
+        if self.session.status.is_empty() {
+            let keys =
+                |id: &str| super::super::find(id).map(|command| self.keys_text(command, context)).unwrap_or_default();
+            let [function, name] = ["set-function", "rename"].map(keys);
+            self.session.status =
+                format!("The keys of labels mean the new room, {function} says its function, {name} names it");
+        }
+    }
+
     /// The thickness of walls along new boundaries: as given, or as set; `None` for no walls.
     fn new_walls_m(&self, given_m: Option<f64>) -> Option<f64> {
         let options = &self.tools.options;

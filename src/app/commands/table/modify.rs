@@ -5,14 +5,14 @@ mod acts;
 use std::collections::BTreeSet;
 
 use self::acts::{
-    Mirror, NO_GAPS, Wanted, Way, copied, has_copied, has_drawing, has_opening, is_labelled, is_selectable,
-    select_found, transformed,
+    Mirror, NO_GAPS, Wanted, Way, copied, has_copied, has_door, has_drawing, has_opening, has_wall, is_labelled,
+    is_selectable, select_found, transformed,
 };
 use super::draw::{edited, edited_fitting};
 use super::*;
 use crate::app::session::{document::Document, questions::Question};
 use crate::app::value::MoveOrCopy;
-use crate::edit::{self, Alignment, Array, Reach};
+use crate::edit::{self, Alignment, Array, End, Reach};
 use crate::geometry::Transform;
 use crate::plan::{LeafSide, OpeningId, Swing};
 use crate::topology;
@@ -26,7 +26,8 @@ pub(super) const COMMANDS: &[Command] = &[
         app.session.select(all, SelectMode::Replace);
     })
     .keys(&[ctrl(Key::A)])
-    .menu(Menu::Modify, 0),
+    .menu(Menu::Modify, 0)
+    .on(&[On::FreeSpace]),
     with(
         "select-by-label",
         "Select by label…",
@@ -75,7 +76,8 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[key(Key::Delete)])
-    .menu(Menu::Modify, 1),
+    .menu(Menu::Modify, 1)
+    .on(&[On::Room, On::Wall, On::Opening, On::Corner, On::Several]),
     // The clipboard.
     with(
         "copy",
@@ -86,7 +88,8 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[ctrl(Key::C)])
-    .menu(Menu::Modify, 2),
+    .menu(Menu::Modify, 2)
+    .on(&[On::Room, On::Wall, On::Opening, On::Several]),
     with(
         "cut",
         "Cut",
@@ -99,12 +102,14 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[ctrl(Key::X)])
-    .menu(Menu::Modify, 2),
+    .menu(Menu::Modify, 2)
+    .on(&[On::Room, On::Wall, On::Opening, On::Several]),
     command(tools::PASTE.id, tools::PASTE.title, tools::PASTE.help, has_copied, |app, _| {
         app.tools.take_up(tools::PASTE.id);
     })
     .keys(&[ctrl(Key::V)])
-    .menu(Menu::Modify, 2),
+    .menu(Menu::Modify, 2)
+    .on(&[On::FreeSpace]),
     with(
         "duplicate",
         "Duplicate",
@@ -120,7 +125,8 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[ctrl(Key::D)])
-    .menu(Menu::Modify, 2),
+    .menu(Menu::Modify, 2)
+    .on(&[On::Room, On::Wall, On::Opening, On::Several]),
     // Rotating and the like: the pointer shows where, what is typed says how much.
     with(
         tools::ROTATE.id,
@@ -138,7 +144,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         Some(|app, _| app.tools.take_up(tools::ROTATE.id)),
     )
-    .menu(Menu::Modify, 3),
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Several]),
     command(
         "rotate-left",
         "Rotate left",
@@ -150,7 +157,8 @@ pub(super) const COMMANDS: &[Command] = &[
             app.report(|app| transformed(app, "Rotate", turn, None));
         },
     )
-    .menu(Menu::Modify, 3),
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Wall, On::Several]),
     with(
         tools::MIRROR.id,
         tools::MIRROR.title,
@@ -193,7 +201,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     )
-    .menu(Menu::Modify, 3),
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Wall, On::Several]),
     with(
         tools::SCALE.id,
         tools::SCALE.title,
@@ -210,7 +219,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         Some(|app, _| app.tools.take_up(tools::SCALE.id)),
     )
-    .menu(Menu::Modify, 3),
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Several]),
     switch(
         "transform-copies",
         "Copy",
@@ -235,7 +245,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         Some(|app, _| app.tools.take_up(tools::ARRAY.id)),
     )
-    .menu(Menu::Modify, 3),
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Several]),
     with(
         tools::POLAR_ARRAY.id,
         tools::POLAR_ARRAY.title,
@@ -267,7 +278,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     )
-    .menu(Menu::Modify, 4),
+    .menu(Menu::Modify, 4)
+    .on(&[On::Several]),
     with(
         "distribute",
         "Distribute…",
@@ -280,7 +292,8 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Modify, 4),
+    .menu(Menu::Modify, 4)
+    .on(&[On::Several]),
     with(
         "square-up",
         "Square up",
@@ -301,7 +314,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     )
-    .menu(Menu::Modify, 5),
+    .menu(Menu::Modify, 5)
+    .on(&[On::Room]),
     with(
         "weld",
         "Weld corners…",
@@ -312,7 +326,8 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Modify, 5),
+    .menu(Menu::Modify, 5)
+    .on(&[On::Corner]),
     with(
         tools::OFFSET.id,
         tools::OFFSET.title,
@@ -325,7 +340,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         Some(|app, _| app.tools.take_up(tools::OFFSET.id)),
     )
-    .menu(Menu::Modify, 5),
+    .menu(Menu::Modify, 5)
+    .on(&[On::Room, On::Wall]),
     with(
         "set-thickness",
         "Thickness…",
@@ -340,7 +356,28 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Modify, 5),
+    .menu(Menu::Modify, 5)
+    .on(&[On::Wall, On::Several]),
+    with(
+        "set-wall-length",
+        "Length of wall…",
+        "Make the selected wall so long: one end moves along it, with the walls that meet it there at a right angle",
+        has_wall,
+        &given2(
+            needed("LENGTH", length(0.001, 1e5), "how long, along its middle"),
+            optional("END", one_of::<End>(), "which end moves: start or end (without)"),
+            |app, length_m, end, _| {
+                let Some(ElementId::Wall(wall)) = app.picked() else {
+                    return Outcome::Refused("select one wall first".to_owned());
+                };
+                let end = end.unwrap_or(End::End);
+                edited(app, "Set length", |plan| edit::set_wall_length(plan, wall, length_m, end))
+            },
+        ),
+        None,
+    )
+    .menu(Menu::Modify, 5)
+    .on(&[On::Wall]),
     with(
         "merge-rooms",
         "Merge rooms",
@@ -359,7 +396,8 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .when_complete(has_rooms)
     .keys(&[key(Key::J)])
-    .menu(Menu::Modify, 6),
+    .menu(Menu::Modify, 6)
+    .on(&[On::Several]),
     with(
         "bridge-gaps",
         "Doors into all gaps",
@@ -370,6 +408,17 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .menu(Menu::Modify, 6),
     with(
+        "flip",
+        "Flip",
+        "Hang the selected doors, or the one just placed, the next way: at the other end, to the other side; Space on \
+         the plan does it",
+        has_door,
+        &given0(|app, _| app.flip_doors()),
+        None,
+    )
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening]),
+    with(
         "flip-hinge",
         "Hinge at the other end",
         "Hinge the selected doors at their other end",
@@ -377,7 +426,8 @@ pub(super) const COMMANDS: &[Command] = &[
         &given0(|app, _| app.change_openings("Flip hinge", edit::flip_hinge)),
         None,
     )
-    .menu(Menu::Modify, 7),
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening]),
     with(
         "flip-side",
         "Open to the other side",
@@ -386,7 +436,8 @@ pub(super) const COMMANDS: &[Command] = &[
         &given0(|app, _| app.change_openings("Flip side", edit::flip_side)),
         None,
     )
-    .menu(Menu::Modify, 7),
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening]),
     with(
         "set-opening-kind",
         "Kind of opening…",
@@ -397,7 +448,8 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Modify, 7),
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening, On::Several]),
     with(
         "set-opening-width",
         "Width of opening…",
@@ -411,6 +463,56 @@ pub(super) const COMMANDS: &[Command] = &[
             }
             ran
         }),
+        None,
+    )
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening, On::Several]),
+    with(
+        "set-opening-distance",
+        "Distance of opening…",
+        "Move the selected opening along its wall until it is so far from what lies beside it",
+        has_opening,
+        &given2(
+            needed("DISTANCE", length(0.0, 1000.0), "from its end to the next opening, or the next wall's face"),
+            optional("END", one_of::<End>(), "which of its ends: start (without) or end"),
+            |app, distance_m, end, _| {
+                let Some(ElementId::Opening(opening)) = app.picked() else {
+                    return Outcome::Refused("select one opening first".to_owned());
+                };
+                let end = end.unwrap_or(End::Start);
+                edited(app, "Set distance", |plan| edit::set_opening_distance(plan, opening, end, distance_m))
+            },
+        ),
+        None,
+    )
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening]),
+    with(
+        "set-hinge",
+        "Hinge…",
+        "Hinge the selected doors at an end",
+        has_opening,
+        &given1(needed("END", one_of::<End>(), "start or end, as the opening lies"), |app, end, _| {
+            app.change_openings("Set hinge", |plan, id, shown| {
+                edit::change_swing(plan, id, shown, |swing| Swing { hinge_at_start: end == End::Start, ..swing })
+            })
+        }),
+        None,
+    )
+    .menu(Menu::Modify, 7),
+    with(
+        "set-side",
+        "Side that a door opens to…",
+        "Let the selected doors open to a side",
+        has_opening,
+        &given1(
+            needed("SIDE", one_of::<LeafSide>(), "left or right, from the opening's start to its end"),
+            |app, side, _| {
+                app.change_openings("Set side", |plan, id, shown| {
+                    edit::change_swing(plan, id, shown, |swing| Swing { side, ..swing })
+                })
+            },
+        ),
         None,
     )
     .menu(Menu::Modify, 7),
@@ -524,6 +626,33 @@ pub(super) const COMMANDS: &[Command] = &[
                     return Outcome::Refused("this is no corner".to_owned());
                 };
                 edited_fitting(app, "Move corner", |plan| edit::drag_corners(plan, &[(corner, to)]))
+            },
+        ),
+        None,
+    ),
+    with(
+        "nudge",
+        "Nudge",
+        "Move what is selected a little, as an arrow key on the plan does; an opening along its wall",
+        has_picked,
+        &given2(
+            needed("DIRECTION", one_of::<Direction>(), "left, right, up or down"),
+            needed("DISTANCE", length(0.0001, 1000.0), "how far"),
+            |app, direction, distance_m, _| app.nudge(direction, distance_m),
+        ),
+        None,
+    ),
+    with(
+        "stretch-opening",
+        "Stretch an opening",
+        "Move one end of an opening along its wall, as near to a point as there is space; its other end stays",
+        has_openings,
+        &given3(
+            needed("OPENING", OPENING, "the opening's id"),
+            needed("END", one_of::<End>(), "start or end, as the opening lies"),
+            needed("TOWARDS", POINT, "a point, in metres"),
+            |app, opening, end, towards, _| {
+                edited(app, "Set width", |plan| edit::stretch_opening(plan, opening, end, towards))
             },
         ),
         None,

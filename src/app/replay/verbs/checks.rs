@@ -42,7 +42,7 @@ pub(super) const GROUP: Group = Group {
             form: "snapshot NAME [--region all|canvas|middle|dialog|panel|list] [--size WIDTHxHEIGHT] [--scale NUMBER] \
                    [--theme light|dark]",
             help: "Compares the window with the picture NAME.png, pixel for pixel; all of it, the canvas, the canvas \
-                   with its rulers and the messages above it (middle), the dialog, palette or menu in front, the panel \
+                   with its rulers and the messages over it (middle), the dialog, palette or menu in front, the panel \
                    on the right, or the list on the left. Size, scale and theme are for the picture only.",
             parse: snapshot,
         },
@@ -172,7 +172,7 @@ pub(super) const EXPECTATIONS: &[Expectation] = &[
     Expectation {
         name: "message",
         form: "message TEXT",
-        help: "a message above the canvas holds this text",
+        help: "a message over the canvas holds this text",
         parse: |words| {
             let expected = words.text("the text")?.to_owned();
             Ok(Box::new(move |stage| {
@@ -190,7 +190,7 @@ pub(super) const EXPECTATIONS: &[Expectation] = &[
     Expectation {
         name: "messages",
         form: "messages N",
-        help: "so many messages stand above the canvas",
+        help: "so many messages stand over the canvas",
         parse: |words| {
             let expected = words.count("the number of messages")?;
             Ok(Box::new(move |stage| same_number("message", expected, stage.window.app().messages().len())))
