@@ -29,7 +29,7 @@ pub fn fragment(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<Plan, Edi
         match element {
             ElementId::Wall(id) => part.walls.extend(plan.wall(*id).map(|wall| (*id, wall.clone()))),
             ElementId::Room(id) => part.rooms.extend(plan.rooms.get(id).map(|room| (*id, Arc::clone(room)))),
-            ElementId::Corner(_) | ElementId::Opening(_) => {}
+            ElementId::Corner(_) | ElementId::Opening(_) | ElementId::Dimension(_) => {}
         }
     }
     let edges: BTreeSet<[CornerId; 2]> = crate::edit::overlay::plan_edges(&part).map(|(a, b)| ordered(a, b)).collect();

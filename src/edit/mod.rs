@@ -2,9 +2,11 @@
 //! says what is in the way; the given plan is never changed.
 
 mod across;
+mod beside;
 mod bridge;
 mod calibration;
 mod copy;
+mod dimensions;
 mod draw;
 mod fill;
 mod free_space;
@@ -33,12 +35,14 @@ use crate::plan::{
 };
 
 pub use across::{Across, room_around, split_rooms, straight_across};
+pub use beside::{Built, Lies, boundary_around, draw_walls_beside, walls_beside};
 pub use bridge::bridge_gaps;
 pub use calibration::{
     Calibration, DrawingMoves, UNMEASURED_METRES_PER_PIXEL, move_picture, set_measurements, straightening_rad,
     turn_picture,
 };
 pub use copy::{Array, array, copy_elements, fragment, insert};
+pub use dimensions::{Settled, dimension_between, draw_dimension, move_dimension, settle_dimensions};
 pub use draw::{Drawn, cut_out, draw_room, draw_walls, split_room};
 pub use fill::{Filled, fill_all, fill_at};
 pub use free_space::{DrawnInFreeSpace, GAP_BETWEEN_ROOMS_M, draw_room_in_free_space};
@@ -291,6 +295,7 @@ pub fn remove(plan: &Plan, elements: &[ElementId]) -> Result<Plan, EditError> {
             ElementId::Wall(id) => plan.walls.contains_key(id),
             ElementId::Room(id) => plan.rooms.contains_key(id),
             ElementId::Opening(id) => plan.openings.contains_key(id),
+            ElementId::Dimension(id) => plan.dimensions.contains_key(id),
         };
         if !exists {
             return fail(format!("{element} does not exist"));
@@ -303,6 +308,7 @@ pub fn remove(plan: &Plan, elements: &[ElementId]) -> Result<Plan, EditError> {
             ElementId::Corner(id) => drop(next.corners.remove(&id)),
             ElementId::Wall(id) => drop(next.walls.remove(&id)),
             ElementId::Opening(id) => drop(next.openings.remove(&id)),
+            ElementId::Dimension(id) => drop(next.dimensions.remove(&id)),
             ElementId::Room(id) => {
                 next.rooms.remove(&id);
                 rooms_gone.insert(id);

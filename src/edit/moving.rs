@@ -68,7 +68,9 @@ pub fn move_elements(plan: &Plan, elements: &BTreeSet<ElementId>, transform: Tra
             }
         }
     }
-    Ok(next)
+    let chains =
+        elements.iter().filter_map(|element| if let ElementId::Dimension(id) = element { Some(*id) } else { None });
+    chains.fold(Ok(next), |next, id| super::dimensions::transformed(plan, &next?, id, transform))
 }
 
 /// A mirrored door opens to the other side of its segment, whose ends keep their order.
@@ -102,6 +104,11 @@ pub fn corners_of(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<BTreeSe
             },
             ElementId::Opening(id) => {
                 if plan.opening(*id).is_none() {
+                    return fail(format!("{id} does not exist"));
+                }
+            }
+            ElementId::Dimension(id) => {
+                if plan.dimension(*id).is_none() {
                     return fail(format!("{id} does not exist"));
                 }
             }

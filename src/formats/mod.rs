@@ -15,6 +15,7 @@ pub mod options;
 pub mod plan_json;
 mod point_openings;
 pub mod registry;
+mod room_schedule;
 mod text;
 
 pub use files::{
@@ -29,4 +30,4 @@ pub use registry::{
 };
 
 /// Every known format, in the order of menus and help.
-pub const FORMATS: &[&Format] = &[&plan_json::FORMAT, &authors_xml::FORMAT, &geojson::FORMAT];
+pub const FORMATS: &[&Format] = &[&plan_json::FORMAT, &authors_xml::FORMAT, &geojson::FORMAT, &room_schedule::FORMAT];

@@ -15,6 +15,7 @@ use crate::app::look::{
     theme,
     widgets::{Lead, Row, Segment, caption, colours, follow_focus, hairline, link, section, segmented, strong, value},
 };
+use crate::app::paint::preview::angle;
 use crate::app::session::document::{Derived, Document};
 use crate::app::session::fields::{Field, FieldKind};
 use crate::app::state::{App, Height, Side, SidePanel, panels};
@@ -101,7 +102,7 @@ fn show(app: &mut App, ui: &mut Ui) {
             let word = app.plan().map(|plan| commands::room_word(plan, room)).unwrap_or_default();
             app.act("find-room", &[&word], ui.ctx());
         }
-        Some(Act::Pick(ElementId::Wall(_) | ElementId::Corner(_))) => {}
+        Some(Act::Pick(ElementId::Wall(_) | ElementId::Corner(_) | ElementId::Dimension(_))) => {}
         Some(Act::Pick(ElementId::Opening(opening))) => {
             app.act("pick-opening", &[&opening.to_string(), "on"], ui.ctx())
         }
@@ -146,6 +147,7 @@ impl Inspected<'_> {
             (selection.walls().count(), "wall"),
             (selection.openings().count(), "opening"),
             (selection.corners().count(), "corner"),
+            (selection.dimensions().count(), "dimension"),
         ];
         let said: Vec<String> =
             counts.iter().filter(|(number, _)| *number > 0).map(|(number, thing)| count(*number, thing)).collect();
@@ -172,16 +174,21 @@ impl Inspected<'_> {
             .collect();
         if let Some(&(_, thickness_m)) = walls.first() {
             let length_m: f64 = walls.iter().map(|(length_m, _)| length_m).sum();
-            value(ui, if walls.len() == 1 { "Length" } else { "Length together" }, &self.app.units().length(length_m));
+            let units = self.app.units();
+            if let [_] = walls.as_slice() {
+                self.one_wall(ui, length_m);
+            } else {
+                value(ui, "Length together", &units.length(length_m)).on_hover_text("Along their axes");
+            }
             if walls.iter().all(|(_, other_m)| *other_m == thickness_m) {
                 act = act.or(self.length(ui, "Thickness", thickness_m, 0.0..=10.0, "set-thickness"));
             }
         }
         let areas_m2: Vec<f64> = self.document.derived().map_or_else(Vec::new, |derived| {
-            selection.rooms().filter_map(|id| derived.analysis.shapes.get(id)).map(RoomShape::area_m2).collect()
+            selection.rooms().filter_map(|id| derived.analysis.net(id)).map(|net| net.area_m2).collect()
         });
         if !areas_m2.is_empty() {
-            value(ui, "Area together", &self.app.units().area(areas_m2.iter().sum()));
+            value(ui, "Clear area together", &self.app.units().area(areas_m2.iter().sum()));
         }
         if let Some(ElementId::Corner(id)) = selection.one()
             && let Some(place) = self.plan.position(id)
@@ -190,6 +197,22 @@ impl Inspected<'_> {
             value(ui, "Place", &format!("{}, {}", units.exact_length(place.x), units.exact_length(place.y)));
         }
         act
+    }
+
+    /// The lengths of the selected wall, and its direction.
+    fn one_wall(&self, ui: &mut Ui, length_m: f64) {
+        let units = self.app.units();
+        value(ui, "Length, axis", &units.length(length_m));
+        let Some(id) = self.app.selection().walls().next() else { return };
+        if let Some(faces) = self.document.derived().and_then(|derived| derived.index.faces_of(id)) {
+            // Which is which, a person sees on the plan, where each length stands beside its face.
+            let mut lengths_m = [faces.left.length(), faces.right.length()];
+            lengths_m.sort_by(f64::total_cmp);
+            value(ui, "Along faces", &lengths_m.map(|length_m| units.length(length_m)).join(", "));
+        }
+        if let Some(axis) = self.plan.wall(id).and_then(|wall| self.plan.wall_segment(wall)) {
+            value(ui, "Direction", &angle(axis.vector())).on_hover_text("Counter-clockwise from the right");
+        }
     }
 
     /// A length of what is selected, which a command changes.
@@ -307,9 +330,11 @@ impl Inspected<'_> {
         value(ui, "Windows", &(plan.openings().len() - doors).to_string());
         if let Some(derived) = self.document.derived() {
             // An empty sum is minus zero.
-            let areas_m2 = derived.analysis.shapes.all().iter().map(crate::topology::RoomShape::area_m2);
-            let area_m2 = areas_m2.fold(0.0, |sum, area_m2| sum + area_m2);
-            value(ui, "Floor area", &self.app.units().area(area_m2));
+            let sum_m2 = |areas_m2: &mut dyn Iterator<Item = f64>| areas_m2.fold(0.0, |sum, area_m2| sum + area_m2);
+            let clear_m2 = sum_m2(&mut derived.analysis.net.iter().flatten().map(|net| net.area_m2));
+            let along_m2 = sum_m2(&mut derived.analysis.shapes.all().iter().map(RoomShape::area_m2));
+            value(ui, "Clear area", &self.app.units().area(clear_m2)).on_hover_text(CLEAR);
+            value(ui, "Along axes", &self.app.units().area(along_m2)).on_hover_text(ALONG);
             self.gaps(ui, derived);
         }
         if let Some(predictions) = self.document.derived().and_then(|derived| derived.predictions.as_ref())
@@ -402,6 +427,12 @@ fn header(
     });
 }
 
+/// What a clear area is.
+const CLEAR: &str = "Between wall faces, without piers and other walls inside: the net floor area";
+
+/// What the other one is.
+const ALONG: &str = "What the boundary encloses: to the axes of the walls, or as it was drawn or imported";
+
 /// `F_r` with readable names.
 fn features(ui: &mut Ui, analysed: &RoomAnalysis, perimeter_m: Option<f64>, units: Units) {
     let Some(features) = &analysed.features else {
@@ -420,8 +451,8 @@ fn features(ui: &mut Ui, analysed: &RoomAnalysis, perimeter_m: Option<f64>, unit
         format!("Longest wall {major}, longest wall perpendicular to it {minor}{extent}")
     });
     let names = Features::NAMES;
-    let around = perimeter_m.map(|perimeter_m| format!("Perimeter {}", units.length(perimeter_m)));
-    feature(ui, "Area", names[0], &units.area(features.area_m2), false, around.as_deref());
+    let around = perimeter_m.map(|perimeter_m| format!("{ALONG}. Perimeter {}", units.length(perimeter_m)));
+    feature(ui, "Area along axes", names[0], &units.area(features.area_m2), false, around.as_deref());
     feature(ui, "Axes ratio", names[1], &format!("{:.2}", features.axes_ratio), false, axes.as_deref());
     feature(ui, "Openings", names[2], &features.doors.to_string(), features.doors == 0, None);
     for label in Label::ALL {

@@ -5,6 +5,7 @@
 
 mod calibrate;
 mod cut_out;
+mod dimension;
 mod fill;
 mod input;
 mod measure;
@@ -48,6 +49,7 @@ pub(crate) const TOOLS: &[Entry] = &[
     opening::PASSAGE,
     opening::WINDOW,
     measure::ENTRY,
+    dimension::ENTRY,
     number::ENTRY,
     paste::ENTRY,
     calibrate::BY_LENGTH,
