@@ -247,9 +247,16 @@ pub(crate) fn angle(way: Vector) -> String {
     if text == units::angle(TAU) { units::angle(0.0) } else { text }
 }
 
+/// The turn from one direction into another, in radians: to the left above 0, to the right below, up to half a turn.
+pub(crate) fn turn_rad(along: Vector, way: Vector) -> f64 {
+    // On the 0.1 degree that is shown.
+    let tenths = (along.cross(way).atan2(along.dot(way)).to_degrees() * 10.0).round();
+    (tenths / 10.0).to_radians()
+}
+
 /// The turn from one direction into another, as a turn: 'turn 30° left'; empty where it goes straight on.
 pub(crate) fn turn(along: Vector, way: Vector) -> String {
-    let turn_rad = along.cross(way).atan2(along.dot(way));
+    let turn_rad = turn_rad(along, way);
     let side = if turn_rad < 0.0 { "right" } else { "left" };
     let text = units::angle(turn_rad.abs());
     if text == units::angle(0.0) { String::new() } else { format!("turn {text} {side}") }
