@@ -35,6 +35,8 @@ pub struct Drawing {
     /// What to know before believing what is shown, below the title; empty for most.
     pub(super) caveat: String,
     bounds: Bounds,
+    /// The same without dimension chains.
+    built: Bounds,
     /// How a large plan is cut into tiles; `None` if in one piece.
     tiles: Option<Tiles>,
 }
@@ -129,6 +131,7 @@ impl Drawing {
             walls_drawn.iter().fold(plan.bounds(), |bounds, wall| bounds.union(Bounds::of(wall.outer.iter().copied())));
         let bounds = openings.iter().fold(bounds, |bounds, opening| bounds.union(opening.bounds()));
         let dimensions = dimensions::lines(plan);
+        let built = bounds;
         let bounds = bounds.union(dimensions::bounds(&dimensions));
         let graph = graph_edges(analysis, &rooms, &openings);
         let boundaries = without_openings(walls.boundaries, &openings);
@@ -165,6 +168,7 @@ impl Drawing {
             are_piled,
             caveat: String::new(),
             bounds,
+            built,
             tiles,
         }
     }
@@ -224,6 +228,11 @@ impl Drawing {
     /// The bounding box of all that is drawn, in metres.
     pub fn bounds(&self) -> Bounds {
         self.bounds
+    }
+
+    /// The bounding box of rooms, walls and openings, without the dimension chains beside them, in metres.
+    pub fn built_bounds(&self) -> Bounds {
+        self.built
     }
 
     /// How a door's leaf is drawn; `None` for openings without a leaf. Openings are sorted by id.

@@ -1,6 +1,6 @@
 //! The schedule of rooms: a table with the areas of each, for spreadsheets.
 
-use super::{Export, Exporter, Format, Holds, Lost, NamedBytes, NamedPlan, Options};
+use super::{Export, Exporter, Format, Holds, Lost, NamedBytes, NamedPlan, Options, Refused};
 use crate::dataset::csv::{Guard, cell};
 use crate::features::{NeighbourLabels, analyse};
 use crate::labels::{Label, Schemes};
@@ -37,7 +37,7 @@ impl Exporter for RoomSchedule {
         Holds::OnePlan
     }
 
-    fn write(&self, plans: &[NamedPlan<'_>], schemes: &Schemes, _: &Options) -> Export {
+    fn write(&self, plans: &[NamedPlan<'_>], schemes: &Schemes, _: &Options) -> Result<Export, Refused> {
         let mut export = Export::default();
         for &NamedPlan { stem, plan } in plans {
             let table = table(plan, schemes);
@@ -48,7 +48,7 @@ impl Exporter for RoomSchedule {
             }
             export.lost.push(Lost { stem: stem.to_owned(), what: "the drawing".to_owned() });
         }
-        export
+        Ok(export)
     }
 }
 

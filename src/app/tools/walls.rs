@@ -10,6 +10,7 @@ use crate::app::look::icons::Part::Line;
 use crate::app::paint::preview::{Look, Preview};
 use crate::edit::{self, Built, Lies};
 use crate::geometry::Point;
+use crate::plan::DEFAULT_WALL_THICKNESS_M;
 use crate::snapping::Faces;
 
 pub(super) const ENTRY: Entry = Entry {
@@ -183,7 +184,11 @@ impl Tool for Walls {
     }
 
     fn resume(&mut self, points: Vec<Point>) {
-        *self = Self::Drawing(Path::through(points));
+        let path = Path::through(points);
+        // How they were built is not known: by their axes they go on as they are.
+        let built = Built { thickness_m: DEFAULT_WALL_THICKNESS_M, lies: Lies::Centre };
+        let built = vec![built; path.points.len().saturating_sub(1)];
+        *self = Self::Drawing { path, built };
     }
 
     fn keys(&self) -> &'static [Key] {
