@@ -9,10 +9,10 @@ pub(crate) use crate::app::session::words::{
 };
 use crate::app::session::{bulk::Order, selection::SelectMode};
 use crate::classify::Method;
-use crate::edit::{Alignment, DrawingMoves, storey::Keep};
-use crate::geometry::Point;
+use crate::edit::{Alignment, DrawingMoves, End, Lies, Reach, storey::Keep};
+use crate::geometry::{Point, Vector};
 use crate::labels::Typology;
-use crate::plan::{ElementId, GuideAxis, OpeningId, OpeningKind, RoomId};
+use crate::plan::{DimensionAlong, ElementId, GuideAxis, LeafSide, OpeningId, OpeningKind, RoomId};
 use crate::predict::ModelSet;
 
 /// A parsed argument.
@@ -95,6 +95,17 @@ impl Worded for OpeningKind {
     const ALL: &'static [Self] = &[Self::Door, Self::DoubleDoor, Self::Passage, Self::Window];
 }
 
+impl Worded for End {
+    const WORDS: &'static [(&'static str, &'static str)] = &[("start", "At its start"), ("end", "At its end")];
+    const ALL: &'static [Self] = &Self::BOTH;
+}
+
+impl Worded for LeafSide {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("left", "To the left of its direction"), ("right", "To the right of its direction")];
+    const ALL: &'static [Self] = &[Self::Left, Self::Right];
+}
+
 impl Worded for SelectMode {
     const WORDS: &'static [(&'static str, &'static str)] =
         &[("replace", "Instead of what is selected"), ("add", "Besides"), ("toggle", "Take out what is in")];
@@ -116,6 +127,18 @@ impl Worded for DrawingMoves {
     const ALL: &'static [Self] = &[Self::Along, Self::Stays];
 }
 
+impl Worded for Lies {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("left", "Left of the line"), ("centre", "Centred on the line"), ("right", "Right of the line")];
+    const ALL: &'static [Self] = &Self::ALL;
+}
+
+impl Worded for DimensionAlong {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("horizontal", "Level"), ("vertical", "Upright"), ("aligned", "From the first point to the last")];
+    const ALL: &'static [Self] = &Self::ALL;
+}
+
 impl Worded for Order {
     const WORDS: &'static [(&'static str, &'static str)] = Order::WORDS;
     const ALL: &'static [Self] = &[Self::Rows, Self::Columns];
@@ -131,6 +154,26 @@ impl Worded for Alignment {
         ("middle", "Middles, on a level line"),
     ];
     const ALL: &'static [Self] = &[Self::Left, Self::Right, Self::Top, Self::Bottom, Self::Center, Self::Middle];
+}
+
+impl Worded for Reach {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("run", "The straight run that the wall is part of"), ("piece", "Only this piece of it")];
+    const ALL: &'static [Self] = &[Self::Run, Self::Piece];
+}
+
+/// What mirroring, turning and scaling leave behind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum MoveOrCopy {
+    Move,
+    /// The original stays.
+    Copy,
+}
+
+impl Worded for MoveOrCopy {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("move", "Move what is selected"), ("copy", "Leave the original and make a copy")];
+    const ALL: &'static [Self] = &[Self::Move, Self::Copy];
 }
 
 /// What a new room covers.
@@ -169,6 +212,18 @@ pub(crate) enum Direction {
     Right,
     Up,
     Down,
+}
+
+impl Direction {
+    /// A step of length 1 that way in the plan.
+    pub(crate) const fn vector(self) -> Vector {
+        match self {
+            Self::Left => Vector::new(-1.0, 0.0),
+            Self::Right => Vector::new(1.0, 0.0),
+            Self::Up => Vector::new(0.0, 1.0),
+            Self::Down => Vector::new(0.0, -1.0),
+        }
+    }
 }
 
 impl Worded for Direction {

@@ -306,11 +306,7 @@ fn paint(drawing: &Drawing, style: &Style, sheet: &Sheet, entries: &[Entry], lay
     let mut scene = drawing.scene(&style, &view);
     let mut items = Vec::new();
     if sheet.dimensions && !bounds.is_empty() {
-        let walls = drawing.walls.iter().flat_map(|wall| wall.outer.iter().copied());
-        let rooms = drawing.rooms.iter().flat_map(|room| room.outer.iter().copied());
-        // Not over leaves that open to the outside.
-        let built = Bounds::of(walls.chain(rooms));
-        overall(&mut items, palette, &view, if built.is_empty() { bounds } else { built }, bounds, style.units);
+        overall(&mut items, palette, &view, bounds, drawing.built_bounds(), style.units);
     }
     if sheet.title_block {
         let frame = Bounds {
@@ -348,14 +344,14 @@ fn outline(of: Bounds, colour: Rgba, width_px: f64) -> Item {
 }
 
 /// The overall width below the plan and height to its left: over the outer faces of the walls.
-fn overall(items: &mut Vec<Item>, palette: &Palette, view: &View, built: Bounds, drawn: Bounds, units: Units) {
+fn overall(items: &mut Vec<Item>, palette: &Palette, view: &View, around: Bounds, built: Bounds, units: Units) {
     let [low, high] = [built.min, built.max].map(|point| view.screen_from_plan(point));
     let (left, right, top, bottom) = (low.x, high.x, high.y, low.y);
-    // The line lies beyond all that is drawn.
-    let outer = view.screen_from_plan(drawn.min);
+    // Beside the dimension chains of the plan.
+    let beside = view.screen_from_plan(around.min);
     let ink = palette.ink;
-    let (beyond, tick) = (px(1.5), px(1.2));
-    let mut chain = |from: Point, to: Point, out: Vector, offset: f64, length_m: f64| {
+    let (offset, beyond, tick) = (px(6.0), px(1.5), px(1.2));
+    let mut chain = |from: Point, to: Point, out: Vector, length_m: f64| {
         if length_m <= 0.0 {
             return;
         }
@@ -380,9 +376,8 @@ fn overall(items: &mut Vec<Item>, palette: &Palette, view: &View, built: Bounds,
             upright,
         }));
     };
-    let (below, beside) = (outer.y - bottom + px(6.0), left - outer.x + px(6.0));
-    chain(Point::new(left, bottom), Point::new(right, bottom), Vector::new(0.0, 1.0), below, built.width());
-    chain(Point::new(left, bottom), Point::new(left, top), Vector::new(-1.0, 0.0), beside, built.height());
+    chain(Point::new(left, beside.y), Point::new(right, beside.y), Vector::new(0.0, 1.0), built.width());
+    chain(Point::new(beside.x, bottom), Point::new(beside.x, top), Vector::new(-1.0, 0.0), built.height());
 }
 
 /// What the plan is, its scale and its size.
@@ -505,8 +500,8 @@ mod tests {
         let mut builder = Builder::default();
         builder.corner(Point::new(0.0, 0.0));
         builder.corner(Point::new(width_m, height_m));
-        let plan = builder.plan().clone();
-        Drawing::new(&plan, &analyse(&plan, &Schemes::bundled(), NeighbourLabels::True))
+        let plan = builder.plan();
+        Drawing::new(plan, &analyse(plan, &Schemes::bundled(), NeighbourLabels::True))
     }
 
     #[test]

@@ -21,8 +21,8 @@ pub use bundled::{BUNDLED, bundled_plans};
 #[cfg(feature = "pictures")]
 pub use grid_maps::{MapFileError, is_map_yaml, load_map, load_picture_as_map};
 pub use journal::{
-    Journal, JournalFailure, JournalStart, Leftover, Predecessor, Recovered, STATE_VARIABLE, journal_folder, leftovers,
-    read_journal,
+    Draft, Journal, JournalFailure, JournalStart, Leftover, Predecessor, Recovered, STATE_VARIABLE, journal_folder,
+    leftovers, read_journal,
 };
 pub use logs::{LoadedLog, load_log, read_log};
 pub use made::MadeFiles;

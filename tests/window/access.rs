@@ -290,7 +290,7 @@ fn one_sees_where_the_keyboard_is() {
 fn rooms_are_told_with_label_and_area() {
     let mut window = window_with("dwelling");
     let kitchen = window.control("Kitchen").unwrap();
-    assert_eq!((kitchen.description.as_str(), kitchen.is_on), ("medium room, kitchen, 15.7 m²", Some(false)));
+    assert_eq!((kitchen.description.as_str(), kitchen.is_on), ("medium room, kitchen, 13.6 m² clear", Some(false)));
     click_room(&mut window, "Study");
     assert_eq!(
         window.controls().into_iter().find(|control| is_room(control) && control.name == "Study").unwrap().is_on,
@@ -299,8 +299,9 @@ fn rooms_are_told_with_label_and_area() {
     for (_, room) in window.app().plan().unwrap().rooms() {
         assert!(window.control(&room.name).is_some_and(|control| is_room(&control) || control.name == room.name));
     }
-    // With the keyboard on the plan, arrows go from room to room.
-    key(&mut window, Key::ArrowDown);
+    // With the keyboard on the plan, Ctrl and arrows go from room to room.
+    window.key(Modifiers::COMMAND, Key::ArrowDown);
+    window.settle().unwrap();
     assert_eq!(window.app().picked(), Some(ElementId::Room(room(&window, "Bedroom"))));
     key(&mut window, Key::Enter);
     assert_eq!(window.focused().map(|control| control.name).as_deref(), Some("Name"));

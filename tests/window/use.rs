@@ -115,7 +115,14 @@ fn the_inspector_leads_from_room_to_room() {
     assert!(window.open_bundled("dwelling"));
     window.settle().unwrap();
     click_room(&mut window, "Kitchen");
-    for expected in ["Area: 15.7 m²", "Axes ratio: 2.00", "Openings: 2", "to halls: 1", "Medium room"] {
+    for expected in [
+        "Area along axes: 15.7 m²",
+        "Clear area: 13.6 m²",
+        "Axes ratio: 2.00",
+        "Openings: 2",
+        "to halls: 1",
+        "Medium room",
+    ] {
         assert!(window.control(expected).is_some(), "{expected}");
     }
     press(&mut window, "Dining room");
@@ -152,12 +159,12 @@ fn rooms_are_reached_by_keyboard() {
     window.key(Modifiers::NONE, Key::Tab);
     window.settle().unwrap();
     assert_eq!(window.app().picked(), *seen.last().unwrap());
-    // Arrows go to the room on that side.
+    // With Ctrl arrows go to the room on that side.
     click_room(&mut window, "Dining room");
-    window.key(Modifiers::NONE, Key::ArrowUp);
+    window.key(Modifiers::COMMAND, Key::ArrowUp);
     window.settle().unwrap();
     assert_eq!(window.app().picked(), Some(ElementId::Room(room(&window, "Kitchen"))));
-    window.key(Modifiers::NONE, Key::ArrowRight);
+    window.key(Modifiers::COMMAND, Key::ArrowRight);
     window.settle().unwrap();
     assert_eq!(window.app().picked(), Some(ElementId::Room(room(&window, "Living room"))));
 }

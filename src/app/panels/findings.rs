@@ -72,7 +72,11 @@ fn show(app: &mut App, ui: &mut Ui) {
             });
         });
         ui.add_space(2.0);
-        let Some(checked) = checked else { return };
+        let Some(checked) = checked else {
+            // As high as with a list, or the panel would shrink and stay so.
+            ui.take_available_space();
+            return;
+        };
         let id = Id::unique("reason of a finding");
         let mut reason = ui.data_mut(|data| data.get_temp::<Reason>(id)).unwrap_or_default();
         ScrollArea::vertical().id_salt("findings").auto_shrink(false).show(ui, |ui| {

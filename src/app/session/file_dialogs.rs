@@ -29,6 +29,8 @@ pub(crate) struct Given {
     pub answers: VecDeque<Option<PathBuf>>,
     /// How many dialogs found no answer left.
     pub unanswered: usize,
+    /// Whether one is open.
+    is_open: bool,
 }
 
 /// The purpose of choosing a file.
@@ -68,6 +70,7 @@ impl Dialogs {
             Self::Given(given) => {
                 let answer = given.answers.pop_front();
                 given.unanswered += usize::from(answer.is_none());
+                given.is_open = true;
                 let path = answer.flatten();
                 jobs.start(kind, move |_| answers(Answer { purpose, path, was_shown: true }));
             }
@@ -130,8 +133,15 @@ impl Dialogs {
 
     /// Records that the dialog has closed.
     pub(crate) fn answered(&mut self) {
-        if let Self::System { is_open } = self {
-            *is_open = false;
+        match self {
+            Self::System { is_open } | Self::Given(Given { is_open, .. }) => *is_open = false,
+        }
+    }
+
+    /// Whether a dialog is open: it, not the window, is meant by what is typed.
+    pub(crate) const fn is_open(&self) -> bool {
+        match self {
+            Self::System { is_open } | Self::Given(Given { is_open, .. }) => *is_open,
         }
     }
 }

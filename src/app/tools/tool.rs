@@ -9,6 +9,7 @@ use super::typing::Typing;
 use crate::app::look::icons::Icon;
 use crate::app::paint::preview::Preview;
 use crate::geometry::Point;
+use crate::snapping::Faces;
 
 /// A tool, and all that the window shows of it: its command, its place in the strip, its options.
 pub(crate) struct Entry {
@@ -46,6 +47,13 @@ pub(crate) enum ToolOption {
         /// Its name in the bar.
         name: &'static str,
     },
+    /// One of several, which its command goes through.
+    Choice {
+        command: &'static str,
+        name: &'static str,
+        /// The word of what is chosen.
+        now: fn(&DrawOptions) -> &'static str,
+    },
     /// A length in metres.
     Length {
         command: &'static str,
@@ -62,12 +70,18 @@ pub(super) const SNAPPING: ToolOption = ToolOption::Switch { command: "snapping"
 pub(super) const GRID: ToolOption = ToolOption::Switch { command: "snap-to-grid", name: "Grid" };
 pub(super) const RIGHT_ANGLES: ToolOption = ToolOption::Switch { command: "right-angles", name: "Right angles" };
 pub(super) const WITH_WALLS: ToolOption = ToolOption::Switch { command: "walls-with-rooms", name: "With walls" };
+pub(super) const CLEAR_SIZES: ToolOption = ToolOption::Switch { command: "clear-sizes", name: "Clear sizes" };
+pub(super) const COPIES: ToolOption = ToolOption::Switch { command: "transform-copies", name: "Copy" };
 pub(super) const OVER_ROOMS: ToolOption = ToolOption::Switch { command: "over-rooms", name: "Over rooms" };
+
+/// On which side of the line walls stand.
+pub(super) const WALL_SIDE: ToolOption =
+    ToolOption::Choice { command: "wall-side", name: "Side", now: |options| options.lies.name() };
 
 /// The thickness of walls.
 pub(super) const THICKNESS: ToolOption = thickness(|_| true);
 
-/// The thickness of the walls around rooms, if they are drawn.
+/// The thickness of walls along new boundaries, if they are put there.
 pub(super) const THICKNESS_WITH_ROOMS: ToolOption = thickness(|options| options.walls_with_rooms);
 
 const fn thickness(is_shown: fn(&DrawOptions) -> bool) -> ToolOption {
@@ -141,6 +155,11 @@ pub(crate) trait Tool {
         true
     }
 
+    /// How it takes the faces of walls.
+    fn faces(&self, _options: &DrawOptions) -> Faces {
+        Faces::Off
+    }
+
     fn anchor(&self) -> Option<Anchor> {
         self.path()?.anchor()
     }
@@ -148,6 +167,18 @@ pub(crate) trait Tool {
     /// Points of the work in progress that can be snapped to like corners.
     fn points(&self) -> Vec<Point> {
         Vec::new()
+    }
+
+    /// The points of what is half drawn: they are kept as safe as the plan.
+    fn draft(&self) -> Vec<Point> {
+        self.path().map(|path| path.points.clone()).unwrap_or_default()
+    }
+
+    /// Goes on with points that were half drawn when the program ended.
+    fn resume(&mut self, points: Vec<Point>) {
+        if let Some(path) = self.path_mut() {
+            *path = Path::through(points);
+        }
     }
 
     /// What can be typed now.

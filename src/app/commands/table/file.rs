@@ -27,7 +27,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     )
-    .menu(Menu::File, 0),
+    .menu(Menu::File, 0)
+    .on(&[On::ListedPlan]),
     with(
         "open",
         "Open…",
@@ -67,7 +68,8 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[ctrl(Key::S)])
-    .menu(Menu::File, 1),
+    .menu(Menu::File, 1)
+    .on(&[On::ListedPlan]),
     with(
         "save-as",
         "Save as…",
@@ -83,7 +85,8 @@ pub(super) const COMMANDS: &[Command] = &[
         Some(|app, _| app.session.ask_where_to_save(None, None)),
     )
     .keys(&[ctrl_shift(Key::S)])
-    .menu(Menu::File, 1),
+    .menu(Menu::File, 1)
+    .on(&[On::ListedPlan]),
     with(
         "export",
         "Export…",
@@ -100,7 +103,8 @@ pub(super) const COMMANDS: &[Command] = &[
         Some(|app, _| app.open_dialog(dialogs::EXPORT)),
     )
     .keys(&[ctrl(Key::E)])
-    .menu(Menu::File, 1),
+    .menu(Menu::File, 1)
+    .on(&[On::ListedPlan]),
     with(
         "print",
         "Print…",
@@ -200,7 +204,8 @@ pub(super) const COMMANDS: &[Command] = &[
     .menu(Menu::File, 3),
     command("close", "Close plan", "Close the plan", has_plan, |app, _| app.session.request(Intent::Close))
         .keys(&[ctrl(Key::W)])
-        .menu(Menu::File, 4),
+        .menu(Menu::File, 4)
+        .on(&[On::ListedPlan]),
     command("quit", "Quit", "Close the window", always, |app, _| app.session.request(Intent::Quit))
         .keys(&[ctrl(Key::Q)])
         .menu(Menu::File, 4),

@@ -17,7 +17,7 @@ use std::sync::LazyLock;
 use egui::{Context, Key, KeyboardShortcut, Modifiers};
 
 use super::given::*;
-use super::{Action, Argument, Availability, Command, Menu, Outcome};
+use super::{Action, Argument, Availability, Command, Menu, On, Outcome};
 use crate::app::look::{icons::Icon, theme::ThemeChoice};
 use crate::app::session::{fields::FieldKind, questions::Intent, selection::SelectMode, settings::GRID_RANGE_M};
 use crate::app::state::{App, Asked, Purpose, dialogs, panels};
@@ -61,6 +61,7 @@ const fn entry(
         arguments: &[],
         shortcuts: &[],
         menu: None,
+        on: &[],
         tool: None,
         strip: None,
         availability,
@@ -121,7 +122,13 @@ fn tools_of_the_strip() -> Vec<Command> {
                 Group::Openings => 1,
                 Group::Measure => 2,
             };
-            Some((group, tool(entry, has_plan).menu(Menu::Draw, section).strip(icon, group as u8)))
+            let on: &[On] = match group {
+                Group::Draw => &[On::FreeSpace],
+                Group::Openings => &[On::Wall],
+                Group::Divide => &[On::Room],
+                Group::Select | Group::Measure => &[],
+            };
+            Some((group, tool(entry, has_plan).menu(Menu::Draw, section).on(on).strip(icon, group as u8)))
         })
         .collect();
     tools.sort_by_key(|(group, _)| *group);
@@ -167,6 +174,11 @@ impl Command {
 
     const fn menu(self, menu: Menu, section: u8) -> Self {
         Self { menu: Some((menu, section)), ..self }
+    }
+
+    /// Adds it to the context menus of things.
+    const fn on(self, on: &'static [On]) -> Self {
+        Self { on, ..self }
     }
 
     /// Adds it to the strip of tools.
@@ -306,7 +318,7 @@ fn has_their_plan(app: &App) -> Availability {
 }
 
 fn has_messages(app: &App) -> Availability {
-    when(!app.session.messages.is_empty(), "there is no message")
+    when(!app.session.shown_messages().is_empty(), "there is no message")
 }
 
 fn can_record(app: &App) -> Availability {

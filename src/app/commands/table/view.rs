@@ -45,12 +45,14 @@ pub(super) const COMMANDS: &[Command] = &[
     command("fit", "Zoom to fit", "Show the whole plan", has_plan, |app, _| app.canvas.fit())
         .keys(&[key(Key::F)])
         .menu(Menu::View, 0)
+        .on(&[On::FreeSpace])
         .tool(Icon::Fit, 1),
     command("zoom-to-selection", "Zoom to selection", "Show what is picked as large as fits", has_picked, |app, _| {
         app.session.zoom_to_picked();
     })
     .keys(&[shift(Key::F)])
     .menu(Menu::View, 0)
+    .on(&[On::Room, On::Wall, On::Opening, On::Corner, On::Several])
     .tool(Icon::ZoomToSelection, 1),
     command("zoom-in", "Zoom in", "Show the plan larger", has_plan, |app, _| app.canvas.zoom_by(ZOOM_STEP))
         .keys(&[key(Key::Plus), key(Key::Equals)])
@@ -152,6 +154,7 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .keys(&[shift(Key::G)])
     .menu(Menu::View, 2)
+    .on(&[On::FreeSpace])
     .tool(Icon::Grid, 2),
     switch(
         "guides",
@@ -165,12 +168,13 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "dimensions",
         "Dimensions",
-        "Show lengths, area and perimeter of what is selected",
+        "Show dimension chains, and clear lengths, area and perimeter of what is selected",
         always,
         |app| app.session.layers.dimensions,
         |app, is_on| app.session.layers.dimensions = is_on,
     )
-    .menu(Menu::View, 2),
+    .menu(Menu::View, 2)
+    .on(&[On::FreeSpace]),
     switch(
         "ghost-layer",
         "Storey below",
@@ -227,7 +231,8 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::View, 3),
+    .menu(Menu::View, 3)
+    .on(&[On::FreeSpace]),
     with(
         "move-guide",
         "Move a guide",

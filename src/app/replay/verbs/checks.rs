@@ -12,11 +12,12 @@ use crate::app::replay::stage::{Stage, count};
 use crate::app::replay::verbs::window::{is_dark, scale, size};
 use crate::app::replay::words::{Words, did_you_mean, in_quotes, told, written};
 use crate::base::file_name::inner_path;
-use crate::features::RoomStatus;
+use crate::features::{NeighbourLabels, RoomStatus};
 use crate::formats::{self, plan_json};
-use crate::labels::Label;
+use crate::labels::{Label, Schemes};
 use crate::plan::{ElementId, OpeningKind, RoomId};
 use crate::store::save_bytes_fast;
+use crate::topology::RoomShapes;
 
 pub(super) const GROUP: Group = Group {
     title: "Checks and pictures",
@@ -41,7 +42,7 @@ pub(super) const GROUP: Group = Group {
             form: "snapshot NAME [--region all|canvas|middle|dialog|panel|list] [--size WIDTHxHEIGHT] [--scale NUMBER] \
                    [--theme light|dark]",
             help: "Compares the window with the picture NAME.png, pixel for pixel; all of it, the canvas, the canvas \
-                   with its rulers and the messages above it (middle), the dialog, palette or menu in front, the panel \
+                   with its rulers and the messages over it (middle), the dialog, palette or menu in front, the panel \
                    on the right, or the list on the left. Size, scale and theme are for the picture only.",
             parse: snapshot,
         },
@@ -77,6 +78,31 @@ pub(super) const EXPECTATIONS: &[Expectation] = &[
             Ok(Box::new(move |stage| {
                 let passable = stage.plan()?.openings().filter(|(_, opening)| opening.kind != OpeningKind::Window);
                 same_number("opening", expected, passable.count())
+            }))
+        },
+    },
+    Expectation {
+        name: "walls",
+        form: "walls N",
+        help: "so many walls",
+        parse: |words| {
+            let expected = words.count("the number of walls")?;
+            Ok(Box::new(move |stage| same_number("wall", expected, stage.plan()?.walls().len())))
+        },
+    },
+    Expectation {
+        name: "areas",
+        form: "areas TEXT",
+        help: "the areas of all rooms along the axes of their walls, ascending, in m² with two decimals and a blank \
+               between",
+        parse: |words| {
+            let expected = words.text("the areas")?.to_owned();
+            Ok(Box::new(move |stage| {
+                let shapes = RoomShapes::new(stage.plan()?);
+                let mut areas: Vec<f64> = shapes.all().iter().map(|shape| shape.area_m2()).collect();
+                areas.sort_by(f64::total_cmp);
+                let found: Vec<String> = areas.into_iter().map(|area_m2| format!("{area_m2:.2}")).collect();
+                same("the areas", &expected, &found.join(" "))
             }))
         },
     },
@@ -126,8 +152,46 @@ pub(super) const EXPECTATIONS: &[Expectation] = &[
         },
     },
     Expectation {
+        name: "clear",
+        form: "clear ROOM TEXT",
+        help: "the room's clear area, between wall faces, as it is shown: '12.0 m²'",
+        parse: |words| {
+            let (room, expected) = (words.text("the room")?.to_owned(), words.text("the area")?.to_owned());
+            Ok(Box::new(move |stage| {
+                let id = stage.room(&room, None)?;
+                let analysis = crate::features::analyse(stage.plan()?, &Schemes::bundled(), NeighbourLabels::True);
+                let net_m2 = analysis.net(id).map_or(0.0, |net| net.area_m2);
+                let found = stage.window.app().units().area(net_m2);
+                same(&format!("the clear area of {}", in_quotes(&room)), &expected, &found)
+            }))
+        },
+    },
+    Expectation {
+        name: "dimension",
+        form: "dimension TEXT",
+        help: "the figures of a dimension chain in order, as '1.43 + 0.90'; 'none' where there is no chain",
+        parse: |words| {
+            let expected = words.text("the figures")?.to_owned();
+            Ok(Box::new(move |stage| {
+                let units = stage.window.app().units();
+                let figures = |line: crate::plan::DimensionLine| {
+                    line.lengths_m().map(|length_m| units.dimension(length_m)).collect::<Vec<String>>().join(" + ")
+                };
+                let found: Vec<String> =
+                    crate::draw::dimensions::lines(stage.plan()?).into_iter().map(|(_, line)| figures(line)).collect();
+                let is_so = found.contains(&expected) || (found.is_empty() && expected == "none");
+                let found = if found.is_empty() { "none".to_owned() } else { in_quotes(&found.join(" / ")) };
+                if is_so {
+                    Ok(())
+                } else {
+                    Err(Fault::unmet(format!("expected the dimension {expected}, found {found}")))
+                }
+            }))
+        },
+    },
+    Expectation {
         name: "picked",
-        form: "picked ROOM | opening | wall | corner | nothing",
+        form: "picked ROOM | opening | wall | corner | dimension | nothing",
         help: "the one thing that is selected",
         parse: |words| {
             let word = words.next().ok_or("what is picked is missing")?.clone();
@@ -146,7 +210,7 @@ pub(super) const EXPECTATIONS: &[Expectation] = &[
     Expectation {
         name: "message",
         form: "message TEXT",
-        help: "a message above the canvas holds this text",
+        help: "a message over the canvas holds this text",
         parse: |words| {
             let expected = words.text("the text")?.to_owned();
             Ok(Box::new(move |stage| {
@@ -164,7 +228,7 @@ pub(super) const EXPECTATIONS: &[Expectation] = &[
     Expectation {
         name: "messages",
         form: "messages N",
-        help: "so many messages stand above the canvas",
+        help: "so many messages stand over the canvas",
         parse: |words| {
             let expected = words.count("the number of messages")?;
             Ok(Box::new(move |stage| same_number("message", expected, stage.window.app().messages().len())))
@@ -272,12 +336,14 @@ fn picked(stage: &Stage<'_>, expected: &str, is_quoted: bool) -> Result<(), Faul
         Some(ElementId::Room(id)) => room_name(stage, id),
         Some(ElementId::Wall(_)) => "wall".to_owned(),
         Some(ElementId::Corner(_)) => "corner".to_owned(),
+        Some(ElementId::Dimension(_)) => "dimension".to_owned(),
     };
     let is_so = match (expected, is_quoted) {
         ("nothing", false) => found.is_none(),
         ("opening", false) => matches!(found, Some(ElementId::Opening(_))),
         ("wall", false) => matches!(found, Some(ElementId::Wall(_))),
         ("corner", false) => matches!(found, Some(ElementId::Corner(_))),
+        ("dimension", false) => matches!(found, Some(ElementId::Dimension(_))),
         (room, _) => {
             matches!(found, Some(ElementId::Room(id)) if room_name(stage, id) == room || id.to_string() == room)
         }
