@@ -4,6 +4,7 @@
 mod across;
 mod bridge;
 mod calibration;
+mod close;
 mod copy;
 mod draw;
 mod fill;
@@ -15,6 +16,7 @@ pub mod naming;
 mod offset;
 mod openings;
 pub(crate) mod overlay;
+mod rectify;
 pub(crate) mod split;
 mod square_up;
 pub mod storey;
@@ -38,6 +40,7 @@ pub use calibration::{
     Calibration, DrawingMoves, UNMEASURED_METRES_PER_PIXEL, move_picture, set_measurements, straightening_rad,
     turn_picture,
 };
+pub use close::fill_closed;
 pub use copy::{Array, array, copy_elements, fragment, insert};
 pub use draw::{Drawn, cut_out, draw_room, draw_walls, split_room};
 pub use fill::{Filled, fill_all, fill_at};
@@ -49,6 +52,7 @@ pub use openings::{
     OpeningPreview, flip_hinge, flip_side, opening_at, opening_on, opening_preview, place_opening, resize_opening,
     set_opening_kind, set_swing, slide_opening,
 };
+pub use rectify::{in_order, rectify_picture, unrectify_picture};
 pub use square_up::square_up;
 pub use weld::{Weld, settle, weld};
 

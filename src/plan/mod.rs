@@ -23,8 +23,8 @@ pub use crate::geometry::COORDINATE_LIMIT_M;
 pub use builder::Builder;
 pub use difference::{ChangeKind, Difference};
 pub use element::{
-    Backdrop, Corner, Joint, LabelOrigin, LeafSide, Measurement, Opening, OpeningKind, Place, Room, RoomLabel, Swing,
-    Wall,
+    Backdrop, Corner, Joint, LabelOrigin, LeafSide, Measurement, Opening, OpeningKind, Place, Rectification, Room,
+    RoomLabel, Swing, Wall,
 };
 pub use guides::{Guide, GuideAxis};
 pub use history::{History, Step};

@@ -286,6 +286,7 @@ fn with_backdrop(path: &str) -> Plan {
         opacity: 1.0,
         page: 1,
         measurements: Vec::new(),
+        rectification: None,
         extra: None,
     };
     edit::set_backdrop(&plan, Some(backdrop))

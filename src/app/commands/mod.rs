@@ -49,6 +49,8 @@ pub struct Command {
     pub tool: Option<(Icon, u8)>,
     /// Its icon and group in the strip of drawing tools; `None` if not there.
     pub strip: Option<(Icon, u8)>,
+    /// Whether the palette lets its path be typed, though a dialog would ask for it elsewhere.
+    types_path: bool,
     availability: fn(&App) -> Availability,
     /// When it can be called with all its arguments, if that requires less.
     complete_availability: Option<fn(&App) -> Availability>,
@@ -159,7 +161,7 @@ impl Command {
 
     /// The required argument after those given, if the palette asks for it.
     pub(super) fn asked_in_palette(&self, given: usize) -> Option<&'static Argument> {
-        let asks_itself = matches!(self.action, Action::With { ask: Some(_), .. });
+        let asks_itself = matches!(self.action, Action::With { ask: Some(_), .. }) && !self.types_path;
         self.arguments.get(given).filter(|argument| !argument.is_optional && !asks_itself)
     }
 

@@ -120,6 +120,8 @@ pub(crate) struct Document {
     saved: Option<Plan>,
     /// Whether its file has been removed.
     pub is_gone: bool,
+    /// Whether what walls close becomes a room: at first where the plan was begun here.
+    pub closes_rooms: bool,
     derived: Option<(Plan, Arc<Derived>)>,
     /// The analysis in progress.
     awaited: Option<Awaited>,
@@ -149,7 +151,21 @@ impl Document {
         }
         let (derived, awaited, predictor) = (None, None, Predictor::default());
         let (saved, is_gone) = (Some(plan), false);
-        Self { number, history, origin, storeys, notes, stamp, saved, is_gone, derived, awaited, predictor }
+        let closes_rooms = origin == Origin::Untitled;
+        Self {
+            number,
+            history,
+            origin,
+            storeys,
+            notes,
+            stamp,
+            saved,
+            is_gone,
+            closes_rooms,
+            derived,
+            awaited,
+            predictor,
+        }
     }
 
     pub(crate) fn plan(&self) -> &Plan {
@@ -236,6 +252,11 @@ impl Document {
         if let Some(awaited) = self.awaited.as_mut().filter(|awaited| awaited.plan.is_same_value(plan)) {
             awaited.job = None;
         }
+    }
+
+    /// The plan is out of sight: it is not analysed any more.
+    pub(crate) fn rests(&mut self) {
+        self.awaited = None;
     }
 
     /// Whether a job is analysing the plan.

@@ -17,6 +17,11 @@ pub(crate) enum Wish {
     /// Move the view if necessary, so that an element is visible.
     Reveal(ElementId),
     ZoomTo(Bounds),
+    /// Show a point in the middle, a metre so many screen points long.
+    LookAt {
+        centre: Point,
+        px_per_m: f64,
+    },
     /// Show the whole plan.
     Fit,
     /// Keep what was scaled about a point in place on the screen.
@@ -29,6 +34,11 @@ pub(crate) enum Wish {
     CloseRecovery,
     CloseDifferences,
     Run(Call),
+    /// Ask for the path that a command takes, beginning with a text.
+    TypePath {
+        command: &'static str,
+        text: String,
+    },
     /// End the recording, then go on.
     EndRecording(Intent),
     /// Pass the recorder a message that only it can read.

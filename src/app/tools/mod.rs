@@ -13,6 +13,7 @@ mod opening;
 mod paste;
 mod path;
 mod rectangle;
+mod rectify;
 mod room;
 mod select;
 mod split;
@@ -28,6 +29,7 @@ pub(crate) use calibrate::{BY_DOOR as CALIBRATE_BY_DOOR, BY_LENGTH as CALIBRATE_
 pub(crate) use input::{Anchor, DrawOptions, Ground, Input, Scope};
 pub(crate) use number::ENTRY as NUMBER;
 pub(crate) use paste::ENTRY as PASTE;
+pub(crate) use rectify::ENTRY as RECTIFY;
 pub(crate) use select::{REACH_PX, hit};
 pub(crate) use straighten::ENTRY as STRAIGHTEN;
 pub(crate) use tool::{Entry, Group, TakenBack, Tool, ToolOption};
@@ -53,6 +55,7 @@ pub(crate) const TOOLS: &[Entry] = &[
     calibrate::BY_LENGTH,
     calibrate::BY_DOOR,
     straighten::ENTRY,
+    rectify::ENTRY,
 ];
 
 /// Positions and lengths of the backdrop: a hundredth of a millimetre in the plan is below any pixel.

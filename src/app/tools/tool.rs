@@ -62,6 +62,7 @@ pub(super) const SNAPPING: ToolOption = ToolOption::Switch { command: "snapping"
 pub(super) const GRID: ToolOption = ToolOption::Switch { command: "snap-to-grid", name: "Grid" };
 pub(super) const RIGHT_ANGLES: ToolOption = ToolOption::Switch { command: "right-angles", name: "Right angles" };
 pub(super) const WITH_WALLS: ToolOption = ToolOption::Switch { command: "walls-with-rooms", name: "With walls" };
+pub(super) const ROOMS_FROM_WALLS: ToolOption = ToolOption::Switch { command: "rooms-from-walls", name: "Rooms" };
 pub(super) const OVER_ROOMS: ToolOption = ToolOption::Switch { command: "over-rooms", name: "Over rooms" };
 
 /// The thickness of walls.

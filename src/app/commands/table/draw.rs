@@ -82,6 +82,15 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .menu(Menu::Draw, 4),
     switch(
+        "rooms-from-walls",
+        "Rooms from closed walls",
+        "Make a room of what walls enclose as soon as they are closed; on for plans begun here",
+        has_plan,
+        |app| app.session.closes_rooms(),
+        |app, is_on| app.session.set_closes_rooms(is_on),
+    )
+    .menu(Menu::Draw, 4),
+    switch(
         "over-rooms",
         "Over rooms",
         "Let new rooms take what rooms cover too, as a niche or a corridor that lies within another room",
@@ -138,7 +147,22 @@ pub(super) const COMMANDS: &[Command] = &[
         has_plan,
         &given2(PATH, THICKNESS, |app, points, thickness_m, _| {
             let thickness_m = thickness_m.unwrap_or(app.tools.options.thickness_m);
-            edited(app, "Draw wall", |plan| Ok(edit::draw_walls(plan, &points, thickness_m)?.plan))
+            let closes = app.session.closes_rooms();
+            let mut made = 0;
+            let ran = edited(app, "Draw wall", |plan| {
+                let drawn = edit::draw_walls(plan, &points, thickness_m)?;
+                // Walls that meet too often to say what they enclose are drawn all the same.
+                let closed = closes.then(|| edit::fill_closed(plan, &drawn.plan, &drawn.walls).ok()).flatten();
+                Ok(closed.map_or(drawn.plan, |closed| {
+                    made = closed.rooms.len();
+                    closed.plan
+                }))
+            });
+            if made > 0 {
+                app.session.status =
+                    format!("The walls are closed: made {}", crate::base::wording::count(made, "room"));
+            }
+            ran
         }),
         None,
     ),

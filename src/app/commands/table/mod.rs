@@ -63,6 +63,7 @@ const fn entry(
         menu: None,
         tool: None,
         strip: None,
+        types_path: false,
         availability,
         complete_availability: None,
         action,
@@ -174,6 +175,11 @@ impl Command {
         Self { strip: Some((icon, group)), ..self }
     }
 
+    /// The palette lets its path be typed.
+    const fn typed_path(self) -> Self {
+        Self { types_path: true, ..self }
+    }
+
     const fn tool(self, icon: Icon, group: u8) -> Self {
         Self { tool: Some((icon, group)), ..self }
     }
@@ -264,6 +270,19 @@ fn has_several_plans(app: &App) -> Availability {
     when(app.session.list.len() > 1, "there is only one plan in the list")
 }
 
+fn has_several_open(app: &App) -> Availability {
+    when(app.session.has_several_open(), "only one plan is open")
+}
+
+fn has_recent(app: &App) -> Availability {
+    when(!app.session.settings.recent().is_empty(), "no file was opened yet")
+}
+
+fn is_asked_for_recording(app: &App) -> Availability {
+    let is = matches!(app.session.typed_for, Some(crate::app::session::file_dialogs::Purpose::Recording(_)));
+    when(is, "end a recording first")
+}
+
 fn has_backdrop(app: &App) -> Availability {
     has_plan(app)?;
     let has = app.plan().is_some_and(|plan| plan.backdrop().is_some());
@@ -287,7 +306,7 @@ fn can_recover(app: &App) -> Availability {
 
 fn has_theirs(app: &App) -> Availability {
     has_plan(app)?;
-    when(app.session.safety.theirs.is_some(), "nobody else has changed the plan's file")
+    when(app.session.safety.own.theirs.is_some(), "nobody else has changed the plan's file")
 }
 
 fn has_their_plan(app: &App) -> Availability {
@@ -304,7 +323,8 @@ fn can_record(app: &App) -> Availability {
     when(
         app.is_recording() || !app.has_unsaved_changes(),
         "save the plan first: a script starts from what is in its file",
-    )
+    )?;
+    when(app.is_recording() || !app.session.has_several_open(), "close the other plans first: a script starts with one")
 }
 
 fn has_changed_keys(app: &App) -> Availability {

@@ -1,6 +1,8 @@
 //! The actions of the pointer, for scripts.
 
 use super::*;
+use crate::app::session::file_dialogs::Purpose as FilePurpose;
+use crate::app::session::wishes::Wish;
 
 pub(super) const COMMANDS: &[Command] = &[
     with(
@@ -115,6 +117,19 @@ pub(super) const COMMANDS: &[Command] = &[
                 if app.session.answer(word, path) { Outcome::Done } else { Outcome::Asks }
             },
         ),
+        None,
+    ),
+    with(
+        "save-recording",
+        "Save the recording",
+        "Save a recording that has ended, where no dialog asks for its file",
+        is_asked_for_recording,
+        &given1(needed("PATH", NEW_PLAN_FILE, "the script; '.replay' is added"), |app, path, _| {
+            if let Some(FilePurpose::Recording(save)) = app.session.typed_for.take() {
+                app.session.wishes.push(Wish::Recording(save(path)));
+            }
+            Outcome::Asks
+        }),
         None,
     ),
 ];
