@@ -3,7 +3,7 @@ use std::collections::BTreeMap;
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
 use crate::geometry::{Bounds, Point, Segment};
-use crate::plan::{CornerId, Plan, WallId};
+use crate::plan::{CornerId, ElementId, Plan, WallId};
 
 /// An edge of walls and room boundaries; each pair of corners occurs once.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +26,8 @@ pub struct PlanIndex {
     /// All corners sorted by x, and by y.
     by_x: Vec<Point>,
     by_y: Vec<Point>,
+    /// Whether two walls stand between the same corners, of which the index has one.
+    has_doubles: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,8 +79,10 @@ impl PlanIndex {
                 }
             }
         }
+        let mut has_doubles = false;
         for (id, wall) in plan.walls() {
-            edges.insert(ordered(wall.from, wall.to), Some((id, wall.thickness_m)));
+            let before = edges.insert(ordered(wall.from, wall.to), Some((id, wall.thickness_m)));
+            has_doubles |= matches!(before, Some(Some(_)));
         }
         let edges: Vec<IndexedEdge> = edges
             .into_iter()
@@ -94,7 +98,7 @@ impl PlanIndex {
         let mut by_y = by_x.clone();
         by_x.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
         by_y.sort_by(|p, q| p.y.total_cmp(&q.y).then(p.x.total_cmp(&q.x)));
-        Self { corners: RTree::bulk_load(corners), edges: RTree::bulk_load(edges), by_x, by_y }
+        Self { corners: RTree::bulk_load(corners), edges: RTree::bulk_load(edges), by_x, by_y, has_doubles }
     }
 
     /// The corners within a radius, nearest first.
@@ -115,6 +119,14 @@ impl PlanIndex {
         let distance = |edge: &IndexedEdge| edge.segment.distance(point);
         found.sort_by(|p, q| distance(p).total_cmp(&distance(q)).then(p.corners.cmp(&q.corners)));
         found
+    }
+
+    /// The corners in a box, and the walls whose boxes meet it; `None` where the index does not have all of them.
+    pub fn elements_in(&self, bounds: Bounds) -> Option<impl Iterator<Item = ElementId> + '_> {
+        let envelope = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
+        let corners = self.corners.locate_in_envelope(envelope).map(|corner| ElementId::Corner(corner.id));
+        let walls = self.edges.locate_in_envelope_intersecting(envelope).filter_map(|edge| edge.wall);
+        (!self.has_doubles).then(|| corners.chain(walls.map(ElementId::Wall)))
     }
 
     /// The corners in a box whose x is near a value.

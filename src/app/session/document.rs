@@ -2,7 +2,7 @@
 
 use crate::app::session::origin::Origin;
 use crate::app::session::origin::bundled;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -13,7 +13,7 @@ use crate::formats::{self, FileError, Note, Place, ReadError};
 use crate::geometry::Bounds;
 use crate::labels::Schemes;
 pub(crate) use crate::pipeline::Derived;
-use crate::plan::{ElementId, History, Meta, Plan, Scale, ScaleOrigin};
+use crate::plan::{Difference, ElementId, History, Meta, Plan, Scale, ScaleOrigin};
 use crate::predict::Predictor;
 use crate::store::{self, Stamp};
 
@@ -104,6 +104,9 @@ pub(crate) fn open(origin: Origin) -> Result<Opened, FileError> {
 pub(crate) fn is_own_file(path: &Path) -> bool {
     path.to_string_lossy().to_lowercase().ends_with(".plan.json")
 }
+
+/// In a plan of fewer elements looking at each takes no time.
+const FEW_ELEMENTS: usize = 2000;
 
 /// The open plan.
 pub(crate) struct Document {
@@ -270,6 +273,26 @@ impl Document {
             self.derived = Some((plan, derived));
             self.awaited = None;
         }
+    }
+
+    /// The elements that meet a box, or more, found without looking at every one: from the last analysis, and what was
+    /// changed since. `None` where the plan is small, or not analysed yet.
+    pub(crate) fn near(&self, bounds: Bounds) -> Option<BTreeSet<ElementId>> {
+        let (plan, (earlier, derived)) = (self.plan(), self.derived.as_ref()?);
+        if plan.walls().len() + plan.rooms().len() < FEW_ELEMENTS {
+            return None;
+        }
+        let mut near = derived.near(bounds)?;
+        if !earlier.is_same_value(plan) {
+            let difference = Difference::between(earlier, plan);
+            if difference.elements.len() > FEW_ELEMENTS {
+                return None;
+            }
+            near.extend(difference.seen(earlier, plan).into_keys());
+            near.extend(difference.elements.into_keys());
+            near.retain(|&element| plan.has(element));
+        }
+        Some(near)
     }
 
     /// The bounding box of an element.

@@ -19,6 +19,22 @@ pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> R
     }
 }
 
+/// The same for an edit that touches only the rooms that meet a box.
+pub(super) fn edited_near(
+    app: &mut App,
+    title: &str,
+    bounds: Bounds,
+    change: impl Fn(&Plan) -> Result<Plan, EditError>,
+) -> Outcome {
+    match app.session.try_edit_near(title, bounds, change) {
+        Ok(()) => Outcome::Done,
+        Err(error) => Outcome::Refused(error.to_string()),
+    }
+}
+
+/// How far from a path what it meets may lie, in metres: far more than any line is bent to meet another.
+const REACH_OF_WALLS_M: f64 = 0.5;
+
 pub(super) const COMMANDS: &[Command] = &[
     with(
         "fill-all",
@@ -148,6 +164,11 @@ pub(super) const COMMANDS: &[Command] = &[
         &given2(PATH, THICKNESS, |app, points, thickness_m, _| {
             let thickness_m = thickness_m.unwrap_or(app.tools.options.thickness_m);
             let closes = app.session.closes_rooms();
+            if !closes {
+                let around = Bounds::of(points.iter().copied()).inflated(REACH_OF_WALLS_M);
+                let draw = |plan: &Plan| Ok(edit::draw_walls(plan, &points, thickness_m)?.plan);
+                return edited_near(app, "Draw wall", around, draw);
+            }
             let mut made = 0;
             let ran = edited(app, "Draw wall", |plan| {
                 let drawn = edit::draw_walls(plan, &points, thickness_m)?;
