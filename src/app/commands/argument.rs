@@ -69,6 +69,8 @@ pub enum ArgumentKind {
     PlanFile,
     /// A file to write a plan to.
     NewPlanFile,
+    /// A file to write something else to.
+    NewFile,
     /// A file with a picture.
     PictureFile,
     /// A file that was opened or saved before.
@@ -140,6 +142,7 @@ impl ArgumentKind {
         match self {
             Self::PlanFile => "a file with a plan, or a folder".to_owned(),
             Self::NewPlanFile => "a file to write the plan to".to_owned(),
+            Self::NewFile => "a file to write".to_owned(),
             Self::PictureFile => "a file with a picture".to_owned(),
             Self::RecentFile => "a file that was opened before".to_owned(),
             Self::OpenPlan => "an open plan".to_owned(),
@@ -186,7 +189,7 @@ impl ArgumentKind {
         match self {
             Self::PlanFile => Some(PathUse::Plan),
             Self::PictureFile => Some(PathUse::Picture),
-            Self::NewPlanFile => Some(PathUse::New),
+            Self::NewPlanFile | Self::NewFile => Some(PathUse::New),
             _ => None,
         }
     }
@@ -254,7 +257,9 @@ impl ArgumentKind {
             }
         };
         match self {
-            Self::PlanFile | Self::NewPlanFile | Self::PictureFile | Self::RecentFile if text.is_empty() => {
+            Self::PlanFile | Self::NewPlanFile | Self::NewFile | Self::PictureFile | Self::RecentFile
+                if text.is_empty() =>
+            {
                 Err(self.wrong(app))
             }
             Self::OpenPlan => {
@@ -262,7 +267,7 @@ impl ArgumentKind {
                 let found = plans.iter().find(|plan| plan.title == text.trim());
                 found.map(|plan| Value::OpenPlan(plan.number)).ok_or_else(|| with_choices(self.wrong(app)))
             }
-            Self::PlanFile | Self::NewPlanFile | Self::PictureFile | Self::RecentFile => {
+            Self::PlanFile | Self::NewPlanFile | Self::NewFile | Self::PictureFile | Self::RecentFile => {
                 Ok(Value::Path(PathBuf::from(text)))
             }
             Self::Text | Self::Function => Ok(Value::Text(text.trim().to_owned())),
@@ -354,9 +359,10 @@ impl ArgumentKind {
             point.is_finite() && point.x.abs() <= COORDINATE_LIMIT_M && point.y.abs() <= COORDINATE_LIMIT_M
         };
         let is_taken = match (self, &value) {
-            (Self::PlanFile | Self::NewPlanFile | Self::PictureFile | Self::RecentFile, Value::Path(path)) => {
-                !path.as_os_str().is_empty()
-            }
+            (
+                Self::PlanFile | Self::NewPlanFile | Self::NewFile | Self::PictureFile | Self::RecentFile,
+                Value::Path(path),
+            ) => !path.as_os_str().is_empty(),
             (Self::OpenPlan, Value::OpenPlan(number)) => app.session.is_open(*number),
             (
                 Self::Number { least, most, .. }
@@ -439,6 +445,7 @@ impl ArgumentKind {
         Some(match self {
             Self::PlanFile
             | Self::NewPlanFile
+            | Self::NewFile
             | Self::PictureFile
             | Self::Text
             | Self::Number { .. }

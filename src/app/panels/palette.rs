@@ -4,8 +4,7 @@ mod lines;
 mod path_lines;
 
 use crate::app::state::dialogs;
-use egui::text::{CCursor, CCursorRange, LayoutJob, TextFormat};
-use egui::text_edit::TextEditState;
+use egui::text::{LayoutJob, TextFormat};
 use egui::{
     Align2, Color32, FontId, Id, Key, Modal, Modifiers, Rect, Response, RichText, Role, ScrollArea, Sense, TextEdit,
     Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
@@ -17,6 +16,7 @@ use crate::app::commands::{Argument, COMMANDS, Choice, Command, find};
 use crate::app::look::{
     icons::Icon,
     search::{Hit, Search},
+    text::{select, select_all},
     theme,
     widgets::{ICON, ROW, colours, hairline_in, put_line, swatch},
 };
@@ -414,25 +414,21 @@ impl Palette {
         ui.memory_mut(|memory| memory.request_focus(field_id));
         if !std::mem::replace(&mut self.is_shown, true) {
             // The cursor may be anywhere, left from an earlier palette.
-            let mut state = TextEditState::default();
-            let count = |text: &str| text.chars().count();
-            let (from, to) = match self.asking.as_ref().and_then(Asking::path_use) {
-                None => (0, count(&self.query)),
+            let text = &self.query;
+            match self.asking.as_ref().and_then(Asking::path_use) {
+                None => select_all(ui.ctx(), field_id, text),
                 // Of a new file its name without the ending; behind a folder.
                 Some(_) => {
-                    let (folder, name) = split_typed(&self.query);
+                    let (folder, name) = split_typed(text);
+                    let count = |text: &str| text.chars().count();
                     let from = count(folder);
-                    (from, from + count(crate::formats::file_stem(name)))
+                    select(ui.ctx(), field_id, from..from + count(crate::formats::file_stem(name)));
                 }
-            };
-            state.cursor.set_char_range(Some(CCursorRange::two(CCursor::new(from), CCursor::new(to))));
-            state.store(ui.ctx(), field_id);
+            }
         }
         if std::mem::take(&mut self.is_completed) {
-            let mut state = TextEditState::load(ui.ctx(), field_id).unwrap_or_default();
-            let end = CCursor::new(self.query.chars().count());
-            state.cursor.set_char_range(Some(CCursorRange::one(end)));
-            state.store(ui.ctx(), field_id);
+            let end = self.query.chars().count();
+            select(ui.ctx(), field_id, end..end);
         }
         let edit = TextEdit::singleline(&mut self.query)
             .id(field_id)

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use egui::{Rect, Role, ScrollArea, Ui, UiBuilder, pos2};
+use egui::{Rect, Response, Role, ScrollArea, Ui, UiBuilder, pos2};
 
 use crate::app::commands;
 use crate::app::look::{
@@ -11,7 +11,7 @@ use crate::app::look::{
 };
 use crate::app::session::open_plans::OpenPlan;
 use crate::app::session::origin::{Origin, bundled, file_name};
-use crate::app::state::{App, Height, Side, SidePanel, panels};
+use crate::app::state::{App, Height, Side, SidePanel, Thing, panels};
 use crate::app::value::{Call, Value};
 
 /// A row of the list.
@@ -52,8 +52,7 @@ fn show(app: &mut App, ui: &mut Ui) {
         });
     });
     let current = app.session.document.as_ref().map(|document| document.origin.clone());
-    let mut wanted = None;
-    let mut act = None;
+    let (mut wanted, mut asked, mut act) = (None, None, None);
     ui.spacing_mut().item_spacing.y = 0.0;
     ScrollArea::vertical().auto_shrink([false, false]).show_rows(ui, ROW, entries.len(), |ui, range| {
         for entry in &entries[range] {
@@ -64,17 +63,27 @@ fn show(app: &mut App, ui: &mut Ui) {
                         Row::new(Lead::None, text).muted().indent(8.0).show_only(ui);
                     });
                 }
-                Entry::Open(plan) => act = open_row(ui, plan).or(act.take()),
+                Entry::Open(plan) => {
+                    let (response, chosen) = open_row(ui, plan);
+                    act = chosen.or(act.take());
+                    if let Some(origin) = current.as_ref().filter(|_| plan.is_shown) {
+                        asked = asked.take().or(asks(&response, origin));
+                    }
+                }
                 Entry::Plan { origin, text } => {
                     let is_current = current.as_ref().is_some_and(|current| is_same_file(current, origin));
                     let row = Row::new(Lead::Icon(Icon::Plan), text).selected(is_current);
-                    if row.button(ui, Role::ListBoxOption).clicked() && current.as_ref() != Some(origin) {
+                    let response = row.button(ui, Role::ListBoxOption);
+                    asked = asked.take().or(asks(&response, origin));
+                    if response.clicked() && current.as_ref() != Some(origin) {
                         wanted = Some(origin.clone());
                     }
                 }
                 Entry::Storey { origin, text } => {
                     let row = Row::new(Lead::None, text).indent(24.0).selected(current.as_ref() == Some(origin));
-                    if row.button(ui, Role::ListBoxOption).clicked() && current.as_ref() != Some(origin) {
+                    let response = row.button(ui, Role::ListBoxOption);
+                    asked = asked.take().or(asks(&response, origin));
+                    if response.clicked() && current.as_ref() != Some(origin) {
                         wanted = Some(origin.clone());
                     }
                 }
@@ -82,6 +91,9 @@ fn show(app: &mut App, ui: &mut Ui) {
         }
     });
     let context = ui.ctx().clone();
+    if let Some((origin, at)) = asked {
+        app.open_context_menu(Thing::Listed(origin), at, &context);
+    }
     if let Some(origin) = wanted {
         app.open_listed(&origin, &context);
     }
@@ -91,7 +103,7 @@ fn show(app: &mut App, ui: &mut Ui) {
 }
 
 /// A row of an open plan: shows it, or closes it. Unsaved changes are marked.
-fn open_row(ui: &mut Ui, plan: &OpenPlan) -> Option<(&'static str, u64)> {
+fn open_row(ui: &mut Ui, plan: &OpenPlan) -> (Response, Option<(&'static str, u64)>) {
     let text = if plan.is_changed { format!("• {}", plan.title) } else { plan.title.clone() };
     let row = Row::new(Lead::Icon(Icon::Plan), &text).selected(plan.is_shown).inset_end(ROW - 8.0);
     let response = row.button(ui, Role::ListBoxOption);
@@ -99,9 +111,16 @@ fn open_row(ui: &mut Ui, plan: &OpenPlan) -> Option<(&'static str, u64)> {
     let mut end = ui.new_child(UiBuilder::new().max_rect(place).id_salt(("close", plan.number)));
     let name = format!("Close {}", plan.title);
     if icon_button(&mut end, Icon::Close, &name, None).on_hover_text("Close this plan").clicked() {
-        return Some(("close", plan.number));
+        return (response, Some(("close", plan.number)));
     }
-    (response.clicked() && !plan.is_shown).then_some(("show-plan", plan.number))
+    let shows = (response.clicked() && !plan.is_shown).then_some(("show-plan", plan.number));
+    (response, shows)
+}
+
+/// The plan of a row whose menu is asked for, and where.
+fn asks(row: &Response, origin: &Origin) -> Option<(Origin, egui::Pos2)> {
+    let at = row.interact_pointer_pos().unwrap_or(row.rect.center());
+    row.secondary_clicked().then(|| (origin.clone(), at))
 }
 
 fn entries(app: &App) -> Vec<Entry> {

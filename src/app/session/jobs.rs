@@ -261,7 +261,7 @@ impl Session {
                     if let Some(broken) = kind.broken.filter(|_| !watched.is_cancelled()) {
                         broken(self);
                     }
-                    self.say(
+                    self.say_of_program(
                         Severity::Error,
                         "Something broke inside Enfilade",
                         "Your plan is untouched. Please report what you did.",

@@ -7,13 +7,13 @@ use egui::Context;
 use super::Session;
 use crate::app::session::document::{Document, Opened};
 use crate::app::session::ghost::Ghost;
-use crate::app::session::messages::Message;
 use crate::app::session::origin::Origin;
 use crate::app::session::questions::{Intent, Question};
 use crate::app::session::safety::OfPlan;
 use crate::app::session::selection::Selection;
 use crate::app::session::wishes::Wish;
 use crate::geometry::Point;
+use crate::store::Draft;
 
 /// The middle of a view, and screen points per metre.
 pub(crate) type PlanView = (Point, f64);
@@ -26,8 +26,8 @@ pub(crate) struct Waiting {
     own: OfPlan,
     /// Where its view was; `None` for all of the plan.
     view: Option<PlanView>,
-    /// The messages about it.
-    messages: Vec<Message>,
+    /// What was being drawn.
+    draft: Option<Draft>,
     /// Whether its journal holds all that it has.
     is_noted: bool,
 }
@@ -103,6 +103,7 @@ impl Session {
         if let Some((centre, px_per_m)) = view {
             self.wishes.push(Wish::LookAt { centre, px_per_m });
         }
+        self.wishes.extend(self.draft.clone().map(Wish::Resume));
         self.status.clear();
         let folder = self.document.as_ref().and_then(|document| document.origin.folder()).map(Path::to_owned);
         if let Some((folder, depth)) = folder.map(|folder| self.list.listed_for(folder)) {
@@ -132,16 +133,13 @@ impl Session {
         self.commit_field();
         let Some(mut document) = self.document.take() else { return };
         document.rests();
-        let is_about_it = |message: &Message| !message.remedies.is_empty();
-        let (messages, others) = std::mem::take(&mut self.messages).into_iter().partition(is_about_it);
-        self.messages = others;
         self.waiting_plans.push(Waiting {
             document,
             selection: std::mem::take(&mut self.selection),
             ghost: self.ghost.take(),
             own: std::mem::take(&mut self.safety.own),
             view: self.view.take(),
-            messages,
+            draft: self.draft.take(),
             is_noted: false,
         });
     }
@@ -155,7 +153,8 @@ impl Session {
         self.ghost = waiting.ghost;
         self.safety.own = waiting.own;
         self.view = waiting.view;
-        self.messages.extend(waiting.messages);
+        self.draft = waiting.draft;
+        (self.fresh, self.nudged) = (None, None);
         Some(waiting.view)
     }
 
@@ -210,11 +209,13 @@ impl Session {
     /// Ends the plan shown: its changes are saved, or given up.
     fn drop_shown(&mut self) {
         self.end_journal();
+        let number = self.document.as_ref().map(|document| document.number);
+        self.messages.retain(|message| message.plan.is_none() || message.plan != number);
         self.document = None;
         self.selection = Selection::default();
         self.ghost = None;
         self.view = None;
-        self.messages.retain(|message| message.remedies.is_empty());
+        self.draft = None;
     }
 
     /// Closes the plan shown, and shows the one after it, or before it.

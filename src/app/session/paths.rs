@@ -3,7 +3,7 @@
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
 use super::Session;
-use crate::app::session::file_dialogs::Purpose;
+use crate::app::session::file_dialogs::{Answer, Purpose};
 use crate::app::session::wishes::Wish;
 use crate::base::natural_order::NaturalKey;
 use crate::formats;
@@ -128,6 +128,12 @@ impl Session {
         let (command, text) = (purpose.command(), self.first_text(folder, name));
         self.typed_for = Some(purpose);
         self.wishes.push(Wish::TypePath { command, text });
+    }
+
+    /// Goes on with a path that was typed for a purpose.
+    pub(crate) fn was_typed(&mut self, purpose: Purpose, path: PathBuf, context: &egui::Context) {
+        let (path, was_shown, folder, name) = (Some(path), true, None, String::new());
+        self.was_chosen(Answer { purpose, path, was_shown, folder, name }, context);
     }
 
     /// Saves in a path, then does what was to follow if it was asked for. Returns whether it answered a question.

@@ -5,13 +5,14 @@ mod acts;
 use std::collections::BTreeSet;
 
 use self::acts::{
-    Mirror, NO_GAPS, Wanted, Way, copied, has_copied, has_drawing, has_opening, is_labelled, is_selectable, moved,
-    select_found,
+    Mirror, NO_GAPS, Wanted, Way, copied, has_copied, has_door, has_drawing, has_opening, has_wall, is_labelled,
+    is_selectable, select_found, transformed,
 };
-use super::draw::edited;
+use super::draw::{edited, edited_fitting};
 use super::*;
 use crate::app::session::{document::Document, questions::Question};
-use crate::edit::{self, Alignment, Array};
+use crate::app::value::MoveOrCopy;
+use crate::edit::{self, Alignment, Array, End, Reach};
 use crate::geometry::Transform;
 use crate::plan::{LeafSide, OpeningId, Swing};
 use crate::topology;
@@ -25,7 +26,8 @@ pub(super) const COMMANDS: &[Command] = &[
         app.session.select(all, SelectMode::Replace);
     })
     .keys(&[ctrl(Key::A)])
-    .menu(Menu::Modify, 0),
+    .menu(Menu::Modify, 0)
+    .on(&[On::FreeSpace]),
     with(
         "select-by-label",
         "Select by label…",
@@ -74,7 +76,8 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[key(Key::Delete)])
-    .menu(Menu::Modify, 1),
+    .menu(Menu::Modify, 1)
+    .on(&[On::Room, On::Wall, On::Opening, On::Corner, On::Several]),
     // The clipboard.
     with(
         "copy",
@@ -85,7 +88,8 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[ctrl(Key::C)])
-    .menu(Menu::Modify, 2),
+    .menu(Menu::Modify, 2)
+    .on(&[On::Room, On::Wall, On::Opening, On::Several]),
     with(
         "cut",
         "Cut",
@@ -98,12 +102,14 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[ctrl(Key::X)])
-    .menu(Menu::Modify, 2),
+    .menu(Menu::Modify, 2)
+    .on(&[On::Room, On::Wall, On::Opening, On::Several]),
     command(tools::PASTE.id, tools::PASTE.title, tools::PASTE.help, has_copied, |app, _| {
         app.tools.take_up(tools::PASTE.id);
     })
     .keys(&[ctrl(Key::V)])
-    .menu(Menu::Modify, 2),
+    .menu(Menu::Modify, 2)
+    .on(&[On::FreeSpace]),
     with(
         "duplicate",
         "Duplicate",
@@ -119,25 +125,27 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[ctrl(Key::D)])
-    .menu(Menu::Modify, 2),
-    // Rotating and the like.
+    .menu(Menu::Modify, 2)
+    .on(&[On::Room, On::Wall, On::Opening, On::Several]),
+    // Rotating and the like: the pointer shows where, what is typed says how much.
     with(
-        "rotate",
-        "Rotate…",
-        "Turn what is selected about its middle, counter-clockwise; what shares its corners follows",
+        tools::ROTATE.id,
+        tools::ROTATE.title,
+        tools::ROTATE.help,
         has_picked,
-        &given2(
+        &given3(
             needed("ANGLE", angle(-360.0, 360.0), "in degrees, counter-clockwise"),
             CENTRE,
-            |app, angle, about, _| {
-                let angle_rad = angle.to_radians();
+            COPY,
+            |app, angle, about, copy, _| {
                 let about = app.centre_of_selection(about);
-                moved(app, "Rotate", Transform::rotation(about, angle_rad))
+                transformed(app, "Rotate", Transform::rotation(about, angle.to_radians()), copy)
             },
         ),
-        None,
+        Some(|app, _| app.tools.take_up(tools::ROTATE.id)),
     )
-    .menu(Menu::Modify, 3),
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Several]),
     command(
         "rotate-left",
         "Rotate left",
@@ -145,45 +153,86 @@ pub(super) const COMMANDS: &[Command] = &[
         has_picked,
         |app, _| {
             let about = app.centre_of_selection(None);
-            app.report(|app| moved(app, "Rotate", Transform::rotation(about, std::f64::consts::FRAC_PI_2)));
+            let turn = Transform::rotation(about, std::f64::consts::FRAC_PI_2);
+            app.report(|app| transformed(app, "Rotate", turn, None));
         },
+    )
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Wall, On::Several]),
+    with(
+        tools::MIRROR.id,
+        tools::MIRROR.title,
+        tools::MIRROR.help,
+        has_picked,
+        &given2(
+            needed("AXIS", points(2), "two points of the axis, in metres, as '4,0 4,3'"),
+            COPY,
+            |app, axis, copy, _| match axis.as_slice() {
+                &[a, b, ..] => match Transform::reflection(a, b) {
+                    Some(transform) => transformed(app, "Mirror", transform, copy),
+                    None => Outcome::Refused("the two points of the axis are the same".to_owned()),
+                },
+                _ => Outcome::Done,
+            },
+        ),
+        Some(|app, _| app.tools.take_up(tools::MIRROR.id)),
     )
     .menu(Menu::Modify, 3),
     with(
         "mirror",
-        "Mirror…",
-        "Mirror what is selected over the upright or the level line through its middle",
+        "Flip…",
+        "Mirror what is selected left and right, or up and down, about its middle",
         has_picked,
-        &given2(needed("WAY", one_of::<Mirror>(), "left-right or up-down"), CENTRE, |app, mirror, about, _| {
-            let about = app.centre_of_selection(about);
-            let way = match mirror {
-                Mirror::LeftRight => Vector::new(0.0, 1.0),
-                Mirror::UpDown => Vector::new(1.0, 0.0),
-            };
-            match Transform::reflection(about, about + way) {
-                Some(transform) => moved(app, "Mirror", transform),
-                None => Outcome::Done,
-            }
-        }),
+        &given3(
+            needed("WAY", one_of::<Mirror>(), "left-right or up-down"),
+            CENTRE,
+            COPY,
+            |app, mirror, about, copy, _| {
+                let about = app.centre_of_selection(about);
+                let way = match mirror {
+                    Mirror::LeftRight => Vector::new(0.0, 1.0),
+                    Mirror::UpDown => Vector::new(1.0, 0.0),
+                };
+                match Transform::reflection(about, about + way) {
+                    Some(transform) => transformed(app, "Mirror", transform, copy),
+                    None => Outcome::Done,
+                }
+            },
+        ),
         None,
     )
-    .menu(Menu::Modify, 3),
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Wall, On::Several]),
     with(
-        "scale-selection",
-        "Scale…",
-        "Make what is selected larger or smaller about its middle",
+        tools::SCALE.id,
+        tools::SCALE.title,
+        tools::SCALE.help,
         has_picked,
-        &given2(needed("FACTOR", ratio(0.001, 1000.0), "2 is twice as large"), CENTRE, |app, factor, about, _| {
-            let about = app.centre_of_selection(about);
-            moved(app, "Scale", Transform::scaling(about, factor))
-        }),
-        None,
+        &given3(
+            needed("FACTOR", ratio(0.001, 1000.0), "2 is twice as large"),
+            CENTRE,
+            COPY,
+            |app, factor, about, copy, _| {
+                let about = app.centre_of_selection(about);
+                transformed(app, "Scale", Transform::scaling(about, factor), copy)
+            },
+        ),
+        Some(|app, _| app.tools.take_up(tools::SCALE.id)),
     )
-    .menu(Menu::Modify, 3),
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Several]),
+    switch(
+        "transform-copies",
+        "Copy",
+        "Leave the original where it is when mirroring, rotating or scaling",
+        always,
+        |app| app.tools.options.copies,
+        |app, is_on| app.tools.options.copies = is_on,
+    ),
     with(
-        "array",
-        "Array…",
-        "Copy what is selected into columns and rows",
+        tools::ARRAY.id,
+        tools::ARRAY.title,
+        tools::ARRAY.help,
         has_picked,
         &given3(
             needed("COLUMNS", COUNT, "how many side by side, the original among them"),
@@ -194,13 +243,14 @@ pub(super) const COMMANDS: &[Command] = &[
                 copied(app, Array::Grid { columns, rows, column_step, row_step })
             },
         ),
-        None,
+        Some(|app, _| app.tools.take_up(tools::ARRAY.id)),
     )
-    .menu(Menu::Modify, 3),
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Several]),
     with(
-        "polar-array",
-        "Array around a point…",
-        "Copy what is selected around a point",
+        tools::POLAR_ARRAY.id,
+        tools::POLAR_ARRAY.title,
+        tools::POLAR_ARRAY.help,
         has_picked,
         &given3(
             needed("ABOUT", POINT, "the point, as '4,3'"),
@@ -211,7 +261,7 @@ pub(super) const COMMANDS: &[Command] = &[
                 copied(app, Array::Polar { about, count, step_rad })
             },
         ),
-        None,
+        Some(|app, _| app.tools.take_up(tools::POLAR_ARRAY.id)),
     )
     .menu(Menu::Modify, 3),
     with(
@@ -228,7 +278,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     )
-    .menu(Menu::Modify, 4),
+    .menu(Menu::Modify, 4)
+    .on(&[On::Several]),
     with(
         "distribute",
         "Distribute…",
@@ -241,7 +292,8 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Modify, 4),
+    .menu(Menu::Modify, 4)
+    .on(&[On::Several]),
     with(
         "square-up",
         "Square up",
@@ -262,7 +314,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     )
-    .menu(Menu::Modify, 5),
+    .menu(Menu::Modify, 5)
+    .on(&[On::Room]),
     with(
         "weld",
         "Weld corners…",
@@ -273,20 +326,22 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Modify, 5),
+    .menu(Menu::Modify, 5)
+    .on(&[On::Corner]),
     with(
-        "offset",
-        "Offset copy…",
-        "Draw walls beside the selected walls, or inside or outside the selected room",
+        tools::OFFSET.id,
+        tools::OFFSET.title,
+        tools::OFFSET.help,
         has_picked,
         &given2(
             needed("DISTANCE", length(0.001, 1000.0), "how far away"),
             optional("TOWARDS", POINT, "a point on the side where the copy goes; without, where the pointer is"),
             |app, distance_m, towards, _| app.offset_selected(distance_m, towards),
         ),
-        None,
+        Some(|app, _| app.tools.take_up(tools::OFFSET.id)),
     )
-    .menu(Menu::Modify, 5),
+    .menu(Menu::Modify, 5)
+    .on(&[On::Room, On::Wall]),
     with(
         "set-thickness",
         "Thickness…",
@@ -301,14 +356,37 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Modify, 5),
+    .menu(Menu::Modify, 5)
+    .on(&[On::Wall, On::Several]),
+    with(
+        "set-wall-length",
+        "Length of wall…",
+        "Make the selected wall so long: one end moves along it, with the walls that meet it there at a right angle",
+        has_wall,
+        &given2(
+            needed("LENGTH", length(0.001, 1e5), "how long, along its middle"),
+            optional("END", one_of::<End>(), "which end moves: start or end (without)"),
+            |app, length_m, end, _| {
+                let Some(ElementId::Wall(wall)) = app.picked() else {
+                    return Outcome::Refused("select one wall first".to_owned());
+                };
+                let end = end.unwrap_or(End::End);
+                edited(app, "Set length", |plan| edit::set_wall_length(plan, wall, length_m, end))
+            },
+        ),
+        None,
+    )
+    .menu(Menu::Modify, 5)
+    .on(&[On::Wall]),
     with(
         "merge-rooms",
         "Merge rooms",
         "Make one room of the selected ones; walls and openings between them go",
         has_picked,
-        &given0(|app, _| {
-            let rooms: Vec<RoomId> = app.session.selection.rooms().collect();
+        &given1(optional("ROOMS", ELEMENTS, "which ones; the selected ones without"), |app, named, _| {
+            let is_room = |element: ElementId| if let ElementId::Room(id) = element { Some(id) } else { None };
+            let named: Option<Vec<RoomId>> = named.map(|named| named.into_iter().filter_map(is_room).collect());
+            let rooms = named.unwrap_or_else(|| app.session.selection.rooms().collect());
             if rooms.len() < 2 {
                 return Outcome::Refused("select two rooms or more first".to_owned());
             }
@@ -316,8 +394,10 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
+    .when_complete(has_rooms)
     .keys(&[key(Key::J)])
-    .menu(Menu::Modify, 6),
+    .menu(Menu::Modify, 6)
+    .on(&[On::Several]),
     with(
         "bridge-gaps",
         "Doors into all gaps",
@@ -328,6 +408,17 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .menu(Menu::Modify, 6),
     with(
+        "flip",
+        "Flip",
+        "Hang the selected doors, or the one just placed, the next way: at the other end, to the other side; Space on \
+         the plan does it",
+        has_door,
+        &given0(|app, _| app.flip_doors()),
+        None,
+    )
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening]),
+    with(
         "flip-hinge",
         "Hinge at the other end",
         "Hinge the selected doors at their other end",
@@ -335,7 +426,8 @@ pub(super) const COMMANDS: &[Command] = &[
         &given0(|app, _| app.change_openings("Flip hinge", edit::flip_hinge)),
         None,
     )
-    .menu(Menu::Modify, 7),
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening]),
     with(
         "flip-side",
         "Open to the other side",
@@ -344,7 +436,8 @@ pub(super) const COMMANDS: &[Command] = &[
         &given0(|app, _| app.change_openings("Flip side", edit::flip_side)),
         None,
     )
-    .menu(Menu::Modify, 7),
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening]),
     with(
         "set-opening-kind",
         "Kind of opening…",
@@ -355,7 +448,8 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Modify, 7),
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening, On::Several]),
     with(
         "set-opening-width",
         "Width of opening…",
@@ -369,6 +463,56 @@ pub(super) const COMMANDS: &[Command] = &[
             }
             ran
         }),
+        None,
+    )
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening, On::Several]),
+    with(
+        "set-opening-distance",
+        "Distance of opening…",
+        "Move the selected opening along its wall until it is so far from what lies beside it",
+        has_opening,
+        &given2(
+            needed("DISTANCE", length(0.0, 1000.0), "from its end to the next opening, or the next wall's face"),
+            optional("END", one_of::<End>(), "which of its ends: start (without) or end"),
+            |app, distance_m, end, _| {
+                let Some(ElementId::Opening(opening)) = app.picked() else {
+                    return Outcome::Refused("select one opening first".to_owned());
+                };
+                let end = end.unwrap_or(End::Start);
+                edited(app, "Set distance", |plan| edit::set_opening_distance(plan, opening, end, distance_m))
+            },
+        ),
+        None,
+    )
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening]),
+    with(
+        "set-hinge",
+        "Hinge…",
+        "Hinge the selected doors at an end",
+        has_opening,
+        &given1(needed("END", one_of::<End>(), "start or end, as the opening lies"), |app, end, _| {
+            app.change_openings("Set hinge", |plan, id, shown| {
+                edit::change_swing(plan, id, shown, |swing| Swing { hinge_at_start: end == End::Start, ..swing })
+            })
+        }),
+        None,
+    )
+    .menu(Menu::Modify, 7),
+    with(
+        "set-side",
+        "Side that a door opens to…",
+        "Let the selected doors open to a side",
+        has_opening,
+        &given1(
+            needed("SIDE", one_of::<LeafSide>(), "left or right, from the opening's start to its end"),
+            |app, side, _| {
+                app.change_openings("Set side", |plan, id, shown| {
+                    edit::change_swing(plan, id, shown, |swing| Swing { side, ..swing })
+                })
+            },
+        ),
         None,
     )
     .menu(Menu::Modify, 7),
@@ -422,12 +566,23 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "move-selection",
         "Move the selection",
-        "Move what is selected; what shares its corners follows",
+        "Move what is selected: rooms come away from what they share, of walls what shares them follows",
         has_picked,
-        &given1(needed("BY", POINT, "how far right and up, in metres, as '0.5,-1'"), |app, by, _| {
-            let by = by - Point::default();
-            moved(app, "Move", Transform::translation(by))
-        }),
+        &given2(
+            needed("BY", POINT, "how far right and up, in metres, as '0.5,-1'"),
+            optional(
+                "REACH",
+                one_of::<Reach>(),
+                "of a wall: run (without) for the straight run it is part of, or piece",
+            ),
+            |app, by, reach, _| {
+                let selected = app.session.selection.elements().clone();
+                let own_walls = app.tools.options.walls_with_rooms;
+                edited_fitting(app, "Move", |plan| {
+                    edit::move_picked(plan, &selected, by - Point::default(), reach.unwrap_or_default(), own_walls)
+                })
+            },
+        ),
         None,
     ),
     with(
@@ -470,9 +625,34 @@ pub(super) const COMMANDS: &[Command] = &[
                 let Some(ElementId::Corner(corner)) = elements.first().copied() else {
                     return Outcome::Refused("this is no corner".to_owned());
                 };
-                edited(app, "Move corner", |plan| {
-                    edit::settle(&edit::move_corners(plan, &[(corner, to)])?, &BTreeSet::from([corner]))
-                })
+                edited_fitting(app, "Move corner", |plan| edit::drag_corners(plan, &[(corner, to)]))
+            },
+        ),
+        None,
+    ),
+    with(
+        "nudge",
+        "Nudge",
+        "Move what is selected a little, as an arrow key on the plan does; an opening along its wall",
+        has_picked,
+        &given2(
+            needed("DIRECTION", one_of::<Direction>(), "left, right, up or down"),
+            needed("DISTANCE", length(0.0001, 1000.0), "how far"),
+            |app, direction, distance_m, _| app.nudge(direction, distance_m),
+        ),
+        None,
+    ),
+    with(
+        "stretch-opening",
+        "Stretch an opening",
+        "Move one end of an opening along its wall, as near to a point as there is space; its other end stays",
+        has_openings,
+        &given3(
+            needed("OPENING", OPENING, "the opening's id"),
+            needed("END", one_of::<End>(), "start or end, as the opening lies"),
+            needed("TOWARDS", POINT, "a point, in metres"),
+            |app, opening, end, towards, _| {
+                edited(app, "Set width", |plan| edit::stretch_opening(plan, opening, end, towards))
             },
         ),
         None,
@@ -490,6 +670,9 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     ),
 ];
+
+const COPY: Arg<Option<MoveOrCopy>> =
+    optional("COPY", one_of::<MoveOrCopy>(), "move (without), or copy to leave the original where it is");
 
 const CENTRE: Arg<Option<Point>> =
     optional("ABOUT", POINT, "a point, in metres, as '4,3'; the middle of what is selected without");

@@ -1,8 +1,6 @@
 //! The actions of the pointer, for scripts.
 
 use super::*;
-use crate::app::session::file_dialogs::Purpose as FilePurpose;
-use crate::app::session::wishes::Wish;
 
 pub(super) const COMMANDS: &[Command] = &[
     with(
@@ -56,13 +54,21 @@ pub(super) const COMMANDS: &[Command] = &[
         "Pick the next room in a direction, as an arrow key on the plan does",
         has_rooms,
         &given1(needed("DIRECTION", one_of::<Direction>(), "left, right, up or down"), |app, direction, _| {
-            app.session.pick_towards(match direction {
-                Direction::Left => Vector::new(-1.0, 0.0),
-                Direction::Right => Vector::new(1.0, 0.0),
-                Direction::Up => Vector::new(0.0, 1.0),
-                Direction::Down => Vector::new(0.0, -1.0),
-            });
+            app.session.pick_towards(direction.vector());
             Outcome::Done
+        }),
+        None,
+    ),
+    with(
+        "change-here",
+        "Change it where it is",
+        "Show a small form beside an element, with its name or its measures, as a double click on it does",
+        has_plan,
+        &given1(needed("ELEMENT", ELEMENTS, "its id"), |app, elements, _| {
+            let Some(&element) = elements.first() else { return Outcome::Done };
+            app.session.pick(Some(element));
+            app.change_here(element);
+            Outcome::Asks
         }),
         None,
     ),
@@ -92,15 +98,16 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "dismiss-message",
         "Dismiss a message",
-        "Take a message out of the bar above the plan",
+        "Take a message off the plan",
         has_messages,
         &given1(optional("NUMBER", COUNT, "which one, the oldest being 1; without, the newest"), |app, number, _| {
-            let newest = app.session.messages.len();
+            let shown = app.session.shown_messages();
+            let newest = shown.len();
             let number = number.unwrap_or(newest);
-            if number > newest {
-                return Outcome::Refused(format!("there are {newest} messages"));
+            match number.checked_sub(1).and_then(|index| shown.get(index)) {
+                Some(&index) => drop(app.session.messages.remove(index)),
+                None => return Outcome::Refused(format!("there are {newest} messages")),
             }
-            app.session.messages.remove(number - 1);
             Outcome::Done
         }),
         None,
@@ -120,13 +127,13 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     ),
     with(
-        "save-recording",
-        "Save the recording",
-        "Save a recording that has ended, where no dialog asks for its file",
-        is_asked_for_recording,
-        &given1(needed("PATH", NEW_PLAN_FILE, "the script; '.replay' is added"), |app, path, _| {
-            if let Some(FilePurpose::Recording(save)) = app.session.typed_for.take() {
-                app.session.wishes.push(Wish::Recording(save(path)));
+        "choose-file",
+        "Choose a file",
+        "Name the file that is asked for, where the system has no dialog to do so",
+        is_asked_for_file,
+        &given1(needed("PATH", NEW_FILE, "the file"), |app, path, context| {
+            if let Some(purpose) = app.session.typed_for.take() {
+                app.session.was_typed(purpose, path, context);
             }
             Outcome::Asks
         }),

@@ -63,7 +63,7 @@ pub(super) fn command(command: &'static Command, arguments: Vec<String>) -> Resu
                     ArgumentKind::PlanFile | ArgumentKind::PictureFile | ArgumentKind::RecentFile => {
                         stage.folders.brought_in(word)?
                     }
-                    ArgumentKind::NewPlanFile => stage.folders.to_write(word)?,
+                    ArgumentKind::NewPlanFile | ArgumentKind::NewFile => stage.folders.to_write(word)?,
                     _ => return Ok(word.clone()),
                 };
                 Ok(path.to_string_lossy().into_owned())
