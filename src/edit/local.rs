@@ -133,3 +133,108 @@ fn merged(plan: &Plan, part: &Plan, edited: &Plan, bounds: Bounds) -> Option<Pla
     }
     Some(next)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::random::Random;
+    use crate::edit::{drag_corners, draw_walls};
+    use crate::geometry::Point;
+    use crate::plan::{Builder, Joint, Meta, Opening, OpeningKind, Room};
+
+    /// Rooms of 4 by 3 m with walls, doors, and one door that is pinned to a room far away.
+    fn grid(side: usize) -> Plan {
+        let mut builder = Builder::new(Meta::default());
+        let at = |x: usize, y: usize| Point::new(x as f64 * 4.0, y as f64 * 3.0);
+        let mut doors = Vec::new();
+        let mut last = None;
+        for y in 0..=side {
+            for x in 0..=side {
+                let here = builder.corner(at(x, y));
+                for (dx, dy) in [(1, 0), (0, 1)] {
+                    if x + dx <= side && y + dy <= side {
+                        let there = builder.corner(at(x + dx, y + dy));
+                        builder.wall(here, there, 0.12);
+                        doors.push(Place::Hosted { from: here, to: there, at_m: 1.5, width_m: 0.9 });
+                    }
+                }
+                if x < side && y < side {
+                    let ring = [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)].map(|(x, y)| builder.corner(at(x, y)));
+                    last = Some(builder.room("", Room { outer: ring.into(), ..Room::default() }));
+                }
+            }
+        }
+        for (index, place) in doors.into_iter().enumerate().filter(|(index, _)| index % 3 == 0) {
+            let pinned = last.filter(|_| index == 0).map(|room| [Joint::Room(room), Joint::Outside]);
+            builder.opening("", Opening { pinned, ..Opening::new(OpeningKind::Door, place) });
+        }
+        builder.finish().expect("a plan")
+    }
+
+    /// All elements that meet a box, found one by one.
+    fn near(plan: &Plan, bounds: Bounds) -> BTreeSet<ElementId> {
+        let meets = |element: &ElementId| {
+            let points = match *element {
+                ElementId::Corner(id) => vec![plan.position(id)],
+                ElementId::Room(id) => {
+                    plan.room(id).into_iter().flat_map(|room| room.outer.iter()).map(|&c| plan.position(c)).collect()
+                }
+                ElementId::Wall(id) => {
+                    let segment = plan.wall(id).and_then(|wall| plan.wall_segment(wall));
+                    segment.map(|segment| vec![Some(segment.a), Some(segment.b)]).unwrap_or_default()
+                }
+                ElementId::Opening(id) => {
+                    let segment = plan.opening(id).and_then(|opening| plan.opening_segment(opening));
+                    segment.map(|segment| vec![Some(segment.a), Some(segment.b)]).unwrap_or_default()
+                }
+            };
+            Bounds::of(points.into_iter().flatten()).intersects(bounds)
+        };
+        plan.elements().filter(meets).collect()
+    }
+
+    /// The box with the rooms that meet it.
+    fn with_rooms(plan: &Plan, bounds: Bounds) -> Bounds {
+        let rooms = near(plan, bounds).into_iter().filter_map(|element| match element {
+            ElementId::Room(id) => Some(Bounds::of(plan.ring_points(&plan.room(id)?.outer))),
+            _ => None,
+        });
+        rooms.fold(bounds, Bounds::union)
+    }
+
+    fn assert_same(plan: &Plan, bounds: Bounds, edit: impl Fn(&Plan) -> Result<Plan, EditError>) -> Plan {
+        let around = with_rooms(plan, bounds.inflated(0.5));
+        let here = locally(plan, &near(plan, around), around, &edit);
+        let whole = edit(plan);
+        assert_eq!(here, whole);
+        here.unwrap_or_else(|_| plan.clone())
+    }
+
+    #[test]
+    fn what_is_done_on_a_part_is_as_done_on_the_whole() {
+        let mut random = Random::new(12);
+        for _ in 0..40 {
+            let mut plan = grid(5);
+            for _ in 0..6 {
+                let mut at = |reach: f64| {
+                    Point::new(
+                        random.unit() * 20.0 + reach * random.unit(),
+                        random.unit() * 15.0 + reach * random.unit(),
+                    )
+                };
+                let path = [at(0.0), at(3.0), at(0.0)];
+                let bounds = Bounds::of(path);
+                plan = assert_same(&plan, bounds, |plan| Ok(draw_walls(plan, &path, 0.2)?.plan));
+                let corners: Vec<CornerId> = plan.corners().map(|(id, _)| id).collect();
+                let corner = corners[random.below(corners.len())];
+                let Some(place) = plan.position(corner) else { continue };
+                let to = Point::new(place.x + random.unit() * 2.0 - 1.0, place.y + random.unit() * 2.0 - 1.0);
+                let meeting = near(&plan, Bounds::of([place]));
+                let part = part_of(&plan, &meeting);
+                let bounds = part.bounds().with(to);
+                plan = assert_same(&plan, bounds, |plan| Ok(drag_corners(plan, &[(corner, to)])?.plan));
+            }
+            assert_eq!(plan.violations(), []);
+        }
+    }
+}

@@ -13,7 +13,7 @@ use crate::formats::{self, FileError, Note, Place, ReadError};
 use crate::geometry::Bounds;
 use crate::labels::Schemes;
 pub(crate) use crate::pipeline::Derived;
-use crate::plan::{Difference, ElementId, History, Meta, Plan, Scale, ScaleOrigin};
+use crate::plan::{CornerId, Difference, ElementId, History, Meta, Plan, Scale, ScaleOrigin};
 use crate::predict::Predictor;
 use crate::store::{self, Stamp};
 
@@ -293,6 +293,13 @@ impl Document {
             near.retain(|&element| plan.has(element));
         }
         Some(near)
+    }
+
+    /// The bounding box of all that uses a corner, and of what else is there.
+    pub(crate) fn around(&self, corner: CornerId) -> Bounds {
+        let Some(place) = self.plan().position(corner).map(|place| Bounds::of([place])) else { return Bounds::EMPTY };
+        let near = self.near(place).unwrap_or_default();
+        near.into_iter().filter_map(|element| self.bounds_of(element)).fold(place, Bounds::union)
     }
 
     /// The bounding box of an element.

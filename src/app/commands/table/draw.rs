@@ -35,8 +35,25 @@ pub(super) fn edited_near(
     }
 }
 
+/// The same for an edit that may have had to fit openings anew: says so.
+pub(super) fn edited_fitting_near(
+    app: &mut App,
+    title: &str,
+    bounds: Bounds,
+    change: impl Fn(&Plan) -> Result<edit::Changed, EditError>,
+) -> Outcome {
+    let refitted = std::cell::RefCell::new(Vec::new());
+    let ran = edited_near(app, title, bounds, |plan| {
+        let changed = change(plan)?;
+        refitted.replace(changed.refitted);
+        Ok(changed.plan)
+    });
+    app.say_refitted(&refitted.into_inner());
+    ran
+}
+
 /// How far from a path what it meets may lie, in metres: far more than any line is bent to meet another.
-const REACH_OF_WALLS_M: f64 = 0.5;
+pub(super) const REACH_OF_WALLS_M: f64 = 0.5;
 
 /// The same for an edit that may have had to fit openings anew: says so.
 pub(super) fn edited_fitting(
