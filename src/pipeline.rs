@@ -224,6 +224,8 @@ impl Derived {
             .filter_map(|(id, opening)| Some(OpeningPlace { id, segment: plan.opening_segment(opening)? }))
             .collect();
         let labels = predictions.as_ref().map(Predictions::labels).unwrap_or_default();
+        // Compared here, beside the frames, for the panel that shows it.
+        predictions.as_ref().map(Predictions::acquaintance);
         let drawing = drawing.with_predictions(&labels);
         let reading_order = reading_order(&analysis);
         let openings = RTree::bulk_load(openings);

@@ -9,7 +9,7 @@ pub(crate) use crate::app::session::words::{
 };
 use crate::app::session::{bulk::Order, selection::SelectMode};
 use crate::classify::Method;
-use crate::edit::{Alignment, DrawingMoves, End, storey::Keep};
+use crate::edit::{Alignment, DrawingMoves, End, Reach, storey::Keep};
 use crate::geometry::{Point, Vector};
 use crate::labels::Typology;
 use crate::plan::{ElementId, GuideAxis, LeafSide, OpeningId, OpeningKind, RoomId};
@@ -142,6 +142,26 @@ impl Worded for Alignment {
         ("middle", "Middles, on a level line"),
     ];
     const ALL: &'static [Self] = &[Self::Left, Self::Right, Self::Top, Self::Bottom, Self::Center, Self::Middle];
+}
+
+impl Worded for Reach {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("run", "The straight run that the wall is part of"), ("piece", "Only this piece of it")];
+    const ALL: &'static [Self] = &[Self::Run, Self::Piece];
+}
+
+/// What mirroring, turning and scaling leave behind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum MoveOrCopy {
+    Move,
+    /// The original stays.
+    Copy,
+}
+
+impl Worded for MoveOrCopy {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("move", "Move what is selected"), ("copy", "Leave the original and make a copy")];
+    const ALL: &'static [Self] = &[Self::Move, Self::Copy];
 }
 
 /// What a new room covers.

@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use super::elements::{GraphEdge, NODE_RADIUS_PX, RoomDrawing, WallDrawing, painting_order};
 use super::names::Around;
-use super::openings::OpeningDrawing;
+use super::openings::{OpeningDrawing, PlacedOpening};
 use super::scene::{Frame, Group, Item, Layer, Length, PlacedPicture, Scene, View};
 use super::tangle::one_line_in;
 use super::tile_grid::TileGrid;
@@ -229,6 +229,11 @@ impl Drawing {
     /// What the leaves of doors swing through: hinge, end of the closed leaf, end of the open leaf.
     pub fn sweeps(&self) -> impl Iterator<Item = (OpeningId, [Point; 3])> + '_ {
         self.openings.iter().flat_map(|opening| opening.sweeps().map(|sweep| (opening.id, sweep)))
+    }
+
+    /// The openings as they are drawn, by id.
+    pub fn placed_openings(&self) -> impl ExactSizeIterator<Item = PlacedOpening> + '_ {
+        self.openings.iter().map(OpeningDrawing::placed)
     }
 
     /// The scene in a view. Only names are culled outside the view: panning at the same zoom just moves

@@ -15,6 +15,7 @@ mod plan_folder;
 mod save;
 mod schemes;
 mod stamp;
+mod viewer;
 
 pub use bundled::{BUNDLED, bundled_plans};
 #[cfg(feature = "pictures")]
@@ -31,3 +32,4 @@ pub use plan_folder::{FoundPlan, plans_below};
 pub use save::{SaveError, save_bytes, save_bytes_fast};
 pub use schemes::{SCHEME_ENDING, SCHEMES_VARIABLE, SchemeFileError, schemes_folder, schemes_in, with_scheme_file};
 pub use stamp::Stamp;
+pub use viewer::{print_folder, show_in_viewer};

@@ -120,6 +120,7 @@ const fn kind<T>(kind: ArgumentKind) -> Kind<T> {
 
 pub(super) const PLAN_FILE: Kind<PathBuf> = kind(ArgumentKind::PlanFile);
 pub(super) const NEW_PLAN_FILE: Kind<PathBuf> = kind(ArgumentKind::NewPlanFile);
+pub(super) const NEW_FILE: Kind<PathBuf> = kind(ArgumentKind::NewFile);
 pub(super) const PICTURE_FILE: Kind<PathBuf> = kind(ArgumentKind::PictureFile);
 pub(super) const TEXT: Kind<String> = kind(ArgumentKind::Text);
 pub(super) const FUNCTION: Kind<String> = kind(ArgumentKind::Function);

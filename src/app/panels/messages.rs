@@ -14,6 +14,7 @@ use crate::app::look::{
 use crate::app::session::messages::{Message, Remedy, Severity};
 use crate::app::state::App;
 use crate::app::value::{Call, Value};
+use crate::plan::ElementId;
 
 /// The most messages shown at once: the newest ones.
 const SHOWN: usize = 3;
@@ -79,6 +80,7 @@ impl Remedy {
             Self::SaveElsewhere => Call::new("save-as", []),
             Self::ShowPicture => Call::new("show-outside-picture", []),
             Self::RelinkPicture | Self::KeepPicture => Call::new("relink-picture", []),
+            Self::MergeRooms(rooms) => Call::new("merge-rooms", [Value::Elements(rooms.map(ElementId::Room).to_vec())]),
         }
     }
 }

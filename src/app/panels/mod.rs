@@ -3,7 +3,10 @@
 pub(super) mod about;
 pub(super) mod bulk;
 mod canvas;
+mod dataset;
 pub(super) mod differences;
+mod export;
+mod findings;
 mod here;
 mod history;
 mod inspector;
@@ -32,11 +35,21 @@ use crate::app::look::theme;
 use crate::app::state::{App, Entry, Side, SidePanel};
 
 /// All dialogs; later ones are above earlier ones.
-pub(crate) const DIALOGS: &[Entry] =
-    &[notes::ENTRY, differences::ENTRY, recovery::ENTRY, about::ENTRY, shortcuts::ENTRY, bulk::ENTRY, palette::ENTRY];
+pub(crate) const DIALOGS: &[Entry] = &[
+    notes::ENTRY,
+    differences::ENTRY,
+    recovery::ENTRY,
+    about::ENTRY,
+    shortcuts::ENTRY,
+    bulk::ENTRY,
+    export::ENTRY,
+    dataset::ENTRY,
+    palette::ENTRY,
+];
 
 /// All side panels, from the top.
-pub(crate) const SIDE_PANELS: &[SidePanel] = &[plans::PANEL, layers::PANEL, inspector::PANEL, history::PANEL];
+pub(crate) const SIDE_PANELS: &[SidePanel] =
+    &[plans::PANEL, layers::PANEL, inspector::PANEL, findings::PANEL, history::PANEL];
 
 /// Shows the window.
 pub(crate) fn show(app: &mut App, ui: &mut Ui) {

@@ -26,6 +26,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             ui.label(RichText::new("● Not kept safe").size(theme::SMALL).color(colours(ui).error));
             ui.add_space(6.0);
         }
+        super::findings::badge(app, ui);
+        ui.add_space(4.0);
         // Never over the right part.
         let width = (ui.available_width() - RIGHT_WIDTH).max(0.0);
         ui.scope(|ui| {

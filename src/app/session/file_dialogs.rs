@@ -42,6 +42,10 @@ pub(crate) enum Purpose {
         then: Option<Intent>,
         answering: Option<&'static str>,
     },
+    /// To export the plan; the answer is for the dialog that asked.
+    Export,
+    /// To write a dataset; the answer is for the dialog that asked.
+    Dataset,
     /// To save a recording; the closure makes the message that tells the recorder the path.
     Recording(Box<dyn FnOnce(PathBuf) -> Box<dyn Any + Send> + Send>),
 }
@@ -98,6 +102,15 @@ impl Dialogs {
                             .set_title("Save the plan")
                             .set_file_name(name)
                             .add_filter("Enfilade plan", &["plan.json"]);
+                        Box::pin(dialog.save_file())
+                    }
+                    Purpose::Export => {
+                        let dialog = dialog.set_title("Export the plan").set_file_name(name);
+                        Box::pin(dialog.save_file())
+                    }
+                    Purpose::Dataset => {
+                        let dialog =
+                            dialog.set_title("Export the dataset").set_file_name(name).add_filter("Table", &["csv"]);
                         Box::pin(dialog.save_file())
                     }
                     Purpose::Recording(_) => {

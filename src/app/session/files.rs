@@ -231,6 +231,7 @@ impl Session {
             Purpose::Open => self.wishes.push(run("open")),
             Purpose::Picture(PictureUse::Add) => self.wishes.push(run("picture")),
             Purpose::Picture(PictureUse::Relink) => self.wishes.push(run("relink-picture")),
+            Purpose::Export | Purpose::Dataset => self.chosen_file = Some(path),
             Purpose::Recording(save) => self.wishes.push(Wish::Recording(save(path))),
             Purpose::Save { then: None, answering: None } => self.wishes.push(run("save-as")),
             Purpose::Save { then, answering } => {

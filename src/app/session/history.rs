@@ -3,6 +3,7 @@
 use super::Session;
 use crate::app::session::fields::Field;
 use crate::app::session::fields::FieldKind;
+use crate::app::session::messages::{Lasts, Message, Remedy, Severity};
 use crate::edit;
 use crate::edit::EditError;
 use crate::plan::ElementId;
@@ -84,12 +85,24 @@ impl Session {
         }
     }
 
-    /// Deletes elements and what depends on them.
+    /// Deletes elements and what depends on them. Where a wall between two rooms went, offers to merge them.
     pub(crate) fn delete(&mut self, elements: &[ElementId]) {
+        let before = self.plan().cloned();
         let title = match elements {
             [one] => format!("Delete {}", one.kind()),
             several => format!("Delete {} elements", several.len()),
         };
         self.edit(&title, |plan| edit::remove(plan, elements));
+        let Some((before, after)) = before.zip(self.plan()) else { return };
+        if let Some(rooms) = edit::rooms_joined_by(&before, after, elements) {
+            let names = rooms.map(|id| after.room(id).map(|room| room.name.clone()).unwrap_or_default());
+            let text = match names {
+                [a, b] if !a.is_empty() && !b.is_empty() => format!("No wall divides {a} and {b} any more"),
+                _ => "No wall divides these two rooms any more".to_owned(),
+            };
+            let remedies = vec![Remedy::MergeRooms(rooms)];
+            let lasts = Lasts::Step(self.document.as_ref().map_or(0, |document| document.history.position()));
+            self.add_message(Message::new(Severity::Info, text, "").with(remedies).lasting(lasts));
+        }
     }
 }

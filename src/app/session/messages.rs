@@ -3,6 +3,8 @@
 use super::Session;
 use crate::plan::Plan;
 
+use crate::plan::RoomId;
+
 /// A message that stays until it is dismissed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Message {
@@ -136,6 +138,8 @@ pub enum Remedy {
     ShowPicture,
     /// Take the picture that is shown as the one that the plan means.
     KeepPicture,
+    /// Make one room of two that have no wall between them any more.
+    MergeRooms([RoomId; 2]),
 }
 
 impl Remedy {
@@ -150,6 +154,7 @@ impl Remedy {
             Self::RelinkPicture => "Relink…",
             Self::ShowPicture => "Show it",
             Self::KeepPicture => "Keep this picture",
+            Self::MergeRooms(_) => "Merge rooms",
         }
     }
 }

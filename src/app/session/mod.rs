@@ -1,12 +1,15 @@
 //! The session: the open plan and all that is done with it. It knows no canvas, tool, panel or command.
 
 pub(crate) mod bulk;
+pub(crate) mod dataset;
 pub(crate) mod deriving;
 pub(crate) mod document;
 pub(crate) mod executed;
+pub(crate) mod exporting;
 pub(crate) mod fields;
 pub(crate) mod file_dialogs;
 pub(crate) mod files;
+pub(crate) mod findings;
 pub(crate) mod fresh;
 pub(crate) mod ghost;
 pub(crate) mod history;
@@ -118,6 +121,14 @@ pub(crate) struct Session {
     pub(crate) recent_functions: Vec<String>,
     /// Whether a recording is in progress.
     pub(crate) is_recording: bool,
+    /// What the check finds in the plan.
+    pub(crate) findings: findings::Findings,
+    /// What a sheet of paper will look like.
+    pub(crate) preview: exporting::SheetPreview,
+    /// The file that a dialog was told to write to, for the dialog that asked.
+    pub(crate) chosen_file: Option<PathBuf>,
+    /// The dataset being made.
+    pub(crate) dataset_job: Option<jobs::Wanted>,
     /// Requests to the rest of the window.
     pub(crate) wishes: Vec<Wish>,
 }
@@ -169,6 +180,10 @@ impl Session {
             field: None,
             recent_functions: Vec::new(),
             is_recording: false,
+            findings: findings::Findings::default(),
+            preview: exporting::SheetPreview::default(),
+            chosen_file: None,
+            dataset_job: None,
             wishes: Vec::new(),
         }
     }

@@ -93,6 +93,8 @@ pub(crate) struct Panels {
     pub recent: Vec<&'static str>,
     /// The last pattern used to name rooms.
     pub pattern: Option<String>,
+    /// The format and the options last used to export, by the format's id: `paper=A3 scale=1:100`.
+    pub export: (Option<&'static str>, BTreeMap<&'static str, String>),
     /// The rectangles of the panels on the left, the middle, and those on the right in the last frame, if
     /// shown.
     pub left_rect: Option<egui::Rect>,
@@ -115,6 +117,7 @@ impl Panels {
             focus: None,
             recent: Vec::new(),
             pattern: None,
+            export: (None, BTreeMap::new()),
             left_rect: None,
             middle_rect: None,
             right_rect: None,
@@ -152,4 +155,5 @@ pub(crate) mod ids {
     pub(crate) const LAYERS: &str = "layers";
     pub(crate) const INSPECTOR: &str = "inspector";
     pub(crate) const HISTORY: &str = "history";
+    pub(crate) const FINDINGS: &str = "findings";
 }

@@ -1,9 +1,10 @@
 //! Selects, moves, drags corners, slides openings.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use egui::{CursorIcon, Key, KeyboardShortcut, Modifiers};
 
+use super::moving::{Moving, preview_moved};
 use super::opening_grips::{self, Grip};
 use super::tool::Group;
 use super::{Anchor, Call, Entry, Input, NUDGES_MORE, Scope, Tool, Value};
@@ -14,7 +15,8 @@ use crate::app::session::document::Derived;
 use crate::app::session::layers::LayerSettings;
 use crate::app::session::selection::{SelectMode, Selection};
 use crate::app::value::Boxed;
-use crate::geometry::{Point, Segment, Vector};
+use crate::edit::Reach;
+use crate::geometry::Point;
 use crate::plan::{CornerId, ElementId, Place, Plan};
 
 pub(super) const ENTRY: Entry = Entry {
@@ -53,7 +55,7 @@ enum State {
     /// Dragging a corner.
     MovingCorner { corner: CornerId, from: Point },
     /// Dragging the selection; `from` is the point that snaps.
-    Moving { from: Point },
+    Moving { from: Point, what: Moving },
     /// Dragging a grip of an opening.
     Gripping(Grip),
 }
@@ -138,7 +140,7 @@ impl Select {
         self.state = match self.grabbed(pointer, scope) {
             Some(Grabbed::Corner(corner, from)) => State::MovingCorner { corner, from },
             Some(Grabbed::Opening(grip)) => State::Gripping(grip),
-            Some(Grabbed::Selection) => State::Moving { from: at },
+            Some(Grabbed::Selection) => State::Moving { from: at, what: Moving::of(scope) },
             None => State::Boxing { from: pointer },
         };
     }
@@ -186,13 +188,16 @@ impl Select {
                 let moved = Value::Elements(vec![ElementId::Corner(corner)]);
                 vec![Call::new("move-corner", [moved, Value::point(scope.at())])]
             }
-            State::Moving { from } => {
-                let by = moved_by(from, scope);
+            State::Moving { from, what } => {
+                let by = what.moved_by(from, scope);
                 if by.length() <= 0.0 {
                     return Vec::new();
                 }
-                let to = Point::default() + by;
-                vec![Call::new("move-selection", [Value::point(to)])]
+                let mut call = Call::new("move-selection", [Value::point(Point::default() + by)]);
+                if what.piece(scope).is_some() {
+                    call.values.push(Value::word(Reach::Piece));
+                }
+                vec![call]
             }
             State::Gripping(grip) => vec![grip.drop(scope)],
             State::MovingCorner { .. } => Vec::new(),
@@ -245,17 +250,6 @@ fn corners_of(plan: &Plan, selection: &Selection) -> BTreeSet<CornerId> {
     corners
 }
 
-/// The displacement of the selection. A single wall moves perpendicular to itself, unless Shift is held.
-fn moved_by(from: Point, scope: &Scope<'_>) -> Vector {
-    let by = scope.at() - from;
-    let wall = match scope.selection.one() {
-        Some(ElementId::Wall(id)) if !scope.modifiers.shift => scope.plan.wall(id),
-        _ => None,
-    };
-    let across = wall.and_then(|wall| scope.plan.wall_segment(wall)).and_then(|segment| segment.vector().left().unit());
-    across.map_or(by, |across| across * by.dot(across))
-}
-
 impl Tool for Select {
     fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
         match input {
@@ -272,7 +266,7 @@ impl Tool for Select {
     }
 
     fn hint(&self, scope: &Scope<'_>) -> String {
-        match self.state {
+        match &self.state {
             State::Ready if scope.selection.is_empty() => String::new(),
             State::Ready => {
                 let [step, more, less] =
@@ -281,22 +275,20 @@ impl Tool for Select {
                     "Arrow keys move it by {step}, with Shift by {more}, with Alt by {less} · double-click to change it"
                 )
             }
-            State::Boxing { from } if is_inside(from, scope.pointer) => {
+            State::Boxing { from } if is_inside(*from, scope.pointer) => {
                 "Selects what lies inside · pull to the left for what is touched · Shift adds".to_owned()
             }
             State::Boxing { .. } => "Selects what is inside or touched · Shift adds".to_owned(),
             State::MovingCorner { .. } => {
                 "Everything that shares the corner follows · Alt suspends snapping · Esc drops it".to_owned()
             }
-            State::Moving { .. } => {
-                "Neighbours that share corners follow · Alt suspends snapping · Esc drops it".to_owned()
-            }
+            State::Moving { what, .. } => what.hint(scope),
             State::Gripping(grip) => grip.hint(scope),
         }
     }
 
     fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
-        match self.state {
+        match &self.state {
             State::Ready => {
                 for corner in handles_of(scope.plan, scope.selection) {
                     if let Some(place) = scope.plan.position(corner) {
@@ -305,7 +297,7 @@ impl Tool for Select {
                 }
                 opening_grips::show(scope, preview);
             }
-            State::Boxing { from } => {
+            &State::Boxing { from } => {
                 let to = scope.pointer;
                 let corners = vec![from, Point::new(to.x, from.y), to, Point::new(from.x, to.y)];
                 preview.fill(corners.clone(), Vec::new(), Look::New);
@@ -315,8 +307,8 @@ impl Tool for Select {
                     preview.dashed(corners, true, Look::New);
                 }
             }
-            State::MovingCorner { corner, from } => {
-                preview_moved(scope, &BTreeSet::from([corner]), scope.at() - from, preview);
+            &State::MovingCorner { corner, from } => {
+                preview_moved(scope, &BTreeMap::from([(corner, scope.at())]), preview);
                 preview.handle(scope.at(), Look::New);
                 preview.label(
                     scope.at(),
@@ -324,9 +316,9 @@ impl Tool for Select {
                     Look::New,
                 );
             }
-            State::Moving { from } => {
-                let by = moved_by(from, scope);
-                preview_moved(scope, &corners_of(scope.plan, scope.selection), by, preview);
+            State::Moving { from, what } => {
+                let (from, by) = (*from, what.moved_by(*from, scope));
+                what.preview(by, scope, preview);
                 preview.dashed(vec![from, from + by], false, Look::Guide);
                 preview.label(scope.at(), format!("moved {}", scope.units.length(by.length())), Look::New);
             }
@@ -356,39 +348,10 @@ impl Tool for Select {
 
     fn anchor(&self) -> Option<Anchor> {
         match self.state {
-            State::MovingCorner { from, .. } | State::Moving { from } => {
+            State::MovingCorner { from, .. } | State::Moving { from, .. } => {
                 Some(Anchor { from, along: None, right_angles: false })
             }
             _ => None,
-        }
-    }
-}
-
-/// The edges of moved corners, at their new positions.
-fn preview_moved(scope: &Scope<'_>, moved: &BTreeSet<CornerId>, by: Vector, preview: &mut Preview) {
-    let Some(derived) = scope.derived else { return };
-    let mut shown = BTreeSet::new();
-    for &corner in moved.iter().take(MOST_HANDLES) {
-        let Some(place) = scope.plan.position(corner) else { continue };
-        for edge in derived.index.edges_near(place, 1e-4) {
-            if !shown.insert(edge.corners) {
-                continue;
-            }
-            let [a, b] = edge.corners.map(|id| {
-                let place = scope.plan.position(id).unwrap_or_default();
-                if moved.contains(&id) { place + by } else { place }
-            });
-            let segment = Segment::new(a, b);
-            if edge.wall.is_some() {
-                preview.wall(segment, edge.thickness_m, Look::New);
-            } else {
-                preview.line(vec![a, b], false, Look::New);
-            }
-        }
-    }
-    for id in scope.selection.openings() {
-        if let Some(segment) = scope.plan.opening(id).and_then(|opening| scope.plan.opening_segment(opening)) {
-            preview.line(vec![segment.a + by, segment.b + by], false, Look::New);
         }
     }
 }

@@ -62,12 +62,13 @@ pub(super) const SNAPPING: ToolOption = ToolOption::Switch { command: "snapping"
 pub(super) const GRID: ToolOption = ToolOption::Switch { command: "snap-to-grid", name: "Grid" };
 pub(super) const RIGHT_ANGLES: ToolOption = ToolOption::Switch { command: "right-angles", name: "Right angles" };
 pub(super) const WITH_WALLS: ToolOption = ToolOption::Switch { command: "walls-with-rooms", name: "With walls" };
+pub(super) const COPIES: ToolOption = ToolOption::Switch { command: "transform-copies", name: "Copy" };
 pub(super) const OVER_ROOMS: ToolOption = ToolOption::Switch { command: "over-rooms", name: "Over rooms" };
 
 /// The thickness of walls.
 pub(super) const THICKNESS: ToolOption = thickness(|_| true);
 
-/// The thickness of the walls around rooms, if they are drawn.
+/// The thickness of walls along new boundaries, if they are put there.
 pub(super) const THICKNESS_WITH_ROOMS: ToolOption = thickness(|options| options.walls_with_rooms);
 
 const fn thickness(is_shown: fn(&DrawOptions) -> bool) -> ToolOption {

@@ -9,6 +9,9 @@ const PATH: Arg<Vec<Point>> =
     needed("POINTS", points(2), "points in metres, as '0,0 4.2,0', where the last may be the first");
 const RING: Arg<Vec<Point>> = needed("CORNERS", points(3), "corners in metres, as '0,0 4,0 4,3 0,3'");
 const PLACE: Arg<Point> = needed("PLACE", POINT, "a point in metres, as '2,1.5'");
+/// For what makes boundaries: how thick the walls along them are.
+const NEW_WALLS: Arg<Option<f64>> =
+    optional("THICKNESS", length(0.0, 10.0), "of walls along new boundaries, 0 for none; what is set without");
 const THICKNESS: Arg<Option<f64>> = optional("THICKNESS", length(0.0, 10.0), "of walls; what is set without");
 
 /// Applies an edit; if the edit is refused, so is the command.
@@ -17,6 +20,22 @@ pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> R
         Ok(()) => Outcome::Done,
         Err(error) => Outcome::Refused(error.to_string()),
     }
+}
+
+/// The same for an edit that may have had to fit openings anew: says so.
+pub(super) fn edited_fitting(
+    app: &mut App,
+    title: &str,
+    change: impl FnOnce(&Plan) -> Result<edit::Changed, EditError>,
+) -> Outcome {
+    let mut refitted = Vec::new();
+    let ran = edited(app, title, |plan| {
+        let changed = change(plan)?;
+        refitted = changed.refitted;
+        Ok(changed.plan)
+    });
+    app.say_refitted(&refitted);
+    ran
 }
 
 pub(super) const COMMANDS: &[Command] = &[
@@ -75,8 +94,8 @@ pub(super) const COMMANDS: &[Command] = &[
     .menu(Menu::Draw, 4),
     switch(
         "walls-with-rooms",
-        "Walls around rooms",
-        "Draw walls along the boundaries of new rooms",
+        "With walls",
+        "Put walls along every new boundary: of rooms, where rooms are split, around courtyards, and where a room comes away from its neighbours",
         always,
         |app| app.tools.options.walls_with_rooms,
         |app, is_on| app.tools.options.walls_with_rooms = is_on,
@@ -157,8 +176,7 @@ pub(super) const COMMANDS: &[Command] = &[
             ),
             THICKNESS,
             |app, points, space, thickness_m, context| {
-                let own_m = app.tools.options.walls_with_rooms.then_some(app.tools.options.thickness_m);
-                let thickness_m = thickness_m.or(own_m).filter(|thickness_m| *thickness_m > 0.0);
+                let thickness_m = app.new_walls_m(thickness_m);
                 let (mut said, mut made) = (String::new(), Vec::new());
                 let units = app.units();
                 let ran = edited(app, "Draw room", |plan| {
@@ -201,10 +219,11 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "split-rooms",
         "Split rooms along a line",
-        "Split the rooms that a line crosses from boundary to boundary, without a wall",
+        "Split the rooms that a line crosses from boundary to boundary",
         has_rooms,
-        &given1(PATH, |app, points, _| {
-            edited(app, "Split", |plan| edit::split_rooms(plan, &points).map(|split| split.0))
+        &given2(PATH, NEW_WALLS, |app, points, thickness_m, _| {
+            let thickness_m = app.new_walls_m(thickness_m);
+            edited(app, "Split", |plan| edit::split_rooms(plan, &points, thickness_m).map(|split| split.0))
         }),
         None,
     ),
@@ -213,8 +232,11 @@ pub(super) const COMMANDS: &[Command] = &[
         "Cut out a courtyard",
         "Cut an area out of the room that it lies in",
         has_rooms,
-        &given1(RING, |app, points, _| {
-            edited(app, "Cut out", |plan| edit::cut_out(plan, edit::room_around(plan, &points)?, &points))
+        &given2(RING, NEW_WALLS, |app, points, thickness_m, _| {
+            let thickness_m = app.new_walls_m(thickness_m);
+            edited(app, "Cut out", |plan| {
+                edit::cut_out_by(plan, edit::room_around(plan, &points)?, &points, thickness_m)
+            })
         }),
         None,
     ),
@@ -257,6 +279,46 @@ impl App {
             self.session.status =
                 format!("The keys of labels mean the new room, {function} says its function, {name} names it");
         }
+    }
+
+    /// The thickness of walls along new boundaries: as given, or as set; `None` for no walls.
+    fn new_walls_m(&self, given_m: Option<f64>) -> Option<f64> {
+        let options = &self.tools.options;
+        let own_m = options.walls_with_rooms.then_some(options.thickness_m);
+        given_m.or(own_m).filter(|thickness_m| *thickness_m > 0.0)
+    }
+
+    /// Says what became of openings that no longer fitted where they were.
+    pub(super) fn say_refitted(&mut self, refitted: &[edit::Refitted]) {
+        let units = self.units();
+        let said = match refitted {
+            [] => return,
+            [edit::Refitted { kind, how, .. }] => {
+                let kind = crate::base::wording::sentence(kind.name());
+                match *how {
+                    edit::Refit::Moved { by_m } => format!("{kind} moved by {} to fit", units.length(by_m)),
+                    edit::Refit::Narrowed { from_m, to_m } => {
+                        let [from, to] = [from_m, to_m].map(|width_m| units.length(width_m));
+                        format!("{kind} made narrower to fit its wall: {to} wide, not {from}")
+                    }
+                    edit::Refit::LeftOut => format!("{kind} left out: another opening stands there"),
+                }
+            }
+            several => {
+                let number = |is_it: fn(&edit::Refit) -> bool| several.iter().filter(|one| is_it(&one.how)).count();
+                let counts = [
+                    (number(|how| matches!(how, edit::Refit::Moved { .. })), "moved to fit"),
+                    (number(|how| matches!(how, edit::Refit::Narrowed { .. })), "made narrower"),
+                    (number(|how| matches!(how, edit::Refit::LeftOut)), "left out, for others stand there"),
+                ];
+                let counts = counts.into_iter().filter(|(number, _)| *number > 0);
+                let said: Vec<String> = counts
+                    .map(|(number, what)| format!("{} {what}", crate::base::wording::count(number, "opening")))
+                    .collect();
+                crate::base::wording::sentence(&said.join(" · "))
+            }
+        };
+        self.session.status = said;
     }
 
     /// Says where openings became narrower than was wanted, for their walls are no longer.

@@ -87,6 +87,48 @@ pub(super) const COMMANDS: &[Command] = &[
     .keys(&[ctrl_shift(Key::S)])
     .menu(Menu::File, 1)
     .on(&[On::ListedPlan]),
+    with(
+        "export",
+        "Export…",
+        "Write the plan as a PDF, picture or drawing for other programs",
+        has_plan,
+        &given2(
+            needed("PATH", NEW_FILE, "the file, whose ending says the format; one that exists is replaced"),
+            optional("OPTIONS", TEXT, "options of the format, as NAME=VALUE parted by blanks: paper=A3 scale=1:100"),
+            |app, path, options, _| {
+                let options = options.unwrap_or_default();
+                app.session.export(path, &options).map_or_else(Outcome::Refused, |()| Outcome::Done)
+            },
+        ),
+        Some(|app, _| app.open_dialog(dialogs::EXPORT)),
+    )
+    .keys(&[ctrl(Key::E)])
+    .menu(Menu::File, 1)
+    .on(&[On::ListedPlan]),
+    with(
+        "print",
+        "Print…",
+        "Put the plan on a sheet of paper to scale, and open it in the desktop's viewer, which prints",
+        has_plan,
+        &given1(
+            needed("OPTIONS", TEXT, "options of the sheet, as NAME=VALUE parted by blanks; 'default' for none"),
+            |app, options, _| app.session.print(&options).map_or_else(Outcome::Refused, |()| Outcome::Done),
+        ),
+        Some(|app, _| app.open_dialog_for(dialogs::EXPORT, Purpose::Print)),
+    )
+    .keys(&[ctrl(Key::P)])
+    .menu(Menu::File, 1),
+    with(
+        "export-dataset",
+        "Export dataset…",
+        "Write the labelled rooms of all plans in the open folder as a table, with what its columns mean",
+        has_folder,
+        &given1(needed("PATH", NEW_FILE, "the table, to which '.csv' is added"), |app, path, _| {
+            app.session.export_dataset(path).map_or_else(Outcome::Refused, |()| Outcome::Done)
+        }),
+        Some(|app, _| app.open_dialog(dialogs::DATASET)),
+    )
+    .menu(Menu::File, 1),
     switch(
         "recovery",
         "Recover unsaved work",

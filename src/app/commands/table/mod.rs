@@ -206,6 +206,16 @@ fn has_plan(app: &App) -> Availability {
     when(app.session.document.is_some(), "open a plan first")
 }
 
+fn has_folder(app: &App) -> Availability {
+    when(app.session.dataset_source().is_some(), "open a plan of a folder first")
+}
+
+fn has_findings(app: &App) -> Availability {
+    has_plan(app)?;
+    let Some(checked) = app.session.findings() else { return Err("the plan is still being checked") };
+    when(!checked.open.is_empty() || !checked.ignored.is_empty(), "nothing was found")
+}
+
 fn has_picked(app: &App) -> Availability {
     has_plan(app)?;
     when(!app.session.selection.is_empty(), "select something first")

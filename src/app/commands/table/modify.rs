@@ -6,12 +6,13 @@ use std::collections::BTreeSet;
 
 use self::acts::{
     Mirror, NO_GAPS, Wanted, Way, copied, has_copied, has_door, has_drawing, has_opening, has_wall, is_labelled,
-    is_selectable, moved, select_found,
+    is_selectable, select_found, transformed,
 };
-use super::draw::edited;
+use super::draw::{edited, edited_fitting};
 use super::*;
 use crate::app::session::{document::Document, questions::Question};
-use crate::edit::{self, Alignment, Array, End};
+use crate::app::value::MoveOrCopy;
+use crate::edit::{self, Alignment, Array, End, Reach};
 use crate::geometry::Transform;
 use crate::plan::{LeafSide, OpeningId, Swing};
 use crate::topology;
@@ -126,22 +127,22 @@ pub(super) const COMMANDS: &[Command] = &[
     .keys(&[ctrl(Key::D)])
     .menu(Menu::Modify, 2)
     .on(&[On::Room, On::Wall, On::Opening, On::Several]),
-    // Rotating and the like.
+    // Rotating and the like: the pointer shows where, what is typed says how much.
     with(
-        "rotate",
-        "Rotate…",
-        "Turn what is selected about its middle, counter-clockwise; what shares its corners follows",
+        tools::ROTATE.id,
+        tools::ROTATE.title,
+        tools::ROTATE.help,
         has_picked,
-        &given2(
+        &given3(
             needed("ANGLE", angle(-360.0, 360.0), "in degrees, counter-clockwise"),
             CENTRE,
-            |app, angle, about, _| {
-                let angle_rad = angle.to_radians();
+            COPY,
+            |app, angle, about, copy, _| {
                 let about = app.centre_of_selection(about);
-                moved(app, "Rotate", Transform::rotation(about, angle_rad))
+                transformed(app, "Rotate", Transform::rotation(about, angle.to_radians()), copy)
             },
         ),
-        None,
+        Some(|app, _| app.tools.take_up(tools::ROTATE.id)),
     )
     .menu(Menu::Modify, 3)
     .on(&[On::Room, On::Several]),
@@ -152,48 +153,86 @@ pub(super) const COMMANDS: &[Command] = &[
         has_picked,
         |app, _| {
             let about = app.centre_of_selection(None);
-            app.report(|app| moved(app, "Rotate", Transform::rotation(about, std::f64::consts::FRAC_PI_2)));
+            let turn = Transform::rotation(about, std::f64::consts::FRAC_PI_2);
+            app.report(|app| transformed(app, "Rotate", turn, None));
         },
     )
     .menu(Menu::Modify, 3)
     .on(&[On::Room, On::Wall, On::Several]),
     with(
-        "mirror",
-        "Mirror…",
-        "Mirror what is selected over the upright or the level line through its middle",
+        tools::MIRROR.id,
+        tools::MIRROR.title,
+        tools::MIRROR.help,
         has_picked,
-        &given2(needed("WAY", one_of::<Mirror>(), "left-right or up-down"), CENTRE, |app, mirror, about, _| {
-            let about = app.centre_of_selection(about);
-            let way = match mirror {
-                Mirror::LeftRight => Vector::new(0.0, 1.0),
-                Mirror::UpDown => Vector::new(1.0, 0.0),
-            };
-            match Transform::reflection(about, about + way) {
-                Some(transform) => moved(app, "Mirror", transform),
-                None => Outcome::Done,
-            }
-        }),
+        &given2(
+            needed("AXIS", points(2), "two points of the axis, in metres, as '4,0 4,3'"),
+            COPY,
+            |app, axis, copy, _| match axis.as_slice() {
+                &[a, b, ..] => match Transform::reflection(a, b) {
+                    Some(transform) => transformed(app, "Mirror", transform, copy),
+                    None => Outcome::Refused("the two points of the axis are the same".to_owned()),
+                },
+                _ => Outcome::Done,
+            },
+        ),
+        Some(|app, _| app.tools.take_up(tools::MIRROR.id)),
+    )
+    .menu(Menu::Modify, 3),
+    with(
+        "mirror",
+        "Flip…",
+        "Mirror what is selected left and right, or up and down, about its middle",
+        has_picked,
+        &given3(
+            needed("WAY", one_of::<Mirror>(), "left-right or up-down"),
+            CENTRE,
+            COPY,
+            |app, mirror, about, copy, _| {
+                let about = app.centre_of_selection(about);
+                let way = match mirror {
+                    Mirror::LeftRight => Vector::new(0.0, 1.0),
+                    Mirror::UpDown => Vector::new(1.0, 0.0),
+                };
+                match Transform::reflection(about, about + way) {
+                    Some(transform) => transformed(app, "Mirror", transform, copy),
+                    None => Outcome::Done,
+                }
+            },
+        ),
         None,
     )
     .menu(Menu::Modify, 3)
     .on(&[On::Room, On::Wall, On::Several]),
     with(
-        "scale-selection",
-        "Scale…",
-        "Make what is selected larger or smaller about its middle",
+        tools::SCALE.id,
+        tools::SCALE.title,
+        tools::SCALE.help,
         has_picked,
-        &given2(needed("FACTOR", ratio(0.001, 1000.0), "2 is twice as large"), CENTRE, |app, factor, about, _| {
-            let about = app.centre_of_selection(about);
-            moved(app, "Scale", Transform::scaling(about, factor))
-        }),
-        None,
+        &given3(
+            needed("FACTOR", ratio(0.001, 1000.0), "2 is twice as large"),
+            CENTRE,
+            COPY,
+            |app, factor, about, copy, _| {
+                let about = app.centre_of_selection(about);
+                transformed(app, "Scale", Transform::scaling(about, factor), copy)
+            },
+        ),
+        Some(|app, _| app.tools.take_up(tools::SCALE.id)),
     )
     .menu(Menu::Modify, 3)
     .on(&[On::Room, On::Several]),
+    switch(
+        "transform-copies",
+        "Copy",
+        "Leave the original where it is when mirroring, rotating or scaling",
+        always,
+        |app| app.tools.options.copies,
+        |app, is_on| app.tools.options.copies = is_on,
+    ),
     with(
-        "array",
-        "Array…",
-        "Copy what is selected into columns and rows",
+        tools::ARRAY.id,
+        tools::ARRAY.title,
+        tools::ARRAY.help,
         has_picked,
         &given3(
             needed("COLUMNS", COUNT, "how many side by side, the original among them"),
@@ -204,14 +243,14 @@ pub(super) const COMMANDS: &[Command] = &[
                 copied(app, Array::Grid { columns, rows, column_step, row_step })
             },
         ),
-        None,
+        Some(|app, _| app.tools.take_up(tools::ARRAY.id)),
     )
     .menu(Menu::Modify, 3)
     .on(&[On::Room, On::Several]),
     with(
-        "polar-array",
-        "Array around a point…",
-        "Copy what is selected around a point",
+        tools::POLAR_ARRAY.id,
+        tools::POLAR_ARRAY.title,
+        tools::POLAR_ARRAY.help,
         has_picked,
         &given3(
             needed("ABOUT", POINT, "the point, as '4,3'"),
@@ -222,7 +261,7 @@ pub(super) const COMMANDS: &[Command] = &[
                 copied(app, Array::Polar { about, count, step_rad })
             },
         ),
-        None,
+        Some(|app, _| app.tools.take_up(tools::POLAR_ARRAY.id)),
     )
     .menu(Menu::Modify, 3),
     with(
@@ -290,16 +329,16 @@ pub(super) const COMMANDS: &[Command] = &[
     .menu(Menu::Modify, 5)
     .on(&[On::Corner]),
     with(
-        "offset",
-        "Offset copy…",
-        "Draw walls beside the selected walls, or inside or outside the selected room",
+        tools::OFFSET.id,
+        tools::OFFSET.title,
+        tools::OFFSET.help,
         has_picked,
         &given2(
             needed("DISTANCE", length(0.001, 1000.0), "how far away"),
             optional("TOWARDS", POINT, "a point on the side where the copy goes; without, where the pointer is"),
             |app, distance_m, towards, _| app.offset_selected(distance_m, towards),
         ),
-        None,
+        Some(|app, _| app.tools.take_up(tools::OFFSET.id)),
     )
     .menu(Menu::Modify, 5)
     .on(&[On::Room, On::Wall]),
@@ -344,8 +383,10 @@ pub(super) const COMMANDS: &[Command] = &[
         "Merge rooms",
         "Make one room of the selected ones; walls and openings between them go",
         has_picked,
-        &given0(|app, _| {
-            let rooms: Vec<RoomId> = app.session.selection.rooms().collect();
+        &given1(optional("ROOMS", ELEMENTS, "which ones; the selected ones without"), |app, named, _| {
+            let is_room = |element: ElementId| if let ElementId::Room(id) = element { Some(id) } else { None };
+            let named: Option<Vec<RoomId>> = named.map(|named| named.into_iter().filter_map(is_room).collect());
+            let rooms = named.unwrap_or_else(|| app.session.selection.rooms().collect());
             if rooms.len() < 2 {
                 return Outcome::Refused("select two rooms or more first".to_owned());
             }
@@ -353,6 +394,7 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
+    .when_complete(has_rooms)
     .keys(&[key(Key::J)])
     .menu(Menu::Modify, 6)
     .on(&[On::Several]),
@@ -524,12 +566,23 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "move-selection",
         "Move the selection",
-        "Move what is selected; what shares its corners follows",
+        "Move what is selected: rooms come away from what they share, of walls what shares them follows",
         has_picked,
-        &given1(needed("BY", POINT, "how far right and up, in metres, as '0.5,-1'"), |app, by, _| {
-            let by = by - Point::default();
-            moved(app, "Move", Transform::translation(by))
-        }),
+        &given2(
+            needed("BY", POINT, "how far right and up, in metres, as '0.5,-1'"),
+            optional(
+                "REACH",
+                one_of::<Reach>(),
+                "of a wall: run (without) for the straight run it is part of, or piece",
+            ),
+            |app, by, reach, _| {
+                let selected = app.session.selection.elements().clone();
+                let own_walls = app.tools.options.walls_with_rooms;
+                edited_fitting(app, "Move", |plan| {
+                    edit::move_picked(plan, &selected, by - Point::default(), reach.unwrap_or_default(), own_walls)
+                })
+            },
+        ),
         None,
     ),
     with(
@@ -572,9 +625,7 @@ pub(super) const COMMANDS: &[Command] = &[
                 let Some(ElementId::Corner(corner)) = elements.first().copied() else {
                     return Outcome::Refused("this is no corner".to_owned());
                 };
-                edited(app, "Move corner", |plan| {
-                    edit::settle(&edit::move_corners(plan, &[(corner, to)])?, &BTreeSet::from([corner]))
-                })
+                edited_fitting(app, "Move corner", |plan| edit::drag_corners(plan, &[(corner, to)]))
             },
         ),
         None,
@@ -619,6 +670,9 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     ),
 ];
+
+const COPY: Arg<Option<MoveOrCopy>> =
+    optional("COPY", one_of::<MoveOrCopy>(), "move (without), or copy to leave the original where it is");
 
 const CENTRE: Arg<Option<Point>> =
     optional("ABOUT", POINT, "a point, in metres, as '4,3'; the middle of what is selected without");

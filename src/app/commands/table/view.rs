@@ -34,6 +34,10 @@ impl App {
     }
 }
 
+fn done(result: Result<(), String>) -> Outcome {
+    result.map_or_else(Outcome::Refused, |()| Outcome::Done)
+}
+
 /// The spacing of the grid follows the zoom.
 const AUTO: &str = "auto";
 
@@ -334,6 +338,78 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .keys(&[ctrl(Key::Num3)])
     .menu(Menu::View, 4),
+    switch(
+        "findings",
+        "Findings",
+        "Show what is wrong with the plan or worth a look, and what to do about it",
+        always,
+        |app| app.panels.is_shown(panels::FINDINGS),
+        |app, is_on| app.panels.set_shown(panels::FINDINGS, is_on),
+    )
+    .keys(&[ctrl(Key::Num4)])
+    .menu(Menu::View, 4),
+    with(
+        "next-finding",
+        "Next finding",
+        "Select what the next finding is about, and bring it into view",
+        has_findings,
+        &given0(|app, _| done(app.session.step_finding(1))),
+        None,
+    )
+    .keys(&[key(Key::F6)])
+    .menu(Menu::View, 4),
+    with(
+        "previous-finding",
+        "Previous finding",
+        "Select what the finding before is about, and bring it into view",
+        has_findings,
+        &given0(|app, _| done(app.session.step_finding(-1))),
+        None,
+    )
+    .keys(&[shift(Key::F6)])
+    .menu(Menu::View, 4),
+    with(
+        "go-to-finding",
+        "Go to finding",
+        "Select what a finding is about, and bring it into view",
+        has_findings,
+        &given1(needed("NUMBER", COUNT, "which, in the order of the panel"), |app, number, _| {
+            done(app.session.go_to_finding(number))
+        }),
+        None,
+    ),
+    with(
+        "fix-finding",
+        "Fix finding",
+        "Do what is right for certain about a finding; others say what to do and leave it to you",
+        has_findings,
+        &given1(needed("NUMBER", COUNT, "which, in the order of the panel"), |app, number, _| {
+            done(app.session.fix_finding(number))
+        }),
+        None,
+    ),
+    with(
+        "ignore-finding",
+        "Ignore finding",
+        "Leave a finding as it is, for a reason that is kept in the plan and told by 'enfilade check'",
+        has_findings,
+        &given2(
+            needed("NUMBER", COUNT, "which, in the order of the panel"),
+            needed("REASON", TEXT, "why, in one line"),
+            |app, number, reason, _| done(app.session.ignore_finding(number, &reason)),
+        ),
+        None,
+    ),
+    with(
+        "heed-finding",
+        "Heed finding",
+        "No longer ignore a finding",
+        has_findings,
+        &given1(needed("NUMBER", COUNT, "which, in the order of the panel"), |app, number, _| {
+            done(app.session.heed_finding(number))
+        }),
+        None,
+    ),
     with(
         "panel",
         "Panel…",

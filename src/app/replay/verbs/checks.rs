@@ -17,6 +17,7 @@ use crate::formats::{self, plan_json};
 use crate::labels::Label;
 use crate::plan::{ElementId, OpeningKind, RoomId};
 use crate::store::save_bytes_fast;
+use crate::topology::RoomShapes;
 
 pub(super) const GROUP: Group = Group {
     title: "Checks and pictures",
@@ -77,6 +78,31 @@ pub(super) const EXPECTATIONS: &[Expectation] = &[
             Ok(Box::new(move |stage| {
                 let passable = stage.plan()?.openings().filter(|(_, opening)| opening.kind != OpeningKind::Window);
                 same_number("opening", expected, passable.count())
+            }))
+        },
+    },
+    Expectation {
+        name: "walls",
+        form: "walls N",
+        help: "so many walls",
+        parse: |words| {
+            let expected = words.count("the number of walls")?;
+            Ok(Box::new(move |stage| same_number("wall", expected, stage.plan()?.walls().len())))
+        },
+    },
+    Expectation {
+        name: "areas",
+        form: "areas TEXT",
+        help: "the areas of all rooms along the axes of their walls, ascending, in m² with two decimals and a blank \
+               between",
+        parse: |words| {
+            let expected = words.text("the areas")?.to_owned();
+            Ok(Box::new(move |stage| {
+                let shapes = RoomShapes::new(stage.plan()?);
+                let mut areas: Vec<f64> = shapes.all().iter().map(|shape| shape.area_m2()).collect();
+                areas.sort_by(f64::total_cmp);
+                let found: Vec<String> = areas.into_iter().map(|area_m2| format!("{area_m2:.2}")).collect();
+                same("the areas", &expected, &found.join(" "))
             }))
         },
     },

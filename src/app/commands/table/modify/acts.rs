@@ -52,24 +52,31 @@ impl Worded for Wanted {
 
 pub(super) const NO_GAPS: &str = "there is no gap of 30 to 150 cm between collinear walls";
 
-/// Moves the selection.
-pub(super) fn moved(app: &mut App, title: &str, transform: Transform) -> Outcome {
+/// Moves, turns, mirrors or scales the selection, or a copy of it.
+pub(super) fn transformed(app: &mut App, title: &str, transform: Transform, copy: Option<MoveOrCopy>) -> Outcome {
     let selected = app.session.selection.elements().clone();
-    edited(app, title, |plan| {
-        let next = edit::move_elements(plan, &selected, transform)?;
-        // Elements that come to rest on something else share its corners.
-        edit::settle(&next, &edit::corners_of(plan, &selected)?)
-    })
+    let own_walls = app.tools.options.walls_with_rooms;
+    let mut made = BTreeSet::new();
+    let ran = edited_fitting(app, title, |plan| {
+        if copy != Some(MoveOrCopy::Copy) {
+            return edit::transform_elements(plan, &selected, transform, own_walls);
+        }
+        let (plan, placed, refitted) = edit::insert_fitted(plan, &edit::fragment(plan, &selected)?, transform)?;
+        made = placed;
+        Ok(edit::Changed { plan, refitted })
+    });
+    select_made(app, &made);
+    ran
 }
 
 /// Copies the selection and selects the copies.
 pub(super) fn copied(app: &mut App, array: Array) -> Outcome {
     let selected = app.session.selection.elements().clone();
     let mut made = BTreeSet::new();
-    let ran = edited(app, "Array", |plan| {
-        let (next, copies) = edit::array(plan, &selected, array)?;
+    let ran = edited_fitting(app, "Array", |plan| {
+        let (plan, copies, refitted) = edit::array_fitted(plan, &selected, array)?;
         made = copies;
-        Ok(next)
+        Ok(edit::Changed { plan, refitted })
     });
     select_made(app, &made);
     ran
@@ -208,10 +215,10 @@ impl App {
         let Some(fragment) = self.session.copied.clone() else { return Outcome::Done };
         let by = at - fragment.bounds().center();
         let mut made = BTreeSet::new();
-        let ran = edited(self, "Paste", |plan| {
-            let (next, elements) = edit::insert(plan, &fragment, Transform::translation(by))?;
+        let ran = edited_fitting(self, "Paste", |plan| {
+            let (plan, elements, refitted) = edit::insert_fitted(plan, &fragment, Transform::translation(by))?;
             made = elements;
-            Ok(next)
+            Ok(edit::Changed { plan, refitted })
         });
         select_made(self, &made);
         ran
@@ -349,7 +356,13 @@ impl App {
                 }
                 edit::slide_opening(plan, opening, segment.midpoint() + by)
             }),
-            _ => moved(self, "Nudge", Transform::translation(by)),
+            _ => {
+                let selected = self.session.selection.elements().clone();
+                let own_walls = self.tools.options.walls_with_rooms;
+                edited_fitting(self, "Nudge", |plan| {
+                    edit::move_picked(plan, &selected, by, edit::Reach::default(), own_walls)
+                })
+            }
         };
         // Going on in the same way is one step: it is undone at once.
         if ran == Outcome::Done
@@ -369,9 +382,12 @@ impl App {
         let Some(plan) = self.plan() else { return Outcome::Done };
         let selected: Vec<ElementId> = self.session.selection.iter().collect();
         let gone = edit::removed_with(plan, &selected);
-        // Corners that become unused are no loss.
-        let is_loss = |element: &ElementId| {
-            !self.session.selection.contains(*element) && !matches!(element, ElementId::Corner(_))
+        // Corners that become unused are no loss, and openings go with their walls.
+        let own = edit::Part::of(plan, self.session.selection.elements()).map(|part| part.openings).unwrap_or_default();
+        let is_loss = |element: &ElementId| match element {
+            ElementId::Corner(_) => false,
+            ElementId::Opening(id) if own.contains(id) => false,
+            element => !self.session.selection.contains(*element),
         };
         if gone.iter().any(is_loss) {
             self.session.ask(Question::delete(selected, gone));
