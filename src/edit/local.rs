@@ -50,7 +50,8 @@ fn part_of(plan: &Plan, elements: &BTreeSet<ElementId>) -> Plan {
                     part.rooms.insert(*id, room.clone());
                 }
             }
-            ElementId::Opening(_) => {}
+            // Whoever does the edit lets them follow, in the whole plan.
+            ElementId::Opening(_) | ElementId::Dimension(_) => {}
         }
     }
     corners.sort_unstable();
@@ -129,6 +130,7 @@ fn merged(plan: &Plan, part: &Plan, edited: &Plan, bounds: Bounds) -> Option<Pla
                 Some(opening) => drop(next.openings.insert(id, Arc::clone(opening))),
                 None => drop(next.openings.remove(&id)),
             },
+            ElementId::Dimension(_) => return None,
         }
     }
     Some(next)
@@ -187,6 +189,7 @@ mod tests {
                     let segment = plan.opening(id).and_then(|opening| plan.opening_segment(opening));
                     segment.map(|segment| vec![Some(segment.a), Some(segment.b)]).unwrap_or_default()
                 }
+                ElementId::Dimension(_) => Vec::new(),
             };
             Bounds::of(points.into_iter().flatten()).intersects(bounds)
         };

@@ -3,10 +3,12 @@
 
 mod across;
 mod along;
+mod beside;
 mod bridge;
 mod calibration;
 mod close;
 mod copy;
+mod dimensions;
 mod dragging;
 mod draw;
 mod fill;
@@ -44,6 +46,7 @@ pub use along::{
     Beside, End, NARROWEST_OPENING_M, beside_opening, change_swing, next_swing, set_opening_distance, set_wall_length,
     stretch_opening,
 };
+pub use beside::{Built, Lies, boundary_around, draw_walls_beside, walls_beside};
 pub use bridge::bridge_gaps;
 pub use calibration::{
     Calibration, DrawingMoves, UNMEASURED_METRES_PER_PIXEL, move_picture, set_measurements, straightening_rad,
@@ -51,6 +54,7 @@ pub use calibration::{
 };
 pub use close::fill_closed;
 pub use copy::{Array, array, array_fitted, copy_elements, fragment, insert, insert_fitted};
+pub use dimensions::{Settled, dimension_between, draw_dimension, move_dimension, settle_dimensions};
 pub use dragging::{Reach, WallDrag, drag_corners, move_corners};
 pub use draw::{Drawn, cut_out, cut_out_by, draw_room, draw_walls, split_room, split_room_by};
 pub use fill::{Filled, fill_all, fill_at};

@@ -237,7 +237,7 @@ fn text_that_is_still_being_typed_is_not_lost_by_closing() {
     click_room(&mut window, "Study");
     window.key(Modifiers::NONE, Key::F2);
     window.settle().unwrap();
-    window.text(" two");
+    window.text("Study two");
     window.ask_to_close();
     window.settle().unwrap();
     assert!(!window.is_closed(), "the text is a change");

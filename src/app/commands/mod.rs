@@ -258,6 +258,12 @@ mod tests {
             for option in tool.options {
                 let (id, kind) = match option {
                     ToolOption::Switch { command, .. } => (*command, ArgumentKind::Switch),
+                    // Without a word it goes on to the next, which is what a click in the bar does.
+                    ToolOption::Choice { command, .. } => {
+                        let arguments = find(command).map_or(&[][..], |command| command.arguments);
+                        assert!(matches!(arguments, [argument] if argument.is_optional), "{command}");
+                        continue;
+                    }
                     ToolOption::Length { command, least_m, most_m, .. } => {
                         (*command, ArgumentKind::Length { least_m: *least_m, most_m: *most_m })
                     }

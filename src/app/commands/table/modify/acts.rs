@@ -1,6 +1,7 @@
 //! The actions of the commands that select and change things, where they take more than a line.
 
 use super::*;
+use crate::draw::dimensions::segment;
 
 /// The line to mirror across.
 #[derive(Clone, Copy)]
@@ -165,13 +166,19 @@ impl App {
                 let ends = segment.map(|segment| [segment.a, segment.b]);
                 ends.is_some_and(|ends| is_in(&ends) || (touches && is_met(&ends, false)))
             }
-            ElementId::Corner(_) => false,
+            // Below, by their lines.
+            ElementId::Corner(_) | ElementId::Dimension(_) => false,
         };
         let near = self.session.document.as_ref().and_then(|document| document.near(bounds));
         let mut found: Vec<ElementId> = match near {
             Some(near) => near.into_iter().filter(is_chosen).collect(),
             None => plan.elements().filter(is_chosen).collect(),
         };
+        let dimensions = crate::draw::dimensions::lines(plan).into_iter().filter(|_| self.session.layers.dimensions);
+        found.extend(dimensions.filter_map(|(id, line)| {
+            let Segment { a, b } = segment(&line)?;
+            (is_in(&[a, b]) || (touches && is_met(&[a, b], false))).then_some(ElementId::Dimension(id))
+        }));
         found.retain(|&element| is_selectable(self, element));
         found
     }
