@@ -2,8 +2,8 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 use super::{
-    Backdrop, ChangeKind, Corner, CornerId, Difference, ElementId, Joint, Measurement, Opening, OpeningId, Place, Plan,
-    Room, RoomId, Wall, WallId,
+    Backdrop, ChangeKind, Corner, CornerId, Difference, Dimension, DimensionHost, DimensionId, DimensionPoint,
+    ElementId, Joint, Measurement, Opening, OpeningId, Place, Plan, Rectification, Room, RoomId, Wall, WallId,
 };
 use crate::geometry::COORDINATE_LIMIT_M;
 use crate::geometry::Point;
@@ -31,13 +31,15 @@ impl Plan {
     ///   exist, no two neighbours equal;
     /// - a hosted opening's corners exist and differ in place, its width is above 0 and at most
     ///   1 km, its middle lies on the edge; a free opening has a length;
-    /// - a pinned room exists.
+    /// - a pinned room exists;
+    /// - a dimension chain has two points or more, its lengths are finite. What its points are on may be gone.
     pub fn violations(&self) -> Vec<Violation> {
         let mut found = Vec::new();
         self.corners.iter().for_each(|(&id, corner)| check_corner(id, corner, &mut found));
         self.walls.iter().for_each(|(&id, wall)| self.check_wall(id, wall, &mut found));
         self.rooms.iter().for_each(|(&id, room)| self.check_room(id, room, &mut found));
         self.openings.iter().for_each(|(&id, opening)| self.check_opening(id, opening, &mut found));
+        self.dimensions.iter().for_each(|(&id, dimension)| check_dimension(id, dimension, &mut found));
         found
     }
 
@@ -71,6 +73,11 @@ impl Plan {
                 ElementId::Opening(id) => {
                     if let Some(opening) = self.openings.get(&id) {
                         self.check_opening(id, opening, &mut found);
+                    }
+                }
+                ElementId::Dimension(id) => {
+                    if let Some(dimension) = self.dimensions.get(&id) {
+                        check_dimension(id, dimension, &mut found);
                     }
                 }
             }
@@ -187,6 +194,20 @@ fn placed(point: Point) -> bool {
     on_grid(point.x) && on_grid(point.y)
 }
 
+fn check_dimension(id: DimensionId, dimension: &Dimension, found: &mut Vec<Violation>) {
+    let mut say = |what: &str| found.push(Violation { element: ElementId::Dimension(id), what: what.to_owned() });
+    if dimension.points.len() < 2 {
+        say("measures between fewer than two points");
+    }
+    let is_placed = |point: &DimensionPoint| {
+        let at_m = if let Some(DimensionHost::Wall { at_m, .. }) = point.on { at_m } else { 0.0 };
+        placed(point.last) && on_grid(at_m)
+    };
+    if !on_grid(dimension.offset_m) || !dimension.points.iter().all(is_placed) {
+        say("a length or a point of it is not on the grid within the drawing area");
+    }
+}
+
 fn check_corner(id: CornerId, corner: &Corner, found: &mut Vec<Violation>) {
     let Point { x, y } = corner.position;
     if !placed(corner.position) {
@@ -197,6 +218,25 @@ fn check_corner(id: CornerId, corner: &Corner, found: &mut Vec<Violation>) {
 
 /// A picture so small or so large is no plan: pixels from a nanometre to a kilometre.
 pub const METRES_PER_PIXEL: std::ops::RangeInclusive<f64> = 1e-9..=1e3;
+
+/// The sides of a picture made flat, and its pixels: those of any picture that is read.
+const RECTIFIED_SIDES_PX: std::ops::RangeInclusive<u32> = 1..=65_535;
+const MOST_RECTIFIED_PX: u64 = 1 << 28;
+
+impl Rectification {
+    /// As [`Backdrop::fault`].
+    fn fault(&self) -> Option<String> {
+        let [width_px, height_px] = self.size_px;
+        let has_size = self.size_px.iter().all(|side| RECTIFIED_SIDES_PX.contains(side))
+            && u64::from(width_px) * u64::from(height_px) <= MOST_RECTIFIED_PX;
+        if !has_size {
+            return Some(format!("is made flat with {width_px} by {height_px} pixels, which is no size of a picture"));
+        }
+        let is_near = |point: &Point| point.x.abs() <= 1e7 && point.y.abs() <= 1e7;
+        let has_corners = self.corners.iter().chain(&self.rectangle).all(is_near) && self.source_from_shown().is_some();
+        (!has_corners).then(|| "is made flat by four corners of no rectangle".to_owned())
+    }
+}
 
 /// A picture lies no further off than this: what is drawn lies within [`COORDINATE_LIMIT_M`], and a picture
 /// may reach there from far away.
@@ -222,6 +262,9 @@ impl Backdrop {
         }
         if self.page == 0 {
             return Some("has the page 0; pages are counted from 1".to_owned());
+        }
+        if let Some(what) = self.rectification.as_ref().and_then(Rectification::fault) {
+            return Some(what);
         }
         let is_wrong = |one: &&Measurement| {
             !(one.length_m > 0.0 && one.length_px() > 0.0 && one.length_px().is_finite() && one.length_m.is_finite())

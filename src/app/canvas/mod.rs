@@ -24,7 +24,7 @@ use crate::app::paint::ghost::GhostPainter;
 use crate::app::paint::pending::Pending;
 use crate::app::paint::places::{canvas_id, plan_point};
 use crate::app::paint::preview::{Look, Preview};
-use crate::app::paint::scene_painter::ScenePainter;
+use crate::app::paint::scene_painter::{ScenePainter, paint_group};
 use crate::app::session::document::{Derived, Document};
 use crate::app::session::{Pointed, Session};
 use crate::app::tools::{self, DrawOptions, Input, Scope, Toolbox};
@@ -214,6 +214,10 @@ impl Canvas {
         if let Some(derived) = shown {
             self.painter.paint(&painter, rect, derived, &style, &view);
         }
+        // Those of the plan as it is now: they follow an edit at once.
+        for group in draw::dimensions::groups(&draw::dimensions::lines(plan), &style, &view) {
+            paint_group(&painter, rect, &view, &group);
+        }
         self.ghost.paint(&painter, rect, session.shown_ghost().map(|ghost| &ghost.derived), &style, &view);
         match fresh {
             // Never show a stale label as current.
@@ -302,6 +306,8 @@ impl Canvas {
             options,
             grid_m,
             is_seen: self.pointed.at.is_some(),
+            is_over_picture: is_over_picture(session, document.plan()),
+            is_pressing: ui.input(|input| input.pointer.any_pressed() || input.pointer.any_released()),
         };
         let snap = toolbox.snap(&ground, pointer);
         let mut scope = Scope {
@@ -456,6 +462,7 @@ fn style(session: &Session, plan: &Plan, is_dark: bool) -> Style {
             walls: true,
             openings: true,
             graph: layers.graph,
+            dimensions: layers.dimensions,
             names: layers.names,
             areas: layers.names,
         },

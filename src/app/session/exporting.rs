@@ -115,7 +115,7 @@ impl Session {
     /// Asks where to export to.
     pub(crate) fn ask_where_to_export(&mut self, path: &Path) {
         let folder = path.parent().map(Path::to_owned).filter(|folder| folder.is_dir());
-        self.dialogs.ask(Purpose::Export, folder, file_name(path), &mut self.jobs);
+        self.ask_for_file(Purpose::Export, folder, file_name(path));
     }
 
     /// The preview that was made last.

@@ -6,6 +6,7 @@
 mod array;
 mod calibrate;
 mod cut_out;
+mod dimension;
 mod fill;
 mod ghost;
 mod input;
@@ -18,6 +19,7 @@ mod opening_grips;
 mod paste;
 mod path;
 mod rectangle;
+mod rectify;
 mod room;
 mod select;
 mod split;
@@ -36,6 +38,7 @@ pub(crate) use input::{Anchor, DrawOptions, Ground, Input, NUDGES_MORE, Scope};
 pub(crate) use number::ENTRY as NUMBER;
 pub(crate) use offset::OFFSET;
 pub(crate) use paste::ENTRY as PASTE;
+pub(crate) use rectify::ENTRY as RECTIFY;
 pub(crate) use select::{REACH_PX, handle_at, hit};
 pub(crate) use straighten::ENTRY as STRAIGHTEN;
 pub(crate) use tool::{Entry, Group, TakenBack, Tool, ToolOption};
@@ -57,6 +60,7 @@ pub(crate) const TOOLS: &[Entry] = &[
     opening::PASSAGE,
     opening::WINDOW,
     measure::ENTRY,
+    dimension::ENTRY,
     number::ENTRY,
     paste::ENTRY,
     transform::MIRROR,
@@ -68,6 +72,7 @@ pub(crate) const TOOLS: &[Entry] = &[
     calibrate::BY_LENGTH,
     calibrate::BY_DOOR,
     straighten::ENTRY,
+    rectify::ENTRY,
 ];
 
 /// Positions and lengths of the backdrop: a hundredth of a millimetre in the plan is below any pixel.

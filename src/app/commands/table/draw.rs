@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::edit;
+use crate::edit::{Built, Lies};
 use crate::geometry::GRID_M;
-use crate::plan::{OpeningId, OpeningKind};
+use crate::plan::{DimensionAlong, OpeningId, OpeningKind};
 
 const PATH: Arg<Vec<Point>> =
     needed("POINTS", points(2), "points in metres, as '0,0 4.2,0', where the last may be the first");
@@ -21,6 +22,39 @@ pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> R
         Err(error) => Outcome::Refused(error.to_string()),
     }
 }
+
+/// The same for an edit that touches only the rooms that meet a box.
+pub(super) fn edited_near(
+    app: &mut App,
+    title: &str,
+    bounds: Bounds,
+    change: impl Fn(&Plan) -> Result<Plan, EditError>,
+) -> Outcome {
+    match app.session.try_edit_near(title, bounds, change) {
+        Ok(()) => Outcome::Done,
+        Err(error) => Outcome::Refused(error.to_string()),
+    }
+}
+
+/// The same for an edit that may have had to fit openings anew: says so.
+pub(super) fn edited_fitting_near(
+    app: &mut App,
+    title: &str,
+    bounds: Bounds,
+    change: impl Fn(&Plan) -> Result<edit::Changed, EditError>,
+) -> Outcome {
+    let refitted = std::cell::RefCell::new(Vec::new());
+    let ran = edited_near(app, title, bounds, |plan| {
+        let changed = change(plan)?;
+        refitted.replace(changed.refitted);
+        Ok(changed.plan)
+    });
+    app.say_refitted(&refitted.into_inner());
+    ran
+}
+
+/// How far from a path what it meets may lie, in metres: far more than any line is bent to meet another.
+pub(super) const REACH_OF_WALLS_M: f64 = 0.5;
 
 /// The same for an edit that may have had to fit openings anew: says so.
 pub(super) fn edited_fitting(
@@ -75,7 +109,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "snapping",
         "Snap to the drawing",
-        "Snap to corners, crossings, midpoints, walls and alignments; Alt suspends it, Tab goes on to the next",
+        "Snap to corners, crossings, midpoints, axes and faces of walls, and alignments; Alt suspends it, Tab goes on to the next",
         always,
         |app| app.tools.options.snaps,
         |app, is_on| app.tools.options.snaps = is_on,
@@ -102,6 +136,24 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .menu(Menu::Draw, 4),
     switch(
+        "clear-sizes",
+        "Clear sizes",
+        "Draw rooms by their clear size, between wall faces; without, by the axes of their walls",
+        always,
+        |app| app.tools.options.clear_sizes,
+        |app, is_on| app.tools.options.clear_sizes = is_on,
+    )
+    .menu(Menu::Draw, 4),
+    switch(
+        "rooms-from-walls",
+        "Rooms from closed walls",
+        "Make a room of what walls enclose as soon as they are closed; on for plans begun here",
+        has_plan,
+        |app| app.session.closes_rooms(),
+        |app, is_on| app.session.set_closes_rooms(is_on),
+    )
+    .menu(Menu::Draw, 4),
+    switch(
         "over-rooms",
         "Over rooms",
         "Let new rooms take what rooms cover too, as a niche or a corridor that lies within another room",
@@ -118,6 +170,20 @@ pub(super) const COMMANDS: &[Command] = &[
         always,
         &given1(needed("THICKNESS", length(0.0, 10.0), "of new walls"), |app, thickness_m, _| {
             app.tools.options.thickness_m = thickness_m;
+            Outcome::Done
+        }),
+        None,
+    )
+    .menu(Menu::Draw, 4),
+    with(
+        "wall-side",
+        "Wall side…",
+        "Say on which side of the line new walls stand, seen along it: left, centre or right; S while drawing goes on to the next",
+        always,
+        &given1(optional("SIDE", one_of::<Lies>(), "left, centre or right; the next without"), |app, lies, _| {
+            let lies = lies.unwrap_or(app.tools.options.lies.next());
+            app.tools.options.lies = lies;
+            app.session.status = format!("New walls stand {}", said_of(lies));
             Outcome::Done
         }),
         None,
@@ -156,10 +222,55 @@ pub(super) const COMMANDS: &[Command] = &[
         "Draw walls",
         "Draw a chain of walls from point to point; a room that they cross is split",
         has_plan,
-        &given2(PATH, THICKNESS, |app, points, thickness_m, _| {
-            let thickness_m = thickness_m.unwrap_or(app.tools.options.thickness_m);
-            edited(app, "Draw wall", |plan| Ok(edit::draw_walls(plan, &points, thickness_m)?.plan))
-        }),
+        &given5(
+            PATH,
+            THICKNESS,
+            optional("SIDE", one_of::<Lies>(), "on which side of the line they stand; centre without"),
+            optional("DRAWN-THICKNESS", length(0.0, 10.0), "of the first wall, where it stands already"),
+            optional("DRAWN-SIDE", one_of::<Lies>(), "of the first wall, where it stands already"),
+            |app, points, thickness_m, lies, drawn_m, drawn_lies, _| {
+                let thickness_m = thickness_m.unwrap_or(app.tools.options.thickness_m);
+                let built = Built { thickness_m, lies: lies.unwrap_or_default() };
+                let drawn = drawn_m.zip(drawn_lies).map(|(thickness_m, lies)| Built { thickness_m, lies });
+                let draw = |plan: &Plan| edit::draw_walls_beside(plan, &points, built, drawn);
+                if !app.session.closes_rooms() {
+                    // Beside a line, and on to where faces join.
+                    let reach_m = REACH_OF_WALLS_M + 7.0 * thickness_m.max(drawn_m.unwrap_or(0.0));
+                    let around = Bounds::of(points.iter().copied()).inflated(reach_m);
+                    return edited_near(app, "Draw wall", around, |plan| Ok(draw(plan)?.plan));
+                }
+                let mut made = 0;
+                let ran = edited(app, "Draw wall", |plan| {
+                    let drawn = draw(plan)?;
+                    // Walls that meet too often to say what they enclose are drawn all the same.
+                    let closed = edit::fill_closed(plan, &drawn.plan, &drawn.walls).ok();
+                    Ok(closed.map_or(drawn.plan, |closed| {
+                        made = closed.rooms.len();
+                        closed.plan
+                    }))
+                });
+                if made > 0 {
+                    app.session.status =
+                        format!("The walls are closed: made {}", crate::base::wording::count(made, "room"));
+                }
+                ran
+            },
+        ),
+        None,
+    ),
+    with(
+        "draw-dimension",
+        "Draw a dimension chain",
+        "Draw a chain that measures from point to point and follows what lies there",
+        has_plan,
+        &given3(
+            needed("POINTS", points(2), "what is measured: points in metres, as '0,0 4.2,0'"),
+            needed("ALONG", one_of::<DimensionAlong>(), "horizontal, vertical or aligned"),
+            needed("THROUGH", POINT, "where the line lies: a point in metres, as '2,-1'"),
+            |app, points, along, through, _| {
+                edited(app, "Draw dimension", |plan| Ok(edit::draw_dimension(plan, &points, along, through)?.0))
+            },
+        ),
         None,
     ),
     with(
@@ -331,6 +442,14 @@ impl App {
             let [narrowest, wanted] = [narrowest_m, wanted_m].map(|width_m| self.units().length(width_m));
             self.session.status = format!("The wall is no longer: {narrowest} wide, not {wanted}");
         }
+    }
+}
+
+fn said_of(lies: Lies) -> &'static str {
+    match lies {
+        Lies::Left => "left of the line: it is their right face",
+        Lies::Centre => "centred on the line",
+        Lies::Right => "right of the line: it is their left face",
     }
 }
 

@@ -52,6 +52,12 @@ fn is_outside(app: &App) -> Availability {
     when(is, "the picture lies in the plan's folder, or is shown already")
 }
 
+fn is_rectified(app: &App) -> Availability {
+    has_backdrop(app)?;
+    let is = app.plan().and_then(crate::plan::Plan::backdrop).is_some_and(|backdrop| backdrop.rectification.is_some());
+    when(is, "the picture is shown as it is in its file")
+}
+
 fn has_pages(app: &App) -> Availability {
     has_backdrop(app)?;
     when(app.session.backdrop.pages() > 1, "the picture has one page")
@@ -72,12 +78,14 @@ pub(super) const COMMANDS: &[Command] = &[
             app.session.use_picture(PictureUse::Add, path, page.map_or(1, page_number));
             Outcome::Done
         }), Some(|app, _| app.session.choose_picture(PictureUse::Add)))
+    .typed_path()
     .menu(Menu::Picture, 0),
     with("relink-picture", "Relink picture…", "Say where the picture under the plan is now; its place and scale stay", has_backdrop, &given1(needed("PATH", PICTURE_FILE, "the picture's file"), |app, path, _| {
             let page = app.plan().and_then(crate::plan::Plan::backdrop).map_or(1, |backdrop| backdrop.page);
             app.session.use_picture(PictureUse::Relink, path, page);
             Outcome::Done
         }), Some(|app, _| app.session.choose_picture(PictureUse::Relink)))
+    .typed_path()
     .menu(Menu::Picture, 0),
     with(
         "picture-page",
@@ -139,6 +147,39 @@ pub(super) const COMMANDS: &[Command] = &[
     .menu(Menu::Picture, 1),
     tool(&tools::STRAIGHTEN, has_backdrop)    .menu(Menu::Picture, 2),
     with("straighten", "Straighten by a line", "Turn the picture so that a line between two of its points is level or upright, whichever is nearer", has_backdrop, &given5(place("X1", "the first point, in metres"), place("Y1", "its height"), place("X2", "the second point"), place("Y2", "its height"), DRAWING, |app, x1, y1, x2, y2, drawing, _| done(app.session.straighten(Point::new(x1, y1), Point::new(x2, y2), drawing))), None),
+    tool(&tools::RECTIFY, has_backdrop).menu(Menu::Picture, 2),
+    with(
+        "rectify-picture",
+        "Make picture flat",
+        "Make a photographed drawing flat by the corners of a rectangle of it; its sides set the scale, without them \
+         their ratio is estimated",
+        has_backdrop,
+        &given3(
+            needed("CORNERS", points(4), "its four corners in metres, as '0,0 4,0 4,3 0,3'"),
+            optional("WIDTH", LENGTH, "how wide it is in truth"),
+            optional("HEIGHT", LENGTH, "how high it is in truth"),
+            |app, corners, width_m, height_m, _| {
+                let Ok(corners) = corners.try_into() else {
+                    return Outcome::Refused("a rectangle has four corners".to_owned());
+                };
+                let sides_m = width_m.zip(height_m).map(|(width_m, height_m)| [width_m, height_m]);
+                if width_m.is_some() != sides_m.is_some() {
+                    return Outcome::Refused("both sides are needed, or none".to_owned());
+                }
+                done(app.session.rectify_picture(corners, sides_m))
+            },
+        ),
+        None,
+    ),
+    with(
+        "unrectify-picture",
+        "Show picture as taken",
+        "Show the picture as it is in its file, not made flat",
+        is_rectified,
+        &given0(|app, _| done(app.session.unrectify_picture())),
+        None,
+    )
+    .menu(Menu::Picture, 2),
     with("turn-picture", "Turn picture…", "Turn the picture about its middle", has_backdrop, &given2(needed(
                 "ANGLE",
                 angle(-360.0, 360.0),

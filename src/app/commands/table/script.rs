@@ -126,4 +126,17 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     ),
+    with(
+        "choose-file",
+        "Choose a file",
+        "Name the file that is asked for, where the system has no dialog to do so",
+        is_asked_for_file,
+        &given1(needed("PATH", NEW_FILE, "the file"), |app, path, context| {
+            if let Some(purpose) = app.session.typed_for.take() {
+                app.session.was_typed(purpose, path, context);
+            }
+            Outcome::Asks
+        }),
+        None,
+    ),
 ];

@@ -27,6 +27,12 @@ impl Inspected<'_> {
         act = Act::both(act, self.field(ui, id, FieldKind::Function, &room.function, "Unknown"));
         act = Act::both(act, self.field(ui, id, FieldKind::Note, &room.note, "None"));
         ui.add_space(4.0);
+        if let Some(net) = derived.and_then(|derived| derived.analysis.net(id)) {
+            let units = self.app.units();
+            value(ui, "Clear area", &units.area(net.area_m2)).on_hover_text(CLEAR);
+            value(ui, "Clear perimeter", &units.length(net.perimeter_m())).on_hover_text(CLEAR);
+            ui.add_space(4.0);
+        }
         act = act.or(self.label(ui, room, status));
         hairline(ui);
         if let Some(derived) = derived {
