@@ -262,8 +262,7 @@ fn plain_letters_go_to_a_text_field_and_others_do_not() {
     assert!(!said.iter().any(|line| line.starts_with("graph")), "{said:?}");
     assert!(said.contains(&r#"grid "off""#.to_owned()) && said.contains(&r#"names "off""#.to_owned()), "{said:?}");
     keys(&mut window, "Enter");
-    // The old text is selected: what is typed takes its place.
-    assert_eq!(picked(&window).name, "y");
+    assert_eq!(picked(&window).name, "y", "the old name was selected");
     keys(&mut window, "Y");
     assert!(done(&mut window).contains(&r#"graph "on""#.to_owned()));
 }
