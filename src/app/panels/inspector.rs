@@ -1,5 +1,6 @@
 //! What is known of what is picked: a room, an opening, or the plan as a whole.
 
+mod proposals;
 mod room;
 
 use std::ops::RangeInclusive;
@@ -13,7 +14,10 @@ use crate::app::look::{
     icons::Icon,
     length_field::LengthField,
     theme,
-    widgets::{Lead, Row, Segment, caption, colours, follow_focus, hairline, link, section, segmented, strong, value},
+    widgets::{
+        Lead, Row, Segment, caption, colours, follow_focus, hairline, link, section, segmented, strong, text_button,
+        value,
+    },
 };
 use crate::app::session::document::{Derived, Document};
 use crate::app::session::fields::{Field, FieldKind};
@@ -30,6 +34,7 @@ use crate::plan::{
     ElementId, Joint, LabelOrigin, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, ScaleOrigin,
     titles::{room_title, title_of},
 };
+use crate::predict::Marks;
 use crate::topology::RoomShape;
 
 /// A user action in the inspector.
@@ -73,6 +78,7 @@ pub(super) const PANEL: SidePanel = SidePanel {
 fn show(app: &mut App, ui: &mut Ui) {
     let mut act = None;
     let mut hovered = None;
+    let mut evidence = None;
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         let margin = egui::Margin { left: 16, right: 16, top: 14, bottom: 16 };
         egui::Frame::new().inner_margin(margin).show(ui, |ui| {
@@ -81,7 +87,7 @@ fn show(app: &mut App, ui: &mut Ui) {
             let inspected = Inspected { app, document, plan: document.plan(), palette: app.session.palette(ui) };
             act = match app.picked() {
                 Some(ElementId::Room(id)) => {
-                    document.plan().room(id).and_then(|room| inspected.room(ui, id, room, &mut hovered))
+                    document.plan().room(id).and_then(|room| inspected.room(ui, id, room, &mut hovered, &mut evidence))
                 }
                 Some(ElementId::Opening(id)) => {
                     document.plan().opening(id).and_then(|opening| inspected.opening(ui, id, opening, &mut hovered))
@@ -94,6 +100,7 @@ fn show(app: &mut App, ui: &mut Ui) {
         });
     });
     app.canvas.hovered_in_panel = hovered;
+    app.canvas.evidence = evidence;
     app.panels.focus = None;
     match act {
         None => {}
@@ -275,6 +282,7 @@ impl Inspected<'_> {
         let typology = meta.typology.as_ref().map_or("Typology unknown".to_owned(), crate::labels::Typology::title);
         header(ui, None, Some(Icon::Plan), &self.document.title(), &typology);
         ui.add_space(6.0);
+        let chosen = self.typology_choice(ui);
         let mut row = |name: &str, text: &str| {
             if !text.is_empty() {
                 value(ui, name, text);
@@ -293,10 +301,10 @@ impl Inspected<'_> {
             drop(response);
             caption(ui, &meta.scale.note);
         }
-        let mut act = None;
+        let mut act = chosen;
         if let Some(backdrop) = self.plan.backdrop() {
             hairline(ui);
-            act = picture::show(ui, self.app, backdrop).map(Act::Picture);
+            act = act.or(picture::show(ui, self.app, backdrop).map(Act::Picture));
         }
         hairline(ui);
         section(ui, "Contents");

@@ -68,7 +68,7 @@ impl Session {
         match result {
             Ok(opened) => self.request(Intent::Show(Box::new(opened))),
             Err(FileError { path, error }) => {
-                self.say(Severity::Error, format!("Could not open {}", file_name(&path)), {
+                self.say(Severity::Error, format!("Cannot open {}", file_name(&path)), {
                     format!("{error}\n{}", self.shown_path(&path))
                 });
             }
@@ -212,7 +212,7 @@ impl Session {
             if !was_shown {
                 self.say(
                     Severity::Warning,
-                    "This system has no dialog to choose files",
+                    "Your system offers no file dialog",
                     "Drop a file on the window, or start Enfilade with the file's path. On Linux, dialogs come from \
                      the desktop's portal or from zenity.",
                 );
@@ -266,7 +266,7 @@ impl Session {
     ) {
         match result {
             Ok(stamp) => {
-                self.status = format!("Saved in {}", file_name(&path));
+                self.status = format!("Saved to {}", file_name(&path));
                 let folder = path.parent().map(Path::to_owned);
                 if let Some(document) = self.document.as_mut().filter(|document| document.number == number) {
                     let from = document.origin.folder().map(Path::to_owned);

@@ -12,7 +12,7 @@ use crate::plan::Plan;
 impl Session {
     pub(crate) fn edit(&mut self, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) {
         if let Err(error) = self.try_edit(title, change) {
-            self.say(Severity::Warning, format!("Nothing was changed: {error}"), "");
+            self.say(Severity::Warning, format!("Nothing changed: {error}"), "");
         }
     }
 

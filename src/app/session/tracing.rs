@@ -55,13 +55,13 @@ impl Session {
                 if wanted.content_hash.is_empty() || wanted.content_hash == picture.content_hash {
                     return;
                 }
-                let text = "The picture under the plan has changed since it was put there".to_owned();
-                let detail = format!("Check that what is drawn still lies on its lines.\n{shown}");
+                let text = "The picture under the plan has changed".to_owned();
+                let detail = format!("Check that your drawing still fits it.\n{shown}");
                 (Severity::Warning, text, detail, Remedy::KeepPicture)
             }
             Read::Shown { found_at: Some(path), .. } => {
-                let text = format!("The picture under the plan has moved: it was found at {}", self.shown_path(path));
-                let detail = format!("The plan says that it lies at {shown}");
+                let text = format!("The picture under the plan has moved; it was found at {}", self.shown_path(path));
+                let detail = format!("The plan expects it at {shown}");
                 (Severity::Info, text, detail, Remedy::KeepPicture)
             }
             Read::Missing { error, candidate } => {
@@ -74,11 +74,13 @@ impl Session {
             }
             Read::Outside => {
                 let text = format!(
-                    "The picture under the plan is not shown: {} lies outside the plan's folder",
+                    "The picture under the plan is hidden: {} lies outside the plan's folder",
                     file_name(&wanted.path)
                 );
-                let detail =
-                    format!("A plan from elsewhere may name any picture. Show it if you know the plan.\n{shown}");
+                let detail = format!(
+                    "A plan from someone else could refer to any file. Show the picture if you trust the \
+                             plan.\n{shown}"
+                );
                 (Severity::Warning, text, detail, Remedy::ShowPicture)
             }
         };
@@ -146,7 +148,7 @@ impl Session {
             Ok(picture) => picture,
             Err(error) => {
                 let text = format!("{} cannot be used: it {}", file_name(path), error.what);
-                let detail = format!("To do: {}.\n{}", error.hint, self.shown_path(path));
+                let detail = format!("What to do: {}.\n{}", error.hint, self.shown_path(path));
                 self.say(Severity::Error, text, detail);
                 return;
             }
@@ -166,8 +168,8 @@ impl Session {
                 if !before.content_hash.is_empty() && before.content_hash != hash {
                     self.say(
                         Severity::Warning,
-                        "The picture linked now is not the one that was under the plan",
-                        "Its place and scale are kept. Check that what is drawn lies on its lines.",
+                        "This is not the picture that was under the plan",
+                        "Place and scale are kept. Check that your drawing fits it.",
                     );
                 }
                 ("Relink picture", Backdrop { path: stated, content_hash: hash, page, ..before })
@@ -317,7 +319,7 @@ impl Session {
             self.wishes.push(Wish::ScaleView { about: origin, factor });
         }
         if let PictureChange::Measurements(_) = change {
-            self.status = format!("A pixel of the picture is {}", millimetres(after));
+            self.status = format!("1 pixel of the picture is {}", millimetres(after));
         }
     }
 }

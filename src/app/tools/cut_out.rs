@@ -86,7 +86,7 @@ impl Tool for CutOut {
         if self.path.is_empty() {
             "Courtyard: drag a rectangle inside a room, or click its corners".to_owned()
         } else {
-            "Click the next corner · the first one again or Enter closes · Esc drops it".to_owned()
+            "Click the next corner · click the first again or press Enter to close · Esc cancels".to_owned()
         }
     }
 

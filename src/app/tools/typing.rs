@@ -76,7 +76,7 @@ pub(super) fn read(typing: Typing, typed: &str, units: Units) -> Result<Typed, S
         Typing::Width => Ok(Typed::Length { length_m: length_m(typed)?, angle_rad: None }),
         Typing::Size => {
             let Some((width, height)) = sides(typed) else {
-                return Err("both sides are needed, with an x between, such as 4x3".to_owned());
+                return Err("type both sides with an x between them, such as 4x3".to_owned());
             };
             let (width_m, height_m) = (length_m(width)?, length_m(height)?);
             if width_m.min(height_m) < LEAST_SIDE_M {

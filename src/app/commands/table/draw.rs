@@ -6,10 +6,15 @@ use crate::geometry::GRID_M;
 use crate::plan::{OpeningId, OpeningKind};
 
 const PATH: Arg<Vec<Point>> =
-    needed("POINTS", points(2), "points in metres, as '0,0 4.2,0', where the last may be the first");
-const RING: Arg<Vec<Point>> = needed("CORNERS", points(3), "corners in metres, as '0,0 4,0 4,3 0,3'");
-const PLACE: Arg<Point> = needed("PLACE", POINT, "a point in metres, as '2,1.5'");
-const THICKNESS: Arg<Option<f64>> = optional("THICKNESS", length(0.0, 10.0), "of walls; what is set without");
+    needed("POINTS", points(2), "points in metres, such as '0,0 4.2,0'; the last may be the first");
+const RING: Arg<Vec<Point>> = needed("CORNERS", points(3), "corners in metres, such as '0,0 4,0 4,3 0,3'");
+const PLACE: Arg<Point> = needed("PLACE", POINT, "a point in metres, such as '2,1.5'");
+const THICKNESS: Arg<Option<f64>> = optional(
+    "THICKNESS",
+    length(0.0, 10.0),
+    "of walls; the thickness set for new \
+                                                                              walls without it",
+);
 
 /// Applies an edit; if the edit is refused, so is the command.
 pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) -> Outcome {
@@ -23,7 +28,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "fill-all",
         "Fill all",
-        "Make rooms of everything that walls enclose and no room covers",
+        "Make a room wherever walls enclose space that no room covers",
         has_walls,
         &given0(|app, _| {
             let mut filled = 0;
@@ -45,7 +50,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "right-angles",
         "Right angles",
-        "Keep lines to right angles; Shift frees them",
+        "Draw at right angles only; hold Shift to draw freely",
         always,
         |app| app.tools.options.right_angles,
         |app, is_on| app.tools.options.right_angles = is_on,
@@ -55,7 +60,8 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "snapping",
         "Snap to the drawing",
-        "Snap to corners, crossings, midpoints, walls and alignments; Alt suspends it, Tab goes on to the next",
+        "Snap to corners, crossings, midpoints, walls and alignments; hold Alt to suspend it, press Tab for the next \
+         snap",
         always,
         |app| app.tools.options.snaps,
         |app, is_on| app.tools.options.snaps = is_on,
@@ -65,7 +71,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "snap-to-grid",
         "Snap to the grid",
-        "Snap to the grid, and to round lengths, where it is shown and no picture is",
+        "Snap to the grid and to round lengths while the grid is shown and no picture is",
         always,
         |app| app.tools.options.snaps_to_grid,
         |app, is_on| app.tools.options.snaps_to_grid = is_on,
@@ -84,7 +90,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "over-rooms",
         "Over rooms",
-        "Let new rooms take what rooms cover too, as a niche or a corridor that lies within another room",
+        "Let new rooms lie over others, such as a niche or a corridor inside another room",
         always,
         |app| app.tools.options.over_rooms,
         |app, is_on| app.tools.options.over_rooms = is_on,
@@ -94,7 +100,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "wall-thickness",
         "Wall thickness…",
-        "Say how thick new walls are",
+        "Set the thickness of new walls",
         always,
         &given1(needed("THICKNESS", length(0.0, 10.0), "of new walls"), |app, thickness_m, _| {
             app.tools.options.thickness_m = thickness_m;
@@ -106,7 +112,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "opening-width",
         "Opening width…",
-        "Say how wide new doors, passages and windows are; double doors are twice as wide",
+        "Set the width of new doors, passages and windows; double doors are twice as wide",
         always,
         &given1(needed("WIDTH", length(0.1, 100.0), "of new openings"), |app, width_m, _| {
             app.tools.options.opening_width_m = width_m;
@@ -118,10 +124,10 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "arc-tolerance",
         "Arc tolerance…",
-        "Say how near the chords stay to the arcs that they draw; press A while drawing for an arc",
+        "Set how closely straight pieces follow an arc; press A while drawing for an arc",
         always,
         &given1(
-            needed("TOLERANCE", length(0.0005, 10.0), "how far a chord may be from its arc"),
+            needed("TOLERANCE", length(0.0005, 10.0), "how far a straight piece may be from its arc"),
             |app, tolerance_m, _| {
                 app.tools.options.arc_tolerance_m = tolerance_m;
                 Outcome::Done
@@ -134,7 +140,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "draw-walls",
         "Draw walls",
-        "Draw a chain of walls from point to point; a room that they cross is split",
+        "Draw a chain of walls from point to point; rooms that they cross are split",
         has_plan,
         &given2(PATH, THICKNESS, |app, points, thickness_m, _| {
             let thickness_m = thickness_m.unwrap_or(app.tools.options.thickness_m);
@@ -152,7 +158,7 @@ pub(super) const COMMANDS: &[Command] = &[
             optional(
                 "SPACE",
                 one_of::<Space>(),
-                "exact (without) for this boundary, free for what no room covers of it",
+                "exact (default) for this boundary, free for the part of it that no room covers",
             ),
             THICKNESS,
             |app, points, space, thickness_m, _| {
@@ -207,13 +213,13 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "add-opening",
         "Add an opening",
-        "Put an opening into the wall or the boundary at a point",
+        "Place an opening in the wall or boundary at a point",
         has_plan,
         &given4(
             needed("KIND", one_of::<OpeningKind>(), "door, double-door, passage or window"),
             PLACE,
-            optional("WIDTH", length(0.01, 1000.0), "how wide; what is set without"),
-            optional("TOWARDS", POINT, "a point on the side that a door opens to"),
+            optional("WIDTH", length(0.01, 1000.0), "the width; the width set for new openings without it"),
+            optional("TOWARDS", POINT, "a point on the side that a door swings to"),
             |app, kind, at, width_m, towards, _| {
                 let width_m = width_m.unwrap_or(app.tools.options.opening_width_m);
                 let mut made = None;

@@ -4,19 +4,17 @@ use super::*;
 use crate::edit::storey::Keep;
 
 pub(super) const COMMANDS: &[Command] = &[
-    command("new-plan", "New plan", "Begin a plan on which nothing is drawn yet", always, |app, _| {
-        app.session.new_plan()
-    })
-    .keys(&[ctrl(Key::N)])
-    .menu(Menu::File, 0),
+    command("new-plan", "New plan", "Start an empty plan", always, |app, _| app.session.new_plan())
+        .keys(&[ctrl(Key::N)])
+        .menu(Menu::File, 0),
     with(
         "copy-storey",
         "Copy to another storey…",
-        "Begin a plan of another storey with the same walls and rooms; this one is drawn faintly below it",
+        "Start a plan of another storey with the same walls and rooms; this storey shows faintly below it",
         has_plan,
         &given2(
-            needed("STOREY", TEXT, "what the new storey is called, as on the drawing: 2, first floor"),
-            optional("KEEP", one_of::<Keep>(), "what rooms keep: functions (without), all or outlines"),
+            needed("STOREY", TEXT, "the name of the new storey, such as 2 or first floor"),
+            optional("KEEP", one_of::<Keep>(), "what rooms keep: functions (default), all or outlines"),
             |app, storey, keep, _| {
                 if storey.is_empty() {
                     return Outcome::Refused("the new storey needs a name".to_owned());
@@ -31,10 +29,10 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "open",
         "Open…",
-        "Open a plan: a plan file, the authors' XML, or GeoJSON",
+        "Open a plan file, or a plan in another format such as GeoJSON or the paper authors' XML",
         always,
         &given2(
-            needed("PATH", PLAN_FILE, "a file with a plan, or a folder of which the first plan is opened"),
+            needed("PATH", PLAN_FILE, "a file with a plan, or a folder, whose first plan is opened"),
             optional("STOREY", COUNT, "which plan of the file, from 1"),
             |app, path, storey, _| {
                 let storey = storey.map_or(0, |storey| storey - 1);
@@ -49,7 +47,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "open-sample",
         "Open a sample…",
-        "Open a plan that comes with the program",
+        "Open one of the plans that come with Enfilade",
         always,
         &given1(needed("SAMPLE", SAMPLE, "the sample's file name without the ending"), |app, Sample(sample), _| {
             app.session.open(Origin::Bundled(sample));
@@ -61,7 +59,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "save",
         "Save",
-        "Save the plan in its file",
+        "Save the plan to its file",
         has_plan,
         &given0(|app, _| if app.session.save(None) { Outcome::Done } else { Outcome::Asks }),
         None,
@@ -71,10 +69,10 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "save-as",
         "Save as…",
-        "Save the plan in another file",
+        "Save the plan to a new file",
         has_plan,
         &given1(
-            needed("PATH", NEW_PLAN_FILE, "the file, which is replaced if it exists; '.plan.json' is added"),
+            needed("PATH", NEW_PLAN_FILE, "the file, which is overwritten if it exists; '.plan.json' is added"),
             |app, path, _| {
                 app.session.save_in(path, None);
                 Outcome::Done
@@ -87,7 +85,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "recovery",
         "Recover unsaved work",
-        "Show what was not saved when Enfilade was ended, with pictures",
+        "Show unsaved work from earlier sessions, with a picture of each plan",
         has_leftovers,
         |app| app.dialogs.is_open(dialogs::RECOVERY),
         |app, is_on| app.set_dialog(dialogs::RECOVERY, is_on),
@@ -96,7 +94,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "recover",
         "Recover",
-        "Open what was not saved when Enfilade was ended; nothing is written until it is saved",
+        "Open unsaved work from an earlier session; no file changes until you save",
         can_recover,
         &given1(needed("NUMBER", COUNT, "which, from the top"), |app, number, _| {
             app.session.recover(number).map_or_else(Outcome::Refused, |()| Outcome::Done)
@@ -106,7 +104,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "discard-recovered",
         "Discard what can be recovered",
-        "Give up what was not saved when Enfilade was ended, after asking once more",
+        "Discard unsaved work from an earlier session, after asking once more",
         has_leftovers,
         &given1(needed("NUMBER", COUNT, "which, from the top"), |app, number, _| {
             app.session.ask_to_discard(number).map_or_else(Outcome::Refused, |()| Outcome::Done)
@@ -116,7 +114,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "differences",
         "Differences to the file",
-        "Show how the plan and its file, which somebody else changed, differ",
+        "Show how this plan differs from its file, which someone else has changed",
         has_their_plan,
         |app| app.dialogs.is_open(dialogs::DIFFERENCES),
         |app, is_on| app.set_dialog(dialogs::DIFFERENCES, is_on),
@@ -125,7 +123,7 @@ pub(super) const COMMANDS: &[Command] = &[
     command(
         "load-theirs",
         "Load the file as it is now",
-        "Make the plan what somebody else put in its file; undo brings yours back",
+        "Load the version that someone else saved; Undo brings yours back",
         has_their_plan,
         |app, context| app.session.load_theirs(context),
     )
@@ -133,7 +131,7 @@ pub(super) const COMMANDS: &[Command] = &[
     command(
         "keep-mine",
         "Keep mine",
-        "Go on with the plan as it is here: saving replaces what somebody else put in its file",
+        "Keep your version; saving overwrites what someone else saved",
         has_theirs,
         |app, context| app.session.keep_mine(context),
     )
@@ -141,7 +139,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "import-notes",
         "Import notes",
-        "Show what was mended or left out when the plan was opened",
+        "Show what was repaired or left out when the plan was opened",
         has_notes,
         |app| app.dialogs.is_open(dialogs::NOTES),
         |app, is_on| app.set_dialog(dialogs::NOTES, is_on),
@@ -160,7 +158,7 @@ pub(super) const COMMANDS: &[Command] = &[
     command("close", "Close plan", "Close the plan", has_plan, |app, _| app.session.request(Intent::Close))
         .keys(&[ctrl(Key::W)])
         .menu(Menu::File, 4),
-    command("quit", "Quit", "Close the window", always, |app, _| app.session.request(Intent::Quit))
+    command("quit", "Quit", "Quit Enfilade", always, |app, _| app.session.request(Intent::Quit))
         .keys(&[ctrl(Key::Q)])
         .menu(Menu::File, 4),
 ];

@@ -6,7 +6,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "pick",
         "Pick a room",
-        "Pick a room, as a click on it does: the view stays where it is",
+        "Select a room as a click does; the view stays where it is",
         has_rooms,
         &given1(ROOM, |app, room, _| {
             app.session.pick(Some(ElementId::Room(room)));
@@ -20,8 +20,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Select rooms, walls, openings and corners, as clicks and boxes do",
         has_plan,
         &given2(
-            needed("ELEMENTS", ELEMENTS, "ids with blanks between"),
-            optional("MODE", one_of::<SelectMode>(), "replace (without), add or toggle"),
+            needed("ELEMENTS", ELEMENTS, "ids, separated by blanks"),
+            optional("MODE", one_of::<SelectMode>(), "replace (default), add or toggle"),
             |app, elements, mode, _| {
                 app.session.select(elements, mode.unwrap_or(SelectMode::Replace));
                 Outcome::Done
@@ -32,11 +32,11 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "pick-opening",
         "Pick an opening",
-        "Pick an opening, as a click on it does",
+        "Select an opening as a click does",
         has_openings,
         &given2(
             needed("OPENING", OPENING, "the opening's id"),
-            optional("SHOW", ON_OR_OFF, "on to bring it into sight; without, the view stays where it is"),
+            optional("SHOW", ON_OR_OFF, "on to bring it into view; without it, the view stays where it is"),
             |app, opening, is_shown, _| {
                 let picked = ElementId::Opening(opening);
                 app.session.pick(Some(picked));
@@ -51,7 +51,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "pick-towards",
         "Pick towards",
-        "Pick the next room in a direction, as an arrow key on the plan does",
+        "Select the next room in a direction, as an arrow key on the plan does",
         has_rooms,
         &given1(needed("DIRECTION", one_of::<Direction>(), "left, right, up or down"), |app, direction, _| {
             app.session.pick_towards(match direction {
@@ -79,7 +79,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "view",
         "Set the view",
-        "Show the plan about a point, a metre so many pixels long",
+        "Centre the view on a point, at so many pixels per metre",
         has_plan,
         &given3(X, Y, SCALE, |app, x, y, scale, _| {
             app.canvas.look_at(Point::new(x, y), scale);
@@ -90,27 +90,30 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "dismiss-message",
         "Dismiss a message",
-        "Take a message out of the bar above the plan",
+        "Close a message above the plan",
         has_messages,
-        &given1(optional("NUMBER", COUNT, "which one, the oldest being 1; without, the newest"), |app, number, _| {
-            let newest = app.session.messages.len();
-            let number = number.unwrap_or(newest);
-            if number > newest {
-                return Outcome::Refused(format!("there are {newest} messages"));
-            }
-            app.session.messages.remove(number - 1);
-            Outcome::Done
-        }),
+        &given1(
+            optional("NUMBER", COUNT, "which one, 1 being the oldest; without it, the newest"),
+            |app, number, _| {
+                let newest = app.session.messages.len();
+                let number = number.unwrap_or(newest);
+                if number > newest {
+                    return Outcome::Refused(format!("there are {newest} messages"));
+                }
+                app.session.messages.remove(number - 1);
+                Outcome::Done
+            },
+        ),
         None,
     ),
     with(
         "answer",
         "Answer the question",
-        "Press a button of the question that is asked",
+        "Answer the question on the screen",
         is_asked,
         &given2(
             needed("ANSWER", ANSWER, "the button: save, discard, replace, elsewhere, delete or cancel"),
-            optional("PATH", NEW_PLAN_FILE, "the file to save in, where a dialog would ask for it"),
+            optional("PATH", NEW_PLAN_FILE, "the file to save to, where a dialog would ask for it"),
             |app, word, path, _| {
                 if app.session.answer(word, path) { Outcome::Done } else { Outcome::Asks }
             },

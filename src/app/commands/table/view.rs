@@ -42,16 +42,16 @@ pub(super) const COMMANDS: &[Command] = &[
         .keys(&[key(Key::F)])
         .menu(Menu::View, 0)
         .tool(Icon::Fit, 1),
-    command("zoom-to-selection", "Zoom to selection", "Show what is picked as large as fits", has_picked, |app, _| {
+    command("zoom-to-selection", "Zoom to selection", "Show the selection as large as fits", has_picked, |app, _| {
         app.session.zoom_to_picked();
     })
     .keys(&[shift(Key::F)])
     .menu(Menu::View, 0)
     .tool(Icon::ZoomToSelection, 1),
-    command("zoom-in", "Zoom in", "Show the plan larger", has_plan, |app, _| app.canvas.zoom_by(ZOOM_STEP))
+    command("zoom-in", "Zoom in", "Zoom in", has_plan, |app, _| app.canvas.zoom_by(ZOOM_STEP))
         .keys(&[key(Key::Plus), key(Key::Equals)])
         .menu(Menu::View, 0),
-    command("zoom-out", "Zoom out", "Show the plan smaller", has_plan, |app, _| app.canvas.zoom_by(1.0 / ZOOM_STEP))
+    command("zoom-out", "Zoom out", "Zoom out", has_plan, |app, _| app.canvas.zoom_by(1.0 / ZOOM_STEP))
         .keys(&[key(Key::Minus)])
         .menu(Menu::View, 0),
     choose(
@@ -67,7 +67,7 @@ pub(super) const COMMANDS: &[Command] = &[
     choose(
         "fill-function",
         "Fill by function",
-        "Colour each room by what it is for",
+        "Colour each room by its function",
         always,
         |app| app.session.layers.fill == Fill::Function,
         |app, _| app.session.layers.fill = Fill::Function,
@@ -77,7 +77,7 @@ pub(super) const COMMANDS: &[Command] = &[
     choose(
         "fill-prediction",
         "Fill by prediction",
-        "Colour each room by its predicted label; a known label that is another rims its room",
+        "Colour each room by its predicted label; where the known label differs, it shows as a rim",
         always,
         |app| app.session.layers.fill == Fill::Prediction,
         |app, _| app.session.layers.fill = Fill::Prediction,
@@ -87,7 +87,7 @@ pub(super) const COMMANDS: &[Command] = &[
     choose(
         "fill-none",
         "No fill",
-        "Show walls and openings only",
+        "Show only walls and openings",
         always,
         |app| app.session.layers.fill == Fill::None,
         |app, _| app.session.layers.fill = Fill::None,
@@ -97,7 +97,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "colour-blind-safe",
         "Colour-blind safe colours",
-        "Show labels in five colours that are told apart without seeing red, green or blue",
+        "Use label colours that people with any colour blindness can tell apart",
         always,
         |app| app.session.layers.colours == LabelColours::ColourBlindSafe,
         |app, is_on| {
@@ -108,7 +108,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "graph",
         "Graph",
-        "Show which rooms the openings join",
+        "Show which rooms the openings connect",
         always,
         |app| app.session.layers.graph,
         |app, is_on| app.session.layers.graph = is_on,
@@ -170,7 +170,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "ghost-layer",
         "Storey below",
-        "Show the plan that was chosen as the storey below, faintly",
+        "Show the plan chosen as the storey below, faintly",
         has_ghost,
         |app| app.session.layers.ghost,
         |app, is_on| app.session.layers.ghost = is_on,
@@ -179,14 +179,14 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "ghost",
         "Show a storey below…",
-        "Draw another plan faintly under this one: the storey below, say",
+        "Show another plan faintly under this one, such as the storey below",
         has_plan,
         &given2(
             needed("PATH", PLAN_FILE, "a file with a plan"),
             optional(
                 "STOREY",
                 COUNT,
-                "which plan of the file, from 1; without, the first, of the open file the one before",
+                "which plan of the file, from 1; without it, the first, or for the open file the one before",
             ),
             |app, path, storey, _| {
                 app.session.read_ghost(path, storey.map(|storey| storey - 1));
@@ -199,14 +199,14 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
     )
     .menu(Menu::View, 3),
-    command("clear-ghost", "Show no storey below", "Take the storey below away", has_ghost, |app, _| {
+    command("clear-ghost", "Show no storey below", "Remove the storey below", has_ghost, |app, _| {
         app.session.show_ghost(None);
     })
     .menu(Menu::View, 3),
     switch(
         "rulers",
         "Rulers",
-        "Show rulers along the canvas, out of which guide lines are dragged",
+        "Show rulers along the canvas; drag guide lines out of them",
         always,
         |app| app.session.layers.rulers,
         |app, is_on| app.session.layers.rulers = is_on,
@@ -216,7 +216,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "add-guide",
         "Add a guide…",
-        "Add a line to draw along; or drag one out of a ruler",
+        "Add a line to draw along; you can also drag one out of a ruler",
         has_plan,
         &given2(AXIS, POSITION, |app, axis, at_m, _| {
             app.change_guides("Add guide", |plan| add_guide(plan, axis, at_m))
@@ -227,34 +227,31 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "move-guide",
         "Move a guide",
-        "Move a guide line; or drag its mark along a ruler",
+        "Move a guide line; you can also drag its mark along the ruler",
         has_guides,
-        &given3(
-            AXIS,
-            POSITION,
-            needed("TO", length(-FAR_M, FAR_M), "where it is to be"),
-            |app, axis, from_m, to_m, _| app.change_guides("Move guide", |plan| move_guide(plan, axis, from_m, to_m)),
-        ),
+        &given3(AXIS, POSITION, needed("TO", length(-FAR_M, FAR_M), "its new place"), |app, axis, from_m, to_m, _| {
+            app.change_guides("Move guide", |plan| move_guide(plan, axis, from_m, to_m))
+        }),
         None,
     ),
     with(
         "remove-guide",
         "Remove a guide",
-        "Take a guide line away; or drag its mark off the ruler, or double-click the mark",
+        "Remove a guide line; you can also drag its mark off the ruler, or double-click the mark",
         has_guides,
         &given2(AXIS, POSITION, |app, axis, at_m, _| {
             app.change_guides("Remove guide", |plan| remove_guide(plan, axis, at_m))
         }),
         None,
     ),
-    command("clear-guides", "Clear guides", "Take all guide lines away", has_guides, |app, _| {
+    command("clear-guides", "Clear guides", "Remove all guide lines", has_guides, |app, _| {
         app.session.edit("Clear guides", |plan| Ok(clear_guides(plan)));
     })
     .menu(Menu::View, 3),
     with(
         "grid-spacing",
         "Grid spacing…",
-        "Set how far the grid's lines are apart, or leave it to the zoom",
+        "Set the distance between grid lines, or 'auto' to follow the zoom",
         always,
         &given1(needed("SPACING", TEXT, "a length, or 'auto'"), |app, text, _| {
             if text == AUTO {
@@ -282,7 +279,7 @@ pub(super) const COMMANDS: &[Command] = &[
     choose(
         "units-metric",
         "Metres",
-        "Show lengths and areas in metres and square metres; numbers typed without a unit are metres",
+        "Show metres and square metres; numbers typed without a unit are metres",
         always,
         |app| app.units() == Units::Metric,
         |app, _| app.set_units(Units::Metric),
@@ -291,7 +288,7 @@ pub(super) const COMMANDS: &[Command] = &[
     choose(
         "units-imperial",
         "Feet and inches",
-        "Show lengths in feet and inches, areas in square feet; numbers typed without a unit are feet",
+        "Show feet, inches and square feet; numbers typed without a unit are feet",
         always,
         |app| app.units() == Units::Imperial,
         |app, _| app.set_units(Units::Imperial),
@@ -300,7 +297,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "plan-panel",
         "Plans and layers",
-        "Show the panel on the left",
+        "Show or hide the panel on the left",
         always,
         |app| app.panels.is_shown(panels::PLANS),
         |app, is_on| [panels::PLANS, panels::LAYERS].iter().for_each(|id| app.panels.set_shown(id, is_on)),
@@ -311,7 +308,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "inspector",
         "Inspector",
-        "Show the panel on the right",
+        "Show or hide the panel on the right",
         always,
         |app| app.panels.is_shown(panels::INSPECTOR),
         |app, is_on| app.panels.set_shown(panels::INSPECTOR, is_on),
@@ -322,7 +319,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "history",
         "History",
-        "Show the steps that led to the plan, and go to any of them",
+        "Show the steps that led to this plan, and go to any of them",
         always,
         |app| app.panels.is_shown(panels::HISTORY),
         |app, is_on| app.panels.set_shown(panels::HISTORY, is_on),
@@ -335,8 +332,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Show or hide a panel beside the canvas",
         has_other_panels,
         &given2(
-            needed("PANEL", PANEL, "a panel that has no command of its own"),
-            optional("SWITCH", ON_OR_OFF, "on or off; without, the other of what it is"),
+            needed("PANEL", PANEL, "a panel without a command of its own"),
+            optional("SWITCH", ON_OR_OFF, "on or off; without it, switches over"),
             |app, SidePanelId(id), is_on, _| {
                 let is_on = is_on.unwrap_or(!app.panels.is_shown(id));
                 app.panels.set_shown(id, is_on);
@@ -349,7 +346,7 @@ pub(super) const COMMANDS: &[Command] = &[
     choose(
         "theme-system",
         "Follow the system",
-        "Light or dark as the system says",
+        "Light or dark, as the system is set",
         always,
         |app| app.theme == ThemeChoice::System,
         |app, context| app.set_theme(ThemeChoice::System, context),
@@ -358,7 +355,7 @@ pub(super) const COMMANDS: &[Command] = &[
     choose(
         "theme-light",
         "Light",
-        "Light, whatever the system says",
+        "Always light",
         always,
         |app| app.theme == ThemeChoice::Light,
         |app, context| app.set_theme(ThemeChoice::Light, context),
@@ -367,7 +364,7 @@ pub(super) const COMMANDS: &[Command] = &[
     choose(
         "theme-dark",
         "Dark",
-        "Dark, whatever the system says",
+        "Always dark",
         always,
         |app| app.theme == ThemeChoice::Dark,
         |app, context| app.set_theme(ThemeChoice::Dark, context),
