@@ -32,6 +32,7 @@ pub mod edit;
 mod facade;
 pub mod features;
 pub mod formats;
+pub mod gather;
 pub mod geometry;
 pub mod labels;
 pub mod picture;

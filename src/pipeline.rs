@@ -123,6 +123,7 @@ pub struct Derived {
     /// Doorways left open in walls.
     pub gaps: Vec<Gap>,
     openings: RTree<OpeningPlace>,
+    leaves: RTree<LeafPlace>,
     reading_order: Vec<RoomId>,
     /// How many rooms have each function, as [`normalised_function`] writes it.
     pub functions: BTreeMap<String, usize>,
@@ -146,6 +147,40 @@ impl RTreeObject for OpeningPlace {
 impl PointDistance for OpeningPlace {
     fn distance_2(&self, point: &[f64; 2]) -> f64 {
         self.segment.distance(Point::new(point[0], point[1])).powi(2)
+    }
+}
+
+/// A door's leaf, open, and the arc of its swing.
+#[derive(Debug)]
+struct LeafPlace {
+    id: OpeningId,
+    hinge: Point,
+    shut: Point,
+    tip: Point,
+}
+
+impl RTreeObject for LeafPlace {
+    type Envelope = AABB<[f64; 2]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        let opposite = self.shut + (self.tip - self.hinge);
+        let bounds = Bounds::of([self.hinge, self.shut, self.tip, opposite]);
+        AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y])
+    }
+}
+
+impl PointDistance for LeafPlace {
+    /// To the leaf or to the arc, whichever is nearer: what lies between them is the room's floor.
+    fn distance_2(&self, point: &[f64; 2]) -> f64 {
+        let point = Point::new(point[0], point[1]);
+        let leaf_m = Segment::new(self.hinge, self.tip).distance(point);
+        let (from, open, shut) = (point - self.hinge, self.tip - self.hinge, self.shut - self.hinge);
+        let arc_m = if from.dot(open) >= 0.0 && from.dot(shut) >= 0.0 {
+            (from.length() - open.length()).abs()
+        } else {
+            point.distance(self.tip).min(point.distance(self.shut))
+        };
+        leaf_m.min(arc_m).powi(2)
     }
 }
 
@@ -191,9 +226,13 @@ impl Derived {
             .filter_map(|(id, opening)| Some(OpeningPlace { id, segment: plan.opening_segment(opening)? }))
             .collect();
         let labels = predictions.as_ref().map(Predictions::labels).unwrap_or_default();
+        // Compared here, beside the frames, for the panel that shows it.
+        predictions.as_ref().map(Predictions::acquaintance);
         let drawing = drawing.with_predictions(&labels);
         let reading_order = reading_order(&analysis);
         let openings = RTree::bulk_load(openings);
+        let leaf = |(id, [hinge, shut, tip]): (OpeningId, [Point; 3])| LeafPlace { id, hinge, shut, tip };
+        let leaves = RTree::bulk_load(drawing.sweeps().map(leaf).collect());
         let index = PlanIndex::new(plan);
         let mut functions: BTreeMap<String, usize> = BTreeMap::new();
         for (_, room) in plan.rooms() {
@@ -201,7 +240,19 @@ impl Derived {
         }
         let gaps = topology::gaps(plan);
         let reason = Mutex::default();
-        Self { analysis, drawing, predictions, predictor, reason, index, gaps, openings, reading_order, functions }
+        Self {
+            analysis,
+            drawing,
+            predictions,
+            predictor,
+            reason,
+            index,
+            gaps,
+            openings,
+            leaves,
+            reading_order,
+            functions,
+        }
     }
 
     /// The rooms with a boundary in reading order: from the top left, line by line.
@@ -226,8 +277,8 @@ impl Derived {
         last.as_ref().and_then(|(_, why)| why.clone())
     }
 
-    /// What can be picked at a point: openings within `reach_m` metres, then walls, nearest first, then
-    /// rooms, smallest first. Walls have half the reach of openings.
+    /// What can be picked at a point: openings within `reach_m` metres, then walls, nearest first, then doors whose
+    /// leaf or arc is there, then rooms, smallest first. Walls and leaves have half the reach of openings.
     pub fn at(&self, point: Point, reach_m: f64) -> Vec<ElementId> {
         let place = [point.x, point.y];
         let mut near: Vec<(f64, OpeningId)> = self
@@ -236,12 +287,22 @@ impl Derived {
             .map(|opening| (opening.distance_2(&place), opening.id))
             .collect();
         near.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+        let half_m = reach_m / 2.0;
+        let mut swept: Vec<(f64, OpeningId)> = self
+            .leaves
+            .locate_within_distance(place, half_m * half_m)
+            .filter(|leaf| near.iter().all(|(_, id)| *id != leaf.id))
+            .map(|leaf| (leaf.distance_2(&place), leaf.id))
+            .collect();
+        swept.sort_by(|p, q| p.0.total_cmp(&q.0).then(p.1.cmp(&q.1)));
+        swept.dedup_by_key(|(_, id)| *id);
         let openings = near.into_iter().map(|(_, id)| ElementId::Opening(id));
+        let leaves = swept.into_iter().map(|(_, id)| ElementId::Opening(id));
         let shapes = &self.analysis.shapes;
         let rooms = shapes.at(point).into_iter().map(|index| ElementId::Room(shapes.all()[index].id));
         let walls =
             self.index.edges_near(point, reach_m / 2.0).into_iter().filter_map(|edge| edge.wall).map(ElementId::Wall);
-        openings.chain(walls).chain(rooms).collect()
+        openings.chain(walls).chain(leaves).chain(rooms).collect()
     }
 }
 

@@ -16,6 +16,7 @@ use crate::app::session::samples::Samples;
 use crate::app::session::settings::Settings;
 use crate::app::session::wishes::Wish;
 use crate::app::state::App;
+use crate::app::state::Arrivals;
 use crate::app::state::OpenDialogs;
 use crate::app::state::Panels;
 use crate::app::tools::Toolbox;
@@ -34,6 +35,7 @@ impl App {
             panels: Panels::new(panels::SIDE_PANELS),
             dialogs: OpenDialogs::new(panels::DIALOGS),
             samples: Samples::default(),
+            arrivals: Arrivals::default(),
             was_typing: false,
             is_close_sent: false,
             shown_title: String::new(),
@@ -57,14 +59,18 @@ impl App {
         self.session.watch_file(&context);
         self.take_dropped_files(&context);
         self.take_close_request(&context);
+        self.take_menu_keys(&context);
         self.take_tool_keys(&context);
         self.take_shortcuts(&context);
         self.refresh();
+        self.session.check_findings(&context);
         self.session.compare_with_theirs();
+        self.session.drop_stale_messages();
         self.grant_wishes(&context);
         panels::show(self, ui);
         self.grant_wishes(&context);
         self.was_typing = context.text_edit_focused();
+        self.session.draft = self.tools.draft();
         self.session.keep_journal(&context);
         self.update_title(&context);
         self.record(&context);
@@ -123,6 +129,10 @@ impl App {
                 Wish::CloseRecovery => self.set_dialog(panels::recovery::ID, false),
                 Wish::CloseDifferences => self.set_dialog(panels::differences::ID, false),
                 Wish::Run(call) => self.act_on(call, context),
+                Wish::Resume(draft) => {
+                    self.session.draft = Some(draft.clone());
+                    self.tools.resume(draft);
+                }
                 Wish::EndRecording(then) => self.stop_recording(Some(then)),
                 Wish::Recording(news) => self.hear_of_recording(news),
             }
@@ -134,7 +144,11 @@ impl App {
         let Some(first) = dropped.first() else { return };
         if dropped.len() > 1 {
             let text = format!("{} files were dropped; the first is opened", dropped.len());
-            self.session.say(Severity::Info, text, "Plans that lie in the same folder are in the list on the left.");
+            self.session.say_of_program(
+                Severity::Info,
+                text,
+                "Plans that lie in the same folder are in the list on the left.",
+            );
         }
         let id = if pictures::is_picture_name(first.path()) { "picture" } else { "open" };
         self.act_on(Call::new(id, [Value::Path(first.path().to_owned())]), context);

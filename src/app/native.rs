@@ -95,6 +95,10 @@ struct Window {
 }
 
 impl eframe::App for Window {
+    fn raw_input_hook(&mut self, context: &egui::Context, raw: &mut egui::RawInput) {
+        self.app.take_arrivals(context, raw);
+    }
+
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.app.frame(ui);
     }

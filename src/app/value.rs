@@ -9,10 +9,10 @@ pub(crate) use crate::app::session::words::{
 };
 use crate::app::session::{bulk::Order, selection::SelectMode};
 use crate::classify::Method;
-use crate::edit::{Alignment, DrawingMoves, storey::Keep};
-use crate::geometry::Point;
+use crate::edit::{Alignment, DrawingMoves, End, Reach, storey::Keep};
+use crate::geometry::{Point, Vector};
 use crate::labels::Typology;
-use crate::plan::{ElementId, GuideAxis, OpeningId, OpeningKind, RoomId};
+use crate::plan::{ElementId, GuideAxis, LeafSide, OpeningId, OpeningKind, RoomId};
 use crate::predict::ModelSet;
 
 /// A parsed argument.
@@ -95,6 +95,17 @@ impl Worded for OpeningKind {
     const ALL: &'static [Self] = &[Self::Door, Self::DoubleDoor, Self::Passage, Self::Window];
 }
 
+impl Worded for End {
+    const WORDS: &'static [(&'static str, &'static str)] = &[("start", "At its start"), ("end", "At its end")];
+    const ALL: &'static [Self] = &Self::BOTH;
+}
+
+impl Worded for LeafSide {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("left", "To the left of its direction"), ("right", "To the right of its direction")];
+    const ALL: &'static [Self] = &[Self::Left, Self::Right];
+}
+
 impl Worded for SelectMode {
     const WORDS: &'static [(&'static str, &'static str)] =
         &[("replace", "Instead of what is selected"), ("add", "Besides"), ("toggle", "Take out what is in")];
@@ -133,6 +144,26 @@ impl Worded for Alignment {
     const ALL: &'static [Self] = &[Self::Left, Self::Right, Self::Top, Self::Bottom, Self::Center, Self::Middle];
 }
 
+impl Worded for Reach {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("run", "The whole straight wall"), ("piece", "Only this piece of it")];
+    const ALL: &'static [Self] = &[Self::Run, Self::Piece];
+}
+
+/// What mirroring, turning and scaling leave behind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum MoveOrCopy {
+    Move,
+    /// The original stays.
+    Copy,
+}
+
+impl Worded for MoveOrCopy {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("move", "Move the selection"), ("copy", "Keep the original and make a copy")];
+    const ALL: &'static [Self] = &[Self::Move, Self::Copy];
+}
+
 /// What a new room covers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Space {
@@ -169,6 +200,18 @@ pub(crate) enum Direction {
     Right,
     Up,
     Down,
+}
+
+impl Direction {
+    /// A step of length 1 that way in the plan.
+    pub(crate) const fn vector(self) -> Vector {
+        match self {
+            Self::Left => Vector::new(-1.0, 0.0),
+            Self::Right => Vector::new(1.0, 0.0),
+            Self::Up => Vector::new(0.0, 1.0),
+            Self::Down => Vector::new(0.0, -1.0),
+        }
+    }
 }
 
 impl Worded for Direction {

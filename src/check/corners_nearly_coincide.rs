@@ -4,8 +4,9 @@ use rstar::primitives::GeomWithData;
 use rstar::{AABB, RTree};
 
 use super::{Check, Context, FINDINGS_LIMIT, Kind, Place, Severity};
-use crate::geometry::Point;
-use crate::plan::{CornerId, ElementId};
+use crate::edit::{EditError, weld_corners};
+use crate::geometry::{GRID_M, Point};
+use crate::plan::{CornerId, ElementId, Plan};
 
 /// Two corners of different walls or rooms so close that they were meant to be one: moving one of them
 /// moves only part of what meets there.
@@ -68,6 +69,15 @@ impl Check for CornersNearlyCoincide {
 
     fn place(&self) -> Place<'_> {
         Place { elements: self.corners.map(ElementId::Corner).to_vec(), rooms: Vec::new(), at: Some(self.at) }
+    }
+
+    fn fix_title(&self) -> Option<&'static str> {
+        Some("Weld the corners")
+    }
+
+    fn fixed(&self, plan: &Plan) -> Result<Plan, EditError> {
+        // A hair more than they are apart, for rounding.
+        weld_corners(plan, &BTreeSet::from(self.corners), self.distance_m.max(GRID_M) * 1.01)
     }
 
     fn what(&self) -> String {

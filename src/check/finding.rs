@@ -2,9 +2,10 @@ use std::cmp::Ordering;
 use std::fmt;
 
 use super::Context;
+use crate::edit::EditError;
 use crate::geometry::Point;
-use crate::plan::ElementId;
 use crate::plan::titles::RoomName;
+use crate::plan::{ElementId, Plan};
 
 /// The severity of a finding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -80,6 +81,20 @@ pub trait Check: Sized {
     /// The size of the fault, for listing the worst first; the measure depends on the kind.
     fn size(&self) -> f64 {
         0.0
+    }
+
+    /// What can be done about it without a doubt, as the title of a step: 'Weld the corners'. `None` where a person has
+    /// to decide.
+    fn fix_title(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// The plan with that done; `plan` is the one that was checked.
+    ///
+    /// # Errors
+    /// When it has no fix, or the edit is refused.
+    fn fixed(&self, _plan: &Plan) -> Result<Plan, EditError> {
+        Err(EditError("there is no safe fix".to_owned()))
     }
 
     /// The severity: that of its kind, unless the figures say otherwise.

@@ -49,9 +49,10 @@ mod walls_overlap;
 pub use context::Context;
 pub use finding::{Check, Kind, Place, Severity};
 
+use crate::edit::EditError;
 use crate::features::Analysis;
 use crate::labels::Schemes;
-use crate::plan::Plan;
+use crate::plan::{Ignored, Plan};
 
 /// Declares the checks: one variant of [`Finding`] per check.
 macro_rules! checks {
@@ -91,6 +92,19 @@ macro_rules! checks {
             /// What to do about it, in words, without a full stop.
             pub fn remedy(&self) -> &'static str {
                 self.kind().remedy
+            }
+
+            /// What can be done about it without a doubt, as the title of a step; `None` where a person has to decide.
+            pub fn fix_title(&self) -> Option<&'static str> {
+                match self { $(Self::$finding(finding) => finding.fix_title(),)* }
+            }
+
+            /// The plan with that done; `plan` is the one that was checked.
+            ///
+            /// # Errors
+            /// When it has no fix, or the edit is refused.
+            pub fn fixed(&self, plan: &Plan) -> Result<Plan, EditError> {
+                match self { $(Self::$finding(finding) => finding.fixed(plan),)* }
             }
 
             /// The measured figures, for machines; names include the unit.
@@ -164,6 +178,22 @@ pub fn check(plan: &Plan, analysis: &Analysis, schemes: &Schemes) -> Vec<Finding
     // Stable: keeps the order of the checks within a severity.
     found.sort_by_key(|finding| std::cmp::Reverse(finding.severity()));
     found
+}
+
+impl Finding {
+    /// What a plan keeps of it when it is ignored: its kind and elements, and the reason.
+    pub fn as_ignored(&self, reason: &str) -> Ignored {
+        Ignored::new(self.kind().name, self.place().elements, reason)
+    }
+
+    /// What the plan says if the finding is ignored.
+    pub fn ignored_in<'p>(&self, plan: &'p Plan) -> Option<&'p Ignored> {
+        if plan.ignored().is_empty() {
+            return None;
+        }
+        let own = self.as_ignored("");
+        plan.ignored().iter().find(|ignored| ignored.is_about(&own))
+    }
 }
 
 impl std::fmt::Display for Finding {

@@ -1,9 +1,10 @@
 use super::{Check, Context, FINDINGS_LIMIT, Kind, Place, Severity};
+use crate::edit::{self, EditError};
 use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
 use crate::geometry::segments::{SegmentIndex, are_parallel, common_stretch};
 use crate::geometry::{GRID_M, Point, Segment};
 use crate::plan::titles::OpeningName;
-use crate::plan::{DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, ElementId};
+use crate::plan::{DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, ElementId, Plan};
 
 /// Two openings in the same place: a doorway drawn twice counts twice in its rooms' features.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +13,8 @@ pub struct OpeningsOverlap {
     /// Length of the overlap in metres.
     pub overlap_m: f64,
     pub at: Point,
+    /// Whether the second is the first once more: of its kind, and in its place.
+    pub is_repeat: bool,
 }
 
 /// Openings that share more than this fraction of the narrower one overlap. Less means two neighbouring
@@ -29,6 +32,15 @@ fn certain_part(segment: Segment) -> Segment {
     }
     let middle = segment.midpoint();
     Segment::new(middle.lerp(segment.a, LEAST_OF_USUAL_WIDTH), middle.lerp(segment.b, LEAST_OF_USUAL_WIDTH))
+}
+
+/// Openings whose ends are closer than this, in metres, are in the same place.
+const SAME_PLACE_M: f64 = 0.05;
+
+/// Whether two openings have their ends in the same places, in either direction.
+fn are_same(one: Segment, other: Segment) -> bool {
+    let apart = |a: Point, b: Point| one.a.distance(a).max(one.b.distance(b));
+    apart(other.a, other.b).min(apart(other.b, other.a)) <= SAME_PLACE_M
 }
 
 impl Check for OpeningsOverlap {
@@ -58,7 +70,10 @@ impl Check for OpeningsOverlap {
                 if other_segment.distance(at) > DEFAULT_WALL_THICKNESS_M {
                     continue;
                 }
-                found.push(Self { openings: [placed.name(), other.name()], overlap_m: to - from, at });
+                let is_repeat = placed.opening.kind == other.opening.kind
+                    && placed.opening.pinned == other.opening.pinned
+                    && are_same(placed.segment, other.segment);
+                found.push(Self { openings: [placed.name(), other.name()], overlap_m: to - from, at, is_repeat });
                 if found.len() >= FINDINGS_LIMIT {
                     return found;
                 }
@@ -77,6 +92,17 @@ impl Check for OpeningsOverlap {
             rooms: Vec::new(),
             at: Some(self.at),
         }
+    }
+
+    fn fix_title(&self) -> Option<&'static str> {
+        self.is_repeat.then_some("Delete the repeated opening")
+    }
+
+    fn fixed(&self, plan: &Plan) -> Result<Plan, EditError> {
+        if !self.is_repeat {
+            return Err(EditError("neither opening repeats the other".to_owned()));
+        }
+        edit::remove(plan, &[ElementId::Opening(self.openings[1].id)])
     }
 
     fn what(&self) -> String {

@@ -1,6 +1,7 @@
 use super::{Check, Context, Kind, Place, Severity};
+use crate::edit::{self, EditError};
 use crate::geometry::Point;
-use crate::plan::{ElementId, WallId};
+use crate::plan::{ElementId, Plan, WallId};
 
 /// A wall whose two corners coincide.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +28,14 @@ impl Check for WallHasNoLength {
 
     fn place(&self) -> Place<'_> {
         Place { elements: vec![ElementId::Wall(self.wall)], rooms: Vec::new(), at: Some(self.at) }
+    }
+
+    fn fix_title(&self) -> Option<&'static str> {
+        Some("Delete the wall without length")
+    }
+
+    fn fixed(&self, plan: &Plan) -> Result<Plan, EditError> {
+        edit::remove(plan, &[ElementId::Wall(self.wall)])
     }
 
     fn what(&self) -> String {

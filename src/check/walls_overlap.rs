@@ -1,7 +1,10 @@
+use std::collections::BTreeSet;
+
 use super::{Check, Context, FINDINGS_LIMIT, Kind, Place, Severity};
+use crate::edit::{self, EditError};
 use crate::geometry::segments::{are_parallel, common_stretch};
 use crate::geometry::{Point, Segment};
-use crate::plan::{ElementId, WallId};
+use crate::plan::{CornerId, ElementId, Place as OpeningPlace, Plan, WallId, ordered};
 
 /// Two walls in the same place: one is drawn twice, or extends over the end of the other.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,6 +12,8 @@ pub struct WallsOverlap {
     pub walls: [WallId; 2],
     pub overlap_m: f64,
     pub at: Point,
+    /// The wall that lies in the other all along, is no thicker, and holds no opening.
+    pub superfluous: Option<WallId>,
 }
 
 /// Walls whose centre lines are closer than this, in metres, are in the same place.
@@ -31,13 +36,30 @@ impl Check for WallsOverlap {
     fn find(context: &Context) -> Vec<Self> {
         let mut found = Vec::new();
         let walls = &context.walls;
+        let hosts: BTreeSet<[CornerId; 2]> = context
+            .plan
+            .openings()
+            .filter_map(|(_, opening)| match opening.place {
+                OpeningPlace::Hosted { from, to, .. } => Some(ordered(from, to)),
+                OpeningPlace::Free { .. } => None,
+            })
+            .collect();
+        let is_within = |one: usize, other: usize, overlap_m: f64| {
+            let walls_of = [one, other].map(|index| context.plan.wall(walls.ids[index]));
+            let [Some(wall), Some(other_wall)] = walls_of else { return false };
+            overlap_m >= walls.index.get(one).length() - APART_M
+                && wall.thickness_m <= other_wall.thickness_m
+                && !hosts.contains(&ordered(wall.from, wall.to))
+        };
         for (i, &segment) in walls.index.all().iter().enumerate() {
             let mut near: Vec<usize> =
                 walls.index.near(segment.bounds().inflated(APART_M)).filter(|&j| j > i).collect();
             near.sort_unstable();
             for j in near {
                 if let Some((overlap_m, at)) = overlap(segment, walls.index.get(j)) {
-                    found.push(Self { walls: [walls.ids[i], walls.ids[j]], overlap_m, at });
+                    let within = [(j, i), (i, j)].into_iter().find(|&(one, other)| is_within(one, other, overlap_m));
+                    let superfluous = within.map(|(one, _)| walls.ids[one]);
+                    found.push(Self { walls: [walls.ids[i], walls.ids[j]], overlap_m, at, superfluous });
                     if found.len() >= FINDINGS_LIMIT {
                         return found;
                     }
@@ -53,6 +75,15 @@ impl Check for WallsOverlap {
 
     fn place(&self) -> Place<'_> {
         Place { elements: self.walls.map(ElementId::Wall).to_vec(), rooms: Vec::new(), at: Some(self.at) }
+    }
+
+    fn fix_title(&self) -> Option<&'static str> {
+        self.superfluous.map(|_| "Delete the wall that lies in the other")
+    }
+
+    fn fixed(&self, plan: &Plan) -> Result<Plan, EditError> {
+        let wall = self.superfluous.ok_or_else(|| EditError("neither wall lies in the other".to_owned()))?;
+        edit::remove(plan, &[ElementId::Wall(wall)])
     }
 
     fn what(&self) -> String {

@@ -3,8 +3,6 @@
 use std::cell::RefCell;
 use std::ffi::OsString;
 
-use crate::store::pictures::content_hash;
-
 thread_local! {
     /// The call that is being served, as one would type it.
     static COMMAND: RefCell<String> = const { RefCell::new(String::new()) };
@@ -27,14 +25,4 @@ pub fn command() -> String {
 pub fn quoted(word: &str) -> String {
     let is_plain = !word.is_empty() && word.chars().all(|c| c.is_alphanumeric() || "/._-,:=".contains(c));
     if is_plain { word.to_owned() } else { format!("'{}'", word.replace('\'', "'\\''")) }
-}
-
-/// The program and its version.
-pub fn program() -> String {
-    format!("enfilade {}", env!("CARGO_PKG_VERSION"))
-}
-
-/// SHA-256 in hexadecimal digits, as `sha256sum` prints it.
-pub fn sha256(bytes: &[u8]) -> String {
-    content_hash(bytes).trim_start_matches("sha256:").to_owned()
 }

@@ -50,7 +50,14 @@ fn severity(word: &str) -> Result<Severity, String> {
 }
 
 /// What came of one file.
-type Checked = (Import, Vec<(Vec<Finding>, Sighting)>);
+type Checked = (Import, Vec<(Found, Sighting)>);
+
+/// What was found in a plan: what is to be done, and what the plan says to ignore, with the reason.
+#[derive(Default)]
+struct Found {
+    open: Vec<Finding>,
+    ignored: Vec<(Finding, String)>,
+}
 
 /// So many plans that are read twice are listed without `--all`.
 const LISTED_PAIRS: usize = 10;
@@ -77,7 +84,7 @@ impl Subcommand for CheckCommand {
                 let seen = Sighting::of(plan, pipeline.analysis(), &file, &content, storey);
                 (self.findings(plan, pipeline.analysis(), &schemes), seen)
             };
-            let found: Vec<(Vec<Finding>, Sighting)> = import.plans.iter().enumerate().map(each).collect();
+            let found: Vec<(Found, Sighting)> = import.plans.iter().enumerate().map(each).collect();
             Ok((import, found))
         };
         let take = |input: &Input, result: Result<Checked, FileError>, terminal: &mut Terminal| {
@@ -96,9 +103,9 @@ impl Subcommand for CheckCommand {
                     return Ok(());
                 }
             };
-            let (found, seen): (Vec<Vec<Finding>>, Vec<Sighting>) = found.into_iter().unzip();
+            let (found, seen): (Vec<Found>, Vec<Sighting>) = found.into_iter().unzip();
             sightings.extend(seen);
-            let checked: Vec<(&Plan, Vec<Finding>)> = import.plans.iter().zip(found).collect();
+            let checked: Vec<(&Plan, Found)> = import.plans.iter().zip(found).collect();
             totals.add(&checked, &import.notes, self.least);
             if self.json {
                 json_files.push(json_file(&input.path, &import, &checked));
@@ -134,19 +141,27 @@ impl Subcommand for CheckCommand {
 }
 
 impl CheckCommand {
-    fn findings(&self, plan: &Plan, analysis: &Analysis, schemes: &Schemes) -> Vec<Finding> {
-        let mut found = check(plan, analysis, schemes);
-        found.retain(|finding| finding.severity() >= self.least);
+    fn findings(&self, plan: &Plan, analysis: &Analysis, schemes: &Schemes) -> Found {
+        let mut found = Found::default();
+        for finding in check(plan, analysis, schemes) {
+            if finding.severity() < self.least {
+                continue;
+            }
+            match finding.ignored_in(plan).map(|ignored| ignored.reason.clone()) {
+                Some(reason) => found.ignored.push((finding, reason)),
+                None => found.open.push(finding),
+            }
+        }
         found
     }
 
     /// The findings of one file, for people; empty if there are none.
-    fn text(&self, path: &Path, import: &Import, checked: &[(&Plan, Vec<Finding>)]) -> String {
+    fn text(&self, path: &Path, import: &Import, checked: &[(&Plan, Found)]) -> String {
         let mut text = String::new();
         let notes = note_groups(&import.notes, self.least);
-        for (place, (plan, findings)) in checked.iter().enumerate() {
+        for (place, (plan, found)) in checked.iter().enumerate() {
             let mut groups: Vec<Group> = if place == 0 { notes.clone() } else { Vec::new() };
-            for finding in findings {
+            for finding in &found.open {
                 let kind = finding.kind();
                 let item = (finding.place().at, finding.what());
                 match groups.last_mut() {
@@ -161,7 +176,7 @@ impl CheckCommand {
                     }),
                 }
             }
-            if groups.is_empty() {
+            if groups.is_empty() && found.ignored.is_empty() {
                 continue;
             }
             // Stable: the reader's notes come first within their severity.
@@ -169,6 +184,15 @@ impl CheckCommand {
             let _ = writeln!(text, "{}", one_line(&heading(path, plan, checked.len())));
             for group in &groups {
                 group.write(&mut text, if self.all { usize::MAX } else { LISTED });
+            }
+            let listed = if self.all { usize::MAX } else { LISTED };
+            for (finding, reason) in found.ignored.iter().take(listed) {
+                let (what, reason) = (one_line(&finding.what()), one_line(reason));
+                let _ = writeln!(text, "  ignored  {}: {what} (because: {reason})", finding.kind().title);
+            }
+            if found.ignored.len() > listed {
+                let _ =
+                    writeln!(text, "           and {} more ignored: --all lists them", found.ignored.len() - listed);
             }
             text.push('\n');
         }
@@ -271,6 +295,8 @@ struct Totals {
     unreadable: usize,
     plans: usize,
     plans_without_findings: usize,
+    /// Findings that plans say to ignore; they count nowhere else.
+    ignored: usize,
     /// Plans that are read again.
     repeats: usize,
     /// Findings, and plans with such, by severity (the worst first), place in the list of kinds, and
@@ -279,14 +305,15 @@ struct Totals {
 }
 
 impl Totals {
-    fn add(&mut self, checked: &[(&Plan, Vec<Finding>)], notes: &[Note], least: Severity) {
+    fn add(&mut self, checked: &[(&Plan, Found)], notes: &[Note], least: Severity) {
         for group in note_groups(notes, least) {
             let total = self.kinds.entry((std::cmp::Reverse(group.severity), 0, group.title)).or_default();
             total.0 += group.items.len();
             total.1 += 1;
         }
-        for (_, findings) in checked {
+        for (_, Found { open: findings, ignored }) in checked {
             self.plans += 1;
+            self.ignored += ignored.len();
             self.plans_without_findings += usize::from(findings.is_empty());
             let mut in_plan: BTreeMap<_, usize> = BTreeMap::new();
             for finding in findings {
@@ -316,6 +343,7 @@ impl Totals {
         for severity in Severity::ALL {
             totals.insert(severity.name().to_owned(), self.by_severity(severity).into());
         }
+        totals.insert("ignored".to_owned(), self.ignored.into());
         totals.into()
     }
 
@@ -339,6 +367,9 @@ impl Totals {
             counted(self.by_severity(Severity::Info), "remark"),
         );
         let _ = write!(text, "; {} without findings", self.plans_without_findings);
+        if self.ignored > 0 {
+            let _ = write!(text, "; {} ignored", counted(self.ignored, "finding"));
+        }
         if self.unreadable > 0 {
             let _ = write!(text, "; {} unreadable", counted(self.unreadable, "file"));
         }
@@ -347,7 +378,7 @@ impl Totals {
     }
 }
 
-fn json_file(path: &Path, import: &Import, checked: &[(&Plan, Vec<Finding>)]) -> Value {
+fn json_file(path: &Path, import: &Import, checked: &[(&Plan, Found)]) -> Value {
     let notes: Vec<Value> = import
         .notes
         .iter()
@@ -357,13 +388,21 @@ fn json_file(path: &Path, import: &Import, checked: &[(&Plan, Vec<Finding>)]) ->
         .collect();
     let plans: Vec<Value> = checked
         .iter()
-        .map(|(plan, findings)| {
+        .map(|(plan, found)| {
+            let ignored = |(finding, reason): &(Finding, String)| {
+                let mut told = json_finding(finding);
+                if let Some(told) = told.as_object_mut() {
+                    told.insert("reason".to_owned(), reason.as_str().into());
+                }
+                told
+            };
             json!({
                 "name": plan.meta().name,
                 "typology": plan.meta().typology.as_ref().map(|typology| typology.as_str()),
                 "rooms": plan.rooms().len(),
                 "openings": plan.openings().len(),
-                "findings": findings.iter().map(json_finding).collect::<Vec<_>>(),
+                "findings": found.open.iter().map(json_finding).collect::<Vec<_>>(),
+                "ignored": found.ignored.iter().map(ignored).collect::<Vec<_>>(),
             })
         })
         .collect();

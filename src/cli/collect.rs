@@ -5,19 +5,18 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use super::batch::{self, Input};
-use super::call::{quoted, sha256};
+use super::call::quoted;
 use super::repeats::report_repeats;
 use super::{CliError, Terminal, inputs};
 use crate::base::wording::count;
 use crate::dataset::fold_table::FoldTable;
 use crate::dataset::folds::{Grouping, building_of, group_of};
-use crate::dataset::repeats::{Repeats, Sighting};
 use crate::dataset::{Collection, LeftOut, RoomNetwork, Row, csv};
 use crate::features::NeighbourLabels;
-use crate::formats::{self, Import, building_name};
+use crate::formats::{self, Import};
+pub use crate::gather::PlansRead;
+use crate::gather::{FileRead, Source, sha256};
 use crate::labels::{Schemes, Typology};
-use crate::pipeline::Pipeline;
-use crate::plan::Plan;
 use crate::plan::titles::first_of;
 
 /// Options of every subcommand that learns from labelled rooms.
@@ -233,45 +232,6 @@ pub fn fold_table(file: &Path) -> Result<FoldTable, CliError> {
     FoldTable::read(std::io::BufReader::new(opened)).map_err(|error| fail(&error))
 }
 
-/// A file that was read.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Source {
-    /// As it was named.
-    pub file: String,
-    /// Of its bytes; empty for a folder.
-    pub sha256: String,
-    pub plans: usize,
-    /// Rooms, with a label or without; rows of a dataset file.
-    pub rooms: usize,
-}
-
-/// Plans that were read, in the order of their paths, each room once.
-#[derive(Default)]
-pub struct PlansRead {
-    pub networks: Vec<RoomNetwork>,
-    /// The same as they are seen when nobody knows their typology, if that was asked for.
-    pub blind: Vec<RoomNetwork>,
-    pub sources: Vec<Source>,
-    /// All that was read, before anything was left out.
-    pub sightings: Vec<Sighting>,
-    pub repeats: Repeats,
-    /// Number of files that could not be read.
-    pub failed: usize,
-}
-
-impl PlansRead {
-    /// What the plans left out.
-    pub fn left_out(&self) -> LeftOut {
-        let mut left_out = LeftOut::default();
-        for network in &self.networks {
-            left_out.add(&network.left_out);
-        }
-        left_out
-    }
-}
-
-type BuildingKey = (Option<Typology>, String);
-
 /// Reads plans; says on stderr what could not be read and what was read twice.
 ///
 /// # Errors
@@ -287,92 +247,18 @@ pub fn read_plans(
     let mut read = PlansRead::default();
     let work = |input: &Input, import: Import| {
         let file = input.path.display().to_string();
-        let content = content_of(&input.path);
-        let each = |(storey, plan): (usize, &Plan)| {
-            let pipeline = Pipeline::new(plan, schemes);
-            let sighting = Sighting::of(plan, pipeline.analysis(), &file, &content, storey);
-            let network = RoomNetwork { file: file.clone(), ..pipeline.network().clone() };
-            let blind = with_blind.then(|| RoomNetwork::without_typology(plan, schemes));
-            (network, blind, sighting)
-        };
-        let plans: Vec<_> = import.plans.iter().enumerate().map(each).collect();
-        let rooms = import.plans.iter().map(|plan| plan.rooms().len()).sum();
-        (Source { file: file.clone(), sha256: content, plans: import.plans.len(), rooms }, plans)
+        FileRead::new(&file, content_of(&input.path), &import.plans, schemes, with_blind)
     };
-    read.failed = batch::for_each_import(&files, "collecting rooms", terminal, work, |_, (source, plans), _| {
-        read.sources.push(source);
-        for (network, blind, sighting) in plans {
-            read.networks.push(network);
-            read.blind.extend(blind);
-            read.sightings.push(sighting);
-        }
+    read.failed = batch::for_each_import(&files, "collecting rooms", terminal, work, |_, file, _| {
+        read.add(file);
         Ok(())
     })?;
-    // The spelling of a building's name sometimes differs between storeys; folds must not split it for
-    // that.
-    let mut spellings: BTreeMap<BuildingKey, String> = BTreeMap::new();
-    for network in &mut read.networks {
-        let key = (network.typology.clone(), building_name::key(&network.building));
-        let first = spellings.entry(key).or_insert_with(|| network.building.clone());
-        network.building.clone_from(first);
-    }
-    read.repeats = Repeats::find(&read.sightings);
+    read.put_together();
     report_repeats(&read.sightings, &read.repeats, keep_repeats, terminal)?;
-    let groups = groups(&read);
-    for (index, group) in groups.into_iter().enumerate() {
-        read.networks[index].group.clone_from(&group);
-        if let Some(blind) = read.blind.get_mut(index) {
-            blind.building.clone_from(&read.networks[index].building);
-            blind.group = group;
-        }
-    }
     if !keep_repeats {
-        leave_out_repeats(&mut read);
+        read.leave_out_repeats();
     }
     Ok(read)
-}
-
-/// What folds must not split, for each plan: its building; where plans of several are alike, these together.
-fn groups(read: &PlansRead) -> Vec<String> {
-    let mut group = read.repeats.groups(read.networks.len());
-    let mut of_building: BTreeMap<BuildingKey, usize> = BTreeMap::new();
-    for (index, network) in read.networks.iter().enumerate() {
-        let key = (network.typology.clone(), network.building.clone());
-        let first = *of_building.entry(key).or_insert(group[index]);
-        let (from, to) = (group[index].max(group[first]), group[index].min(group[first]));
-        // Few groups are ever joined.
-        if from != to {
-            group.iter_mut().filter(|it| **it == from).for_each(|it| *it = to);
-        }
-    }
-    let mut names: BTreeMap<usize, Vec<&str>> = BTreeMap::new();
-    for (network, &group) in read.networks.iter().zip(&group) {
-        let names = names.entry(group).or_default();
-        if !names.contains(&network.building.as_str()) {
-            names.push(&network.building);
-        }
-    }
-    group.iter().map(|group| names[group].join(" + ")).collect()
-}
-
-/// Marks rooms that are read twice, and takes plans away of which no other is left.
-fn leave_out_repeats(read: &mut PlansRead) {
-    for &(plan, room) in read.repeats.left_out.keys() {
-        let id = read.sightings[plan].rooms[room].id;
-        for network in [read.networks.get_mut(plan), read.blind.get_mut(plan)].into_iter().flatten() {
-            if let Some(room) = network.rooms.iter_mut().find(|room| room.id == id) {
-                room.is_repeat = true;
-            }
-        }
-    }
-    let is_kept = |network: &RoomNetwork| network.rooms.is_empty() || network.rooms.iter().any(|room| !room.is_repeat);
-    let kept: Vec<bool> = read.networks.iter().map(is_kept).collect();
-    let retain = |networks: &mut Vec<RoomNetwork>| {
-        let mut kept = kept.iter();
-        networks.retain(|_| kept.next() == Some(&true));
-    };
-    retain(&mut read.networks);
-    retain(&mut read.blind);
 }
 
 /// A hash of a file's bytes; empty for a folder, and for what cannot be read again.

@@ -1,17 +1,18 @@
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::io::Write as _;
 use std::path::PathBuf;
 
 use serde_json::json;
 
-use super::collect::{FoldsFrom, PlansRead, fold_table, grouping, read_plans, report_left_out};
+use super::collect::{FoldsFrom, fold_table, grouping, read_plans, report_left_out};
 use super::features::FeatureOptions;
-use super::manifest::{self, Manifest};
+use super::manifest;
 use super::outputs::Outputs;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
-use crate::dataset::folds::{Grouping, building_of};
-use crate::dataset::{Collection, LeftOut, Row, Statistics, csv, fold_table, schema};
-use crate::labels::{Label, Typology};
+use crate::dataset::folds::Grouping;
+use crate::dataset::{Collection, Row, Statistics, csv, fold_table, schema};
+use crate::gather::dataset::told_of;
+use crate::labels::Typology;
 
 /// `enfilade dataset`: the labelled rooms of many plans.
 #[derive(clap::Args)]
@@ -81,14 +82,10 @@ impl Subcommand for DatasetCommand {
                     FoldsFrom::Count(count) => json!({ "count": count, "by": self.by.name(), "seed": self.seed }),
                     FoldsFrom::File(file) => json!({ "file": file.display().to_string() }),
                 };
-                let table = Manifest::of_table(path, &bytes, rows.len());
+                let table = manifest::of_table(path, &bytes, rows.len());
                 let told = table.with("folds", folds).with("neighbours", json!(self.shared.neighbours.name()));
-                told_of(told, &rows, &read, &left_out).with_schemes(&schemes, &self.shared.scheme).save(
-                    path,
-                    Some(schema()),
-                    &mut outputs,
-                    terminal,
-                )?;
+                let told = told_of(told, &rows, &read, &left_out).with_schemes(&schemes, &self.shared.scheme);
+                manifest::save(told, path, Some(schema()), &mut outputs, terminal)?;
             }
         }
         if self.stats {
@@ -96,35 +93,6 @@ impl Subcommand for DatasetCommand {
         }
         Ok(if read.failed == 0 { Outcome::Done } else { Outcome::InputWrong })
     }
-}
-
-/// A manifest with the counts of rows, and with where they come from.
-fn told_of(manifest: Manifest, rows: &[Row], read: &PlansRead, left_out: &LeftOut) -> Manifest {
-    let plans: BTreeSet<(&str, &str, &str)> =
-        rows.iter().map(|row| (row.file.as_str(), row.plan.as_str(), row.storey.as_str())).collect();
-    let buildings: BTreeSet<(Option<&Typology>, &str)> =
-        rows.iter().map(|row| (row.typology.as_ref(), building_of(row))).collect();
-    let mut labels: BTreeMap<&str, usize> = Label::ALL.iter().map(|label| (label.letter(), 0)).collect();
-    let mut typologies: BTreeMap<&str, usize> = BTreeMap::new();
-    for row in rows {
-        *labels.entry(row.label.letter()).or_default() += 1;
-        *typologies.entry(row.typology.as_ref().map(Typology::as_str).unwrap_or_default()).or_default() += 1;
-    }
-    manifest
-        .with(
-            "counts",
-            json!({
-                "rooms": rows.len(),
-                "plans": plans.len(),
-                "buildings": buildings.len(),
-                "labels": labels,
-                "typologies": typologies,
-                "without_fold": rows.iter().filter(|row| row.fold.is_none()).count(),
-                "files_not_read": read.failed,
-            }),
-        )
-        .with_left_out(left_out)
-        .with_plans(read)
 }
 
 /// Table 2 for each typology and, where there are several, for all.

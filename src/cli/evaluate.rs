@@ -1,15 +1,16 @@
 use std::io::Write as _;
 use std::path::PathBuf;
 
-use super::call::{quoted, sha256};
+use super::call::quoted;
 use super::collect::{CollectOptions, Collected, FoldsFrom, collect, grouping, neighbour_labels};
-use super::manifest::Manifest;
+use super::manifest::{self, Manifest};
 use super::outputs::{Outputs, must_be_folder};
 use super::predictions::save_predictions;
 use super::progress::with_progress;
 use super::{CliError, Outcome, Subcommand, Terminal};
 use crate::dataset::folds::Grouping;
 use crate::features::NeighbourLabels;
+use crate::gather::sha256;
 use crate::study::{About, Options, report, study_with_predictions};
 
 /// `enfilade evaluate`: the paper's study on one's own data.
@@ -89,10 +90,10 @@ impl Subcommand for EvaluateCommand {
             }
         }
         let told = serde_json::to_value(&study.about)?;
-        Manifest::of_folder(files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())))
+        let told = Manifest::of_folder(files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())))
             .with("study", told)
-            .with_plans(&read)
-            .save(&self.output.join("report.csv"), None, &mut outputs, terminal)?;
+            .with_plans(&read);
+        manifest::save(told, &self.output.join("report.csv"), None, &mut outputs, terminal)?;
         if let Some(path) = &self.predictions {
             let rows = collection.rows(NeighbourLabels::True).unwrap_or_default();
             save_predictions(path, &rows, &predictions, self.guard_formulas, &read, &mut outputs, terminal)?;

@@ -5,7 +5,9 @@ use super::batch::Input;
 use super::outputs::{Care, Outputs, is_stdout};
 use super::{CliError, Outcome, Subcommand, Terminal, batch, inputs};
 use crate::formats::registry::ending_of;
-use crate::formats::{Export, Exporter, FORMATS, Format, Holds, Import, NamedPlan, OptionError, Options, manual};
+use crate::formats::{
+    Export, Exporter, FORMATS, Format, Holds, Import, NamedPlan, OptionError, Options, Refused, manual,
+};
 use crate::plan::Plan;
 
 /// The default format of files in a folder.
@@ -65,7 +67,10 @@ impl Subcommand for ExportCommand {
                 match exporter.holds() {
                     Holds::OnePlan => {
                         let plan = NamedPlan { stem: &stem, plan: &plan };
-                        Piece::Written(exporter.write(&[plan], &schemes, &options))
+                        match exporter.write(&[plan], &schemes, &options) {
+                            Ok(export) => Piece::Written(export),
+                            Err(refused) => Piece::Refused(refused),
+                        }
                     }
                     Holds::ManyPlans => Piece::Plan(own, plan),
                 }
@@ -77,13 +82,17 @@ impl Subcommand for ExportCommand {
                 match piece {
                     Piece::Written(export) => writer.save(export, Some((file, storey)), terminal)?,
                     Piece::Plan(stem, plan) => all.push((stem, plan)),
+                    Piece::Refused(refused) => {
+                        return Err(CliError::new(format!("{}: {refused}", file.path.display())));
+                    }
                 }
             }
             Ok(())
         })?;
         if !all.is_empty() {
             let plans: Vec<NamedPlan<'_>> = all.iter().map(|(stem, plan)| NamedPlan { stem, plan }).collect();
-            writer.save(exporter.write(&plans, &schemes, &options), None, terminal)?;
+            let export = exporter.write(&plans, &schemes, &options);
+            writer.save(export.map_err(|refused| CliError::new(refused.to_string()))?, None, terminal)?;
         }
         writer.report_lost(terminal)?;
         Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
@@ -96,6 +105,8 @@ enum Piece {
     Written(Export),
     /// The plan itself, with its stem, to be written with the others.
     Plan(String, Plan),
+    /// It does not suit the options.
+    Refused(Refused),
 }
 
 /// The destination of an export, and its format.

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use super::batch::{self, Input};
 use super::collect::content_of;
-use super::manifest::{self, Manifest};
+use super::manifest;
 use super::outputs::Outputs;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::dataset::{BY_SCHEME, csv::feature_cells};
@@ -86,11 +86,11 @@ impl Subcommand for FeaturesCommand {
         if let Some(path) = self.output.as_deref().filter(|path| !self.json && manifest::is_file(path)) {
             let source =
                 |file: &Input| json!({ "file": file.path.display().to_string(), "sha256": content_of(&file.path) });
-            Manifest::of_table(path, &bytes, rooms_written)
+            let told = manifest::of_table(path, &bytes, rooms_written)
                 .with("neighbours", json!(self.shared.neighbours.name()))
                 .with("sources", files.iter().map(source).collect())
-                .with_schemes(&schemes, &self.shared.scheme)
-                .save(path, None, &mut outputs, terminal)?;
+                .with_schemes(&schemes, &self.shared.scheme);
+            manifest::save(told, path, None, &mut outputs, terminal)?;
         }
         Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
     }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::collect::PlansRead;
-use super::manifest::{self, Manifest};
+use super::manifest;
 use super::outputs::{Care, Outputs};
 use super::{CliError, Terminal};
 use crate::dataset::Row;
@@ -26,7 +26,8 @@ pub fn save_predictions(
     let bytes = csv(rows, predictions, if guard { Guard::On } else { Guard::Off })?;
     outputs.save(path, &bytes, Care::Flushed, terminal)?;
     if manifest::is_file(path) {
-        Manifest::of_table(path, &bytes, predictions.len()).with_plans(read).save(path, None, outputs, terminal)?;
+        let told = manifest::of_table(path, &bytes, predictions.len()).with_plans(read);
+        manifest::save(told, path, None, outputs, terminal)?;
     }
     Ok(())
 }

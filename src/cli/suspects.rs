@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::collect::{CollectOptions, FoldsFrom, collect};
 use super::door::one_line;
-use super::manifest::{self, Manifest};
+use super::manifest;
 use super::outputs::{Care, Outputs};
 use super::progress::with_progress;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
@@ -60,10 +60,10 @@ impl Subcommand for SuspectsCommand {
             let mut outputs = Outputs::new(terminal);
             outputs.save(path, &bytes, Care::Flushed, terminal)?;
             if manifest::is_file(path) {
-                Manifest::of_table(path, &bytes, told.len())
+                let told = manifest::of_table(path, &bytes, told.len())
                     .with_plans(&collected.read)
-                    .with_schemes(&schemes, &self.collect.scheme)
-                    .save(path, None, &mut outputs, terminal)?;
+                    .with_schemes(&schemes, &self.collect.scheme);
+                manifest::save(told, path, None, &mut outputs, terminal)?;
             }
         }
         let most = if self.most == 0 { told.len() } else { self.most.min(told.len()) };

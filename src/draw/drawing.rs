@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use super::elements::{GraphEdge, NODE_RADIUS_PX, RoomDrawing, WallDrawing, painting_order};
 use super::names::Around;
-use super::openings::OpeningDrawing;
+use super::openings::{OpeningDrawing, PlacedOpening};
 use super::scene::{Frame, Group, Item, Layer, Length, PlacedPicture, Scene, View};
 use super::tangle::one_line_in;
 use super::tile_grid::TileGrid;
@@ -224,6 +224,16 @@ impl Drawing {
     pub fn swing_of(&self, id: OpeningId) -> Option<Swing> {
         let index = self.openings.binary_search_by_key(&id, |opening| opening.id).ok()?;
         self.openings[index].swing()
+    }
+
+    /// What the leaves of doors swing through: hinge, end of the closed leaf, end of the open leaf.
+    pub fn sweeps(&self) -> impl Iterator<Item = (OpeningId, [Point; 3])> + '_ {
+        self.openings.iter().flat_map(|opening| opening.sweeps().map(|sweep| (opening.id, sweep)))
+    }
+
+    /// The openings as they are drawn, by id.
+    pub fn placed_openings(&self) -> impl ExactSizeIterator<Item = PlacedOpening> + '_ {
+        self.openings.iter().map(OpeningDrawing::placed)
     }
 
     /// The scene in a view. Only names are culled outside the view: panning at the same zoom just moves

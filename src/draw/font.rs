@@ -91,6 +91,11 @@ impl Font {
         outline.steps
     }
 
+    /// The number of a character's glyph in the font file; `None` if the font does not have it.
+    pub(super) fn glyph_number(&self, character: char) -> Option<u16> {
+        self.glyph(character).map(|glyph| glyph.0)
+    }
+
     fn glyph(&self, character: char) -> Option<GlyphId> {
         self.face.as_ref()?.glyph_index(character)
     }

@@ -1,11 +1,11 @@
-//! A scene of shapes with units and colours, and its painters: PNG and SVG. The window paints the same
+//! A scene of shapes with units and colours, and its painters: PNG, SVG and PDF. The window paints the same
 //! scene.
 //!
 //! ```text
 //! Plan + Analysis ─> Drawing (walls joined, openings cut, symbols; no zoom, no colours)
 //!                      │ + Style + View
 //!                      v
-//!                    Scene ─> PNG, SVG, the window
+//!                    Scene ─> PNG, SVG, PDF, the window
 //! ```
 //!
 //! A [`Drawing`] is made once per plan; a [`Scene`] once per view.
@@ -18,6 +18,8 @@ pub mod line_map;
 mod names;
 mod openings;
 pub mod palette;
+pub mod paper;
+pub mod pdf;
 pub mod png;
 pub mod scene;
 pub mod sheet;
@@ -30,6 +32,7 @@ mod walls;
 
 pub use colour::Rgba;
 pub use drawing::Drawing;
+pub use openings::PlacedOpening;
 pub use palette::{LabelColours, Palette, Theme};
 pub use scene::{Anchor, Dash, Frame, Group, Item, Layer, Length, Scene, Text, View, Weight};
 pub use style::{Fill, Grid, Layers, SMALLEST_TEXT_PX, Style};

@@ -32,6 +32,25 @@ pub(super) struct OpeningDrawing {
     leaves: Vec<Leaf>,
 }
 
+/// An opening as it is drawn: moved into its wall, its doors hung. For writers that draw it themselves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedOpening {
+    pub id: OpeningId,
+    pub kind: OpeningKind,
+    /// Its middle, on the axis of its wall.
+    pub centre: Point,
+    /// Unit vector along the wall.
+    pub along: Vector,
+    /// Clear width in metres.
+    pub width_m: f64,
+    /// Distances of the wall's faces from `centre` along the left-hand normal: of the right one (negative), and of the
+    /// left one.
+    pub right_m: f64,
+    pub left_m: f64,
+    /// The leaves of a door: hinge, end of the closed leaf, end of the open leaf. None for one that slides.
+    pub leaves: Vec<[Point; 3]>,
+}
+
 /// A door's leaf, open at 90 degrees.
 #[derive(Clone, Copy)]
 struct Leaf {
@@ -212,6 +231,25 @@ impl OpeningDrawing {
         let leaf = self.leaves.first()?;
         let side = if (leaf.tip - leaf.hinge).dot(self.normal()) >= 0.0 { LeafSide::Left } else { LeafSide::Right };
         Some(Swing { hinge_at_start: (leaf.shut - leaf.hinge).dot(self.along) > 0.0, side })
+    }
+
+    /// Its place and leaves.
+    pub fn placed(&self) -> PlacedOpening {
+        PlacedOpening {
+            id: self.id,
+            kind: self.kind,
+            centre: self.centre,
+            along: self.along,
+            width_m: 2.0 * self.half_width,
+            right_m: self.faces.0,
+            left_m: self.faces.1,
+            leaves: self.sweeps().collect(),
+        }
+    }
+
+    /// Whether one can walk through it.
+    pub const fn is_passable(&self) -> bool {
+        self.kind.is_passable()
     }
 
     /// Unit vector to the left of `along`.

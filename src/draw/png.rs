@@ -14,7 +14,7 @@ use super::font::{Font, Step};
 use super::scene::{Anchor, Dash, Frame, Group, Item, Layer, Length, PlacedPicture, Scene, Text, View, Weight};
 use crate::geometry::polygon::edges;
 use crate::geometry::{Bounds, Point, Vector};
-use crate::picture::png::{PictureError, encode_pixmap};
+use crate::picture::png::{FAST, Packing, PictureError, encode_pixmap, encode_pixmap_packed};
 
 /// The largest side of a picture: 256 MiB of memory while painting.
 pub const LARGEST_SIDE_PX: u32 = 8192;
@@ -25,6 +25,14 @@ pub const LARGEST_SIDE_PX: u32 = 8192;
 /// As [`paint`].
 pub fn png(scene: &Scene) -> Result<Vec<u8>, PictureError> {
     encode_pixmap(&paint(scene)?)
+}
+
+/// The same, with the size of a pixel when printed: so many to the metre.
+///
+/// # Errors
+/// As [`paint`].
+pub fn png_to_print(scene: &Scene, dots_per_m: u32) -> Result<Vec<u8>, PictureError> {
+    encode_pixmap_packed(&paint(scene)?, Packing { dots_per_m: Some(dots_per_m), ..FAST })
 }
 
 /// Renders the scene to pixels.

@@ -137,7 +137,14 @@ pub fn page(drawing: &Drawing, style: &Style, size: PageSize, furniture: Furnitu
     scene
 }
 
-fn text_item(at: Point, content: String, size_px: f64, weight: Weight, colour: Rgba, anchor: Anchor) -> Item {
+pub(super) fn text_item(
+    at: Point,
+    content: String,
+    size_px: f64,
+    weight: Weight,
+    colour: Rgba,
+    anchor: Anchor,
+) -> Item {
     Item::Text(Text {
         at,
         offset_px: Vector::default(),
@@ -152,7 +159,7 @@ fn text_item(at: Point, content: String, size_px: f64, weight: Weight, colour: R
 }
 
 /// A text cut with an ellipsis if it is wider than `width_px`.
-fn fitted_text(text: &str, weight: Weight, size_px: f64, width_px: f64) -> String {
+pub(super) fn fitted_text(text: &str, weight: Weight, size_px: f64, width_px: f64) -> String {
     let font = Font::of(weight);
     if font.width_px(text, size_px) <= width_px {
         return text.to_owned();
@@ -200,13 +207,13 @@ fn title_height(lines: &[(String, Weight, f64)], text: f64) -> f64 {
         .sum()
 }
 
-struct Entry {
-    colour: Rgba,
-    text: String,
+pub(super) struct Entry {
+    pub colour: Rgba,
+    pub text: String,
 }
 
 /// The meanings of the fills, with the number of rooms of each.
-fn legend_entries(drawing: &Drawing, style: &Style) -> Vec<Entry> {
+pub(super) fn legend_entries(drawing: &Drawing, style: &Style) -> Vec<Entry> {
     let palette = style.palette();
     match style.fill {
         Fill::None => Vec::new(),
@@ -250,8 +257,8 @@ fn legend_entries(drawing: &Drawing, style: &Style) -> Vec<Entry> {
 
 /// Height of a legend row, height of the scale bar with its figures, and width reserved for the bar, as
 /// factors of the text size.
-const ROW: f64 = 1.7;
-const SCALE_HEIGHT: f64 = 2.4;
+pub(super) const ROW: f64 = 1.7;
+pub(super) const SCALE_HEIGHT: f64 = 2.4;
 const SCALE_WIDTH: f64 = 15.0;
 
 /// The most rows in a legend; the rest is counted in a last entry.
@@ -293,7 +300,7 @@ impl Band {
 }
 
 /// The entries' indices, row by row.
-fn legend_rows(entries: &[Entry], free: f64, text: f64) -> Vec<Vec<usize>> {
+pub(super) fn legend_rows(entries: &[Entry], free: f64, text: f64) -> Vec<Vec<usize>> {
     let mut rows: Vec<Vec<usize>> = Vec::new();
     let mut used = f64::INFINITY;
     for (i, entry) in entries.iter().enumerate() {
@@ -382,7 +389,7 @@ pub fn scale_bar_m(px_per_m: f64, longest_px: f64) -> f64 {
 }
 
 /// A bar in four pieces, every other one filled, with figures above; `foot` is its lower left corner.
-fn scale_bar(palette: &Palette, view: &View, foot: Point, text: f64) -> Vec<Item> {
+pub(super) fn scale_bar(palette: &Palette, view: &View, foot: Point, text: f64) -> Vec<Item> {
     let length_m = scale_bar_m(view.px_per_m, (SCALE_WIDTH - 2.5) * text);
     let length = length_m * view.px_per_m;
     let height = (0.45 * text).round().max(3.0);

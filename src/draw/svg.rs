@@ -15,10 +15,20 @@ const FONTS: &str = "Inter,'Helvetica Neue',Helvetica,Arial,sans-serif";
 
 /// Renders the scene to an SVG document.
 pub fn svg(scene: &Scene) -> String {
+    let (width, height) = (number(scene.view.width_px), number(scene.view.height_px));
+    document(scene, &width, &height)
+}
+
+/// The same, of a size in millimetres when printed.
+pub fn svg_in_mm(scene: &Scene, [width_mm, height_mm]: [f64; 2]) -> String {
+    document(scene, &format!("{}mm", number(width_mm)), &format!("{}mm", number(height_mm)))
+}
+
+fn document(scene: &Scene, shown_width: &str, shown_height: &str) -> String {
     let view = &scene.view;
     let (width, height) = (number(view.width_px), number(view.height_px));
     let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{shown_width}\" height=\"{shown_height}\" viewBox=\"0 0 {width} {height}\" \
          font-family=\"{FONTS}\">\n"
     );
     if scene.background.a > 0 {

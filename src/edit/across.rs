@@ -1,6 +1,6 @@
 //! Edits of the rooms at a given place.
 
-use crate::edit::{EditError, split_room};
+use crate::edit::{EditError, split_room_by};
 use crate::geometry::{
     Bounds, Point, Segment, TOUCH_M,
     polygon::{self, Location},
@@ -8,18 +8,22 @@ use crate::geometry::{
 use crate::plan::{Plan, RoomId};
 use crate::topology::{RoomShape, RoomShapes};
 
-/// Splits every room that a path crosses from boundary to boundary, without adding walls; see
-/// [`split_room`]. Returns the plan and the new rooms.
+/// Splits every room that a path crosses from boundary to boundary; with a thickness in metres, by walls. See
+/// [`split_room_by`]. Returns the plan and the new rooms.
 ///
 /// # Errors
-/// When it crosses no room.
-pub fn split_rooms(plan: &Plan, path: &[Point]) -> Result<(Plan, Vec<RoomId>), EditError> {
+/// When it crosses no room, or the thickness is not within 0..=10 m.
+pub fn split_rooms(
+    plan: &Plan,
+    path: &[Point],
+    wall_thickness_m: Option<f64>,
+) -> Result<(Plan, Vec<RoomId>), EditError> {
     let shapes = RoomShapes::new(plan);
     let near = shapes.near(Bounds::of(path.iter().copied()));
     let (mut next, mut made) = (plan.clone(), Vec::new());
     let mut reason = EditError("the line crosses no room from boundary to boundary".to_owned());
     for index in near {
-        match split_room(&next, shapes.all()[index].id, path) {
+        match split_room_by(&next, shapes.all()[index].id, path, wall_thickness_m) {
             Ok((divided, rooms)) => {
                 next = divided;
                 made.extend(rooms);

@@ -3,58 +3,56 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use crate::edit::moving::{corners_of, mirror_swing};
+use crate::edit::moving::mirror_swing;
 use crate::edit::overlay::{Overlay, overlay_paths};
+use crate::edit::picked::Part;
+use crate::edit::refit::{Refitted, beside_each_other};
 use crate::edit::split::nearest_part;
 use crate::edit::{EditError, add_opening, add_room, add_wall, fail};
 use crate::geometry::{Point, Segment, TOUCH_M, Transform, Vector, trim_m};
-use crate::plan::{
-    CornerId, ElementId, Joint, Opening, OpeningId, Place, Plan, Room, RoomId, WallId, ordered, ring_edges,
-};
+use crate::plan::{CornerId, ElementId, Joint, Opening, Place, Plan, Room, RoomId, WallId, ordered, ring_edges};
 
-/// Extracts elements of a plan as a plan of their own: for the clipboard, or to insert elsewhere.
-/// Openings on the edges of selected walls and rooms are included; an opening selected without its wall
-/// becomes a free one. Openings stay pinned if both sides are included or outside.
+/// Extracts elements of a plan as a plan of their own: for the clipboard, or to insert elsewhere. Rooms come with
+/// the walls along their boundaries and in them, and everything with its openings, shared ones included, see
+/// [`Part`]; an opening selected without its wall becomes a free one. Openings stay pinned if both sides are
+/// included or outside.
 ///
 /// # Errors
 /// When an element does not exist, or none is selected.
 pub fn fragment(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<Plan, EditError> {
-    let mut part = Plan::default();
-    for id in corners_of(plan, elements)? {
+    let mut copied = Plan::default();
+    let part = Part::of(plan, elements)?;
+    for id in part.corners {
         if let Some(corner) = plan.corner(id) {
-            part.corners.insert(id, corner.clone());
+            copied.corners.insert(id, corner.clone());
         }
     }
-    for element in elements {
-        match element {
-            ElementId::Wall(id) => part.walls.extend(plan.wall(*id).map(|wall| (*id, wall.clone()))),
-            ElementId::Room(id) => part.rooms.extend(plan.rooms.get(id).map(|room| (*id, Arc::clone(room)))),
-            ElementId::Corner(_) | ElementId::Opening(_) => {}
-        }
+    for id in part.walls.union(&part.shared_walls) {
+        copied.walls.extend(plan.wall(*id).map(|wall| (*id, wall.clone())));
     }
-    let edges: BTreeSet<[CornerId; 2]> = crate::edit::overlay::plan_edges(&part).map(|(a, b)| ordered(a, b)).collect();
+    for id in &part.rooms {
+        copied.rooms.extend(plan.rooms.get(id).map(|room| (*id, Arc::clone(room))));
+    }
     for (id, opening) in plan.openings() {
-        let chosen = elements.contains(&ElementId::Opening(id));
+        let comes_along = part.openings.contains(&id) || part.shared_openings.contains(&id);
         let mut opening = opening.clone();
-        match opening.place {
-            Place::Hosted { from, to, .. } if edges.contains(&ordered(from, to)) => {}
-            Place::Free { .. } if chosen => {}
-            Place::Hosted { .. } if chosen => {
-                let Some(Segment { a, b }) = plan.opening_segment(&opening) else { continue };
-                opening.place = Place::Free { from: a.trimmed(), to: b.trimmed() };
+        if !comes_along {
+            if !elements.contains(&ElementId::Opening(id)) {
+                continue;
             }
-            _ => continue,
+            let Some(Segment { a, b }) = plan.opening_segment(&opening) else { continue };
+            opening.place = Place::Free { from: a.trimmed(), to: b.trimmed() };
         }
-        let comes = |joint: &Joint| joint.room().is_none_or(|room| part.rooms.contains_key(&room));
+        let comes = |joint: &Joint| joint.room().is_none_or(|room| copied.rooms.contains_key(&room));
         if !opening.pinned.iter().flatten().all(comes) {
             opening.pinned = None;
         }
-        part.openings.insert(id, Arc::new(opening));
+        copied.openings.insert(id, Arc::new(opening));
     }
-    if part.is_empty() {
+    if copied.is_empty() {
         return fail("choose what to copy");
     }
-    Ok(part)
+    Ok(copied)
 }
 
 /// Inserts a fragment of a plan, transformed, and returns its elements in the new plan. Corners are
@@ -64,6 +62,18 @@ pub fn fragment(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<Plan, Edi
 /// # Errors
 /// When something falls outside the drawing area, or a room or wall would become too small.
 pub fn insert(plan: &Plan, fragment: &Plan, transform: Transform) -> Result<(Plan, BTreeSet<ElementId>), EditError> {
+    insert_fitted(plan, fragment, transform).map(|(plan, placed, _)| (plan, placed))
+}
+
+/// As [`insert`]; also says what became of openings that would have stood where others do.
+///
+/// # Errors
+/// As [`insert`].
+pub fn insert_fitted(
+    plan: &Plan,
+    fragment: &Plan,
+    transform: Transform,
+) -> Result<(Plan, BTreeSet<ElementId>, Vec<Refitted>), EditError> {
     let place = |id: CornerId| fragment.position(id).map(|point| transform.point(point));
     // Each edge is overlaid once, from its smaller corner to its larger.
     let edges: BTreeSet<[CornerId; 2]> =
@@ -142,6 +152,9 @@ pub fn insert(plan: &Plan, fragment: &Plan, transform: Transform) -> Result<(Pla
     for (id, opening) in fragment.openings() {
         let mut copy = opening.clone();
         copy.place = opening_place(fragment, &next, opening, transform, chain)?;
+        if stands_there(plan, &next, &copy) {
+            continue;
+        }
         mirror_swing(&mut copy, transform);
         let room =
             |joint: Joint| joint.room().and_then(|room| room_of.get(&room)).map_or(Joint::Outside, |&r| Joint::Room(r));
@@ -156,7 +169,26 @@ pub fn insert(plan: &Plan, fragment: &Plan, transform: Transform) -> Result<(Pla
         }
         placed.insert(ElementId::Opening(kept));
     }
-    Ok((next, placed))
+    let openings = placed.iter().filter_map(|one| if let ElementId::Opening(id) = one { Some(*id) } else { None });
+    let (next, refitted) = beside_each_other(next, openings.collect::<Vec<_>>());
+    placed.retain(|&element| next.has(element));
+    Ok((next, placed, refitted))
+}
+
+/// Openings of a kind this close together, in metres, are one.
+const SAME_OPENING_M: f64 = 0.05;
+
+/// Whether an opening of the plan is where a copy of its kind would be: a wall that two copies share has one door.
+fn stands_there(before: &Plan, next: &Plan, copy: &Opening) -> bool {
+    let Place::Hosted { from, to, .. } = copy.place else { return false };
+    let middle = |opening: &Opening| next.opening_segment(opening).map(Segment::midpoint);
+    let Some(at) = middle(copy) else { return false };
+    next.openings().filter(|(id, _)| before.opening(*id).is_some()).any(|(_, other)| match other.place {
+        Place::Hosted { from: p, to: q, .. } if ordered(p, q) == ordered(from, to) => {
+            other.kind == copy.kind && middle(other).is_some_and(|other| other.distance(at) <= SAME_OPENING_M)
+        }
+        _ => false,
+    })
 }
 
 /// Where an opening of a fragment goes in the plan that now has its edges.
@@ -228,31 +260,55 @@ pub fn array(
     elements: &BTreeSet<ElementId>,
     array: Array,
 ) -> Result<(Plan, BTreeSet<ElementId>), EditError> {
-    let count = match array {
-        Array::Grid { columns, rows, .. } => columns.saturating_mul(rows),
-        Array::Polar { count, .. } => count,
-    };
-    if !(2..=COPIES_LIMIT).contains(&count) {
-        return fail(format!("an array has between 2 and {COPIES_LIMIT} places, not {count}"));
-    }
-    let fragment = fragment(plan, elements)?;
-    let mut next = plan.clone();
-    let mut copies = BTreeSet::new();
-    for i in 1..count {
-        let transform = match array {
-            Array::Grid { columns, column_step, row_step, .. } => {
+    array_fitted(plan, elements, array).map(|(plan, copies, _)| (plan, copies))
+}
+
+impl Array {
+    /// Where the copies go, without the original.
+    ///
+    /// # Errors
+    /// When there would be no copies or more than 10,000.
+    pub fn places(self) -> Result<Vec<Transform>, EditError> {
+        let count = match self {
+            Self::Grid { columns, rows, .. } => columns.saturating_mul(rows),
+            Self::Polar { count, .. } => count,
+        };
+        if !(2..=COPIES_LIMIT).contains(&count) {
+            return fail(format!("an array has between 2 and {COPIES_LIMIT} places, not {count}"));
+        }
+        let place = |i: usize| match self {
+            Self::Grid { columns, column_step, row_step, .. } => {
                 let (column, row) = (i % columns, i / columns);
                 Transform::translation(column_step * column as f64 + row_step * row as f64)
             }
-            Array::Polar { about, step_rad, .. } => Transform::rotation(about, step_rad * i as f64),
+            Self::Polar { about, step_rad, .. } => Transform::rotation(about, step_rad * i as f64),
         };
-        let (with_copy, placed) = insert(&next, &fragment, transform)?;
+        Ok((1..count).map(place).collect())
+    }
+}
+
+/// As [`array`]; also says what became of openings that would have stood where others do.
+///
+/// # Errors
+/// As [`array`].
+pub fn array_fitted(
+    plan: &Plan,
+    elements: &BTreeSet<ElementId>,
+    array: Array,
+) -> Result<(Plan, BTreeSet<ElementId>, Vec<Refitted>), EditError> {
+    let places = array.places()?;
+    let fragment = fragment(plan, elements)?;
+    let mut next = plan.clone();
+    let mut copies = BTreeSet::new();
+    let mut refitted = Vec::new();
+    for transform in places {
+        let (with_copy, placed, fitted) = insert_fitted(&next, &fragment, transform)?;
         next = with_copy;
         copies.extend(placed);
+        refitted.extend(fitted);
     }
     // Splitting removes nothing, but walls of the original may be among those met again.
     copies.retain(|element| !elements.contains(element));
-    let exists = |id: &OpeningId| next.opening(*id).is_some();
-    copies.retain(|element| if let ElementId::Opening(id) = element { exists(id) } else { true });
-    Ok((next, copies))
+    copies.retain(|&element| next.has(element));
+    Ok((next, copies, refitted))
 }

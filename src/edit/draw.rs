@@ -78,6 +78,19 @@ pub fn draw_room(plan: &Plan, outer: &[Point], wall_thickness_m: Option<f64>) ->
 /// # Errors
 /// When the room does not exist, or the path does not cross it from boundary to boundary.
 pub fn split_room(plan: &Plan, room: RoomId, path: &[Point]) -> Result<(Plan, Vec<RoomId>), EditError> {
+    split_room_by(plan, room, path, None)
+}
+
+/// As [`split_room`]; with a thickness in metres, walls are added along the line where it divides the room.
+///
+/// # Errors
+/// As [`split_room`], and when the thickness is not within 0..=10 m.
+pub fn split_room_by(
+    plan: &Plan,
+    room: RoomId,
+    path: &[Point],
+    wall_thickness_m: Option<f64>,
+) -> Result<(Plan, Vec<RoomId>), EditError> {
     edit::require_room(plan, room)?;
     let Overlay { plan: overlaid, chains } = overlay_paths(plan, &[path.to_vec()])?;
     let chain = chains.into_iter().next().unwrap_or_default();
@@ -86,7 +99,32 @@ pub fn split_room(plan: &Plan, room: RoomId, path: &[Point]) -> Result<(Plan, Ve
     if rooms.is_empty() {
         return fail("the line must cross the room from boundary to boundary");
     }
-    Ok((without_leftovers(plan, &next, added(plan, &chain)), rooms))
+    let next = without_leftovers(plan, &next, added(plan, &chain));
+    let parts = rooms.iter().copied().chain([room]);
+    Ok((with_walls_within(plan, room, &next, &chain, parts, wall_thickness_m)?, rooms))
+}
+
+/// Adds walls along a chain of corners, where it bounds one of the parts that a room was divided into and did
+/// not bound the room.
+fn with_walls_within(
+    before: &Plan,
+    room: RoomId,
+    plan: &Plan,
+    chain: &[CornerId],
+    parts: impl Iterator<Item = RoomId>,
+    wall_thickness_m: Option<f64>,
+) -> Result<Plan, EditError> {
+    let (Some(thickness_m), Some(whole)) = (wall_thickness_m, before.room(room)) else { return Ok(plan.clone()) };
+    let inside = Inside::new(before, whole);
+    let bounds: BTreeSet<[CornerId; 2]> = parts.filter_map(|id| plan.room(id)).flat_map(room_edges).collect();
+    let mut next = plan.clone();
+    for pair in chain.windows(2) {
+        let middle = plan.position(pair[0]).zip(plan.position(pair[1])).map(|(a, b)| a.midpoint(b));
+        if bounds.contains(&ordered(pair[0], pair[1])) && middle.is_some_and(|middle| inside.holds(middle)) {
+            next = add_walls(&next, &[(pair, thickness_m)])?.0;
+        }
+    }
+    Ok(next)
 }
 
 /// Cuts an area out of a room: a courtyard or a shaft becomes a hole, or a notch at the boundary. If the
@@ -96,6 +134,19 @@ pub fn split_room(plan: &Plan, room: RoomId, path: &[Point]) -> Result<(Plan, Ve
 /// When the room does not exist, the boundary crosses itself or encloses nothing, the area lies outside
 /// the room, or nothing of the room would be left.
 pub fn cut_out(plan: &Plan, room: RoomId, outer: &[Point]) -> Result<Plan, EditError> {
+    cut_out_by(plan, room, outer, None)
+}
+
+/// As [`cut_out`]; with a thickness in metres, walls are added along what becomes boundary of the room.
+///
+/// # Errors
+/// As [`cut_out`], and when the thickness is not within 0..=10 m.
+pub fn cut_out_by(
+    plan: &Plan,
+    room: RoomId,
+    outer: &[Point],
+    wall_thickness_m: Option<f64>,
+) -> Result<Plan, EditError> {
     edit::require_room(plan, room)?;
     let (overlaid, ring) = overlay_ring(plan, outer)?;
     let Some(shape) = overlaid.room(room) else { return Ok(overlaid) };
@@ -120,9 +171,11 @@ pub fn cut_out(plan: &Plan, room: RoomId, outer: &[Point]) -> Result<Plan, EditE
     if left.is_empty() {
         return fail("nothing of the room would be left");
     }
-    let (next, _) = replace_by_parts(room, &faces, &left)?;
+    let (next, new_rooms) = replace_by_parts(room, &faces, &left)?;
     let boundary = shape.rings().flat_map(|ring| ring.iter().copied());
-    Ok(without_leftovers(plan, &next, added(plan, &ring).chain(boundary)))
+    let next = without_leftovers(plan, &next, added(plan, &ring).chain(boundary));
+    let parts = new_rooms.into_iter().chain([room]);
+    with_walls_within(plan, room, &next, &closed(&ring), parts, wall_thickness_m)
 }
 
 /// A room's name in messages.

@@ -10,6 +10,7 @@ use i_overlay::float::single::SingleFloatOverlay as _;
 
 use crate::edit::draw::{Inside, without_leftovers};
 use crate::edit::free_space::{OverlayArea, oriented, overlay_area};
+use crate::edit::heal::healed;
 use crate::edit::{self, EditError, fail};
 use crate::geometry::areas::{self, Ring, Shapes};
 use crate::geometry::runs::NOTCH_M;
@@ -92,7 +93,8 @@ pub fn merge_rooms(plan: &Plan, rooms: &[RoomId]) -> Result<Plan, EditError> {
     gone.extend(between.into_iter().map(ElementId::Opening));
     next = edit::remove(&next, &gone)?;
     corners.extend(parts.iter().filter_map(|part| plan.room(part.id)).flat_map(Room::rings).flat_map(|r| r.to_vec()));
-    Ok(without_leftovers(plan, &repinned(&next, &merged, largest.id), corners))
+    let next = without_leftovers(plan, &repinned(&next, &merged, largest.id), corners.iter().copied());
+    Ok(healed(next, corners))
 }
 
 /// Pins what was pinned to merged rooms to the remaining one.

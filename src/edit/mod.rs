@@ -2,55 +2,67 @@
 //! says what is in the way; the given plan is never changed.
 
 mod across;
+mod along;
 mod bridge;
 mod calibration;
 mod copy;
+mod dragging;
 mod draw;
 mod fill;
 mod free_space;
 pub mod guides;
+mod heal;
+pub mod ignore;
 mod merge;
 mod moving;
 pub mod naming;
 mod offset;
 mod openings;
 pub(crate) mod overlay;
+mod picked;
+mod refit;
+mod removing;
 pub(crate) mod split;
 mod square_up;
 pub mod storey;
 mod weld;
 
-use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
 
 use crate::geometry::{COORDINATE_LIMIT_M, Point, trim_m};
 use crate::plan::{
-    Backdrop, Corner, CornerId, ElementId, Joint, Meta, Opening, OpeningId, Place, Plan, Room, RoomId, RoomLabel, Wall,
-    WallId,
+    Backdrop, Corner, CornerId, Joint, Meta, Opening, OpeningId, Place, Plan, Room, RoomId, RoomLabel, Wall, WallId,
     builder::{new_corner_id, new_opening_id, new_room_id, new_wall_id},
-    ordered, ring_edges,
 };
 
 pub use across::{Across, room_around, split_rooms, straight_across};
+pub use along::{
+    Beside, End, NARROWEST_OPENING_M, beside_opening, change_swing, next_swing, set_opening_distance, set_wall_length,
+    stretch_opening,
+};
 pub use bridge::bridge_gaps;
 pub use calibration::{
     Calibration, DrawingMoves, UNMEASURED_METRES_PER_PIXEL, move_picture, set_measurements, straightening_rad,
     turn_picture,
 };
-pub use copy::{Array, array, copy_elements, fragment, insert};
-pub use draw::{Drawn, cut_out, draw_room, draw_walls, split_room};
+pub use copy::{Array, array, array_fitted, copy_elements, fragment, insert, insert_fitted};
+pub use dragging::{Reach, WallDrag, drag_corners, move_corners};
+pub use draw::{Drawn, cut_out, cut_out_by, draw_room, draw_walls, split_room, split_room_by};
 pub use fill::{Filled, fill_all, fill_at};
 pub use free_space::{DrawnInFreeSpace, GAP_BETWEEN_ROOMS_M, draw_room_in_free_space};
 pub use merge::merge_rooms;
-pub use moving::{Alignment, align, corners_of, distribute, move_elements, set_thickness};
-pub use offset::{offset_room, offset_walls};
+pub use moving::{Alignment, align, distribute, move_elements, move_picked, set_thickness, transform_elements};
+pub use offset::{lines_to_offset, offset_paths, offset_room, offset_walls};
 pub use openings::{
     OpeningPreview, flip_hinge, flip_side, opening_at, opening_on, opening_preview, place_opening, resize_opening,
     set_opening_kind, set_swing, slide_opening,
 };
+pub use picked::{Part, corners_of};
+pub use refit::{Changed, Refit, Refitted};
+pub use removing::{remove, removed_with, rooms_joined_by};
 pub use square_up::square_up;
-pub use weld::{Weld, settle, weld};
+pub use weld::{Weld, settle, weld, weld_corners};
 
 /// Why an edit failed, worded for the status line.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -96,42 +108,6 @@ pub fn add_corner(plan: &Plan, point: Point) -> Result<(Plan, CornerId), EditErr
     let mut next = plan.clone();
     next.corners.insert(id, Corner { position, extra: None });
     Ok((next, id))
-}
-
-/// Moves corners, and with them every wall, room and hosted opening that uses them. An opening keeps its
-/// distance from the first corner of its edge, as far as the edge allows.
-///
-/// # Errors
-/// When a corner does not exist, a target lies outside the drawing area, or an edge hosting an opening
-/// would lose its length.
-pub fn move_corners(plan: &Plan, targets: &[(CornerId, Point)]) -> Result<Plan, EditError> {
-    let mut next = plan.clone();
-    let mut moved = BTreeSet::new();
-    for &(id, point) in targets {
-        let position = checked_position(point)?;
-        let Some(corner) = next.corners.get_mut(&id) else { return fail(format!("the corner {id} does not exist")) };
-        corner.position = position;
-        moved.insert(id);
-    }
-    let touched: Vec<OpeningId> = plan
-        .openings
-        .iter()
-        .filter(|(_, opening)| matches!(opening.place, Place::Hosted { from, to, .. } if moved.contains(&from) || moved.contains(&to)))
-        .map(|(&id, _)| id)
-        .collect();
-    for id in touched {
-        let Some(shared) = next.openings.get_mut(&id) else { continue };
-        let opening = Arc::make_mut(shared);
-        if let Place::Hosted { from, to, at_m, .. } = &mut opening.place {
-            let (Some(a), Some(b)) = (next.corners.get(from), next.corners.get(to)) else { continue };
-            let length = a.position.distance(b.position);
-            if length <= 0.0 {
-                return fail(format!("the wall of the opening {id} would lose its length"));
-            }
-            *at_m = trim_m(at_m.min(length));
-        }
-    }
-    Ok(next)
 }
 
 /// Adds a wall between two corners.
@@ -208,126 +184,6 @@ pub fn add_opening(plan: &Plan, opening: Opening) -> Result<(Plan, OpeningId), E
     let mut next = plan.clone();
     next.openings.insert(id, Arc::new(opening));
     Ok((next, id))
-}
-
-/// What removing elements would also remove: the walls, rooms and openings that use a removed corner, the
-/// openings whose edge belongs to no wall or room any more, and unused corners. Sorted; includes the
-/// given elements.
-pub fn removed_with(plan: &Plan, elements: &[ElementId]) -> BTreeSet<ElementId> {
-    let mut gone: BTreeSet<ElementId> = elements.iter().copied().collect();
-    let corner_gone = |gone: &BTreeSet<ElementId>, corner: &CornerId| gone.contains(&ElementId::Corner(*corner));
-    for (id, wall) in plan.walls() {
-        if corner_gone(&gone, &wall.from) || corner_gone(&gone, &wall.to) {
-            gone.insert(ElementId::Wall(id));
-        }
-    }
-    for (id, room) in plan.rooms() {
-        if room.rings().flat_map(|ring| ring.iter()).any(|corner| corner_gone(&gone, corner)) {
-            gone.insert(ElementId::Room(id));
-        }
-    }
-    // Edges and corners that are still used.
-    let mut edges: BTreeSet<[CornerId; 2]> = BTreeSet::new();
-    let mut used: BTreeSet<CornerId> = BTreeSet::new();
-    for (id, wall) in plan.walls() {
-        if !gone.contains(&ElementId::Wall(id)) {
-            edges.insert(ordered(wall.from, wall.to));
-            used.extend([wall.from, wall.to]);
-        }
-    }
-    for (id, room) in plan.rooms() {
-        if !gone.contains(&ElementId::Room(id)) {
-            for ring in room.rings() {
-                edges.extend(ring_edges(ring).map(|(a, b)| ordered(a, b)));
-                used.extend(ring.iter().copied());
-            }
-        }
-    }
-    // Only what loses its support is removed: a free-standing corner, or an opening whose edge never
-    // belonged to anything, stays unless it is given.
-    let mut edges_before: BTreeSet<[CornerId; 2]> = edges.clone();
-    let mut losing: BTreeSet<CornerId> = BTreeSet::new();
-    for element in &gone {
-        match element {
-            ElementId::Wall(id) => {
-                if let Some(wall) = plan.wall(*id) {
-                    edges_before.insert(ordered(wall.from, wall.to));
-                    losing.extend([wall.from, wall.to]);
-                }
-            }
-            ElementId::Room(id) => {
-                for ring in plan.room(*id).into_iter().flat_map(Room::rings) {
-                    edges_before.extend(ring_edges(ring).map(|(a, b)| ordered(a, b)));
-                    losing.extend(ring.iter().copied());
-                }
-            }
-            _ => {}
-        }
-    }
-    for (id, opening) in plan.openings() {
-        if let Place::Hosted { from, to, .. } = opening.place {
-            let edge = ordered(from, to);
-            let lost = edges_before.contains(&edge) && !edges.contains(&edge);
-            if lost || corner_gone(&gone, &from) || corner_gone(&gone, &to) {
-                gone.insert(ElementId::Opening(id));
-            } else if !gone.contains(&ElementId::Opening(id)) {
-                used.extend([from, to]);
-            }
-        }
-    }
-    gone.extend(losing.difference(&used).map(|&corner| ElementId::Corner(corner)));
-    gone
-}
-
-/// Removes elements and what depends on them, see [`removed_with`]. An opening pinned to a removed room
-/// then leads outside on that side.
-///
-/// # Errors
-/// When an element does not exist.
-pub fn remove(plan: &Plan, elements: &[ElementId]) -> Result<Plan, EditError> {
-    for element in elements {
-        let exists = match element {
-            ElementId::Corner(id) => plan.corners.contains_key(id),
-            ElementId::Wall(id) => plan.walls.contains_key(id),
-            ElementId::Room(id) => plan.rooms.contains_key(id),
-            ElementId::Opening(id) => plan.openings.contains_key(id),
-        };
-        if !exists {
-            return fail(format!("{element} does not exist"));
-        }
-    }
-    let mut next = plan.clone();
-    let mut rooms_gone = BTreeSet::new();
-    for element in removed_with(plan, elements) {
-        match element {
-            ElementId::Corner(id) => drop(next.corners.remove(&id)),
-            ElementId::Wall(id) => drop(next.walls.remove(&id)),
-            ElementId::Opening(id) => drop(next.openings.remove(&id)),
-            ElementId::Room(id) => {
-                next.rooms.remove(&id);
-                rooms_gone.insert(id);
-            }
-        }
-    }
-    if !rooms_gone.is_empty() {
-        let joins_gone = |joint: &Joint| matches!(joint, Joint::Room(id) if rooms_gone.contains(id));
-        let touched: Vec<OpeningId> = next
-            .openings
-            .iter()
-            .filter(|(_, opening)| opening.pinned.iter().flatten().any(joins_gone))
-            .map(|(&id, _)| id)
-            .collect();
-        for id in touched {
-            if let Some(shared) = next.openings.get_mut(&id) {
-                for joint in Arc::make_mut(shared).pinned.iter_mut().flatten() {
-                    if joins_gone(joint) {
-                        *joint = Joint::Outside;
-                    }
-                }
-            }
-        }
-    }
-    Ok(next)
 }
 
 /// Changes one room: its function, label, name, note or rings.

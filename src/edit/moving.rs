@@ -3,72 +3,164 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use crate::edit::{EditError, checked_position, fail, move_corners, require_corners};
-use crate::geometry::{Bounds, Point, TOUCH_M, Transform, Vector, polygon, trim_m};
-use crate::plan::{CornerId, ElementId, OpeningId, Place, Plan, WallId};
+use crate::edit::dragging::{Reach, WallDrag, drag_corners};
+use crate::edit::heal::healed;
+use crate::edit::picked::{Part, corners_of};
+use crate::edit::refit::{Changed, beside_each_other};
+use crate::edit::weld::settle;
+use crate::edit::{EditError, checked_position, fail};
+use crate::geometry::{Bounds, Point, TOUCH_M, Transform, Vector, trim_m};
+use crate::plan::{CornerId, ElementId, OpeningId, Place, Plan, Room, WallId, ring_edges};
 
-/// Moves elements: each corner they use once, and with it everything that shares it; also free openings.
-/// An opening selected without its wall slides along it.
-///
-/// Mirrored doors still open into the same room. Scaling applies to the positions and widths of openings
-/// on scaled edges, and to the thickness of selected walls.
+/// Moves, turns, mirrors or scales elements, and nothing else: as [`transform_elements`], with walls.
 ///
 /// # Errors
-/// When an element does not exist, a target lies outside the drawing area, or an edge hosting an opening
-/// would lose its length.
+/// As [`transform_elements`].
 pub fn move_elements(plan: &Plan, elements: &BTreeSet<ElementId>, transform: Transform) -> Result<Plan, EditError> {
-    let corners = corners_of(plan, elements)?;
-    let targets: Vec<(CornerId, Point)> =
-        corners.iter().filter_map(|&id| Some((id, transform.point(plan.position(id)?)))).collect();
-    let mut next = move_corners(plan, &targets)?;
+    transform_elements(plan, elements, transform, true).map(|changed| changed.plan)
+}
+
+/// Moves, turns, mirrors or scales elements, and nothing else. Rooms take their walls and openings along, see
+/// [`Part`]; corners that something else uses stay with that, and so do walls that bound another room: the moved
+/// part gets its own corners and, with `own_walls`, its own walls. What comes to rest on something else shares its
+/// corners; what is left behind loses the corners that it only had for the sake of what went. An opening selected
+/// without its wall slides along it; where only corners are selected, what shares them follows.
+///
+/// Mirrored doors still open into the same room. Scaling applies to the positions and widths of openings
+/// on scaled edges, and to the thickness of walls.
+///
+/// # Errors
+/// When an element does not exist, a wall bounds rooms that are not among the elements, a target lies outside the
+/// drawing area, or something would get too small or too large.
+pub fn transform_elements(
+    plan: &Plan,
+    elements: &BTreeSet<ElementId>,
+    transform: Transform,
+    own_walls: bool,
+) -> Result<Changed, EditError> {
+    let part = Part::of(plan, elements)?;
+    let to = |point: Point| checked_position(transform.point(point));
+    if part.rooms.is_empty() && part.walls.is_empty() && !part.corners.is_empty() {
+        let targets: Vec<(CornerId, Point)> =
+            part.corners.iter().filter_map(|&id| Some((id, transform.point(plan.position(id)?)))).collect();
+        return drag_corners(plan, &targets);
+    }
+    let stays = |&id: &CornerId| plan.position(id).is_none_or(|at| transform.point(at).trimmed() == at);
+    let alone: Vec<OpeningId> = elements
+        .iter()
+        .filter_map(|element| if let ElementId::Opening(id) = element { Some(*id) } else { None })
+        .filter(|id| !part.openings.contains(id))
+        .collect();
+    if part.corners.iter().all(stays) && part.openings.is_empty() && alone.is_empty() {
+        return Ok(Changed::plainly(plan.clone()));
+    }
+    part.check_takes_no_boundary(plan)?;
+    let (mut next, part, left) = part.detached(plan, own_walls)?;
+    for &id in &part.corners {
+        if let Some(corner) = next.corners.get_mut(&id) {
+            corner.position = to(corner.position)?;
+        }
+    }
     let factor = transform.factor();
-    let openings: Vec<OpeningId> = plan.openings().map(|(id, _)| id).collect();
-    for id in openings {
+    for &id in &part.openings {
         let Some(opening) = plan.opening(id) else { continue };
-        let chosen = elements.contains(&ElementId::Opening(id));
-        match opening.place {
-            Place::Hosted { from, to, at_m, width_m } if corners.contains(&from) && corners.contains(&to) => {
+        let Some(shared) = next.openings.get_mut(&id) else { continue };
+        match shared.place {
+            Place::Hosted { from, to, at_m, width_m } => {
+                let ends = next.corners.get(&from).zip(next.corners.get(&to));
+                let length_m = ends.map_or(0.0, |(a, b)| a.position.distance(b.position));
+                if length_m <= 0.0 {
+                    return fail(format!("the wall of a {} would lose its length", opening.kind.name()));
+                }
                 if transform.keeps_lengths() && !transform.mirrors() {
+                    // Rounding may shorten the edge.
+                    if at_m > length_m {
+                        let at_m = trim_m(length_m);
+                        Arc::make_mut(shared).place = Place::Hosted { from, to, at_m, width_m };
+                    }
                     continue;
                 }
-                let length_m = next.position(from).zip(next.position(to)).map_or(0.0, |(a, b)| a.distance(b));
                 let (at_m, width_m) = (trim_m((at_m * factor).min(length_m)), trim_m(width_m * factor));
                 if !(width_m > 0.0 && width_m <= 1000.0) {
                     return fail("an opening would get too small or too large");
                 }
-                let Some(shared) = next.openings.get_mut(&id) else { continue };
                 let opening = Arc::make_mut(shared);
                 opening.place = Place::Hosted { from, to, at_m, width_m };
                 mirror_swing(opening, transform);
             }
-            Place::Hosted { from, to, .. } if chosen && !corners.contains(&from) && !corners.contains(&to) => {
-                if let Some(segment) = plan.opening_segment(opening) {
-                    next = super::slide_opening(&next, id, transform.point(segment.midpoint()))?;
-                }
-            }
-            Place::Free { from, to } if chosen => {
-                let (from, to) = (checked_position(transform.point(from))?, checked_position(transform.point(to))?);
-                if from == to {
+            Place::Free { from, to: end } => {
+                let (from, end) = (to(from)?, to(end)?);
+                if from == end {
                     return fail("an opening would lose its width");
                 }
-                let Some(shared) = next.openings.get_mut(&id) else { continue };
                 let opening = Arc::make_mut(shared);
-                opening.place = Place::Free { from, to };
+                opening.place = Place::Free { from, to: end };
                 mirror_swing(opening, transform);
             }
-            _ => {}
         }
     }
     if !transform.keeps_lengths() {
-        for element in elements {
-            if let ElementId::Wall(id) = element
-                && let Some(wall) = next.walls.get_mut(id)
-            {
+        for id in &part.walls {
+            if let Some(wall) = next.walls.get_mut(id) {
                 wall.thickness_m = trim_m((wall.thickness_m * factor).min(10.0));
             }
         }
     }
-    Ok(next)
+    check_keeps_edges(plan, &next, &part)?;
+    let next = settle(&next, &part.corners).map_err(|_| EditError("a room would get too small".to_owned()))?;
+    let mut next = healed(next, left);
+    for id in alone {
+        if let Some(segment) = plan.opening(id).and_then(|opening| plan.opening_segment(opening)) {
+            next = super::slide_opening(&next, id, transform.point(segment.midpoint()))?;
+        }
+    }
+    let (plan, refitted) = beside_each_other(next, part.openings.iter().copied());
+    Ok(Changed { plan, refitted })
+}
+
+/// Rejects a scaling that leaves an edge without length.
+fn check_keeps_edges(before: &Plan, after: &Plan, part: &Part) -> Result<(), EditError> {
+    let rings = part.rooms.iter().filter_map(|id| after.room(*id)).flat_map(Room::rings);
+    let edges = rings.flat_map(|ring| ring_edges(ring));
+    let walls = part.walls.iter().filter_map(|id| after.wall(*id)).map(|wall| (wall.from, wall.to));
+    let has_none = |(a, b): (CornerId, CornerId)| {
+        let ends = after.position(a).zip(after.position(b));
+        ends.is_some_and(|(p, q)| p.distance(q) <= TOUCH_M)
+    };
+    let had_none = before.walls().any(|(_, wall)| before.wall_segment(wall).is_some_and(|it| it.length() <= TOUCH_M));
+    match edges.chain(walls).any(has_none) && !had_none {
+        true => fail("a wall would be left without length"),
+        false => Ok(()),
+    }
+}
+
+/// Moves elements by a way. Rooms move alone, as by [`transform_elements`]; where only walls and corners are
+/// selected this is a drag, and what shares them follows, see [`WallDrag`].
+///
+/// # Errors
+/// As for these two.
+pub fn move_picked(
+    plan: &Plan,
+    elements: &BTreeSet<ElementId>,
+    by: Vector,
+    reach: Reach,
+    own_walls: bool,
+) -> Result<Changed, EditError> {
+    let (mut walls, mut corners, mut is_drag) = (BTreeSet::new(), BTreeSet::new(), false);
+    for element in elements {
+        match element {
+            ElementId::Wall(id) if plan.wall(*id).is_some() => drop(walls.insert(*id)),
+            ElementId::Corner(id) if plan.corner(*id).is_some() => drop(corners.insert(*id)),
+            ElementId::Room(_) => return transform_elements(plan, elements, Transform::translation(by), own_walls),
+            ElementId::Opening(id) if plan.opening(*id).is_some() => continue,
+            gone => return fail(format!("{gone} does not exist")),
+        }
+        is_drag = true;
+    }
+    match WallDrag::new(plan, &walls, &corners, reach).filter(|_| is_drag) {
+        Some(drag) => drag.apply(plan, by),
+        None => transform_elements(plan, elements, Transform::translation(by), own_walls),
+    }
 }
 
 /// A mirrored door opens to the other side of its segment, whose ends keep their order.
@@ -78,36 +170,6 @@ pub(crate) fn mirror_swing(opening: &mut crate::plan::Opening, transform: Transf
     {
         swing.side = swing.side.other();
     }
-}
-
-/// The corners that elements use; those of a hosted opening belong to its wall.
-///
-/// # Errors
-/// When an element does not exist.
-pub fn corners_of(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<BTreeSet<CornerId>, EditError> {
-    let mut corners = BTreeSet::new();
-    for element in elements {
-        match element {
-            ElementId::Corner(id) => {
-                require_corners(plan, &[*id])?;
-                corners.insert(*id);
-            }
-            ElementId::Wall(id) => match plan.wall(*id) {
-                Some(wall) => corners.extend([wall.from, wall.to]),
-                None => return fail(format!("{id} does not exist")),
-            },
-            ElementId::Room(id) => match plan.room(*id) {
-                Some(room) => corners.extend(room.rings().flat_map(|ring| ring.iter().copied())),
-                None => return fail(format!("{id} does not exist")),
-            },
-            ElementId::Opening(id) => {
-                if plan.opening(*id).is_none() {
-                    return fail(format!("{id} does not exist"));
-                }
-            }
-        }
-    }
-    Ok(corners)
 }
 
 /// Sets the thickness of walls in metres.
@@ -196,7 +258,7 @@ struct Group {
 fn moved<'a>(plan: &Plan, moves: impl Iterator<Item = (&'a Group, Vector)>) -> Result<Plan, EditError> {
     let mut next = plan.clone();
     for (group, by) in moves {
-        next = move_elements(&next, &group.elements, Transform::translation(by))?;
+        next = move_picked(&next, &group.elements, by, Reach::Run, true)?.plan;
     }
     Ok(next)
 }
@@ -233,40 +295,4 @@ fn groups(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<Vec<Group>, Edi
     let mut groups: Vec<Group> = groups.into_iter().flatten().map(|(group, _)| group).collect();
     groups.sort_by(|p, q| p.elements.cmp(&q.elements));
     Ok(groups)
-}
-
-/// Rejects an edit that moved corners if an edge lost its length, or a room turned inside out or began to
-/// cross itself.
-///
-/// # Errors
-/// Says which of these.
-pub(crate) fn check_shapes(
-    before: &Plan,
-    after: &Plan,
-    moved: &BTreeSet<CornerId>,
-    what: &str,
-) -> Result<(), EditError> {
-    for (a, b) in crate::edit::overlay::plan_edges(after) {
-        if (moved.contains(&a) || moved.contains(&b))
-            && let (Some(p), Some(q)) = (after.position(a), after.position(b))
-            && p.distance(q) <= TOUCH_M
-            && before.position(a).zip(before.position(b)).is_some_and(|(p, q)| p.distance(q) > TOUCH_M)
-        {
-            return fail(format!("{what} would leave a wall without length"));
-        }
-    }
-    for (id, room) in after.rooms() {
-        let touched = room.rings().any(|ring| ring.iter().any(|corner| moved.contains(corner)));
-        let Some(old) = before.room(id).filter(|_| touched) else { continue };
-        for (old, new) in old.rings().zip(room.rings()) {
-            let (old, new) = (before.ring_points(old), after.ring_points(new));
-            let turned = polygon::signed_area(&old) * polygon::signed_area(&new) < 0.0;
-            let is_simple = crate::geometry::path::is_simple_ring;
-            if turned || (is_simple(&old) && !is_simple(&new)) {
-                let name = if room.name.is_empty() { id.to_string() } else { format!("'{}'", room.name) };
-                return fail(format!("{what} would turn the room {name} inside out"));
-            }
-        }
-    }
-    Ok(())
 }

@@ -209,7 +209,12 @@ fn nearest_edge(
 }
 
 /// An opening's place on an edge, its middle as close to a point as its width allows.
-fn fitted(plan: &Plan, (from, to): (CornerId, CornerId), at: Point, width_m: f64) -> Result<Place, EditError> {
+pub(super) fn fitted(
+    plan: &Plan,
+    (from, to): (CornerId, CornerId),
+    at: Point,
+    width_m: f64,
+) -> Result<Place, EditError> {
     check_width(width_m)?;
     let edge = plan.position(from).zip(plan.position(to)).map(|(a, b)| Segment::new(a, b));
     let Some((edge, along)) = edge.and_then(|edge| Some((edge, edge.vector().unit()?))) else {
@@ -236,7 +241,7 @@ fn fitted(plan: &Plan, (from, to): (CornerId, CornerId), at: Point, width_m: f64
 
 /// A place on an edge, shifted along it as little as necessary not to overlap its other openings; one
 /// that extends past the edge's ends stays.
-fn beside_others(plan: &Plan, place: Place) -> Result<Place, EditError> {
+pub(super) fn beside_others(plan: &Plan, place: Place) -> Result<Place, EditError> {
     let Place::Hosted { from, to, at_m, width_m } = place else { return Ok(place) };
     let length_m = plan.position(from).zip(plan.position(to)).map_or(0.0, |(a, b)| a.distance(b));
     if width_m > length_m {
@@ -275,7 +280,7 @@ fn beside_others(plan: &Plan, place: Place) -> Result<Place, EditError> {
 
 /// The collinear edges of walls and boundaries that an edge is part of, in its direction, from first to
 /// last; offsets up to a notch count as collinear.
-fn run_of(plan: &Plan, from: CornerId, to: CornerId) -> Vec<(CornerId, CornerId)> {
+pub(super) fn run_of(plan: &Plan, from: CornerId, to: CornerId) -> Vec<(CornerId, CornerId)> {
     let mut run = vec![(from, to)];
     let (Some(a), Some(b)) = (plan.position(from), plan.position(to)) else { return run };
     let Some(along) = (b - a).unit() else { return run };

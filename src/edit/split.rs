@@ -26,7 +26,16 @@ fn split_chain(splits: &Splits, from: CornerId, to: CornerId) -> Option<Vec<Corn
 
 /// Splits the walls and boundaries that have these edges, and moves their openings to the right part.
 pub(crate) fn split_edges(plan: &Plan, splits: &Splits) -> Result<Plan, EditError> {
+    split_walls_and_rooms(plan, splits).map(|(plan, _)| plan)
+}
+
+/// As [`split_edges`]; also gives the new walls, each with the one that it is a part of.
+pub(crate) fn split_walls_and_rooms(
+    plan: &Plan,
+    splits: &Splits,
+) -> Result<(Plan, BTreeMap<WallId, WallId>), EditError> {
     let mut next = plan.clone();
+    let mut parents = BTreeMap::new();
     let walls: Vec<(WallId, Vec<CornerId>)> =
         plan.walls().filter_map(|(id, wall)| Some((id, split_chain(splits, wall.from, wall.to)?))).collect();
     for (id, chain) in walls {
@@ -36,6 +45,7 @@ pub(crate) fn split_edges(plan: &Plan, splits: &Splits) -> Result<Plan, EditErro
         for pair in chain.windows(2).skip(1) {
             let (with_wall, part) = super::add_wall(&next, pair[0], pair[1], thickness_m)?;
             next = with_wall;
+            parents.insert(part, id);
             if let Some(part) = next.walls.get_mut(&part) {
                 part.extra.clone_from(&extra);
             }
@@ -66,7 +76,7 @@ pub(crate) fn split_edges(plan: &Plan, splits: &Splits) -> Result<Plan, EditErro
             Arc::make_mut(opening).place = place;
         }
     }
-    Ok(next)
+    Ok((next, parents))
 }
 
 /// Where an opening on a split edge of `before` goes in `after`: on the part nearest to its middle.

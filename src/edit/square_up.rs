@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::edit::moving::check_shapes;
+use crate::edit::dragging::check_shapes;
 use crate::edit::{EditError, fail, move_corners};
 use crate::geometry::{Point, Segment, TOUCH_M, Vector};
 use crate::plan::{CornerId, Plan, RoomId, ordered, ring_edges};

@@ -7,10 +7,10 @@ use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use crate::edit::overlay::plan_edges;
-use crate::edit::split::{Splits, nearest_part, split_edges};
+use crate::edit::split::{Splits, nearest_part, split_walls_and_rooms};
 use crate::edit::{EditError, fail};
 use crate::geometry::segments::SegmentIndex;
-use crate::geometry::{Bounds, Point, Segment, TOUCH_M, polygon};
+use crate::geometry::{Bounds, Point, Segment, TOUCH_M, polygon, trim_m};
 use crate::plan::{CornerId, Place, Plan, Positions, RoomId, WallId, ordered};
 
 /// The result of welding, to show before applying it.
@@ -45,13 +45,57 @@ pub fn weld(plan: &Plan, tolerance_m: f64) -> Result<Weld, EditError> {
 }
 
 /// Welds moved corners where they came to rest, within [`TOUCH_M`]: a moved corner on another becomes
-/// that one, one on an edge splits it, and a corner under a moved edge splits that edge. To be called
-/// when a drag ends, so that a corner exists once.
+/// that one, one on an edge goes onto its line and splits it, and a corner under a moved edge splits that
+/// edge. To be called when a drag ends, so that a corner exists once. What did not move stays as it is: of a
+/// moved wall on one that stood there, that one stays.
 ///
 /// # Errors
 /// As [`weld`].
 pub fn settle(plan: &Plan, moved: &BTreeSet<CornerId>) -> Result<Plan, EditError> {
-    weld_some(plan, TOUCH_M, Some(moved)).map(|weld| weld.plan)
+    weld_some(&on_lines(plan, moved), TOUCH_M, Some(moved)).map(|weld| weld.plan)
+}
+
+/// The plan with those moved corners that nearly lie on an edge that did not move put onto its line: it stays
+/// straight when they split it.
+fn on_lines(plan: &Plan, moved: &BTreeSet<CornerId>) -> Plan {
+    let (_, edges) = concerned(plan, TOUCH_M, Some(moved));
+    let mut next = plan.clone();
+    let mut shifted: BTreeSet<CornerId> = BTreeSet::new();
+    for (corner, ends) in near_edges(&edges, TOUCH_M, Some(moved)).1 {
+        if !moved.contains(&corner) || ends.iter().any(|end| moved.contains(end)) {
+            continue;
+        }
+        let line = plan.position(ends[0]).zip(plan.position(ends[1])).map(|(a, b)| Segment::new(a, b));
+        if let (Some(line), Some(corner_now)) = (line, next.corners.get_mut(&corner)) {
+            let position = line.nearest_point(corner_now.position).trimmed();
+            if position != corner_now.position {
+                corner_now.position = position;
+                shifted.insert(corner);
+            }
+        }
+    }
+    if shifted.is_empty() {
+        return next;
+    }
+    for (id, opening) in plan.openings() {
+        if let Place::Hosted { from, to, at_m, width_m } = opening.place
+            && (shifted.contains(&from) || shifted.contains(&to))
+            && let (Some(a), Some(b)) = (next.position(from), next.position(to))
+            && let Some(shared) = next.openings.get_mut(&id)
+        {
+            let at_m = trim_m(at_m.min(a.distance(b)));
+            Arc::make_mut(shared).place = Place::Hosted { from, to, at_m, width_m };
+        }
+    }
+    next
+}
+
+/// Welds corners with each other and with what lies within a tolerance in metres of them.
+///
+/// # Errors
+/// As [`weld`].
+pub fn weld_corners(plan: &Plan, corners: &BTreeSet<CornerId>, tolerance_m: f64) -> Result<Plan, EditError> {
+    weld_some(plan, tolerance_m, Some(corners)).map(|weld| weld.plan)
 }
 
 /// Welds everything, or only where one of the given corners is involved.
@@ -61,7 +105,13 @@ fn weld_some(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -
     }
     let (around, mut edges) = concerned(plan, tolerance_m, only);
     let becomes = joined(plan, tolerance_m, only, around, &edges);
-    let mut next = with_openings_in_place(plan, with_joined(plan, &becomes), &becomes);
+    // Of two walls in one place the one that did not move stays.
+    let mut moved: BTreeSet<WallId> = plan
+        .walls()
+        .filter(|(_, wall)| only.is_some_and(|only| only.contains(&wall.from) || only.contains(&wall.to)))
+        .map(|(id, _)| id)
+        .collect();
+    let mut next = with_openings_in_place(plan, with_joined(plan, &becomes, &moved), &becomes);
     if !becomes.is_empty() {
         edges = concerned(&next, tolerance_m, only).1;
     }
@@ -69,7 +119,11 @@ fn weld_some(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -
     if !splits.is_empty() {
         let cut: BTreeSet<CornerId> =
             splits.iter().flat_map(|(ends, inner)| ends.iter().chain(inner)).copied().collect();
-        next = without_repeated_walls(split_edges(&next, &splits)?, &cut);
+        let (divided, parents) = split_walls_and_rooms(&next, &splits)?;
+        moved.extend(
+            parents.iter().filter(|(_, parent)| moved.contains(*parent)).map(|(&part, _)| part).collect::<Vec<_>>(),
+        );
+        next = without_repeated_walls(divided, &cut, &moved);
     }
     let touched: BTreeSet<CornerId> = becomes.values().copied().chain(splits.values().flatten().copied()).collect();
     let rooms: Vec<RoomId> = next
@@ -130,7 +184,7 @@ fn joined(
 }
 
 /// The plan with corners merged; its openings still refer to the old ones.
-fn with_joined(plan: &Plan, becomes: &BTreeMap<CornerId, CornerId>) -> Plan {
+fn with_joined(plan: &Plan, becomes: &BTreeMap<CornerId, CornerId>, moved: &BTreeSet<WallId>) -> Plan {
     let now = |id: CornerId| becomes.get(&id).copied().unwrap_or(id);
     let mut next = plan.clone();
     let walls: Vec<WallId> = plan
@@ -160,18 +214,21 @@ fn with_joined(plan: &Plan, becomes: &BTreeMap<CornerId, CornerId>) -> Plan {
     for id in becomes.keys() {
         next.corners.remove(id);
     }
-    if becomes.is_empty() { next } else { without_repeated_walls(next, &becomes.values().copied().collect()) }
+    if becomes.is_empty() { next } else { without_repeated_walls(next, &becomes.values().copied().collect(), moved) }
 }
 
-/// Of walls between the same two of the given corners, keeps only the first by id.
-fn without_repeated_walls(plan: Plan, between: &BTreeSet<CornerId>) -> Plan {
+/// Of walls between the same two of the given corners, keeps only the first by id, of those that did not
+/// move if there are any.
+fn without_repeated_walls(plan: Plan, between: &BTreeSet<CornerId>, moved: &BTreeSet<WallId>) -> Plan {
     let mut seen: BTreeSet<[CornerId; 2]> = BTreeSet::new();
-    let repeated: Vec<WallId> = plan
+    let mut there: Vec<(bool, WallId, [CornerId; 2])> = plan
         .walls()
         .filter(|(_, wall)| between.contains(&wall.from) || between.contains(&wall.to))
-        .filter(|(_, wall)| !seen.insert(ordered(wall.from, wall.to)))
-        .map(|(id, _)| id)
+        .map(|(id, wall)| (moved.contains(&id), id, ordered(wall.from, wall.to)))
         .collect();
+    there.sort_unstable();
+    let repeated: Vec<WallId> =
+        there.into_iter().filter(|&(_, _, edge)| !seen.insert(edge)).map(|(_, id, _)| id).collect();
     let mut next = plan;
     for id in repeated {
         next.walls.remove(&id);

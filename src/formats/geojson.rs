@@ -16,7 +16,7 @@ mod write;
 use super::options::Switch;
 use super::{
     Export, Exporter, Format, FormatOption, Head, Import, Importer, Lost, NamedBytes, NamedPlan, Options, Preview,
-    ReadError, Recognition, Source,
+    ReadError, Recognition, Refused, Source,
 };
 use crate::labels::Schemes;
 use crate::plan::Plan;
@@ -73,7 +73,7 @@ impl Exporter for GeoJson {
         const { &[FormatOption::Switch(&ROOMS_ONLY)] }
     }
 
-    fn write(&self, plans: &[NamedPlan<'_>], schemes: &Schemes, options: &Options) -> Export {
+    fn write(&self, plans: &[NamedPlan<'_>], schemes: &Schemes, options: &Options) -> Result<Export, Refused> {
         let rooms_only = options.switch(&ROOMS_ONLY);
         let mut export = Export::default();
         for NamedPlan { stem, plan } in plans {
@@ -82,7 +82,7 @@ impl Exporter for GeoJson {
             let lost = write::lost(plan, rooms_only).into_iter();
             export.lost.extend(lost.map(|what| Lost { stem: (*stem).to_owned(), what }));
         }
-        export
+        Ok(export)
     }
 }
 

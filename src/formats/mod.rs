@@ -6,6 +6,7 @@
 
 pub mod authors_xml;
 pub mod building_name;
+pub mod dxf;
 mod files;
 pub mod geojson;
 mod json_text;
@@ -15,6 +16,7 @@ pub mod options;
 pub mod plan_json;
 mod point_openings;
 pub mod registry;
+pub mod sheets;
 mod text;
 
 pub use files::{
@@ -25,8 +27,16 @@ pub use notes::{FileError, Note, NoteKind, Place, ReadError};
 pub use options::{FormatOption, OptionError, Options};
 pub use registry::{
     Export, Exporter, Files, Format, Head, Holds, Import, Importer, Lost, NamedBytes, NamedPlan, Preview, Recognition,
-    Source,
+    Refused, Source,
 };
 
 /// Every known format, in the order of menus and help.
-pub const FORMATS: &[&Format] = &[&plan_json::FORMAT, &authors_xml::FORMAT, &geojson::FORMAT];
+pub const FORMATS: &[&Format] = &[
+    &plan_json::FORMAT,
+    &authors_xml::FORMAT,
+    &geojson::FORMAT,
+    &sheets::PDF,
+    &sheets::SVG,
+    &sheets::PNG,
+    &dxf::FORMAT,
+];

@@ -17,14 +17,14 @@ use serde_json::{Map, Value};
 use super::json_text::{Number, ObjectLines, decode, id_around, json_fault, line_of_id};
 use super::{
     Export, Exporter, Format, Head, Import, Importer, NamedBytes, NamedPlan, Note, NoteKind, Options, Place, ReadError,
-    Recognition, Source,
+    Recognition, Refused, Source,
 };
 use crate::geometry::{COORDINATE_LIMIT_M, Point, trim_m};
 use crate::labels::{Label, Schemes, Typology};
 use crate::plan::{
-    Backdrop, Corner, CornerId, ElementId, Extra, Guide, GuideAxis, Joint, LabelOrigin, LeafSide, Measurement, Meta,
-    Opening, OpeningId, OpeningKind, Place as OpeningPlace, Plan, Room, RoomId, RoomLabel, Scale, ScaleOrigin, Swing,
-    Wall, WallId, guides,
+    Backdrop, Corner, CornerId, ElementId, Extra, Guide, GuideAxis, Ignored, Joint, LabelOrigin, LeafSide, Measurement,
+    Meta, Opening, OpeningId, OpeningKind, Place as OpeningPlace, Plan, Room, RoomId, RoomLabel, Scale, ScaleOrigin,
+    Swing, Wall, WallId, guides, ignored,
 };
 
 pub(crate) use change::{apply_change, change_to_bytes};
@@ -74,9 +74,9 @@ impl Importer for PlanJson {
 }
 
 impl Exporter for PlanJson {
-    fn write(&self, plans: &[NamedPlan<'_>], _schemes: &Schemes, _options: &Options) -> Export {
+    fn write(&self, plans: &[NamedPlan<'_>], _schemes: &Schemes, _options: &Options) -> Result<Export, Refused> {
         let file = |it: &NamedPlan<'_>| NamedBytes { name: format!("{}.plan.json", it.stem), bytes: to_bytes(it.plan) };
-        Export { files: plans.iter().map(file).collect(), lost: Vec::new() }
+        Ok(Export { files: plans.iter().map(file).collect(), lost: Vec::new() })
     }
 }
 
@@ -115,18 +115,21 @@ fn read(bytes: &[u8]) -> Result<Import, ReadError> {
         },
     }
     let disk: DiskPlan = serde_json::from_str(text).map_err(|error| refuse_json(text, &error))?;
-    let beyond = disk.guides.len().saturating_sub(guides::MOST_GUIDES);
-    let notes = (beyond > 0).then(|| Note {
+    let notes = [
+        ("guides", disk.guides.len().saturating_sub(guides::MOST_GUIDES), guides::MOST_GUIDES),
+        ("ignored", disk.ignored.len().saturating_sub(ignored::MOST_IGNORED), ignored::MOST_IGNORED),
+    ];
+    let note = |(list, beyond, most): (&str, usize, usize)| Note {
         kind: NoteKind::Skipped,
-        place: Place { line: None, element: "guides".to_owned() },
+        place: Place { line: None, element: list.to_owned() },
         what: format!(
-            "{} more than the {} that a plan may have; the last {} left out, and gone from the file when it is saved",
-            beyond,
-            guides::MOST_GUIDES,
+            "{beyond} more than the {most} that a plan may have; the last {} left out, and gone from the file when it \
+             is saved",
             if beyond == 1 { "is" } else { "are" },
         ),
-    });
-    Ok(Import { plans: vec![live(text, disk)?], notes: notes.into_iter().collect() })
+    };
+    let notes = notes.into_iter().filter(|(_, beyond, _)| *beyond > 0).map(note).collect();
+    Ok(Import { plans: vec![live(text, disk)?], notes })
 }
 
 /// The complete bytes of a plan's file.
@@ -140,6 +143,9 @@ pub fn to_bytes(plan: &Plan) -> Vec<u8> {
     }
     if !plan.guides().is_empty() {
         file.list("guides", plan.guides().iter().map(DiskGuide::of));
+    }
+    if !plan.ignored().is_empty() {
+        file.list("ignored", plan.ignored().iter().map(DiskIgnored::of));
     }
     file.list("corners", plan.corners().map(|(id, corner)| DiskCorner::of(id, corner)));
     file.list("walls", plan.walls().map(|(id, wall)| DiskWall::of(id, wall)));
@@ -220,6 +226,8 @@ struct DiskPlan {
     #[serde(default)]
     guides: Vec<DiskGuide>,
     #[serde(default)]
+    ignored: Vec<DiskIgnored>,
+    #[serde(default)]
     corners: Vec<DiskCorner>,
     #[serde(default)]
     walls: Vec<DiskWall>,
@@ -282,6 +290,17 @@ struct DiskBackdrop {
 struct DiskGuide {
     axis: Text<GuideAxis>,
     at: Metres,
+    #[serde(flatten)]
+    extra: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(expecting = "an ignored finding")]
+struct DiskIgnored {
+    kind: String,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    elements: Vec<Text<ElementId>>,
+    reason: String,
     #[serde(flatten)]
     extra: Map<String, Value>,
 }
@@ -497,6 +516,19 @@ impl DiskGuide {
     }
 }
 
+impl DiskIgnored {
+    fn of(ignored: &Ignored) -> Self {
+        let Ignored { kind, elements, reason, extra } = ignored;
+        let elements = elements.iter().copied().map(Text).collect();
+        Self { kind: kind.clone(), elements, reason: reason.clone(), extra: fields(extra) }
+    }
+
+    fn live(self) -> Ignored {
+        let elements = self.elements.into_iter().map(|element| element.0);
+        Ignored { extra: kept(self.extra), ..Ignored::new(&self.kind, elements, &self.reason) }
+    }
+}
+
 impl DiskMeasurement {
     fn of(measurement: &Measurement) -> Self {
         let Measurement { from, to, length_m } = measurement;
@@ -586,6 +618,7 @@ fn live(text: &str, disk: DiskPlan) -> Result<Plan, ReadError> {
         meta: Arc::new(disk.meta.live()),
         backdrop: disk.backdrop.map(|backdrop| Arc::new(backdrop.live())),
         guides: guides::sorted(disk.guides.into_iter().take(guides::MOST_GUIDES).map(DiskGuide::live)),
+        ignored: ignored::sorted(disk.ignored.into_iter().take(ignored::MOST_IGNORED).map(DiskIgnored::live)),
         extra: kept(disk.extra),
         ..Plan::default()
     };

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use super::options::{FormatOption, Options};
 use super::{Note, Place, ReadError};
+use crate::draw::paper::Laid;
 use crate::geometry::Bounds;
 use crate::labels::Schemes;
 use crate::plan::Plan;
@@ -63,10 +64,31 @@ pub trait Exporter: Sync {
         Holds::OnePlan
     }
 
+    /// The sheet of paper that would be written for a plan, to look at before; `None` if the format has no
+    /// sheets.
+    fn sheet(&self, _plan: &Plan, _schemes: &Schemes, _options: &Options) -> Option<Result<Laid, Refused>> {
+        None
+    }
+
     /// Writes plans: one at a time if the format [`Holds::OnePlan`], else all at once. Files are named
     /// after a plan's `stem`.
-    fn write(&self, plans: &[NamedPlan<'_>], schemes: &Schemes, options: &Options) -> Export;
+    ///
+    /// # Errors
+    /// When the options do not suit a plan, such as a sheet too small for its scale.
+    fn write(&self, plans: &[NamedPlan<'_>], schemes: &Schemes, options: &Options) -> Result<Export, Refused>;
 }
+
+/// Why a plan is not written: what is wrong, and what to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refused(pub String);
+
+impl std::fmt::Display for Refused {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Refused {}
 
 /// How many plans a file of a format holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

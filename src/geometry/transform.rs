@@ -57,6 +57,20 @@ impl Transform {
         Self { x: next.vector(self.x), y: next.vector(self.y), origin: next.point(self.origin) }
     }
 
+    /// The map that undoes this one; `None` for a scaling by 0.
+    pub fn inverse(self) -> Option<Self> {
+        // The inverse of a similarity is its transpose over the factor squared.
+        let squared = self.x.dot(self.x);
+        if squared <= 0.0 {
+            return None;
+        }
+        let x = Vector::new(self.x.x, self.y.x) * (1.0 / squared);
+        let y = Vector::new(self.x.y, self.y.y) * (1.0 / squared);
+        let back = Self { x, y, origin: Point::default() };
+        let origin = Point::default() + -back.vector(self.origin - Point::default());
+        Some(Self { origin, ..back })
+    }
+
     /// Maps a point.
     pub fn point(self, point: Point) -> Point {
         self.origin + self.x * point.x + self.y * point.y
@@ -101,5 +115,9 @@ mod tests {
         let twice = Transform::scaling(about, 2.0);
         assert_eq!((twice.point(p), twice.factor(), twice.keeps_lengths()), (Point::new(5.0, 1.0), 2.0, false));
         assert!(quarter.keeps_lengths() && !quarter.mirrors());
+        for one in [quarter, mirror, twice, Transform::rotation(about, 0.7).then(mirror).then(twice)] {
+            assert!(one.inverse().unwrap().point(one.point(p)).distance(p) < 1e-12);
+        }
+        assert_eq!(Transform::scaling(about, 0.0).inverse(), None);
     }
 }

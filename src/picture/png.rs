@@ -25,6 +25,8 @@ pub struct Packing {
     pub filter: Option<png::Filter>,
     /// Whether to mark the file as sRGB.
     pub is_srgb: bool,
+    /// The size of a pixel when printed, if it has one: so many to the metre.
+    pub dots_per_m: Option<u32>,
 }
 
 /// Encodes rows of samples from the top, 8 bits a channel, as a PNG file.
@@ -49,6 +51,10 @@ pub fn encode(
     encoder.set_depth(png::BitDepth::Eight);
     if packing.is_srgb {
         encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    }
+    if let Some(dots) = packing.dots_per_m {
+        let unit = png::Unit::Meter;
+        encoder.set_pixel_dims(Some(png::PixelDimensions { xppu: dots, yppu: dots, unit }));
     }
     encoder.set_compression(packing.compression);
     if let Some(filter) = packing.filter {
@@ -79,7 +85,18 @@ pub fn encode_rgba(width_px: u32, height_px: u32, rgba: &[u8], packing: Packing)
 /// # Errors
 /// When the encoder fails, which no picture made here causes.
 pub fn encode_pixmap(pixmap: &Pixmap) -> Result<Vec<u8>, PictureError> {
-    let packing = Packing { compression: png::Compression::Fast, filter: Some(png::Filter::Up), is_srgb: true };
+    encode_pixmap_packed(pixmap, FAST)
+}
+
+/// Large areas of one colour shrink well, however little time is spent.
+pub const FAST: Packing =
+    Packing { compression: png::Compression::Fast, filter: Some(png::Filter::Up), is_srgb: true, dots_per_m: None };
+
+/// The same, packed otherwise.
+///
+/// # Errors
+/// As [`encode_pixmap`].
+pub fn encode_pixmap_packed(pixmap: &Pixmap, packing: Packing) -> Result<Vec<u8>, PictureError> {
     let rgba: Vec<u8> = pixmap
         .pixels()
         .iter()

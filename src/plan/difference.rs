@@ -43,6 +43,8 @@ pub struct Difference {
     pub backdrop: bool,
     /// Whether the guide lines differ.
     pub guides: bool,
+    /// Which findings are ignored, and why.
+    pub ignored: bool,
     /// Whether fields unknown to this version differ.
     pub extra: bool,
 }
@@ -76,6 +78,9 @@ impl Difference {
         if self.guides {
             parts.push("the guide lines".to_owned());
         }
+        if self.ignored {
+            parts.push("the ignored findings".to_owned());
+        }
         match parts.split_last() {
             None if self.is_empty() => "nothing differs".to_owned(),
             None => "only corners and fields of another version differ".to_owned(),
@@ -89,7 +94,7 @@ impl Difference {
     /// Compares two plans.
     pub fn between(before: &Plan, after: &Plan) -> Self {
         // All fields by name: a new field of `Plan` must be compared here.
-        let Plan { meta, corners, walls, rooms, openings, backdrop, guides, extra } = before;
+        let Plan { meta, corners, walls, rooms, openings, backdrop, guides, ignored, extra } = before;
         let mut elements = BTreeMap::new();
         collect::<CornerId, _>(corners, &after.corners, ElementId::Corner, &mut elements);
         collect::<WallId, _>(walls, &after.walls, ElementId::Wall, &mut elements);
@@ -100,13 +105,14 @@ impl Difference {
             meta: !Arc::ptr_eq(meta, &after.meta) && *meta != after.meta,
             backdrop: *backdrop != after.backdrop,
             guides: *guides != after.guides,
+            ignored: *ignored != after.ignored,
             extra: *extra != after.extra,
         }
     }
 
     /// Whether the plans are the same.
     pub fn is_empty(&self) -> bool {
-        self.elements.is_empty() && !self.meta && !self.backdrop && !self.guides && !self.extra
+        self.elements.is_empty() && !self.meta && !self.backdrop && !self.guides && !self.ignored && !self.extra
     }
 
     /// The changes a person sees: walls, rooms and openings, including those whose only change is a

@@ -54,6 +54,14 @@ impl History {
         self.current += 1;
     }
 
+    /// Makes one step of the current one and the one before: undoing goes back behind both.
+    pub fn join_with_previous(&mut self) {
+        if self.current > 1 {
+            self.steps.remove(self.current - 1);
+            self.current -= 1;
+        }
+    }
+
     pub fn can_undo(&self) -> bool {
         self.current > 0
     }

@@ -153,6 +153,20 @@ impl ElementId {
     }
 }
 
+impl FromStr for ElementId {
+    type Err = IdError;
+
+    /// An id of any kind, by its letter.
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        match text.as_bytes().first() {
+            Some(b'c') => text.parse().map(Self::Corner),
+            Some(b'w') => text.parse().map(Self::Wall),
+            Some(b'o') => text.parse().map(Self::Opening),
+            _ => text.parse().map(Self::Room),
+        }
+    }
+}
+
 impl fmt::Display for ElementId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

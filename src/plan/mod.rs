@@ -10,6 +10,7 @@ mod element;
 pub mod guides;
 mod history;
 mod id;
+pub mod ignored;
 mod invariants;
 mod meta;
 mod positions;
@@ -29,6 +30,7 @@ pub use element::{
 pub use guides::{Guide, GuideAxis};
 pub use history::{History, Step};
 pub use id::{CornerId, ElementId, IdError, OpeningId, RoomId, WallId, name_bits};
+pub use ignored::Ignored;
 pub use invariants::{METRES_PER_PIXEL, Violation};
 pub use meta::{Meta, Scale, ScaleOrigin};
 pub(crate) use positions::Positions;
@@ -58,6 +60,8 @@ pub struct Plan {
     pub(crate) backdrop: Option<Arc<Backdrop>>,
     /// In the order of [`guides::sorted`].
     pub(crate) guides: Arc<[Guide]>,
+    /// In the order of [`ignored::sorted`].
+    pub(crate) ignored: Arc<[Ignored]>,
     pub(crate) extra: Extra,
 }
 
@@ -177,6 +181,7 @@ impl Plan {
             && self.backdrop.as_ref().map(Arc::as_ptr) == other.backdrop.as_ref().map(Arc::as_ptr)
             && self.extra.as_ref().map(Arc::as_ptr) == other.extra.as_ref().map(Arc::as_ptr)
             && Arc::ptr_eq(&self.guides, &other.guides)
+            && Arc::ptr_eq(&self.ignored, &other.ignored)
     }
 }
 

@@ -44,7 +44,10 @@ pub fn journal_folder() -> Option<PathBuf> {
 }
 
 /// The first line of a journal: its format and version.
-const HEADER: &str = "enfilade journal 1\n";
+const HEADER: &str = "enfilade journal 2\n";
+
+/// The first line of the version before, which knew of nothing half drawn.
+const HEADER_BEFORE: &str = "enfilade journal 1\n";
 
 /// What the first line starts with in every version.
 const KIND: &str = "enfilade journal ";
@@ -95,7 +98,26 @@ enum Head {
     Step { title: String },
     /// Undo or redo: another step, counted from the start, becomes the current one.
     Jump { to: usize },
+    /// Something is being drawn, or nothing any more. A step or a jump ends it.
+    Draft {
+        #[serde(flatten)]
+        draft: Draft,
+    },
 }
+
+/// Something half drawn: the points that a tool has so far.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Draft {
+    /// The id of the tool's command; empty where nothing is being drawn.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub tool: String,
+    /// In metres, x and y.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub points: Vec<[f64; 2]>,
+}
+
+/// The most points of something half drawn.
+const MOST_POINTS: usize = 100_000;
 
 // Writing.
 
@@ -119,6 +141,8 @@ pub struct Journal {
     steps: Vec<Plan>,
     /// Which of them is current.
     at: usize,
+    /// What is being drawn, as it was last noted since the last step.
+    draft: Option<Draft>,
     /// The number of records sent to the thread.
     noted: u64,
 }
@@ -178,6 +202,7 @@ enum Record {
     Jump {
         to: usize,
     },
+    Draft(Draft),
     /// A new file replaces this one, with the original plan and the current one.
     Anew {
         base: Plan,
@@ -209,7 +234,7 @@ impl Journal {
         };
         let thread = std::thread::spawn(move || writer.run(&receiver, &on_change));
         let (steps, thread) = (vec![base], Some(thread));
-        Self { sender: Some(sender), shared, thread, steps, at: 0, noted: 0 }
+        Self { sender: Some(sender), shared, thread, steps, at: 0, draft: None, noted: 0 }
     }
 
     /// Records the current state of a history; fast, and faster still if nothing happened.
@@ -226,6 +251,14 @@ impl Journal {
         }
     }
 
+    /// Records what is being drawn and is in no plan yet, or that nothing is.
+    pub fn note_draft(&mut self, draft: Option<&Draft>) {
+        if self.draft.as_ref() != draft {
+            self.draft = draft.cloned();
+            self.send(Record::Draft(draft.cloned().unwrap_or_default()));
+        }
+    }
+
     fn is_current(&self, plan: &Plan) -> bool {
         self.steps.get(self.at).is_some_and(|current| current.is_same_value(plan))
     }
@@ -236,6 +269,7 @@ impl Journal {
         }
         if let Some(to) = self.steps.iter().rposition(|known| known.is_same_value(&step.plan)) {
             self.at = to;
+            self.draft = None;
             self.send(Record::Jump { to });
             return;
         }
@@ -243,6 +277,7 @@ impl Journal {
         self.steps.truncate(self.at + 1);
         self.steps.push(step.plan.clone());
         self.at += 1;
+        self.draft = None;
         self.send(Record::Step { title: step.title.clone(), before, after: step.plan.clone() });
         if self.shared.state().bytes > LONGEST_BYTES
             && let Some(base) = self.steps.first().cloned()
@@ -455,6 +490,7 @@ impl Record {
     fn payload(&self) -> Vec<u8> {
         let (title, before, after) = match self {
             Self::Jump { to } => return head(&Head::Jump { to: *to }),
+            Self::Draft(draft) => return head(&Head::Draft { draft: draft.clone() }),
             Self::Step { title, before, after } => (title.as_str(), before, after),
             Self::Anew { base, current } => ("Earlier changes", base, current),
         };
@@ -514,6 +550,8 @@ pub struct Recovered {
     pub start: JournalStart,
     /// The plan as it was in its file, the steps since, and which is current.
     pub history: History,
+    /// What was being drawn, if anything was.
+    pub draft: Option<Draft>,
     /// Whether something after the last complete record was dropped: a record being written when the
     /// program ended, or damage.
     pub is_cut: bool,
@@ -574,8 +612,7 @@ fn leftover(path: PathBuf) -> Option<Leftover> {
     }
     let content = read_file(&mut file);
     let leftover = Leftover { path, modified, content, _file: file };
-    let keeps_nothing =
-        |recovered: &Recovered| recovered.unsound.is_none() && recovered.history.plan() == recovered.base();
+    let keeps_nothing = |it: &Recovered| it.unsound.is_none() && it.draft.is_none() && it.history.plan() == it.base();
     if leftover.content.as_ref().is_ok_and(keeps_nothing) {
         let _ = leftover.remove();
         return None;
@@ -598,7 +635,8 @@ fn read_file(file: &mut File) -> Result<Recovered, String> {
 /// # Errors
 /// When they are no journal, or one of a newer version, or not even its start is whole.
 pub fn read_journal(bytes: &[u8]) -> Result<Recovered, String> {
-    let Some(mut rest) = bytes.strip_prefix(HEADER.as_bytes()) else {
+    let rest = bytes.strip_prefix(HEADER.as_bytes()).or_else(|| bytes.strip_prefix(HEADER_BEFORE.as_bytes()));
+    let Some(mut rest) = rest else {
         return Err(match bytes.starts_with(KIND.as_bytes()) {
             true => "it was written by another version of Enfilade".to_owned(),
             false => "it is no journal, or its beginning is damaged".to_owned(),
@@ -612,6 +650,7 @@ pub fn read_journal(bytes: &[u8]) -> Result<Recovered, String> {
     let base = plan_json::from_bytes(body).map_err(|error| format!("the plan it starts with is damaged: {error}"))?;
     let mut steps = vec![Step { title: "Open".to_owned(), plan: base }];
     let mut at = 0;
+    let mut draft = None;
     let mut is_cut = false;
     let mut unsound = None;
     while !rest.is_empty() {
@@ -620,7 +659,13 @@ pub fn read_journal(bytes: &[u8]) -> Result<Recovered, String> {
             break;
         };
         match head {
-            Head::Jump { to } if to < steps.len() => at = to,
+            Head::Jump { to } if to < steps.len() => {
+                at = to;
+                draft = None;
+            }
+            Head::Draft { draft: noted } if is_sound(&noted) => {
+                draft = Some(noted).filter(|noted| !noted.points.is_empty());
+            }
             Head::Step { title } => {
                 let before = &steps[at].plan;
                 let Ok(plan) = plan_json::apply_change(before, body) else {
@@ -635,15 +680,22 @@ pub fn read_journal(bytes: &[u8]) -> Result<Recovered, String> {
                 steps.truncate(at + 1);
                 steps.push(Step { title, plan });
                 at += 1;
+                draft = None;
             }
-            Head::Jump { .. } | Head::Start { .. } => {
+            Head::Jump { .. } | Head::Draft { .. } | Head::Start { .. } => {
                 is_cut = true;
                 break;
             }
         }
     }
     let history = History::of_steps(steps, at).ok_or("it holds no plan")?;
-    Ok(Recovered { start, history, is_cut, unsound })
+    Ok(Recovered { start, history, draft, is_cut, unsound })
+}
+
+/// Whether something half drawn lies where something can be drawn.
+fn is_sound(draft: &Draft) -> bool {
+    let is_within = |value: &f64| value.is_finite() && value.abs() <= crate::geometry::COORDINATE_LIMIT_M;
+    draft.points.len() <= MOST_POINTS && draft.points.iter().flatten().all(is_within)
 }
 
 /// Why a plan would be refused by the file it is to be saved in; `before` would not. Costs what differs.

@@ -15,13 +15,14 @@ mod plan_folder;
 mod save;
 mod schemes;
 mod stamp;
+mod viewer;
 
 pub use bundled::{BUNDLED, bundled_plans};
 #[cfg(feature = "pictures")]
 pub use grid_maps::{MapFileError, is_map_yaml, load_map, load_picture_as_map};
 pub use journal::{
-    Journal, JournalFailure, JournalStart, Leftover, Predecessor, Recovered, STATE_VARIABLE, journal_folder, leftovers,
-    read_journal,
+    Draft, Journal, JournalFailure, JournalStart, Leftover, Predecessor, Recovered, STATE_VARIABLE, journal_folder,
+    leftovers, read_journal,
 };
 pub use logs::{LoadedLog, load_log, read_log};
 pub use made::MadeFiles;
@@ -31,3 +32,4 @@ pub use plan_folder::{FoundPlan, plans_below};
 pub use save::{SaveError, save_bytes, save_bytes_fast};
 pub use schemes::{SCHEME_ENDING, SCHEMES_VARIABLE, SchemeFileError, schemes_folder, schemes_in, with_scheme_file};
 pub use stamp::Stamp;
+pub use viewer::{print_folder, show_in_viewer};

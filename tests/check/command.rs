@@ -61,3 +61,38 @@ fn a_wrong_call_is_2() {
     assert_eq!(enfilade_check(&[FLAT, "--least", "disaster"]).0, 2);
     assert_eq!(enfilade_check(&["--help"]).0, 0);
 }
+
+#[test]
+fn what_the_plan_ignores_is_told_and_counts_nowhere() {
+    use enfilade::check::check;
+    use enfilade::edit::ignore::ignore_finding;
+    use enfilade::features::{NeighbourLabels, analyse};
+    use enfilade::formats::{plan_json, read_file};
+    use enfilade::labels::Schemes;
+    let schemes = Schemes::bundled();
+    let mut plan = read_file(std::path::Path::new(SPOILED)).unwrap().plans.remove(0);
+    let found = check(&plan, &analyse(&plan, &schemes, NeighbourLabels::True), &schemes);
+    let errors = found.iter().filter(|finding| finding.severity() == enfilade::check::Severity::Error).count();
+    assert!(errors > 0 && found.len() > errors);
+    for finding in &found {
+        plan = ignore_finding(&plan, finding.as_ignored("as the survey says")).unwrap();
+    }
+    // The file keeps it, byte for byte.
+    let bytes = plan_json::to_bytes(&plan);
+    assert_eq!(plan_json::to_bytes(&plan_json::from_bytes(&bytes).unwrap()), bytes);
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("spoiled.plan.json");
+    enfilade::store::save_bytes(&file, &bytes).unwrap();
+    let (code, out, _) = enfilade_check(&[file.to_str().unwrap(), "--strict", "--all"]);
+    assert_eq!(code, 0, "{out}");
+    assert!(out.contains("0 errors, 0 warnings, 0 remarks"), "{out}");
+    assert!(out.contains(&format!("; {} findings ignored", found.len())), "{out}");
+    assert_eq!(out.matches("(because: as the survey says)").count(), found.len(), "{out}");
+    let (_, json, _) = enfilade_check(&[file.to_str().unwrap(), "--json"]);
+    let report: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let told = &report["files"][0]["plans"][0];
+    assert_eq!(told["findings"].as_array().unwrap().len(), 0);
+    assert_eq!(told["ignored"].as_array().unwrap().len(), found.len());
+    assert_eq!(told["ignored"][0]["reason"], "as the survey says");
+    assert_eq!(report["totals"]["ignored"], found.len());
+}

@@ -316,3 +316,28 @@ fn a_room_beyond_measure_is_one_finding() {
     let found = kinds(&draft.plan());
     assert_eq!(found.get("room_boundary_crosses_itself"), Some(&1), "{found:?}");
 }
+
+/// A finding that offers a fix is gone with it, and nothing new is found.
+#[test]
+fn fixes_mend_what_they_are_for() {
+    let mut mended = std::collections::BTreeSet::new();
+    for Case { kind, wrong, .. } in cases() {
+        let plan = wrong(&Draft::flat).plan();
+        for finding in findings(&plan).iter().filter(|finding| finding.fix_title().is_some()) {
+            let fixed = finding.fixed(&plan).unwrap_or_else(|error| panic!("{kind}: {error}"));
+            assert_eq!(fixed.violations(), Vec::new(), "{kind}");
+            let left = findings(&fixed);
+            assert!(!left.iter().any(|other| other.as_ignored("") == finding.as_ignored("")), "{kind}: {finding}");
+            assert!(left.len() < findings(&plan).len(), "{kind}: {finding}");
+            assert_eq!(fixed.rooms().len(), plan.rooms().len(), "{kind}");
+            mended.insert(finding.kind().name);
+        }
+        for finding in findings(&plan).iter().filter(|finding| finding.fix_title().is_none()) {
+            assert!(finding.fixed(&plan).is_err(), "{kind}: {finding}");
+        }
+    }
+    assert_eq!(
+        mended.into_iter().collect::<Vec<_>>(),
+        ["corners_nearly_coincide", "openings_overlap", "wall_has_no_length", "walls_overlap"]
+    );
+}

@@ -108,6 +108,9 @@ fn assert_not_below_weka(set: &str, rows: &[Row], seeds: usize) {
 fn on_real_rooms_no_algorithm_is_below_weka() {
     // More seeds where fewer rooms make chance larger.
     for ((set, folders), seeds) in SETS.into_iter().zip([1, 2, 3, 1]) {
+        if seeds == 1 && !support::is_whole() {
+            continue;
+        }
         match real_rows(folders) {
             Some(rows) => assert_not_below_weka(set, &rows, seeds),
             None => println!("skipped {set}: the real plans are not in ../shared/data"),

@@ -29,8 +29,10 @@ fn all_that_is_done_by_hand_is_told_and_replays_to_the_same() {
     window.settle().unwrap();
     press(&mut window, "Corridor");
     // The keyboard on the plan, the pointer on it, the wheel.
-    window.key(Modifiers::NONE, Key::ArrowRight);
+    window.key(Modifiers::COMMAND, Key::ArrowRight);
     window.key(Modifiers::NONE, Key::Tab);
+    window.key(Modifiers::NONE, Key::ArrowRight);
+    window.key(Modifiers::SHIFT, Key::ArrowRight);
     window.wheel(2.0);
     window.settle().unwrap();
     window.drag(PointerButton::Middle, study, study + vec2(30.0, -20.0));

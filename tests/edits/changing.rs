@@ -2,7 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use enfilade::edit::{self, Alignment, Array, bridge_gaps, draw_room, draw_walls, fill_all, offset_room, offset_walls};
+use enfilade::edit::{
+    self, Alignment, Array, Reach, bridge_gaps, draw_room, draw_walls, fill_all, offset_room, offset_walls,
+};
 use enfilade::geometry::{Point, Transform, Vector};
 use enfilade::plan::{ElementId, LeafSide, Opening, OpeningKind, Place, Plan, RoomId, Swing, WallId};
 use enfilade::topology::gaps;
@@ -18,18 +20,35 @@ fn two_rooms() -> (Plan, [RoomId; 2], enfilade::plan::OpeningId) {
     (plan, [left, right], door)
 }
 
+/// The wall that an opening is in.
+fn host_of(plan: &Plan, opening: enfilade::plan::OpeningId) -> WallId {
+    let Place::Hosted { from, to, .. } = plan.opening(opening).unwrap().place else { panic!("hosted") };
+    let is_it = |wall: &enfilade::plan::Wall| [[from, to], [to, from]].contains(&[wall.from, wall.to]);
+    plan.walls().find(|(_, wall)| is_it(wall)).unwrap().0
+}
+
 fn rooms(ids: &[RoomId]) -> BTreeSet<ElementId> {
     ids.iter().map(|&id| ElementId::Room(id)).collect()
 }
 
 #[test]
-fn moving_takes_neighbours_along_and_mirroring_keeps_doors_opening_into_their_room() {
+fn rooms_move_alone_walls_take_neighbours_along_and_mirrored_doors_open_into_their_room() {
     let (plan, [left, right], door) = two_rooms();
-    let by = Transform::translation(Vector::new(1.0, 0.0));
-    let moved = edit::move_elements(&plan, &rooms(&[right]), by).unwrap();
-    assert_eq!(areas(&moved), [12.0, 15.0], "the left room follows");
-    let back = edit::move_elements(&moved, &rooms(&[right]), Transform::translation(Vector::new(-1.0, 0.0))).unwrap();
-    assert_eq!(back, plan);
+    let by = Vector::new(1.0, 0.0);
+    let moved = edit::move_elements(&plan, &rooms(&[right]), Transform::translation(by)).unwrap();
+    assert_eq!((areas(&moved), moved.violations()), (vec![12.0, 12.0], vec![]), "the left room stays");
+    assert_eq!((moved.corners().len(), moved.walls().len()), (8, 8), "each has walls of its own");
+    let segment = moved.opening_segment(moved.opening(door).unwrap()).unwrap();
+    assert_eq!(segment.midpoint(), Point::new(4., 1.), "the door stays with the wall that stays");
+    let back = edit::move_elements(&moved, &rooms(&[right]), Transform::translation(-by)).unwrap();
+    assert_eq!((back.corners().len(), back.walls().len(), areas(&back)), (6, 7, areas(&plan)));
+    // Of the wall between them both follow.
+    let between = host_of(&plan, door);
+    let dragged = edit::move_picked(&plan, &[ElementId::Wall(between)].into(), by, Reach::Run, true).unwrap().plan;
+    assert_eq!((areas(&dragged), dragged.corners().len()), (vec![9.0, 15.0], 6));
+    let refused =
+        edit::move_elements(&plan, &[ElementId::Wall(between)].into(), Transform::rotation(Point::default(), 1.0));
+    assert!(refused.unwrap_err().0.contains("pick the rooms as well"));
     let mirror = Transform::reflection(Point::new(4., 0.), Point::new(4., 1.)).unwrap();
     let mirrored = edit::move_elements(&plan, &rooms(&[left, right]), mirror).unwrap();
     let side = |plan: &Plan| plan.opening(door).unwrap().swing.unwrap().side;
@@ -40,6 +59,7 @@ fn moving_takes_neighbours_along_and_mirroring_keeps_doors_opening_into_their_ro
     let Place::Hosted { at_m, width_m, .. } = twice.opening(door).unwrap().place else { panic!("hosted") };
     assert!((at_m == 2.0 || at_m == 4.0) && width_m == 1.8, "{at_m} {width_m}");
     // A door alone slides along its wall.
+    let by = Transform::translation(by);
     let slid = edit::move_elements(&plan, &[ElementId::Opening(door)].into(), by).unwrap();
     assert_eq!(slid.opening(door), plan.opening(door));
     let up = Transform::translation(Vector::new(3.0, 1.0));
@@ -241,14 +261,12 @@ fn doors_flip_and_survive() {
     );
     let passage = edit::set_opening_kind(&flipped, door, OpeningKind::Passage).unwrap();
     assert_eq!(passage.opening(door).unwrap().swing, None);
-    // The wall goes, the edge between the rooms stays, and so does the door.
-    let host = plan
-        .walls()
-        .find(|(_, wall)| plan.position(wall.from).unwrap().x == 4.0 && plan.position(wall.to).unwrap().x == 4.0)
-        .unwrap()
-        .0;
-    let without = edit::remove(&plan, &[ElementId::Wall(host)]).unwrap();
-    assert!(without.opening(door).is_some());
+    // The wall goes, and its door with it; the edge between the rooms stays.
+    let without = edit::remove(&plan, &[ElementId::Wall(host_of(&plan, door))]).unwrap();
+    assert!(without.opening(door).is_none() && areas(&without) == areas(&plan));
+    let joined = edit::rooms_joined_by(&plan, &without, &[ElementId::Wall(host_of(&plan, door))]).unwrap();
+    assert_eq!(BTreeSet::from(joined), BTreeSet::from([left, right]));
+    assert_eq!(areas(&edit::merge_rooms(&without, &joined).unwrap()), [24.0]);
     // A free opening is resized about its middle.
     let free = Opening::new(OpeningKind::Passage, Place::Free { from: Point::new(1., 1.), to: Point::new(2., 1.) });
     let (with_free, free) = edit::add_opening(&plan, free).unwrap();

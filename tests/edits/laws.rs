@@ -11,7 +11,7 @@ use enfilade::plan::{CornerId, ElementId, LeafSide, OpeningId, OpeningKind, Plan
 use enfilade::topology::gaps;
 use proptest::prelude::*;
 
-use super::support::{Way, areas, config, invariants_hold_and_undo_is_exact_for, points, total_area};
+use super::support::{Way, area_m2, areas, config, invariants_hold_and_undo_is_exact_for, points, total_area};
 
 /// Coordinates as they come in drawing: whole metres that meet again and again, some of them missed
 /// by a little, and some anywhere.
@@ -346,16 +346,18 @@ proptest! {
         let rooms: Vec<RoomId> = plan.rooms().map(|(id, _)| id).collect();
         let some: BTreeSet<ElementId> = which.iter().filter_map(|&i| pick(&rooms, i)).map(ElementId::Room).collect();
         let there = edit::move_elements(&plan, &some, how).unwrap();
-        let origin = how.point(Point::default());
-        let (x, y) = (how.point(Point::new(1.0, 0.0)) - origin, how.point(Point::new(0.0, 1.0)) - origin);
-        let squared = how.factor() * how.factor();
-        for (id, corner) in there.corners() {
-            let before = plan.position(id).unwrap();
-            if before == corner.position { continue; }
-            // The inverse of a similarity is its transpose over the factor squared.
-            let from_origin = corner.position - origin;
-            let back = Point::new(from_origin.dot(x) / squared, from_origin.dot(y) / squared);
-            prop_assert!(back.distance(before) < 1e-4 / how.factor() + 1e-4, "{:?} {:?}", back, before);
+        for (id, room) in plan.rooms() {
+            let (was_m2, now) = (area_m2(&plan, room), there.room(id).unwrap());
+            let wanted_m2 = if some.contains(&ElementId::Room(id)) { was_m2 * how.factor() * how.factor() } else { was_m2 };
+            prop_assert!((area_m2(&there, now) - wanted_m2).abs() < 0.02 * (1.0 + how.factor()), "{}", id);
+        }
+        let back = how.inverse().unwrap();
+        let again = edit::move_elements(&there, &some, back).unwrap();
+        for (id, room) in plan.rooms() {
+            let (was, is) = (plan.ring_points(&room.outer), again.ring_points(&again.room(id).unwrap().outer));
+            for corner in was {
+                prop_assert!(is.iter().any(|at| at.distance(corner) < 3e-3 / how.factor().min(1.0)), "{:?} of {:?}", corner, is);
+            }
         }
     }
 

@@ -7,7 +7,9 @@
 mod areas;
 mod changing;
 mod drawing;
+mod houses;
 mod laws;
 mod real;
 mod sequences;
 mod support;
+mod unharmed;

@@ -5,6 +5,7 @@
 mod batch;
 mod broken;
 mod docs;
+mod dxf;
 mod generated;
 mod geojson;
 mod golden;
@@ -12,4 +13,5 @@ mod others;
 mod plan_json;
 mod real;
 mod registry;
+mod sheets;
 mod store;

@@ -259,7 +259,7 @@ proptest! {
         for format in FORMATS {
             let (Some(importer), Some(exporter)) = (format.importer, format.exporter) else { continue };
             let named = enfilade::formats::NamedPlan { stem: "x", plan: &plan };
-            let export = exporter.write(&[named], &schemes, &Options::default());
+            let export = exporter.write(&[named], &schemes, &Options::default()).unwrap();
             for file in &export.files {
                 let source = Source::File { stem: "x", bytes: &file.bytes };
                 let import = importer.read(&source, &Options::default());

@@ -49,7 +49,8 @@ fn every_format_knows_what_it_wrote() {
     for (name, plan) in bundled_plans().unwrap() {
         for format in FORMATS {
             let (Some(importer), Some(exporter)) = (format.importer, format.exporter) else { continue };
-            let export = exporter.write(&[NamedPlan { stem: "x", plan: &plan }], &schemes, &Options::default());
+            let export =
+                exporter.write(&[NamedPlan { stem: "x", plan: &plan }], &schemes, &Options::default()).unwrap();
             for file in &export.files {
                 let head = Head::File { name: "without ending", start: &file.bytes[..file.bytes.len().min(4096)] };
                 assert_eq!(importer.recognises(&head), Recognition::Yes, "{} {name}", format.id);

@@ -177,7 +177,7 @@ fn with_records(records: &[Vec<u8>]) -> Vec<u8> {
     let fnv = |start: u64, bytes: &[u8]| {
         bytes.iter().fold(start, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3))
     };
-    let mut bytes = b"enfilade journal 1\n".to_vec();
+    let mut bytes = b"enfilade journal 2\n".to_vec();
     let mut checksum: u64 = 0xcbf2_9ce4_8422_2325;
     for record in records {
         checksum = fnv(fnv(checksum, &checksum.to_le_bytes()), record);
@@ -242,7 +242,7 @@ fn hostile_journals_do_no_harm() {
     for (bytes, words) in [
         (Vec::new(), "no journal"),
         (b"PK\x03\x04".to_vec(), "no journal"),
-        (b"enfilade journal 1\n".to_vec(), "damaged"),
+        (b"enfilade journal 2\n".to_vec(), "damaged"),
         (b"enfilade journal 2\nanything".to_vec(), "another version"),
         (with_records(&[b"{\"do\":\"start\"}\n{}".to_vec()]), "damaged"),
         (with_records(&[step("{}")]), "damaged"),

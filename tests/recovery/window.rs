@@ -2,8 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use egui::{Modifiers, Rect, pos2};
-use enfilade::app::{Offscreen, OffscreenOptions, Severity};
+use egui::Modifiers;
+use egui::accesskit::Role;
+use enfilade::app::{Control, Offscreen, OffscreenOptions, Severity};
 use enfilade::store::load_plan;
 
 use crate::support::assert_picture;
@@ -37,13 +38,13 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     std::fs::read_dir(folder).map(|entries| entries.map(|entry| entry.unwrap().path()).collect()).unwrap_or_default()
 }
 
-/// Compares the messages, which stand between the top bar and the canvas, with a picture.
+/// Compares the messages, which lie over the canvas, with a picture.
 fn compare_messages(window: &mut Offscreen, name: &str) {
-    const TOP_BAR: f32 = 44.0;
     let reference = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/recovery").join(name);
-    let canvas = window.app().canvas_rect().unwrap();
-    let messages = Rect::from_min_max(pos2(canvas.left(), TOP_BAR), canvas.right_top());
-    assert_picture(&reference, &window.picture_of(messages).to_png().unwrap());
+    let is_message = |control: &Control| matches!(control.role, Role::Status | Role::Alert);
+    let rects = window.controls().into_iter().filter(is_message).map(|control| control.rect);
+    let messages = rects.reduce(|all, rect| all.union(rect)).unwrap();
+    assert_picture(&reference, &window.picture_of(messages.expand(4.0)).to_png().unwrap());
 }
 
 /// A path that leads to the disk that is always full.
@@ -104,7 +105,7 @@ fn a_journal_that_cannot_be_written_stays_in_sight_until_it_can() {
     assert!(bar.stays && bar.severity == Severity::Error);
     #[cfg(target_os = "linux")]
     compare_messages(&mut window, "journal_fails_dark.png");
-    assert!(window.controls().iter().any(|control| control.name == "● Not kept safe"), "the status line says so too");
+    assert!(window.controls().iter().any(|control| control.name == "● No backup"), "the status line says so too");
     std::fs::remove_file(&state).unwrap();
     run(&mut window, "label-small", &[]);
     // It is tried again every two seconds.

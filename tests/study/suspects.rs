@@ -13,6 +13,7 @@ use enfilade::store::save_plan;
 use enfilade::study::suspects::{opinions, suspects};
 
 use super::{PLANS, REAL, bundled, enfilade, folder, text_of};
+use crate::support::is_whole;
 
 /// The schools' rooms with some labels changed for another, and the ids of these rooms by plan.
 fn planted(errors: usize, seed: u64) -> Option<(Collection, Vec<(String, String)>)> {
@@ -56,14 +57,16 @@ fn planted(errors: usize, seed: u64) -> Option<(Collection, Vec<(String, String)
 #[test]
 fn planted_errors_come_first() {
     let Some((collection, changed)) = planted(100, 7) else { return };
-    let found = suspects(&collection, 5, 1, false, &Work::quiet()).unwrap();
+    // docs/figures.md tells of five folds. With two, half of the schools are unknown to whoever judges.
+    let (folds, first, within_400) = if is_whole() { (5, 60, 90) } else { (2, 50, 80) };
+    let found = suspects(&collection, folds, 1, false, &Work::quiet()).unwrap();
     assert_eq!(found.len(), 1341);
     let within = |first: usize| {
         let keys = found[..first].iter().map(|it| (it.row.file.clone(), it.row.id.clone()));
         keys.filter(|key| changed.contains(key)).count()
     };
     println!("of 100 planted errors {} within the first 100, {} within the first 400", within(100), within(400));
-    assert!(within(100) >= 60 && within(400) >= 90, "{} {}", within(100), within(400));
+    assert!(within(100) >= first && within(400) >= within_400, "{} {}", within(100), within(400));
     let reasons = found[..100].iter().filter(|it| it.reason.starts_with("What speaks for ")).count();
     assert!(reasons > 50, "{reasons} with a reason");
 }

@@ -14,6 +14,11 @@ use std::sync::{Arc, Mutex};
 
 use enfilade::cli::{self, Terminal};
 
+/// Whether to measure on all real data, which takes minutes, and not on a part of it: with `ENFILADE_WHOLE` set.
+pub fn is_whole() -> bool {
+    std::env::var_os("ENFILADE_WHOLE").is_some()
+}
+
 /// What was written, kept in memory.
 #[derive(Clone, Default)]
 struct Sink(Arc<Mutex<Vec<u8>>>);

@@ -239,7 +239,8 @@ impl Person {
     pub fn split(&self, at: Point, alt: bool) -> Option<(Self, [RoomId; 2])> {
         let aimed = self.aim(at, alt, &[])?;
         let across = edit::straight_across(&self.shapes, aimed.pointer, aimed.got, self.metres(SNAP_RADIUS_PX))?;
-        let (plan, made) = edit::split_rooms(&self.plan, &[across.line.a, across.line.b]).ok()?;
+        let walls_m = Some(DEFAULT_WALL_THICKNESS_M);
+        let (plan, made) = edit::split_rooms(&self.plan, &[across.line.a, across.line.b], walls_m).ok()?;
         let [made] = made[..] else { return None };
         let mut next = self.clone();
         next.take_up(Tool::Split);

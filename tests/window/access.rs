@@ -299,8 +299,9 @@ fn rooms_are_told_with_label_and_area() {
     for (_, room) in window.app().plan().unwrap().rooms() {
         assert!(window.control(&room.name).is_some_and(|control| is_room(&control) || control.name == room.name));
     }
-    // With the keyboard on the plan, arrows go from room to room.
-    key(&mut window, Key::ArrowDown);
+    // With the keyboard on the plan, Ctrl and arrows go from room to room.
+    window.key(Modifiers::COMMAND, Key::ArrowDown);
+    window.settle().unwrap();
     assert_eq!(window.app().picked(), Some(ElementId::Room(room(&window, "Bedroom"))));
     key(&mut window, Key::Enter);
     assert_eq!(window.focused().map(|control| control.name).as_deref(), Some("Name"));

@@ -3,7 +3,9 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod access;
+mod fields;
 mod files;
+mod hand;
 mod monkey;
 mod orders;
 mod pictures;

@@ -152,12 +152,12 @@ fn rooms_are_reached_by_keyboard() {
     window.key(Modifiers::NONE, Key::Tab);
     window.settle().unwrap();
     assert_eq!(window.app().picked(), *seen.last().unwrap());
-    // Arrows go to the room on that side.
+    // With Ctrl arrows go to the room on that side.
     click_room(&mut window, "Dining room");
-    window.key(Modifiers::NONE, Key::ArrowUp);
+    window.key(Modifiers::COMMAND, Key::ArrowUp);
     window.settle().unwrap();
     assert_eq!(window.app().picked(), Some(ElementId::Room(room(&window, "Kitchen"))));
-    window.key(Modifiers::NONE, Key::ArrowRight);
+    window.key(Modifiers::COMMAND, Key::ArrowRight);
     window.settle().unwrap();
     assert_eq!(window.app().picked(), Some(ElementId::Room(room(&window, "Living room"))));
 }

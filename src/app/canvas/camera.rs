@@ -8,15 +8,24 @@ use crate::app::paint::places::{on_screen, plan_point};
 use crate::app::session::document::{Derived, Document};
 use crate::draw::View;
 use crate::geometry::{Bounds, Point, Vector};
-use crate::plan::ElementId;
+use crate::plan::{ElementId, Plan};
 
 /// The position of the view.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Camera {
     centre: Point,
     px_per_m: f64,
-    /// Whether it shows the whole plan, and keeps doing so when the window changes.
-    is_fitted: bool,
+    /// What it shows all of, and goes on to when the window changes.
+    fitted: Option<Fitted>,
+}
+
+/// What a view shows all of.
+#[derive(Clone, Debug)]
+struct Fitted {
+    /// The plan as it was then. What is drawn later does not move the view.
+    plan: Plan,
+    /// What there was to be seen of it: more becomes known of the same plan, such as the picture under it.
+    bounds: Bounds,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -64,32 +73,33 @@ impl Canvas {
 
     /// The view, unless it shows the whole plan: the point in the middle, and screen points per metre.
     pub(crate) fn free_view(&self) -> Option<(Point, f64)> {
-        self.camera.filter(|camera| !camera.is_fitted).map(|camera| (camera.centre, camera.px_per_m))
+        let free = self.camera.as_ref().filter(|camera| camera.fitted.is_none());
+        free.map(|camera| (camera.centre, camera.px_per_m))
     }
 
     /// The view if it was moved by hand since the last call: the point in the middle, and screen points
     /// per metre.
     pub(crate) fn take_moved(&mut self) -> Option<(Point, f64)> {
         let was_moved = std::mem::take(&mut self.was_moved);
-        self.camera.filter(|_| was_moved).map(|camera| (camera.centre, camera.px_per_m))
+        self.camera.as_ref().filter(|_| was_moved).map(|camera| (camera.centre, camera.px_per_m))
     }
 
     /// Moves the view at once, to somewhere nearby.
     pub(crate) fn set_view(&mut self, centre: Point, px_per_m: f64) {
-        self.camera = Some(Camera { centre, px_per_m, is_fitted: false });
+        self.camera = Some(Camera { centre, px_per_m, fitted: None });
     }
 
-    /// Keeps a point and its surroundings, which were scaled by a factor, in place on the screen; a view
-    /// of the whole plan adapts by itself.
+    /// Keeps a point and its surroundings, which were scaled by a factor, in place on the screen.
     pub(crate) fn scale_view(&mut self, about: Point, factor: f64) {
-        if let Some((centre, px_per_m)) = self.free_view() {
+        let camera = self.camera.as_ref().map(|camera| (camera.centre, camera.px_per_m));
+        if let Some((centre, px_per_m)) = camera {
             self.set_view(about + (centre - about) * factor, px_per_m / factor);
         }
     }
 
     /// Screen points per metre of the plan.
     pub(crate) fn px_per_m(&self) -> Option<f64> {
-        self.camera.map(|camera| camera.px_per_m)
+        self.camera.as_ref().map(|camera| camera.px_per_m)
     }
 
     pub(crate) fn screen_position(&self, point: Point) -> Option<Pos2> {
@@ -114,17 +124,27 @@ impl Canvas {
             // A small canvas is for the plan, not for its margin.
             let margin = FIT_MARGIN.min(width_px.min(height_px) / 8.0);
             let view = View::fitting(bounds, width_px, height_px, margin);
-            Camera { centre: view.centre, px_per_m: view.px_per_m, is_fitted: false }
+            Camera { centre: view.centre, px_per_m: view.px_per_m, fitted: None }
         };
+        let plan = document.plan();
         let whole = || match bounds.is_empty() {
             // Room for a house. What is then drawn does not move the view.
             true => {
                 let px_per_m = width_px.max(1.0) / EMPTY_WIDTH_M;
-                Camera { centre: Point::default(), px_per_m, is_fitted: false }
+                Camera { centre: Point::default(), px_per_m, fitted: None }
             }
-            false => Camera { is_fitted: true, ..fitting(bounds) },
+            false => Camera { fitted: Some(Fitted { plan: plan.clone(), bounds }), ..fitting(bounds) },
         };
-        let mut camera = self.camera.filter(|camera| !camera.is_fitted).unwrap_or_else(whole);
+        let mut camera = match self.camera.take() {
+            None => whole(),
+            Some(Camera { fitted: Some(fitted), .. }) if fitted.plan.is_same_value(plan) => whole(),
+            // The plan has been changed since: only the window moves the view.
+            Some(Camera { fitted: Some(fitted), .. }) => {
+                let same = fitting(fitted.bounds);
+                Camera { fitted: Some(fitted), ..same }
+            }
+            Some(free) => free,
+        };
         match self.wish.take() {
             None => {}
             Some(Wish::Fit) => camera = whole(),
@@ -133,9 +153,9 @@ impl Canvas {
                 let around_m = bounds.width().max(bounds.height()) / 3.0;
                 camera = fitting(bounds.inflated(around_m));
             }
-            Some(Wish::LookAt(centre, px_per_m)) => camera = Camera { centre, px_per_m, is_fitted: false },
+            Some(Wish::LookAt(centre, px_per_m)) => camera = Camera { centre, px_per_m, fitted: None },
             Some(Wish::By(factor)) => {
-                camera = Camera { px_per_m: camera.px_per_m * factor, is_fitted: false, ..camera };
+                camera = Camera { px_per_m: camera.px_per_m * factor, fitted: None, ..camera };
             }
             Some(Wish::Reveal(picked)) => {
                 let half = Vector::new(width_px, height_px) * (0.5 / camera.px_per_m);
@@ -144,7 +164,7 @@ impl Canvas {
                     && !(seen.contains(bounds.min) && seen.contains(bounds.max))
                 {
                     let px_per_m = camera.px_per_m.min(fitting(bounds).px_per_m);
-                    camera = Camera { centre: bounds.center(), px_per_m, is_fitted: false };
+                    camera = Camera { centre: bounds.center(), px_per_m, fitted: None };
                 }
             }
         }
@@ -153,12 +173,13 @@ impl Canvas {
     }
 
     pub(super) fn view(&self, rect: Rect, pixels_per_point: f32) -> View {
-        let camera = self.camera.unwrap_or(Camera { centre: Point::default(), px_per_m: 50.0, is_fitted: true });
+        let (centre, px_per_m) =
+            self.camera.as_ref().map_or((Point::default(), 50.0), |camera| (camera.centre, camera.px_per_m));
         let view = View {
             width_px: f64::from(rect.width()),
             height_px: f64::from(rect.height()),
-            px_per_m: camera.px_per_m,
-            centre: camera.centre,
+            px_per_m,
+            centre,
             pixel_ratio: f64::from(pixels_per_point),
         };
         on_whole_pixels(view, rect)
@@ -170,7 +191,7 @@ impl Canvas {
         {
             let metres = Vector::new(-f64::from(by.x), f64::from(by.y)) * (1.0 / camera.px_per_m);
             camera.centre = camera.centre + metres;
-            camera.is_fitted = false;
+            camera.fitted = None;
             self.was_moved = true;
         }
     }
@@ -185,7 +206,7 @@ impl Canvas {
         let fixed = plan_point(view, rect, at);
         camera.centre = fixed + (camera.centre - fixed) * (camera.px_per_m / px_per_m);
         camera.px_per_m = px_per_m;
-        camera.is_fitted = false;
+        camera.fitted = None;
         self.was_moved = true;
     }
 }
@@ -229,7 +250,7 @@ mod tests {
     #[test]
     fn zooming_keeps_the_point_under_the_pointer() {
         let rect = Rect::from_min_size(pos2(40.0, 20.0), vec2(400.0, 300.0));
-        let camera = Camera { centre: Point::new(3.0, 4.0), px_per_m: 30.0, is_fitted: true };
+        let camera = Camera { centre: Point::new(3.0, 4.0), px_per_m: 30.0, fitted: None };
         let mut canvas = Canvas { camera: Some(camera), ..Canvas::default() };
         let at = pos2(111.0, 77.0);
         let view = canvas.view(rect, 1.0);

@@ -24,7 +24,7 @@ use crate::app::paint::backdrop::BackdropView;
 use crate::app::paint::ghost::GhostPainter;
 use crate::app::paint::pending::Pending;
 use crate::app::paint::places::{canvas_id, plan_point};
-use crate::app::paint::preview::Preview;
+use crate::app::paint::preview::{Look, Preview};
 use crate::app::paint::scene_painter::ScenePainter;
 use crate::app::session::document::{Derived, Document};
 use crate::app::session::{Pointed, Session};
@@ -48,6 +48,8 @@ pub(crate) struct Canvas {
     pub hovered_in_panel: Option<ElementId>,
     /// What the point of a reason is about that is hovered in a panel.
     pub evidence: Option<Marks>,
+    /// The place that a field of a panel is about.
+    pub marked_in_panel: Option<Point>,
     /// What is under the pointer.
     pub pointed: Pointed,
     painter: ScenePainter,
@@ -70,7 +72,14 @@ pub(crate) struct Canvas {
     pressed_at: Option<(Point, Point)>,
     /// The last pointer position.
     last_pointer: Point,
+    /// How far an arrow key moves what is selected, in metres.
+    nudge_m: f64,
+    /// Whether letting go of Space flips a door: nothing has been panned since it went down.
+    space_flips: bool,
 }
+
+/// A pointer that has moved by no more than this has stayed where it was, in points: the width of a fingertip.
+const STAYS_PX: f64 = 24.0;
 
 /// Zoom per point of scrolling: the same as egui's for Ctrl and wheel.
 const ZOOM_PER_POINT: f64 = 1.0 / 200.0;
@@ -84,6 +93,12 @@ pub(crate) enum Act {
     PickNeighbour(isize),
     /// Pick the room nearest in a direction of the plan.
     PickTowards(Direction),
+    /// Move what is selected by so many metres.
+    Nudge(Direction, f64),
+    /// Hang doors the next way.
+    Flip,
+    /// Show what can be done with the thing under the pointer, or with the free space there.
+    Menu(Option<ElementId>, egui::Pos2),
     Rename,
 }
 
@@ -152,6 +167,7 @@ impl Canvas {
             }
         }
         self.pointed.at = pointer.map(|at| plan_point(view, rect, at));
+        self.pointed.near_m = STAYS_PX / view.px_per_m;
     }
 
     /// Shows the plan in the rest of `ui`; returns the user's action.
@@ -190,7 +206,8 @@ impl Canvas {
         let options = toolbox.options;
         let scope = self.use_tool(ui, &response, document, shown, session, &options, toolbox, &view, &mut act);
         // With any other tool, the keyboard still goes from room to room.
-        act = act.or(self.take_keys(ui, &response));
+        let by_keys = self.take_keys(ui, &response, session);
+        act = act.or(by_keys);
 
         let style = style(session, document.plan(), ui.visuals().dark_mode);
         let palette = style.palette();
@@ -229,6 +246,9 @@ impl Canvas {
         let tool = toolbox.tool();
         let mut preview = Preview::default();
         preview_question(session, document.plan(), &mut preview);
+        if let Some(place) = self.marked_in_panel {
+            preview.handle(place, Look::Danger);
+        }
         tool.preview(&scope, &mut preview);
         preview.paint(&painter, rect, &view, palette);
         if tool.snaps() && self.pointed.at.is_some() {
@@ -274,6 +294,12 @@ impl Canvas {
                 Units::Imperial => METRES_PER_FOOT,
             })
         });
+        let nudge_m = match grid_m.filter(|_| options.snaps_to_grid) {
+            Some(grid_m) => tools::attracting_grid_m(grid_m, view.px_per_m),
+            None if session.units() == Units::Imperial => METRES_PER_FOOT / 12.0,
+            None => 0.01,
+        };
+        self.nudge_m = nudge_m;
         let (lines, points) = more_to_snap_to(session, view, pointer);
         let ground = tools::Ground {
             index,
@@ -299,6 +325,7 @@ impl Canvas {
             pointer,
             snap,
             px_per_m: view.px_per_m,
+            nudge_m,
             modifiers,
         };
         let mut inputs = toolbox.take_pending();
@@ -324,7 +351,12 @@ impl Canvas {
                 inputs.push(Input::DoubleClick);
             }
             if response.secondary_clicked() {
-                inputs.push(Input::SecondaryClick);
+                // What is being drawn ends; otherwise there is something to be asked about the thing under the pointer.
+                if toolbox.tool().is_busy() {
+                    inputs.push(Input::SecondaryClick);
+                } else if let Some(at) = ui.input(|input| input.pointer.interact_pos()) {
+                    *act = Some(Act::Menu(self.pointed.element, at));
+                }
             }
         }
         let mut calls = Vec::new();
@@ -346,34 +378,59 @@ impl Canvas {
         scope
     }
 
-    /// With the keyboard on the canvas: Tab goes from room to room, arrows to the next room in that
-    /// direction.
-    fn take_keys(&mut self, ui: &Ui, response: &Response) -> Option<Act> {
+    /// With the keyboard on the canvas: Tab goes from room to room, arrows move what is selected, with Ctrl they go
+    /// to the next room in that direction, and Space flips a door. Arrows and Space also do so where nothing has the
+    /// keyboard.
+    fn take_keys(&mut self, ui: &Ui, response: &Response, session: &Session) -> Option<Act> {
         if response.gained_focus() {
             self.shows_focus = ui.input(|input| !input.pointer.any_pressed() && !input.pointer.any_released());
         }
-        if !response.has_focus() {
+        let has_none = |memory: &egui::Memory| memory.focused().is_none() && memory.top_modal_layer().is_none();
+        let is_free = ui.memory(has_none) && !egui::Popup::is_any_open(ui.ctx());
+        if !response.has_focus() && !is_free {
             return None;
         }
-        let filter = EventFilter { tab: true, horizontal_arrows: true, vertical_arrows: true, escape: false };
-        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+        let has_focus = response.has_focus();
+        if has_focus {
+            let filter = EventFilter { tab: true, horizontal_arrows: true, vertical_arrows: true, escape: false };
+            ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+        }
         if response.gained_focus() {
             // The key that brought the focus here is used up.
             return None;
         }
-        ui.input(|input| {
-            input.events.iter().find_map(|event| {
-                let egui::Event::Key { key, pressed: true, modifiers, .. } = event else { return None };
-                match key {
-                    Key::Tab => Some(Act::PickNeighbour(if modifiers.shift { -1 } else { 1 })),
-                    Key::ArrowLeft => Some(Act::PickTowards(Direction::Left)),
-                    Key::ArrowRight => Some(Act::PickTowards(Direction::Right)),
-                    Key::ArrowUp => Some(Act::PickTowards(Direction::Up)),
-                    Key::ArrowDown => Some(Act::PickTowards(Direction::Down)),
-                    Key::Enter => Some(Act::Rename),
-                    _ => None,
+        if self.is_panning {
+            self.space_flips = false;
+        }
+        let is_selected = !session.selection.is_empty();
+        let events = ui.input(|input| input.events.clone());
+        events.iter().find_map(|event| {
+            let egui::Event::Key { key, pressed, repeat, modifiers, .. } = event else { return None };
+            if *key == Key::Space && !repeat {
+                return std::mem::replace(&mut self.space_flips, *pressed).then_some(Act::Flip).filter(|_| !pressed);
+            }
+            let direction = match key {
+                Key::ArrowLeft => Some(Direction::Left),
+                Key::ArrowRight => Some(Direction::Right),
+                Key::ArrowUp => Some(Direction::Up),
+                Key::ArrowDown => Some(Direction::Down),
+                _ => None,
+            };
+            match (key, direction) {
+                _ if !pressed => None,
+                (_, Some(direction)) if is_selected && !modifiers.command => {
+                    let times = match (modifiers.shift, modifiers.alt) {
+                        (true, _) => tools::NUDGES_MORE,
+                        (false, true) => 1.0 / tools::NUDGES_MORE,
+                        (false, false) => 1.0,
+                    };
+                    Some(Act::Nudge(direction, self.nudge_m * times))
                 }
-            })
+                (_, Some(direction)) if has_focus => Some(Act::PickTowards(direction)),
+                (Key::Tab, _) if has_focus => Some(Act::PickNeighbour(if modifiers.shift { -1 } else { 1 })),
+                (Key::Enter, _) if has_focus => Some(Act::Rename),
+                _ => None,
+            }
         })
     }
 }

@@ -64,6 +64,8 @@ pub enum ArgumentKind {
     PlanFile,
     /// A file to write a plan to.
     NewPlanFile,
+    /// A file to write something else to.
+    NewFile,
     /// A file with a picture.
     PictureFile,
     /// Any text, empty included.
@@ -131,6 +133,7 @@ impl ArgumentKind {
         match self {
             Self::PlanFile => "a file with a plan, or a folder".to_owned(),
             Self::NewPlanFile => "a file to write the plan to".to_owned(),
+            Self::NewFile => "a file to write".to_owned(),
             Self::PictureFile => "a file with a picture".to_owned(),
             Self::Text => "a text".to_owned(),
             Self::Number { unit, least, most } => format!("a number{unit} from {least} to {most}"),
@@ -233,8 +236,12 @@ impl ArgumentKind {
             }
         };
         match self {
-            Self::PlanFile | Self::NewPlanFile | Self::PictureFile if text.is_empty() => Err(self.wrong(app)),
-            Self::PlanFile | Self::NewPlanFile | Self::PictureFile => Ok(Value::Path(PathBuf::from(text))),
+            Self::PlanFile | Self::NewPlanFile | Self::NewFile | Self::PictureFile if text.is_empty() => {
+                Err(self.wrong(app))
+            }
+            Self::PlanFile | Self::NewPlanFile | Self::NewFile | Self::PictureFile => {
+                Ok(Value::Path(PathBuf::from(text)))
+            }
             Self::Text | Self::Function => Ok(Value::Text(text.trim().to_owned())),
             Self::Length { .. } => self.number(app, app.units().parse_length(text)),
             Self::Coordinate { .. } => {
@@ -324,7 +331,9 @@ impl ArgumentKind {
             point.is_finite() && point.x.abs() <= COORDINATE_LIMIT_M && point.y.abs() <= COORDINATE_LIMIT_M
         };
         let is_taken = match (self, &value) {
-            (Self::PlanFile | Self::NewPlanFile | Self::PictureFile, Value::Path(path)) => !path.as_os_str().is_empty(),
+            (Self::PlanFile | Self::NewPlanFile | Self::NewFile | Self::PictureFile, Value::Path(path)) => {
+                !path.as_os_str().is_empty()
+            }
             (
                 Self::Number { least, most, .. }
                 | Self::Ratio { least, most }
@@ -402,6 +411,7 @@ impl ArgumentKind {
         Some(match self {
             Self::PlanFile
             | Self::NewPlanFile
+            | Self::NewFile
             | Self::PictureFile
             | Self::Text
             | Self::Number { .. }

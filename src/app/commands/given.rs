@@ -120,6 +120,7 @@ const fn kind<T>(kind: ArgumentKind) -> Kind<T> {
 
 pub(super) const PLAN_FILE: Kind<PathBuf> = kind(ArgumentKind::PlanFile);
 pub(super) const NEW_PLAN_FILE: Kind<PathBuf> = kind(ArgumentKind::NewPlanFile);
+pub(super) const NEW_FILE: Kind<PathBuf> = kind(ArgumentKind::NewFile);
 pub(super) const PICTURE_FILE: Kind<PathBuf> = kind(ArgumentKind::PictureFile);
 pub(super) const TEXT: Kind<String> = kind(ArgumentKind::Text);
 pub(super) const FUNCTION: Kind<String> = kind(ArgumentKind::Function);
@@ -270,8 +271,8 @@ impl Run for Given<0, (), fn(&mut App, &Context) -> Outcome> {
 mod tests {
     use crate::app::session::{bulk::Order, selection::SelectMode};
     use crate::app::value::{Boxed, Direction, Space, Value, Worded};
-    use crate::edit::{Alignment, DrawingMoves, storey::Keep};
-    use crate::plan::{GuideAxis, OpeningKind};
+    use crate::edit::{Alignment, DrawingMoves, End, storey::Keep};
+    use crate::plan::{GuideAxis, LeafSide, OpeningKind};
 
     fn assert_has_words<T: Worded + PartialEq + std::fmt::Debug>() {
         assert_eq!(T::WORDS.len(), T::ALL.len());
@@ -285,6 +286,8 @@ mod tests {
     #[test]
     fn every_word_means_one_thing() {
         assert_has_words::<OpeningKind>();
+        assert_has_words::<End>();
+        assert_has_words::<LeafSide>();
         assert_has_words::<SelectMode>();
         assert_has_words::<GuideAxis>();
         assert_has_words::<Keep>();

@@ -24,7 +24,7 @@ pub use table::COMMANDS;
 
 pub(super) use crate::app::value::{elements_word, room_word, sample_word};
 use given::Run;
-pub(crate) use pressed::take_pressed;
+pub(crate) use pressed::{is_shortcut, take_pressed};
 
 use crate::app::look::icons::Icon;
 use crate::app::state::App;
@@ -45,6 +45,8 @@ pub struct Command {
     pub shortcuts: &'static [KeyboardShortcut],
     /// Its menu and the section in it; `None` if only for scripts.
     pub menu: Option<(Menu, u8)>,
+    /// The things whose context menus show it.
+    pub on: &'static [On],
     /// Its icon and group in the tool bar; `None` if not there.
     pub tool: Option<(Icon, u8)>,
     /// Its icon and group in the strip of drawing tools; `None` if not there.
@@ -92,6 +94,26 @@ enum Outcome {
     Asks,
     /// Nothing was done; the text says why.
     Refused(String),
+}
+
+/// A thing that has a context menu.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum On {
+    Room,
+    Wall,
+    Opening,
+    Corner,
+    /// Several elements that are selected.
+    Several,
+    /// A place of the plan where nothing is.
+    FreeSpace,
+    /// The open plan in the list of plans.
+    ListedPlan,
+}
+
+impl On {
+    pub const ALL: [Self; 7] =
+        [Self::Room, Self::Wall, Self::Opening, Self::Corner, Self::Several, Self::FreeSpace, Self::ListedPlan];
 }
 
 /// A menu of the menu bar, in order.
@@ -340,6 +362,12 @@ mod tests {
             let mut names: Vec<&str> = command.arguments.iter().map(|argument| argument.name).collect();
             names.dedup();
             assert_eq!(names.len(), command.arguments.len(), "{}", command.id);
+        }
+        // Every kind of thing has a menu, of what stands in the menus of the bar too.
+        for thing in On::ALL {
+            let of_thing: Vec<&Command> = COMMANDS.iter().filter(|command| command.on.contains(&thing)).collect();
+            assert!((3..=24).contains(&of_thing.len()), "{thing:?}: {}", of_thing.len());
+            assert!(of_thing.iter().all(|command| command.menu.is_some()), "{thing:?}");
         }
         // Sections of a menu are contiguous.
         for menu in Menu::ALL {

@@ -1,10 +1,16 @@
 //! The commands for the keys that were pressed.
 
-use egui::{Event, InputState};
+use egui::{Event, InputState, Key, Modifiers};
 
 use super::{COMMANDS, Command};
 use crate::app::look::keys::Keys;
 use crate::app::session::settings::Settings;
+
+/// Whether a command has these keys.
+pub(crate) fn is_shortcut(settings: &Settings, key: Key, modifiers: Modifiers) -> bool {
+    let has = |command: &Command| settings.keys_of(command.id).iter().any(|keys| keys.is_pressed(key, modifiers));
+    COMMANDS.iter().any(has)
+}
 
 /// Takes the shortcuts pressed since the last frame out of the input and returns their commands.
 /// `is_typing`: a text field has the keyboard and keeps the keys it needs.

@@ -10,10 +10,7 @@ use egui::Context;
 
 use super::{Action, COMMANDS, Command, Outcome, find};
 use crate::app::look::keys::Keys;
-use crate::app::session::{
-    messages::Severity,
-    settings::{Keyed, Settings},
-};
+use crate::app::session::settings::{Keyed, Settings};
 use crate::app::state::{App, Asked};
 use crate::app::value::{Call, Value, Values, switch_word};
 use crate::base::units::Units;
@@ -97,7 +94,7 @@ impl App {
     /// Runs a command with values, and reports why if it is refused.
     pub(crate) fn act_on(&mut self, call: Call, context: &Context) {
         if let Err(error) = self.run_call(call, context) {
-            self.session.say(Severity::Warning, error.to_string(), "");
+            self.session.say_refused(error.to_string());
         }
     }
 
@@ -130,7 +127,7 @@ impl App {
     /// Runs a command with arguments from the window itself, and reports why if it is refused.
     pub(crate) fn act(&mut self, id: &str, arguments: &[&str], context: &Context) {
         if let Err(error) = self.run_command_with(id, arguments, context) {
-            self.session.say(Severity::Warning, error.to_string(), "");
+            self.session.say_refused(error.to_string());
         }
     }
 

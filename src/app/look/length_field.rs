@@ -3,11 +3,9 @@
 
 use std::ops::RangeInclusive;
 
-use egui::text::{CCursor, CCursorRange};
-use egui::text_edit::TextEditState;
-use egui::{Align2, CursorIcon, FontId, Id, Key, Sense, TextEdit, Ui, vec2};
+use egui::{Align2, CursorIcon, FontId, Key, Response, Sense, TextEdit, Ui, vec2};
 
-use crate::app::look::{theme, widgets::colours};
+use crate::app::look::{text::select_all, theme, widgets::colours};
 use crate::base::units::Units;
 
 /// A length that can be typed, or dragged by its name.
@@ -46,6 +44,11 @@ const DRAG_M_PER_POINT: f64 = 0.005;
 impl LengthField<'_> {
     /// Shows the name and the field behind it.
     pub(crate) fn show(self, ui: &mut Ui) -> Entered {
+        self.show_in(ui, false).0
+    }
+
+    /// The same; gives the field, too, which may be told to take the keyboard.
+    pub(crate) fn show_in(self, ui: &mut Ui, takes_focus: bool) -> (Entered, Response) {
         let Self { name, now_m, range_m, units, width, name_width } = self;
         // Painted, so that of two controls of one name the field is the one that is told of.
         let font = FontId::proportional(theme::BODY);
@@ -68,8 +71,12 @@ impl LengthField<'_> {
         let ink = if draft.refused.is_empty() { colours(ui).text } else { colours(ui).error };
         let edit = TextEdit::singleline(&mut draft.text).id(id).desired_width(width).text_color(ink);
         let response = ui.add(edit.align(Align2::LEFT_CENTER)).accessible_name(name);
+        if takes_focus {
+            response.request_focus();
+            select_all(ui.ctx(), id, &draft.text);
+        }
         if response.gained_focus() {
-            select_all(ui, id, &draft.text);
+            select_all(ui.ctx(), id, &draft.text);
         }
         if response.changed() {
             draft.refused.clear();
@@ -99,7 +106,7 @@ impl LengthField<'_> {
             true => data.remove::<Draft>(id),
             false => drop(data.insert_temp(id, draft)),
         });
-        entered
+        (entered, response)
     }
 }
 
@@ -111,12 +118,4 @@ fn read(text: &str, units: Units, range_m: &RangeInclusive<f64>) -> Result<f64, 
     }
     let [least, most] = [range_m.start(), range_m.end()].map(|end| units.exact_length(*end));
     Err(format!("{} is not from {least} to {most}", units.exact_length(length_m)))
-}
-
-/// Selects all that is in a field, so that what is typed takes its place.
-fn select_all(ui: &Ui, id: Id, text: &str) {
-    let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
-    let all = CCursorRange::two(CCursor::new(0), CCursor::new(text.chars().count()));
-    state.cursor.set_char_range(Some(all));
-    state.store(ui.ctx(), id);
 }

@@ -11,6 +11,8 @@ pub struct Control {
     pub name: String,
     /// Its description besides the name: a room's label and area; may be empty.
     pub description: String,
+    /// What is written in it, if it is a text field.
+    pub value: String,
     pub role: Role,
     /// In logical pixels.
     pub rect: Rect,
@@ -40,6 +42,7 @@ pub(crate) fn of_tree(tree: &TreeUpdate, scale: f32) -> Vec<Control> {
             // Plain text has its content as its value.
             name: node.label().or(node.value()).unwrap_or_default().to_owned(),
             description: node.description().unwrap_or_default().to_owned(),
+            value: node.value().unwrap_or_default().to_owned(),
             role: node.role(),
             rect: Rect::from_min_max(corner(bounds.x0, bounds.y0), corner(bounds.x1, bounds.y1)),
             is_enabled: !node.is_disabled(),

@@ -5,7 +5,27 @@ use super::*;
 impl Offscreen {
     /// Feeds an egui event.
     pub fn event(&mut self, event: Event) {
-        self.frame(vec![event], Vec::new(), false);
+        match &mut self.gathered {
+            Some(gathered) => gathered.push(event),
+            None => self.frame(vec![event], Vec::new(), false),
+        }
+    }
+
+    /// From now on the machine is slow: what is typed and clicked waits until [`Self::be_quick`].
+    pub fn be_slow(&mut self) {
+        self.gathered.get_or_insert_default();
+        self.frame_secs = SLOW_FRAME_SECS;
+    }
+
+    /// All that was typed and clicked since [`Self::be_slow`] comes within one frame of half a second; then the machine
+    /// is quick again.
+    pub fn be_quick(&mut self) {
+        let events = self.gathered.take().unwrap_or_default();
+        self.frame(events, Vec::new(), false);
+        while self.app.has_arrivals() && !self.is_closed {
+            self.frame(Vec::new(), Vec::new(), false);
+        }
+        self.frame_secs = FRAME_SECS;
     }
 
     /// The pointer's position.
@@ -50,7 +70,9 @@ impl Offscreen {
             self.button(button, false);
         }
         // So that the next click does not make a double click.
-        self.advance(CLICK_GAP_SECS);
+        if self.gathered.is_none() {
+            self.advance(CLICK_GAP_SECS);
+        }
     }
 
     /// Drags from one position to another.

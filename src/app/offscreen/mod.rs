@@ -33,6 +33,9 @@ const CLICK_GAP_SECS: f64 = 0.5;
 /// Seconds from frame to frame.
 const FRAME_SECS: f64 = 1.0 / 60.0;
 
+/// The same of a slow machine.
+const SLOW_FRAME_SECS: f64 = 0.5;
+
 /// A window that has not settled after this many frames never will.
 const MOST_FRAMES: usize = 600;
 
@@ -78,6 +81,10 @@ pub struct Offscreen {
     hovered_files: Vec<egui::HoveredFile>,
     /// The text that can be pasted: the system's clipboard.
     clipboard: String,
+    /// Input that is held back until all of it comes at once; `None` where each comes in a frame of its own.
+    gathered: Option<Vec<Event>>,
+    /// How long a frame takes, in seconds.
+    frame_secs: f64,
     /// The output of the last frame.
     output: Option<FullOutput>,
     tree: Option<accesskit::TreeUpdate>,
@@ -102,6 +109,8 @@ impl Offscreen {
             modifiers: Modifiers::NONE,
             hovered_files: Vec::new(),
             clipboard: String::new(),
+            gathered: None,
+            frame_secs: FRAME_SECS,
             output: None,
             tree: None,
             is_closing: false,
@@ -307,6 +316,7 @@ impl Offscreen {
                 viewport.events.push(egui::ViewportEvent::Close);
             }
         }
+        self.app.take_arrivals(&self.context, &mut input);
         let app = &mut self.app;
         let mut output = self.context.run_ui(input, |ui| app.frame(ui));
         self.raster.update_textures(&mut output.textures_delta);
@@ -327,7 +337,7 @@ impl Offscreen {
             self.tree = Some(tree);
         }
         self.output = Some(output);
-        self.time_secs += FRAME_SECS;
+        self.time_secs += self.frame_secs;
     }
 
     // What is visible.

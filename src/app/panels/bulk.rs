@@ -71,7 +71,7 @@ impl Bulk {
         match purpose {
             Purpose::NameRooms(which) => Self::naming_these(app, which),
             Purpose::ChangeRooms => Self::changing(app),
-            Purpose::Usual | Purpose::Argument(_) => Self::naming(app),
+            Purpose::Usual | Purpose::Argument(_) | Purpose::Print => Self::naming(app),
         }
     }
 

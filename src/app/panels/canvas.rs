@@ -5,9 +5,10 @@ use egui::Ui;
 use crate::app::canvas::{Act, Beginning, rulers};
 use crate::app::commands::{self, CommandError};
 use crate::app::paint::places::canvas_id;
-use crate::app::state::App;
+use crate::app::state::{App, Thing};
 use crate::app::value::{Call, Value};
 use crate::base::wording::sentence;
+use crate::plan::ElementId;
 
 /// Shows the canvas in the rest of `ui`.
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
@@ -52,8 +53,20 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         Some(Act::PickTowards(direction)) => {
             app.act_on(Call::new("pick-towards", [Value::word(direction)]), ui.ctx());
         }
-        Some(Act::Rename) => {
-            app.run_command("rename", ui.ctx());
+        Some(Act::Rename) => match app.picked() {
+            Some(element @ (ElementId::Wall(_) | ElementId::Opening(_))) => app.change_here(element),
+            _ => drop(app.run_command("rename", ui.ctx())),
+        },
+        Some(Act::Nudge(direction, distance_m)) => {
+            run(app, vec![Call::new("nudge", [Value::word(direction), Value::Number(distance_m)])], ui);
+        }
+        Some(Act::Flip) => {
+            if commands::find("flip").is_some_and(|flip| flip.why_not(app).is_none()) {
+                app.run_command("flip", ui.ctx());
+            }
+        }
+        Some(Act::Menu(element, at)) => {
+            app.open_context_menu(element.map_or(Thing::Free, Thing::Element), at, ui.ctx());
         }
     }
 }

@@ -1,8 +1,11 @@
 //! What is known of what is picked: a room, an opening, or the plan as a whole.
 
+mod opening;
 mod proposals;
 mod room;
+mod wall;
 
+use std::cell::Cell;
 use std::ops::RangeInclusive;
 
 use egui::{Id, Key, Popup, PopupCloseBehavior, RichText, Role, ScrollArea, Sense, TextEdit, Ui, WidgetInfo, vec2};
@@ -15,8 +18,8 @@ use crate::app::look::{
     length_field::LengthField,
     theme,
     widgets::{
-        Lead, Row, Segment, caption, colours, follow_focus, hairline, link, section, segmented, strong, text_button,
-        value,
+        Lead, ROW, Row, Segment, caption, colours, follow_focus, hairline, link, section, segmented, strong,
+        text_button, value,
     },
 };
 use crate::app::session::document::{Derived, Document};
@@ -28,7 +31,7 @@ use crate::base::{
 };
 use crate::draw::Palette;
 use crate::features::{Features, RoomAnalysis, RoomStatus};
-use crate::geometry::trim_m;
+use crate::geometry::{Point, trim_m};
 use crate::labels::{Label, Meaning, normalised_function};
 use crate::plan::{
     ElementId, Joint, LabelOrigin, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, ScaleOrigin,
@@ -42,19 +45,20 @@ enum Act {
     Pick(ElementId),
     Label(Option<Label>),
     Type(Field),
-    Commit,
+    /// What was written last, if anything, and all before it, is taken.
+    Commit(Option<Field>),
     Revert,
     ShowNotes,
     Command(&'static str),
-    /// A command with its argument.
-    Choose(&'static str, String),
+    /// A command with its arguments.
+    Choose(&'static str, Vec<String>),
     Picture(PictureAct),
 }
 
 impl Act {
     fn of(asked: prediction::Asked) -> Self {
         match asked {
-            (id, Some(word)) => Self::Choose(id, word),
+            (id, Some(word)) => Self::Choose(id, vec![word]),
             (id, None) => Self::Command(id),
         }
     }
@@ -66,7 +70,7 @@ const LEAST_HEIGHT: f32 = 160.0;
 pub(super) const PANEL: SidePanel = SidePanel {
     id: panels::INSPECTOR,
     title: "Inspector",
-    help: "What is known of what is picked",
+    help: "The properties of the selection",
     side: Side::Right,
     height: Height::Rest { least: LEAST_HEIGHT },
     is_shown_at_first: true,
@@ -79,12 +83,14 @@ fn show(app: &mut App, ui: &mut Ui) {
     let mut act = None;
     let mut hovered = None;
     let mut evidence = None;
+    let marked = Cell::new(None);
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         let margin = egui::Margin { left: 16, right: 16, top: 14, bottom: 16 };
         egui::Frame::new().inner_margin(margin).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 4.0;
             let Some(document) = &app.session.document else { return };
-            let inspected = Inspected { app, document, plan: document.plan(), palette: app.session.palette(ui) };
+            let palette = app.session.palette(ui);
+            let inspected = Inspected { app, document, plan: document.plan(), palette, marked: &marked };
             act = match app.picked() {
                 Some(ElementId::Room(id)) => {
                     document.plan().room(id).and_then(|room| inspected.room(ui, id, room, &mut hovered, &mut evidence))
@@ -92,8 +98,8 @@ fn show(app: &mut App, ui: &mut Ui) {
                 Some(ElementId::Opening(id)) => {
                     document.plan().opening(id).and_then(|opening| inspected.opening(ui, id, opening, &mut hovered))
                 }
-                // Walls, corners, and multiple elements.
-                Some(_) => inspected.several(ui),
+                Some(ElementId::Wall(id)) => document.plan().wall(id).and_then(|wall| inspected.wall(ui, id, wall)),
+                Some(ElementId::Corner(id)) => inspected.corner(ui, id),
                 None if app.selection().is_empty() => inspected.plan(ui),
                 None => inspected.several(ui),
             };
@@ -101,6 +107,7 @@ fn show(app: &mut App, ui: &mut Ui) {
     });
     app.canvas.hovered_in_panel = hovered;
     app.canvas.evidence = evidence;
+    app.canvas.marked_in_panel = marked.get();
     app.panels.focus = None;
     match act {
         None => {}
@@ -117,7 +124,10 @@ fn show(app: &mut App, ui: &mut Ui) {
             app.act(id, &[], ui.ctx());
         }
         Some(Act::Type(field)) => app.session.field = Some(field),
-        Some(Act::Commit) => app.session.commit_field(),
+        Some(Act::Commit(written)) => {
+            app.session.field = written.or(app.session.field.take());
+            app.session.commit_field();
+        }
         Some(Act::Revert) => drop(app.session.field.take()),
         Some(Act::Picture(PictureAct::Opacity(opacity))) => app.session.backdrop.opacity = Some(opacity),
         Some(Act::Picture(PictureAct::Command(id, arguments))) => {
@@ -126,7 +136,10 @@ fn show(app: &mut App, ui: &mut Ui) {
             app.act(id, &arguments, ui.ctx());
         }
         Some(Act::Command(id)) => app.act(id, &[], ui.ctx()),
-        Some(Act::Choose(id, word)) => app.act(id, &[&word], ui.ctx()),
+        Some(Act::Choose(id, words)) => {
+            let words: Vec<&str> = words.iter().map(String::as_str).collect();
+            app.act(id, &words, ui.ctx());
+        }
         Some(Act::ShowNotes) => app.act("import-notes", &["on"], ui.ctx()),
     }
 }
@@ -139,12 +152,14 @@ struct Inspected<'a> {
     document: &'a Document,
     plan: &'a Plan,
     palette: &'static Palette,
+    /// The place on the plan that a field is about.
+    marked: &'a Cell<Option<Point>>,
 }
 
 impl Inspected<'_> {
     // A room.
 
-    // Several elements, walls, corners.
+    // Several elements.
 
     fn several(&self, ui: &mut Ui) -> Option<Act> {
         let selection = self.app.selection();
@@ -172,34 +187,18 @@ impl Inspected<'_> {
             });
             ui.add_space(4.0);
         }
-        let walls: Vec<(f64, f64)> = selection
-            .walls()
-            .filter_map(|id| self.plan.wall(id))
-            .filter_map(|wall| Some((self.plan.wall_segment(wall)?.length(), wall.thickness_m)))
-            .collect();
-        if let Some(&(_, thickness_m)) = walls.first() {
-            let length_m: f64 = walls.iter().map(|(length_m, _)| length_m).sum();
-            value(ui, if walls.len() == 1 { "Length" } else { "Length together" }, &self.app.units().length(length_m));
-            if walls.iter().all(|(_, other_m)| *other_m == thickness_m) {
-                act = act.or(self.length(ui, "Thickness", thickness_m, 0.0..=10.0, "set-thickness"));
-            }
-        }
+        act = act.or_else(|| self.walls(ui));
+        act = act.or_else(|| self.openings(ui));
         let areas_m2: Vec<f64> = self.document.derived().map_or_else(Vec::new, |derived| {
             selection.rooms().filter_map(|id| derived.analysis.shapes.get(id)).map(RoomShape::area_m2).collect()
         });
         if !areas_m2.is_empty() {
             value(ui, "Area together", &self.app.units().area(areas_m2.iter().sum()));
         }
-        if let Some(ElementId::Corner(id)) = selection.one()
-            && let Some(place) = self.plan.position(id)
-        {
-            let units = self.app.units();
-            value(ui, "Place", &format!("{}, {}", units.exact_length(place.x), units.exact_length(place.y)));
-        }
         act
     }
 
-    /// A length of what is selected, which a command changes.
+    /// A length of what is selected, which a command with this and more arguments changes.
     fn length(
         &self,
         ui: &mut Ui,
@@ -207,9 +206,10 @@ impl Inspected<'_> {
         now_m: f64,
         range_m: RangeInclusive<f64>,
         command: &'static str,
+        more: &[&str],
     ) -> Option<Act> {
         // What stands in the field is in line with the values below and above.
-        let name_width = Some((ui.available_width() * 0.42).min(110.0) - 10.0);
+        let name_width = Some(name_width(ui) - 10.0);
         let field =
             LengthField { name, now_m: trim_m(now_m), range_m, units: self.app.units(), width: 100.0, name_width };
         // Of another wall or door, what was begun is forgotten.
@@ -218,61 +218,37 @@ impl Inspected<'_> {
         if !entered.refused.is_empty() {
             ui.label(RichText::new(&entered.refused).size(theme::SMALL).color(colours(ui).error));
         }
-        entered.length_m.map(|length_m| Act::Choose(command, format!("{length_m}m")))
+        let words = |length_m: f64| {
+            std::iter::once(format!("{length_m}m")).chain(more.iter().map(|word| (*word).to_owned())).collect()
+        };
+        entered.length_m.map(|length_m| Act::Choose(command, words(length_m)))
     }
 
-    // An opening.
-
-    fn opening(&self, ui: &mut Ui, id: OpeningId, opening: &Opening, hovered: &mut Option<ElementId>) -> Option<Act> {
-        let subtitle = match opening.place {
-            Place::Hosted { .. } => "In a wall",
-            Place::Free { .. } => "At a place of its own",
-        };
-        header(ui, None, Some(opening_icon(opening.kind)), &sentence(opening.kind.name()), subtitle);
-        ui.add_space(6.0);
-        let mut act = None;
-        if let Some(segment) = self.plan.opening_segment(opening) {
-            act = self.length(ui, "Width", segment.length(), 0.01..=1000.0, "set-opening-width");
-        }
-        if !opening.kind.is_passable() {
-            caption(ui, "Windows are for drawing only: they join nothing.");
-            return act;
-        }
-        hairline(ui);
-        section(ui, "Joins");
-        let joins = self.document.derived().and_then(|derived| {
-            let connections = derived.analysis.graph.connections();
-            Some((derived, connections.iter().find(|connection| connection.opening == id)?))
+    /// One of a few alternatives of what is selected, which a command chooses: each with its word and its name.
+    fn choice(
+        &self,
+        ui: &mut Ui,
+        name: &str,
+        now: &str,
+        choices: &[(&str, String)],
+        command: &'static str,
+    ) -> Option<Act> {
+        let shown: Vec<String> = choices.iter().map(|(_, title)| format!("{name}: {title}")).collect();
+        let segments: Vec<Segment<'_>> = choices
+            .iter()
+            .zip(&shown)
+            .map(|((word, title), name)| Segment { text: title, name, help: name, is_on: now == *word, colour: None })
+            .collect();
+        let chosen = ui.horizontal(|ui| {
+            let (rect, _) = ui.allocate_exact_size(vec2(name_width(ui) - 10.0, ROW), Sense::hover());
+            let font = egui::FontId::proportional(theme::BODY);
+            ui.painter().text(rect.left_center(), egui::Align2::LEFT_CENTER, name, font, colours(ui).text_weak);
+            segmented(ui, &segments)
         });
-        let Some((derived, connection)) = joins else { return act };
-        unindented(ui, |ui| {
-            ui.spacing_mut().item_spacing.y = 0.0;
-            for (side, joint) in connection.sides.into_iter().enumerate() {
-                match joint {
-                    Joint::Outside => drop(Row::new(Lead::Icon(Icon::Outside), "Outside").inset(8.0).show_only(ui)),
-                    Joint::Room(room) => {
-                        let target = ElementId::Room(room);
-                        let status = derived.analysis.room(room).map_or(RoomStatus::Unlabelled, |room| room.status);
-                        let colour = theme::colour(self.palette.status(status));
-                        let text = title_of(self.plan, target);
-                        let row = Row::new(Lead::Swatch(colour), &text);
-                        let response = ui.push_id(side, |ui| row.button(ui, Role::Link)).inner;
-                        if response.hovered() || response.has_focus() {
-                            *hovered = Some(target);
-                        }
-                        if response.clicked() {
-                            act = Some(Act::Pick(target));
-                        }
-                    }
-                }
-            }
-        });
-        ui.add_space(4.0);
-        caption(ui, if connection.pinned { "Stated by the file or by a person" } else { "Found from where it lies" });
-        if connection.joins_nothing() {
-            ui.label(RichText::new("Both sides are the same: it joins nothing.").color(colours(ui).warning));
-        }
-        act
+        chosen
+            .inner
+            .and_then(|index| choices.get(index))
+            .map(|(word, _)| Act::Choose(command, vec![(*word).to_owned()]))
     }
 
     // The plan.
@@ -335,7 +311,7 @@ impl Inspected<'_> {
             }
         }
         ui.add_space(10.0);
-        caption(ui, "Click a room or a door to see what is known of it.");
+        caption(ui, "Click a room or a door to see its properties.");
         act
     }
 
@@ -360,6 +336,11 @@ impl Inspected<'_> {
             caption(ui, format!("The label scheme does not know: {}", list.join(", ")));
         }
     }
+}
+
+/// The width of the names on the left, in points: that of [`value`].
+fn name_width(ui: &Ui) -> f32 {
+    (ui.available_width() * 0.42).min(110.0)
 }
 
 /// An event in the list of suggestions.
@@ -414,7 +395,7 @@ fn header(
 fn features(ui: &mut Ui, analysed: &RoomAnalysis, perimeter_m: Option<f64>, units: Units) {
     let Some(features) = &analysed.features else {
         let why = if analysed.status == RoomStatus::NotClassified {
-            "Rooms that are not classified have none: they count like the outside."
+            "None: the label scheme leaves this room out, so it counts as outside."
         } else {
             "The room encloses no area."
         };
@@ -439,8 +420,8 @@ fn features(ui: &mut Ui, analysed: &RoomAnalysis, perimeter_m: Option<f64>, unit
     }
     if let Some(temporary) = analysed.temporary {
         ui.add_space(4.0);
-        caption(ui, format!("By area, ratio and openings alone: {temporary}"))
-            .on_hover_text("The naive classifier's temporary label, which neighbours see while a room has none");
+        caption(ui, format!("From area, ratio and openings alone: {temporary}"))
+            .on_hover_text("The temporary label that counts for its neighbours while the room has no label");
     }
 }
 

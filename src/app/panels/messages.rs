@@ -1,7 +1,10 @@
-//! The bars above the canvas: messages that stay until dismissed, and some that stay as long as they are
-//! true.
+//! The bars over the canvas: messages that stay until dismissed, and some that stay as long as they are true. They lie
+//! over the plan, so that it does not move when one comes or goes.
 
-use egui::{Color32, Frame, Label, Margin, Rect, RichText, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
+use egui::{
+    Align2, Area, Color32, Frame, Id, Label, Margin, Order, Rect, RichText, Role, Sense, Ui, Vec2, WidgetInfo, pos2,
+    vec2,
+};
 
 use crate::app::look::{
     icons::Icon,
@@ -11,14 +14,40 @@ use crate::app::look::{
 use crate::app::session::messages::{Message, Remedy, Severity};
 use crate::app::state::App;
 use crate::app::value::{Call, Value};
+use crate::plan::ElementId;
 
 /// The most messages shown at once: the newest ones.
 const SHOWN: usize = 3;
 
-pub(super) fn show(app: &mut App, ui: &mut Ui) {
-    let first = app.session.messages.len().saturating_sub(SHOWN);
+/// Distance of the bars from the sides of the canvas, and from its lower end with the scale bar, in points.
+const SIDE: f32 = 16.0;
+const BELOW: f32 = 36.0;
+
+/// The most that the bars are wide, in points: longer lines are hard to read.
+const WIDTH: f32 = 760.0;
+
+/// Shows the bars over the canvas, or over what stands in its place.
+pub(super) fn show(app: &mut App, ui: &Ui, middle: Rect) {
+    let shown = app.session.shown_messages();
+    let first = shown.len().saturating_sub(SHOWN);
     // Lasting messages are always shown.
-    let messages: Vec<Message> = app.session.messages.iter().skip(first).cloned().chain(app.session.bars()).collect();
+    let newest = shown.iter().skip(first).filter_map(|index| app.session.messages.get(*index).cloned());
+    let messages: Vec<Message> = newest.chain(app.session.bars()).collect();
+    if messages.is_empty() {
+        return;
+    }
+    let canvas = app.canvas.seen_rect().filter(|_| app.session.document.is_some()).unwrap_or(middle);
+    let width = (canvas.width() - 2.0 * SIDE).clamp(120.0, WIDTH);
+    let place = pos2(canvas.center().x - width / 2.0, canvas.bottom() - BELOW);
+    let area = Area::new(Id::unique("messages")).order(Order::Middle).pivot(Align2::LEFT_BOTTOM).fixed_pos(place);
+    area.constrain_to(middle).show(ui.ctx(), |ui| {
+        ui.set_width(width);
+        ui.spacing_mut().item_spacing.y = 6.0;
+        show_bars(app, ui, first, messages);
+    });
+}
+
+fn show_bars(app: &mut App, ui: &mut Ui, first: usize, messages: Vec<Message>) {
     for (index, message) in messages.into_iter().enumerate() {
         let act = ui.push_id(("message", index), |ui| bar(ui, &message)).inner;
         match act {
@@ -51,6 +80,7 @@ impl Remedy {
             Self::SaveElsewhere => Call::new("save-as", []),
             Self::ShowPicture => Call::new("show-outside-picture", []),
             Self::RelinkPicture | Self::KeepPicture => Call::new("relink-picture", []),
+            Self::MergeRooms(rooms) => Call::new("merge-rooms", [Value::Elements(rooms.map(ElementId::Room).to_vec())]),
         }
     }
 }
@@ -63,7 +93,7 @@ enum Act {
 fn bar(ui: &mut Ui, message: &Message) -> Option<Act> {
     let (icon, mark, ground) = severity_colours(ui, message.severity);
     let mut act = None;
-    let frame = Frame::new().fill(ground).inner_margin(Margin { left: 14, right: 8, top: 6, bottom: 6 });
+    let frame = Frame::popup(ui.style()).fill(ground).inner_margin(Margin { left: 14, right: 8, top: 4, bottom: 4 });
     let shown = frame.show(ui, |ui| {
         ui.set_width(ui.available_width().max(0.0));
         ui.horizontal_top(|ui| {
@@ -111,7 +141,6 @@ fn bar(ui: &mut Ui, message: &Message) -> Option<Act> {
         });
     });
     let rect = shown.response.rect;
-    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, Stroke::new(1.0, colours(ui).border));
     let role = if message.severity == Severity::Error { Role::Alert } else { Role::Status };
     let said = ui.interact(rect, ui.scope_id().with("said"), Sense::hover());
     said.widget_info(|| WidgetInfo::labeled(role, true, format!("{} {}", message.text, message.detail)));

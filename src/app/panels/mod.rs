@@ -3,10 +3,15 @@
 pub(super) mod about;
 pub(super) mod bulk;
 mod canvas;
+mod dataset;
 pub(super) mod differences;
+mod export;
+mod findings;
+mod here;
 mod history;
 mod inspector;
 mod layers;
+mod menus;
 mod messages;
 pub(super) mod notes;
 pub(super) mod palette;
@@ -31,17 +36,27 @@ use crate::app::look::theme;
 use crate::app::state::{App, Entry, Side, SidePanel};
 
 /// All dialogs; later ones are above earlier ones.
-pub(crate) const DIALOGS: &[Entry] =
-    &[notes::ENTRY, differences::ENTRY, recovery::ENTRY, about::ENTRY, shortcuts::ENTRY, bulk::ENTRY, palette::ENTRY];
+pub(crate) const DIALOGS: &[Entry] = &[
+    notes::ENTRY,
+    differences::ENTRY,
+    recovery::ENTRY,
+    about::ENTRY,
+    shortcuts::ENTRY,
+    bulk::ENTRY,
+    export::ENTRY,
+    dataset::ENTRY,
+    palette::ENTRY,
+];
 
 /// All side panels, from the top.
-pub(crate) const SIDE_PANELS: &[SidePanel] = &[plans::PANEL, layers::PANEL, inspector::PANEL, history::PANEL];
+pub(crate) const SIDE_PANELS: &[SidePanel] =
+    &[plans::PANEL, layers::PANEL, inspector::PANEL, findings::PANEL, history::PANEL];
 
 /// Shows the window.
 pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     let colours = theme::colours(ui.visuals());
     let frame = |margin: Margin| Frame::new().fill(colours.panel).inner_margin(margin);
-    (app.canvas.hovered_in_panel, app.canvas.evidence) = (None, None);
+    (app.canvas.hovered_in_panel, app.canvas.marked_in_panel, app.canvas.evidence) = (None, None, None);
     Panel::top("top bar").exact_size(44.0).frame(frame(Margin::symmetric(8, 0))).show(ui, |ui| top_bar::show(app, ui));
     // Only reserves its place: its contents come last in Tab order.
     let status_rect = Panel::bottom("status line")
@@ -77,7 +92,6 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     }
     let shown = CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
-        messages::show(app, ui);
         if app.session.document.is_some() {
             canvas::show(app, ui);
         } else {
@@ -87,7 +101,10 @@ pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     });
     app.panels.middle_rect = Some(shown.response.rect);
     tool_options::show(app, ui);
+    messages::show(app, ui, shown.response.rect);
     status::show(app, &mut ui.new_child(UiBuilder::new().max_rect(status_rect).id_salt("status")));
+    here::show(app, ui);
+    menus::show_context_menu(app, ui);
     app.show_dialogs(ui);
     questions::show(app, ui);
 }

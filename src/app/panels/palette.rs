@@ -3,8 +3,7 @@
 mod lines;
 
 use crate::app::state::dialogs;
-use egui::text::{CCursor, CCursorRange, LayoutJob, TextFormat};
-use egui::text_edit::TextEditState;
+use egui::text::{LayoutJob, TextFormat};
 use egui::{
     Align2, Color32, FontId, Id, Key, Modal, Modifiers, Rect, Response, RichText, Role, ScrollArea, Sense, TextEdit,
     Ui, UiBuilder, Vec2, WidgetInfo, pos2, vec2,
@@ -15,6 +14,7 @@ use crate::app::commands::{Argument, COMMANDS, Choice, Command, find};
 use crate::app::look::{
     icons::Icon,
     search::{Hit, Search},
+    text::select_all,
     theme,
     widgets::{ICON, ROW, colours, hairline_in, put_line, swatch},
 };
@@ -337,10 +337,7 @@ impl Palette {
         let field_id = Id::unique("command palette's text");
         if !std::mem::replace(&mut self.is_shown, true) {
             // The cursor may be anywhere, left from an earlier palette.
-            let mut state = TextEditState::default();
-            let all = CCursorRange::two(CCursor::new(0), CCursor::new(self.query.chars().count()));
-            state.cursor.set_char_range(Some(all));
-            state.store(ui.ctx(), field_id);
+            select_all(ui.ctx(), field_id, &self.query);
         }
         let edit = TextEdit::singleline(&mut self.query)
             .id(field_id)

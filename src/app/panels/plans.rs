@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use egui::{Role, ScrollArea, Ui};
+use egui::{Response, Role, ScrollArea, Ui};
 
 use crate::app::commands;
 use crate::app::look::{
@@ -10,7 +10,7 @@ use crate::app::look::{
     widgets::{Lead, ROW, Row, icon_button, right, section},
 };
 use crate::app::session::origin::{Origin, bundled, file_name};
-use crate::app::state::{App, Height, Side, SidePanel, panels};
+use crate::app::state::{App, Height, Side, SidePanel, Thing, panels};
 
 /// A row of the list.
 enum Entry {
@@ -49,7 +49,7 @@ fn show(app: &mut App, ui: &mut Ui) {
         });
     });
     let current = app.session.document.as_ref().map(|document| document.origin.clone());
-    let mut wanted = None;
+    let (mut wanted, mut asked) = (None, None);
     ui.spacing_mut().item_spacing.y = 0.0;
     ScrollArea::vertical().auto_shrink([false, false]).show_rows(ui, ROW, entries.len(), |ui, range| {
         for entry in &entries[range] {
@@ -63,23 +63,37 @@ fn show(app: &mut App, ui: &mut Ui) {
                 Entry::Plan { origin, text } => {
                     let is_current = current.as_ref().is_some_and(|current| is_same_file(current, origin));
                     let row = Row::new(Lead::Icon(Icon::Plan), text).selected(is_current);
-                    if row.button(ui, Role::ListBoxOption).clicked() && current.as_ref() != Some(origin) {
+                    let response = row.button(ui, Role::ListBoxOption);
+                    asked = asked.take().or(asks(&response, origin));
+                    if response.clicked() && current.as_ref() != Some(origin) {
                         wanted = Some(origin.clone());
                     }
                 }
                 Entry::Storey { origin, text } => {
                     let row = Row::new(Lead::None, text).indent(24.0).selected(current.as_ref() == Some(origin));
-                    if row.button(ui, Role::ListBoxOption).clicked() && current.as_ref() != Some(origin) {
+                    let response = row.button(ui, Role::ListBoxOption);
+                    asked = asked.take().or(asks(&response, origin));
+                    if response.clicked() && current.as_ref() != Some(origin) {
                         wanted = Some(origin.clone());
                     }
                 }
             }
         }
     });
+    if let Some((origin, at)) = asked {
+        let context = ui.ctx().clone();
+        app.open_context_menu(Thing::Listed(origin), at, &context);
+    }
     if let Some(origin) = wanted {
         let context = ui.ctx().clone();
         app.open_listed(&origin, &context);
     }
+}
+
+/// The plan of a row whose menu is asked for, and where.
+fn asks(row: &Response, origin: &Origin) -> Option<(Origin, egui::Pos2)> {
+    let at = row.interact_pointer_pos().unwrap_or(row.rect.center());
+    row.secondary_clicked().then(|| (origin.clone(), at))
 }
 
 fn entries(app: &App) -> Vec<Entry> {

@@ -147,11 +147,17 @@ fn one(
                     let place = file.map_or("Never saved".to_owned(), |path| app.session.shown_path(path));
                     ui.add(Label::new(RichText::new(place).size(theme::SMALL).color(colours(ui).text_weak)).wrap());
                     ui.add_space(4.0);
-                    let changes = count(recovered.history.position().max(1), "change");
+                    let changes = match (recovered.history.position(), &recovered.draft) {
+                        (0, Some(_)) => "An unfinished drawing".to_owned(),
+                        (number, _) => count(number.max(1), "change"),
+                    };
                     let age = now.zip(offered.leftover.modified).and_then(|(now, then)| age(now, then));
                     ui.label(age.map_or(changes.clone(), |age| format!("{changes}, {age}")));
                     if let Some(step) = recovered.history.steps().get(recovered.history.position()) {
                         caption(ui, format!("Last change: {}", step.title));
+                    }
+                    if recovered.draft.is_some() {
+                        caption(ui, "The unfinished drawing is there too.");
                     }
                     if recovered.unsound.is_some() {
                         caption(ui, "One change is damaged; it and the changes after it are left out.");

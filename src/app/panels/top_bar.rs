@@ -1,15 +1,16 @@
 //! The top bar: menus, the plan's title, tools.
 
+use egui::text::{LayoutJob, TextFormat};
 use egui::{
-    Align, Align2, Context, FontId, Layout, MenuBar, Response, Role, Sense, Stroke, Ui, UiBuilder, WidgetInfo, pos2,
-    vec2,
+    Align, Align2, Color32, Context, FontId, Layout, MenuBar, Response, Role, Sense, Stroke, Ui, UiBuilder, WidgetInfo,
+    WidgetText, pos2, vec2,
 };
 
+use super::menus;
 use crate::app::commands::{COMMANDS, Command, Menu};
 use crate::app::look::theme;
-use crate::app::look::widgets::{Lead, ROW, Row, colours, focus_ring, icon_button, strong};
+use crate::app::look::widgets::{ROW, colours, focus_ring, icon_button, strong};
 use crate::app::state::App;
-use crate::base::wording::sentence;
 
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let bar = ui.max_rect();
@@ -20,7 +21,10 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             ui.spacing_mut().item_spacing.x = 2.0;
             let mut right = bar.left();
             for menu in Menu::ALL {
-                let button = ui.menu_button(menu.title(), |ui| menu_entries(app, ui, menu)).response;
+                let top = bar.bottom();
+                let title = menu_title(ui, menu);
+                let button = ui.menu_button(title, |ui| menus::menu(app, ui, menu, top)).response;
+                menus::remember_button(app, menu, &button);
                 focus_ring(ui, button.rect, &button);
                 right = button.rect.right();
             }
@@ -35,51 +39,20 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     title(app, ui, left + 16.0, right - 16.0);
 }
 
-fn menu_entries(app: &mut App, ui: &mut Ui, menu: Menu) {
-    ui.set_width(260.0);
-    ui.spacing_mut().item_spacing.y = 0.0;
-    let mut section = None;
-    for command in COMMANDS.iter() {
-        let Some((_, this)) = command.menu.filter(|(of, _)| *of == menu) else { continue };
-        let rows = command.rows(app);
-        if rows.as_ref().is_some_and(Vec::is_empty) {
-            continue;
-        }
-        if section.is_some_and(|section| section != this) {
-            ui.separator();
-        }
-        section = Some(this);
-        if let Some(rows) = rows {
-            for (choice, is_on) in rows {
-                let response = Row::new(Lead::Tick(is_on), &choice.title).button(ui, Role::MenuItem);
-                if response.on_hover_text(&choice.detail).clicked() {
-                    let context = ui.ctx().clone();
-                    app.act(command.id, &[&choice.word], &context);
-                    ui.close();
-                }
-            }
-            continue;
-        }
-        let why_not = command.why_not(app);
-        let shortcut = app.keys_text(command, ui.ctx());
-        let is_on = command.is_on(app) == Some(true);
-        let row = Row::new(Lead::Tick(is_on), command.title).trail(&shortcut);
-        let response = ui.add_enabled_ui(why_not.is_none(), |ui| row.button(ui, Role::MenuItem)).inner;
-        ui.ctx().accesskit_node_builder(response.id, |node| {
-            if !shortcut.is_empty() {
-                node.set_keyboard_shortcut(shortcut.as_str());
-            }
-        });
-        let response = match why_not {
-            Some(why_not) => response.on_disabled_hover_text(sentence(why_not)),
-            None => response,
-        };
-        if response.clicked() {
-            let context = ui.ctx().clone();
-            app.run_command(command.id, &context);
-            ui.close();
-        }
-    }
+/// The title of a menu, its letter underlined while Alt is held.
+fn menu_title(ui: &Ui, menu: Menu) -> WidgetText {
+    let title = menu.title();
+    let (letter, _) = menus::letter(menu);
+    let Some(at) = title.find(letter).filter(|_| menus::shows_letters(ui)) else { return title.into() };
+    let font = FontId::proportional(theme::BODY);
+    let plain = TextFormat::simple(font, Color32::PLACEHOLDER);
+    let underlined = TextFormat { underline: Stroke::new(1.0, colours(ui).text), ..plain.clone() };
+    let mut job = LayoutJob::default();
+    let end = at + letter.len_utf8();
+    job.append(&title[..at], 0.0, plain.clone());
+    job.append(&title[at..end], 0.0, underlined);
+    job.append(&title[end..], 0.0, plain);
+    job.into()
 }
 
 /// Space between two tools, and on both sides of the line between two groups, in points.

@@ -190,7 +190,7 @@ impl Recorder {
         }
         let files = &mut self.files;
         let words = arguments.iter().zip(command.arguments).map(|(word, argument)| match argument.kind {
-            ArgumentKind::NewPlanFile => file_name(Path::new(word)),
+            ArgumentKind::NewPlanFile | ArgumentKind::NewFile => file_name(Path::new(word)),
             ArgumentKind::PictureFile => {
                 let path = Path::new(word);
                 // One that cannot be read could not be used either.

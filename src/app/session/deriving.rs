@@ -7,7 +7,7 @@ use crate::app::session::document::Derived;
 use crate::app::session::jobs::Kind;
 
 /// The size of plan that is analysed in the background; below this, analysis takes a few milliseconds.
-const LARGE_PLAN_ELEMENTS: usize = 2000;
+pub(super) const LARGE_PLAN_ELEMENTS: usize = 2000;
 
 impl Session {
     /// Analyses the current plan, unless that is done or in progress.

@@ -29,6 +29,8 @@ pub(crate) struct Given {
     pub answers: VecDeque<Option<PathBuf>>,
     /// How many dialogs found no answer left.
     pub unanswered: usize,
+    /// Whether one is open.
+    is_open: bool,
 }
 
 /// The purpose of choosing a file.
@@ -40,6 +42,10 @@ pub(crate) enum Purpose {
         then: Option<Intent>,
         answering: Option<&'static str>,
     },
+    /// To export the plan; the answer is for the dialog that asked.
+    Export,
+    /// To write a dataset; the answer is for the dialog that asked.
+    Dataset,
     /// To save a recording; the closure makes the message that tells the recorder the path.
     Recording(Box<dyn FnOnce(PathBuf) -> Box<dyn Any + Send> + Send>),
 }
@@ -64,6 +70,7 @@ impl Dialogs {
             Self::Given(given) => {
                 let answer = given.answers.pop_front();
                 given.unanswered += usize::from(answer.is_none());
+                given.is_open = true;
                 let path = answer.flatten();
                 jobs.start(kind, move |_| answers(Answer { purpose, path, was_shown: true }));
             }
@@ -97,6 +104,15 @@ impl Dialogs {
                             .add_filter("Enfilade plan", &["plan.json"]);
                         Box::pin(dialog.save_file())
                     }
+                    Purpose::Export => {
+                        let dialog = dialog.set_title("Export the plan").set_file_name(name);
+                        Box::pin(dialog.save_file())
+                    }
+                    Purpose::Dataset => {
+                        let dialog =
+                            dialog.set_title("Export the dataset").set_file_name(name).add_filter("Table", &["csv"]);
+                        Box::pin(dialog.save_file())
+                    }
                     Purpose::Recording(_) => {
                         let dialog = dialog
                             .set_title("Save the recording")
@@ -117,8 +133,15 @@ impl Dialogs {
 
     /// Records that the dialog has closed.
     pub(crate) fn answered(&mut self) {
-        if let Self::System { is_open } = self {
-            *is_open = false;
+        match self {
+            Self::System { is_open } | Self::Given(Given { is_open, .. }) => *is_open = false,
+        }
+    }
+
+    /// Whether a dialog is open: it, not the window, is meant by what is typed.
+    pub(crate) const fn is_open(&self) -> bool {
+        match self {
+            Self::System { is_open } | Self::Given(Given { is_open, .. }) => *is_open,
         }
     }
 }

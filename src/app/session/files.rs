@@ -134,20 +134,22 @@ impl Session {
             Some(self.list.listed_for(folder))
         });
         self.selection = Selection::default();
+        self.fresh = None;
         self.field = None;
         self.wishes.push(Wish::ForgetPlan);
         self.status.clear();
-        if !opened.notes.is_empty() {
+        let notes = (!opened.notes.is_empty()).then(|| {
             let summary = crate::app::session::origin::notes_in_words(&opened.notes);
             let text = format!("Imported {}: {summary}", opened.origin.title());
-            let remedies = vec![Remedy::ShowNotes];
-            let (severity, detail) = (Severity::Info, String::new());
-            self.add_message(Message { severity, text, detail, remedies, stays: false });
-        }
+            Message::new(Severity::Info, text, "").with(vec![Remedy::ShowNotes])
+        });
         let below = opened.begun.as_ref().map(|begun| begun.below.clone());
         self.ghost = below.map(|below| Ghost::new(below, None, &self.schemes));
         self.documents += 1;
         self.document = Some(Document::new(self.documents, opened));
+        if let Some(notes) = notes {
+            self.add_message(notes);
+        }
         if let Some((folder, depth)) = folder {
             self.list_folder(folder, depth);
         }
@@ -229,6 +231,7 @@ impl Session {
             Purpose::Open => self.wishes.push(run("open")),
             Purpose::Picture(PictureUse::Add) => self.wishes.push(run("picture")),
             Purpose::Picture(PictureUse::Relink) => self.wishes.push(run("relink-picture")),
+            Purpose::Export | Purpose::Dataset => self.chosen_file = Some(path),
             Purpose::Recording(save) => self.wishes.push(Wish::Recording(save(path))),
             Purpose::Save { then: None, answering: None } => self.wishes.push(run("save-as")),
             Purpose::Save { then, answering } => {

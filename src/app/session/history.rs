@@ -3,7 +3,7 @@
 use super::Session;
 use crate::app::session::fields::Field;
 use crate::app::session::fields::FieldKind;
-use crate::app::session::messages::Severity;
+use crate::app::session::messages::{Lasts, Message, Remedy, Severity};
 use crate::edit;
 use crate::edit::EditError;
 use crate::plan::ElementId;
@@ -12,7 +12,7 @@ use crate::plan::Plan;
 impl Session {
     pub(crate) fn edit(&mut self, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) {
         if let Err(error) = self.try_edit(title, change) {
-            self.say(Severity::Warning, format!("Nothing changed: {error}"), "");
+            self.say_refused(format!("Nothing changed: {error}"));
         }
     }
 
@@ -25,13 +25,14 @@ impl Session {
         let Some(document) = &mut self.document else { return Ok(()) };
         let plan = change(document.plan())?;
         document.history.push(title, plan);
+        self.fresh = None;
         Ok(())
     }
 
     /// Commits the text field's contents to the plan.
     pub(crate) fn commit_field(&mut self) {
         if let Some(field) = self.field.take() {
-            self.edit(field.title(), |plan| field.apply(plan));
+            self.keeping_fresh(|session| session.edit(field.title(), |plan| field.apply(plan)));
             // The field's room is the picked one: picking another ends the editing first.
             let (id, text) = field.as_command();
             if id == "set-function" {
@@ -45,7 +46,7 @@ impl Session {
     pub(crate) fn write_field(&mut self, kind: FieldKind, text: &str) {
         let Some((room, _)) = self.picked_room() else { return };
         let field = Field::new(room, kind, text);
-        self.edit(field.title(), |plan| field.apply(plan));
+        self.keeping_fresh(|session| session.edit(field.title(), |plan| field.apply(plan)));
     }
 
     /// Changes the plan's metadata.
@@ -58,6 +59,7 @@ impl Session {
     }
 
     pub(crate) fn redo(&mut self) {
+        self.fresh = None;
         if let Some(title) = self.document.as_mut().and_then(|document| document.history.redo()) {
             self.status = format!("Redone: {title}");
         }
@@ -77,17 +79,30 @@ impl Session {
 
     /// Undoes the last change.
     pub(crate) fn undo(&mut self) {
+        self.fresh = None;
         if let Some(title) = self.document.as_mut().and_then(|document| document.history.undo()) {
             self.status = format!("Undone: {title}");
         }
     }
 
-    /// Deletes elements and what depends on them.
+    /// Deletes elements and what depends on them. Where a wall between two rooms went, offers to merge them.
     pub(crate) fn delete(&mut self, elements: &[ElementId]) {
+        let before = self.plan().cloned();
         let title = match elements {
             [one] => format!("Delete {}", one.kind()),
             several => format!("Delete {} elements", several.len()),
         };
         self.edit(&title, |plan| edit::remove(plan, elements));
+        let Some((before, after)) = before.zip(self.plan()) else { return };
+        if let Some(rooms) = edit::rooms_joined_by(&before, after, elements) {
+            let names = rooms.map(|id| after.room(id).map(|room| room.name.clone()).unwrap_or_default());
+            let text = match names {
+                [a, b] if !a.is_empty() && !b.is_empty() => format!("No wall separates {a} and {b} now"),
+                _ => "No wall separates these two rooms now".to_owned(),
+            };
+            let remedies = vec![Remedy::MergeRooms(rooms)];
+            let lasts = Lasts::Step(self.document.as_ref().map_or(0, |document| document.history.position()));
+            self.add_message(Message::new(Severity::Info, text, "").with(remedies).lasting(lasts));
+        }
     }
 }

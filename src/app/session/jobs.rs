@@ -261,7 +261,7 @@ impl Session {
                     if let Some(broken) = kind.broken.filter(|_| !watched.is_cancelled()) {
                         broken(self);
                     }
-                    self.say(
+                    self.say_of_program(
                         Severity::Error,
                         "Something went wrong inside Enfilade",
                         "Your plan has not changed. Please report what you did.",

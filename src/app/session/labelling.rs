@@ -41,11 +41,16 @@ impl Target {
 
 impl Session {
     /// The rooms a command applies to: the named one, otherwise the selected ones, otherwise, if nothing
-    /// is selected, the one under the pointer. `None` if there are none.
+    /// is selected, the one that was just drawn while the pointer stays where it was, the one under the pointer, or
+    /// the one that was just drawn. `None` if there are none.
     pub(crate) fn target(&self, named: Option<RoomId>) -> Option<Target> {
         let plan = self.plan()?;
-        let pointed = || self.room_under_pointer().filter(|_| self.selection.is_empty());
-        if let Some(room) = named.or_else(pointed).filter(|&room| plan.room(room).is_some()) {
+        let drawn = || self.fresh_room();
+        let meant =
+            || drawn().filter(|_| self.has_pointer_stayed()).or_else(|| self.room_under_pointer()).or_else(drawn);
+        if let Some(room) =
+            named.or_else(|| meant().filter(|_| self.selection.is_empty())).filter(|&room| plan.room(room).is_some())
+        {
             return Some(Target { rooms: vec![room], is_selection: false });
         }
         let rooms: Vec<RoomId> = self.selection.rooms().collect();
@@ -79,7 +84,9 @@ impl Session {
         let status = label.map_or("label cleared".to_owned(), |label| label.name().to_owned());
         let status = format!("{}: {status}", target.title(plan));
         let given = label.map(|label| RoomLabel { label, origin: LabelOrigin::Person });
-        self.edit(&title, |plan| for_each(plan, &target.rooms, |plan, room| edit::set_label(plan, room, given)));
+        self.keeping_fresh(|session| {
+            session.edit(&title, |plan| for_each(plan, &target.rooms, |plan, room| edit::set_label(plan, room, given)));
+        });
         self.status = status;
     }
 
@@ -93,7 +100,10 @@ impl Session {
         };
         let said = if function.is_empty() { "no function" } else { function };
         let status = format!("{}: {said}", target.title(plan));
-        self.edit(&title, |plan| for_each(plan, &target.rooms, |plan, room| edit::set_function(plan, room, function)));
+        self.keeping_fresh(|session| {
+            let change = |plan: &Plan, room| edit::set_function(plan, room, function);
+            session.edit(&title, |plan| for_each(plan, &target.rooms, change));
+        });
         self.status = status;
         self.remember_function(function);
     }

@@ -1,12 +1,16 @@
 //! The session: the open plan and all that is done with it. It knows no canvas, tool, panel or command.
 
 pub(crate) mod bulk;
+pub(crate) mod dataset;
 pub(crate) mod deriving;
 pub(crate) mod document;
 pub(crate) mod executed;
+pub(crate) mod exporting;
 pub(crate) mod fields;
 pub(crate) mod file_dialogs;
 pub(crate) mod files;
+pub(crate) mod findings;
+pub(crate) mod fresh;
 pub(crate) mod ghost;
 pub(crate) mod history;
 pub(crate) mod jobs;
@@ -55,6 +59,7 @@ use crate::labels::Schemes;
 use crate::plan::ElementId;
 use crate::plan::Plan;
 use crate::predict::Predictor;
+use crate::store::Draft;
 use egui::Ui;
 use std::path::Path;
 use std::path::PathBuf;
@@ -68,6 +73,12 @@ pub(crate) struct Session {
     pub(crate) opening: Option<Origin>,
     pub(crate) list: PlanList,
     pub(crate) selection: Selection,
+    /// The step of the history that nudged what is selected, if that was the last thing done.
+    pub(crate) nudged: Option<usize>,
+    /// What is being drawn and is in no plan yet.
+    pub(crate) draft: Option<Draft>,
+    /// What was drawn last.
+    pub(crate) fresh: Option<fresh::Fresh>,
     /// The copied part of a plan.
     pub(crate) copied: Option<Plan>,
     pub(crate) layers: LayerSettings,
@@ -110,6 +121,14 @@ pub(crate) struct Session {
     pub(crate) recent_functions: Vec<String>,
     /// Whether a recording is in progress.
     pub(crate) is_recording: bool,
+    /// What the check finds in the plan.
+    pub(crate) findings: findings::Findings,
+    /// What a sheet of paper will look like.
+    pub(crate) preview: exporting::SheetPreview,
+    /// The file that a dialog was told to write to, for the dialog that asked.
+    pub(crate) chosen_file: Option<PathBuf>,
+    /// The dataset being made.
+    pub(crate) dataset_job: Option<jobs::Wanted>,
     /// Requests to the rest of the window.
     pub(crate) wishes: Vec<Wish>,
 }
@@ -120,6 +139,8 @@ pub(crate) struct Pointed {
     pub element: Option<ElementId>,
     /// The position in the plan; `None` off the canvas.
     pub at: Option<Point>,
+    /// A few pixels, in metres: a pointer that has moved no further has stayed.
+    pub near_m: f64,
 }
 
 impl Session {
@@ -131,6 +152,9 @@ impl Session {
             opening: None,
             list: PlanList::default(),
             selection: Selection::default(),
+            nudged: None,
+            draft: None,
+            fresh: None,
             copied: None,
             layers: LayerSettings::default(),
             ghost: None,
@@ -156,6 +180,10 @@ impl Session {
             field: None,
             recent_functions: Vec::new(),
             is_recording: false,
+            findings: findings::Findings::default(),
+            preview: exporting::SheetPreview::default(),
+            chosen_file: None,
+            dataset_job: None,
             wishes: Vec::new(),
         }
     }
@@ -178,7 +206,8 @@ impl Session {
     /// The messages above the canvas: dismissible ones, oldest first, then those that stay as long as
     /// they are true.
     pub(crate) fn messages(&self) -> Vec<Message> {
-        let mut messages = self.messages.clone();
+        let shown = self.shown_messages().into_iter().filter_map(|index| self.messages.get(index).cloned());
+        let mut messages: Vec<Message> = shown.collect();
         messages.extend(self.bars());
         messages
     }
@@ -195,19 +224,7 @@ impl Session {
     }
 
     pub(crate) fn say(&mut self, severity: Severity, text: impl Into<String>, detail: impl Into<String>) {
-        self.add_message(Message {
-            severity,
-            text: text.into(),
-            detail: detail.into(),
-            remedies: Vec::new(),
-            stays: false,
-        });
-    }
-
-    pub(crate) fn add_message(&mut self, message: Message) {
-        // A repeated message moves to the end.
-        self.messages.retain(|other| *other != message);
-        self.messages.push(message);
+        self.add_message(Message::new(severity, text, detail));
     }
 
     /// The colours of the plan, in the window's theme.

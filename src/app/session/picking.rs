@@ -12,11 +12,15 @@ use crate::plan::RoomId;
 impl Session {
     pub(crate) fn pick(&mut self, picked: Option<ElementId>) {
         self.commit_field();
+        self.fresh = None;
+        self.nudged = None;
         self.selection = Selection::of(picked);
     }
 
     pub(crate) fn select(&mut self, elements: impl IntoIterator<Item = ElementId>, mode: SelectMode) {
         self.commit_field();
+        self.fresh = None;
+        self.nudged = None;
         self.selection.select(elements, mode);
     }
 

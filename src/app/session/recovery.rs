@@ -9,7 +9,7 @@ use super::Session;
 use crate::app::session::{
     document::{Derived, Document, Opened},
     jobs::Kind,
-    messages::Severity,
+    messages::{Lasts, Message, Severity},
     origin::{Origin, bundled},
     questions::{Intent, Question},
     wishes::Wish,
@@ -108,7 +108,7 @@ impl Session {
             Ok(()) => self.status = format!("Discarded the changes to {title}"),
             Err(error) => {
                 let text = format!("The recovery file of {title} could not be removed");
-                self.say(Severity::Warning, text, format!("{error}\n{}", self.shown_path(path)));
+                self.say_of_program(Severity::Warning, text, format!("{error}\n{}", self.shown_path(path)));
             }
         }
     }
@@ -126,8 +126,13 @@ impl Session {
             listed: None,
             begun: None,
         };
-        let changes = crate::base::wording::count(recovered.history.position(), "change");
+        let changes = match (recovered.history.position(), &recovered.draft) {
+            (0, Some(_)) => "what was being drawn".to_owned(),
+            (number, _) => crate::base::wording::count(number, "change"),
+        };
         self.show(opened);
+        self.draft.clone_from(&recovered.draft);
+        self.wishes.extend(recovered.draft.clone().map(Wish::Resume));
         if let Some(document) = &mut self.document {
             document.history = recovered.history;
         }
@@ -136,7 +141,9 @@ impl Session {
             None => "Save it to keep it.".to_owned(),
         };
         let title = self.document.as_ref().map(Document::title).unwrap_or_default();
-        self.say(Severity::Info, format!("Recovered {changes} of {title}"), detail);
+        let said = Message::new(Severity::Info, format!("Recovered {changes} of {title}"), detail);
+        let lasts = if self.has_unsaved_changes() { Lasts::Unsaved } else { Lasts::Always };
+        self.add_message(said.lasting(lasts));
         // What was left behind stays until the new journal holds it; what cannot be held stays for good.
         let mut replaced = Some(Predecessor::Leftover(leftover));
         if let Some(what) = &recovered.unsound {

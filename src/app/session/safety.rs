@@ -65,11 +65,12 @@ impl Session {
             return;
         }
         let Some(document) = &self.document else { return };
-        if self.safety.journal.is_none() && document.is_changed() {
+        if self.safety.journal.is_none() && (document.is_changed() || self.draft.is_some()) {
             self.begin_journal(None, context);
         }
         let (Some(document), Some(journal)) = (&self.document, &mut self.safety.journal) else { return };
         journal.note(&document.history);
+        journal.note_draft(self.draft.as_ref());
         if self.jobs.is_inline() {
             // Its result is checked below.
             let _ = journal.wait();
@@ -134,7 +135,7 @@ impl Session {
     pub(crate) fn bars(&self) -> Vec<Message> {
         let mut bars = Vec::new();
         let mut bar = |severity, text: String, detail: String, remedies: &[Remedy]| {
-            bars.push(Message { severity, text, detail, remedies: remedies.to_vec(), stays: true });
+            bars.push(Message { stays: true, ..Message::new(severity, text, detail).with(remedies.to_vec()) });
         };
         let derived = self.document.as_ref().and_then(Document::derived);
         if let Some(remark) = derived.and_then(|derived| derived.drawing.remark()) {

@@ -290,7 +290,7 @@ impl Settings {
 }
 
 fn warning(text: String, detail: String) -> Message {
-    Message { severity: Severity::Warning, text, detail, remedies: Vec::new(), stays: false }
+    Message::new(Severity::Warning, text, detail).of_program()
 }
 
 /// The text of a file; `None` if it does not exist.

@@ -84,7 +84,8 @@ impl Session {
                 (Severity::Warning, text, detail, Remedy::ShowPicture)
             }
         };
-        self.add_message(Message { severity, text, detail, remedies: vec![remedy], stays: false });
+        let lasts = self.while_this_picture();
+        self.add_message(Message::new(severity, text, detail).with(vec![remedy]).lasting(lasts));
     }
 
     /// Shows the picture though it lies outside the plan's folder, until the window closes.
@@ -149,7 +150,8 @@ impl Session {
             Err(error) => {
                 let text = format!("{} cannot be used: it {}", file_name(path), error.what);
                 let detail = format!("What to do: {}.\n{}", error.hint, self.shown_path(path));
-                self.say(Severity::Error, text, detail);
+                let lasts = self.while_this_picture();
+                self.add_message(Message::new(Severity::Error, text, detail).lasting(lasts));
                 return;
             }
         };

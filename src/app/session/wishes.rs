@@ -6,6 +6,7 @@ use crate::app::session::questions::Intent;
 use crate::app::value::Call;
 use crate::geometry::{Bounds, Point};
 use crate::plan::ElementId;
+use crate::store::Draft;
 
 /// Something for the rest of the window to do.
 #[derive(Debug)]
@@ -29,6 +30,8 @@ pub(crate) enum Wish {
     CloseRecovery,
     CloseDifferences,
     Run(Call),
+    /// Go on with what was half drawn.
+    Resume(Draft),
     /// End the recording, then go on.
     EndRecording(Intent),
     /// Pass the recorder a message that only it can read.

@@ -18,11 +18,14 @@ use crate::predict::Predictions;
 use egui::Context;
 use std::path::PathBuf;
 
+mod arrivals;
 mod open_dialogs;
 mod side_panels;
 
+pub(crate) use arrivals::Arrivals;
 pub(crate) use open_dialogs::{After, Asked, Dialog, Entry, OpenDialogs, Purpose, dialogs};
-pub(crate) use side_panels::{Height, Panels, Side, SidePanel, ids as panels};
+pub(crate) use side_panels::Here;
+pub(crate) use side_panels::{Height, Panels, Side, SidePanel, Thing, ids as panels};
 
 /// The window's state, apart from any display.
 pub struct App {
@@ -33,6 +36,8 @@ pub struct App {
     pub(crate) panels: Panels,
     pub(crate) dialogs: OpenDialogs,
     pub(crate) samples: Samples,
+    /// Input that waits for its frame.
+    pub(crate) arrivals: Arrivals,
     /// Whether a text field had the keyboard at the end of the last frame.
     pub(crate) was_typing: bool,
     pub(crate) is_close_sent: bool,

@@ -31,6 +31,8 @@ pub(crate) enum Purpose {
     NameRooms(Which),
     /// Many rooms: to change their function or label.
     ChangeRooms,
+    /// Exporting: to print.
+    Print,
 }
 
 /// A request to the palette for an argument.
@@ -167,4 +169,6 @@ pub(crate) mod dialogs {
     pub(crate) const SHORTCUTS: &str = "shortcuts";
     pub(crate) const ABOUT: &str = "about";
     pub(crate) const BULK: &str = "many-rooms";
+    pub(crate) const EXPORT: &str = "export";
+    pub(crate) const DATASET: &str = "export-dataset";
 }

@@ -6,6 +6,9 @@ use egui::Ui;
 
 use super::App;
 use crate::app::session::fields::FieldKind;
+use crate::app::session::origin::Origin;
+use crate::geometry::Point;
+use crate::plan::ElementId;
 
 /// A side panel of the canvas.
 pub(crate) struct SidePanel {
@@ -45,17 +48,53 @@ pub(crate) enum Height {
     Dragged { usual: f32, least: f32 },
 }
 
+/// An element that is changed where it is.
+#[derive(Clone, Debug)]
+pub(crate) struct Here {
+    pub element: ElementId,
+    /// The form is beside this point of the plan.
+    pub at: Point,
+    /// What is typed, and what stood there before.
+    pub texts: Vec<String>,
+    pub before: Vec<String>,
+    /// Whether it has been shown: at first it takes the keyboard.
+    pub is_shown: bool,
+}
+
+/// What a context menu is about.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Thing {
+    /// What is selected, and this with it.
+    Element(ElementId),
+    /// A place of the plan where nothing is.
+    Free,
+    /// A plan in the list.
+    Listed(Origin),
+}
+
 /// The state of the panels.
 pub(crate) struct Panels {
     /// All side panels.
     pub list: &'static [SidePanel],
     shown: BTreeSet<&'static str>,
+    /// The form in which an element is changed where it is.
+    pub here: Option<Here>,
+    /// The thing whose context menu is open, and where.
+    pub context_menu: Option<(Thing, egui::Pos2)>,
+    /// The buttons of the menus in the bar, from the left.
+    pub menu_buttons: BTreeMap<usize, egui::Id>,
+    /// Whether the menu that opens gets the keyboard.
+    pub menu_takes_keyboard: bool,
+    /// Whether Alt is held and nothing else was pressed since.
+    pub alt_is_alone: bool,
     /// The text of a room whose field should get the keyboard.
     pub focus: Option<FieldKind>,
     /// Commands run from the palette, latest first.
     pub recent: Vec<&'static str>,
     /// The last pattern used to name rooms.
     pub pattern: Option<String>,
+    /// The format and the options last used to export, by the format's id: `paper=A3 scale=1:100`.
+    pub export: (Option<&'static str>, BTreeMap<&'static str, String>),
     /// The rectangles of the panels on the left, the middle, and those on the right in the last frame, if
     /// shown.
     pub left_rect: Option<egui::Rect>,
@@ -70,9 +109,15 @@ impl Panels {
         Self {
             list,
             shown: list.iter().filter(|panel| panel.is_shown_at_first).map(|panel| panel.id).collect(),
+            here: None,
+            context_menu: None,
+            menu_buttons: BTreeMap::new(),
+            menu_takes_keyboard: false,
+            alt_is_alone: false,
             focus: None,
             recent: Vec::new(),
             pattern: None,
+            export: (None, BTreeMap::new()),
             left_rect: None,
             middle_rect: None,
             right_rect: None,
@@ -110,4 +155,5 @@ pub(crate) mod ids {
     pub(crate) const LAYERS: &str = "layers";
     pub(crate) const INSPECTOR: &str = "inspector";
     pub(crate) const HISTORY: &str = "history";
+    pub(crate) const FINDINGS: &str = "findings";
 }

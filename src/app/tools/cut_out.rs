@@ -3,7 +3,8 @@
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::path::Path;
-use super::tool::{GRID, Group, RIGHT_ANGLES, SNAPPING};
+use super::tool::{GRID, Group, RIGHT_ANGLES, SNAPPING, THICKNESS_WITH_ROOMS, WITH_WALLS};
+use super::typing::LEAST_SIDE_M;
 use super::{Anchor, Call, Entry, Input, Scope, Tool, Value};
 use crate::app::look::icons::Icon;
 use crate::app::look::icons::Part::Loop;
@@ -22,7 +23,7 @@ pub(super) const ENTRY: Entry = Entry {
         ]),
         Group::Divide,
     )),
-    options: &[RIGHT_ANGLES, SNAPPING, GRID],
+    options: &[THICKNESS_WITH_ROOMS, WITH_WALLS, RIGHT_ANGLES, SNAPPING, GRID],
     make: || Box::new(CutOut::default()),
 };
 
@@ -30,30 +31,44 @@ pub(super) const ENTRY: Entry = Entry {
 #[derive(Default)]
 struct CutOut {
     path: Path,
+    /// Whether the button is down since the first corner.
+    is_dragging: bool,
 }
 
 impl CutOut {
     fn to(&mut self, point: Point, scope: &Scope<'_>) -> Vec<Call> {
         if self.path.closes(point) || self.path.is_last(point) {
-            return self.close();
+            return self.close(scope);
         }
         // Ready -> Drawing, Drawing -> Drawing
+        let rectangle = self.rectangle(point, scope);
         self.path.go_to(point, scope);
-        Vec::new()
+        match rectangle {
+            Some(corners) => {
+                self.path.points = corners.to_vec();
+                self.close(scope)
+            }
+            None => Vec::new(),
+        }
+    }
+
+    /// The rectangle from the first corner to a point, where that is what a click makes: the two lie neither level
+    /// nor upright, and no line was wanted.
+    fn rectangle(&self, to: Point, scope: &Scope<'_>) -> Option<[Point; 4]> {
+        let &[from] = self.path.points.as_slice() else { return None };
+        let is_oblique = (to.x - from.x).abs() >= LEAST_SIDE_M && (to.y - from.y).abs() >= LEAST_SIDE_M;
+        let is_wanted = self.is_dragging || (scope.options.right_angles && !scope.modifiers.shift);
+        (is_oblique && is_wanted).then(|| [from, Point::new(to.x, from.y), to, Point::new(from.x, to.y)])
     }
 
     /// Drawing -> Ready
-    fn close(&mut self) -> Vec<Call> {
-        let points = rectangle_of_two(std::mem::take(&mut self.path).points);
-        if points.len() < 3 { Vec::new() } else { vec![Call::new("cut-out", [Value::points(&points)])] }
-    }
-}
-
-/// Two corners are those of a rectangle.
-fn rectangle_of_two(points: Vec<Point>) -> Vec<Point> {
-    match points.as_slice() {
-        [a, b] => vec![*a, Point::new(b.x, a.y), *b, Point::new(a.x, b.y)],
-        _ => points,
+    fn close(&mut self, scope: &Scope<'_>) -> Vec<Call> {
+        self.is_dragging = false;
+        let points = std::mem::take(&mut self.path).points;
+        if points.len() < 3 {
+            return Vec::new();
+        }
+        vec![Call::new("cut-out", [Value::points(&points), scope.options.new_walls()])]
     }
 }
 
@@ -62,31 +77,37 @@ impl Tool for CutOut {
         match input {
             Input::Click => self.to(scope.at(), scope),
             Input::DragStart { at, .. } if self.path.is_empty() => {
-                self.path = Path::from(at);
+                *self = Self { path: Path::from(at), is_dragging: true };
                 Vec::new()
             }
-            Input::Drop => {
-                self.path.go_to(scope.at(), scope);
-                self.close()
+            Input::Drop if self.is_dragging => {
+                let calls = self.to(scope.at(), scope);
+                // What is not a rectangle goes on as an outline.
+                self.is_dragging = false;
+                calls
             }
+            Input::Drop => self.to(scope.at(), scope),
             Input::Typed(typed) => match self.path.typed_point(typed, scope) {
                 Some(point) => self.to(point, scope),
                 None => Vec::new(),
             },
-            Input::Enter | Input::DoubleClick | Input::SecondaryClick => self.close(),
+            Input::Enter | Input::DoubleClick | Input::SecondaryClick => self.close(scope),
             Input::Escape => {
-                self.path = Path::default();
+                *self = Self::default();
                 Vec::new()
             }
             _ => Vec::new(),
         }
     }
 
-    fn hint(&self, _: &Scope<'_>) -> String {
-        if self.path.is_empty() {
-            "Courtyard: drag a rectangle inside a room, or click its corners".to_owned()
-        } else {
-            "Click the next corner · click the first again or press Enter to close · Esc cancels".to_owned()
+    fn hint(&self, scope: &Scope<'_>) -> String {
+        match self.path.points.len() {
+            0 => "Courtyard: drag a rectangle inside a room, or click its corners".to_owned(),
+            1 if self.rectangle(scope.at(), scope).is_some() => {
+                "Click the opposite corner of the rectangle · Shift: a line instead · Esc cancels".to_owned()
+            }
+            1 => "Click the next corner of the outline, or the opposite corner of a rectangle · Esc cancels".to_owned(),
+            _ => "Click the next corner · click the first again or press Enter to close · Esc cancels".to_owned(),
         }
     }
 
@@ -94,15 +115,21 @@ impl Tool for CutOut {
         if self.path.is_empty() {
             return;
         }
-        let mut points = self.path.points.clone();
-        points.push(scope.at());
-        let closed = rectangle_of_two(points);
-        if closed.len() >= 3 {
-            preview.label(scope.at(), scope.units.area(polygon::signed_area(&closed).abs()), Look::Danger);
-            preview.fill(closed.clone(), Vec::new(), Look::Danger);
+        let rectangle = self.rectangle(scope.at(), scope);
+        let outline = rectangle.map_or_else(
+            || self.path.points.iter().copied().chain([scope.at()]).collect::<Vec<_>>(),
+            |corners| corners.to_vec(),
+        );
+        let is_closed = outline.len() >= 3;
+        if is_closed {
+            preview.label(scope.at(), scope.units.area(polygon::signed_area(&outline).abs()), Look::Danger);
+            preview.fill(outline.clone(), Vec::new(), Look::Danger);
         }
-        preview.dashed(closed, true, Look::Danger);
+        preview.dashed(outline, is_closed, Look::Danger);
         self.path.preview_corners(preview);
+        if rectangle.is_none() {
+            self.path.preview_next(scope, preview);
+        }
     }
 
     fn path(&self) -> Option<&Path> {
@@ -114,7 +141,7 @@ impl Tool for CutOut {
     }
 
     fn anchor(&self) -> Option<Anchor> {
-        // The first two corners are a rectangle's: any direction.
+        // The second corner may be a rectangle's: any direction.
         self.path.anchor().filter(|_| self.path.points.len() > 1)
     }
 

@@ -18,8 +18,10 @@ use crate::topology::Gap;
 pub(crate) struct DrawOptions {
     /// Thickness of new walls in metres.
     pub thickness_m: f64,
-    /// Whether walls are drawn along the boundaries of new rooms.
+    /// Whether walls are put along new boundaries.
     pub walls_with_rooms: bool,
+    /// Whether mirroring, turning and scaling leave the original.
+    pub copies: bool,
     /// Whether new rooms may cover existing ones.
     pub over_rooms: bool,
     /// Clear width of new openings in metres.
@@ -38,12 +40,16 @@ pub(crate) struct DrawOptions {
 const ARC_TOLERANCE_M: f64 = 0.02;
 
 impl DrawOptions {
+    /// The thickness of walls along new boundaries, 0 for none: an argument of what makes them.
+    pub(super) fn new_walls(&self) -> Value {
+        Value::Number(if self.walls_with_rooms { self.thickness_m } else { 0.0 })
+    }
+
     /// The call that draws a room with these corners.
     pub(super) fn draw_room(&self, corners: &[Point]) -> Call {
-        let thickness_m = if self.walls_with_rooms { self.thickness_m } else { 0.0 };
         // Along existing rooms the boundary need not be drawn exactly: it may run through them.
         let space = if self.over_rooms { Space::Exact } else { Space::Free };
-        Call::new("draw-room", [Value::points(corners), Value::word(space), Value::Number(thickness_m)])
+        Call::new("draw-room", [Value::points(corners), Value::word(space), self.new_walls()])
     }
 }
 
@@ -52,6 +58,7 @@ impl Default for DrawOptions {
         Self {
             thickness_m: DEFAULT_WALL_THICKNESS_M,
             walls_with_rooms: true,
+            copies: false,
             over_rooms: false,
             opening_width_m: DEFAULT_DOOR_WIDTH_M,
             arc_tolerance_m: ARC_TOLERANCE_M,
@@ -80,8 +87,13 @@ pub(crate) struct Scope<'a> {
     /// The snapped position.
     pub snap: Snap,
     pub px_per_m: f64,
+    /// How far an arrow key moves what is selected, in metres.
+    pub nudge_m: f64,
     pub modifiers: Modifiers,
 }
+
+/// With Shift an arrow key goes so many times as far, with Alt that part of the way.
+pub(crate) const NUDGES_MORE: f64 = 10.0;
 
 impl Scope<'_> {
     /// The intended point.

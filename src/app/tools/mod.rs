@@ -3,13 +3,18 @@
 //! A tool is a state machine. It receives pointer actions, already snapped, and responds with command
 //! calls: so drawing by hand and drawing by script are the same. Between calls it only shows a preview.
 
+mod array;
 mod calibrate;
 mod cut_out;
 mod fill;
+mod ghost;
 mod input;
 mod measure;
+mod moving;
 mod number;
+mod offset;
 mod opening;
+mod opening_grips;
 mod paste;
 mod path;
 mod rectangle;
@@ -19,19 +24,23 @@ mod split;
 mod straighten;
 mod tool;
 mod toolbox;
+mod transform;
 mod typing;
 mod walls;
 
 pub(crate) use crate::app::paint::preview::{paint_snap, tag};
 pub(crate) use crate::app::value::{Call, Value};
+pub(crate) use array::{ARRAY, POLAR_ARRAY};
 pub(crate) use calibrate::{BY_DOOR as CALIBRATE_BY_DOOR, BY_LENGTH as CALIBRATE_BY_LENGTH};
-pub(crate) use input::{Anchor, DrawOptions, Ground, Input, Scope};
+pub(crate) use input::{Anchor, DrawOptions, Ground, Input, NUDGES_MORE, Scope};
 pub(crate) use number::ENTRY as NUMBER;
+pub(crate) use offset::OFFSET;
 pub(crate) use paste::ENTRY as PASTE;
 pub(crate) use select::{REACH_PX, hit};
 pub(crate) use straighten::ENTRY as STRAIGHTEN;
 pub(crate) use tool::{Entry, Group, TakenBack, Tool, ToolOption};
-pub(crate) use toolbox::Toolbox;
+pub(crate) use toolbox::{Toolbox, attracting_grid_m};
+pub(crate) use transform::{MIRROR, ROTATE, SCALE};
 pub(crate) use typing::{Typed, Typing};
 
 /// Every tool. The first one is the default.
@@ -50,6 +59,12 @@ pub(crate) const TOOLS: &[Entry] = &[
     measure::ENTRY,
     number::ENTRY,
     paste::ENTRY,
+    transform::MIRROR,
+    transform::ROTATE,
+    transform::SCALE,
+    array::ARRAY,
+    array::POLAR_ARRAY,
+    offset::OFFSET,
     calibrate::BY_LENGTH,
     calibrate::BY_DOOR,
     straighten::ENTRY,

@@ -200,7 +200,7 @@ impl Tool for Opening {
 }
 
 /// The hinge, the closed and the open end of each leaf.
-fn leaves(segment: Segment, kind: OpeningKind, swing: Option<Swing>) -> Vec<[Point; 3]> {
+pub(super) fn leaves(segment: Segment, kind: OpeningKind, swing: Option<Swing>) -> Vec<[Point; 3]> {
     let Some(swing) = swing else { return Vec::new() };
     let to_side = segment.vector().left() * if swing.side == LeafSide::Left { 1.0 } else { -1.0 };
     let leaf = |hinge: Point, shut: Point, share: f64| [hinge, shut, hinge + to_side * share];

@@ -47,6 +47,12 @@ impl Path {
         Self { points: vec![point], before: vec![Before { corners: 0, was_refused: false }], bend: Bend::Straight }
     }
 
+    /// A path through points that were clicked before.
+    pub(super) fn through(points: Vec<Point>) -> Self {
+        let before = (0..points.len()).map(|corners| Before { corners, was_refused: false }).collect();
+        Self { points, before, bend: Bend::Straight }
+    }
+
     /// Switches the next piece between an arc and a straight line.
     pub(super) fn toggle_arc(&mut self) {
         self.bend = if self.bend == Bend::Straight { Bend::Through } else { Bend::Straight };

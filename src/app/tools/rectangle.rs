@@ -117,6 +117,21 @@ impl Tool for Rectangle {
         matches!(self, Self::Sized { .. })
     }
 
+    fn draft(&self) -> Vec<Point> {
+        match *self {
+            Self::Ready => Vec::new(),
+            Self::Sized { from, along } => vec![from, from + along],
+        }
+    }
+
+    fn resume(&mut self, points: Vec<Point>) {
+        if let [from, to] = points.as_slice()
+            && let Some(along) = (*to - *from).unit()
+        {
+            *self = Self::Sized { from: *from, along };
+        }
+    }
+
     fn typing(&self) -> Option<Typing> {
         self.is_busy().then_some(Typing::Size)
     }

@@ -1,11 +1,13 @@
 //! Selects, moves, drags corners, slides openings.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use egui::{CursorIcon, Key, KeyboardShortcut, Modifiers};
 
+use super::moving::{Moving, preview_moved};
+use super::opening_grips::{self, Grip};
 use super::tool::Group;
-use super::{Anchor, Call, Entry, Input, Scope, Tool, Value};
+use super::{Anchor, Call, Entry, Input, NUDGES_MORE, Scope, Tool, Value};
 use crate::app::look::icons::Icon;
 use crate::app::look::icons::Part::Loop;
 use crate::app::paint::preview::{Look, Preview};
@@ -13,13 +15,14 @@ use crate::app::session::document::Derived;
 use crate::app::session::layers::LayerSettings;
 use crate::app::session::selection::{SelectMode, Selection};
 use crate::app::value::Boxed;
-use crate::geometry::{Point, Segment, Vector};
-use crate::plan::{CornerId, ElementId, OpeningId, Place, Plan};
+use crate::edit::Reach;
+use crate::geometry::Point;
+use crate::plan::{CornerId, ElementId, Place, Plan};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "tool-select",
     title: "Select",
-    help: "Select, move, drag corners; drag over free space for a box",
+    help: "Select and move things, drag corners; drag across free space to select with a box",
     keys: &[KeyboardShortcut::new(Modifiers::NONE, Key::V)],
     strip: Some((
         Icon::Drawn(&[Loop(&[
@@ -52,9 +55,9 @@ enum State {
     /// Dragging a corner.
     MovingCorner { corner: CornerId, from: Point },
     /// Dragging the selection; `from` is the point that snaps.
-    Moving { from: Point },
-    /// Sliding an opening along its wall.
-    Sliding { opening: OpeningId },
+    Moving { from: Point, what: Moving },
+    /// Dragging a grip of an opening.
+    Gripping(Grip),
 }
 
 /// Repeated clicks at one position cycle through all elements there.
@@ -118,13 +121,26 @@ impl Select {
         }
     }
 
+    /// What was clicked first is meant, and changed where it is.
+    fn double_clicked(&mut self) -> Vec<Call> {
+        let Some(cycle) = &mut self.cycle else { return Vec::new() };
+        let number = cycle.candidates.len();
+        if number == 0 {
+            return Vec::new();
+        }
+        cycle.index = (cycle.index + number - 1) % number;
+        let Some(&element) = cycle.candidates.get(cycle.index) else { return Vec::new() };
+        let one = || Value::Elements(vec![element]);
+        vec![Call::new("select", [one()]), Call::new("change-here", [one()])]
+    }
+
     /// Ready -> whatever is dragged
     fn drag_start(&mut self, at: Point, pointer: Point, scope: &Scope<'_>) {
         self.cycle = None;
         self.state = match self.grabbed(pointer, scope) {
             Some(Grabbed::Corner(corner, from)) => State::MovingCorner { corner, from },
-            Some(Grabbed::Opening(opening)) => State::Sliding { opening },
-            Some(Grabbed::Selection) => State::Moving { from: at },
+            Some(Grabbed::Opening(grip)) => State::Gripping(grip),
+            Some(Grabbed::Selection) => State::Moving { from: at, what: Moving::of(scope) },
             None => State::Boxing { from: pointer },
         };
     }
@@ -135,6 +151,9 @@ impl Select {
             return None;
         }
         let reach_m = scope.metres(REACH_PX);
+        if let Some(grip) = opening_grips::grip_at(scope, pointer, reach_m) {
+            return Some(Grabbed::Opening(grip));
+        }
         let handles = handles_of(scope.plan, scope.selection);
         let nearest = handles
             .iter()
@@ -150,7 +169,7 @@ impl Select {
             (ElementId::Opening(id), Some(_))
                 if scope.plan.opening(id).is_some_and(|opening| matches!(opening.place, Place::Hosted { .. })) =>
             {
-                Some(Grabbed::Opening(id))
+                Some(Grabbed::Opening(Grip::Middle(id)))
             }
             _ => Some(Grabbed::Selection),
         }
@@ -169,17 +188,18 @@ impl Select {
                 let moved = Value::Elements(vec![ElementId::Corner(corner)]);
                 vec![Call::new("move-corner", [moved, Value::point(scope.at())])]
             }
-            State::Moving { from } => {
-                let by = moved_by(from, scope);
+            State::Moving { from, what } => {
+                let by = what.moved_by(from, scope);
                 if by.length() <= 0.0 {
                     return Vec::new();
                 }
-                let to = Point::default() + by;
-                vec![Call::new("move-selection", [Value::point(to)])]
+                let mut call = Call::new("move-selection", [Value::point(Point::default() + by)]);
+                if what.piece(scope).is_some() {
+                    call.values.push(Value::word(Reach::Piece));
+                }
+                vec![call]
             }
-            State::Sliding { opening } => {
-                vec![Call::new("slide-opening", [Value::Opening(opening), Value::point(scope.pointer)])]
-            }
+            State::Gripping(grip) => vec![grip.drop(scope)],
             State::MovingCorner { .. } => Vec::new(),
         }
     }
@@ -187,7 +207,7 @@ impl Select {
 
 enum Grabbed {
     Corner(CornerId, Point),
-    Opening(OpeningId),
+    Opening(Grip),
     /// Whatever is selected.
     Selection,
 }
@@ -230,21 +250,12 @@ fn corners_of(plan: &Plan, selection: &Selection) -> BTreeSet<CornerId> {
     corners
 }
 
-/// The displacement of the selection. A single wall moves perpendicular to itself, unless Shift is held.
-fn moved_by(from: Point, scope: &Scope<'_>) -> Vector {
-    let by = scope.at() - from;
-    let wall = match scope.selection.one() {
-        Some(ElementId::Wall(id)) if !scope.modifiers.shift => scope.plan.wall(id),
-        _ => None,
-    };
-    let across = wall.and_then(|wall| scope.plan.wall_segment(wall)).and_then(|segment| segment.vector().left().unit());
-    across.map_or(by, |across| across * by.dot(across))
-}
-
 impl Tool for Select {
     fn take(&mut self, input: Input, scope: &Scope<'_>) -> Vec<Call> {
         match input {
             Input::Click => return self.clicked(scope),
+            // It follows a click, the second at the place, which has gone on to what lies below.
+            Input::DoubleClick => return self.double_clicked(),
             Input::DragStart { at, pointer } => self.drag_start(at, pointer, scope),
             Input::Drop => return self.drop(scope),
             // Whatever is dragged -> Ready
@@ -255,32 +266,38 @@ impl Tool for Select {
     }
 
     fn hint(&self, scope: &Scope<'_>) -> String {
-        match self.state {
-            State::Ready => String::new(),
-            State::Boxing { from } if is_inside(from, scope.pointer) => {
-                "Selects what lies inside · pull to the left for what is touched · Shift adds".to_owned()
+        match &self.state {
+            State::Ready if scope.selection.is_empty() => String::new(),
+            State::Ready => {
+                let [step, more, less] =
+                    [1.0, NUDGES_MORE, 1.0 / NUDGES_MORE].map(|times| scope.units.length(scope.nudge_m * times));
+                format!(
+                    "Arrow keys move it by {step}, with Shift by {more}, with Alt by {less} · double-click to change it"
+                )
+            }
+            State::Boxing { from } if is_inside(*from, scope.pointer) => {
+                "Selects what lies inside · drag to the left for what is touched · Shift adds".to_owned()
             }
             State::Boxing { .. } => "Selects what is inside or touched · Shift adds".to_owned(),
             State::MovingCorner { .. } => {
-                "Everything that shares the corner follows · Alt suspends snapping · Esc drops it".to_owned()
+                "Everything that shares the corner follows · Alt: no snapping · Esc cancels".to_owned()
             }
-            State::Moving { .. } => {
-                "Neighbours that share corners follow · Alt suspends snapping · Esc drops it".to_owned()
-            }
-            State::Sliding { .. } => "The opening slides along its wall · Esc drops it".to_owned(),
+            State::Moving { what, .. } => what.hint(scope),
+            State::Gripping(grip) => grip.hint(scope),
         }
     }
 
     fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
-        match self.state {
+        match &self.state {
             State::Ready => {
                 for corner in handles_of(scope.plan, scope.selection) {
                     if let Some(place) = scope.plan.position(corner) {
                         preview.handle(place, Look::New);
                     }
                 }
+                opening_grips::show(scope, preview);
             }
-            State::Boxing { from } => {
+            &State::Boxing { from } => {
                 let to = scope.pointer;
                 let corners = vec![from, Point::new(to.x, from.y), to, Point::new(from.x, to.y)];
                 preview.fill(corners.clone(), Vec::new(), Look::New);
@@ -290,8 +307,8 @@ impl Tool for Select {
                     preview.dashed(corners, true, Look::New);
                 }
             }
-            State::MovingCorner { corner, from } => {
-                preview_moved(scope, &BTreeSet::from([corner]), scope.at() - from, preview);
+            &State::MovingCorner { corner, from } => {
+                preview_moved(scope, &BTreeMap::from([(corner, scope.at())]), preview);
                 preview.handle(scope.at(), Look::New);
                 preview.label(
                     scope.at(),
@@ -299,28 +316,22 @@ impl Tool for Select {
                     Look::New,
                 );
             }
-            State::Moving { from } => {
-                let by = moved_by(from, scope);
-                preview_moved(scope, &corners_of(scope.plan, scope.selection), by, preview);
+            State::Moving { from, what } => {
+                let (from, by) = (*from, what.moved_by(*from, scope));
+                what.preview(by, scope, preview);
                 preview.dashed(vec![from, from + by], false, Look::Guide);
                 preview.label(scope.at(), format!("moved {}", scope.units.length(by.length())), Look::New);
             }
-            State::Sliding { opening } => {
-                let segment =
-                    scope.plan.opening(opening).and_then(|opening| slid(scope.plan, opening.place, scope.pointer));
-                if let Some(segment) = segment {
-                    preview.wall(segment, scope.metres(8.0), Look::New);
-                }
-            }
+            State::Gripping(grip) => grip.preview(scope, preview),
         }
     }
 
     fn cursor(&self, scope: &Scope<'_>) -> CursorIcon {
         match self.state {
-            State::Moving { .. } | State::MovingCorner { .. } | State::Sliding { .. } => CursorIcon::Grabbing,
+            State::Moving { .. } | State::MovingCorner { .. } | State::Gripping(_) => CursorIcon::Grabbing,
             State::Boxing { .. } => CursorIcon::Crosshair,
             State::Ready => match self.grabbed(scope.pointer, scope) {
-                Some(Grabbed::Corner(..)) => CursorIcon::Grab,
+                Some(Grabbed::Corner(..) | Grabbed::Opening(Grip::End(..))) => CursorIcon::Grab,
                 Some(_) => CursorIcon::Move,
                 None => CursorIcon::Default,
             },
@@ -337,50 +348,10 @@ impl Tool for Select {
 
     fn anchor(&self) -> Option<Anchor> {
         match self.state {
-            State::MovingCorner { from, .. } | State::Moving { from } => {
+            State::MovingCorner { from, .. } | State::Moving { from, .. } => {
                 Some(Anchor { from, along: None, right_angles: false })
             }
             _ => None,
-        }
-    }
-}
-
-/// The segment of an opening slid as close to a point as its wall allows.
-fn slid(plan: &Plan, place: Place, towards: Point) -> Option<Segment> {
-    let Place::Hosted { from, to, width_m, .. } = place else { return None };
-    let edge = Segment::new(plan.position(from)?, plan.position(to)?);
-    let half_m = (width_m / 2.0).min(edge.length() / 2.0);
-    let along = edge.vector().unit()?;
-    let at_m = (towards - edge.a).dot(along).clamp(half_m, edge.length() - half_m);
-    let middle = edge.a + along * at_m;
-    Some(Segment::new(middle + -along * half_m, middle + along * half_m))
-}
-
-/// The edges of moved corners, at their new positions.
-fn preview_moved(scope: &Scope<'_>, moved: &BTreeSet<CornerId>, by: Vector, preview: &mut Preview) {
-    let Some(derived) = scope.derived else { return };
-    let mut shown = BTreeSet::new();
-    for &corner in moved.iter().take(MOST_HANDLES) {
-        let Some(place) = scope.plan.position(corner) else { continue };
-        for edge in derived.index.edges_near(place, 1e-4) {
-            if !shown.insert(edge.corners) {
-                continue;
-            }
-            let [a, b] = edge.corners.map(|id| {
-                let place = scope.plan.position(id).unwrap_or_default();
-                if moved.contains(&id) { place + by } else { place }
-            });
-            let segment = Segment::new(a, b);
-            if edge.wall.is_some() {
-                preview.wall(segment, edge.thickness_m, Look::New);
-            } else {
-                preview.line(vec![a, b], false, Look::New);
-            }
-        }
-    }
-    for id in scope.selection.openings() {
-        if let Some(segment) = scope.plan.opening(id).and_then(|opening| scope.plan.opening_segment(opening)) {
-            preview.line(vec![segment.a + by, segment.b + by], false, Look::New);
         }
     }
 }

@@ -1,9 +1,9 @@
-//! Splits rooms without a wall: straight across by one click, or along a line.
+//! Splits rooms, with walls or without: straight across by one click, or along a line.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::path::Path;
-use super::tool::{GRID, Group, RIGHT_ANGLES, SNAPPING};
+use super::tool::{GRID, Group, RIGHT_ANGLES, SNAPPING, THICKNESS_WITH_ROOMS, WITH_WALLS};
 use super::{Call, Entry, Input, Scope, Tool, Value};
 use crate::app::look::icons::Icon;
 use crate::app::look::icons::Part::Line;
@@ -26,7 +26,7 @@ pub(super) const ENTRY: Entry = Entry {
         ]),
         Group::Divide,
     )),
-    options: &[RIGHT_ANGLES, SNAPPING, GRID],
+    options: &[THICKNESS_WITH_ROOMS, WITH_WALLS, RIGHT_ANGLES, SNAPPING, GRID],
     make: || Box::new(Split::default()),
 };
 
@@ -51,7 +51,7 @@ impl Split {
 
     fn to(&mut self, point: Point, scope: &Scope<'_>) -> Vec<Call> {
         if self.path.is_last(point) {
-            return self.end();
+            return self.end(scope);
         }
         // Ready -> Cutting, Cutting -> Cutting
         let is_first = self.path.is_empty();
@@ -59,13 +59,16 @@ impl Split {
         // At a boundary the line is complete.
         let index = scope.derived.map(|derived| &derived.index);
         let is_through = index.is_some_and(|index| !index.edges_near(point, SAME_PLACE_M).is_empty());
-        if !is_first && is_through { self.end() } else { Vec::new() }
+        if !is_first && is_through { self.end(scope) } else { Vec::new() }
     }
 
     /// Cutting -> Ready
-    fn end(&mut self) -> Vec<Call> {
+    fn end(&mut self, scope: &Scope<'_>) -> Vec<Call> {
         let points = std::mem::take(&mut self.path).points;
-        if points.len() < 2 { Vec::new() } else { vec![Call::new("split-rooms", [Value::points(&points)])] }
+        if points.len() < 2 {
+            return Vec::new();
+        }
+        vec![Call::new("split-rooms", [Value::points(&points), scope.options.new_walls()])]
     }
 }
 
@@ -77,7 +80,9 @@ impl Tool for Split {
         match input {
             // Ready -> Ready
             Input::Click if self.path.is_empty() && !scope.modifiers.shift => match self.across(scope) {
-                Some(Across { line, .. }) => vec![Call::new("split-rooms", [Value::points(&[line.a, line.b])])],
+                Some(Across { line, .. }) => {
+                    vec![Call::new("split-rooms", [Value::points(&[line.a, line.b]), scope.options.new_walls()])]
+                }
                 None => Vec::new(),
             },
             Input::Click | Input::Drop => self.to(scope.at(), scope),
@@ -87,7 +92,7 @@ impl Tool for Split {
                 Some(point) => self.to(point, scope),
                 None => Vec::new(),
             },
-            Input::Enter | Input::DoubleClick | Input::SecondaryClick => self.end(),
+            Input::Enter | Input::DoubleClick | Input::SecondaryClick => self.end(scope),
             Input::Escape => {
                 self.path = Path::default();
                 Vec::new()

@@ -62,12 +62,13 @@ pub(super) const SNAPPING: ToolOption = ToolOption::Switch { command: "snapping"
 pub(super) const GRID: ToolOption = ToolOption::Switch { command: "snap-to-grid", name: "Grid" };
 pub(super) const RIGHT_ANGLES: ToolOption = ToolOption::Switch { command: "right-angles", name: "Right angles" };
 pub(super) const WITH_WALLS: ToolOption = ToolOption::Switch { command: "walls-with-rooms", name: "With walls" };
+pub(super) const COPIES: ToolOption = ToolOption::Switch { command: "transform-copies", name: "Copy" };
 pub(super) const OVER_ROOMS: ToolOption = ToolOption::Switch { command: "over-rooms", name: "Over rooms" };
 
 /// The thickness of walls.
 pub(super) const THICKNESS: ToolOption = thickness(|_| true);
 
-/// The thickness of the walls around rooms, if they are drawn.
+/// The thickness of walls along new boundaries, if they are put there.
 pub(super) const THICKNESS_WITH_ROOMS: ToolOption = thickness(|options| options.walls_with_rooms);
 
 const fn thickness(is_shown: fn(&DrawOptions) -> bool) -> ToolOption {
@@ -148,6 +149,18 @@ pub(crate) trait Tool {
     /// Points of the work in progress that can be snapped to like corners.
     fn points(&self) -> Vec<Point> {
         Vec::new()
+    }
+
+    /// The points of what is half drawn: they are kept as safe as the plan.
+    fn draft(&self) -> Vec<Point> {
+        self.path().map(|path| path.points.clone()).unwrap_or_default()
+    }
+
+    /// Goes on with points that were half drawn when the program ended.
+    fn resume(&mut self, points: Vec<Point>) {
+        if let Some(path) = self.path_mut() {
+            *path = Path::through(points);
+        }
     }
 
     /// What can be typed now.

@@ -10,6 +10,7 @@ use crate::app::paint::places::canvas_id;
 use crate::base::units::Units;
 use crate::geometry::Point;
 use crate::snapping::{self, PlanIndex, Query, Snap};
+use crate::store::Draft;
 
 /// The active tool and its surroundings.
 pub(crate) struct Toolbox {
@@ -99,6 +100,20 @@ impl Toolbox {
     /// The active tool's entry in the list.
     pub(crate) fn entry(&self) -> &'static Entry {
         self.entry
+    }
+
+    /// What is half drawn, to be kept.
+    pub(crate) fn draft(&self) -> Option<Draft> {
+        let points: Vec<[f64; 2]> = self.tool.draft().into_iter().map(|point| [point.x, point.y]).collect();
+        (!points.is_empty()).then(|| Draft { tool: self.entry.id.to_owned(), points })
+    }
+
+    /// Goes on with what was half drawn when the program ended.
+    pub(crate) fn resume(&mut self, draft: Draft) {
+        self.take_up(&draft.tool);
+        if self.is(&draft.tool) {
+            self.tool.resume(draft.points.into_iter().map(|[x, y]| Point::new(x, y)).collect());
+        }
     }
 
     fn clear_typed(&mut self) {
@@ -267,7 +282,7 @@ impl Toolbox {
 
 /// The snapping grid: a tenth, a half or the whole of the visible spacing, as fine as one can still aim
 /// at.
-fn attracting_grid_m(shown_m: f64, px_per_m: f64) -> f64 {
+pub(crate) fn attracting_grid_m(shown_m: f64, px_per_m: f64) -> f64 {
     let finest_m = FINEST_GRID_PX / px_per_m;
     let mut spacing_m = shown_m / 100.0;
     for factor in [5.0, 2.0].into_iter().cycle().take(24) {

@@ -2,8 +2,8 @@
 
 use egui::Key;
 
-use crate::base::units::{Units, parse_angle_rad};
-use crate::geometry::trim_m;
+use crate::base::units::{Units, parse_angle_rad, parse_ratio};
+use crate::geometry::{Vector, trim_m};
 
 /// What can be typed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,15 +14,45 @@ pub(crate) enum Typing {
     Size,
     /// A width.
     Width,
+    /// An angle: '45', counter-clockwise.
+    Angle,
+    /// A factor: '1.5', '150 %'.
+    Factor,
+    /// Columns and rows, and how far apart they are: '4x2', '4x2 3.5,4'.
+    Grid,
+    /// How many around a point, and the angle from one to the next: '6', '6<30'.
+    Polar,
 }
 
 /// Typed text, parsed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Typed {
     /// In metres; with an angle in radians, counter-clockwise from the last line.
-    Length { length_m: f64, angle_rad: Option<f64> },
+    Length {
+        length_m: f64,
+        angle_rad: Option<f64>,
+    },
     /// Both in metres.
-    Size { width_m: f64, height_m: f64 },
+    Size {
+        width_m: f64,
+        height_m: f64,
+    },
+    /// In radians, counter-clockwise.
+    Angle {
+        angle_rad: f64,
+    },
+    Factor(f64),
+    /// The step in metres: across from column to column, up from row to row.
+    Grid {
+        columns: usize,
+        rows: usize,
+        step: Option<Vector>,
+    },
+    /// The angle in radians from one to the next.
+    Polar {
+        count: usize,
+        angle_rad: Option<f64>,
+    },
 }
 
 /// Whether a text begins a length where nothing is drawn or typed yet: letters are shortcuts there.
@@ -74,6 +104,28 @@ pub(super) fn read(typing: Typing, typed: &str, units: Units) -> Result<Typed, S
             Ok(Typed::Length { length_m, angle_rad })
         }
         Typing::Width => Ok(Typed::Length { length_m: length_m(typed)?, angle_rad: None }),
+        Typing::Angle => {
+            let angle_rad = parse_angle_rad(typed.trim_start_matches(['<', '∠'])).map_err(|error| error.to_string())?;
+            Ok(Typed::Angle { angle_rad })
+        }
+        Typing::Factor => {
+            let factor = parse_ratio(typed).map_err(|error| error.to_string())?;
+            if (0.001..=1000.0).contains(&factor) {
+                Ok(Typed::Factor(factor))
+            } else {
+                Err("a factor is from 0.001 to 1000".to_owned())
+            }
+        }
+        Typing::Grid => read_grid(typed, units),
+        Typing::Polar => {
+            let (count, angle) = match typed.split_once(['<', '∠']) {
+                Some((count, angle)) => (count, Some(angle)),
+                None => (typed, None),
+            };
+            let count = whole(count).filter(|count| *count > 1).ok_or("type a whole number from 2 up")?;
+            let angle_rad = angle.map(parse_angle_rad).transpose().map_err(|error| error.to_string())?;
+            Ok(Typed::Polar { count, angle_rad })
+        }
         Typing::Size => {
             let Some((width, height)) = sides(typed) else {
                 return Err("type both sides with an x between them, such as 4x3".to_owned());
@@ -85,6 +137,41 @@ pub(super) fn read(typing: Typing, typed: &str, units: Units) -> Result<Typed, S
             Ok(Typed::Size { width_m, height_m })
         }
     }
+}
+
+/// Columns and rows, perhaps with their steps behind a blank: '4x2 3.5,4'.
+fn read_grid(typed: &str, units: Units) -> Result<Typed, String> {
+    const WRONG: &str = "type columns and rows as whole numbers with an x between, such as 4x2";
+    let typed = typed.trim();
+    let (counts, steps) = match typed.split_once(char::is_whitespace) {
+        Some((counts, steps)) => (counts, Some(steps.trim())),
+        None => (typed, None),
+    };
+    let (columns, rows) = sides(counts).unwrap_or((counts, "1"));
+    let (columns, rows) = (whole(columns).ok_or(WRONG)?, whole(rows).ok_or(WRONG)?);
+    if columns.saturating_mul(rows) < 2 {
+        return Err(WRONG.to_owned());
+    }
+    let way = |text: &str| match text.trim() {
+        "" | "0" => Ok(0.0),
+        text => match text.strip_prefix('-') {
+            Some(text) => units.parse_length(text).map(|length_m| -length_m),
+            None => units.parse_length(text),
+        },
+    };
+    let step = match steps {
+        None => None,
+        Some(steps) => {
+            let (across, up) = steps.split_once([',', ';']).unwrap_or((steps, if rows > 1 { steps } else { "0" }));
+            let read = |text| way(text).map_err(|error| error.to_string());
+            Some(Vector::new(read(across)?, read(up)?))
+        }
+    };
+    Ok(Typed::Grid { columns, rows, step })
+}
+
+fn whole(text: &str) -> Option<usize> {
+    text.trim().parse().ok().filter(|number| (1..=1000).contains(number))
 }
 
 /// The two sides: what stands before and behind an x, or a star where there is no x.
@@ -107,6 +194,20 @@ pub(super) fn understood(typing: Typing, typed: &str, units: Units) -> String {
             format!("{} < {}", units.length(length_m), crate::base::units::angle(angle_rad))
         }
         Ok(Typed::Size { width_m, height_m }) => format!("{} x {}", units.length(width_m), units.length(height_m)),
+        Ok(Typed::Angle { angle_rad }) => crate::base::units::angle(angle_rad),
+        Ok(Typed::Factor(factor)) => format!("x {factor}"),
+        Ok(Typed::Grid { columns, rows, step: None }) => format!("{columns} x {rows}"),
+        Ok(Typed::Grid { columns, rows, step: Some(step) }) => {
+            let [across, up] = [step.x, step.y].map(|way_m| {
+                let sign = if way_m < 0.0 { "-" } else { "" };
+                format!("{sign}{}", units.length(way_m.abs()))
+            });
+            format!("{columns} x {rows}, every {across} and {up}")
+        }
+        Ok(Typed::Polar { count, angle_rad: None }) => format!("{count} all around"),
+        Ok(Typed::Polar { count, angle_rad: Some(angle_rad) }) => {
+            format!("{count}, {} apart", crate::base::units::angle(angle_rad))
+        }
         Err(_) => String::new(),
     }
 }
@@ -137,6 +238,14 @@ mod tests {
         assert_eq!(understood(Typing::Length, "5'6-1/2\"<45", Units::Imperial), "5' 6 1/2\" < 45°");
         assert_eq!(understood(Typing::Size, "4x3", Units::Metric), "4.00 m x 3.00 m");
         assert_eq!(understood(Typing::Size, "4x", Units::Metric), "");
+        assert_eq!(understood(Typing::Grid, "4x2 3.5,-4", Units::Metric), "4 x 2, every 3.50 m and -4.00 m");
+        assert_eq!(understood(Typing::Grid, "3", Units::Metric), "3 x 1");
+        assert_eq!(understood(Typing::Polar, "6<30", Units::Metric), "6, 30° apart");
+        for wrong in ["1", "0x3", "x", "4x2 wide", "-3", "4x2x2"] {
+            assert!(read(Typing::Grid, wrong, Units::Metric).is_err(), "{wrong}");
+        }
+        assert!(read(Typing::Polar, "1", Units::Metric).is_err() && read(Typing::Factor, "0", Units::Metric).is_err());
+        assert_eq!(read(Typing::Factor, "150 %", Units::Metric), Ok(Typed::Factor(1.5)));
     }
 
     #[test]

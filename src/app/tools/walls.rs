@@ -126,6 +126,10 @@ impl Tool for Walls {
         self.path().map(|path| path.points.clone()).unwrap_or_default()
     }
 
+    fn resume(&mut self, points: Vec<Point>) {
+        *self = Self::Drawing(Path::through(points));
+    }
+
     fn keys(&self) -> &'static [Key] {
         &[Key::A]
     }

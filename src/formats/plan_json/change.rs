@@ -17,6 +17,9 @@ struct DiskChange {
     /// All guide lines, if they changed.
     #[serde(skip_serializing_if = "Option::is_none")]
     guides: Option<Vec<DiskGuide>>,
+    /// All ignored findings, if they changed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ignored: Option<Vec<DiskIgnored>>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     corners: Vec<DiskCorner>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -38,6 +41,7 @@ pub(crate) fn change_to_bytes(before: &Plan, after: &Plan) -> Vec<u8> {
     let mut disk = DiskChange {
         meta: difference.meta.then(|| DiskMeta::of(&after.meta)),
         guides: difference.guides.then(|| after.guides().iter().map(DiskGuide::of).collect()),
+        ignored: difference.ignored.then(|| after.ignored().iter().map(DiskIgnored::of).collect()),
         extra: difference.extra.then(|| fields(&after.extra)),
         ..DiskChange::default()
     };
@@ -76,6 +80,9 @@ pub(crate) fn apply_change(plan: &Plan, bytes: &[u8]) -> Result<Plan, String> {
     }
     if let Some(guides) = disk.guides {
         plan.guides = guides::sorted(guides.into_iter().take(guides::MOST_GUIDES).map(DiskGuide::live));
+    }
+    if let Some(ignored) = disk.ignored {
+        plan.ignored = ignored::sorted(ignored.into_iter().take(ignored::MOST_IGNORED).map(DiskIgnored::live));
     }
     if let Some(extra) = disk.extra {
         plan.extra = kept(extra);

@@ -9,6 +9,13 @@ const PATH: Arg<Vec<Point>> =
     needed("POINTS", points(2), "points in metres, such as '0,0 4.2,0'; the last may be the first");
 const RING: Arg<Vec<Point>> = needed("CORNERS", points(3), "corners in metres, such as '0,0 4,0 4,3 0,3'");
 const PLACE: Arg<Point> = needed("PLACE", POINT, "a point in metres, such as '2,1.5'");
+/// For what makes boundaries: how thick the walls along them are.
+const NEW_WALLS: Arg<Option<f64>> = optional(
+    "THICKNESS",
+    length(0.0, 10.0),
+    "of walls along new boundaries, 0 for none; the thickness set for new \
+                                              walls without it",
+);
 const THICKNESS: Arg<Option<f64>> = optional(
     "THICKNESS",
     length(0.0, 10.0),
@@ -22,6 +29,22 @@ pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> R
         Ok(()) => Outcome::Done,
         Err(error) => Outcome::Refused(error.to_string()),
     }
+}
+
+/// The same for an edit that may have had to fit openings anew: says so.
+pub(super) fn edited_fitting(
+    app: &mut App,
+    title: &str,
+    change: impl FnOnce(&Plan) -> Result<edit::Changed, EditError>,
+) -> Outcome {
+    let mut refitted = Vec::new();
+    let ran = edited(app, title, |plan| {
+        let changed = change(plan)?;
+        refitted = changed.refitted;
+        Ok(changed.plan)
+    });
+    app.say_refitted(&refitted);
+    ran
 }
 
 pub(super) const COMMANDS: &[Command] = &[
@@ -46,7 +69,8 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[shift(Key::E)])
-    .menu(Menu::Draw, 3),
+    .menu(Menu::Draw, 3)
+    .on(&[On::FreeSpace]),
     switch(
         "right-angles",
         "Right angles",
@@ -80,8 +104,9 @@ pub(super) const COMMANDS: &[Command] = &[
     .menu(Menu::Draw, 4),
     switch(
         "walls-with-rooms",
-        "Walls around rooms",
-        "Draw walls along the boundaries of new rooms",
+        "With walls",
+        "Draw walls along every new boundary: of rooms, of splits, of courtyards, and where a room comes away from \
+         its neighbours",
         always,
         |app| app.tools.options.walls_with_rooms,
         |app, is_on| app.tools.options.walls_with_rooms = is_on,
@@ -161,22 +186,25 @@ pub(super) const COMMANDS: &[Command] = &[
                 "exact (default) for this boundary, free for the part of it that no room covers",
             ),
             THICKNESS,
-            |app, points, space, thickness_m, _| {
-                let own_m = app.tools.options.walls_with_rooms.then_some(app.tools.options.thickness_m);
-                let thickness_m = thickness_m.or(own_m).filter(|thickness_m| *thickness_m > 0.0);
-                let mut said = String::new();
+            |app, points, space, thickness_m, context| {
+                let thickness_m = app.new_walls_m(thickness_m);
+                let (mut said, mut made) = (String::new(), Vec::new());
                 let units = app.units();
                 let ran = edited(app, "Draw room", |plan| {
                     if space == Some(Space::Free) {
                         let gap_m = edit::GAP_BETWEEN_ROOMS_M;
                         let drawn = edit::draw_room_in_free_space(plan, &points, thickness_m, gap_m)?;
                         said = pieces_said(&drawn, units);
+                        made = drawn.rooms;
                         Ok(drawn.plan)
                     } else {
-                        Ok(edit::draw_room(plan, &points, thickness_m)?.0)
+                        let (plan, room) = edit::draw_room(plan, &points, thickness_m)?;
+                        made = vec![room];
+                        Ok(plan)
                     }
                 });
                 app.session.status = said;
+                app.has_drawn_rooms(&made, context);
                 ran
             },
         ),
@@ -187,16 +215,26 @@ pub(super) const COMMANDS: &[Command] = &[
         "Fill at a place",
         "Make a room of what encloses a point",
         has_plan,
-        &given1(PLACE, |app, point, _| edited(app, "Fill", |plan| Ok(edit::fill_at(plan, point)?.plan))),
+        &given1(PLACE, |app, point, context| {
+            let mut made = Vec::new();
+            let ran = edited(app, "Fill", |plan| {
+                let filled = edit::fill_at(plan, point)?;
+                made = filled.rooms;
+                Ok(filled.plan)
+            });
+            app.has_drawn_rooms(&made, context);
+            ran
+        }),
         None,
     ),
     with(
         "split-rooms",
         "Split rooms along a line",
-        "Split the rooms that a line crosses from boundary to boundary, without a wall",
+        "Split the rooms that a line crosses from boundary to boundary",
         has_rooms,
-        &given1(PATH, |app, points, _| {
-            edited(app, "Split", |plan| edit::split_rooms(plan, &points).map(|split| split.0))
+        &given2(PATH, NEW_WALLS, |app, points, thickness_m, _| {
+            let thickness_m = app.new_walls_m(thickness_m);
+            edited(app, "Split", |plan| edit::split_rooms(plan, &points, thickness_m).map(|split| split.0))
         }),
         None,
     ),
@@ -205,8 +243,11 @@ pub(super) const COMMANDS: &[Command] = &[
         "Cut out a courtyard",
         "Cut an area out of the room that it lies in",
         has_rooms,
-        &given1(RING, |app, points, _| {
-            edited(app, "Cut out", |plan| edit::cut_out(plan, edit::room_around(plan, &points)?, &points))
+        &given2(RING, NEW_WALLS, |app, points, thickness_m, _| {
+            let thickness_m = app.new_walls_m(thickness_m);
+            edited(app, "Cut out", |plan| {
+                edit::cut_out_by(plan, edit::room_around(plan, &points)?, &points, thickness_m)
+            })
         }),
         None,
     ),
@@ -229,6 +270,7 @@ pub(super) const COMMANDS: &[Command] = &[
                     Ok(next)
                 });
                 app.say_narrower(width_m, made.as_slice());
+                app.session.has_drawn(made.map(ElementId::Opening));
                 ran
             },
         ),
@@ -237,6 +279,58 @@ pub(super) const COMMANDS: &[Command] = &[
 ];
 
 impl App {
+    /// Records the rooms that were just drawn: of one, the next key means it, wherever the pointer stands.
+    fn has_drawn_rooms(&mut self, rooms: &[RoomId], context: &Context) {
+        let &[room] = rooms else { return };
+        self.session.has_drawn(Some(ElementId::Room(room)));
+        if self.session.status.is_empty() {
+            let keys =
+                |id: &str| super::super::find(id).map(|command| self.keys_text(command, context)).unwrap_or_default();
+            let [function, name] = ["set-function", "rename"].map(keys);
+            self.session.status = format!("Label keys apply to the new room · {function}: function · {name}: name");
+        }
+    }
+
+    /// The thickness of walls along new boundaries: as given, or as set; `None` for no walls.
+    fn new_walls_m(&self, given_m: Option<f64>) -> Option<f64> {
+        let options = &self.tools.options;
+        let own_m = options.walls_with_rooms.then_some(options.thickness_m);
+        given_m.or(own_m).filter(|thickness_m| *thickness_m > 0.0)
+    }
+
+    /// Says what became of openings that no longer fitted where they were.
+    pub(super) fn say_refitted(&mut self, refitted: &[edit::Refitted]) {
+        let units = self.units();
+        let said = match refitted {
+            [] => return,
+            [edit::Refitted { kind, how, .. }] => {
+                let kind = crate::base::wording::sentence(kind.name());
+                match *how {
+                    edit::Refit::Moved { by_m } => format!("{kind} moved by {} to fit", units.length(by_m)),
+                    edit::Refit::Narrowed { from_m, to_m } => {
+                        let [from, to] = [from_m, to_m].map(|width_m| units.length(width_m));
+                        format!("{kind} made narrower to fit its wall: {to} wide, not {from}")
+                    }
+                    edit::Refit::LeftOut => format!("{kind} left out: another opening is there"),
+                }
+            }
+            several => {
+                let number = |is_it: fn(&edit::Refit) -> bool| several.iter().filter(|one| is_it(&one.how)).count();
+                let counts = [
+                    (number(|how| matches!(how, edit::Refit::Moved { .. })), "moved to fit"),
+                    (number(|how| matches!(how, edit::Refit::Narrowed { .. })), "made narrower"),
+                    (number(|how| matches!(how, edit::Refit::LeftOut)), "left out, because others are there"),
+                ];
+                let counts = counts.into_iter().filter(|(number, _)| *number > 0);
+                let said: Vec<String> = counts
+                    .map(|(number, what)| format!("{} {what}", crate::base::wording::count(number, "opening")))
+                    .collect();
+                crate::base::wording::sentence(&said.join(" · "))
+            }
+        };
+        self.session.status = said;
+    }
+
     /// Says where openings became narrower than was wanted, for their walls are no longer.
     pub(super) fn say_narrower(&mut self, wanted_m: f64, openings: &[OpeningId]) {
         let Some(plan) = self.plan() else { return };

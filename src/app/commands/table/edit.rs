@@ -13,10 +13,12 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .keys(&[ctrl(Key::Z)])
     .menu(Menu::Edit, 0)
+    .on(&[On::FreeSpace])
     .tool(Icon::Undo, 0),
     command("redo", "Redo", "Redo what was undone", can_redo, |app, _| app.session.redo())
         .keys(&[ctrl_shift(Key::Z), ctrl(Key::Y)])
         .menu(Menu::Edit, 0)
+        .on(&[On::FreeSpace])
         .tool(Icon::Redo, 0),
     with(
         "jump-to-step",
@@ -51,7 +53,8 @@ pub(super) const COMMANDS: &[Command] = &[
             app.ask_for_argument(Asked { text, ..Asked::of("rename-plan") });
         }),
     )
-    .menu(Menu::Edit, 2),
+    .menu(Menu::Edit, 2)
+    .on(&[On::ListedPlan]),
     with(
         "set-typology",
         "Typology…",
@@ -63,5 +66,6 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Edit, 2),
+    .menu(Menu::Edit, 2)
+    .on(&[On::FreeSpace, On::ListedPlan]),
 ];

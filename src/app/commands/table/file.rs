@@ -25,7 +25,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     )
-    .menu(Menu::File, 0),
+    .menu(Menu::File, 0)
+    .on(&[On::ListedPlan]),
     with(
         "open",
         "Open…",
@@ -65,7 +66,8 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[ctrl(Key::S)])
-    .menu(Menu::File, 1),
+    .menu(Menu::File, 1)
+    .on(&[On::ListedPlan]),
     with(
         "save-as",
         "Save as…",
@@ -81,6 +83,49 @@ pub(super) const COMMANDS: &[Command] = &[
         Some(|app, _| app.session.ask_where_to_save(None, None)),
     )
     .keys(&[ctrl_shift(Key::S)])
+    .menu(Menu::File, 1)
+    .on(&[On::ListedPlan]),
+    with(
+        "export",
+        "Export…",
+        "Write the plan as a PDF, picture or drawing for other programs",
+        has_plan,
+        &given2(
+            needed("PATH", NEW_FILE, "the file, whose ending gives the format; an existing file is overwritten"),
+            optional("OPTIONS", TEXT, "options of the format as NAME=VALUE, separated by blanks: paper=A3 scale=1:100"),
+            |app, path, options, _| {
+                let options = options.unwrap_or_default();
+                app.session.export(path, &options).map_or_else(Outcome::Refused, |()| Outcome::Done)
+            },
+        ),
+        Some(|app, _| app.open_dialog(dialogs::EXPORT)),
+    )
+    .keys(&[ctrl(Key::E)])
+    .menu(Menu::File, 1)
+    .on(&[On::ListedPlan]),
+    with(
+        "print",
+        "Print…",
+        "Make a sheet to scale and open it in your PDF viewer to print",
+        has_plan,
+        &given1(
+            needed("OPTIONS", TEXT, "options of the sheet as NAME=VALUE, separated by blanks; 'default' for none"),
+            |app, options, _| app.session.print(&options).map_or_else(Outcome::Refused, |()| Outcome::Done),
+        ),
+        Some(|app, _| app.open_dialog_for(dialogs::EXPORT, Purpose::Print)),
+    )
+    .keys(&[ctrl(Key::P)])
+    .menu(Menu::File, 1),
+    with(
+        "export-dataset",
+        "Export dataset…",
+        "Write the labelled rooms of all plans in the open folder as a table, with a description of its columns",
+        has_folder,
+        &given1(needed("PATH", NEW_FILE, "the table, to which '.csv' is added"), |app, path, _| {
+            app.session.export_dataset(path).map_or_else(Outcome::Refused, |()| Outcome::Done)
+        }),
+        Some(|app, _| app.open_dialog(dialogs::DATASET)),
+    )
     .menu(Menu::File, 1),
     switch(
         "recovery",
@@ -157,7 +202,8 @@ pub(super) const COMMANDS: &[Command] = &[
     .menu(Menu::File, 3),
     command("close", "Close plan", "Close the plan", has_plan, |app, _| app.session.request(Intent::Close))
         .keys(&[ctrl(Key::W)])
-        .menu(Menu::File, 4),
+        .menu(Menu::File, 4)
+        .on(&[On::ListedPlan]),
     command("quit", "Quit", "Quit Enfilade", always, |app, _| app.session.request(Intent::Quit))
         .keys(&[ctrl(Key::Q)])
         .menu(Menu::File, 4),

@@ -17,7 +17,7 @@ use std::sync::LazyLock;
 use egui::{Context, Key, KeyboardShortcut, Modifiers};
 
 use super::given::*;
-use super::{Action, Argument, Availability, Command, Menu, Outcome};
+use super::{Action, Argument, Availability, Command, Menu, On, Outcome};
 use crate::app::look::{icons::Icon, theme::ThemeChoice};
 use crate::app::session::{fields::FieldKind, questions::Intent, selection::SelectMode, settings::GRID_RANGE_M};
 use crate::app::state::{App, Asked, Purpose, dialogs, panels};
@@ -61,6 +61,7 @@ const fn entry(
         arguments: &[],
         shortcuts: &[],
         menu: None,
+        on: &[],
         tool: None,
         strip: None,
         availability,
@@ -121,7 +122,13 @@ fn tools_of_the_strip() -> Vec<Command> {
                 Group::Openings => 1,
                 Group::Measure => 2,
             };
-            Some((group, tool(entry, has_plan).menu(Menu::Draw, section).strip(icon, group as u8)))
+            let on: &[On] = match group {
+                Group::Draw => &[On::FreeSpace],
+                Group::Openings => &[On::Wall],
+                Group::Divide => &[On::Room],
+                Group::Select | Group::Measure => &[],
+            };
+            Some((group, tool(entry, has_plan).menu(Menu::Draw, section).on(on).strip(icon, group as u8)))
         })
         .collect();
     tools.sort_by_key(|(group, _)| *group);
@@ -169,6 +176,11 @@ impl Command {
         Self { menu: Some((menu, section)), ..self }
     }
 
+    /// Adds it to the context menus of things.
+    const fn on(self, on: &'static [On]) -> Self {
+        Self { on, ..self }
+    }
+
     /// Adds it to the strip of tools.
     const fn strip(self, icon: Icon, group: u8) -> Self {
         Self { strip: Some((icon, group)), ..self }
@@ -192,6 +204,16 @@ fn when(holds: bool, otherwise: &'static str) -> Availability {
 
 fn has_plan(app: &App) -> Availability {
     when(app.session.document.is_some(), "open a plan first")
+}
+
+fn has_folder(app: &App) -> Availability {
+    when(app.session.dataset_source().is_some(), "open a plan of a folder first")
+}
+
+fn has_findings(app: &App) -> Availability {
+    has_plan(app)?;
+    let Some(checked) = app.session.findings() else { return Err("the plan is still being checked") };
+    when(!checked.open.is_empty() || !checked.ignored.is_empty(), "there are no findings")
 }
 
 fn has_picked(app: &App) -> Availability {
@@ -303,7 +325,7 @@ fn has_their_plan(app: &App) -> Availability {
 }
 
 fn has_messages(app: &App) -> Availability {
-    when(!app.session.messages.is_empty(), "there is no message")
+    when(!app.session.shown_messages().is_empty(), "there is no message")
 }
 
 fn can_record(app: &App) -> Availability {

@@ -5,18 +5,19 @@ mod acts;
 use std::collections::BTreeSet;
 
 use self::acts::{
-    Mirror, NO_GAPS, Wanted, Way, copied, has_copied, has_drawing, has_opening, is_labelled, is_selectable, moved,
-    select_found,
+    Mirror, NO_GAPS, Wanted, Way, copied, has_copied, has_door, has_drawing, has_opening, has_wall, is_labelled,
+    is_selectable, select_found, transformed,
 };
-use super::draw::edited;
+use super::draw::{edited, edited_fitting};
 use super::*;
 use crate::app::session::{document::Document, questions::Question};
-use crate::edit::{self, Alignment, Array};
+use crate::app::value::MoveOrCopy;
+use crate::edit::{self, Alignment, Array, End, Reach};
 use crate::geometry::Transform;
 use crate::plan::{LeafSide, OpeningId, Swing};
 use crate::topology;
 
-const MODE: Arg<Option<SelectMode>> = optional("MODE", one_of::<SelectMode>(), "replace (without), add or toggle");
+const MODE: Arg<Option<SelectMode>> = optional("MODE", one_of::<SelectMode>(), "replace (default), add or toggle");
 
 pub(super) const COMMANDS: &[Command] = &[
     command("select-all", "Select all", "Select everything that is not locked", has_drawing, |app, _| {
@@ -25,7 +26,8 @@ pub(super) const COMMANDS: &[Command] = &[
         app.session.select(all, SelectMode::Replace);
     })
     .keys(&[ctrl(Key::A)])
-    .menu(Menu::Modify, 0),
+    .menu(Menu::Modify, 0)
+    .on(&[On::FreeSpace]),
     with(
         "select-by-label",
         "Select by label…",
@@ -50,9 +52,9 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "select-by-function",
         "Select by function…",
-        "Select all rooms that are for something",
+        "Select all rooms with a function",
         has_rooms,
-        &given2(needed("FUNCTION", FUNCTION, "what the rooms are for"), MODE, |app, function, mode, _| {
+        &given2(needed("FUNCTION", FUNCTION, "the function of the rooms"), MODE, |app, function, mode, _| {
             let wanted = normalised_function(&function);
             let Some(plan) = app.plan() else { return Outcome::Done };
             let found: Vec<ElementId> = plan
@@ -68,28 +70,30 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "delete",
         "Delete",
-        "Delete what is selected, and what cannot stand without it",
+        "Delete the selection and what depends on it",
         has_picked,
         &given0(|app, _| app.delete_selected()),
         None,
     )
     .keys(&[key(Key::Delete)])
-    .menu(Menu::Modify, 1),
+    .menu(Menu::Modify, 1)
+    .on(&[On::Room, On::Wall, On::Opening, On::Corner, On::Several]),
     // The clipboard.
     with(
         "copy",
         "Copy",
-        "Keep what is selected, to paste it here or into another plan",
+        "Copy the selection, to paste it here or in another plan",
         has_picked,
         &given0(|app, context| app.copy_selected(context)),
         None,
     )
     .keys(&[ctrl(Key::C)])
-    .menu(Menu::Modify, 2),
+    .menu(Menu::Modify, 2)
+    .on(&[On::Room, On::Wall, On::Opening, On::Several]),
     with(
         "cut",
         "Cut",
-        "Keep what is selected, to paste it, and delete it here",
+        "Cut the selection, to paste it here or in another plan",
         has_picked,
         &given0(|app, context| match app.copy_selected(context) {
             Outcome::Done => app.delete_selected(),
@@ -98,16 +102,18 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[ctrl(Key::X)])
-    .menu(Menu::Modify, 2),
+    .menu(Menu::Modify, 2)
+    .on(&[On::Room, On::Wall, On::Opening, On::Several]),
     command(tools::PASTE.id, tools::PASTE.title, tools::PASTE.help, has_copied, |app, _| {
         app.tools.take_up(tools::PASTE.id);
     })
     .keys(&[ctrl(Key::V)])
-    .menu(Menu::Modify, 2),
+    .menu(Menu::Modify, 2)
+    .on(&[On::FreeSpace]),
     with(
         "duplicate",
         "Duplicate",
-        "Place a copy of what is selected",
+        "Copy the selection, and click to place the copy",
         has_picked,
         &given0(|app, context| {
             let ran = app.copy_selected(context);
@@ -119,105 +125,149 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[ctrl(Key::D)])
-    .menu(Menu::Modify, 2),
-    // Rotating and the like.
+    .menu(Menu::Modify, 2)
+    .on(&[On::Room, On::Wall, On::Opening, On::Several]),
+    // Rotating and the like: the pointer shows where, what is typed says how much.
     with(
-        "rotate",
-        "Rotate…",
-        "Turn what is selected about its middle, counter-clockwise; what shares its corners follows",
+        tools::ROTATE.id,
+        tools::ROTATE.title,
+        tools::ROTATE.help,
         has_picked,
-        &given2(
+        &given3(
             needed("ANGLE", angle(-360.0, 360.0), "in degrees, counter-clockwise"),
             CENTRE,
-            |app, angle, about, _| {
-                let angle_rad = angle.to_radians();
+            COPY,
+            |app, angle, about, copy, _| {
                 let about = app.centre_of_selection(about);
-                moved(app, "Rotate", Transform::rotation(about, angle_rad))
+                transformed(app, "Rotate", Transform::rotation(about, angle.to_radians()), copy)
             },
         ),
-        None,
+        Some(|app, _| app.tools.take_up(tools::ROTATE.id)),
     )
-    .menu(Menu::Modify, 3),
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Several]),
     command(
         "rotate-left",
         "Rotate left",
-        "Turn what is selected by a right angle, counter-clockwise",
+        "Rotate the selection by a right angle, counter-clockwise",
         has_picked,
         |app, _| {
             let about = app.centre_of_selection(None);
-            app.report(|app| moved(app, "Rotate", Transform::rotation(about, std::f64::consts::FRAC_PI_2)));
+            let turn = Transform::rotation(about, std::f64::consts::FRAC_PI_2);
+            app.report(|app| transformed(app, "Rotate", turn, None));
         },
+    )
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Wall, On::Several]),
+    with(
+        tools::MIRROR.id,
+        tools::MIRROR.title,
+        tools::MIRROR.help,
+        has_picked,
+        &given2(
+            needed("AXIS", points(2), "two points of the axis in metres, such as '4,0 4,3'"),
+            COPY,
+            |app, axis, copy, _| match axis.as_slice() {
+                &[a, b, ..] => match Transform::reflection(a, b) {
+                    Some(transform) => transformed(app, "Mirror", transform, copy),
+                    None => Outcome::Refused("the two points of the axis are the same".to_owned()),
+                },
+                _ => Outcome::Done,
+            },
+        ),
+        Some(|app, _| app.tools.take_up(tools::MIRROR.id)),
     )
     .menu(Menu::Modify, 3),
     with(
         "mirror",
-        "Mirror…",
-        "Mirror what is selected over the upright or the level line through its middle",
-        has_picked,
-        &given2(needed("WAY", one_of::<Mirror>(), "left-right or up-down"), CENTRE, |app, mirror, about, _| {
-            let about = app.centre_of_selection(about);
-            let way = match mirror {
-                Mirror::LeftRight => Vector::new(0.0, 1.0),
-                Mirror::UpDown => Vector::new(1.0, 0.0),
-            };
-            match Transform::reflection(about, about + way) {
-                Some(transform) => moved(app, "Mirror", transform),
-                None => Outcome::Done,
-            }
-        }),
-        None,
-    )
-    .menu(Menu::Modify, 3),
-    with(
-        "scale-selection",
-        "Scale…",
-        "Make what is selected larger or smaller about its middle",
-        has_picked,
-        &given2(needed("FACTOR", ratio(0.001, 1000.0), "2 is twice as large"), CENTRE, |app, factor, about, _| {
-            let about = app.centre_of_selection(about);
-            moved(app, "Scale", Transform::scaling(about, factor))
-        }),
-        None,
-    )
-    .menu(Menu::Modify, 3),
-    with(
-        "array",
-        "Array…",
-        "Copy what is selected into columns and rows",
+        "Flip…",
+        "Mirror the selection left and right, or up and down, about its middle",
         has_picked,
         &given3(
-            needed("COLUMNS", COUNT, "how many side by side, the original among them"),
-            needed("ROWS", COUNT, "how many above each other"),
-            needed("STEP", POINT, "from column to column and from row to row, as '4,3'"),
+            needed("WAY", one_of::<Mirror>(), "left-right or up-down"),
+            CENTRE,
+            COPY,
+            |app, mirror, about, copy, _| {
+                let about = app.centre_of_selection(about);
+                let way = match mirror {
+                    Mirror::LeftRight => Vector::new(0.0, 1.0),
+                    Mirror::UpDown => Vector::new(1.0, 0.0),
+                };
+                match Transform::reflection(about, about + way) {
+                    Some(transform) => transformed(app, "Mirror", transform, copy),
+                    None => Outcome::Done,
+                }
+            },
+        ),
+        None,
+    )
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Wall, On::Several]),
+    with(
+        tools::SCALE.id,
+        tools::SCALE.title,
+        tools::SCALE.help,
+        has_picked,
+        &given3(
+            needed("FACTOR", ratio(0.001, 1000.0), "2 is twice as large"),
+            CENTRE,
+            COPY,
+            |app, factor, about, copy, _| {
+                let about = app.centre_of_selection(about);
+                transformed(app, "Scale", Transform::scaling(about, factor), copy)
+            },
+        ),
+        Some(|app, _| app.tools.take_up(tools::SCALE.id)),
+    )
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Several]),
+    switch(
+        "transform-copies",
+        "Copy",
+        "Keep the original when mirroring, rotating or scaling",
+        always,
+        |app| app.tools.options.copies,
+        |app, is_on| app.tools.options.copies = is_on,
+    ),
+    with(
+        tools::ARRAY.id,
+        tools::ARRAY.title,
+        tools::ARRAY.help,
+        has_picked,
+        &given3(
+            needed("COLUMNS", COUNT, "how many side by side, including the original"),
+            needed("ROWS", COUNT, "how many above each other, including the original"),
+            needed("STEP", POINT, "the distance between columns and between rows, such as '4,3'"),
             |app, columns, rows, step, _| {
                 let (column_step, row_step) = (Vector::new(step.x, 0.0), Vector::new(0.0, step.y));
                 copied(app, Array::Grid { columns, rows, column_step, row_step })
             },
         ),
-        None,
+        Some(|app, _| app.tools.take_up(tools::ARRAY.id)),
     )
-    .menu(Menu::Modify, 3),
+    .menu(Menu::Modify, 3)
+    .on(&[On::Room, On::Several]),
     with(
-        "polar-array",
-        "Array around a point…",
-        "Copy what is selected around a point",
+        tools::POLAR_ARRAY.id,
+        tools::POLAR_ARRAY.title,
+        tools::POLAR_ARRAY.help,
         has_picked,
         &given3(
-            needed("ABOUT", POINT, "the point, as '4,3'"),
-            needed("COUNT", COUNT, "how many, the original among them"),
+            needed("ABOUT", POINT, "the point, such as '4,3'"),
+            needed("COUNT", COUNT, "how many, including the original"),
             needed("ANGLE", angle(-360.0, 360.0), "from one to the next, in degrees"),
             |app, about, count, step, _| {
                 let step_rad = step.to_radians();
                 copied(app, Array::Polar { about, count, step_rad })
             },
         ),
-        None,
+        Some(|app, _| app.tools.take_up(tools::POLAR_ARRAY.id)),
     )
     .menu(Menu::Modify, 3),
     with(
         "align",
         "Align…",
-        "Bring sides or middles of what is selected into line",
+        "Align sides or middles of the selection",
         has_picked,
         &given1(
             needed("SIDE", one_of::<Alignment>(), "left, right, top, bottom, centre or middle"),
@@ -228,11 +278,12 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     )
-    .menu(Menu::Modify, 4),
+    .menu(Menu::Modify, 4)
+    .on(&[On::Several]),
     with(
         "distribute",
         "Distribute…",
-        "Put what is selected at equal distances",
+        "Space the selection evenly",
         has_picked,
         &given1(needed("WAY", one_of::<Way>(), "across or up"), |app, way, _| {
             let is_upright = way == Way::Up;
@@ -241,17 +292,18 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Modify, 4),
+    .menu(Menu::Modify, 4)
+    .on(&[On::Several]),
     with(
         "square-up",
         "Square up",
-        "Make angles that are nearly right ones right: of the selected rooms, or of all",
+        "Make nearly right angles exactly right, in the selected rooms or in all",
         has_drawing,
         &given1(
             optional(
                 "ANGLE",
                 angle(0.01, 44.0),
-                "how far from right an angle may be, in degrees; 10 without, the paper's threshold",
+                "how far from a right angle, in degrees; 10 by default, the paper's threshold",
             ),
             |app, angle, _| {
                 let max_rad = angle.unwrap_or(10.0).to_radians();
@@ -262,35 +314,38 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     )
-    .menu(Menu::Modify, 5),
+    .menu(Menu::Modify, 5)
+    .on(&[On::Room]),
     with(
         "weld",
         "Weld corners…",
-        "Join corners that are no further apart than a tolerance; shows what it does before it does it",
+        "Join corners closer than a tolerance; shows the result first",
         has_drawing,
-        &given1(needed("TOLERANCE", length(0.0001, 10.0), "how far apart at most"), |app, tolerance_m, _| {
+        &given1(needed("TOLERANCE", length(0.0001, 10.0), "the largest distance"), |app, tolerance_m, _| {
             app.ask_to_weld(tolerance_m)
         }),
         None,
     )
-    .menu(Menu::Modify, 5),
+    .menu(Menu::Modify, 5)
+    .on(&[On::Corner]),
     with(
-        "offset",
-        "Offset copy…",
-        "Draw walls beside the selected walls, or inside or outside the selected room",
+        tools::OFFSET.id,
+        tools::OFFSET.title,
+        tools::OFFSET.help,
         has_picked,
         &given2(
-            needed("DISTANCE", length(0.001, 1000.0), "how far away"),
-            optional("TOWARDS", POINT, "a point on the side where the copy goes; without, where the pointer is"),
+            needed("DISTANCE", length(0.001, 1000.0), "the distance"),
+            optional("TOWARDS", POINT, "a point on the side where the copy goes; without it, the side of the pointer"),
             |app, distance_m, towards, _| app.offset_selected(distance_m, towards),
         ),
-        None,
+        Some(|app, _| app.tools.take_up(tools::OFFSET.id)),
     )
-    .menu(Menu::Modify, 5),
+    .menu(Menu::Modify, 5)
+    .on(&[On::Room, On::Wall]),
     with(
         "set-thickness",
         "Thickness…",
-        "Make the selected walls as thick as this",
+        "Set the thickness of the selected walls",
         has_picked,
         &given1(needed("THICKNESS", length(0.0, 10.0), "how thick"), |app, thickness_m, _| {
             let walls: Vec<_> = app.session.selection.walls().collect();
@@ -301,14 +356,37 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Modify, 5),
+    .menu(Menu::Modify, 5)
+    .on(&[On::Wall, On::Several]),
+    with(
+        "set-wall-length",
+        "Length of wall…",
+        "Set the length of the selected wall: one end moves, with the walls that meet it there at a right angle",
+        has_wall,
+        &given2(
+            needed("LENGTH", length(0.001, 1e5), "the length along its centre line"),
+            optional("END", one_of::<End>(), "the end that moves: start or end (default)"),
+            |app, length_m, end, _| {
+                let Some(ElementId::Wall(wall)) = app.picked() else {
+                    return Outcome::Refused("select one wall first".to_owned());
+                };
+                let end = end.unwrap_or(End::End);
+                edited(app, "Set length", |plan| edit::set_wall_length(plan, wall, length_m, end))
+            },
+        ),
+        None,
+    )
+    .menu(Menu::Modify, 5)
+    .on(&[On::Wall]),
     with(
         "merge-rooms",
         "Merge rooms",
-        "Make one room of the selected ones; walls and openings between them go",
+        "Merge the selected rooms into one; walls and openings between them are removed",
         has_picked,
-        &given0(|app, _| {
-            let rooms: Vec<RoomId> = app.session.selection.rooms().collect();
+        &given1(optional("ROOMS", ELEMENTS, "which ones; without it, the selected ones"), |app, named, _| {
+            let is_room = |element: ElementId| if let ElementId::Room(id) = element { Some(id) } else { None };
+            let named: Option<Vec<RoomId>> = named.map(|named| named.into_iter().filter_map(is_room).collect());
+            let rooms = named.unwrap_or_else(|| app.session.selection.rooms().collect());
             if rooms.len() < 2 {
                 return Outcome::Refused("select two rooms or more first".to_owned());
             }
@@ -316,50 +394,65 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
+    .when_complete(has_rooms)
     .keys(&[key(Key::J)])
-    .menu(Menu::Modify, 6),
+    .menu(Menu::Modify, 6)
+    .on(&[On::Several]),
     with(
         "bridge-gaps",
         "Doors into all gaps",
-        "Close the gaps of 30 to 150 cm between collinear walls with doorways",
+        "Place doors in all gaps of 30 to 150 cm between aligned walls",
         has_drawing,
         &given0(|app, _| app.ask_to_bridge()),
         None,
     )
     .menu(Menu::Modify, 6),
     with(
+        "flip",
+        "Flip",
+        "Flip the selected doors, or the one just placed, through all ways they can hang; Space does the same",
+        has_door,
+        &given0(|app, _| app.flip_doors()),
+        None,
+    )
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening]),
+    with(
         "flip-hinge",
         "Hinge at the other end",
-        "Hinge the selected doors at their other end",
+        "Move the hinge of the selected doors to their other end",
         has_opening,
         &given0(|app, _| app.change_openings("Flip hinge", edit::flip_hinge)),
         None,
     )
-    .menu(Menu::Modify, 7),
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening]),
     with(
         "flip-side",
         "Open to the other side",
-        "Let the selected doors open to their other side",
+        "Make the selected doors open to their other side",
         has_opening,
         &given0(|app, _| app.change_openings("Flip side", edit::flip_side)),
         None,
     )
-    .menu(Menu::Modify, 7),
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening]),
     with(
         "set-opening-kind",
         "Kind of opening…",
-        "Make doors, double doors, passages or windows of the selected openings",
+        "Change the selected openings to doors, double doors, passages or windows",
         has_opening,
         &given1(needed("KIND", one_of::<OpeningKind>(), "door, double-door, passage or window"), |app, kind, _| {
             app.change_openings("Change opening", |plan, id, _| edit::set_opening_kind(plan, id, kind))
         }),
         None,
     )
-    .menu(Menu::Modify, 7),
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening, On::Several]),
     with(
         "set-opening-width",
         "Width of opening…",
-        "Make the selected openings as wide as this",
+        "Set the width of the selected openings",
         has_opening,
         &given1(needed("WIDTH", length(0.01, 1000.0), "how wide"), |app, width_m, _| {
             let ran = app.change_openings("Set width", |plan, id, _| edit::resize_opening(plan, id, width_m));
@@ -371,11 +464,61 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening, On::Several]),
+    with(
+        "set-opening-distance",
+        "Distance of opening…",
+        "Set the distance of the selected opening from what is beside it",
+        has_opening,
+        &given2(
+            needed("DISTANCE", length(0.0, 1000.0), "from its end to the next opening or the face of the next wall"),
+            optional("END", one_of::<End>(), "which of its ends: start (default) or end"),
+            |app, distance_m, end, _| {
+                let Some(ElementId::Opening(opening)) = app.picked() else {
+                    return Outcome::Refused("select one opening first".to_owned());
+                };
+                let end = end.unwrap_or(End::Start);
+                edited(app, "Set distance", |plan| edit::set_opening_distance(plan, opening, end, distance_m))
+            },
+        ),
+        None,
+    )
+    .menu(Menu::Modify, 7)
+    .on(&[On::Opening]),
+    with(
+        "set-hinge",
+        "Hinge…",
+        "Set the hinge side of the selected doors",
+        has_opening,
+        &given1(needed("END", one_of::<End>(), "start or end of the opening"), |app, end, _| {
+            app.change_openings("Set hinge", |plan, id, shown| {
+                edit::change_swing(plan, id, shown, |swing| Swing { hinge_at_start: end == End::Start, ..swing })
+            })
+        }),
+        None,
+    )
+    .menu(Menu::Modify, 7),
+    with(
+        "set-side",
+        "Side that a door opens to…",
+        "Set the side that the selected doors open to",
+        has_opening,
+        &given1(
+            needed("SIDE", one_of::<LeafSide>(), "left or right, seen from the opening's start to its end"),
+            |app, side, _| {
+                app.change_openings("Set side", |plan, id, shown| {
+                    edit::change_swing(plan, id, shown, |swing| Swing { side, ..swing })
+                })
+            },
+        ),
+        None,
+    )
     .menu(Menu::Modify, 7),
     switch(
         "lock-rooms",
         "Lock rooms",
-        "Let the pointer neither select nor move rooms",
+        "Keep the pointer from selecting or moving rooms",
         always,
         |app| app.session.layers.locked.rooms,
         |app, is_on| app.session.layers.locked.rooms = is_on,
@@ -384,7 +527,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "lock-walls",
         "Lock walls",
-        "Let the pointer neither select nor move walls",
+        "Keep the pointer from selecting or moving walls",
         always,
         |app| app.session.layers.locked.walls,
         |app, is_on| app.session.layers.locked.walls = is_on,
@@ -393,7 +536,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "lock-openings",
         "Lock openings",
-        "Let the pointer neither select nor move openings",
+        "Keep the pointer from selecting or moving openings",
         always,
         |app| app.session.layers.locked.openings,
         |app, is_on| app.session.layers.locked.openings = is_on,
@@ -403,11 +546,11 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "select-box",
         "Select in a box",
-        "Select what lies in a box, or also what it touches",
+        "Select what lies inside a box, or also what it touches",
         has_plan,
         &given3(
             needed("CORNERS", points(2), "two opposite corners of the box"),
-            optional("HOW", one_of::<Boxed>(), "inside (without) or touching"),
+            optional("HOW", one_of::<Boxed>(), "inside (default) or touching"),
             MODE,
             |app, corners, boxed, mode, _| {
                 let bounds = Bounds::of(corners);
@@ -422,30 +565,37 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "move-selection",
         "Move the selection",
-        "Move what is selected; what shares its corners follows",
+        "Move the selection: rooms come away from what they share, while what shares walls follows",
         has_picked,
-        &given1(needed("BY", POINT, "how far right and up, in metres, as '0.5,-1'"), |app, by, _| {
-            let by = by - Point::default();
-            moved(app, "Move", Transform::translation(by))
-        }),
+        &given2(
+            needed("BY", POINT, "how far to the right and up in metres, such as '0.5,-1'"),
+            optional("REACH", one_of::<Reach>(), "for a wall: run (default) for the whole straight wall, or piece"),
+            |app, by, reach, _| {
+                let selected = app.session.selection.elements().clone();
+                let own_walls = app.tools.options.walls_with_rooms;
+                edited_fitting(app, "Move", |plan| {
+                    edit::move_picked(plan, &selected, by - Point::default(), reach.unwrap_or_default(), own_walls)
+                })
+            },
+        ),
         None,
     ),
     with(
         "paste-at",
         "Paste at a place",
-        "Place what was copied with its middle at a point",
+        "Paste what was copied, centred on a point",
         has_copied,
-        &given1(needed("PLACE", POINT, "a point in metres, as '2,1.5'"), |app, at, _| app.paste_at(at)),
+        &given1(needed("PLACE", POINT, "a point in metres, such as '2,1.5'"), |app, at, _| app.paste_at(at)),
         None,
     ),
     with(
         "bridge-gap",
         "Door into a gap",
-        "Close the gap between two collinear walls that is nearest to a point with an opening",
+        "Place an opening in the gap between two aligned walls that is nearest to a point",
         has_drawing,
         &given2(
-            needed("PLACE", POINT, "a point in metres, as '2,1.5'"),
-            optional("KIND", one_of::<OpeningKind>(), "door (without), double-door, passage or window"),
+            needed("PLACE", POINT, "a point in metres, such as '2,1.5'"),
+            optional("KIND", one_of::<OpeningKind>(), "door (default), double-door, passage or window"),
             |app, at, kind, _| {
                 let kind = kind.unwrap_or(OpeningKind::Door);
                 edited(app, "Bridge gap", |plan| {
@@ -470,9 +620,34 @@ pub(super) const COMMANDS: &[Command] = &[
                 let Some(ElementId::Corner(corner)) = elements.first().copied() else {
                     return Outcome::Refused("this is no corner".to_owned());
                 };
-                edited(app, "Move corner", |plan| {
-                    edit::settle(&edit::move_corners(plan, &[(corner, to)])?, &BTreeSet::from([corner]))
-                })
+                edited_fitting(app, "Move corner", |plan| edit::drag_corners(plan, &[(corner, to)]))
+            },
+        ),
+        None,
+    ),
+    with(
+        "nudge",
+        "Nudge",
+        "Nudge the selection, as an arrow key does; an opening moves along its wall",
+        has_picked,
+        &given2(
+            needed("DIRECTION", one_of::<Direction>(), "left, right, up or down"),
+            needed("DISTANCE", length(0.0001, 1000.0), "how far"),
+            |app, direction, distance_m, _| app.nudge(direction, distance_m),
+        ),
+        None,
+    ),
+    with(
+        "stretch-opening",
+        "Stretch an opening",
+        "Move one end of an opening along its wall towards a point; its other end stays",
+        has_openings,
+        &given3(
+            needed("OPENING", OPENING, "the opening's id"),
+            needed("END", one_of::<End>(), "start or end of the opening"),
+            needed("TOWARDS", POINT, "a point, in metres"),
+            |app, opening, end, towards, _| {
+                edited(app, "Set width", |plan| edit::stretch_opening(plan, opening, end, towards))
             },
         ),
         None,
@@ -480,7 +655,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "slide-opening",
         "Slide an opening",
-        "Slide an opening along its wall, as near to a point as the wall lets it",
+        "Slide an opening along its wall towards a point",
         has_openings,
         &given2(
             needed("OPENING", OPENING, "the opening's id"),
@@ -491,5 +666,8 @@ pub(super) const COMMANDS: &[Command] = &[
     ),
 ];
 
+const COPY: Arg<Option<MoveOrCopy>> =
+    optional("COPY", one_of::<MoveOrCopy>(), "move (default), or copy to keep the original");
+
 const CENTRE: Arg<Option<Point>> =
-    optional("ABOUT", POINT, "a point, in metres, as '4,3'; the middle of what is selected without");
+    optional("ABOUT", POINT, "a point in metres, such as '4,3'; without it, the middle of the selection");

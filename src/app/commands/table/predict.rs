@@ -51,7 +51,8 @@ pub(super) const COMMANDS: &[Command] = &[
         |app, _| app.session.accept_prediction(),
     )
     .keys(&[key(Key::A)])
-    .menu(Menu::Predict, 2),
+    .menu(Menu::Predict, 2)
+    .on(&[On::Room, On::Several]),
     command(
         "accept-all-predictions",
         "Accept all predictions",

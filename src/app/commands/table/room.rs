@@ -3,6 +3,7 @@
 use super::*;
 use crate::app::session::bulk::{Change, Order, Which};
 use crate::app::session::labelling::Target;
+use crate::app::value::room_word;
 
 const TARGET: Arg<Option<RoomId>> = optional(
     "ROOM",
@@ -21,11 +22,34 @@ const fn label<G, F>(
 where
     Given<1, G, F>: Run,
 {
-    with(id, title, help, has_target, given, None).when_complete(has_rooms).shown_on(is_on).menu(Menu::Room, 2)
+    with(id, title, help, has_target, given, None)
+        .when_complete(has_rooms)
+        .shown_on(is_on)
+        .menu(Menu::Room, 2)
+        .on(&[On::Room, On::Several])
 }
 
 fn label_target(app: &mut App, room: Option<RoomId>, label: Option<Label>) -> Outcome {
     on_target(app, room, &[], |app, target| app.session.label_rooms(target, label))
+}
+
+/// Exactly one room is selected, just drawn or under the pointer.
+fn has_one_target(app: &App) -> Availability {
+    has_target(app)?;
+    when(app.session.target(None).is_some_and(|target| target.rooms.len() == 1), "select one room first")
+}
+
+impl App {
+    /// Gives the keyboard to the field for a text of the one room meant, which is picked for that.
+    fn ask_for_field_of_target(&mut self, kind: FieldKind) {
+        let target = self.session.target(None).filter(|target| !target.is_selection);
+        if let Some(&room) = target.as_ref().and_then(|target| target.rooms.first()) {
+            let word = self.plan().map(|plan| room_word(plan, room)).unwrap_or_default();
+            self.session.pick(Some(ElementId::Room(room)));
+            self.session.note_executed("pick", vec![word]);
+        }
+        self.ask_for_field(kind);
+    }
 }
 
 /// Acts on the rooms a command applies to; a recording names a room that was just under the pointer.
@@ -56,16 +80,18 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "rename",
         "Rename…",
-        "Change the name of the selected room",
-        has_room,
+        "Change the name of a room: the selected one, or the one just drawn or under the pointer",
+        has_one_target,
         &given1(needed("NAME", TEXT, "the room's name"), |app, name, _| {
             app.session.write_field(FieldKind::Name, &name);
             Outcome::Done
         }),
-        Some(|app, _| app.ask_for_field(FieldKind::Name)),
+        Some(|app, _| app.ask_for_field_of_target(FieldKind::Name)),
     )
+    .when_complete(has_room)
     .keys(&[key(Key::F2)])
-    .menu(Menu::Room, 1),
+    .menu(Menu::Room, 1)
+    .on(&[On::Room]),
     with(
         "set-function",
         "Set function…",
@@ -88,7 +114,8 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .when_complete(has_rooms)
     .keys(&[key(Key::F4), shift(Key::F2)])
-    .menu(Menu::Room, 1),
+    .menu(Menu::Room, 1)
+    .on(&[On::Room, On::Several]),
     with(
         "accept-function",
         "Use the name as function",
@@ -106,15 +133,17 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "set-note",
         "Write note…",
-        "Write a note on the selected room",
-        has_room,
+        "Write a note on a room: the selected one, or the one just drawn or under the pointer",
+        has_one_target,
         &given1(needed("TEXT", TEXT, "the note"), |app, note, _| {
             app.session.write_field(FieldKind::Note, &note);
             Outcome::Done
         }),
-        Some(|app, _| app.ask_for_field(FieldKind::Note)),
+        Some(|app, _| app.ask_for_field_of_target(FieldKind::Note)),
     )
-    .menu(Menu::Room, 1),
+    .when_complete(has_room)
+    .menu(Menu::Room, 1)
+    .on(&[On::Room]),
     with(
         "name-rooms",
         "Name rooms…",
@@ -142,7 +171,8 @@ pub(super) const COMMANDS: &[Command] = &[
         Some(|app, _| app.open_dialog(dialogs::BULK)),
     )
     .keys(&[ctrl(Key::F2)])
-    .menu(Menu::Room, 1),
+    .menu(Menu::Room, 1)
+    .on(&[On::Several]),
     tool(&tools::NUMBER, has_rooms).menu(Menu::Room, 1),
     with(
         "name-along",
@@ -182,7 +212,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         Some(|app, _| app.open_dialog_for(dialogs::BULK, Purpose::ChangeRooms)),
     )
-    .menu(Menu::Room, 1),
+    .menu(Menu::Room, 1)
+    .on(&[On::Several]),
     label(
         "label-small",
         "Small room",
@@ -237,7 +268,8 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .when_complete(has_rooms)
-    .menu(Menu::Room, 2),
+    .menu(Menu::Room, 2)
+    .on(&[On::Room, On::Several]),
     command("next-room", "Next room", "Select the next room, in reading order from the top left", has_rooms, |app, _| {
         app.session.pick_neighbour(1);
     })

@@ -54,13 +54,21 @@ pub(super) const COMMANDS: &[Command] = &[
         "Select the next room in a direction, as an arrow key on the plan does",
         has_rooms,
         &given1(needed("DIRECTION", one_of::<Direction>(), "left, right, up or down"), |app, direction, _| {
-            app.session.pick_towards(match direction {
-                Direction::Left => Vector::new(-1.0, 0.0),
-                Direction::Right => Vector::new(1.0, 0.0),
-                Direction::Up => Vector::new(0.0, 1.0),
-                Direction::Down => Vector::new(0.0, -1.0),
-            });
+            app.session.pick_towards(direction.vector());
             Outcome::Done
+        }),
+        None,
+    ),
+    with(
+        "change-here",
+        "Edit in place",
+        "Show a small form with the name or measures of an element, as a double click does",
+        has_plan,
+        &given1(needed("ELEMENT", ELEMENTS, "its id"), |app, elements, _| {
+            let Some(&element) = elements.first() else { return Outcome::Done };
+            app.session.pick(Some(element));
+            app.change_here(element);
+            Outcome::Asks
         }),
         None,
     ),
@@ -90,17 +98,18 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "dismiss-message",
         "Dismiss a message",
-        "Close a message above the plan",
+        "Close a message on the plan",
         has_messages,
         &given1(
             optional("NUMBER", COUNT, "which one, 1 being the oldest; without it, the newest"),
             |app, number, _| {
-                let newest = app.session.messages.len();
+                let shown = app.session.shown_messages();
+                let newest = shown.len();
                 let number = number.unwrap_or(newest);
-                if number > newest {
-                    return Outcome::Refused(format!("there are {newest} messages"));
+                match number.checked_sub(1).and_then(|index| shown.get(index)) {
+                    Some(&index) => drop(app.session.messages.remove(index)),
+                    None => return Outcome::Refused(format!("there are {newest} messages")),
                 }
-                app.session.messages.remove(number - 1);
                 Outcome::Done
             },
         ),

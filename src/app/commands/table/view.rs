@@ -34,6 +34,10 @@ impl App {
     }
 }
 
+fn done(result: Result<(), String>) -> Outcome {
+    result.map_or_else(Outcome::Refused, |()| Outcome::Done)
+}
+
 /// The spacing of the grid follows the zoom.
 const AUTO: &str = "auto";
 
@@ -41,12 +45,14 @@ pub(super) const COMMANDS: &[Command] = &[
     command("fit", "Zoom to fit", "Show the whole plan", has_plan, |app, _| app.canvas.fit())
         .keys(&[key(Key::F)])
         .menu(Menu::View, 0)
+        .on(&[On::FreeSpace])
         .tool(Icon::Fit, 1),
     command("zoom-to-selection", "Zoom to selection", "Show the selection as large as fits", has_picked, |app, _| {
         app.session.zoom_to_picked();
     })
     .keys(&[shift(Key::F)])
     .menu(Menu::View, 0)
+    .on(&[On::Room, On::Wall, On::Opening, On::Corner, On::Several])
     .tool(Icon::ZoomToSelection, 1),
     command("zoom-in", "Zoom in", "Zoom in", has_plan, |app, _| app.canvas.zoom_by(ZOOM_STEP))
         .keys(&[key(Key::Plus), key(Key::Equals)])
@@ -148,6 +154,7 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .keys(&[shift(Key::G)])
     .menu(Menu::View, 2)
+    .on(&[On::FreeSpace])
     .tool(Icon::Grid, 2),
     switch(
         "guides",
@@ -166,7 +173,8 @@ pub(super) const COMMANDS: &[Command] = &[
         |app| app.session.layers.dimensions,
         |app, is_on| app.session.layers.dimensions = is_on,
     )
-    .menu(Menu::View, 2),
+    .menu(Menu::View, 2)
+    .on(&[On::FreeSpace]),
     switch(
         "ghost-layer",
         "Storey below",
@@ -223,7 +231,8 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::View, 3),
+    .menu(Menu::View, 3)
+    .on(&[On::FreeSpace]),
     with(
         "move-guide",
         "Move a guide",
@@ -326,6 +335,78 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .keys(&[ctrl(Key::Num3)])
     .menu(Menu::View, 4),
+    switch(
+        "findings",
+        "Findings",
+        "Show what is wrong with the plan, and what to do about it",
+        always,
+        |app| app.panels.is_shown(panels::FINDINGS),
+        |app, is_on| app.panels.set_shown(panels::FINDINGS, is_on),
+    )
+    .keys(&[ctrl(Key::Num4)])
+    .menu(Menu::View, 4),
+    with(
+        "next-finding",
+        "Next finding",
+        "Select what the next finding is about and bring it into view",
+        has_findings,
+        &given0(|app, _| done(app.session.step_finding(1))),
+        None,
+    )
+    .keys(&[key(Key::F6)])
+    .menu(Menu::View, 4),
+    with(
+        "previous-finding",
+        "Previous finding",
+        "Select what the previous finding is about and bring it into view",
+        has_findings,
+        &given0(|app, _| done(app.session.step_finding(-1))),
+        None,
+    )
+    .keys(&[shift(Key::F6)])
+    .menu(Menu::View, 4),
+    with(
+        "go-to-finding",
+        "Go to finding",
+        "Select what a finding is about, and bring it into view",
+        has_findings,
+        &given1(needed("NUMBER", COUNT, "its number in the panel"), |app, number, _| {
+            done(app.session.go_to_finding(number))
+        }),
+        None,
+    ),
+    with(
+        "fix-finding",
+        "Fix finding",
+        "Fix a finding that has a safe fix; for others, read what to do",
+        has_findings,
+        &given1(needed("NUMBER", COUNT, "its number in the panel"), |app, number, _| {
+            done(app.session.fix_finding(number))
+        }),
+        None,
+    ),
+    with(
+        "ignore-finding",
+        "Ignore finding",
+        "Ignore a finding, for a reason that is kept in the plan and shown by 'enfilade check'",
+        has_findings,
+        &given2(
+            needed("NUMBER", COUNT, "its number in the panel"),
+            needed("REASON", TEXT, "why, in one line"),
+            |app, number, reason, _| done(app.session.ignore_finding(number, &reason)),
+        ),
+        None,
+    ),
+    with(
+        "heed-finding",
+        "Heed finding",
+        "No longer ignore a finding",
+        has_findings,
+        &given1(needed("NUMBER", COUNT, "its number in the panel"), |app, number, _| {
+            done(app.session.heed_finding(number))
+        }),
+        None,
+    ),
     with(
         "panel",
         "Panel…",

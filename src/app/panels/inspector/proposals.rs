@@ -14,7 +14,7 @@ impl Inspected<'_> {
         ui.horizontal_wrapped(|ui| {
             for typology in self.app.session.schemes.typologies() {
                 if text_button(ui, &typology.title(), false).clicked() {
-                    act = Some(Act::Choose("set-typology", typology.as_str().to_owned()));
+                    act = Some(Act::Choose("set-typology", vec![typology.as_str().to_owned()]));
                 }
             }
         });

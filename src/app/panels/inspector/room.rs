@@ -1,6 +1,7 @@
 //! A picked room: its texts, label, prediction, features and neighbours.
 
 use super::*;
+use crate::app::look::text::{select_all, select_when_entered};
 
 impl Inspected<'_> {
     pub(super) fn room(
@@ -43,9 +44,9 @@ impl Inspected<'_> {
         section(ui, "Features");
         match analysed {
             None if self.app.session.document.as_ref().is_some_and(|document| !document.is_awaited()) => {
-                caption(ui, "Could not be worked out");
+                caption(ui, "Could not be computed");
             }
-            None => drop(caption(ui, "Being worked out…")),
+            None => drop(caption(ui, "Computing…")),
             Some(analysed) => {
                 let perimeter_m =
                     derived.and_then(|derived| derived.analysis.shapes.get(id)).map(RoomShape::perimeter_m);
@@ -97,10 +98,10 @@ impl Inspected<'_> {
             follow_focus(&response);
             if self.app.panels.focus == Some(kind) {
                 response.request_focus();
+                select_all(ui.ctx(), id, &text);
             }
-            if response.changed() {
-                act = Some(Act::Type(Field { room, kind, text: text.clone() }));
-            }
+            select_when_entered(ui, &response, &text);
+            let written = response.changed().then(|| Field { room, kind, text: text.clone() });
             let chosen = if kind == FieldKind::Function {
                 self.suggestions(ui, &response, &text, typed.is_some())
             } else {
@@ -111,13 +112,14 @@ impl Inspected<'_> {
                     act = Some(Act::Type(Field { room, kind, text: function }));
                     response.surrender_focus();
                 }
-                Some(Suggested::Choosing) => {}
+                Some(Suggested::Choosing) => act = written.map(Act::Type),
                 None if response.lost_focus() => {
                     let is_escape = ui.input(|input| input.key_pressed(Key::Escape));
-                    act = Some(if is_escape { Act::Revert } else { Act::Commit });
+                    act = Some(if is_escape { Act::Revert } else { Act::Commit(written) });
                 }
+                None if written.is_some() => act = written.map(Act::Type),
                 // A function was chosen, or its list was left.
-                None if typed.is_some() && !response.has_focus() && act.is_none() => act = Some(Act::Commit),
+                None if typed.is_some() && !response.has_focus() => act = Some(Act::Commit(None)),
                 None => {}
             }
         });

@@ -17,6 +17,7 @@ use crate::formats::{self, plan_json};
 use crate::labels::Label;
 use crate::plan::{ElementId, OpeningKind, RoomId};
 use crate::store::save_bytes_fast;
+use crate::topology::RoomShapes;
 
 pub(super) const GROUP: Group = Group {
     title: "Checks and pictures",
@@ -52,7 +53,7 @@ pub(super) const GROUP: Group = Group {
             form: "snapshot NAME [--region all|canvas|middle|dialog|panel|list] [--size WIDTHxHEIGHT] [--scale NUMBER] \
                    [--theme light|dark]",
             help: "Compares the window with the picture NAME.png, pixel for pixel; all of it, the canvas, the canvas \
-                   with its rulers and the messages above it (middle), the dialog, palette or menu in front, the panel \
+                   with its rulers and the messages over it (middle), the dialog, palette or menu in front, the panel \
                    on the right, or the list on the left. Size, scale and theme are for the picture only.",
             parse: snapshot,
         },
@@ -88,6 +89,31 @@ pub(super) const EXPECTATIONS: &[Expectation] = &[
             Ok(Box::new(move |stage| {
                 let passable = stage.plan()?.openings().filter(|(_, opening)| opening.kind != OpeningKind::Window);
                 same_number("opening", expected, passable.count())
+            }))
+        },
+    },
+    Expectation {
+        name: "walls",
+        form: "walls N",
+        help: "so many walls",
+        parse: |words| {
+            let expected = words.count("the number of walls")?;
+            Ok(Box::new(move |stage| same_number("wall", expected, stage.plan()?.walls().len())))
+        },
+    },
+    Expectation {
+        name: "areas",
+        form: "areas TEXT",
+        help: "the areas of all rooms along the axes of their walls, ascending, in m² with two decimals and a blank \
+               between",
+        parse: |words| {
+            let expected = words.text("the areas")?.to_owned();
+            Ok(Box::new(move |stage| {
+                let shapes = RoomShapes::new(stage.plan()?);
+                let mut areas: Vec<f64> = shapes.all().iter().map(|shape| shape.area_m2()).collect();
+                areas.sort_by(f64::total_cmp);
+                let found: Vec<String> = areas.into_iter().map(|area_m2| format!("{area_m2:.2}")).collect();
+                same("the areas", &expected, &found.join(" "))
             }))
         },
     },
@@ -157,7 +183,7 @@ pub(super) const EXPECTATIONS: &[Expectation] = &[
     Expectation {
         name: "message",
         form: "message TEXT",
-        help: "a message above the canvas holds this text",
+        help: "a message over the canvas holds this text",
         parse: |words| {
             let expected = words.text("the text")?.to_owned();
             Ok(Box::new(move |stage| {
@@ -175,7 +201,7 @@ pub(super) const EXPECTATIONS: &[Expectation] = &[
     Expectation {
         name: "messages",
         form: "messages N",
-        help: "so many messages stand above the canvas",
+        help: "so many messages stand over the canvas",
         parse: |words| {
             let expected = words.count("the number of messages")?;
             Ok(Box::new(move |stage| same_number("message", expected, stage.window.app().messages().len())))

@@ -61,7 +61,7 @@ pub(super) fn command(command: &'static Command, arguments: Vec<String>) -> Resu
             .map(|(word, argument)| {
                 let path = match argument.kind {
                     ArgumentKind::PlanFile | ArgumentKind::PictureFile => stage.folders.brought_in(word)?,
-                    ArgumentKind::NewPlanFile => stage.folders.to_write(word)?,
+                    ArgumentKind::NewPlanFile | ArgumentKind::NewFile => stage.folders.to_write(word)?,
                     _ => return Ok(word.clone()),
                 };
                 Ok(path.to_string_lossy().into_owned())

@@ -3,7 +3,7 @@
 use super::{Group, Verb};
 use crate::app::offscreen::OffscreenOptions;
 use crate::app::replay::fault::Fault;
-use crate::app::replay::words::{Words, number, written};
+use crate::app::replay::words::{Words, number, told, written};
 
 pub(super) const GROUP: Group = Group {
     title: "Window and time",
@@ -41,6 +41,26 @@ pub(super) const GROUP: Group = Group {
                 Ok(Box::new(move |stage| {
                     let options = OffscreenOptions { is_dark, ..stage.window.options() };
                     stage.set_options(options)
+                }))
+            },
+        },
+        Verb {
+            name: "slow",
+            form: "slow on|off",
+            help: "The window gets slow: what is typed and clicked from `slow on` to `slow off` comes in one frame.",
+            parse: |words| {
+                let is_slow = match words.text("on or off")? {
+                    "on" => true,
+                    "off" => false,
+                    other => return Err(format!("{} is neither on nor off", told(other))),
+                };
+                Ok(Box::new(move |stage| {
+                    if is_slow {
+                        stage.window.be_slow()
+                    } else {
+                        stage.window.be_quick()
+                    }
+                    Ok(())
                 }))
             },
         },

@@ -50,26 +50,33 @@ impl Worded for Wanted {
     ];
 }
 
-pub(super) const NO_GAPS: &str = "there is no gap of 30 to 150 cm between collinear walls";
+pub(super) const NO_GAPS: &str = "there is no gap of 30 to 150 cm between aligned walls";
 
-/// Moves the selection.
-pub(super) fn moved(app: &mut App, title: &str, transform: Transform) -> Outcome {
+/// Moves, turns, mirrors or scales the selection, or a copy of it.
+pub(super) fn transformed(app: &mut App, title: &str, transform: Transform, copy: Option<MoveOrCopy>) -> Outcome {
     let selected = app.session.selection.elements().clone();
-    edited(app, title, |plan| {
-        let next = edit::move_elements(plan, &selected, transform)?;
-        // Elements that come to rest on something else share its corners.
-        edit::settle(&next, &edit::corners_of(plan, &selected)?)
-    })
+    let own_walls = app.tools.options.walls_with_rooms;
+    let mut made = BTreeSet::new();
+    let ran = edited_fitting(app, title, |plan| {
+        if copy != Some(MoveOrCopy::Copy) {
+            return edit::transform_elements(plan, &selected, transform, own_walls);
+        }
+        let (plan, placed, refitted) = edit::insert_fitted(plan, &edit::fragment(plan, &selected)?, transform)?;
+        made = placed;
+        Ok(edit::Changed { plan, refitted })
+    });
+    select_made(app, &made);
+    ran
 }
 
 /// Copies the selection and selects the copies.
 pub(super) fn copied(app: &mut App, array: Array) -> Outcome {
     let selected = app.session.selection.elements().clone();
     let mut made = BTreeSet::new();
-    let ran = edited(app, "Array", |plan| {
-        let (next, copies) = edit::array(plan, &selected, array)?;
+    let ran = edited_fitting(app, "Array", |plan| {
+        let (plan, copies, refitted) = edit::array_fitted(plan, &selected, array)?;
         made = copies;
-        Ok(next)
+        Ok(edit::Changed { plan, refitted })
     });
     select_made(app, &made);
     ran
@@ -92,6 +99,17 @@ pub(super) fn has_copied(app: &App) -> Availability {
 pub(super) fn has_opening(app: &App) -> Availability {
     has_picked(app)?;
     when(app.session.selection.openings().next().is_some(), "select a door or another opening first")
+}
+
+pub(super) fn has_wall(app: &App) -> Availability {
+    has_plan(app)?;
+    when(matches!(app.picked(), Some(ElementId::Wall(_))), "select one wall first")
+}
+
+/// Doors are selected, or one was just placed.
+pub(super) fn has_door(app: &App) -> Availability {
+    has_plan(app)?;
+    when(!app.doors_to_flip().is_empty(), "select a door first")
 }
 
 pub(super) fn is_labelled(status: RoomStatus, wanted: Option<Label>) -> bool {
@@ -197,10 +215,10 @@ impl App {
         let Some(fragment) = self.session.copied.clone() else { return Outcome::Done };
         let by = at - fragment.bounds().center();
         let mut made = BTreeSet::new();
-        let ran = edited(self, "Paste", |plan| {
-            let (next, elements) = edit::insert(plan, &fragment, Transform::translation(by))?;
+        let ran = edited_fitting(self, "Paste", |plan| {
+            let (plan, elements, refitted) = edit::insert_fitted(plan, &fragment, Transform::translation(by))?;
             made = elements;
-            Ok(next)
+            Ok(edit::Changed { plan, refitted })
         });
         select_made(self, &made);
         ran
@@ -222,7 +240,8 @@ impl App {
                 let count = crate::base::wording::count;
                 let (corners, edges) = (count(weld.merged.len(), "corner"), count(weld.onto_edges.len(), "edge"));
                 let text = format!(
-                    "{corners} would become another within {}, and {edges} would be split at a corner: marked on the plan.",
+                    "{corners} would join another within {}, and {edges} would be split at a corner, as marked on the \
+                     plan.",
                     self.units().length(tolerance_m)
                 );
                 let answer = ("weld", "Weld");
@@ -243,8 +262,8 @@ impl App {
             Err(error) => Outcome::Refused(error.to_string()),
             Ok((next, _)) => {
                 let gaps_said = crate::base::wording::count(gaps.len(), "gap");
-                let (title, answer) = ("Put doors into these gaps?", ("bridge", "Put doors in"));
-                let text = format!("{gaps_said} between collinear walls, 30 to 150 cm wide: marked on the plan.");
+                let (title, answer) = ("Place doors in these gaps?", ("bridge", "Place doors"));
+                let text = format!("{gaps_said} between aligned walls, 30 to 150 cm wide, marked on the plan.");
                 let marks = gaps.into_iter().map(|gap| gap.segment).collect();
                 self.session.ask(Question::change(title, text, answer, "Bridge gaps", next, marks));
                 Outcome::Asks
@@ -288,14 +307,88 @@ impl App {
         })
     }
 
+    /// The selected doors or, where nothing is selected, the one just placed.
+    pub(crate) fn doors_to_flip(&self) -> Vec<OpeningId> {
+        let Some(plan) = self.plan() else { return Vec::new() };
+        let fresh = self.session.fresh_opening().filter(|_| self.session.selection.is_empty());
+        let is_door = |id: &OpeningId| {
+            let kind = plan.opening(*id).map(|opening| opening.kind);
+            matches!(kind, Some(OpeningKind::Door | OpeningKind::DoubleDoor))
+        };
+        self.session.selection.openings().chain(fresh).filter(is_door).collect()
+    }
+
+    /// Hangs them the next way.
+    pub(super) fn flip_doors(&mut self) -> Outcome {
+        let doors = self.doors_to_flip();
+        let derived = self.session.document.as_ref().and_then(Document::derived).cloned();
+        let mut ran = Outcome::Done;
+        self.session.keeping_fresh(|session| {
+            let flipped = session.try_edit("Flip", |plan| {
+                doors.iter().try_fold(plan.clone(), |plan, &id| {
+                    let shown = derived.as_ref().and_then(|derived| derived.drawing.swing_of(id));
+                    let shown = shown.unwrap_or(Swing { hinge_at_start: true, side: LeafSide::Left });
+                    let kind = plan.opening(id).map_or(OpeningKind::Door, |opening| opening.kind);
+                    edit::change_swing(&plan, id, shown, |swing| edit::next_swing(kind, swing))
+                })
+            });
+            if let Err(error) = flipped {
+                ran = Outcome::Refused(error.to_string());
+            }
+        });
+        ran
+    }
+
+    /// Moves the selection a little; an opening along its wall, where that goes.
+    pub(super) fn nudge(&mut self, direction: Direction, distance_m: f64) -> Outcome {
+        let by = direction.vector() * distance_m;
+        let position = |app: &Self| app.session.document.as_ref().map(|document| document.history.position());
+        let before = position(self);
+        let ran = match self.picked() {
+            Some(ElementId::Corner(corner)) => edited(self, "Nudge", |plan| {
+                let Some(place) = plan.position(corner) else { return Ok(plan.clone()) };
+                edit::settle(&edit::move_corners(plan, &[(corner, place + by)])?, &BTreeSet::from([corner]))
+            }),
+            Some(ElementId::Opening(opening)) => edited(self, "Nudge", |plan| {
+                let segment = plan.opening(opening).and_then(|opening| plan.opening_segment(opening));
+                let Some(segment) = segment else { return Ok(plan.clone()) };
+                if segment.vector().unit().is_none_or(|along| along.dot(direction.vector()).abs() < 0.1) {
+                    return Err(EditError("an opening moves only along its wall".to_owned()));
+                }
+                edit::slide_opening(plan, opening, segment.midpoint() + by)
+            }),
+            _ => {
+                let selected = self.session.selection.elements().clone();
+                let own_walls = self.tools.options.walls_with_rooms;
+                edited_fitting(self, "Nudge", |plan| {
+                    edit::move_picked(plan, &selected, by, edit::Reach::default(), own_walls)
+                })
+            }
+        };
+        // Going on in the same way is one step: it is undone at once.
+        if ran == Outcome::Done
+            && position(self) != before
+            && let Some(document) = &mut self.session.document
+        {
+            if self.session.nudged.is_some() && self.session.nudged == before {
+                document.history.join_with_previous();
+            }
+            self.session.nudged = Some(document.history.position());
+        }
+        ran
+    }
+
     /// Deletes the selection; asks first if more would be deleted with it.
     pub(super) fn delete_selected(&mut self) -> Outcome {
         let Some(plan) = self.plan() else { return Outcome::Done };
         let selected: Vec<ElementId> = self.session.selection.iter().collect();
         let gone = edit::removed_with(plan, &selected);
-        // Corners that become unused are no loss.
-        let is_loss = |element: &ElementId| {
-            !self.session.selection.contains(*element) && !matches!(element, ElementId::Corner(_))
+        // Corners that become unused are no loss, and openings go with their walls.
+        let own = edit::Part::of(plan, self.session.selection.elements()).map(|part| part.openings).unwrap_or_default();
+        let is_loss = |element: &ElementId| match element {
+            ElementId::Corner(_) => false,
+            ElementId::Opening(id) if own.contains(id) => false,
+            element => !self.session.selection.contains(*element),
         };
         if gone.iter().any(is_loss) {
             self.session.ask(Question::delete(selected, gone));

@@ -1,0 +1,21 @@
+//! What all text fields have in common.
+
+use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditState;
+use egui::{Context, Id, Response, Ui};
+
+/// Selects all that is in a field, so that what is typed takes its place.
+pub(crate) fn select_all(context: &Context, id: Id, text: &str) {
+    let mut state = TextEditState::load(context, id).unwrap_or_default();
+    let all = CCursorRange::two(CCursor::new(0), CCursor::new(text.chars().count()));
+    state.cursor.set_char_range(Some(all));
+    state.store(context, id);
+}
+
+/// The same when a field has just got the keyboard by the keyboard: a click says itself where to write.
+pub(crate) fn select_when_entered(ui: &Ui, field: &Response, text: &str) {
+    let is_clicked = ui.input(|input| input.pointer.any_pressed() || input.pointer.any_released());
+    if field.gained_focus() && !is_clicked {
+        select_all(ui.ctx(), field.id, text);
+    }
+}
