@@ -9,10 +9,10 @@ pub(crate) use crate::app::session::words::{
 };
 use crate::app::session::{bulk::Order, selection::SelectMode};
 use crate::classify::Method;
-use crate::edit::{Alignment, DrawingMoves, End, Reach, storey::Keep};
+use crate::edit::{Alignment, DrawingMoves, End, Lies, Reach, storey::Keep};
 use crate::geometry::{Point, Vector};
 use crate::labels::Typology;
-use crate::plan::{ElementId, GuideAxis, LeafSide, OpeningId, OpeningKind, RoomId};
+use crate::plan::{DimensionAlong, ElementId, GuideAxis, LeafSide, OpeningId, OpeningKind, RoomId};
 use crate::predict::ModelSet;
 
 /// A parsed argument.
@@ -125,6 +125,18 @@ impl Worded for Keep {
 impl Worded for DrawingMoves {
     const WORDS: &'static [(&'static str, &'static str)] = DrawingMoves::WORDS;
     const ALL: &'static [Self] = &[Self::Along, Self::Stays];
+}
+
+impl Worded for Lies {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("left", "Left of the line"), ("centre", "Centred on the line"), ("right", "Right of the line")];
+    const ALL: &'static [Self] = &Self::ALL;
+}
+
+impl Worded for DimensionAlong {
+    const WORDS: &'static [(&'static str, &'static str)] =
+        &[("horizontal", "Level"), ("vertical", "Upright"), ("aligned", "From the first point to the last")];
+    const ALL: &'static [Self] = &Self::ALL;
 }
 
 impl Worded for Order {

@@ -169,10 +169,11 @@ impl Condition {
     }
 }
 
-/// A feature with its value: `12.4 m²`, `1.4 times as long as wide`, `3 openings`.
+/// A feature with its value: `12.4 m² along axes`, `1.4 times as long as wide`, `3 openings`.
 fn value_in_words(feature: usize, value: f64, units: Units) -> String {
     match feature {
-        0 => area(value, units),
+        // The paper's area, not the clear one that the drawing shows.
+        0 => format!("{} along axes", area(value, units)),
         1 => times(value),
         _ => count_in_words(feature, value),
     }

@@ -7,7 +7,7 @@ use super::collect::content_of;
 use super::manifest;
 use super::outputs::Outputs;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
-use crate::dataset::{BY_SCHEME, csv::feature_cells};
+use crate::dataset::{BY_SCHEME, csv::cell, csv::feature_cells};
 use crate::features::{Features, NeighbourLabels};
 use crate::formats::Import;
 use crate::labels::{Label, Schemes, Typology};
@@ -27,6 +27,9 @@ pub struct FeaturesCommand {
     /// Print JSON instead of CSV (docs/json/features.md describes it)
     #[arg(long)]
     json: bool,
+    /// Add the clear area of every room, between wall faces, as the column 'net'
+    #[arg(long)]
+    net: bool,
     #[command(flatten)]
     shared: FeatureOptions,
 }
@@ -58,7 +61,7 @@ impl Subcommand for FeaturesCommand {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let mut objects: Vec<serde_json::Value> = Vec::new();
         let mut rooms_written = 0;
-        writer.write_record(HEAD.into_iter().chain(Features::NAMES))?;
+        writer.write_record(HEAD.into_iter().chain(Features::NAMES).chain(self.net.then_some(NET)))?;
         let rooms = |input: &Input, import: Import| -> Vec<RoomFeatures> {
             let file = input.path.display().to_string();
             import.plans.iter().flat_map(|plan| self.rooms(plan, &file, &schemes)).collect()
@@ -100,11 +103,16 @@ impl Subcommand for FeaturesCommand {
 const HEAD: [&str; 10] =
     ["file", "id", "building", "typology", "storey", "plan", "room", "function", "label", "label_origin"];
 
+/// The column of clear areas.
+const NET: &str = "net";
+
 /// A room with its features, if it has an area.
 struct RoomFeatures {
     /// The texts for [`HEAD`].
     texts: [String; 10],
     features: Option<Features>,
+    /// The clear area in m², if it is asked for; within, `None` for a room without an area.
+    net_m2: Option<Option<f64>>,
 }
 
 impl FeaturesCommand {
@@ -122,10 +130,11 @@ impl FeaturesCommand {
             let meta = plan.meta();
             let building = meta.building_or_name();
             let typology = meta.typology.as_ref().map(Typology::as_str).unwrap_or_default();
-            let id = id.to_string();
+            let (room_id, id) = (id, id.to_string());
             let texts = [file, &id, building, typology, &meta.storey, &meta.name, &key, &room.function, label, origin];
             let texts = texts.map(str::to_owned);
-            Some(RoomFeatures { texts, features: result.features })
+            let net_m2 = self.net.then(|| analysis.net(room_id).map(|net| net.area_m2));
+            Some(RoomFeatures { texts, features: result.features, net_m2 })
         };
         room_keys(plan).into_iter().filter_map(room).collect()
     }
@@ -142,12 +151,16 @@ impl RoomFeatures {
             let value = self.features.map(|features| features.values()[index]);
             object.insert(name.to_owned(), value.map(rounded).into());
         }
+        if let Some(net_m2) = self.net_m2 {
+            object.insert(NET.to_owned(), net_m2.map(rounded).into());
+        }
         object.into()
     }
 
     fn cells(self) -> impl Iterator<Item = String> {
         let cells = self.features.as_ref().map(feature_cells).unwrap_or_default();
-        self.texts.into_iter().chain(cells)
+        let net = self.net_m2.map(|net_m2| net_m2.map(cell).unwrap_or_default());
+        self.texts.into_iter().chain(cells).chain(net)
     }
 }
 

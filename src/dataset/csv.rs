@@ -79,7 +79,12 @@ fn head_cells(row: &Row) -> [String; 11] {
 
 /// The eight features as cells: at most six decimals, no trailing zeros.
 pub fn feature_cells(features: &Features) -> [String; 8] {
-    features.values().map(|value| ((value * 1e6).round() / 1e6).to_string())
+    features.values().map(cell)
+}
+
+/// A number as a cell: at most six decimals, no trailing zeros.
+pub fn cell(value: f64) -> String {
+    ((value * 1e6).round() / 1e6).to_string()
 }
 
 /// Why a dataset file could not be read.

@@ -5,17 +5,17 @@ use super::elements::{GraphEdge, NODE_RADIUS_PX, RoomDrawing, WallDrawing, paint
 use super::names::Around;
 use super::openings::{OpeningDrawing, PlacedOpening};
 use super::scene::{Frame, Group, Item, Layer, Length, PlacedPicture, Scene, View};
-use super::tangle::one_line_in;
 use super::tile_grid::TileGrid;
 use super::tiles::{Contents, Tile, Tiles};
 use super::walls::{self, Faces, Walls};
-use super::{Fill, Grid, Rgba, Style, names};
+use super::{Fill, Grid, Rgba, Style, dimensions, names};
 use crate::base::{units::Units, wording::thousands};
 use crate::features::{Analysis, RoomStatus};
+use crate::geometry::tangle::one_line_in;
 use crate::geometry::{Bounds, Point, Segment, areas, polygon, raster};
 use crate::labels::{Label, function_title, normalised_function};
 use crate::picture::PictureLevels;
-use crate::plan::{Backdrop, Joint, Meta, OpeningId, Plan, RoomId, Swing, Wall};
+use crate::plan::{Backdrop, DimensionId, DimensionLine, Joint, Meta, OpeningId, Plan, RoomId, Swing, Wall};
 
 /// A plan as shapes, before zoom and colours: made once per plan, asked for a [`Scene`] once per view.
 pub struct Drawing {
@@ -26,6 +26,7 @@ pub struct Drawing {
     pub(super) boundaries: Vec<Segment>,
     pub(super) openings: Vec<OpeningDrawing>,
     pub(super) graph: Vec<GraphEdge>,
+    dimensions: Vec<(DimensionId, DimensionLine)>,
     pub(super) faces: Faces,
     picture: Option<PlacedPicture>,
     tangled: usize,
@@ -34,6 +35,8 @@ pub struct Drawing {
     /// What to know before believing what is shown, below the title; empty for most.
     pub(super) caveat: String,
     bounds: Bounds,
+    /// The same without dimension chains.
+    built: Bounds,
     /// How a large plan is cut into tiles; `None` if in one piece.
     tiles: Option<Tiles>,
 }
@@ -67,8 +70,8 @@ impl Drawing {
         let mut rooms: Vec<RoomDrawing> = plan
             .rooms()
             .zip(&analysis.rooms)
-            .zip(analysis.shapes.all())
-            .map(|(((id, room), analysed), shape)| RoomDrawing {
+            .zip(analysis.shapes.all().iter().zip(&analysis.net))
+            .map(|(((id, room), analysed), (shape, net))| RoomDrawing {
                 id,
                 name: room.name.trim().to_owned(),
                 function: room.function.trim().to_owned(),
@@ -76,6 +79,8 @@ impl Drawing {
                 predicted: None,
                 within_rim: Vec::new(),
                 area_m2: shape.area_m2(),
+                clear_m2: net.as_ref().map_or(0.0, |net| net.area_m2),
+                has_walls: net.as_ref().is_some_and(|net| net.has_walls),
                 outer: shape.outer.clone(),
                 holes: shape.holes.clone(),
                 bounds: shape.bounds,
@@ -125,6 +130,9 @@ impl Drawing {
         let bounds =
             walls_drawn.iter().fold(plan.bounds(), |bounds, wall| bounds.union(Bounds::of(wall.outer.iter().copied())));
         let bounds = openings.iter().fold(bounds, |bounds, opening| bounds.union(opening.bounds()));
+        let dimensions = dimensions::lines(plan);
+        let built = bounds;
+        let bounds = bounds.union(dimensions::bounds(&dimensions));
         let graph = graph_edges(analysis, &rooms, &openings);
         let boundaries = without_openings(walls.boundaries, &openings);
         let tiles = grid.map(|grid| {
@@ -153,12 +161,14 @@ impl Drawing {
             boundaries,
             openings,
             graph,
+            dimensions,
             faces,
             picture: None,
             tangled: walls.tangled,
             are_piled,
             caveat: String::new(),
             bounds,
+            built,
             tiles,
         }
     }
@@ -220,6 +230,11 @@ impl Drawing {
         self.bounds
     }
 
+    /// The bounding box of rooms, walls and openings, without the dimension chains beside them, in metres.
+    pub fn built_bounds(&self) -> Bounds {
+        self.built
+    }
+
     /// How a door's leaf is drawn; `None` for openings without a leaf. Openings are sorted by id.
     pub fn swing_of(&self, id: OpeningId) -> Option<Swing> {
         let index = self.openings.binary_search_by_key(&id, |opening| opening.id).ok()?;
@@ -267,6 +282,7 @@ impl Drawing {
                 let rooms = self.rooms.iter().filter(|room| !room.outer.is_empty());
                 self.graph_marks(self.graph.iter(), rooms, style)
             }
+            Layer::Dimensions if layers.dimensions => dimensions::groups(&self.dimensions, style, view),
             Layer::Names if layers.names || layers.areas => self.names(style, view),
             _ => Vec::new(),
         }
@@ -643,7 +659,7 @@ pub(super) fn grid(style: &Style, px_per_m: f64, seen: Bounds) -> Vec<Group> {
     vec![Group::new(Layer::Grid, Frame::Plan, items)]
 }
 
-/// A room in one line: 'Library: reading room, big room, 84.2 m²'.
+/// A room in one line: 'Library: reading room, big room, 84.2 m² clear'.
 fn room_title(room: &RoomDrawing) -> String {
     let label = match room.status {
         RoomStatus::Labelled(label) => label.name(),
@@ -657,7 +673,8 @@ fn room_title(room: &RoomDrawing) -> String {
         (false, true) => room.name.clone(),
         (false, false) => format!("{}: {}", room.name, normalised_function(&room.function)),
     };
-    format!("{head}, {label}, {}", Units::Metric.area(room.area_m2))
+    let clear = if room.has_walls { " clear" } else { "" };
+    format!("{head}, {label}, {}{clear}", Units::Metric.area(room.clear_m2))
 }
 
 /// The parts of boundaries that remain beside openings that are in no wall.

@@ -18,7 +18,12 @@ pub(super) struct RoomDrawing {
     /// The room without the rim along its boundary, as pieces with their holes: only for a room whose
     /// known label differs from the predicted one.
     pub within_rim: Vec<(Vec<Point>, Vec<Vec<Point>>)>,
+    /// Of the boundary.
     pub area_m2: f64,
+    /// Between wall faces: what is written in it.
+    pub clear_m2: f64,
+    /// Whether both differ: walls stand on the boundary or inside.
+    pub has_walls: bool,
     pub outer: Vec<Point>,
     pub holes: Vec<Vec<Point>>,
     pub bounds: Bounds,

@@ -11,6 +11,7 @@
 //! A [`Drawing`] is made once per plan; a [`Scene`] once per view.
 
 mod colour;
+pub mod dimensions;
 mod drawing;
 mod elements;
 pub mod font;
@@ -25,7 +26,6 @@ pub mod scene;
 pub mod sheet;
 mod style;
 pub mod svg;
-mod tangle;
 mod tile_grid;
 mod tiles;
 mod walls;

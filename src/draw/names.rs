@@ -149,7 +149,7 @@ fn blocks(room: &RoomDrawing, style: &Style) -> [Vec<Block>; 3] {
     } else {
         room.name.split_whitespace().collect::<Vec<_>>().join(" ")
     };
-    let area = if style.layers.areas && room.area_m2 > 0.0 { style.units.area(room.area_m2) } else { String::new() };
+    let area = if style.layers.areas && room.clear_m2 > 0.0 { style.units.area(room.clear_m2) } else { String::new() };
     let wraps: Vec<Vec<String>> = if name.is_empty() { vec![Vec::new()] } else { wrapped(&name) };
     let mut sizes = Vec::new();
     for factor in [1.0, 0.86, 0.74] {

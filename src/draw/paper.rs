@@ -308,7 +308,7 @@ fn paint(drawing: &Drawing, style: &Style, sheet: &Sheet, entries: &[Entry], lay
     let mut scene = drawing.scene(&style, &view);
     let mut items = Vec::new();
     if sheet.dimensions && !bounds.is_empty() {
-        overall(&mut items, palette, &view, bounds, style.units);
+        overall(&mut items, palette, &view, bounds, drawing.built_bounds(), style.units);
     }
     if sheet.title_block {
         let frame = Bounds {
@@ -346,9 +346,11 @@ fn outline(of: Bounds, colour: Rgba, width_px: f64) -> Item {
 }
 
 /// The overall width below the plan and height to its left: over the outer faces of the walls.
-fn overall(items: &mut Vec<Item>, palette: &Palette, view: &View, bounds: Bounds, units: Units) {
-    let [low, high] = [bounds.min, bounds.max].map(|point| view.screen_from_plan(point));
+fn overall(items: &mut Vec<Item>, palette: &Palette, view: &View, around: Bounds, built: Bounds, units: Units) {
+    let [low, high] = [built.min, built.max].map(|point| view.screen_from_plan(point));
     let (left, right, top, bottom) = (low.x, high.x, high.y, low.y);
+    // Beside the dimension chains of the plan.
+    let beside = view.screen_from_plan(around.min);
     let ink = palette.ink;
     let (offset, beyond, tick) = (px(6.0), px(1.5), px(1.2));
     let mut chain = |from: Point, to: Point, out: Vector, length_m: f64| {
@@ -376,8 +378,8 @@ fn overall(items: &mut Vec<Item>, palette: &Palette, view: &View, bounds: Bounds
             upright,
         }));
     };
-    chain(Point::new(left, bottom), Point::new(right, bottom), Vector::new(0.0, 1.0), bounds.width());
-    chain(Point::new(left, bottom), Point::new(left, top), Vector::new(-1.0, 0.0), bounds.height());
+    chain(Point::new(left, beside.y), Point::new(right, beside.y), Vector::new(0.0, 1.0), built.width());
+    chain(Point::new(beside.x, bottom), Point::new(beside.x, top), Vector::new(-1.0, 0.0), built.height());
 }
 
 /// What the plan is, its scale and its size.

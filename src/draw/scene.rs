@@ -98,6 +98,8 @@ pub enum Layer {
     /// Doors, passages and windows; one group per opening.
     Openings,
     Graph,
+    /// Dimension chains; one group per chain.
+    Dimensions,
     /// Names and areas; one group per room.
     Names,
     /// Title, legend, scale bar.
@@ -105,7 +107,7 @@ pub enum Layer {
 }
 
 impl Layer {
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Picture,
         Self::Grid,
         Self::Rooms,
@@ -113,6 +115,7 @@ impl Layer {
         Self::Walls,
         Self::Openings,
         Self::Graph,
+        Self::Dimensions,
         Self::Names,
         Self::Sheet,
     ];
@@ -127,6 +130,7 @@ impl Layer {
             Self::Walls => "walls",
             Self::Openings => "openings",
             Self::Graph => "graph",
+            Self::Dimensions => "dimensions",
             Self::Names => "names",
             Self::Sheet => "sheet",
         }

@@ -68,7 +68,7 @@ pub fn page(drawing: &Drawing, style: &Style, size: PageSize, furniture: Furnitu
     let bounds = drawing.bounds();
     let (plan_width, plan_height) = (bounds.width().max(0.1), bounds.height().max(0.1));
 
-    let title = if furniture.title { title_lines(drawing) } else { Vec::new() };
+    let title = if furniture.title { title_lines(drawing, style) } else { Vec::new() };
     let top = if title.is_empty() { margin } else { margin + title_height(&title, text) + 0.9 * text };
     let entries = if furniture.legend { legend_entries(drawing, style) } else { Vec::new() };
     let bottom = |width: f64| {
@@ -178,7 +178,7 @@ pub(super) fn fitted_text(text: &str, weight: Weight, size_px: f64, width_px: f6
 }
 
 /// The title and the lines below it, each with its weight and relative size.
-fn title_lines(drawing: &Drawing) -> Vec<(String, Weight, f64)> {
+fn title_lines(drawing: &Drawing, style: &Style) -> Vec<(String, Weight, f64)> {
     let meta = &drawing.meta;
     let name = [&meta.name, &meta.building].into_iter().map(|text| text.trim()).find(|text| !text.is_empty());
     let Some(name) = name else { return Vec::new() };
@@ -189,6 +189,9 @@ fn title_lines(drawing: &Drawing) -> Vec<(String, Weight, f64)> {
         }
     }
     details.extend(meta.typology.as_ref().map(crate::labels::Typology::title));
+    if style.layers.areas && drawing.rooms.iter().any(|room| room.has_walls) {
+        details.push("clear areas, between wall faces".to_owned());
+    }
     let mut lines = vec![(name.to_owned(), Weight::SemiBold, 1.6)];
     if !details.is_empty() {
         lines.push((details.join(" · "), Weight::Regular, 1.0));

@@ -70,6 +70,8 @@ pub struct Layers {
     pub walls: bool,
     pub openings: bool,
     pub graph: bool,
+    /// Dimension chains.
+    pub dimensions: bool,
     /// Room names, or functions for rooms without a name.
     pub names: bool,
     /// Room areas, below the names.
@@ -78,7 +80,16 @@ pub struct Layers {
 
 impl Default for Layers {
     fn default() -> Self {
-        Self { grid: false, rooms: true, walls: true, openings: true, graph: false, names: true, areas: true }
+        Self {
+            grid: false,
+            rooms: true,
+            walls: true,
+            openings: true,
+            graph: false,
+            dimensions: true,
+            names: true,
+            areas: true,
+        }
     }
 }
 

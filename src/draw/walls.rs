@@ -1,7 +1,7 @@
 //! The walls in section: the area an architect fills black. Drawn walls are joined with mitres; imported
 //! rooms without walls get walls along their boundaries, so that the building reads as a whole.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -13,13 +13,12 @@ use rstar::primitives::Line;
 use rstar::{AABB, RTree};
 
 use super::elements::RoomDrawing;
-use super::tangle::{LineTree, entry, one_line_in, segment_of, tangled};
 use super::tile_grid::TileGrid;
-use crate::geometry::areas::{
-    self, Ring, SHARPEST_RAD, Shapes, area_m2, directed, offset, points, ring, without_slivers,
-};
+use crate::geometry::areas::{self, Ring, SHARPEST_RAD, Shapes, area_m2, directed, offset, points, without_slivers};
+use crate::geometry::tangle::{LineTree, entry, one_line_in, segment_of, tangled};
 use crate::geometry::{Bounds, Point, Segment, Vector, polygon};
-use crate::plan::{CornerId, Plan, THICKEST_WALL_M, WallId};
+use crate::plan::{Plan, THICKEST_WALL_M, WallId};
+use crate::topology::wall_bodies::{self, WallBodies};
 
 /// The walls of a plan before openings are cut out.
 pub(super) struct Walls {
@@ -51,7 +50,8 @@ const USUAL_ROOM_M: f64 = 3.0;
 impl Walls {
     /// The walls of a plan, cut at tile borders.
     pub fn new(plan: &Plan, rooms: &[RoomDrawing], grid: Option<&TileGrid>) -> Self {
-        let mut index = WallIndex::new(plan);
+        let bodies = WallBodies::new(plan);
+        let mut index = WallIndex::new(plan, &bodies);
         let mut boundaries = Vec::new();
         let mut unwalled = Vec::new();
         for (i, room) in rooms.iter().enumerate() {
@@ -66,8 +66,8 @@ impl Walls {
         let unwalled_count = unwalled.len();
         let mut tangle = tangled_rooms(rooms, &mut unwalled);
         boundaries.append(&mut tangle);
-        let tangled = unwalled_count - unwalled.len() + index.tangled.len();
-        let mut rings = index.rings(plan);
+        let tangled = unwalled_count - unwalled.len() + bodies.tangled.len();
+        let mut rings = bodies.rings;
         let derived = (!unwalled.is_empty()).then(|| Derived::new(rooms, &unwalled)).map(|derived| {
             boundaries.extend(derived.railings);
             derived.solid
@@ -167,7 +167,6 @@ struct WallIndex {
     tree: LineTree<f64>,
     /// Walls without thickness, and tangled ones.
     lines: Vec<Segment>,
-    tangled: BTreeSet<WallId>,
 }
 
 /// The parts of a room's boundary not covered by walls.
@@ -177,56 +176,20 @@ struct Uncovered {
 }
 
 impl WallIndex {
-    fn new(plan: &Plan) -> Self {
-        let mut lines = Vec::new();
-        let walls: Vec<(WallId, f64, Segment)> = plan
-            .walls()
-            .filter_map(|(id, wall)| {
-                let segment = plan.wall_segment(wall).filter(|segment| segment.length() > 0.0)?;
-                Some((id, wall.thickness_m, segment))
-            })
-            .collect();
+    fn new(plan: &Plan, bodies: &WallBodies) -> Self {
+        let walls: Vec<(WallId, f64, Segment)> = wall_bodies::axes(plan).collect();
         let entries = walls.iter().map(|&(_, thickness_m, segment)| entry(segment, thickness_m / 2.0));
         let tree = RTree::bulk_load(entries.collect());
-        let segments: Vec<Segment> = walls.iter().map(|(_, _, segment)| *segment).collect();
-        let is_tangled = tangled(&segments, &tree);
-        let tangled: BTreeSet<WallId> =
-            walls.iter().zip(&is_tangled).filter(|(_, is_tangled)| **is_tangled).map(|((id, ..), _)| *id).collect();
-        let (step, mut seen) = (one_line_in(tangled.len()), 0);
+        let (step, mut seen) = (one_line_in(bodies.tangled.len()), 0);
+        let mut lines = Vec::new();
         for (id, thickness_m, segment) in walls {
-            let is_tangled = tangled.contains(&id);
+            let is_tangled = bodies.tangled.contains(&id);
             seen += usize::from(is_tangled);
             if (thickness_m <= 0.0 && !is_tangled) || (is_tangled && seen.is_multiple_of(step)) {
                 lines.push(segment);
             }
         }
-        Self { tree, lines, tangled }
-    }
-
-    /// A rectangle for each wall, and at each corner the mitre that closes the joint on its outer side.
-    /// Together, under the non-zero rule, they are the walls.
-    fn rings(&self, plan: &Plan) -> Vec<Ring> {
-        let mut rings = Vec::new();
-        let mut ends: BTreeMap<CornerId, Vec<(Vector, f64)>> = BTreeMap::new();
-        for (_, wall) in plan.walls().filter(|(id, _)| !self.tangled.contains(id)) {
-            let Some(segment) = plan.wall_segment(wall) else { continue };
-            let (Some(along), half) = (segment.vector().unit(), wall.thickness_m / 2.0) else { continue };
-            if half <= 0.0 {
-                continue;
-            }
-            rings.push(rectangle(segment, half));
-            ends.entry(wall.from).or_default().push((along, half));
-            ends.entry(wall.to).or_default().push((-along, half));
-        }
-        for (corner, mut walls) in ends {
-            let Some(at) = plan.position(corner).filter(|_| walls.len() > 1) else { continue };
-            walls.sort_by(|p, q| p.0.angle_rad().total_cmp(&q.0.angle_rad()));
-            for (i, &(a, half_a)) in walls.iter().enumerate() {
-                let (b, half_b) = walls[(i + 1) % walls.len()];
-                rings.extend(mitre(at, (a, half_a), (b, half_b)));
-            }
-        }
-        rings
+        Self { tree, lines }
     }
 
     /// The parts of a room's boundary that lie on no wall.
@@ -285,34 +248,6 @@ fn linear_within(start: f64, rate: f64, low: f64, high: f64, length: f64) -> Opt
     let (from, to) = (p.min(q).max(0.0), p.max(q).min(length));
     (from < to).then_some((from, to))
 }
-
-/// The rectangle of a wall.
-fn rectangle(segment: Segment, half: f64) -> Ring {
-    let Some(left) = segment.vector().left().unit().map(|left| left * half) else { return Ring::new() };
-    ring(&[segment.a - left, segment.b - left, segment.b + left, segment.a + left])
-}
-
-/// The piece that closes the joint between two walls leaving `at` along `a` and `b`, where `b` is next
-/// counter-clockwise after `a`; `None` unless the angle between them is more than half a turn.
-fn mitre(at: Point, (a, half_a): (Vector, f64), (b, half_b): (Vector, f64)) -> Option<Ring> {
-    // Left of a, right of b: the faces on the far side of the joint.
-    let (face_a, face_b) = (at + a.left() * half_a, at - b.left() * half_b);
-    let turn = a.cross(b);
-    if turn >= -1e-9 {
-        return None;
-    }
-    // Where the lines of the two faces meet.
-    let tip = face_a + a * ((face_b - face_a).cross(b) / turn);
-    let corner = if at.distance(tip) <= MITRE_LIMIT * half_a.max(half_b) {
-        ring(&[at, face_a, tip, face_b])
-    } else {
-        ring(&[at, face_a, face_b])
-    };
-    Some(corner)
-}
-
-/// A joint sharper than this many half thicknesses is cut off, as with SVG's `stroke-miterlimit`.
-const MITRE_LIMIT: f64 = 4.0;
 
 /// Walls generated for rooms that came without any.
 struct Derived {

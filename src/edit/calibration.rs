@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use crate::edit::{EditError, checked_position, fail, set_backdrop, set_meta};
 use crate::geometry::{Point, Vector, trim_m};
-use crate::plan::{Backdrop, METRES_PER_PIXEL, Measurement, Place, Plan, Scale, ScaleOrigin};
+use crate::plan::{Backdrop, DimensionHost, METRES_PER_PIXEL, Measurement, Place, Plan, Scale, ScaleOrigin};
 
 /// Size of a pixel in metres for a backdrop without a measured scale: a hundred pixels per metre, about
 /// what a scan of a 1:100 drawing at 250 dpi has.
@@ -237,6 +237,21 @@ fn transformed(plan: &Plan, about: Point, factor: f64, angle_rad: f64) -> Result
         if let Some(target) = next.openings.get_mut(&id) {
             Arc::make_mut(target).place = place;
         }
+    }
+    for (id, dimension) in plan.dimensions() {
+        let mut chain = dimension.clone();
+        chain.along = dimension.along.turned(Vector::new(1.0, 0.0).rotated(angle_rad));
+        // The line stays on its side of what it measures, whichever is the left now.
+        let sides = dimension.along.direction().zip(chain.along.direction());
+        let is_turned = sides.is_some_and(|(before, after)| before.rotated(angle_rad).dot(after) < 0.0);
+        chain.offset_m = trim_m(dimension.offset_m * if is_turned { -factor } else { factor });
+        for point in &mut chain.points {
+            point.last = moved(point.last)?;
+            if let Some(DimensionHost::Wall { at_m, .. }) = &mut point.on {
+                *at_m = trim_m(*at_m * factor);
+            }
+        }
+        next.dimensions.insert(id, Arc::new(chain));
     }
     // A drawing made a thousand times smaller may collapse on the 0.1 mm grid.
     match next.violations().first() {

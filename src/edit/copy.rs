@@ -10,7 +10,7 @@ use crate::edit::refit::{Refitted, beside_each_other};
 use crate::edit::split::nearest_part;
 use crate::edit::{EditError, add_opening, add_room, add_wall, fail};
 use crate::geometry::{Point, Segment, TOUCH_M, Transform, Vector, trim_m};
-use crate::plan::{CornerId, ElementId, Joint, Opening, Place, Plan, Room, RoomId, WallId, ordered, ring_edges};
+use crate::plan::{CornerId, ElementId, Joint, Opening, Place, Plan, Room, RoomId, ordered, ring_edges};
 
 /// Extracts elements of a plan as a plan of their own: for the clipboard, or to insert elsewhere. Rooms come with
 /// the walls along their boundaries and in them, and everything with its openings, shared ones included, see
@@ -55,8 +55,8 @@ pub fn fragment(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<Plan, Edi
     Ok(copied)
 }
 
-/// Inserts a fragment of a plan, transformed, and returns its elements in the new plan. Corners are
-/// shared with existing ones and edges split as when drawing; a wall that already exists is not doubled.
+/// Inserts a fragment of a plan, transformed, and returns what was added. Corners are shared with existing ones and
+/// edges split as when drawing; a wall that already exists is not doubled, and is none of what was added.
 /// A free opening that falls on an edge is attached to it. Ids are kept where not taken.
 ///
 /// # Errors
@@ -92,8 +92,7 @@ pub fn insert_fitted(
         let chain = chain_of.get(&ordered(a, b)).map(|chain| (*chain).clone()).unwrap_or_default();
         if a < b { chain } else { chain.into_iter().rev().collect() }
     };
-    let mut standing: BTreeMap<[CornerId; 2], WallId> =
-        next.walls().map(|(id, wall)| (ordered(wall.from, wall.to), id)).collect();
+    let mut standing: BTreeSet<[CornerId; 2]> = next.walls().map(|(_, wall)| ordered(wall.from, wall.to)).collect();
     let thickness_by = if transform.keeps_lengths() { 1.0 } else { transform.factor() };
     for (_, wall) in fragment.walls() {
         let chain = chain(wall.from, wall.to);
@@ -101,20 +100,15 @@ pub fn insert_fitted(
             return fail("a wall would get too short");
         }
         for pair in chain.windows(2) {
-            let id = match standing.get(&ordered(pair[0], pair[1])) {
-                Some(&id) => id,
-                None => {
-                    let thickness_m = (wall.thickness_m * thickness_by).min(10.0);
-                    let (with_wall, id) = add_wall(&next, pair[0], pair[1], thickness_m)?;
-                    next = with_wall;
-                    if let Some(added) = next.walls.get_mut(&id) {
-                        added.extra.clone_from(&wall.extra);
-                    }
-                    standing.insert(ordered(pair[0], pair[1]), id);
-                    id
+            if standing.insert(ordered(pair[0], pair[1])) {
+                let thickness_m = (wall.thickness_m * thickness_by).min(10.0);
+                let (with_wall, id) = add_wall(&next, pair[0], pair[1], thickness_m)?;
+                next = with_wall;
+                if let Some(added) = next.walls.get_mut(&id) {
+                    added.extra.clone_from(&wall.extra);
                 }
-            };
-            placed.insert(ElementId::Wall(id));
+                placed.insert(ElementId::Wall(id));
+            }
         }
     }
     let mut room_of: BTreeMap<RoomId, RoomId> = BTreeMap::new();

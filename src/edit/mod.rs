@@ -3,9 +3,11 @@
 
 mod across;
 mod along;
+mod beside;
 mod bridge;
 mod calibration;
 mod copy;
+mod dimensions;
 mod dragging;
 mod draw;
 mod fill;
@@ -41,12 +43,14 @@ pub use along::{
     Beside, End, NARROWEST_OPENING_M, beside_opening, change_swing, next_swing, set_opening_distance, set_wall_length,
     stretch_opening,
 };
+pub use beside::{Built, Lies, boundary_around, draw_walls_beside, walls_beside};
 pub use bridge::bridge_gaps;
 pub use calibration::{
     Calibration, DrawingMoves, UNMEASURED_METRES_PER_PIXEL, move_picture, set_measurements, straightening_rad,
     turn_picture,
 };
 pub use copy::{Array, array, array_fitted, copy_elements, fragment, insert, insert_fitted};
+pub use dimensions::{Settled, dimension_between, draw_dimension, move_dimension, settle_dimensions};
 pub use dragging::{Reach, WallDrag, drag_corners, move_corners};
 pub use draw::{Drawn, cut_out, cut_out_by, draw_room, draw_walls, split_room, split_room_by};
 pub use fill::{Filled, fill_all, fill_at};

@@ -52,7 +52,7 @@ pub fn transform_elements(
         .filter(|id| !part.openings.contains(id))
         .collect();
     if part.corners.iter().all(stays) && part.openings.is_empty() && alone.is_empty() {
-        return Ok(Changed::plainly(plan.clone()));
+        return Ok(Changed::plainly(with_dimensions(plan, plan.clone(), elements, transform)?));
     }
     part.check_takes_no_boundary(plan)?;
     let (mut next, part, left) = part.detached(plan, own_walls)?;
@@ -114,8 +114,20 @@ pub fn transform_elements(
             next = super::slide_opening(&next, id, transform.point(segment.midpoint()))?;
         }
     }
-    let (plan, refitted) = beside_each_other(next, part.openings.iter().copied());
-    Ok(Changed { plan, refitted })
+    let (next, refitted) = beside_each_other(next, part.openings.iter().copied());
+    Ok(Changed { plan: with_dimensions(plan, next, elements, transform)?, refitted })
+}
+
+/// The plan with the dimension chains among the elements moved along.
+fn with_dimensions(
+    before: &Plan,
+    after: Plan,
+    elements: &BTreeSet<ElementId>,
+    transform: Transform,
+) -> Result<Plan, EditError> {
+    let chains =
+        elements.iter().filter_map(|element| if let ElementId::Dimension(id) = element { Some(*id) } else { None });
+    chains.fold(Ok(after), |after, id| super::dimensions::transformed(before, &after?, id, transform))
 }
 
 /// Rejects a scaling that leaves an edge without length.
@@ -153,12 +165,16 @@ pub fn move_picked(
             ElementId::Corner(id) if plan.corner(*id).is_some() => drop(corners.insert(*id)),
             ElementId::Room(_) => return transform_elements(plan, elements, Transform::translation(by), own_walls),
             ElementId::Opening(id) if plan.opening(*id).is_some() => continue,
+            ElementId::Dimension(id) if plan.dimension(*id).is_some() => continue,
             gone => return fail(format!("{gone} does not exist")),
         }
         is_drag = true;
     }
     match WallDrag::new(plan, &walls, &corners, reach).filter(|_| is_drag) {
-        Some(drag) => drag.apply(plan, by),
+        Some(drag) => {
+            let Changed { plan: next, refitted } = drag.apply(plan, by)?;
+            Ok(Changed { plan: with_dimensions(plan, next, elements, Transform::translation(by))?, refitted })
+        }
         None => transform_elements(plan, elements, Transform::translation(by), own_walls),
     }
 }

@@ -233,6 +233,11 @@ pub fn corners_of(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<BTreeSe
                     return fail(format!("{id} does not exist"));
                 }
             }
+            ElementId::Dimension(id) => {
+                if plan.dimension(*id).is_none() {
+                    return fail(format!("{id} does not exist"));
+                }
+            }
         }
     }
     Ok(corners)

@@ -94,6 +94,7 @@ pub fn remove(plan: &Plan, elements: &[ElementId]) -> Result<Plan, EditError> {
             ElementId::Wall(id) => plan.walls.contains_key(id),
             ElementId::Room(id) => plan.rooms.contains_key(id),
             ElementId::Opening(id) => plan.openings.contains_key(id),
+            ElementId::Dimension(id) => plan.dimensions.contains_key(id),
         };
         if !exists {
             return fail(format!("{element} does not exist"));
@@ -108,6 +109,7 @@ pub fn remove(plan: &Plan, elements: &[ElementId]) -> Result<Plan, EditError> {
             ElementId::Corner(id) => drop(next.corners.remove(&id)),
             ElementId::Wall(id) => drop(next.walls.remove(&id)),
             ElementId::Opening(id) => drop(next.openings.remove(&id)),
+            ElementId::Dimension(id) => drop(next.dimensions.remove(&id)),
             ElementId::Room(id) => {
                 next.rooms.remove(&id);
                 rooms_gone.insert(id);
@@ -145,7 +147,7 @@ fn corners_met(plan: &Plan, elements: &BTreeSet<ElementId>) -> BTreeSet<CornerId
                 let rings = plan.room(*id).into_iter().flat_map(Room::rings);
                 corners.extend(rings.flat_map(|ring| ring.iter().copied()));
             }
-            ElementId::Corner(_) | ElementId::Opening(_) => {}
+            ElementId::Corner(_) | ElementId::Opening(_) | ElementId::Dimension(_) => {}
         }
     }
     corners

@@ -3,7 +3,7 @@ use crate::features::temporary;
 use crate::geometry::runs::{self, Axes};
 use crate::labels::{Label, Meaning, Schemes};
 use crate::plan::{Joint, LabelOrigin, Plan, Room, RoomId};
-use crate::topology::{Graph, RoomShapes};
+use crate::topology::{Graph, NetRoom, RoomShapes, net_rooms};
 
 /// The status of a room's label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,12 +60,20 @@ pub struct Analysis {
     pub graph: Graph,
     /// In the order of [`RoomShapes::all`], that is by room id.
     pub rooms: Vec<RoomAnalysis>,
+    /// The clear part of each room, in the same order; `None` for a room that encloses no area. No feature and no
+    /// label depends on it.
+    pub net: Vec<Option<NetRoom>>,
 }
 
 impl Analysis {
     /// The analysis of one room.
     pub fn room(&self, id: RoomId) -> Option<&RoomAnalysis> {
         self.shapes.index_of(id).map(|index| &self.rooms[index])
+    }
+
+    /// The clear part of one room.
+    pub fn net(&self, id: RoomId) -> Option<&NetRoom> {
+        self.net[self.shapes.index_of(id)?].as_ref()
     }
 
     /// For each opening of a room, what is on its other side.
@@ -123,5 +131,6 @@ pub fn analyse(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels) -> A
             }
         }
     }
-    Analysis { shapes, graph, rooms }
+    let net = net_rooms(plan, &shapes);
+    Analysis { shapes, graph, rooms, net }
 }

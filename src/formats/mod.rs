@@ -16,6 +16,7 @@ pub mod options;
 pub mod plan_json;
 mod point_openings;
 pub mod registry;
+mod room_schedule;
 pub mod sheets;
 mod text;
 
@@ -39,4 +40,5 @@ pub const FORMATS: &[&Format] = &[
     &sheets::SVG,
     &sheets::PNG,
     &dxf::FORMAT,
+    &room_schedule::FORMAT,
 ];

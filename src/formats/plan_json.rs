@@ -22,9 +22,10 @@ use super::{
 use crate::geometry::{COORDINATE_LIMIT_M, Point, trim_m};
 use crate::labels::{Label, Schemes, Typology};
 use crate::plan::{
-    Backdrop, Corner, CornerId, ElementId, Extra, Guide, GuideAxis, Ignored, Joint, LabelOrigin, LeafSide, Measurement,
-    Meta, Opening, OpeningId, OpeningKind, Place as OpeningPlace, Plan, Room, RoomId, RoomLabel, Scale, ScaleOrigin,
-    Swing, Wall, WallId, guides, ignored,
+    Backdrop, Corner, CornerId, Dimension, DimensionAlong, DimensionHost, DimensionId, DimensionPoint, ElementId,
+    Extra, Guide, GuideAxis, Ignored, Joint, LabelOrigin, LeafSide, Measurement, Meta, Opening, OpeningId, OpeningKind,
+    Place as OpeningPlace, Plan, Room, RoomId, RoomLabel, Scale, ScaleOrigin, Swing, Wall, WallId, WallSide, guides,
+    ignored,
 };
 
 pub(crate) use change::{apply_change, change_to_bytes};
@@ -151,6 +152,9 @@ pub fn to_bytes(plan: &Plan) -> Vec<u8> {
     file.list("walls", plan.walls().map(|(id, wall)| DiskWall::of(id, wall)));
     file.list("rooms", plan.rooms().map(|(id, room)| DiskRoom::of(id, room)));
     file.list("openings", plan.openings().map(|(id, opening)| DiskOpening::of(id, opening)));
+    if plan.dimensions().len() > 0 {
+        file.list("dimensions", plan.dimensions().map(|(id, dimension)| DiskDimension::of(id, dimension)));
+    }
     file.members(plan.extra.iter().flat_map(|extra| extra.iter()));
     file.finish()
 }
@@ -235,6 +239,8 @@ struct DiskPlan {
     rooms: Vec<DiskRoom>,
     #[serde(default)]
     openings: Vec<DiskOpening>,
+    #[serde(default)]
+    dimensions: Vec<DiskDimension>,
     #[serde(flatten)]
     extra: Map<String, Value>,
 }
@@ -388,6 +394,35 @@ struct DiskOpening {
     extra: Map<String, Value>,
 }
 
+#[derive(Serialize, Deserialize)]
+#[serde(expecting = "a dimension")]
+struct DiskDimension {
+    id: Text<DimensionId>,
+    along: DiskAlong,
+    offset: Metres,
+    points: Vec<DiskDimensionPoint>,
+    #[serde(flatten)]
+    extra: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(expecting = "a point of a dimension")]
+struct DiskDimensionPoint {
+    x: Metres,
+    y: Metres,
+    /// The id of a corner, a wall or an opening.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    on: Option<String>,
+    /// Of a wall.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    side: Option<DiskWallSide>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    at: Option<Metres>,
+    /// Of an opening.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    end: Option<DiskHinge>,
+}
+
 /// The disk form of an enum: its words belong to the format, even if the live type is renamed.
 macro_rules! disk_words {
     ($disk:ident for $live:ident { $($variant:ident = $word:literal),+ $(,)? }) => {
@@ -420,6 +455,10 @@ disk_words!(DiskLabelOrigin for LabelOrigin {
 disk_words!(DiskOpeningKind for OpeningKind {
     Door = "door", DoubleDoor = "double door", Passage = "passage", Window = "window",
 });
+disk_words!(DiskAlong for DimensionAlong {
+    Horizontal = "horizontal", Vertical = "vertical", Aligned = "aligned",
+});
+disk_words!(DiskWallSide for WallSide { Left = "left", Axis = "axis", Right = "right" });
 disk_words!(DiskSide for LeafSide { Left = "left", Right = "right" });
 
 impl Default for DiskScaleOrigin {
@@ -434,7 +473,7 @@ impl DiskScaleOrigin {
     }
 }
 
-/// The end of its segment that has a door's hinge.
+/// An end of an opening's segment: the one with the hinge, or the one that is measured.
 #[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum DiskHinge {
@@ -610,6 +649,69 @@ impl DiskOpening {
     }
 }
 
+impl DiskDimension {
+    fn of(id: DimensionId, dimension: &Dimension) -> Self {
+        Self {
+            id: Text(id),
+            along: dimension.along.into(),
+            offset: Metres(dimension.offset_m),
+            points: dimension.points.iter().map(DiskDimensionPoint::of).collect(),
+            extra: fields(&dimension.extra),
+        }
+    }
+
+    fn live(self) -> Result<Dimension, (&'static str, &'static str)> {
+        Ok(Dimension {
+            points: self.points.into_iter().map(DiskDimensionPoint::live).collect::<Result<_, _>>()?,
+            along: self.along.into(),
+            offset_m: self.offset.0,
+            extra: kept(self.extra),
+        })
+    }
+}
+
+impl DiskDimensionPoint {
+    fn of(point: &DimensionPoint) -> Self {
+        let Point { x, y } = point.last;
+        let mut disk = Self { x: Metres(x), y: Metres(y), on: None, side: None, at: None, end: None };
+        match point.on {
+            None => {}
+            Some(DimensionHost::Corner(id)) => disk.on = Some(id.to_string()),
+            Some(DimensionHost::Wall { wall, side, at_m }) => {
+                disk.on = Some(wall.to_string());
+                disk.side = Some(side.into());
+                disk.at = Some(Metres(at_m));
+            }
+            Some(DimensionHost::Opening { opening, is_start }) => {
+                disk.on = Some(opening.to_string());
+                disk.end = Some(if is_start { DiskHinge::Start } else { DiskHinge::End });
+            }
+        }
+        disk
+    }
+
+    fn live(self) -> Result<DimensionPoint, (&'static str, &'static str)> {
+        let no_id = |_| ("a point of it is on something that has no such id", MEASURED_HINT);
+        let on = match (self.on, self.side, self.at, self.end) {
+            (None, None, None, None) => None,
+            (Some(id), None, None, None) => Some(DimensionHost::Corner(id.parse().map_err(no_id)?)),
+            (Some(id), Some(side), Some(at), None) => {
+                Some(DimensionHost::Wall { wall: id.parse().map_err(no_id)?, side: side.into(), at_m: at.0 })
+            }
+            (Some(id), None, None, Some(end)) => {
+                let opening = id.parse().map_err(no_id)?;
+                Some(DimensionHost::Opening { opening, is_start: end == DiskHinge::Start })
+            }
+            _ => return Err(("a point of it is incomplete", MEASURED_HINT)),
+        };
+        Ok(DimensionPoint { on, last: Point::new(self.x.0, self.y.0) })
+    }
+}
+
+/// The hint about the points of a dimension.
+const MEASURED_HINT: &str =
+    "a point is \"on\" a corner; on a wall, with \"side\" and \"at\"; on an opening, with \"end\"; or on nothing";
+
 // From disk to live.
 
 /// The plan described by a file.
@@ -657,6 +759,14 @@ fn live(text: &str, disk: DiskPlan) -> Result<Plan, ReadError> {
         let element = ElementId::Opening(id);
         let opening = opening.live().map_err(|(what, hint)| refuse(text, element, 0, what, hint))?;
         if plan.openings.insert(id, Arc::new(opening)).is_some() {
+            return Err(twice(element));
+        }
+    }
+    for dimension in disk.dimensions {
+        let id = dimension.id.0;
+        let element = ElementId::Dimension(id);
+        let dimension = dimension.live().map_err(|(what, hint)| refuse(text, element, 0, what, hint))?;
+        if plan.dimensions.insert(id, Arc::new(dimension)).is_some() {
             return Err(twice(element));
         }
     }
@@ -773,6 +883,7 @@ fn element_name(id: &str) -> String {
         Some(b'w') => "wall",
         Some(b'r') => "room",
         Some(b'o') => "opening",
+        Some(b'd') => "dimension",
         _ => "element",
     };
     format!("{kind} {id}")

@@ -14,6 +14,7 @@ pub mod raster;
 pub mod runs;
 mod segment;
 pub mod segments;
+pub(crate) mod tangle;
 mod transform;
 
 pub use bounds::Bounds;

@@ -1,7 +1,10 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::{Backdrop, Corner, CornerId, Meta, Opening, OpeningId, Plan, Room, RoomId, Violation, Wall, WallId};
+use super::{
+    Backdrop, Corner, CornerId, Dimension, DimensionId, Meta, Opening, OpeningId, Plan, Room, RoomId, Violation, Wall,
+    WallId,
+};
 use crate::geometry::{Point, trim_m};
 
 /// Builds a plan from many elements at once, for imports and generators. Equal points become one corner.
@@ -115,6 +118,12 @@ pub(super) fn grid_key(position: Point) -> (i64, i64) {
 pub(crate) fn new_corner_id(plan: &Plan, position: Point) -> CornerId {
     let (x, y) = grid_key(position);
     CornerId::derive(&[x as u64, y as u64], |id| plan.corners.contains_key(&id))
+}
+
+pub(crate) fn new_dimension_id(plan: &Plan, dimension: &Dimension) -> DimensionId {
+    let points = dimension.points.iter().flat_map(|point| [point.last.x.to_bits(), point.last.y.to_bits()]);
+    let parts: Vec<u64> = points.chain([dimension.along as u64, dimension.offset_m.to_bits()]).collect();
+    DimensionId::derive(&parts, |id| plan.dimensions.contains_key(&id))
 }
 
 pub(crate) fn new_wall_id(plan: &Plan, from: CornerId, to: CornerId) -> WallId {

@@ -8,7 +8,7 @@ use imbl::ordmap::DiffItem;
 
 use crate::base::wording::count;
 
-use super::{CornerId, ElementId, OpeningId, Place, Plan, RoomId, WallId};
+use super::{CornerId, DimensionId, ElementId, OpeningId, Place, Plan, RoomId, WallId};
 
 /// What happened to an element from one plan to another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -66,7 +66,7 @@ impl Difference {
     /// A summary in words: '2 rooms, 1 wall and the picture'. `seen` comes from [`Self::seen`].
     pub fn in_words(&self, seen: &BTreeMap<ElementId, ChangeKind>) -> String {
         let number = |kind: &str| seen.keys().filter(|element| element.kind() == kind).count();
-        let counts = ["room", "wall", "opening"].map(|kind| (number(kind), kind));
+        let counts = ["room", "wall", "opening", "dimension"].map(|kind| (number(kind), kind));
         let mut parts: Vec<String> =
             counts.iter().filter(|(number, _)| *number > 0).map(|(number, kind)| count(*number, kind)).collect();
         if self.meta {
@@ -94,12 +94,13 @@ impl Difference {
     /// Compares two plans.
     pub fn between(before: &Plan, after: &Plan) -> Self {
         // All fields by name: a new field of `Plan` must be compared here.
-        let Plan { meta, corners, walls, rooms, openings, backdrop, guides, ignored, extra } = before;
+        let Plan { meta, corners, walls, rooms, openings, dimensions, backdrop, guides, ignored, extra } = before;
         let mut elements = BTreeMap::new();
         collect::<CornerId, _>(corners, &after.corners, ElementId::Corner, &mut elements);
         collect::<WallId, _>(walls, &after.walls, ElementId::Wall, &mut elements);
         collect::<RoomId, _>(rooms, &after.rooms, ElementId::Room, &mut elements);
         collect::<OpeningId, _>(openings, &after.openings, ElementId::Opening, &mut elements);
+        collect::<DimensionId, _>(dimensions, &after.dimensions, ElementId::Dimension, &mut elements);
         Self {
             elements,
             meta: !Arc::ptr_eq(meta, &after.meta) && *meta != after.meta,

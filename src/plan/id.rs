@@ -132,6 +132,12 @@ id_type!(
     'o'
 );
 
+id_type!(
+    /// Identity of a dimension chain, written `d…`.
+    DimensionId,
+    'd'
+);
+
 /// The identity of any element, for reports and selections.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ElementId {
@@ -139,6 +145,7 @@ pub enum ElementId {
     Wall(WallId),
     Room(RoomId),
     Opening(OpeningId),
+    Dimension(DimensionId),
 }
 
 impl ElementId {
@@ -149,6 +156,7 @@ impl ElementId {
             Self::Wall(_) => "wall",
             Self::Room(_) => "room",
             Self::Opening(_) => "opening",
+            Self::Dimension(_) => "dimension",
         }
     }
 }
@@ -174,6 +182,7 @@ impl fmt::Display for ElementId {
             Self::Wall(id) => id.fmt(f),
             Self::Room(id) => id.fmt(f),
             Self::Opening(id) => id.fmt(f),
+            Self::Dimension(id) => id.fmt(f),
         }
     }
 }

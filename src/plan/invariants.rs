@@ -2,8 +2,8 @@ use std::collections::BTreeSet;
 use std::fmt;
 
 use super::{
-    Backdrop, ChangeKind, Corner, CornerId, Difference, ElementId, Joint, Measurement, Opening, OpeningId, Place, Plan,
-    Room, RoomId, Wall, WallId,
+    Backdrop, ChangeKind, Corner, CornerId, Difference, Dimension, DimensionHost, DimensionId, DimensionPoint,
+    ElementId, Joint, Measurement, Opening, OpeningId, Place, Plan, Room, RoomId, Wall, WallId,
 };
 use crate::geometry::COORDINATE_LIMIT_M;
 use crate::geometry::Point;
@@ -31,13 +31,15 @@ impl Plan {
     ///   exist, no two neighbours equal;
     /// - a hosted opening's corners exist and differ in place, its width is above 0 and at most
     ///   1 km, its middle lies on the edge; a free opening has a length;
-    /// - a pinned room exists.
+    /// - a pinned room exists;
+    /// - a dimension chain has two points or more, its lengths are finite. What its points are on may be gone.
     pub fn violations(&self) -> Vec<Violation> {
         let mut found = Vec::new();
         self.corners.iter().for_each(|(&id, corner)| check_corner(id, corner, &mut found));
         self.walls.iter().for_each(|(&id, wall)| self.check_wall(id, wall, &mut found));
         self.rooms.iter().for_each(|(&id, room)| self.check_room(id, room, &mut found));
         self.openings.iter().for_each(|(&id, opening)| self.check_opening(id, opening, &mut found));
+        self.dimensions.iter().for_each(|(&id, dimension)| check_dimension(id, dimension, &mut found));
         found
     }
 
@@ -71,6 +73,11 @@ impl Plan {
                 ElementId::Opening(id) => {
                     if let Some(opening) = self.openings.get(&id) {
                         self.check_opening(id, opening, &mut found);
+                    }
+                }
+                ElementId::Dimension(id) => {
+                    if let Some(dimension) = self.dimensions.get(&id) {
+                        check_dimension(id, dimension, &mut found);
                     }
                 }
             }
@@ -185,6 +192,20 @@ fn on_grid(value: f64) -> bool {
 
 fn placed(point: Point) -> bool {
     on_grid(point.x) && on_grid(point.y)
+}
+
+fn check_dimension(id: DimensionId, dimension: &Dimension, found: &mut Vec<Violation>) {
+    let mut say = |what: &str| found.push(Violation { element: ElementId::Dimension(id), what: what.to_owned() });
+    if dimension.points.len() < 2 {
+        say("measures between fewer than two points");
+    }
+    let is_placed = |point: &DimensionPoint| {
+        let at_m = if let Some(DimensionHost::Wall { at_m, .. }) = point.on { at_m } else { 0.0 };
+        placed(point.last) && on_grid(at_m)
+    };
+    if !on_grid(dimension.offset_m) || !dimension.points.iter().all(is_placed) {
+        say("a length or a point of it is not on the grid within the drawing area");
+    }
 }
 
 fn check_corner(id: CornerId, corner: &Corner, found: &mut Vec<Violation>) {

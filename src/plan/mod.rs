@@ -6,6 +6,7 @@
 
 pub(crate) mod builder;
 mod difference;
+mod dimension;
 mod element;
 pub mod guides;
 mod history;
@@ -23,13 +24,14 @@ use imbl::OrdMap;
 pub use crate::geometry::COORDINATE_LIMIT_M;
 pub use builder::Builder;
 pub use difference::{ChangeKind, Difference};
+pub use dimension::{Dimension, DimensionAlong, DimensionHost, DimensionLine, DimensionPoint, WallSide};
 pub use element::{
     Backdrop, Corner, Joint, LabelOrigin, LeafSide, Measurement, Opening, OpeningKind, Place, Room, RoomLabel, Swing,
     Wall,
 };
 pub use guides::{Guide, GuideAxis};
 pub use history::{History, Step};
-pub use id::{CornerId, ElementId, IdError, OpeningId, RoomId, WallId, name_bits};
+pub use id::{CornerId, DimensionId, ElementId, IdError, OpeningId, RoomId, WallId, name_bits};
 pub use ignored::Ignored;
 pub use invariants::{METRES_PER_PIXEL, Violation};
 pub use meta::{Meta, Scale, ScaleOrigin};
@@ -57,6 +59,7 @@ pub struct Plan {
     pub(crate) walls: OrdMap<WallId, Wall>,
     pub(crate) rooms: OrdMap<RoomId, Arc<Room>>,
     pub(crate) openings: OrdMap<OpeningId, Arc<Opening>>,
+    pub(crate) dimensions: OrdMap<DimensionId, Arc<Dimension>>,
     pub(crate) backdrop: Option<Arc<Backdrop>>,
     /// In the order of [`guides::sorted`].
     pub(crate) guides: Arc<[Guide]>,
@@ -90,6 +93,15 @@ impl Plan {
         self.openings.get(&id).map(Arc::as_ref)
     }
 
+    pub fn dimension(&self, id: DimensionId) -> Option<&Dimension> {
+        self.dimensions.get(&id).map(Arc::as_ref)
+    }
+
+    /// All dimension chains by id.
+    pub fn dimensions(&self) -> impl ExactSizeIterator<Item = (DimensionId, &Dimension)> {
+        self.dimensions.iter().map(|(&id, dimension)| (id, dimension.as_ref()))
+    }
+
     /// All corners by id.
     pub fn corners(&self) -> impl ExactSizeIterator<Item = (CornerId, &Corner)> {
         self.corners.iter().map(|(&id, corner)| (id, corner))
@@ -115,7 +127,9 @@ impl Plan {
         let corners = self.corners.keys().copied().map(ElementId::Corner);
         let walls = self.walls.keys().copied().map(ElementId::Wall);
         let rooms = self.rooms.keys().copied().map(ElementId::Room);
-        corners.chain(walls).chain(rooms).chain(self.openings.keys().copied().map(ElementId::Opening))
+        let openings = self.openings.keys().copied().map(ElementId::Opening);
+        let dimensions = self.dimensions.keys().copied().map(ElementId::Dimension);
+        corners.chain(walls).chain(rooms).chain(openings).chain(dimensions)
     }
 
     /// Whether an element is part of the plan.
@@ -125,6 +139,7 @@ impl Plan {
             ElementId::Wall(id) => self.walls.contains_key(&id),
             ElementId::Room(id) => self.rooms.contains_key(&id),
             ElementId::Opening(id) => self.openings.contains_key(&id),
+            ElementId::Dimension(id) => self.dimensions.contains_key(&id),
         }
     }
 
@@ -178,6 +193,7 @@ impl Plan {
             && self.walls.ptr_eq(&other.walls)
             && self.rooms.ptr_eq(&other.rooms)
             && self.openings.ptr_eq(&other.openings)
+            && self.dimensions.ptr_eq(&other.dimensions)
             && self.backdrop.as_ref().map(Arc::as_ptr) == other.backdrop.as_ref().map(Arc::as_ptr)
             && self.extra.as_ref().map(Arc::as_ptr) == other.extra.as_ref().map(Arc::as_ptr)
             && Arc::ptr_eq(&self.guides, &other.guides)

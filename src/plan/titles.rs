@@ -24,6 +24,7 @@ pub fn title_of(plan: &Plan, picked: ElementId) -> String {
         ElementId::Opening(id) => plan.opening(id).map_or_else(String::new, |opening| sentence(opening.kind.name())),
         ElementId::Wall(_) => "Wall".to_owned(),
         ElementId::Corner(_) => "Corner".to_owned(),
+        ElementId::Dimension(_) => "Dimension".to_owned(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Snapping: which exact point is meant by pointing near it.
 //!
-//! Ranked as in the design: corner, intersection, midpoint, perpendicular foot, wall, alignment with
-//! other corners, grid. Independent of the screen: radii are in metres.
+//! Ranked as in the design: corner, intersection, midpoint, perpendicular foot, wall, wall faces, alignment with
+//! other corners, grid. What measures takes axes and faces alike. Independent of the screen: radii are in metres.
 
 mod index;
 
@@ -17,7 +17,14 @@ pub enum SnapKind {
     Intersection,
     Midpoint,
     Perpendicular,
+    /// On the axis of a wall, on a boundary, on a guide line.
     Wall,
+    /// The end of an opening.
+    Jamb,
+    /// Where the faces of walls meet.
+    FaceCorner,
+    /// On the face of a wall.
+    Face,
     Alignment,
     Grid,
     /// Nothing is near; at most constrained to a right angle with what was drawn before.
@@ -32,10 +39,36 @@ impl SnapKind {
             Self::Intersection => "intersection",
             Self::Midpoint => "midpoint",
             Self::Perpendicular => "perpendicular",
-            Self::Wall => "wall",
+            Self::Wall => "axis",
+            Self::Jamb => "edge of an opening",
+            Self::FaceCorner => "corner of faces",
+            Self::Face => "face",
             Self::Alignment => "in line",
             Self::Grid => "grid",
             Self::Free => "",
+        }
+    }
+}
+
+/// How the faces of walls count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Faces {
+    /// Not at all: what is drawn lies on axes.
+    #[default]
+    Off,
+    /// Where no axis is near.
+    BehindAxes,
+    /// Like axes, and the ends of openings too: for measuring.
+    LikeAxes,
+}
+
+impl Faces {
+    /// The rank of a kind, the strongest first.
+    fn rank(self, kind: SnapKind) -> SnapKind {
+        match (self, kind) {
+            (Self::LikeAxes, SnapKind::FaceCorner | SnapKind::Jamb) => SnapKind::Corner,
+            (Self::LikeAxes, SnapKind::Face) => SnapKind::Wall,
+            _ => kind,
         }
     }
 }
@@ -67,6 +100,8 @@ pub struct Query<'a> {
     pub right_angles: bool,
     /// Whether to snap to corners, walls and alignments at all.
     pub objects: bool,
+    /// How the faces of walls count.
+    pub faces: Faces,
     /// Spacing of the grid in metres; `None` not to snap to it.
     pub grid_m: Option<f64>,
     /// More points to snap to like corners: of what is being drawn, of the storey below.
@@ -92,13 +127,22 @@ pub fn candidates(index: &PlanIndex, query: &Query<'_>) -> Vec<Snap> {
         corners(index, query, &mut found);
         let near = edges_near(index, query);
         on_edges(&near, query, ray, &mut found);
+        if query.faces != Faces::Off {
+            on_faces(&index.faces_near(query.pointer, query.radius_m), query, ray, &mut found);
+        }
+        if query.faces == Faces::LikeAxes {
+            let jamb = |point| Snap { point, kind: SnapKind::Jamb, corner: None, guides: Vec::new() };
+            let jambs = index.jambs_near(query.pointer, query.radius_m).into_iter().map(jamb);
+            found.extend(jambs.map(|snap| Snap { point: snap.point.trimmed(), ..snap }));
+        }
         alignments(index, query, ray, free, &mut found);
     }
     if let Some(point) = query.grid_m.and_then(|spacing_m| on_grid(query, ray, free, spacing_m)) {
         push(&mut found, query, free, Snap { point, kind: SnapKind::Grid, corner: None, guides: Vec::new() });
     }
     let distance = |snap: &Snap| snap.point.distance(query.pointer);
-    found.sort_by(|p, q| p.kind.cmp(&q.kind).then(distance(p).total_cmp(&distance(q))));
+    let rank = |snap: &Snap| query.faces.rank(snap.kind);
+    found.sort_by(|p, q| rank(p).cmp(&rank(q)).then(distance(p).total_cmp(&distance(q))));
     let mut kept: Vec<Snap> = Vec::new();
     for snap in found {
         if !kept.iter().any(|other| other.point.distance(snap.point) < 1e-6) {
@@ -178,6 +222,39 @@ fn on_edges(near: &[Segment], query: &Query<'_>, ray: Option<(Point, Vector)>, f
             }
         }
         add(edge.nearest_point(query.pointer), SnapKind::Wall, Vec::new());
+    }
+}
+
+/// Where faces meet each other or the right-angle ray, their ends, middles and nearest points.
+fn on_faces(near: &[Segment], query: &Query<'_>, ray: Option<(Point, Vector)>, found: &mut Vec<Snap>) {
+    let mut add = |point: Point, kind: SnapKind, guides: Vec<Segment>| {
+        push(found, query, query.pointer, Snap { point, kind, corner: None, guides });
+    };
+    for (i, &face) in near.iter().enumerate() {
+        for end in [face.a, face.b] {
+            add(end, SnapKind::FaceCorner, Vec::new());
+        }
+        for &other in near.iter().take(MOST_CROSSED).skip(i + 1) {
+            if let Some(point) = crossing(face, other) {
+                add(point, SnapKind::FaceCorner, Vec::new());
+            }
+        }
+        if let Some((from, way)) = ray {
+            let reach_m = (query.pointer - from).length() + query.radius_m;
+            if let Some(point) = crossing(face, Segment::new(from, from + way * reach_m)) {
+                add(point, SnapKind::Face, vec![Segment::new(from, point)]);
+            }
+        }
+        if query.faces == Faces::LikeAxes {
+            add(face.midpoint(), SnapKind::Midpoint, Vec::new());
+            if let Some(from) = query.from {
+                let foot = face.nearest_point(from);
+                if is_perpendicular(face, foot - from) {
+                    add(foot, SnapKind::Perpendicular, vec![Segment::new(from, foot)]);
+                }
+            }
+        }
+        add(face.nearest_point(query.pointer), SnapKind::Face, Vec::new());
     }
 }
 
@@ -289,6 +366,7 @@ mod tests {
             along: None,
             right_angles: true,
             objects: true,
+            faces: Faces::Off,
             grid_m: None,
             points: &[],
             lines: &[],
@@ -339,6 +417,23 @@ mod tests {
         assert_eq!(first(&grid), (SnapKind::Grid, Point::new(7.5, 7.5)));
         let along = Query { from: Some(Point::new(7.1, 7.1)), grid_m: Some(0.5), ..ask(8.65, 7.2) };
         assert_eq!(first(&along), (SnapKind::Grid, Point::new(8.6, 7.1)));
+    }
+
+    #[test]
+    fn what_measures_takes_faces_like_axes() {
+        let measure = |x, y| Query { faces: Faces::LikeAxes, radius_m: 0.08, ..ask(x, y) };
+        assert_eq!(first(&measure(1.2, 0.06)), (SnapKind::Face, Point::new(1.2, 0.05)));
+        assert_eq!(first(&measure(1.2, 0.01)), (SnapKind::Wall, Point::new(1.2, 0.0)));
+        // The corner of the room between the two walls, and of the building.
+        assert_eq!(first(&measure(3.94, 0.06)), (SnapKind::FaceCorner, Point::new(3.95, 0.05)));
+        assert_eq!(first(&measure(4.06, -0.06)), (SnapKind::FaceCorner, Point::new(4.05, -0.05)));
+        assert_eq!(first(&measure(4.01, 0.01)), (SnapKind::Corner, Point::new(4.0, 0.0)));
+        // Walls that cross without a corner.
+        assert_eq!(first(&measure(3.94, 2.06)), (SnapKind::FaceCorner, Point::new(3.95, 2.05)));
+        // Drawn is along axes, and where none is near along a face.
+        let draw = |y, radius_m| Query { faces: Faces::BehindAxes, radius_m, ..ask(1.2, y) };
+        assert_eq!(first(&draw(0.06, 0.08)), (SnapKind::Wall, Point::new(1.2, 0.0)));
+        assert_eq!(first(&draw(0.06, 0.02)), (SnapKind::Face, Point::new(1.2, 0.05)));
     }
 
     #[test]

@@ -57,12 +57,12 @@ fn a_rule_in_words() {
     let large = [at_least(AREA, 73.0), at_least(RATIO, 1.42), at_most(RATIO, 1.93)];
     assert_eq!(
         said(BigRoom, &large, 2, 7, 31, 25),
-        "What was seen: 82 m² (at least 73 m²); 1.5 times as long as wide (1.42 to 1.93). Of the 31 rooms like this \
+        "What was seen: 82 m² along axes (at least 73 m²); 1.5 times as long as wide (1.42 to 1.93). Of the 31 rooms like this \
          that the model learned from, 25 are big rooms."
     );
     assert_eq!(
         words_in(Units::Imperial, BigRoom, VALUES, rule(&large, 2, 7, 31, 25)),
-        "What was seen: 883 sq ft (at least 786 sq ft); 1.5 times as long as wide (1.42 to 1.93). Of the 31 rooms like \
+        "What was seen: 883 sq ft along axes (at least 786 sq ft); 1.5 times as long as wide (1.42 to 1.93). Of the 31 rooms like \
          this that the model learned from, 25 are big rooms."
     );
     assert_eq!(
@@ -105,13 +105,13 @@ fn a_path_in_words() {
             61,
             40
         ),
-        "What was seen: 82 m² (over 33.6 m²); 1.5 times as long as wide (at most 1.6); 3 openings (at most 4); no \
+        "What was seen: 82 m² along axes (over 33.6 m²); 1.5 times as long as wide (at most 1.6); 3 openings (at most 4); no \
          openings to big rooms; 1 opening to corridors (at least 1). Of the 61 rooms like this that the model learned \
          from, 40 are medium rooms."
     );
     assert_eq!(
         said(Corridor, &[over(AREA, 4.8), at_most(AREA, 93.6), over(OPENINGS, 2.0), at_most(OPENINGS, 4.0)], 52, 52),
-        "What was seen: 82 m² (4.8 m² to 93.6 m²); 3 openings (3 to 4). All 52 rooms like this that the model learned \
+        "What was seen: 82 m² along axes (4.8 m² to 93.6 m²); 3 openings (3 to 4). All 52 rooms like this that the model learned \
          from are corridors."
     );
     assert_eq!(
@@ -132,7 +132,7 @@ fn neighbours_in_words() {
     let said = |label, neighbours: Vec<NearRoom>| words(label, Reason::Neighbours(NeighboursReason { neighbours }));
     let gym = || near(BigRoom, "School 4", "Gym", 120.4, 3.0);
     let class = || near(MediumRoom, "School 1", "Room 18", 52.51, 1.0);
-    let seen = "What was seen: 82 m²; 1.5 times as long as wide; 3 openings: 1 to corridors.";
+    let seen = "What was seen: 82 m² along axes; 1.5 times as long as wide; 3 openings: 1 to corridors.";
     assert_eq!(
         said(BigRoom, vec![gym()]),
         format!(
@@ -176,7 +176,7 @@ fn features_in_words() {
     let said = |effects: &[Effect]| words(BigRoom, Reason::Features(FeaturesReason { effects: effects.to_vec() }));
     assert_eq!(
         said(&[effect(AREA, 43.6, 0.58), effect(OPENINGS, 1.0, 0.19), effect(RATIO, 1.59, 0.01)]),
-        "Strong sign of a big room: 82 m² (usual: 43.6 m²). Clear sign of a big room: 3 openings (usual: 1)."
+        "Strong sign of a big room: 82 m² along axes (usual: 43.6 m²). Clear sign of a big room: 3 openings (usual: 1)."
     );
     let against =
         Effect { if_typical: Distribution::from_weights([0.01, 0.01, 0.96, 0.01, 0.01]), ..effect(RATIO, 1.59, 0.0) };
@@ -240,14 +240,14 @@ fn explanations_read_well() {
         assert!(words.contains(shape), "{algorithm}: {words}");
     }
     let cupboard = said("mlp", &CUPBOARD);
-    assert!(cupboard.starts_with("Strong sign of a small room: 3.2 m² (usual: 4"), "{cupboard}");
+    assert!(cupboard.starts_with("Strong sign of a small room: 3.2 m² along axes (usual: 4"), "{cupboard}");
 }
 
 /// Learned from halls alone, everything is a hall, and each algorithm says so.
 #[test]
 fn explanations_where_there_is_nothing_to_tell_apart() {
     let halls = table_of(&[([100.0, 1.5, 4.0, 0.0, 0.0, 0.0, 4.0, 0.0], Hall); 20]);
-    let seen = "What was seen: 3.2 m²; 1.4 times as long as wide; 1 opening: 1 to corridors.";
+    let seen = "What was seen: 3.2 m² along axes; 1.4 times as long as wide; 1 opening: 1 to corridors.";
     let nearest = format!(
         "{seen} The most similar room that the model learned from is a hall: a room in p0 (100 m², 4 openings)."
     );

@@ -84,9 +84,9 @@ fn what_a_command_needs_is_asked_in_place() {
     // A room, with its label and area; the plan's own order, from the top left.
     keys(&mut window, "Ctrl+F");
     let (rooms, _) = lines(&window);
-    assert_eq!(rooms[0], "Utility, small room, 10.8 m²", "{rooms:?}");
+    assert_eq!(rooms[0], "Utility, small room, 9.0 m²", "{rooms:?}");
     type_in(&mut window, "stu");
-    assert_eq!(lines(&window).1.as_deref(), Some("Study, medium room, 18.5 m²"));
+    assert_eq!(lines(&window).1.as_deref(), Some("Study, medium room, 16.5 m²"));
     keys(&mut window, "Enter");
     assert_eq!(picked(&window).name, "Study");
     // A text, which is there to be changed.

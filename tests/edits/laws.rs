@@ -246,6 +246,7 @@ fn exists(plan: &Plan, element: ElementId) -> bool {
         ElementId::Wall(id) => plan.wall(id).is_some(),
         ElementId::Room(id) => plan.room(id).is_some(),
         ElementId::Opening(id) => plan.opening(id).is_some(),
+        ElementId::Dimension(id) => plan.dimension(id).is_some(),
     }
 }
 

@@ -215,9 +215,29 @@ fn done(plan: &Plan, step: &Step) -> Option<Done> {
         Step::Merge(i, j) => {
             let both = [pick(&rooms, *i)?, pick(&rooms, *j)?];
             let after = edit::merge_rooms(plan, &both).ok()?;
-            // The walls and openings between them go.
+            // Rooms that lie on top of each other have no walls between them in any clear sense.
+            let area =
+                |plan: &Plan| -> f64 { both.iter().filter_map(|&id| plan.room(id)).map(|it| area_m2(plan, it)).sum() };
+            if (area(plan) - area(&after)).abs() > 0.01 {
+                return None;
+            }
+            // The walls between them go, as far as they lie within the merged room, and the openings.
             let gone = plan.elements().filter(|&element| !after.has(element));
-            let picked = both.into_iter().map(ElementId::Room).chain(gone).collect();
+            let merged: Vec<Vec<Point>> =
+                both.iter().filter_map(|&id| after.room(id)).map(|room| after.ring_points(&room.outer)).collect();
+            let is_within = |wall: &WallId| {
+                let segment = plan.wall_segment(plan.wall(*wall).unwrap()).unwrap();
+                (0..=200).map(|i| segment.a.lerp(segment.b, f64::from(i) / 200.0)).any(|at| {
+                    merged.iter().any(|ring| {
+                        polygon::locate_in_ring(ring, at) == polygon::Location::Inside
+                            && polygon::edges(ring).all(|edge| edge.distance(at) > 1e-4)
+                    })
+                })
+            };
+            let within: Vec<WallId> = walls.iter().copied().filter(is_within).collect();
+            let picked =
+                both.into_iter().map(ElementId::Room).chain(gone).chain(within.into_iter().map(ElementId::Wall));
+            let picked = picked.collect();
             Some(of(after, picked))
         }
     }
@@ -342,6 +362,17 @@ fn holds(before: &Plan, done: &Done) -> Result<(), TestCaseError> {
         match element {
             // Whatever moves a corner of something that is not picked is a drag of that corner.
             ElementId::Corner(id) => {
+                let is_of = |plan: &Plan, id: CornerId, element: ElementId| match element {
+                    ElementId::Wall(wall) => plan.wall(wall).is_some_and(|wall| [wall.from, wall.to].contains(&id)),
+                    ElementId::Room(room) => {
+                        plan.room(room).is_some_and(|room| room.rings().any(|ring| ring.contains(&id)))
+                    }
+                    _ => false,
+                };
+                let others = before.elements().filter(|element| !picked.contains(element));
+                if !others.into_iter().any(|element| is_of(before, id, element)) {
+                    continue;
+                }
                 prop_assert!(after.corner(id).is_none() || !moved(&id), "the corner {} moved", id);
             }
             ElementId::Room(id) => {
@@ -377,7 +408,13 @@ fn holds(before: &Plan, done: &Done) -> Result<(), TestCaseError> {
                 prop_assert!(new.is_some(), "the opening {} is gone", id);
                 let (was, is) = (before.opening_segment(old).unwrap(), after.opening_segment(new.unwrap()).unwrap());
                 let off_m = was.a.distance(is.a).max(was.b.distance(is.b));
-                prop_assert!(off_m <= SAME_M, "the opening {} went {} m", id, off_m);
+                // Where what is dragged divides its wall, it is moved to fit.
+                let host = |plan: &Plan| match plan.opening(id).map(|it| it.place) {
+                    Some(Place::Hosted { from, to, .. }) => Some([from, to]),
+                    _ => None,
+                };
+                let is_divided = !dragged.is_empty() && host(before) != host(after);
+                prop_assert!(off_m <= SAME_M || is_divided, "the opening {} went {} m", id, off_m);
             }
         }
     }
@@ -402,7 +439,7 @@ fn holds(before: &Plan, done: &Done) -> Result<(), TestCaseError> {
 }
 
 proptest! {
-    #![proptest_config(config(160))]
+    #![proptest_config(config(128))]
 
     #[test]
     fn nothing_that_was_not_picked_is_harmed(house in house(), steps in proptest::collection::vec(step(), 1..8)) {

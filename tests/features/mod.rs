@@ -2,6 +2,8 @@
 //! a plan, and after renaming its rooms.
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
+mod net_areas;
+
 use enfilade::features::{Analysis, NeighbourLabels, analyse};
 use enfilade::geometry::{Point, Vector};
 use enfilade::labels::{Label, Schemes, Typology};

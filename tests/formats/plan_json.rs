@@ -2,13 +2,14 @@ use proptest::prelude::*;
 
 use super::generated::plans;
 use super::golden::assert_golden;
+use enfilade::edit::draw_dimension;
 use enfilade::edit::guides::add_guide;
 use enfilade::formats::plan_json::{from_bytes, to_bytes};
 use enfilade::geometry::Point;
 use enfilade::labels::{Label, Typology};
 use enfilade::plan::{
-    Backdrop, Builder, GuideAxis, Joint, LabelOrigin, LeafSide, Measurement, Meta, Opening, OpeningKind, Place, Plan,
-    Room, RoomLabel, Scale, ScaleOrigin, Swing,
+    Backdrop, Builder, DimensionAlong, GuideAxis, Joint, LabelOrigin, LeafSide, Measurement, Meta, Opening,
+    OpeningKind, Place, Plan, Room, RoomLabel, Scale, ScaleOrigin, Swing,
 };
 
 /// A plan that uses every field of the model.
@@ -68,7 +69,16 @@ pub fn full_plan() -> Plan {
     passage.pinned = Some([Joint::Room(hall), Joint::Outside]);
     builder.opening("", passage);
     let plan = add_guide(&builder.finish().unwrap(), GuideAxis::Vertical, -3.0).unwrap();
-    add_guide(&plan, GuideAxis::Horizontal, 1.25).unwrap()
+    let plan = add_guide(&plan, GuideAxis::Horizontal, 1.25).unwrap();
+    // On a face and on nothing; on an edge of the door and on a corner.
+    let upright = [Point::new(3.0, -0.12), Point::new(3.0, 3.0)];
+    let (plan, _) = draw_dimension(&plan, &upright, DimensionAlong::Vertical, Point::new(7.0, 0.0)).unwrap();
+    let oblique = [Point::new(1.05, 0.0), Point::new(6.0, 4.0)];
+    let (plan, _) = draw_dimension(&plan, &oblique, DimensionAlong::Aligned, Point::new(0.0, 1.0)).unwrap();
+    let on: Vec<bool> =
+        plan.dimensions().flat_map(|(_, chain)| chain.points.iter().map(|point| point.on.is_some())).collect();
+    assert_eq!(on.iter().filter(|is_on| **is_on).count(), 3, "{on:?}");
+    plan
 }
 
 #[test]
@@ -106,7 +116,11 @@ fn unknown_fields_survive_in_their_order() {
     let text = text.strip_suffix("\n}").unwrap().to_owned() + ",\n\"zones\": [{\"id\":\"z1\"}],\n\"authors\": []\n}\n";
     let plan = from_bytes(text.as_bytes()).map_err(|error| error.to_string()).unwrap();
     assert_eq!(String::from_utf8(to_bytes(&plan)).unwrap(), text);
-    assert_eq!(text.matches("aardvark").count(), 16, "2 guides, 8 corners, a wall, 2 rooms, 2 openings, a backdrop");
+    assert_eq!(
+        text.matches("aardvark").count(),
+        18,
+        "2 guides, 8 corners, a wall, 2 rooms, 2 openings, a backdrop, 2 dimensions"
+    );
 }
 
 #[test]

@@ -153,6 +153,7 @@ impl Person {
             along,
             right_angles: false,
             objects: true,
+            faces: enfilade::snapping::Faces::Off,
             grid_m: None,
             points: path,
             lines: &[],

@@ -290,7 +290,7 @@ fn one_sees_where_the_keyboard_is() {
 fn rooms_are_told_with_label_and_area() {
     let mut window = window_with("dwelling");
     let kitchen = window.control("Kitchen").unwrap();
-    assert_eq!((kitchen.description.as_str(), kitchen.is_on), ("medium room, kitchen, 15.7 m²", Some(false)));
+    assert_eq!((kitchen.description.as_str(), kitchen.is_on), ("medium room, kitchen, 13.6 m² clear", Some(false)));
     click_room(&mut window, "Study");
     assert_eq!(
         window.controls().into_iter().find(|control| is_room(control) && control.name == "Study").unwrap().is_on,

@@ -115,7 +115,14 @@ fn the_inspector_leads_from_room_to_room() {
     assert!(window.open_bundled("dwelling"));
     window.settle().unwrap();
     click_room(&mut window, "Kitchen");
-    for expected in ["Area: 15.7 m²", "Axes ratio: 2.00", "Openings: 2", "to halls: 1", "Medium room"] {
+    for expected in [
+        "Area along axes: 15.7 m²",
+        "Clear area: 13.6 m²",
+        "Axes ratio: 2.00",
+        "Openings: 2",
+        "to halls: 1",
+        "Medium room",
+    ] {
         assert!(window.control(expected).is_some(), "{expected}");
     }
     press(&mut window, "Dining room");

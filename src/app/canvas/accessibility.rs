@@ -69,6 +69,14 @@ pub(super) fn describe(document: &Document, picked: Option<ElementId>) -> String
     text
 }
 
+/// A room's area, and that it is the clear one where walls take some of it.
+fn area_in_words(derived: &Derived, shape: &RoomShape, units: Units) -> String {
+    match derived.analysis.net(shape.id) {
+        Some(net) if net.has_walls => format!("{} clear", units.area(net.area_m2)),
+        _ => units.area(shape.area_m2()),
+    }
+}
+
 /// A room's label and area, in words.
 fn said_of_room(plan: &Plan, derived: &Derived, shape: &RoomShape, units: Units) -> String {
     let status = derived.analysis.room(shape.id).map(|room| room.status);
@@ -79,5 +87,5 @@ fn said_of_room(plan: &Plan, derived: &Derived, shape: &RoomShape, units: Units)
     };
     let function = plan.room(shape.id).map(|room| room.function.trim()).unwrap_or_default();
     let function = if function.is_empty() { String::new() } else { format!(", {}", normalised_function(function)) };
-    format!("{label}{function}, {}", units.area(shape.area_m2()))
+    format!("{label}{function}, {}", area_in_words(derived, shape, units))
 }

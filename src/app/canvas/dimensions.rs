@@ -1,5 +1,5 @@
-//! Live dimensions: the lengths of the selected rooms' walls beside their edges, area and perimeter
-//! below. They avoid each other and room names.
+//! Live dimensions: the clear lengths of the selected rooms beside the faces of their walls, clear area and perimeter
+//! below; of selected walls the lengths along both faces. They avoid each other and room names.
 
 use crate::app::paint::places::paper;
 use std::sync::Arc;
@@ -14,13 +14,21 @@ use crate::app::session::document::Derived;
 use crate::base::units::Units;
 use crate::draw::View;
 use crate::geometry::{
-    polygon,
+    Bounds, Segment,
     runs::{Run, runs},
 };
-use crate::topology::RoomShape;
+use crate::plan::{DEFAULT_WALL_THICKNESS_M, WallId};
+use crate::topology::wall_bodies::WallFaces;
+use crate::topology::{NetRoom, RoomShape};
 
 /// With more rooms selected, only their totals are shown.
 const MOST_ROOMS: usize = 6;
+
+/// With more walls selected, none is measured.
+const MOST_WALLS: usize = 12;
+
+/// Along faces that differ by less from the axis, in metres, one length is enough.
+const SAME_LENGTH_M: f64 = 0.005;
 
 /// For a room with more walls, only area and perimeter are shown: it is round, or a scan.
 const MOST_RUNS: usize = 40;
@@ -77,26 +85,55 @@ pub(crate) fn paint(
     if !session.layers.dimensions {
         return;
     }
-    let shapes: Vec<&RoomShape> = session
+    let rooms: Vec<Measured<'_>> = session
         .selection()
         .rooms()
-        .filter_map(|id| derived.analysis.shapes.get(id))
-        .filter(|shape| !shape.outer.is_empty())
+        .filter_map(|id| {
+            let shape = derived.analysis.shapes.get(id)?;
+            Some(Measured { shape, net: derived.analysis.net(id)? })
+        })
         .collect();
-    let all = shapes.iter().map(|shape| shape.bounds).reduce(crate::geometry::Bounds::union);
-    let Some(all) = all else { return };
+    let walls: Vec<WallId> = session.selection().walls().take(MOST_WALLS + 1).collect();
+    if rooms.is_empty() && walls.is_empty() {
+        return;
+    }
     let colours = theme::colours(&painter.ctx().global_style().visuals);
     let paper = theme::colour(paper(session.layers.colours, painter.ctx()));
     let sheet = Sheet { painter, rect, view, units: session.units(), colours, names: names() };
     let mut labels: Vec<Label> = Vec::new();
-    if shapes.len() <= MOST_ROOMS {
-        for shape in &shapes {
-            sheet.walls(shape, &mut labels);
+    if rooms.len() <= MOST_ROOMS {
+        for room in &rooms {
+            sheet.clear_lengths(room.net, &mut labels);
         }
     }
-    sheet.whole(&shapes, all, &mut labels);
+    if walls.len() <= MOST_WALLS
+        && let Some(plan) = session.plan()
+    {
+        for id in walls {
+            let axis = plan.wall(id).and_then(|wall| plan.wall_segment(wall));
+            if let Some(axis) = axis {
+                sheet.wall(axis, derived.index.faces_of(id), &mut labels);
+            }
+        }
+    }
+    sheet.whole(&rooms, &mut labels);
     for label in &labels {
         label.paint(painter, paper.gamma_multiply(0.9));
+    }
+}
+
+/// A selected room.
+struct Measured<'a> {
+    shape: &'a RoomShape,
+    net: &'a NetRoom,
+}
+
+impl Measured<'_> {
+    /// The box around the room and its walls, which are about as thick outside as inside.
+    fn bounds_with_walls(&self) -> Bounds {
+        let (outer, clear) = (self.shape.bounds, Bounds::of(self.net.rings().flatten().copied()));
+        let half_m = if clear.is_empty() { 0.0 } else { (outer.width() - clear.width()) / 2.0 };
+        outer.inflated(half_m.max(0.0))
     }
 }
 
@@ -116,58 +153,67 @@ impl Sheet<'_> {
         self.painter.layout_no_wrap(text, font, self.colours.accent)
     }
 
-    /// The length of each wall of a room, beside it on the outside.
-    fn walls(&self, shape: &RoomShape, labels: &mut Vec<Label>) {
-        let rings: Vec<(Vec<Run>, f32)> = shape
-            .rings()
-            .enumerate()
-            .map(|(index, ring)| {
-                // The inside of a counter-clockwise ring is on its left.
-                let is_left_inside = (polygon::signed_area(ring) > 0.0) == (index == 0);
-                (runs(ring), if is_left_inside { 1.0 } else { -1.0 })
-            })
-            .collect();
-        if rings.iter().map(|(runs, _)| runs.len()).sum::<usize>() > MOST_RUNS {
+    /// The clear lengths of a room, inside along the faces of its walls.
+    fn clear_lengths(&self, net: &NetRoom, labels: &mut Vec<Label>) {
+        let runs: Vec<Run> = net.rings().flat_map(|ring| runs(ring)).collect();
+        if runs.len() > MOST_RUNS {
             return;
         }
-        for (runs, side) in rings {
-            for run in runs {
-                let [a, b] = [run.start, run.end].map(|point| on_screen(self.rect, self.view, point));
-                let along = b - a;
-                let galley = self.text(self.units.length(run.length_m()));
-                if along.length() < galley.size().x + SPARE {
-                    continue;
-                }
-                // The screen's y axis points down, so outside is on the left there.
-                let outwards = vec2(-along.y, along.x).normalized() * side;
-                let mut angle_rad = along.angle();
-                // Readable from below or from the right.
-                if angle_rad > std::f32::consts::FRAC_PI_2 - 0.01 {
-                    angle_rad -= std::f32::consts::PI;
-                } else if angle_rad < -std::f32::consts::FRAC_PI_2 - 0.01 {
-                    angle_rad += std::f32::consts::PI;
-                }
-                let wall = (crate::plan::DEFAULT_WALL_THICKNESS_M * self.view.px_per_m) as f32;
-                let off = wall.min(12.0) + GAP + galley.size().y / 2.0;
-                // In the middle if that is free, otherwise nearer to an end, otherwise inside.
-                for (part, side) in [(0.5, 1.0), (0.3, 1.0), (0.7, 1.0), (0.5, -1.0), (0.3, -1.0), (0.7, -1.0)] {
-                    let centre = a + along * part + outwards * off * side;
-                    if self.add(Label { galley: galley.clone(), centre, angle_rad }, labels) {
-                        break;
-                    }
-                }
+        for run in runs {
+            // Where walls bound it, there is room on the inside, which is on the left.
+            let (side, off_m) = if net.has_walls { (-1.0, 0.0) } else { (1.0, DEFAULT_WALL_THICKNESS_M) };
+            let off = (off_m * self.view.px_per_m) as f32;
+            self.length(Segment::new(run.start, run.end), side, off.min(12.0), labels);
+        }
+    }
+
+    /// The lengths of a wall along its faces, each beside its own; one, where they are the same.
+    fn wall(&self, axis: Segment, faces: Option<WallFaces>, labels: &mut Vec<Label>) {
+        let Some(faces) = faces else { return self.length(axis, 1.0, 0.0, labels) };
+        let is_other = |face: Segment| (face.length() - axis.length()).abs() > SAME_LENGTH_M;
+        if is_other(faces.left) || is_other(faces.right) {
+            self.length(faces.left, -1.0, 0.0, labels);
+        }
+        self.length(faces.right, 1.0, 0.0, labels);
+    }
+
+    /// The length of a line beside it: on its right where `side` is 1, on its left where it is -1, `off` points away.
+    fn length(&self, line: Segment, side: f32, off: f32, labels: &mut Vec<Label>) {
+        let [a, b] = [line.a, line.b].map(|point| on_screen(self.rect, self.view, point));
+        let along = b - a;
+        let galley = self.text(self.units.length(line.length()));
+        if along.length() < galley.size().x + SPARE {
+            return;
+        }
+        // The screen's y axis points down, so the right is on the left there.
+        let outwards = vec2(-along.y, along.x).normalized() * side;
+        let mut angle_rad = along.angle();
+        // Readable from below or from the right.
+        if angle_rad > std::f32::consts::FRAC_PI_2 - 0.01 {
+            angle_rad -= std::f32::consts::PI;
+        } else if angle_rad < -std::f32::consts::FRAC_PI_2 - 0.01 {
+            angle_rad += std::f32::consts::PI;
+        }
+        let off = off + GAP + galley.size().y / 2.0;
+        // In the middle if that is free, otherwise nearer to an end, otherwise on the other side.
+        for (part, side) in [(0.5, 1.0), (0.3, 1.0), (0.7, 1.0), (0.5, -1.0), (0.3, -1.0), (0.7, -1.0)] {
+            let centre = a + along * part + outwards * off * side;
+            if self.add(Label { galley: galley.clone(), centre, angle_rad }, labels) {
+                return;
             }
         }
     }
 
-    /// Area and perimeter, below the rooms, above them, or in the middle of the visible part.
-    fn whole(&self, shapes: &[&RoomShape], all: crate::geometry::Bounds, labels: &mut Vec<Label>) {
-        let area_m2: f64 = shapes.iter().map(|shape| shape.area_m2()).sum();
-        let perimeter_m: f64 = shapes.iter().map(|shape| shape.perimeter_m()).sum();
-        let mut text = self.units.area(area_m2);
-        match shapes.len() {
-            1 => text.push_str(&format!("  ·  {} around", self.units.length(perimeter_m))),
-            several => text = format!("{several} rooms  ·  {text}"),
+    /// Clear area and perimeter, below the rooms, above them, or in the middle of the visible part.
+    fn whole(&self, rooms: &[Measured<'_>], labels: &mut Vec<Label>) {
+        let all = rooms.iter().map(Measured::bounds_with_walls).reduce(Bounds::union);
+        let Some(all) = all else { return };
+        let area_m2: f64 = rooms.iter().map(|room| room.net.area_m2).sum();
+        let clear = if rooms.iter().any(|room| room.net.has_walls) { " clear" } else { "" };
+        let mut text = format!("{}{clear}", self.units.area(area_m2));
+        match rooms {
+            [room] => text.push_str(&format!("  ·  {} around", self.units.length(room.net.perimeter_m()))),
+            several => text = format!("{} rooms  ·  {text}", several.len()),
         }
         let galley = self.text(text);
         let corners = [all.min, all.max].map(|point| on_screen(self.rect, self.view, point));

@@ -17,7 +17,7 @@ use crate::app::session::document::{Derived, Document};
 use crate::app::session::questions::Shown;
 use crate::app::tools::{self, Scope, Toolbox};
 use crate::base::units::Units;
-use crate::draw::{Palette, Style, View};
+use crate::draw::{Palette, Style, View, dimensions};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::plan::{ElementId, GuideAxis, Plan};
 
@@ -96,6 +96,13 @@ impl Canvas {
                 painter.line_segment(ends, Stroke::new(width.max(2.0) + 4.0, mark.line.gamma_multiply(0.45)));
                 painter.line_segment(ends, Stroke::new(mark.width, mark.line));
             }
+            ElementId::Dimension(id) => {
+                let line = plan.dimension(id).and_then(|dimension| plan.dimension_line(dimension));
+                let Some(segment) = line.and_then(|line| dimensions::segment(&line)) else { return };
+                let ends = [segment.a, segment.b].map(|point| on_screen(rect, view, point));
+                painter.line_segment(ends, Stroke::new(mark.width + 6.0, mark.line.gamma_multiply(0.25)));
+                painter.line_segment(ends, Stroke::new(mark.width, mark.line));
+            }
             ElementId::Opening(id) => {
                 let segment = plan.opening(id).and_then(|opening| plan.opening_segment(opening));
                 let Some(segment) = segment else { return };
@@ -138,7 +145,7 @@ pub(super) fn preview_question(session: &Session, plan: &Plan, preview: &mut Pre
                             preview.line(vec![segment.a, segment.b], false, Look::Danger);
                         }
                     }
-                    ElementId::Corner(_) => {}
+                    ElementId::Corner(_) | ElementId::Dimension(_) => {}
                 }
             }
         }

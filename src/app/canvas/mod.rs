@@ -25,7 +25,7 @@ use crate::app::paint::ghost::GhostPainter;
 use crate::app::paint::pending::Pending;
 use crate::app::paint::places::{canvas_id, plan_point};
 use crate::app::paint::preview::{Look, Preview};
-use crate::app::paint::scene_painter::ScenePainter;
+use crate::app::paint::scene_painter::{ScenePainter, paint_group};
 use crate::app::session::document::{Derived, Document};
 use crate::app::session::{Pointed, Session};
 use crate::app::tools::{self, DrawOptions, Input, Scope, Toolbox};
@@ -217,6 +217,10 @@ impl Canvas {
         backdrop.paint(&painter, rect, &view, placed, session.jobs.is_inline());
         if let Some(derived) = shown {
             self.painter.paint(&painter, rect, derived, &style, &view);
+        }
+        // Those of the plan as it is now: they follow an edit at once.
+        for group in draw::dimensions::groups(&draw::dimensions::lines(plan), &style, &view) {
+            paint_group(&painter, rect, &view, &group);
         }
         self.ghost.paint(&painter, rect, session.shown_ghost().map(|ghost| &ghost.derived), &style, &view);
         match fresh {
@@ -461,6 +465,7 @@ fn style(session: &Session, plan: &Plan, is_dark: bool) -> Style {
             walls: true,
             openings: true,
             graph: layers.graph,
+            dimensions: layers.dimensions,
             names: layers.names,
             areas: layers.names,
         },

@@ -488,8 +488,8 @@ fn room_choices(app: &App) -> Vec<Choice> {
         let is_unique = !room.name.is_empty() && names.get(&room.name.to_lowercase()) == Some(&1);
         // Like `room_word`, but faster for thousands of rooms.
         let word = if is_unique && is_own_word(&room.name) { room.name.clone() } else { id.to_string() };
-        let area = document.derived().and_then(|derived| derived.analysis.shapes.get(id));
-        let area = area.map(|shape| app.units().area(shape.area_m2()));
+        let area = document.derived().and_then(|derived| derived.analysis.net(id));
+        let area = area.map(|net| app.units().area(net.area_m2));
         let detail = [status.label().map(|label| label.name().to_owned()), area];
         let detail: Vec<String> = detail.into_iter().flatten().collect();
         Some(Choice {

@@ -79,7 +79,7 @@ impl Pending {
                         around.extend([wall.from, wall.to]);
                     }
                 }
-                ElementId::Opening(_) | ElementId::Corner(_) => {}
+                ElementId::Opening(_) | ElementId::Corner(_) | ElementId::Dimension(_) => {}
             }
         }
         // What gets painted over is painted again.

@@ -1,5 +1,7 @@
 //! A tool's work in progress, painted over the plan.
 
+use std::f64::consts::TAU;
+
 use egui::epaint::StrokeKind;
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, vec2};
 
@@ -8,6 +10,7 @@ use crate::app::paint::{
     places::on_screen,
     scene_painter::{earcut, polygon_mesh},
 };
+use crate::base::units;
 use crate::draw::scene::arc_points;
 use crate::draw::{Palette, View};
 use crate::geometry::{Point, Segment, Vector};
@@ -207,7 +210,7 @@ pub(crate) fn paint_snap(painter: &Painter, rect: Rect, view: &View, palette: &P
     let stroke = Stroke::new(1.8, colour);
     let arm = |x: f32, y: f32| at + vec2(x, y);
     match snap.kind {
-        SnapKind::Corner => {
+        SnapKind::Corner | SnapKind::FaceCorner | SnapKind::Jamb => {
             painter.rect_stroke(Rect::from_center_size(at, Vec2::splat(11.0)), 0.0, stroke, StrokeKind::Middle);
         }
         SnapKind::Intersection => {
@@ -221,7 +224,7 @@ pub(crate) fn paint_snap(painter: &Painter, rect: Rect, view: &View, palette: &P
             painter.add(Shape::line(vec![arm(-6.0, -7.0), arm(-6.0, 6.0), arm(7.0, 6.0)], stroke));
             painter.add(Shape::line(vec![arm(-6.0, 0.0), arm(0.0, 0.0), arm(0.0, 6.0)], stroke));
         }
-        SnapKind::Wall => {
+        SnapKind::Wall | SnapKind::Face => {
             painter.add(Shape::closed_line(vec![arm(0.0, -6.5), arm(6.5, 0.0), arm(0.0, 6.5), arm(-6.5, 0.0)], stroke));
         }
         SnapKind::Alignment | SnapKind::Grid | SnapKind::Free => {
@@ -236,10 +239,48 @@ pub(crate) fn paint_snap(painter: &Painter, rect: Rect, view: &View, palette: &P
     tag(painter, at + vec2(12.0, -12.0), Align2::LEFT_BOTTOM, snap.kind.name(), colour, palette);
 }
 
-/// The angle of a direction relative to another in whole degrees, 0 to 359.
-pub(crate) fn degrees(along: Option<Vector>, way: Vector) -> f64 {
-    let from = along.unwrap_or(Vector::new(1.0, 0.0));
-    let angle = from.cross(way).atan2(from.dot(way)).to_degrees();
-    let tenths = (angle * 10.0).round() / 10.0;
-    if tenths < 0.0 { tenths + 360.0 } else { tenths }
+/// The angle of a direction as everybody gives it: counter-clockwise from the right, from 0° on and below 360°.
+pub(crate) fn angle(way: Vector) -> String {
+    let turn_rad = way.angle_rad();
+    // A hair below the right is no full turn.
+    let text = units::angle(if turn_rad < 0.0 { turn_rad + TAU } else { turn_rad });
+    if text == units::angle(TAU) { units::angle(0.0) } else { text }
+}
+
+/// The turn from one direction into another, in radians: to the left above 0, to the right below, up to half a turn.
+pub(crate) fn turn_rad(along: Vector, way: Vector) -> f64 {
+    // On the 0.1 degree that is shown.
+    let tenths = (along.cross(way).atan2(along.dot(way)).to_degrees() * 10.0).round();
+    (tenths / 10.0).to_radians()
+}
+
+/// The turn from one direction into another, as a turn: 'turn 30° left'; empty where it goes straight on.
+pub(crate) fn turn(along: Vector, way: Vector) -> String {
+    let turn_rad = turn_rad(along, way);
+    let side = if turn_rad < 0.0 { "right" } else { "left" };
+    let text = units::angle(turn_rad.abs());
+    if text == units::angle(0.0) { String::new() } else { format!("turn {text} {side}") }
+}
+
+/// The angle between two directions, up to 180°; `None` where one has no length.
+pub(crate) fn between(p: Vector, q: Vector) -> Option<String> {
+    let (p, q) = (p.unit()?, q.unit()?);
+    Some(units::angle(p.cross(q).abs().atan2(p.dot(q))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_are_counter_clockwise_from_the_right_and_turns_are_turns() {
+        let said = |x, y| angle(Vector::new(x, y));
+        assert_eq!([said(1.0, 0.0), said(0.0, 1.0), said(-1.0, 0.0), said(0.0, -1.0)], ["0°", "90°", "180°", "270°"]);
+        assert_eq!([said(1.0, -1e-9), said(1.0, -1.0)], ["0°", "315°"]);
+        let up = Vector::new(0.0, 1.0);
+        assert_eq!(turn(up, Vector::new(-1.0, 0.0)), "turn 90° left");
+        assert_eq!(turn(up, Vector::new(1.0, 1.0)), "turn 45° right");
+        assert_eq!(turn(up, up), "");
+        assert_eq!(between(up, Vector::new(1.0, 0.0)).as_deref(), Some("90°"));
+    }
 }

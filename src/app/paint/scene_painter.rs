@@ -340,6 +340,20 @@ fn paint_grid(painter: &Painter, rect: Rect, view: &View, group: &Group) {
     }
 }
 
+/// Paints the lines and texts of a group that is not kept as triangles: few, or changing with each edit.
+pub(crate) fn paint_group(painter: &Painter, rect: Rect, view: &View, group: &Group) {
+    for item in &group.items {
+        match item {
+            Item::Line { points, colour, width, .. } => {
+                let points: Vec<Pos2> = points.iter().map(|&point| on_screen(rect, view, point)).collect();
+                painter.add(Shape::line(points, Stroke::new(view.px(*width) as f32, theme::colour(*colour))));
+            }
+            Item::Text(text) => paint_text(painter, rect, view, text),
+            Item::Polygon { .. } | Item::Arc { .. } | Item::Disc { .. } | Item::Picture(_) => {}
+        }
+    }
+}
+
 fn paint_text(painter: &Painter, rect: Rect, view: &View, text: &Text) {
     let family = match text.weight {
         Weight::Regular => FontFamily::Proportional,

@@ -57,7 +57,7 @@ fn measures_of(plan: &Plan, element: ElementId) -> Vec<Measure> {
             segment
                 .map_or_else(Vec::new, |segment| vec![("Width", segment.length(), 0.01..=1000.0, "set-opening-width")])
         }
-        ElementId::Room(_) | ElementId::Corner(_) => Vec::new(),
+        ElementId::Room(_) | ElementId::Corner(_) | ElementId::Dimension(_) => Vec::new(),
     }
 }
 

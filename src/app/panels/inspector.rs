@@ -100,6 +100,7 @@ fn show(app: &mut App, ui: &mut Ui) {
                 }
                 Some(ElementId::Wall(id)) => document.plan().wall(id).and_then(|wall| inspected.wall(ui, id, wall)),
                 Some(ElementId::Corner(id)) => inspected.corner(ui, id),
+                Some(ElementId::Dimension(_)) => inspected.several(ui),
                 None if app.selection().is_empty() => inspected.plan(ui),
                 None => inspected.several(ui),
             };
@@ -115,7 +116,7 @@ fn show(app: &mut App, ui: &mut Ui) {
             let word = app.plan().map(|plan| commands::room_word(plan, room)).unwrap_or_default();
             app.act("find-room", &[&word], ui.ctx());
         }
-        Some(Act::Pick(ElementId::Wall(_) | ElementId::Corner(_))) => {}
+        Some(Act::Pick(ElementId::Wall(_) | ElementId::Corner(_) | ElementId::Dimension(_))) => {}
         Some(Act::Pick(ElementId::Opening(opening))) => {
             app.act("pick-opening", &[&opening.to_string(), "on"], ui.ctx())
         }
@@ -168,6 +169,7 @@ impl Inspected<'_> {
             (selection.walls().count(), "wall"),
             (selection.openings().count(), "opening"),
             (selection.corners().count(), "corner"),
+            (selection.dimensions().count(), "dimension"),
         ];
         let said: Vec<String> =
             counts.iter().filter(|(number, _)| *number > 0).map(|(number, thing)| count(*number, thing)).collect();
@@ -190,10 +192,10 @@ impl Inspected<'_> {
         act = act.or_else(|| self.walls(ui));
         act = act.or_else(|| self.openings(ui));
         let areas_m2: Vec<f64> = self.document.derived().map_or_else(Vec::new, |derived| {
-            selection.rooms().filter_map(|id| derived.analysis.shapes.get(id)).map(RoomShape::area_m2).collect()
+            selection.rooms().filter_map(|id| derived.analysis.net(id)).map(|net| net.area_m2).collect()
         });
         if !areas_m2.is_empty() {
-            value(ui, "Area together", &self.app.units().area(areas_m2.iter().sum()));
+            value(ui, "Clear area together", &self.app.units().area(areas_m2.iter().sum()));
         }
         act
     }
@@ -291,9 +293,11 @@ impl Inspected<'_> {
         value(ui, "Windows", &(plan.openings().len() - doors).to_string());
         if let Some(derived) = self.document.derived() {
             // An empty sum is minus zero.
-            let areas_m2 = derived.analysis.shapes.all().iter().map(crate::topology::RoomShape::area_m2);
-            let area_m2 = areas_m2.fold(0.0, |sum, area_m2| sum + area_m2);
-            value(ui, "Floor area", &self.app.units().area(area_m2));
+            let sum_m2 = |areas_m2: &mut dyn Iterator<Item = f64>| areas_m2.fold(0.0, |sum, area_m2| sum + area_m2);
+            let clear_m2 = sum_m2(&mut derived.analysis.net.iter().flatten().map(|net| net.area_m2));
+            let along_m2 = sum_m2(&mut derived.analysis.shapes.all().iter().map(RoomShape::area_m2));
+            value(ui, "Clear area", &self.app.units().area(clear_m2)).on_hover_text(CLEAR);
+            value(ui, "Along axes", &self.app.units().area(along_m2)).on_hover_text(ALONG);
             self.gaps(ui, derived);
         }
         if let Some(predictions) = self.document.derived().and_then(|derived| derived.predictions.as_ref())
@@ -391,6 +395,12 @@ fn header(
     });
 }
 
+/// What a clear area is.
+const CLEAR: &str = "Between wall faces, without piers and other walls inside: the net floor area";
+
+/// What the other one is.
+const ALONG: &str = "Within the boundary: to the axes of the walls, or as drawn or imported";
+
 /// `F_r` with readable names.
 fn features(ui: &mut Ui, analysed: &RoomAnalysis, perimeter_m: Option<f64>, units: Units) {
     let Some(features) = &analysed.features else {
@@ -409,8 +419,8 @@ fn features(ui: &mut Ui, analysed: &RoomAnalysis, perimeter_m: Option<f64>, unit
         format!("Longest wall {major}, longest wall perpendicular to it {minor}{extent}")
     });
     let names = Features::NAMES;
-    let around = perimeter_m.map(|perimeter_m| format!("Perimeter {}", units.length(perimeter_m)));
-    feature(ui, "Area", names[0], &units.area(features.area_m2), false, around.as_deref());
+    let around = perimeter_m.map(|perimeter_m| format!("{ALONG}. Perimeter {}", units.length(perimeter_m)));
+    feature(ui, "Area along axes", names[0], &units.area(features.area_m2), false, around.as_deref());
     feature(ui, "Axes ratio", names[1], &format!("{:.2}", features.axes_ratio), false, axes.as_deref());
     feature(ui, "Openings", names[2], &features.doors.to_string(), features.doors == 0, None);
     for label in Label::ALL {

@@ -142,6 +142,7 @@ impl App {
             Thing::Element(ElementId::Wall(_)) => On::Wall,
             Thing::Element(ElementId::Opening(_)) => On::Opening,
             Thing::Element(ElementId::Corner(_)) => On::Corner,
+            Thing::Element(ElementId::Dimension(_)) => On::Several,
         }
     }
 }

@@ -13,6 +13,7 @@ use crate::app::paint::{
     scene_painter::{ScenePainter, earcut, outline_mesh, polygon_mesh},
 };
 use crate::app::session::document::Derived;
+use crate::draw::dimensions::segment;
 use crate::draw::{self, Fill, LabelColours, Layers, Palette, Style, View};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::plan::{ChangeKind, Difference, ElementId, Plan};
@@ -80,6 +81,7 @@ impl MarkShape {
     fn of(plan: &Plan, element: ElementId) -> Option<Self> {
         match element {
             ElementId::Corner(_) => None,
+            ElementId::Dimension(id) => segment(&plan.dimension_line(plan.dimension(id)?)?).map(Self::Line),
             ElementId::Wall(id) => plan.wall_segment(plan.wall(id)?).map(Self::Line),
             ElementId::Opening(id) => plan.opening_segment(plan.opening(id)?).map(Self::Line),
             ElementId::Room(id) => {

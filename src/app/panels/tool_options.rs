@@ -68,6 +68,15 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
                             continue;
                         }
                         ToolOption::Switch { command, name } => (command, name),
+                        ToolOption::Choice { command, name, now } => {
+                            let Some(command) = commands::find(command) else { continue };
+                            let response = ui.button(format!("{name}: {}", now(&app.tools.options)));
+                            if response.on_hover_text(format!("{}\n{}", command.title, command.help)).clicked() {
+                                // Without what it asks for, it goes on to the next.
+                                app.act_on(Call::new(command.id, []), &ui.ctx().clone());
+                            }
+                            continue;
+                        }
                     };
                     let Some(command) = commands::find(id) else { continue };
                     let is_on = command.is_on(app) == Some(true);

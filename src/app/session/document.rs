@@ -259,6 +259,10 @@ impl Document {
             ElementId::Opening(id) => plan.opening_segment(plan.opening(id)?)?.bounds(),
             ElementId::Wall(id) => plan.wall_segment(plan.wall(id)?)?.bounds(),
             ElementId::Corner(id) => Bounds::of([plan.position(id)?]),
+            ElementId::Dimension(id) => {
+                let line = plan.dimension_line(plan.dimension(id)?)?;
+                Bounds::of(line.ticks.iter().flat_map(|&(measured, on_line)| [measured, on_line]))
+            }
         };
         (!bounds.is_empty()).then_some(bounds)
     }

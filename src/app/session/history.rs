@@ -23,9 +23,15 @@ impl Session {
         change: impl FnOnce(&Plan) -> Result<Plan, EditError>,
     ) -> Result<(), EditError> {
         let Some(document) = &mut self.document else { return Ok(()) };
-        let plan = change(document.plan())?;
+        let before = document.plan();
+        let edit::Settled { plan, fixed } = edit::settle_dimensions(before, change(before)?);
         document.history.push(title, plan);
         self.fresh = None;
+        if fixed > 0 {
+            let points = crate::base::wording::count(fixed, "point");
+            let text = format!("{points} of dimensions lost what they measured and stay where they are");
+            self.say(Severity::Info, text, "");
+        }
         Ok(())
     }
 

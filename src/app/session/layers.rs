@@ -38,7 +38,7 @@ impl LayerSettings {
             ElementId::Room(_) => self.locked.rooms,
             ElementId::Wall(_) => self.locked.walls,
             ElementId::Opening(_) => self.locked.openings,
-            ElementId::Corner(_) => false,
+            ElementId::Corner(_) | ElementId::Dimension(_) => false,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::plan::{CornerId, ElementId, OpeningId, Plan, RoomId, WallId};
+use crate::plan::{CornerId, DimensionId, ElementId, OpeningId, Plan, RoomId, WallId};
 
 /// A set of elements.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -66,6 +66,10 @@ impl Selection {
 
     pub fn corners(&self) -> impl Iterator<Item = CornerId> + '_ {
         self.iter().filter_map(|element| if let ElementId::Corner(id) = element { Some(id) } else { None })
+    }
+
+    pub fn dimensions(&self) -> impl Iterator<Item = DimensionId> + '_ {
+        self.iter().filter_map(|element| if let ElementId::Dimension(id) = element { Some(id) } else { None })
     }
 
     /// Selects elements.

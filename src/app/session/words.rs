@@ -70,6 +70,7 @@ pub(crate) fn element(plan: &Plan, word: &str) -> Option<ElementId> {
         'c' => word.parse().ok().map(ElementId::Corner),
         'w' => word.parse().ok().map(ElementId::Wall),
         'o' => word.parse().ok().map(ElementId::Opening),
+        'd' => word.parse().ok().map(ElementId::Dimension),
         _ => None,
     };
     id.or_else(|| room(plan, word).ok().map(ElementId::Room)).filter(|&element| plan.has(element))

@@ -10,7 +10,7 @@ use crate::app::look::icons::{Icon, Part};
 use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, polygon};
 use crate::plan::Plan;
-use crate::topology::{PlanFace, PlanFaces};
+use crate::topology::{PlanFace, PlanFaces, net_of};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "tool-fill",
@@ -61,8 +61,8 @@ impl Tool for Fill {
     }
 
     fn hint(&self, scope: &Scope<'_>) -> String {
-        match self.with_face(scope, scope.pointer, PlanFace::area_m2) {
-            Some(area_m2) => format!("Click to make a room of {}", scope.units.area(area_m2)),
+        match self.with_face(scope, scope.pointer, |face| clear_area(scope, face)) {
+            Some(area) => format!("Click to make a room of {area}"),
             None => "Fill: point inside closed walls where there is no room yet · Shift+E fills all".to_owned(),
         }
     }
@@ -71,11 +71,18 @@ impl Tool for Fill {
         self.with_face(scope, scope.pointer, |face| {
             preview.fill(face.outer.clone(), face.holes.clone(), Look::New);
             preview.line(face.outer.clone(), true, Look::New);
-            preview.label(scope.pointer, scope.units.area(face.area_m2()), Look::New);
+            preview.label(scope.pointer, clear_area(scope, face), Look::New);
         });
     }
 
     fn snaps(&self) -> bool {
         false
     }
+}
+
+/// The clear area of what would be filled, in words.
+fn clear_area(scope: &Scope<'_>, face: &PlanFace) -> String {
+    let net = net_of(scope.plan, &face.outer, &face.holes);
+    let clear = if net.has_walls { " clear" } else { "" };
+    format!("{}{clear}", scope.units.area(net.area_m2))
 }

@@ -8,9 +8,10 @@ use super::{Call, Typed, Value};
 use crate::app::session::{document::Derived, layers::LayerSettings, selection::Selection};
 use crate::app::value::Space;
 use crate::base::units::Units;
+use crate::edit::{Built, Lies, boundary_around};
 use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::plan::{DEFAULT_DOOR_WIDTH_M, DEFAULT_WALL_THICKNESS_M, Plan};
-use crate::snapping::{PlanIndex, Snap};
+use crate::snapping::{Faces, PlanIndex, Snap};
 use crate::topology::Gap;
 
 /// The options for drawing.
@@ -18,8 +19,12 @@ use crate::topology::Gap;
 pub(crate) struct DrawOptions {
     /// Thickness of new walls in metres.
     pub thickness_m: f64,
+    /// On which side of the line that is drawn new walls stand.
+    pub lies: Lies,
     /// Whether walls are put along new boundaries.
     pub walls_with_rooms: bool,
+    /// Whether the rooms that are drawn are the clear spaces between their walls.
+    pub clear_sizes: bool,
     /// Whether mirroring, turning and scaling leave the original.
     pub copies: bool,
     /// Whether new rooms may cover existing ones.
@@ -40,6 +45,31 @@ pub(crate) struct DrawOptions {
 const ARC_TOLERANCE_M: f64 = 0.02;
 
 impl DrawOptions {
+    /// Whether what is drawn of a room lies between the faces of its walls.
+    pub(super) fn draws_clear(&self) -> bool {
+        self.clear_sizes && self.walls_with_rooms
+    }
+
+    /// An area that is being drawn, and by what it is measured.
+    pub(super) fn drawn_area(&self, area_m2: f64, units: Units) -> String {
+        let by = match (self.walls_with_rooms && self.thickness_m > 0.0, self.clear_sizes) {
+            (true, true) => " clear",
+            (true, false) => " along axes",
+            (false, _) => "",
+        };
+        format!("{}{by}", units.area(area_m2))
+    }
+
+    /// How the tools for rooms take the faces of walls.
+    pub(super) fn faces_for_rooms(&self) -> Faces {
+        if self.draws_clear() { Faces::LikeAxes } else { Faces::Off }
+    }
+
+    /// How new walls are built.
+    pub(super) fn built(&self) -> Built {
+        Built { thickness_m: self.thickness_m, lies: self.lies }
+    }
+
     /// The thickness of walls along new boundaries, 0 for none: an argument of what makes them.
     pub(super) fn new_walls(&self) -> Value {
         Value::Number(if self.walls_with_rooms { self.thickness_m } else { 0.0 })
@@ -47,9 +77,10 @@ impl DrawOptions {
 
     /// The call that draws a room with these corners.
     pub(super) fn draw_room(&self, corners: &[Point]) -> Call {
+        let around = if self.draws_clear() { boundary_around(corners, self.thickness_m) } else { corners.to_vec() };
         // Along existing rooms the boundary need not be drawn exactly: it may run through them.
         let space = if self.over_rooms { Space::Exact } else { Space::Free };
-        Call::new("draw-room", [Value::points(corners), Value::word(space), self.new_walls()])
+        Call::new("draw-room", [Value::points(&around), Value::word(space), self.new_walls()])
     }
 }
 
@@ -57,7 +88,9 @@ impl Default for DrawOptions {
     fn default() -> Self {
         Self {
             thickness_m: DEFAULT_WALL_THICKNESS_M,
+            lies: Lies::Centre,
             walls_with_rooms: true,
+            clear_sizes: false,
             copies: false,
             over_rooms: false,
             opening_width_m: DEFAULT_DOOR_WIDTH_M,

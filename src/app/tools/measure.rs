@@ -4,11 +4,12 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::path::Path;
 use super::tool::{Group, SNAPPING};
-use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typing};
+use super::{Anchor, Call, DrawOptions, Entry, Input, Scope, TakenBack, Tool, Typing};
 use crate::app::look::icons::Icon;
 use crate::app::look::icons::Part::{Line, Loop};
-use crate::app::paint::preview::{Look, Preview, degrees};
+use crate::app::paint::preview::{Look, Preview, angle, between};
 use crate::geometry::{Point, Segment, polygon};
+use crate::snapping::Faces;
 
 pub(super) const ENTRY: Entry = Entry {
     id: "tool-measure",
@@ -106,15 +107,16 @@ impl Tool for Measure {
                 Look::Guide,
             );
         }
-        let mut along = None;
         for pair in points.windows(2) {
             let segment = Segment::new(pair[0], pair[1]);
-            let angle = degrees(along, segment.vector());
-            let angle = if angle > 180.0 { 360.0 - angle } else { angle };
+            preview
+                .dimension(segment, format!("{}  {}", scope.units.length(segment.length()), angle(segment.vector())));
+        }
+        for corner in points.windows(3) {
             // The angle between the two lines.
-            let shown = if along.is_some() { ((180.0 - angle) * 10.0).round() / 10.0 } else { angle };
-            preview.dimension(segment, format!("{}  {shown}°", scope.units.length(segment.length())));
-            along = segment.vector().unit();
+            if let Some(between) = between(corner[0] - corner[1], corner[2] - corner[1]) {
+                preview.label(corner[1], format!("corner {between}"), Look::Guide);
+            }
         }
         for &point in &points {
             preview.handle(point, Look::Guide);
@@ -133,6 +135,10 @@ impl Tool for Measure {
     fn anchor(&self) -> Option<Anchor> {
         // Distances are measured in any direction.
         self.path.anchor().map(|anchor| Anchor { right_angles: false, ..anchor })
+    }
+
+    fn faces(&self, _: &DrawOptions) -> Faces {
+        Faces::LikeAxes
     }
 
     fn points(&self) -> Vec<Point> {

@@ -6,6 +6,7 @@
 mod array;
 mod calibrate;
 mod cut_out;
+mod dimension;
 mod fill;
 mod ghost;
 mod input;
@@ -57,6 +58,7 @@ pub(crate) const TOOLS: &[Entry] = &[
     opening::PASSAGE,
     opening::WINDOW,
     measure::ENTRY,
+    dimension::ENTRY,
     number::ENTRY,
     paste::ENTRY,
     transform::MIRROR,

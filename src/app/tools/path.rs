@@ -1,7 +1,8 @@
 //! Paths being drawn: shared by tools that draw one corner after the other.
 
+use super::typing::Towards;
 use super::{Anchor, Scope, Typed};
-use crate::app::paint::preview::{Look, Preview, degrees};
+use crate::app::paint::preview::{Look, Preview, angle, turn};
 use crate::geometry::path::arc;
 use crate::geometry::{Point, Segment, Vector};
 
@@ -147,25 +148,29 @@ impl Path {
         Some(Anchor { from, along: self.along(), right_angles: !self.is_bending() })
     }
 
-    /// The corner that a typed length means: towards the pointer, or at the typed angle from the last
-    /// line; straight on where the pointer is on the last corner.
+    /// The corner that a typed length means: towards the pointer, at the typed angle, or after the typed turn from
+    /// the last line; straight on where the pointer is on the last corner.
     pub(super) fn typed_point(&self, typed: Typed, scope: &Scope<'_>) -> Option<Point> {
-        let Typed::Length { length_m, angle_rad } = typed else { return None };
+        let Typed::Length { length_m, towards } = typed else { return None };
         let last = self.last()?;
         let along = self.along().unwrap_or(Vector::new(1.0, 0.0));
-        let way = match angle_rad {
-            Some(angle_rad) => along.rotated(angle_rad),
+        let way = match towards {
+            Some(Towards::Angle(angle_rad)) => Vector::new(1.0, 0.0).rotated(angle_rad),
+            Some(Towards::Turn(turn_rad)) => along.rotated(turn_rad),
             None => (scope.at() - last).unit().or_else(|| (scope.pointer - last).unit()).unwrap_or(along),
         };
         Some((last + way * length_m).trimmed())
     }
 
-    /// Shows the next line: its length, and its angle to the last one.
+    /// Shows the next line: its length and angle, and its turn from the last one.
     pub(super) fn preview_next(&self, scope: &Scope<'_>, preview: &mut Preview) {
         let Some(last) = self.last().filter(|last| last.distance(scope.at()) >= SAME_M) else { return };
         let segment = Segment::new(last, scope.at());
-        let angle = degrees(self.along(), segment.vector());
-        let text = format!("{}  {angle}°", scope.units.length(segment.length()));
+        let mut text = format!("{}  {}", scope.units.length(segment.length()), angle(segment.vector()));
+        let turn = self.along().map(|along| turn(along, segment.vector())).unwrap_or_default();
+        if !turn.is_empty() {
+            text.push_str(&format!("  {turn}"));
+        }
         preview.dimension(segment, text);
     }
 

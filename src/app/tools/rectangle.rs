@@ -2,13 +2,14 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
-use super::tool::{GRID, Group, OVER_ROOMS, SNAPPING, THICKNESS_WITH_ROOMS, WITH_WALLS};
+use super::tool::{CLEAR_SIZES, GRID, Group, OVER_ROOMS, SNAPPING, THICKNESS_WITH_ROOMS, WITH_WALLS};
 use super::typing::LEAST_SIDE_M;
-use super::{Call, Entry, Input, Scope, TakenBack, Tool, Typed, Typing};
+use super::{Call, DrawOptions, Entry, Input, Scope, TakenBack, Tool, Typed, Typing};
 use crate::app::look::icons::Icon;
 use crate::app::look::icons::Part::{Disc, Fill, Loop};
 use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, Segment, Vector, polygon};
+use crate::snapping::Faces;
 
 pub(super) const ENTRY: Entry = Entry {
     id: "tool-rectangle",
@@ -24,7 +25,7 @@ pub(super) const ENTRY: Entry = Entry {
         ]),
         Group::Draw,
     )),
-    options: &[THICKNESS_WITH_ROOMS, WITH_WALLS, OVER_ROOMS, SNAPPING, GRID],
+    options: &[THICKNESS_WITH_ROOMS, WITH_WALLS, CLEAR_SIZES, OVER_ROOMS, SNAPPING, GRID],
     make: || Box::new(Rectangle::Ready),
 };
 
@@ -109,8 +110,12 @@ impl Tool for Rectangle {
             preview.dimension(side, scope.units.length(side.length()));
         }
         if area_m2 > 0.0 {
-            preview.label(scope.at(), scope.units.area(area_m2), Look::New);
+            preview.label(scope.at(), scope.options.drawn_area(area_m2, scope.units), Look::New);
         }
+    }
+
+    fn faces(&self, options: &DrawOptions) -> Faces {
+        options.faces_for_rooms()
     }
 
     fn is_busy(&self) -> bool {

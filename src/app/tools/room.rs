@@ -3,12 +3,13 @@
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::path::{ARC_HINT, Path};
-use super::tool::{GRID, Group, OVER_ROOMS, RIGHT_ANGLES, SNAPPING, THICKNESS_WITH_ROOMS, WITH_WALLS};
-use super::{Call, Entry, Input, Scope, Tool};
+use super::tool::{CLEAR_SIZES, GRID, Group, OVER_ROOMS, RIGHT_ANGLES, SNAPPING, THICKNESS_WITH_ROOMS, WITH_WALLS};
+use super::{Call, DrawOptions, Entry, Input, Scope, Tool};
 use crate::app::look::icons::Icon;
 use crate::app::look::icons::Part::{Disc, Fill, Loop};
 use crate::app::paint::preview::{Look, Preview};
 use crate::geometry::{Point, Vector, polygon};
+use crate::snapping::Faces;
 
 pub(super) const ENTRY: Entry = Entry {
     id: "tool-room",
@@ -25,7 +26,7 @@ pub(super) const ENTRY: Entry = Entry {
         ]),
         Group::Draw,
     )),
-    options: &[THICKNESS_WITH_ROOMS, WITH_WALLS, OVER_ROOMS, RIGHT_ANGLES, SNAPPING, GRID],
+    options: &[THICKNESS_WITH_ROOMS, WITH_WALLS, CLEAR_SIZES, OVER_ROOMS, RIGHT_ANGLES, SNAPPING, GRID],
     make: || Box::new(Room::default()),
 };
 
@@ -152,7 +153,8 @@ impl Tool for Room {
                 rest.push(first);
                 preview.dashed(rest, false, Look::New);
             }
-            preview.label(scope.at(), scope.units.area(polygon::signed_area(&closed).abs()), Look::New);
+            let area_m2 = polygon::signed_area(&closed).abs();
+            preview.label(scope.at(), scope.options.drawn_area(area_m2, scope.units), Look::New);
         }
         preview.line(points, false, Look::New);
         self.path.preview_corners(preview);
@@ -165,6 +167,10 @@ impl Tool for Room {
 
     fn path_mut(&mut self) -> Option<&mut Path> {
         Some(&mut self.path)
+    }
+
+    fn faces(&self, options: &DrawOptions) -> Faces {
+        options.faces_for_rooms()
     }
 
     fn points(&self) -> Vec<Point> {

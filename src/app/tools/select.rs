@@ -15,8 +15,9 @@ use crate::app::session::document::Derived;
 use crate::app::session::layers::LayerSettings;
 use crate::app::session::selection::{SelectMode, Selection};
 use crate::app::value::Boxed;
+use crate::draw::dimensions;
 use crate::edit::Reach;
-use crate::geometry::Point;
+use crate::geometry::{Point, Vector};
 use crate::plan::{CornerId, ElementId, Place, Plan};
 
 pub(super) const ENTRY: Entry = Entry {
@@ -76,7 +77,7 @@ const SAME_PLACE_PX: f64 = 4.0;
 /// The most corners shown with handles: more would hide the plan.
 const MOST_HANDLES: usize = 400;
 
-/// The elements at a position, likeliest first: openings, walls, rooms from the smallest. Locked ones are
+/// The elements at a position, likeliest first: dimensions, openings, walls, rooms from the smallest. Locked ones are
 /// skipped.
 pub(crate) fn hit(
     derived: &Derived,
@@ -85,9 +86,17 @@ pub(crate) fn hit(
     point: Point,
     px_per_m: f64,
 ) -> Vec<ElementId> {
-    let mut found = derived.at(point, REACH_PX / px_per_m);
+    let mut found = dimensions_at(plan, layers, point, REACH_PX / px_per_m);
+    found.extend(derived.at(point, REACH_PX / px_per_m));
     found.retain(|&element| plan.has(element) && !layers.is_locked(element));
     found
+}
+
+/// The dimension chains at a position, where they are shown.
+fn dimensions_at(plan: &Plan, layers: &LayerSettings, point: Point, reach_m: f64) -> Vec<ElementId> {
+    let lines = dimensions::lines(plan).into_iter().filter(|_| layers.dimensions);
+    let near = lines.filter(|(_, line)| dimensions::segment(line).is_some_and(|line| line.distance(point) <= reach_m));
+    near.map(|(id, _)| ElementId::Dimension(id)).collect()
 }
 
 impl Select {
@@ -319,6 +328,7 @@ impl Tool for Select {
             State::Moving { from, what } => {
                 let (from, by) = (*from, what.moved_by(*from, scope));
                 what.preview(by, scope, preview);
+                preview_dimensions(scope, by, preview);
                 preview.dashed(vec![from, from + by], false, Look::Guide);
                 preview.label(scope.at(), format!("moved {}", scope.units.length(by.length())), Look::New);
             }
@@ -352,6 +362,16 @@ impl Tool for Select {
                 Some(Anchor { from, along: None, right_angles: false })
             }
             _ => None,
+        }
+    }
+}
+
+/// The lines of the selected dimension chains, at their new places.
+fn preview_dimensions(scope: &Scope<'_>, by: Vector, preview: &mut Preview) {
+    for line in scope.selection.dimensions().filter_map(|id| scope.plan.dimension_line(scope.plan.dimension(id)?)) {
+        if let Some(segment) = dimensions::segment(&line) {
+            let by = line.along.left() * by.dot(line.along.left());
+            preview.line(vec![segment.a + by, segment.b + by], false, Look::New);
         }
     }
 }

@@ -67,7 +67,15 @@ impl Tool for Straighten {
             let middle = line.midpoint();
             let half = (line.b - middle).rotated(turn_rad);
             preview.dashed(vec![middle + -half, middle + half], false, Look::Guide);
-            preview.label(scope.pointer, format!("turns by {:.2}°", turn_rad.to_degrees()), Look::New);
+            preview.label(
+                scope.pointer,
+                format!(
+                    "turns {:.2}° {}",
+                    turn_rad.to_degrees().abs(),
+                    if turn_rad < 0.0 { "clockwise" } else { "counter-clockwise" }
+                ),
+                Look::New,
+            );
         }
     }
 

@@ -9,6 +9,7 @@ use super::typing::Typing;
 use crate::app::look::icons::Icon;
 use crate::app::paint::preview::Preview;
 use crate::geometry::Point;
+use crate::snapping::Faces;
 
 /// A tool, and all that the window shows of it: its command, its place in the strip, its options.
 pub(crate) struct Entry {
@@ -46,6 +47,13 @@ pub(crate) enum ToolOption {
         /// Its name in the bar.
         name: &'static str,
     },
+    /// One of several, which its command goes through.
+    Choice {
+        command: &'static str,
+        name: &'static str,
+        /// The word of what is chosen.
+        now: fn(&DrawOptions) -> &'static str,
+    },
     /// A length in metres.
     Length {
         command: &'static str,
@@ -62,8 +70,13 @@ pub(super) const SNAPPING: ToolOption = ToolOption::Switch { command: "snapping"
 pub(super) const GRID: ToolOption = ToolOption::Switch { command: "snap-to-grid", name: "Grid" };
 pub(super) const RIGHT_ANGLES: ToolOption = ToolOption::Switch { command: "right-angles", name: "Right angles" };
 pub(super) const WITH_WALLS: ToolOption = ToolOption::Switch { command: "walls-with-rooms", name: "With walls" };
+pub(super) const CLEAR_SIZES: ToolOption = ToolOption::Switch { command: "clear-sizes", name: "Clear sizes" };
 pub(super) const COPIES: ToolOption = ToolOption::Switch { command: "transform-copies", name: "Copy" };
 pub(super) const OVER_ROOMS: ToolOption = ToolOption::Switch { command: "over-rooms", name: "Over rooms" };
+
+/// On which side of the line walls stand.
+pub(super) const WALL_SIDE: ToolOption =
+    ToolOption::Choice { command: "wall-side", name: "Side", now: |options| options.lies.name() };
 
 /// The thickness of walls.
 pub(super) const THICKNESS: ToolOption = thickness(|_| true);
@@ -140,6 +153,11 @@ pub(crate) trait Tool {
     /// Whether places snap.
     fn snaps(&self) -> bool {
         true
+    }
+
+    /// How it takes the faces of walls.
+    fn faces(&self, _options: &DrawOptions) -> Faces {
+        Faces::Off
     }
 
     fn anchor(&self) -> Option<Anchor> {

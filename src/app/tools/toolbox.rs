@@ -267,6 +267,7 @@ impl Toolbox {
                 && !modifiers.shift
                 && self.tool.snaps(),
             objects: options.snaps && !is_free,
+            faces: self.tool.faces(options),
             grid_m: grid_m
                 .filter(|_| options.snaps_to_grid && !is_free)
                 .map(|shown_m| attracting_grid_m(shown_m, px_per_m)),

@@ -4,7 +4,7 @@
 use super::ghost::{Selected, ghost};
 use super::tool::{COPIES, GRID, RIGHT_ANGLES, SNAPPING};
 use super::{Anchor, Call, Entry, Input, Scope, TakenBack, Tool, Typed, Typing, Value};
-use crate::app::paint::preview::{Look, Preview, degrees};
+use crate::app::paint::preview::{Look, Preview, turn, turn_rad};
 use crate::app::value::MoveOrCopy;
 use crate::base::units;
 use crate::geometry::{Point, Transform, Vector};
@@ -76,7 +76,7 @@ impl Turning {
         match (self.kind, self.points.as_slice()) {
             (Kind::Mirror, &[from, ..]) if from.distance(to) >= SAME_M => self.mirrored(from, to, scope),
             (Kind::Rotate, &[about, from, ..]) if about.distance(to) >= SAME_M => {
-                self.rotated(about, degrees(Some(from - about), to - about), scope)
+                self.rotated(about, turn_rad(from - about, to - about).to_degrees(), scope)
             }
             (Kind::Scale, &[about, from, ..]) if about.distance(to) >= SAME_M => {
                 self.scaled(about, about.distance(to) / about.distance(from), scope)
@@ -209,7 +209,7 @@ impl Tool for Turning {
                     about + (to - about).unit().unwrap_or_default() * about.distance(from),
                     Look::Guide,
                 );
-                format!("turned {}°", degrees(Some(from - about), to - about))
+                turn(from - about, to - about)
             }
             _ => format!("x {:.3}", transform.factor()),
         };

@@ -2,13 +2,13 @@
 
 use egui::Key;
 
-use crate::base::units::{Units, parse_angle_rad, parse_ratio};
+use crate::base::units::{Units, angle, parse_angle_rad, parse_ratio};
 use crate::geometry::{Vector, trim_m};
 
 /// What can be typed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Typing {
-    /// A length, or a length and an angle: '3.2', '3.2<45'.
+    /// A length, one at an angle, or one after a turn: '3.2', '3.2<45', '3.2<<30'.
     Length,
     /// Two sides: '4x3'.
     Size,
@@ -27,10 +27,10 @@ pub(crate) enum Typing {
 /// Typed text, parsed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Typed {
-    /// In metres; with an angle in radians, counter-clockwise from the last line.
+    /// In metres; without a direction, it goes towards the pointer.
     Length {
         length_m: f64,
-        angle_rad: Option<f64>,
+        towards: Option<Towards>,
     },
     /// Both in metres.
     Size {
@@ -53,6 +53,15 @@ pub(crate) enum Typed {
         count: usize,
         angle_rad: Option<f64>,
     },
+}
+
+/// A typed direction, in radians counter-clockwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Towards {
+    /// From the right, as everybody's angles.
+    Angle(f64),
+    /// From the last line on: a turn to the left, or to the right where it is negative.
+    Turn(f64),
 }
 
 /// Whether a text begins a length where nothing is drawn or typed yet: letters are shortcuts there.
@@ -95,15 +104,18 @@ pub(super) fn read(typing: Typing, typed: &str, units: Units) -> Result<Typed, S
     };
     match typing {
         Typing::Length => {
-            let (length, angle) = match typed.split_once(['<', '∠']) {
-                Some((length, angle)) => (length, Some(angle)),
-                None => (typed, None),
+            type Direction = fn(f64) -> Towards;
+            let turn = typed.split_once("<<").map(|(length, turn)| (length, turn, Towards::Turn as Direction));
+            let angle =
+                || typed.split_once(['<', '∠']).map(|(length, angle)| (length, angle, Towards::Angle as Direction));
+            let Some((length, angle, direction)) = turn.or_else(angle) else {
+                return Ok(Typed::Length { length_m: length_m(typed)?, towards: None });
             };
             let length_m = length_m(length)?;
-            let angle_rad = angle.map(parse_angle_rad).transpose().map_err(|error| error.to_string())?;
-            Ok(Typed::Length { length_m, angle_rad })
+            let angle_rad = parse_angle_rad(angle).map_err(|error| error.to_string())?;
+            Ok(Typed::Length { length_m, towards: Some(direction(angle_rad)) })
         }
-        Typing::Width => Ok(Typed::Length { length_m: length_m(typed)?, angle_rad: None }),
+        Typing::Width => Ok(Typed::Length { length_m: length_m(typed)?, towards: None }),
         Typing::Angle => {
             let angle_rad = parse_angle_rad(typed.trim_start_matches(['<', '∠'])).map_err(|error| error.to_string())?;
             Ok(Typed::Angle { angle_rad })
@@ -189,9 +201,16 @@ pub(super) fn needs_other_side(typing: Typing, typed: &str) -> bool {
 /// What is understood so far, as lengths are shown; empty where that is nothing yet.
 pub(super) fn understood(typing: Typing, typed: &str, units: Units) -> String {
     match read(typing, typed, units) {
-        Ok(Typed::Length { length_m, angle_rad: None }) => units.length(length_m),
-        Ok(Typed::Length { length_m, angle_rad: Some(angle_rad) }) => {
-            format!("{} < {}", units.length(length_m), crate::base::units::angle(angle_rad))
+        Ok(Typed::Length { length_m, towards }) => {
+            let length = units.length(length_m);
+            match towards {
+                None => length,
+                Some(Towards::Angle(angle_rad)) => format!("{length} at {}", angle(angle_rad)),
+                Some(Towards::Turn(turn_rad)) => {
+                    let side = if turn_rad < 0.0 { "right" } else { "left" };
+                    format!("{length} after a turn of {} {side}", angle(turn_rad.abs()))
+                }
+            }
         }
         Ok(Typed::Size { width_m, height_m }) => format!("{} x {}", units.length(width_m), units.length(height_m)),
         Ok(Typed::Angle { angle_rad }) => crate::base::units::angle(angle_rad),
@@ -219,13 +238,18 @@ mod tests {
     #[test]
     fn lengths_angles_and_sizes() {
         let length = |text: &str| read(Typing::Length, text, Units::Metric).ok();
-        assert_eq!(length("3.2"), Some(Typed::Length { length_m: 3.2, angle_rad: None }));
+        assert_eq!(length("3.2"), Some(Typed::Length { length_m: 3.2, towards: None }));
         assert_eq!(
             length("3,2<90"),
-            Some(Typed::Length { length_m: 3.2, angle_rad: Some(std::f64::consts::FRAC_PI_2) })
+            Some(Typed::Length { length_m: 3.2, towards: Some(Towards::Angle(std::f64::consts::FRAC_PI_2)) })
         );
         assert_eq!(length("3.2 m < 22.5° * 4"), length("320 CM∠90"));
-        for wrong in ["", "<", "x", "3<", "-2", "0", "1e999", "4x3", "3<45<45", "0.00001"] {
+        assert_eq!(
+            length("3<<-90"),
+            Some(Typed::Length { length_m: 3.0, towards: Some(Towards::Turn(-std::f64::consts::FRAC_PI_2)) })
+        );
+        assert_eq!(understood(Typing::Length, "3<<-30", Units::Metric), "3.00 m after a turn of 30° right");
+        for wrong in ["", "<", "3<<", "3<<1<2", "x", "3<", "-2", "0", "1e999", "4x3", "3<45<45", "0.00001"] {
             assert_eq!(length(wrong), None, "{wrong}");
         }
         let size = |text: &str| read(Typing::Size, text, Units::Metric);
@@ -235,7 +259,7 @@ mod tests {
         for wrong in ["4", "4x", "x3", "4x3x2", "4x0.05", "-4x3", "4y3"] {
             assert!(size(wrong).is_err(), "{wrong}");
         }
-        assert_eq!(understood(Typing::Length, "5'6-1/2\"<45", Units::Imperial), "5' 6 1/2\" < 45°");
+        assert_eq!(understood(Typing::Length, "5'6-1/2\"<45", Units::Imperial), "5' 6 1/2\" at 45°");
         assert_eq!(understood(Typing::Size, "4x3", Units::Metric), "4.00 m x 3.00 m");
         assert_eq!(understood(Typing::Size, "4x", Units::Metric), "");
         assert_eq!(understood(Typing::Grid, "4x2 3.5,-4", Units::Metric), "4 x 2, every 3.50 m and -4.00 m");

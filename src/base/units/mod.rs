@@ -90,6 +90,18 @@ impl Units {
         }
     }
 
+    /// A length as the figure of a dimension line: in metres without the unit, to the centimetre, or to the millimetre
+    /// where there is one: '3.25', '3.115'; in feet and inches as anywhere.
+    pub fn dimension(self, length_m: f64) -> String {
+        match self {
+            Self::Metric if length_m.is_finite() => {
+                let to_the_centimetre = (length_m * 1000.0).round() % 10.0 == 0.0;
+                fixed(length_m, if to_the_centimetre { 2 } else { 3 })
+            }
+            _ => self.length(length_m),
+        }
+    }
+
     /// A length for an editable field: parsed again, it gives the same length on the model's 0.1 mm grid.
     pub fn exact_length(self, length_m: f64) -> String {
         if !length_m.is_finite() {

@@ -223,7 +223,8 @@ impl Seen {
     }
 
     fn size(&self, units: Units) -> String {
-        let own = area(self.area_m2, units);
+        // The paper's area, not the clear one that the drawing shows.
+        let own = format!("{} along axes", area(self.area_m2, units));
         let others = self.rooms - 1;
         match self.larger {
             _ if others == 0 => own,

@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 
 use super::text::{Handle, Pairs};
 use crate::base::units::Units;
+use crate::draw::dimensions;
 use crate::draw::{Drawing, Fill, Item, Layer as DrawnLayer, Layers, PlacedOpening, Style, View};
-use crate::features::{NeighbourLabels, analyse};
-use crate::geometry::{Bounds, Point, Vector, raster};
+use crate::features::{Analysis, NeighbourLabels, analyse};
+use crate::geometry::{Bounds, Point, Segment, Vector, raster};
 use crate::labels::{Schemes, function_title};
 use crate::plan::{OpeningKind, Plan};
 
@@ -21,13 +22,15 @@ const ROOMS: &str = "A-AREA";
 const BOUNDARIES: &str = "A-AREA-BNDY";
 const TEXTS: &str = "A-ANNO-TEXT";
 const TITLE: &str = "A-ANNO-TTLB";
+const DIMENSIONS: &str = "A-ANNO-DIMS";
 
 const CONTINUOUS: &str = "Continuous";
 const DASHED: &str = "DASHED";
 
 /// The layers, in the order of their names.
-const LAYERS: [Layer; 9] = [
+const LAYERS: [Layer; 10] = [
     Layer("0", 7, CONTINUOUS),
+    Layer(DIMENSIONS, 8, CONTINUOUS),
     Layer(TEXTS, 7, CONTINUOUS),
     Layer(TITLE, 8, CONTINUOUS),
     Layer(ROOMS, 3, CONTINUOUS),
@@ -43,6 +46,9 @@ const NAME_M: f64 = 0.2;
 const AREA_M: f64 = 0.15;
 const TITLE_M: f64 = 0.35;
 
+/// Half of a dimension's slash, in metres.
+const SLASH_M: f64 = 0.08;
+
 /// Thickness of a door leaf in metres.
 const LEAF_M: f64 = 0.04;
 
@@ -52,7 +58,8 @@ pub(super) fn write(plan: &Plan, schemes: &Schemes, in_millimetres: bool) -> Str
     let drawing = Drawing::new(plan, &analysis);
     let mut file = File::new(if in_millimetres { 1000.0 } else { 1.0 });
     file.walls(&drawing);
-    file.rooms(plan, &analysis.shapes);
+    file.rooms(plan, &analysis);
+    file.dimensions(plan);
     for opening in drawing.placed_openings() {
         file.opening(&opening);
     }
@@ -117,8 +124,8 @@ impl File {
     }
 
     /// The boundary of each room, with its name and area in its middle.
-    fn rooms(&mut self, plan: &Plan, shapes: &crate::topology::RoomShapes) {
-        for (shape, (_, room)) in shapes.all().iter().zip(plan.rooms()) {
+    fn rooms(&mut self, plan: &Plan, analysis: &Analysis) {
+        for (shape, (id, room)) in analysis.shapes.all().iter().zip(plan.rooms()) {
             if shape.outer.is_empty() {
                 continue;
             }
@@ -128,10 +135,30 @@ impl File {
             let middle = raster::centre(&shape.outer, &shape.holes);
             let function = function_title(&room.function);
             let name = if room.name.trim().is_empty() { function } else { room.name.trim().to_owned() };
-            let area = Units::Metric.area(shape.area_m2());
+            let area = analysis.net(id).map_or_else(String::new, |net| Units::Metric.area(net.area_m2));
             let lines = [(name, NAME_M, 0.05), (area, AREA_M, -0.05 - AREA_M)];
             for (text, height, above) in lines.into_iter().filter(|(text, ..)| !text.is_empty()) {
                 self.text(TEXTS, &text, middle + Vector::new(0.0, above), height, true);
+            }
+        }
+    }
+
+    /// The dimension chains: lines, a slash at each point, and the figures.
+    fn dimensions(&mut self, plan: &Plan) {
+        for (_, line) in dimensions::lines(plan) {
+            let Some(Segment { a, b }) = dimensions::segment(&line) else { continue };
+            self.polyline(DIMENSIONS, &[a, b], false);
+            let slash = (line.along + line.along.left()) * SLASH_M;
+            for &(measured, on_line) in &line.ticks {
+                self.polyline(DIMENSIONS, &[on_line + -slash, on_line + slash], false);
+                if measured.distance(on_line) > SLASH_M {
+                    self.polyline(DIMENSIONS, &[measured, on_line], false);
+                }
+            }
+            for (pair, length_m) in line.ticks.windows(2).zip(line.lengths_m()) {
+                let above = line.along.left() * (SLASH_M / 2.0 + AREA_M / 2.0);
+                let middle = pair[0].1.midpoint(pair[1].1) + above + Vector::new(0.0, -AREA_M / 2.0);
+                self.text(DIMENSIONS, &Units::Metric.dimension(length_m), middle, AREA_M, true);
             }
         }
     }

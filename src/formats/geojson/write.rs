@@ -80,6 +80,7 @@ pub(super) fn lost(plan: &Plan, rooms_only: bool) -> Vec<String> {
     let counted = [
         (usize::from(plan.backdrop().is_some()), "traced picture", "traced pictures"),
         (plan.guides().len(), "guide", "guides"),
+        (plan.dimensions().len(), "dimension chain", "dimension chains"),
         (walls, "wall", "walls"),
         (openings, "opening", "openings"),
         (fields, "field of another program", "fields of other programs"),

@@ -29,6 +29,8 @@ struct DiskChange {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     openings: Vec<DiskOpening>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    dimensions: Vec<DiskDimension>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     gone: Vec<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     extra: Option<Map<String, Value>>,
@@ -59,6 +61,9 @@ pub(crate) fn change_to_bytes(before: &Plan, after: &Plan) -> Vec<u8> {
             ElementId::Room(id) => disk.rooms.extend(after.room(id).map(|room| DiskRoom::of(id, room))),
             ElementId::Opening(id) => {
                 disk.openings.extend(after.opening(id).map(|opening| DiskOpening::of(id, opening)));
+            }
+            ElementId::Dimension(id) => {
+                disk.dimensions.extend(after.dimension(id).map(|dimension| DiskDimension::of(id, dimension)));
             }
         }
     }
@@ -94,6 +99,7 @@ pub(crate) fn apply_change(plan: &Plan, bytes: &[u8]) -> Result<Plan, String> {
             Some(b'w') => drop(plan.walls.remove(&id.parse::<WallId>().map_err(|_| unknown())?)),
             Some(b'r') => drop(plan.rooms.remove(&id.parse::<RoomId>().map_err(|_| unknown())?)),
             Some(b'o') => drop(plan.openings.remove(&id.parse::<OpeningId>().map_err(|_| unknown())?)),
+            Some(b'd') => drop(plan.dimensions.remove(&id.parse::<DimensionId>().map_err(|_| unknown())?)),
             _ => return Err(unknown()),
         }
     }
@@ -112,6 +118,11 @@ pub(crate) fn apply_change(plan: &Plan, bytes: &[u8]) -> Result<Plan, String> {
         let id = opening.id.0;
         let opening = opening.live().map_err(|(what, _)| format!("the opening {id} {what}"))?;
         plan.openings.insert(id, Arc::new(opening));
+    }
+    for dimension in disk.dimensions {
+        let id = dimension.id.0;
+        let dimension = dimension.live().map_err(|(what, _)| format!("the dimension {id}: {what}"))?;
+        plan.dimensions.insert(id, Arc::new(dimension));
     }
     Ok(plan)
 }

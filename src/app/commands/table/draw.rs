@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::edit;
+use crate::edit::{Built, Lies};
 use crate::geometry::GRID_M;
-use crate::plan::{OpeningId, OpeningKind};
+use crate::plan::{DimensionAlong, OpeningId, OpeningKind};
 
 const PATH: Arg<Vec<Point>> =
     needed("POINTS", points(2), "points in metres, such as '0,0 4.2,0'; the last may be the first");
@@ -84,8 +85,8 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "snapping",
         "Snap to the drawing",
-        "Snap to corners, crossings, midpoints, walls and alignments; hold Alt to suspend it, press Tab for the next \
-         snap",
+        "Snap to corners, crossings, midpoints, axes and faces of walls, and alignments; hold Alt to suspend it, \
+         press Tab for the next snap",
         always,
         |app| app.tools.options.snaps,
         |app, is_on| app.tools.options.snaps = is_on,
@@ -113,6 +114,15 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .menu(Menu::Draw, 4),
     switch(
+        "clear-sizes",
+        "Clear sizes",
+        "Draw rooms by their clear size, between wall faces, instead of by the axes of their walls",
+        always,
+        |app| app.tools.options.clear_sizes,
+        |app, is_on| app.tools.options.clear_sizes = is_on,
+    )
+    .menu(Menu::Draw, 4),
+    switch(
         "over-rooms",
         "Over rooms",
         "Let new rooms lie over others, such as a niche or a corridor inside another room",
@@ -129,6 +139,20 @@ pub(super) const COMMANDS: &[Command] = &[
         always,
         &given1(needed("THICKNESS", length(0.0, 10.0), "of new walls"), |app, thickness_m, _| {
             app.tools.options.thickness_m = thickness_m;
+            Outcome::Done
+        }),
+        None,
+    )
+    .menu(Menu::Draw, 4),
+    with(
+        "wall-side",
+        "Wall side…",
+        "Choose the side of the line that new walls lie on: left, centre or right; press S while drawing for the next",
+        always,
+        &given1(optional("SIDE", one_of::<Lies>(), "left, centre or right; without it, the next"), |app, lies, _| {
+            let lies = lies.unwrap_or(app.tools.options.lies.next());
+            app.tools.options.lies = lies;
+            app.session.status = format!("New walls lie {}", said_of(lies));
             Outcome::Done
         }),
         None,
@@ -167,10 +191,34 @@ pub(super) const COMMANDS: &[Command] = &[
         "Draw walls",
         "Draw a chain of walls from point to point; rooms that they cross are split",
         has_plan,
-        &given2(PATH, THICKNESS, |app, points, thickness_m, _| {
-            let thickness_m = thickness_m.unwrap_or(app.tools.options.thickness_m);
-            edited(app, "Draw wall", |plan| Ok(edit::draw_walls(plan, &points, thickness_m)?.plan))
-        }),
+        &given5(
+            PATH,
+            THICKNESS,
+            optional("SIDE", one_of::<Lies>(), "the side of the line they lie on; centre by default"),
+            optional("DRAWN-THICKNESS", length(0.0, 10.0), "of the first wall, if it exists already"),
+            optional("DRAWN-SIDE", one_of::<Lies>(), "of the first wall, if it exists already"),
+            |app, points, thickness_m, lies, drawn_m, drawn_lies, _| {
+                let thickness_m = thickness_m.unwrap_or(app.tools.options.thickness_m);
+                let built = Built { thickness_m, lies: lies.unwrap_or_default() };
+                let drawn = drawn_m.zip(drawn_lies).map(|(thickness_m, lies)| Built { thickness_m, lies });
+                edited(app, "Draw wall", |plan| Ok(edit::draw_walls_beside(plan, &points, built, drawn)?.plan))
+            },
+        ),
+        None,
+    ),
+    with(
+        "draw-dimension",
+        "Draw a dimension chain",
+        "Draw a dimension chain from point to point that follows what it measures",
+        has_plan,
+        &given3(
+            needed("POINTS", points(2), "what to measure: points in metres, such as '0,0 4.2,0'"),
+            needed("ALONG", one_of::<DimensionAlong>(), "horizontal, vertical or aligned"),
+            needed("THROUGH", POINT, "where the line lies: a point in metres, such as '2,-1'"),
+            |app, points, along, through, _| {
+                edited(app, "Draw dimension", |plan| Ok(edit::draw_dimension(plan, &points, along, through)?.0))
+            },
+        ),
         None,
     ),
     with(
@@ -341,6 +389,14 @@ impl App {
             let [narrowest, wanted] = [narrowest_m, wanted_m].map(|width_m| self.units().length(width_m));
             self.session.status = format!("The wall is no longer: {narrowest} wide, not {wanted}");
         }
+    }
+}
+
+fn said_of(lies: Lies) -> &'static str {
+    match lies {
+        Lies::Left => "left of the line: it is their right face",
+        Lies::Centre => "centred on the line",
+        Lies::Right => "right of the line: it is their left face",
     }
 }
 

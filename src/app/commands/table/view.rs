@@ -168,7 +168,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "dimensions",
         "Dimensions",
-        "Show lengths, area and perimeter of what is selected",
+        "Show dimension chains, and clear lengths, area and perimeter of the selection",
         always,
         |app| app.session.layers.dimensions,
         |app, is_on| app.session.layers.dimensions = is_on,

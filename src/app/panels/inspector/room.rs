@@ -35,6 +35,12 @@ impl Inspected<'_> {
         act = act.or(self.proposed_function(ui, id));
         act = act.or(self.field(ui, id, FieldKind::Note, &room.note, "None"));
         ui.add_space(4.0);
+        if let Some(net) = derived.and_then(|derived| derived.analysis.net(id)) {
+            let units = self.app.units();
+            value(ui, "Clear area", &units.area(net.area_m2)).on_hover_text(CLEAR);
+            value(ui, "Clear perimeter", &units.length(net.perimeter_m())).on_hover_text(CLEAR);
+            ui.add_space(4.0);
+        }
         act = act.or(self.label(ui, room, status));
         hairline(ui);
         if let Some(derived) = derived {

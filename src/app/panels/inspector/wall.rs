@@ -1,6 +1,7 @@
 //! Picked walls and corners: their measures, each of which can be changed.
 
 use super::*;
+use crate::app::paint::preview::angle;
 use crate::app::tools::TOOLS;
 use crate::edit::End;
 use crate::geometry::Segment as Line;
@@ -36,6 +37,13 @@ impl Inspected<'_> {
             ui.data_mut(|data| data.insert_temp(end_id(id), end == End::End));
         }
         act = act.or(self.length(ui, "Thickness", wall.thickness_m, 0.0..=10.0, "set-thickness", &[]));
+        if let Some(faces) = self.document.derived().and_then(|derived| derived.index.faces_of(id)) {
+            // Which is which, a person sees on the plan, where each length stands beside its face.
+            let mut lengths_m = [faces.left.length(), faces.right.length()];
+            lengths_m.sort_by(f64::total_cmp);
+            value(ui, "Along faces", &lengths_m.map(|length_m| self.app.units().length(length_m)).join(", "));
+        }
+        value(ui, "Direction", &angle(segment.vector())).on_hover_text("Counter-clockwise from the right");
         act
     }
 

@@ -12,9 +12,9 @@ use crate::app::replay::stage::{Gestures, Stage, count};
 use crate::app::replay::verbs::window::{is_dark, scale, size};
 use crate::app::replay::words::{Words, did_you_mean, in_quotes, told, written};
 use crate::base::file_name::inner_path;
-use crate::features::RoomStatus;
+use crate::features::{NeighbourLabels, RoomStatus};
 use crate::formats::{self, plan_json};
-use crate::labels::Label;
+use crate::labels::{Label, Schemes};
 use crate::plan::{ElementId, OpeningKind, RoomId};
 use crate::store::save_bytes_fast;
 use crate::topology::RoomShapes;
@@ -163,8 +163,46 @@ pub(super) const EXPECTATIONS: &[Expectation] = &[
         },
     },
     Expectation {
+        name: "clear",
+        form: "clear ROOM TEXT",
+        help: "the room's clear area, between wall faces, as it is shown: '12.0 m²'",
+        parse: |words| {
+            let (room, expected) = (words.text("the room")?.to_owned(), words.text("the area")?.to_owned());
+            Ok(Box::new(move |stage| {
+                let id = stage.room(&room, None)?;
+                let analysis = crate::features::analyse(stage.plan()?, &Schemes::bundled(), NeighbourLabels::True);
+                let net_m2 = analysis.net(id).map_or(0.0, |net| net.area_m2);
+                let found = stage.window.app().units().area(net_m2);
+                same(&format!("the clear area of {}", in_quotes(&room)), &expected, &found)
+            }))
+        },
+    },
+    Expectation {
+        name: "dimension",
+        form: "dimension TEXT",
+        help: "the figures of a dimension chain in order, as '1.43 + 0.90'; 'none' where there is no chain",
+        parse: |words| {
+            let expected = words.text("the figures")?.to_owned();
+            Ok(Box::new(move |stage| {
+                let units = stage.window.app().units();
+                let figures = |line: crate::plan::DimensionLine| {
+                    line.lengths_m().map(|length_m| units.dimension(length_m)).collect::<Vec<String>>().join(" + ")
+                };
+                let found: Vec<String> =
+                    crate::draw::dimensions::lines(stage.plan()?).into_iter().map(|(_, line)| figures(line)).collect();
+                let is_so = found.contains(&expected) || (found.is_empty() && expected == "none");
+                let found = if found.is_empty() { "none".to_owned() } else { in_quotes(&found.join(" / ")) };
+                if is_so {
+                    Ok(())
+                } else {
+                    Err(Fault::unmet(format!("expected the dimension {expected}, found {found}")))
+                }
+            }))
+        },
+    },
+    Expectation {
         name: "picked",
-        form: "picked ROOM | opening | wall | corner | nothing",
+        form: "picked ROOM | opening | wall | corner | dimension | nothing",
         help: "the one thing that is selected",
         parse: |words| {
             let word = words.next().ok_or("what is picked is missing")?.clone();
@@ -322,12 +360,14 @@ fn picked(stage: &Stage<'_>, expected: &str, is_quoted: bool) -> Result<(), Faul
         Some(ElementId::Room(id)) => room_name(stage, id),
         Some(ElementId::Wall(_)) => "wall".to_owned(),
         Some(ElementId::Corner(_)) => "corner".to_owned(),
+        Some(ElementId::Dimension(_)) => "dimension".to_owned(),
     };
     let is_so = match (expected, is_quoted) {
         ("nothing", false) => found.is_none(),
         ("opening", false) => matches!(found, Some(ElementId::Opening(_))),
         ("wall", false) => matches!(found, Some(ElementId::Wall(_))),
         ("corner", false) => matches!(found, Some(ElementId::Corner(_))),
+        ("dimension", false) => matches!(found, Some(ElementId::Dimension(_))),
         (room, _) => {
             matches!(found, Some(ElementId::Room(id)) if room_name(stage, id) == room || id.to_string() == room)
         }

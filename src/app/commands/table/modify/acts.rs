@@ -1,6 +1,7 @@
 //! The actions of the commands that select and change things, where they take more than a line.
 
 use super::*;
+use crate::draw::dimensions::segment;
 
 /// The line to mirror across.
 #[derive(Clone, Copy)]
@@ -161,7 +162,9 @@ impl App {
         let walls = plan.walls().filter_map(|(id, wall)| Some((ElementId::Wall(id), plan.wall_segment(wall)?)));
         let openings =
             plan.openings().filter_map(|(id, opening)| Some((ElementId::Opening(id), plan.opening_segment(opening)?)));
-        for (element, segment) in walls.chain(openings) {
+        let dimensions = crate::draw::dimensions::lines(plan).into_iter().filter(|_| self.session.layers.dimensions);
+        let dimensions = dimensions.filter_map(|(id, line)| Some((ElementId::Dimension(id), segment(&line)?)));
+        for (element, segment) in walls.chain(openings).chain(dimensions) {
             let ends = [segment.a, segment.b];
             if is_in(&ends) || (touches && is_met(&ends, false)) {
                 found.push(element);

@@ -4,7 +4,7 @@
 use rstar::primitives::{GeomWithData, Line};
 use rstar::{AABB, RTree};
 
-use crate::geometry::{Point, Segment};
+use super::{Point, Segment};
 
 /// The most crossings counted per line.
 const MOST_COUNTED: usize = 64;
@@ -25,26 +25,26 @@ const MOST_OF_ONE: usize = 32;
 const MOST_DRAWN: usize = 4_000;
 
 /// Of how many tangled lines one is drawn.
-pub(super) fn one_line_in(tangled: usize) -> usize {
+pub(crate) fn one_line_in(tangled: usize) -> usize {
     tangled.div_ceil(MOST_DRAWN).max(1)
 }
 
 /// Lines by place, each with something that belongs to it.
-pub(super) type LineTree<T> = RTree<GeomWithData<Line<[f64; 2]>, T>>;
+pub(crate) type LineTree<T> = RTree<GeomWithData<Line<[f64; 2]>, T>>;
 
 /// The entry of a segment in a [`LineTree`].
-pub(super) fn entry<T>(segment: Segment, data: T) -> GeomWithData<Line<[f64; 2]>, T> {
+pub(crate) fn entry<T>(segment: Segment, data: T) -> GeomWithData<Line<[f64; 2]>, T> {
     GeomWithData::new(Line::new([segment.a.x, segment.a.y], [segment.b.x, segment.b.y]), data)
 }
 
 /// The segment of an entry.
-pub(super) fn segment_of<T>(entry: &GeomWithData<Line<[f64; 2]>, T>) -> Segment {
+pub(crate) fn segment_of<T>(entry: &GeomWithData<Line<[f64; 2]>, T>) -> Segment {
     let Line { from, to } = *entry.geom();
     Segment::new(Point::new(from[0], from[1]), Point::new(to[0], to[1]))
 }
 
 /// Which of the segments in a tree are tangled, in the order of `segments`; empty if none is, as in every real plan.
-pub(super) fn tangled<T>(segments: &[Segment], tree: &LineTree<T>) -> Vec<bool> {
+pub(crate) fn tangled<T>(segments: &[Segment], tree: &LineTree<T>) -> Vec<bool> {
     if segments.len() * segments.len().min(MOST_COUNTED) / 2 <= SOME_CROSSINGS {
         return Vec::new();
     }
