@@ -5,7 +5,7 @@
 //! window needs for picking and snapping.
 
 use std::cell::OnceCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
@@ -263,6 +263,17 @@ impl Derived {
     /// The rooms with a boundary from the top left, column by column.
     pub fn column_order(&self) -> Vec<RoomId> {
         in_lines(&self.analysis, |bounds| (bounds.min.x, bounds.width()), |bounds| -bounds.max.y)
+    }
+
+    /// The elements of the plan whose boxes meet a box, corners included; `None` where they are not known.
+    pub fn near(&self, bounds: Bounds) -> Option<BTreeSet<ElementId>> {
+        let mut near: BTreeSet<ElementId> = self.index.elements_in(bounds)?.collect();
+        let shapes = &self.analysis.shapes;
+        near.extend(shapes.near(bounds).into_iter().map(|index| ElementId::Room(shapes.all()[index].id)));
+        let envelope = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
+        let openings = self.openings.locate_in_envelope_intersecting(envelope);
+        near.extend(openings.map(|opening| ElementId::Opening(opening.id)));
+        Some(near)
     }
 
     /// Why a room got its predicted label, with areas in these units; `None` if it has none. Computed when asked about

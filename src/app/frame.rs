@@ -10,6 +10,7 @@ use crate::app::session::Pointed;
 use crate::app::session::Session;
 use crate::app::session::file_dialogs::Dialogs;
 use crate::app::session::jobs::Mode;
+use crate::app::session::memory::WindowPlace;
 use crate::app::session::messages::Severity;
 use crate::app::session::origin::Origin;
 use crate::app::session::samples::Samples;
@@ -17,6 +18,7 @@ use crate::app::session::settings::Settings;
 use crate::app::session::wishes::Wish;
 use crate::app::state::App;
 use crate::app::state::Arrivals;
+use crate::app::state::Asked;
 use crate::app::state::OpenDialogs;
 use crate::app::state::Panels;
 use crate::app::tools::Toolbox;
@@ -70,6 +72,7 @@ impl App {
         panels::show(self, ui);
         self.grant_wishes(&context);
         self.was_typing = context.text_edit_focused();
+        self.session.view = self.canvas.free_view();
         self.session.draft = self.tools.draft();
         self.session.keep_journal(&context);
         self.update_title(&context);
@@ -122,6 +125,8 @@ impl App {
                     self.session.pointed = Pointed::default();
                 }
                 Wish::Reveal(element) => self.canvas.reveal(element),
+                Wish::LookAt { centre, px_per_m } => self.canvas.look_at(centre, px_per_m),
+                Wish::TypePath { command, text } => self.ask_for_argument(Asked { text, ..Asked::of(command) }),
                 Wish::ZoomTo(bounds) => self.canvas.zoom_to(bounds),
                 Wish::Fit => self.canvas.fit(),
                 Wish::ScaleView { about, factor } => self.canvas.scale_view(about, factor),
@@ -142,13 +147,13 @@ impl App {
     pub(crate) fn take_dropped_files(&mut self, context: &Context) {
         let dropped = context.input_mut(|input| std::mem::take(&mut input.raw.dropped_files));
         let Some(first) = dropped.first() else { return };
+        if dropped.len() > 1 && !pictures::is_picture_name(first.path()) {
+            self.session.open_several(dropped.iter().map(|file| file.path().to_owned()).collect());
+            return;
+        }
         if dropped.len() > 1 {
-            let text = format!("{} files were dropped; the first is opened", dropped.len());
-            self.session.say_of_program(
-                Severity::Info,
-                text,
-                "Plans that lie in the same folder are in the list on the left.",
-            );
+            let text = format!("{} files were dropped; the first is now under the plan", dropped.len());
+            self.session.say_of_program(Severity::Info, text, "A plan can have one picture.");
         }
         let id = if pictures::is_picture_name(first.path()) { "picture" } else { "open" };
         self.act_on(Call::new(id, [Value::Path(first.path().to_owned())]), context);
@@ -156,6 +161,8 @@ impl App {
 
     /// Opens the plan of a row in the list or of a card.
     pub(crate) fn open_listed(&mut self, origin: &Origin, context: &Context) {
+        // To be looked at: from plan to plan, not all stay open.
+        self.session.browses = true;
         let call = match origin {
             Origin::Bundled(index) => Call::new("open-sample", [Value::Sample(*index)]),
             Origin::Untitled => Call::new("new-plan", []),
@@ -163,6 +170,7 @@ impl App {
             Origin::File { path, storey } => Call::new("open", [Value::Path(path.clone()), Value::Count(storey + 1)]),
         };
         self.act_on(call, context);
+        self.session.browses = false;
     }
 
     pub(crate) fn take_close_request(&mut self, context: &Context) {
@@ -172,7 +180,22 @@ impl App {
         }
         if self.session.quitting && !self.is_close_sent {
             self.is_close_sent = true;
+            self.remember_window(context);
             context.send_viewport_cmd(ViewportCommand::Close);
+        }
+    }
+
+    /// Remembers where the window is.
+    fn remember_window(&mut self, context: &Context) {
+        let place = context.input(|input| {
+            let viewport = input.viewport();
+            let is_maximized = viewport.maximized.unwrap_or_default() || viewport.fullscreen.unwrap_or_default();
+            let at = viewport.outer_rect.map(|rect| [rect.min.x, rect.min.y]);
+            viewport.inner_rect.map(|rect| WindowPlace { size: [rect.width(), rect.height()], at, is_maximized })
+        });
+        if let Some(place) = place.filter(|_| self.session.settings.is_kept()) {
+            self.session.settings.set_window(place);
+            self.session.keep_settings();
         }
     }
 

@@ -6,19 +6,14 @@ use std::path::PathBuf;
 use egui::{Ui, ViewportBuilder, vec2};
 
 use crate::app::look::theme::Motion;
-use crate::app::session::{
-    file_dialogs::Dialogs,
-    jobs::Mode,
-    origin::{Origin, bundled},
-    settings,
-};
+use crate::app::session::{file_dialogs::Dialogs, jobs::Mode, memory::WindowPlace, origin::Origin, settings};
 use crate::app::state::App;
 use crate::store;
 
 /// What to open the window with.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct WindowOptions {
-    /// The plan to show: a file of any known format, or a folder of them; `None` for a bundled one.
+    /// The plan to show: a file of any known format, or a folder of them; `None` for the welcome page.
     pub plan: Option<PathBuf>,
 }
 
@@ -48,33 +43,31 @@ impl std::error::Error for WindowError {}
 /// When there is no display, or it has no OpenGL. Never panics.
 pub fn run_window(options: WindowOptions) -> Result<(), WindowError> {
     let native = eframe::NativeOptions {
-        viewport: ViewportBuilder::default()
-            .with_title("Enfilade")
-            .with_app_id("enfilade")
-            .with_inner_size(vec2(1280.0, 800.0))
-            .with_min_inner_size(vec2(640.0, 420.0))
-            .with_drag_and_drop(true),
+        viewport: placed(
+            ViewportBuilder::default()
+                .with_title("Enfilade")
+                .with_app_id("enfilade")
+                .with_min_inner_size(vec2(640.0, 420.0))
+                .with_drag_and_drop(true),
+        ),
         system_font_fallback: false,
         ..eframe::NativeOptions::default()
     };
     let create = |creation: &eframe::CreationContext<'_>| {
         let context = &creation.egui_ctx;
         let mode = Mode::Threads(context.clone());
-        let mut app = App::new(context, mode, Dialogs::System { is_open: false }, Motion::Smooth);
+        let mut app = App::new(context, mode, Dialogs::System { is_open: false, are_missing: false }, Motion::Smooth);
         if let Some(file) = settings::file() {
-            app.use_settings(file);
+            app.use_settings(file, context);
         }
         app.session.use_own_schemes_and_models();
         app.session.use_clock(now);
         if let Some(folder) = store::journal_folder() {
             app.use_journal(folder);
         }
-        let first = match options.plan {
-            Some(path) => Some(Origin::File { path, storey: 0 }),
-            None => (!bundled().is_empty()).then_some(Origin::Bundled(0)),
-        };
-        if let Some(origin) = first {
-            app.session.open(origin);
+        if let Some(path) = options.plan {
+            // Nothing else is open yet.
+            let _ = app.session.open(Origin::File { path, storey: 0 });
         }
         Ok(Box::new(Window { app }) as Box<dyn eframe::App>)
     };
@@ -88,6 +81,20 @@ pub fn run_window(options: WindowOptions) -> Result<(), WindowError> {
 #[expect(clippy::disallowed_methods, reason = "says how old is what can be recovered")]
 fn now() -> std::time::SystemTime {
     std::time::SystemTime::now()
+}
+
+/// The size of the first window: it fits a screen of 1280 by 800 with the system's bars around it.
+const FIRST_SIZE: egui::Vec2 = vec2(1200.0, 690.0);
+
+/// The window where it was last, or of its first size.
+fn placed(window: ViewportBuilder) -> ViewportBuilder {
+    let text = settings::file().and_then(|file| settings::read_text(&file).ok().flatten());
+    let Some(place) = text.as_deref().and_then(WindowPlace::of_text) else { return window.with_inner_size(FIRST_SIZE) };
+    let window = window.with_inner_size(place.size).with_maximized(place.is_maximized);
+    match place.at {
+        Some(at) => window.with_position(at),
+        None => window,
+    }
 }
 
 struct Window {

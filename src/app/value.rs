@@ -31,6 +31,8 @@ pub(crate) enum Value {
     Method(Method),
     /// Its index.
     Sample(usize),
+    /// The number of an open plan's document.
+    OpenPlan(u64),
     Switch(bool),
     Word(&'static str),
     /// A command's id.

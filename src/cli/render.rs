@@ -182,7 +182,7 @@ impl RenderCommand {
                 warning = Some(format!("{}: left out: the picture {what}; {hint}", path.display()));
                 return None;
             }
-            match pictures::load_picture(&path, backdrop.page) {
+            match pictures::load_backdrop(&path, backdrop) {
                 Ok(loaded) => Some((Arc::new(loaded.levels), backdrop)),
                 // The plan can be drawn all the same.
                 Err(error) => {

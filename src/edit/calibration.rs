@@ -28,6 +28,7 @@ impl Backdrop {
             rotation_rad: 0.0,
             opacity: 1.0,
             measurements: Vec::new(),
+            rectification: None,
             extra: None,
         }
     }

@@ -117,6 +117,14 @@ pub fn fill_at(plan: &Plan, point: Point) -> Result<Filled, EditError> {
     faces.fill(&[index])
 }
 
+/// Makes rooms of some faces; of none, the plan as it is.
+pub(super) fn fill_faces(faces: &PlanFaces<'_>, indices: &[usize]) -> Result<Filled, EditError> {
+    if indices.is_empty() {
+        return Ok(Filled { plan: faces.edges.plan.clone(), rooms: Vec::new() });
+    }
+    faces.fill(indices)
+}
+
 /// Fills every face enclosed by walls alone, unless it has a room or is a sliver. The space between rooms
 /// drawn without walls stays empty: it may be the thickness of a wall.
 ///

@@ -6,6 +6,7 @@ mod along;
 mod beside;
 mod bridge;
 mod calibration;
+mod close;
 mod copy;
 mod dimensions;
 mod dragging;
@@ -15,6 +16,7 @@ mod free_space;
 pub mod guides;
 mod heal;
 pub mod ignore;
+mod local;
 mod merge;
 mod moving;
 pub mod naming;
@@ -22,6 +24,7 @@ mod offset;
 mod openings;
 pub(crate) mod overlay;
 mod picked;
+mod rectify;
 mod refit;
 mod removing;
 pub(crate) mod split;
@@ -49,12 +52,14 @@ pub use calibration::{
     Calibration, DrawingMoves, UNMEASURED_METRES_PER_PIXEL, move_picture, set_measurements, straightening_rad,
     turn_picture,
 };
+pub use close::fill_closed;
 pub use copy::{Array, array, array_fitted, copy_elements, fragment, insert, insert_fitted};
 pub use dimensions::{Settled, dimension_between, draw_dimension, move_dimension, settle_dimensions};
 pub use dragging::{Reach, WallDrag, drag_corners, move_corners};
 pub use draw::{Drawn, cut_out, cut_out_by, draw_room, draw_walls, split_room, split_room_by};
 pub use fill::{Filled, fill_all, fill_at};
 pub use free_space::{DrawnInFreeSpace, GAP_BETWEEN_ROOMS_M, draw_room_in_free_space};
+pub use local::locally;
 pub use merge::merge_rooms;
 pub use moving::{Alignment, align, distribute, move_elements, move_picked, set_thickness, transform_elements};
 pub use offset::{lines_to_offset, offset_paths, offset_room, offset_walls};
@@ -63,6 +68,7 @@ pub use openings::{
     set_opening_kind, set_swing, slide_opening,
 };
 pub use picked::{Part, corners_of};
+pub use rectify::{in_order, rectify_picture, unrectify_picture};
 pub use refit::{Changed, Refit, Refitted};
 pub use removing::{remove, removed_with, rooms_joined_by};
 pub use square_up::square_up;

@@ -24,8 +24,8 @@ use crate::labels::{Label, Schemes, Typology};
 use crate::plan::{
     Backdrop, Corner, CornerId, Dimension, DimensionAlong, DimensionHost, DimensionId, DimensionPoint, ElementId,
     Extra, Guide, GuideAxis, Ignored, Joint, LabelOrigin, LeafSide, Measurement, Meta, Opening, OpeningId, OpeningKind,
-    Place as OpeningPlace, Plan, Room, RoomId, RoomLabel, Scale, ScaleOrigin, Swing, Wall, WallId, WallSide, guides,
-    ignored,
+    Place as OpeningPlace, Plan, Rectification, Room, RoomId, RoomLabel, Scale, ScaleOrigin, Swing, Wall, WallId,
+    WallSide, guides, ignored,
 };
 
 pub(crate) use change::{apply_change, change_to_bytes};
@@ -287,8 +287,18 @@ struct DiskBackdrop {
     opacity: Number,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     measurements: Vec<DiskMeasurement>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    rectification: Option<DiskRectification>,
     #[serde(flatten)]
     extra: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(expecting = "a rectification")]
+struct DiskRectification {
+    corners: [[Number; 2]; 4],
+    rectangle: [[Number; 2]; 2],
+    size: [u32; 2],
 }
 
 #[derive(Serialize, Deserialize)]
@@ -540,8 +550,25 @@ impl DiskBackdrop {
             rotation_rad: Number(backdrop.rotation_rad),
             opacity: Number(backdrop.opacity),
             measurements: backdrop.measurements.iter().map(DiskMeasurement::of).collect(),
+            rectification: backdrop.rectification.as_ref().map(DiskRectification::of),
             extra: fields(&backdrop.extra),
         }
+    }
+}
+
+impl DiskRectification {
+    fn of(rectification: &Rectification) -> Self {
+        let point = |point: Point| [Number(point.x), Number(point.y)];
+        Self {
+            corners: rectification.corners.map(point),
+            rectangle: rectification.rectangle.map(point),
+            size: rectification.size_px,
+        }
+    }
+
+    fn live(self) -> Rectification {
+        let point = |[x, y]: [Number; 2]| Point::new(x.0, y.0);
+        Rectification { corners: self.corners.map(point), rectangle: self.rectangle.map(point), size_px: self.size }
     }
 }
 
@@ -820,6 +847,7 @@ impl DiskBackdrop {
             rotation_rad: self.rotation_rad.0,
             opacity: self.opacity.0,
             measurements: self.measurements.into_iter().map(DiskMeasurement::live).collect(),
+            rectification: self.rectification.map(DiskRectification::live),
             extra: kept(self.extra),
         }
     }

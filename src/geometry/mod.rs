@@ -6,6 +6,7 @@
 pub mod areas;
 pub mod arrangement;
 mod bounds;
+pub mod homography;
 pub mod hull;
 pub mod path;
 mod point;
@@ -18,6 +19,7 @@ pub(crate) mod tangle;
 mod transform;
 
 pub use bounds::Bounds;
+pub use homography::Homography;
 pub use point::{Point, Vector};
 pub use segment::Segment;
 pub use transform::Transform;

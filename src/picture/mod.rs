@@ -3,6 +3,9 @@
 mod image;
 mod levels;
 pub mod png;
+mod warp;
 
 pub use image::{Difference, Picture};
 pub use levels::{Level, PictureLevels, Samples};
+#[cfg(feature = "pictures")]
+pub(crate) use warp::warped;

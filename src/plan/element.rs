@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use super::{CornerId, Extra, RoomId};
-use crate::geometry::{Point, trim_m};
+use crate::geometry::{Homography, Point, trim_m};
 use crate::labels::Label;
 
 /// A point shared by walls and room boundaries.
@@ -214,7 +214,35 @@ pub struct Backdrop {
     pub opacity: f64,
     /// The measurements that gave its scale.
     pub measurements: Vec<Measurement>,
+    /// How a photographed drawing is made flat; `None` for a picture that is shown as it is. All other places on the
+    /// picture, such as its measurements, are places on what is shown.
+    pub rectification: Option<Rectification>,
     pub extra: Extra,
+}
+
+/// How a photographed drawing is made flat: by four corners of a rectangle of the drawing. The file stays as it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rectification {
+    /// The corners on the picture in its file, in pixels from its upper left corner, x to the right and y down: the
+    /// upper left, upper right, lower right and lower left one.
+    pub corners: [Point; 4],
+    /// The same rectangle on the picture that is shown: its upper left and its lower right corner, in pixels.
+    pub rectangle: [Point; 2],
+    /// Width and height of the picture that is shown, in pixels.
+    pub size_px: [u32; 2],
+}
+
+impl Rectification {
+    /// The corners on the picture that is shown, in the order of `corners`.
+    pub const fn shown_corners(&self) -> [Point; 4] {
+        let [min, max] = self.rectangle;
+        [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)]
+    }
+
+    /// Where the places of the picture that is shown lie in its file; `None` where the corners make no rectangle.
+    pub fn source_from_shown(&self) -> Option<Homography> {
+        Homography::between(self.shown_corners(), self.corners)
+    }
 }
 
 /// A known length on the backdrop.

@@ -3,7 +3,7 @@ use std::fmt;
 
 use super::{
     Backdrop, ChangeKind, Corner, CornerId, Difference, Dimension, DimensionHost, DimensionId, DimensionPoint,
-    ElementId, Joint, Measurement, Opening, OpeningId, Place, Plan, Room, RoomId, Wall, WallId,
+    ElementId, Joint, Measurement, Opening, OpeningId, Place, Plan, Rectification, Room, RoomId, Wall, WallId,
 };
 use crate::geometry::COORDINATE_LIMIT_M;
 use crate::geometry::Point;
@@ -219,6 +219,25 @@ fn check_corner(id: CornerId, corner: &Corner, found: &mut Vec<Violation>) {
 /// A picture so small or so large is no plan: pixels from a nanometre to a kilometre.
 pub const METRES_PER_PIXEL: std::ops::RangeInclusive<f64> = 1e-9..=1e3;
 
+/// The sides of a picture made flat, and its pixels: those of any picture that is read.
+const RECTIFIED_SIDES_PX: std::ops::RangeInclusive<u32> = 1..=65_535;
+const MOST_RECTIFIED_PX: u64 = 1 << 28;
+
+impl Rectification {
+    /// As [`Backdrop::fault`].
+    fn fault(&self) -> Option<String> {
+        let [width_px, height_px] = self.size_px;
+        let has_size = self.size_px.iter().all(|side| RECTIFIED_SIDES_PX.contains(side))
+            && u64::from(width_px) * u64::from(height_px) <= MOST_RECTIFIED_PX;
+        if !has_size {
+            return Some(format!("is made flat with {width_px} by {height_px} pixels, which is no size of a picture"));
+        }
+        let is_near = |point: &Point| point.x.abs() <= 1e7 && point.y.abs() <= 1e7;
+        let has_corners = self.corners.iter().chain(&self.rectangle).all(is_near) && self.source_from_shown().is_some();
+        (!has_corners).then(|| "is made flat by four corners of no rectangle".to_owned())
+    }
+}
+
 /// A picture lies no further off than this: what is drawn lies within [`COORDINATE_LIMIT_M`], and a picture
 /// may reach there from far away.
 const FARTHEST_PICTURE_M: f64 = 1e9;
@@ -243,6 +262,9 @@ impl Backdrop {
         }
         if self.page == 0 {
             return Some("has the page 0; pages are counted from 1".to_owned());
+        }
+        if let Some(what) = self.rectification.as_ref().and_then(Rectification::fault) {
+            return Some(what);
         }
         let is_wrong = |one: &&Measurement| {
             !(one.length_m > 0.0 && one.length_px() > 0.0 && one.length_px().is_finite() && one.length_m.is_finite())

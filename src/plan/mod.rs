@@ -26,8 +26,8 @@ pub use builder::Builder;
 pub use difference::{ChangeKind, Difference};
 pub use dimension::{Dimension, DimensionAlong, DimensionHost, DimensionLine, DimensionPoint, WallSide};
 pub use element::{
-    Backdrop, Corner, Joint, LabelOrigin, LeafSide, Measurement, Opening, OpeningKind, Place, Room, RoomLabel, Swing,
-    Wall,
+    Backdrop, Corner, Joint, LabelOrigin, LeafSide, Measurement, Opening, OpeningKind, Place, Rectification, Room,
+    RoomLabel, Swing, Wall,
 };
 pub use guides::{Guide, GuideAxis};
 pub use history::{History, Step};

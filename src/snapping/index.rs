@@ -5,7 +5,7 @@ use rstar::primitives::{GeomWithData, Line};
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
 use crate::geometry::{Bounds, Point, Segment};
-use crate::plan::{CornerId, Place, Plan, WallId, ordered};
+use crate::plan::{CornerId, ElementId, Place, Plan, WallId, ordered};
 use crate::topology::wall_bodies::{self, WallFaces};
 
 /// An edge of walls and room boundaries; each pair of corners occurs once.
@@ -33,6 +33,8 @@ pub struct PlanIndex {
     /// All corners sorted by x, and by y.
     by_x: Vec<Point>,
     by_y: Vec<Point>,
+    /// Whether two walls stand between the same corners, of which the index has one.
+    has_doubles: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,8 +85,10 @@ impl PlanIndex {
                 }
             }
         }
+        let mut has_doubles = false;
         for (id, wall) in plan.walls() {
-            edges.insert(ordered(wall.from, wall.to), Some((id, wall.thickness_m)));
+            let before = edges.insert(ordered(wall.from, wall.to), Some((id, wall.thickness_m)));
+            has_doubles |= matches!(before, Some(Some(_)));
         }
         let edges: Vec<IndexedEdge> = edges
             .into_iter()
@@ -113,6 +117,7 @@ impl PlanIndex {
             jambs: RTree::bulk_load(jambs),
             by_x,
             by_y,
+            has_doubles,
         }
     }
 
@@ -166,6 +171,14 @@ impl PlanIndex {
         let distance = |edge: &IndexedEdge| edge.segment.distance(point);
         found.sort_by(|p, q| distance(p).total_cmp(&distance(q)).then(p.corners.cmp(&q.corners)));
         found
+    }
+
+    /// The corners in a box, and the walls whose boxes meet it; `None` where the index does not have all of them.
+    pub fn elements_in(&self, bounds: Bounds) -> Option<impl Iterator<Item = ElementId> + '_> {
+        let envelope = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);
+        let corners = self.corners.locate_in_envelope(envelope).map(|corner| ElementId::Corner(corner.id));
+        let walls = self.edges.locate_in_envelope_intersecting(envelope).filter_map(|edge| edge.wall);
+        (!self.has_doubles).then(|| corners.chain(walls.map(ElementId::Wall)))
     }
 
     /// The corners in a box whose x is near a value.

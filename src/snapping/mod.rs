@@ -90,6 +90,8 @@ pub struct Query<'a> {
     pub pointer: Point,
     /// The snap radius in metres: a radius in pixels divided by the zoom.
     pub radius_m: f64,
+    /// How far alignment with corners may pull, in metres: at most as far as the radius.
+    pub alignment_m: f64,
     /// The visible part of the plan: corners elsewhere are ignored for alignment.
     pub seen: Bounds,
     /// The start of the line being drawn.
@@ -281,6 +283,7 @@ fn crossing(p: Segment, q: Segment) -> Option<Point> {
 
 /// Points aligned with corners of the plan, horizontally or vertically.
 fn alignments(index: &PlanIndex, query: &Query<'_>, ray: Option<(Point, Vector)>, free: Point, found: &mut Vec<Snap>) {
+    let reach_m = query.alignment_m.min(query.radius_m);
     // From the start of a line its own ray says the same.
     let is_start = |point: Point| query.from.is_some_and(|from| from.distance(point) < 1e-6);
     let choose = |points: Vec<Point>| {
@@ -288,19 +291,23 @@ fn alignments(index: &PlanIndex, query: &Query<'_>, ray: Option<(Point, Vector)>
         all.collect::<Vec<Point>>()
     };
     let nearest = |points: &[Point], off: &dyn Fn(Point) -> f64, aside: &dyn Fn(Point) -> f64| {
-        let near = points.iter().copied().filter(|&point| off(point) <= query.radius_m);
+        let near = points.iter().copied().filter(|&point| off(point) <= reach_m);
         near.min_by(|&p, &q| {
             // The smallest movement; if about equal, the nearest corner.
-            let step = query.radius_m / 4.0;
+            let step = reach_m / 4.0;
             let key = |point: Point| (off(point) / step).floor();
             key(p).total_cmp(&key(q)).then(aside(p).total_cmp(&aside(q)))
         })
     };
-    let columns = choose(index.corners_at_x(free.x, query.radius_m, query.seen));
-    let rows = choose(index.corners_at_y(free.y, query.radius_m, query.seen));
+    let columns = choose(index.corners_at_x(free.x, reach_m, query.seen));
+    let rows = choose(index.corners_at_y(free.y, reach_m, query.seen));
     let in_column = nearest(&columns, &|point| (point.x - free.x).abs(), &|point| (point.y - query.pointer.y).abs());
     let in_row = nearest(&rows, &|point| (point.y - free.y).abs(), &|point| (point.x - query.pointer.x).abs());
     let mut add = |point: Point, with: &[Point]| {
+        // Along a line that is off the axes, the way to what is in line is longer.
+        if point.distance(query.pointer).min(point.distance(free)) > reach_m {
+            return;
+        }
         let guides = with.iter().map(|&corner| Segment::new(corner, point)).collect();
         push(found, query, free, Snap { point, kind: SnapKind::Alignment, corner: None, guides });
     };
@@ -361,6 +368,7 @@ mod tests {
         Query {
             pointer: Point::new(x, y),
             radius_m: 0.2,
+            alignment_m: 0.2,
             seen: Bounds::of([Point::new(-10.0, -10.0), Point::new(10.0, 10.0)]),
             from: None,
             along: None,
@@ -409,6 +417,23 @@ mod tests {
         assert_eq!((kind, point), (SnapKind::Alignment, Point::new(6.0, 3.0)));
         let along = Query { from: Some(Point::new(0.0, 5.0)), ..ask(5.9, 5.1) };
         assert_eq!(first(&along), (SnapKind::Alignment, Point::new(6.0, 5.0)));
+    }
+
+    #[test]
+    fn alignment_can_be_weaker_than_the_rest() {
+        let weak = |x, y| Query { alignment_m: 0.05, ..ask(x, y) };
+        assert_eq!(first(&weak(6.1, 3.1)), (SnapKind::Free, Point::new(6.1, 3.1)));
+        assert_eq!(first(&weak(6.04, 3.02)), (SnapKind::Alignment, Point::new(6.0, 3.0)));
+        // Along a slanted line it pulls no further than across.
+        let slanted = Query {
+            from: Some(Point::new(-1.0, 5.0)),
+            along: Some(Vector::new(10.0, 1.0)),
+            alignment_m: 0.05,
+            ..ask(3.6, 5.45)
+        };
+        let (kind, point) = first(&slanted);
+        assert!(kind != SnapKind::Alignment || point.distance(slanted.pointer) <= 0.06, "{kind:?} {point:?}");
+        assert_eq!(first(&weak(3.9, 0.02)), (SnapKind::Corner, Point::new(4.0, 0.0)));
     }
 
     #[test]

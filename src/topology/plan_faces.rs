@@ -6,8 +6,8 @@ use super::RoomShapes;
 use crate::geometry::arrangement::grid::GridPoint;
 use crate::geometry::arrangement::{Arrangement, ArrangementError, Face, NodeIndex, faces};
 use crate::geometry::polygon::{self, Location};
-use crate::geometry::{Point, Segment};
-use crate::plan::{CornerId, Plan, RoomId, ordered, ring_edges};
+use crate::geometry::{Bounds, Point, Segment};
+use crate::plan::{CornerId, Plan, Positions, RoomId, ordered, ring_edges};
 
 /// A face narrower than this on average (twice its area over its perimeter), in metres, is a sliver
 /// between lines that should coincide, not a room. The smallest of 5,355 rooms in real dwellings are pipe
@@ -68,12 +68,49 @@ impl<'a> PlanFaces<'a> {
             }
         }
         by_corners.extend(plan.walls().map(|(_, wall)| (ordered(wall.from, wall.to), true)));
+        Self::of_edges(plan, by_corners, &RoomShapes::new(plan))
+    }
+
+    /// The faces of the part of a plan that lies in a box: those that lie in it entirely are as in
+    /// [`PlanFaces::new`], others may be missing or larger.
+    ///
+    /// # Errors
+    /// As [`PlanFaces::new`].
+    pub fn within(plan: &'a Plan, bounds: Bounds) -> Result<Self, ArrangementError> {
+        let positions = Positions::new(plan);
+        let is_near = |a: CornerId, b: CornerId| {
+            let ends = positions.get(a).zip(positions.get(b));
+            ends.is_some_and(|(a, b)| Segment::new(a, b).bounds().intersects(bounds))
+        };
+        let mut by_corners: BTreeMap<[CornerId; 2], bool> = BTreeMap::new();
+        let mut near_rooms = Vec::new();
+        for (id, room) in plan.rooms() {
+            let outer = Bounds::of(room.outer.iter().filter_map(|&corner| positions.get(corner)));
+            if !outer.intersects(bounds) {
+                continue;
+            }
+            near_rooms.push(id);
+            for ring in room.rings() {
+                let near = ring_edges(ring).filter(|&(a, b)| is_near(a, b));
+                by_corners.extend(near.map(|(a, b)| (ordered(a, b), false)));
+            }
+        }
+        let walls = plan.walls().filter(|(_, wall)| is_near(wall.from, wall.to));
+        by_corners.extend(walls.map(|(_, wall)| (ordered(wall.from, wall.to), true)));
+        Self::of_edges(plan, by_corners, &RoomShapes::of_rooms(plan, near_rooms))
+    }
+
+    /// The faces between edges, each with whether it is a wall.
+    fn of_edges(
+        plan: &'a Plan,
+        by_corners: BTreeMap<[CornerId; 2], bool>,
+        shapes: &RoomShapes,
+    ) -> Result<Self, ArrangementError> {
         let edges = EdgeFaces::new(plan, by_corners.keys().copied())?;
         let mut walled: BTreeSet<[NodeIndex; 2]> = BTreeSet::new();
         for (i, _) in edges.edges.iter().enumerate().filter(|(_, ends)| by_corners.get(*ends) == Some(&true)) {
             walled.extend(edges.arrangement.chain(i).windows(2).map(|pair| link(pair[0], pair[1])));
         }
-        let shapes = RoomShapes::new(plan);
         let faces = edges
             .faces
             .iter()
@@ -92,6 +129,11 @@ impl<'a> PlanFaces<'a> {
     /// All faces, in a fixed order.
     pub fn all(&self) -> &[PlanFace] {
         &self.faces
+    }
+
+    /// A point inside a face.
+    pub(crate) fn interior_point(&self, index: usize) -> Point {
+        self.edges.interior_point(index)
     }
 
     /// Index in [`PlanFaces::all`] of the face around a point; `None` on a wall or where nothing encloses

@@ -95,8 +95,14 @@ impl RTreeObject for Entry {
 
 impl RoomShapes {
     pub fn new(plan: &Plan) -> Self {
-        let shapes: Vec<RoomShape> = plan
-            .rooms()
+        Self::of_rooms(plan, plan.rooms().map(|(id, _)| id))
+    }
+
+    /// The shapes of some rooms, given by id.
+    pub fn of_rooms(plan: &Plan, rooms: impl IntoIterator<Item = RoomId>) -> Self {
+        let shapes: Vec<RoomShape> = rooms
+            .into_iter()
+            .filter_map(|id| Some((id, plan.room(id)?)))
             .map(|(id, room)| {
                 let outer = plan.ring_points(&room.outer);
                 let holes = room.holes.iter().map(|hole| plan.ring_points(hole)).collect();

@@ -80,6 +80,7 @@ fn backdrop() -> Backdrop {
         opacity: 1.0,
         page: 1,
         measurements: Vec::new(),
+        rectification: None,
         extra: None,
     }
 }

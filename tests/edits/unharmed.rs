@@ -253,6 +253,8 @@ fn lines(plan: &Plan, element: ElementId) -> Vec<Segment> {
             let rings = plan.room(id).into_iter().flat_map(Room::rings).map(|ring| plan.ring_points(ring));
             rings.flat_map(|ring| polygon::edges(&ring).collect::<Vec<_>>()).collect()
         }
+        // They follow whatever they measure: the session's part, with tests of its own.
+        ElementId::Dimension(_) => Vec::new(),
     }
 }
 
@@ -306,6 +308,7 @@ fn as_written(plan: &Plan, element: ElementId) -> String {
             });
             format!("{opening:?} {ends:?}")
         }
+        ElementId::Dimension(id) => format!("{:?}", plan.dimension(id)),
     }
 }
 
@@ -323,6 +326,7 @@ fn holds(before: &Plan, done: &Done) -> Result<(), TestCaseError> {
             Place::Hosted { from, to, .. } => is_dragged(&[from, to]),
             Place::Free { .. } => false,
         }),
+        ElementId::Dimension(_) => false,
     };
     // What the edit was about, before and after: what touches none of it is the same.
     let mut about: Vec<Segment> = picked.iter().flat_map(|&element| lines(before, element)).collect();
@@ -416,6 +420,7 @@ fn holds(before: &Plan, done: &Done) -> Result<(), TestCaseError> {
                 let is_divided = !dragged.is_empty() && host(before) != host(after);
                 prop_assert!(off_m <= SAME_M || is_divided, "the opening {} went {} m", id, off_m);
             }
+            ElementId::Dimension(_) => {}
         }
     }
     // What was dragged stays whole: rooms do not cross themselves, and openings stand within their walls.

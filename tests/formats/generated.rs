@@ -6,7 +6,7 @@ use enfilade::geometry::Point;
 use enfilade::labels::{Label, Typology};
 use enfilade::plan::{
     Backdrop, Builder, CornerId, Extra, Joint, LabelOrigin, LeafSide, Measurement, Meta, Opening, OpeningKind, Place,
-    Plan, Room, RoomId, RoomLabel, Scale, ScaleOrigin, Swing,
+    Plan, Rectification, Room, RoomId, RoomLabel, Scale, ScaleOrigin, Swing,
 };
 use proptest::collection::vec;
 use proptest::option;
@@ -72,6 +72,12 @@ fn backdrop() -> impl Strategy<Value = Backdrop> {
                 to: Point::new(rotation_rad, opacity),
                 length_m: metres_per_pixel,
             }],
+            rectification: (opacity > 0.5).then(|| Rectification {
+                corners: [(0.0, 0.0), (opacity * 100.0, 1.5), (120.25, 90.0), (-3.0, 80.0)]
+                    .map(|(x, y)| Point::new(x, y)),
+                rectangle: [Point::new(10.0, 20.5), Point::new(210.0, 120.0)],
+                size_px: [300, 200],
+            }),
             extra,
         },
     )

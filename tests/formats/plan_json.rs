@@ -37,6 +37,7 @@ pub fn full_plan() -> Plan {
         opacity: 0.5,
         page: 2,
         measurements: vec![Measurement { from: Point::new(10.5, 20.0), to: Point::new(910.5, 20.25), length_m: 3.0 }],
+        rectification: None,
         extra: None,
     });
     let rectangle = |x0: f64, y0: f64, x1: f64, y1: f64| {

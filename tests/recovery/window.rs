@@ -203,11 +203,13 @@ fn what_arrives_while_something_is_asked_waits_for_the_answer() {
     window.run_command("quit");
     window.settle().unwrap();
     assert!(window.control("Don't save").is_some());
-    // Neither: each asks once, and cancel means cancel.
-    press(&mut window, "Cancel");
+    // Cancel means cancel; the other plan is shown beside.
     press(&mut window, "Cancel");
     assert!(window.control("Don't save").is_none());
     assert!(!window.is_closed());
+    assert_ne!(window.app().plan(), Some(&plan));
+    window.run_command("previous-open");
+    window.settle().unwrap();
     assert_eq!(window.app().plan(), Some(&plan));
 }
 

@@ -9,6 +9,9 @@ use enfilade::topology::{self, RoomShapes};
 
 /// What the canvas and its tools are like, in points: see `src/app/tools`.
 const SNAP_RADIUS_PX: f64 = 10.0;
+/// Of alignment over a picture, in points and in metres.
+const OVER_PICTURE_PX: f64 = 3.0;
+const OVER_PICTURE_M: f64 = 0.05;
 const OPENING_REACH_PX: f64 = 18.0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -148,6 +151,7 @@ impl Person {
         let query = Query {
             pointer,
             radius_m: self.metres(SNAP_RADIUS_PX),
+            alignment_m: self.metres(OVER_PICTURE_PX).min(OVER_PICTURE_M),
             seen: self.seen,
             from: path.last().copied(),
             along,

@@ -188,7 +188,7 @@ fn closing_asks_once_and_cancel_means_cancel() {
     let mut window = window_with("dwelling");
     change(&mut window);
     let plan = window.app().plan().unwrap().clone();
-    // Cancel, by button and by key, for closing and for opening.
+    // Cancel, by button and by key.
     window.ask_to_close();
     window.settle().unwrap();
     press(&mut window, "Cancel");
@@ -196,9 +196,11 @@ fn closing_asks_once_and_cancel_means_cancel() {
     window.settle().unwrap();
     window.key(Modifiers::NONE, Key::Escape);
     window.settle().unwrap();
+    // Another plan asks nothing: this one stays open beside it.
     window.drop_file(&folder.path().join("office.plan.json"));
     window.settle().unwrap();
-    press(&mut window, "Cancel");
+    assert_eq!(name(&window), "Office on a corner");
+    press(&mut window, "• House with an enfilade");
     assert!(!window.is_closed());
     assert_eq!(window.app().plan(), Some(&plan));
     // Saving to nowhere, too, goes on with nothing.
@@ -235,7 +237,7 @@ fn text_that_is_still_being_typed_is_not_lost_by_closing() {
     click_room(&mut window, "Study");
     window.key(Modifiers::NONE, Key::F2);
     window.settle().unwrap();
-    window.text(" two");
+    window.text("Study two");
     window.ask_to_close();
     window.settle().unwrap();
     assert!(!window.is_closed(), "the text is a change");
@@ -286,6 +288,7 @@ fn with_backdrop(path: &str) -> Plan {
         opacity: 1.0,
         page: 1,
         measurements: Vec::new(),
+        rectification: None,
         extra: None,
     };
     edit::set_backdrop(&plan, Some(backdrop))

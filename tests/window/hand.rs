@@ -91,8 +91,8 @@ fn a_key_right_after_a_room_is_drawn_means_it() {
     key(&mut window, Modifiers::NONE, Key::Enter);
     assert!([function(&window, 0), function(&window, 1)].contains(&Some("New".to_owned())));
     // Pointing at another room means that one, as ever.
-    run(&mut window, "clear-selection", &[]);
     run(&mut window, "tool-select", &[]);
+    run(&mut window, "clear-selection", &[]);
     window.move_to(at(&window, -2.0, 0.0));
     key(&mut window, Modifiers::NONE, Key::C);
     let labelled = window.app().plan().unwrap().rooms().filter(|(_, room)| room.label.is_some()).count();
@@ -105,7 +105,8 @@ fn hinged(window: &Offscreen) -> (OpeningId, Pos2) {
     let schemes = enfilade::labels::Schemes::bundled();
     let drawing = enfilade::draw::Drawing::new(plan, enfilade::pipeline::Pipeline::new(plan, &schemes).analysis());
     let is_free = |point: Point| plan.walls().all(|(_, wall)| plan.wall_segment(wall).unwrap().distance(point) > 0.25);
-    let found = drawing.sweeps().find_map(|(id, [hinge, shut, tip])| {
+    let is_single = |id: OpeningId| plan.opening(id).unwrap().kind == OpeningKind::Door;
+    let found = drawing.sweeps().filter(|(id, _)| is_single(*id)).find_map(|(id, [hinge, shut, tip])| {
         let (open, shut) = (tip - hinge, shut - hinge);
         let arc = hinge + (open + shut) * std::f64::consts::FRAC_1_SQRT_2;
         is_free(arc).then_some((id, arc))
@@ -278,7 +279,7 @@ fn every_kind_of_thing_has_a_context_menu() {
     assert_eq!(window.app().selection().len(), 2);
     assert!(has(&seen, "Merge rooms") == 1 && has(&seen, "Rename…") == 0, "{seen:?}");
     // Free space, and the list.
-    let place = super::beside(&window);
+    let place = super::beside(&window) + vec2(0.0, 200.0);
     let seen = open(&mut window, place);
     assert!(has(&seen, "Select all") == 1 && has(&seen, "Zoom to fit") >= 1, "{seen:?}");
     let row = window.control("House with an enfilade").unwrap().rect.center();
@@ -352,11 +353,16 @@ fn menus_fit_and_are_reached_by_keys() {
     let mut window = window_with("dwelling");
     let open = |window: &Offscreen| {
         let has = |name: &str| window.controls().iter().any(|control| control.name == name);
-        [("Save as…", "File"), ("Rename the plan…", "Edit"), ("Zoom to fit", "View"), ("Select by label…", "Modify")]
-            .into_iter()
-            .filter(|(entry, _)| has(entry) && window.front_rect().is_some())
-            .map(|(_, menu)| menu)
-            .collect::<Vec<_>>()
+        [
+            ("Save as…", "File"),
+            ("Rename the plan…", "Edit"),
+            ("Follow the system", "View"),
+            ("Select by label…", "Modify"),
+        ]
+        .into_iter()
+        .filter(|(entry, _)| has(entry) && window.front_rect().is_some())
+        .map(|(_, menu)| menu)
+        .collect::<Vec<_>>()
     };
     key(&mut window, Modifiers::NONE, Key::F10);
     assert_eq!(open(&window), ["File"]);

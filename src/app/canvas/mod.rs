@@ -315,6 +315,8 @@ impl Canvas {
             options,
             grid_m,
             is_seen: self.pointed.at.is_some(),
+            is_over_picture: is_over_picture(session, document.plan()),
+            is_pressing: ui.input(|input| input.pointer.any_pressed() || input.pointer.any_released()),
         };
         let snap = toolbox.snap(&ground, pointer);
         let mut scope = Scope {

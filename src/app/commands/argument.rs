@@ -11,7 +11,12 @@ use std::path::PathBuf;
 use crate::app::look::keys::NoKeys;
 use crate::app::session::questions::Question;
 use crate::app::session::words::Choice;
-use crate::app::session::{origin::bundled, settings::Keyed};
+use crate::app::session::{
+    open_plans::OpenPlan,
+    origin::{Origin, bundled, file_name},
+    paths::PathUse,
+    settings::Keyed,
+};
 use crate::app::state::{App, SidePanel};
 use crate::app::value::{
     UNKNOWN, Value, element, elements_word, is_own_word, point_in, points_word, room, room_word, sample_word,
@@ -68,6 +73,10 @@ pub enum ArgumentKind {
     NewFile,
     /// A file with a picture.
     PictureFile,
+    /// A file that was opened or saved before.
+    RecentFile,
+    /// An open plan: its title.
+    OpenPlan,
     /// Any text, empty included.
     Text,
     /// A length, typed in the units that are set or with its own; see [`crate::base::units`].
@@ -135,6 +144,8 @@ impl ArgumentKind {
             Self::NewPlanFile => "a file to write the plan to".to_owned(),
             Self::NewFile => "a file to write".to_owned(),
             Self::PictureFile => "a file with a picture".to_owned(),
+            Self::RecentFile => "a recent file".to_owned(),
+            Self::OpenPlan => "an open plan".to_owned(),
             Self::Text => "a text".to_owned(),
             Self::Number { unit, least, most } => format!("a number{unit} from {least} to {most}"),
             // Beyond the drawing area nothing is limited any more.
@@ -170,6 +181,16 @@ impl ArgumentKind {
                 let words: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
                 or_list(&words)
             }
+        }
+    }
+
+    /// What its path is for, if it is one that is typed.
+    pub(crate) const fn path_use(self) -> Option<PathUse> {
+        match self {
+            Self::PlanFile => Some(PathUse::Plan),
+            Self::PictureFile => Some(PathUse::Picture),
+            Self::NewPlanFile | Self::NewFile => Some(PathUse::New),
+            _ => None,
         }
     }
 
@@ -236,10 +257,17 @@ impl ArgumentKind {
             }
         };
         match self {
-            Self::PlanFile | Self::NewPlanFile | Self::NewFile | Self::PictureFile if text.is_empty() => {
+            Self::PlanFile | Self::NewPlanFile | Self::NewFile | Self::PictureFile | Self::RecentFile
+                if text.is_empty() =>
+            {
                 Err(self.wrong(app))
             }
-            Self::PlanFile | Self::NewPlanFile | Self::NewFile | Self::PictureFile => {
+            Self::OpenPlan => {
+                let plans = app.session.open_plans();
+                let found = plans.iter().find(|plan| plan.title == text.trim());
+                found.map(|plan| Value::OpenPlan(plan.number)).ok_or_else(|| with_choices(self.wrong(app)))
+            }
+            Self::PlanFile | Self::NewPlanFile | Self::NewFile | Self::PictureFile | Self::RecentFile => {
                 Ok(Value::Path(PathBuf::from(text)))
             }
             Self::Text | Self::Function => Ok(Value::Text(text.trim().to_owned())),
@@ -331,9 +359,11 @@ impl ArgumentKind {
             point.is_finite() && point.x.abs() <= COORDINATE_LIMIT_M && point.y.abs() <= COORDINATE_LIMIT_M
         };
         let is_taken = match (self, &value) {
-            (Self::PlanFile | Self::NewPlanFile | Self::NewFile | Self::PictureFile, Value::Path(path)) => {
-                !path.as_os_str().is_empty()
-            }
+            (
+                Self::PlanFile | Self::NewPlanFile | Self::NewFile | Self::PictureFile | Self::RecentFile,
+                Value::Path(path),
+            ) => !path.as_os_str().is_empty(),
+            (Self::OpenPlan, Value::OpenPlan(number)) => app.session.is_open(*number),
             (
                 Self::Number { least, most, .. }
                 | Self::Ratio { least, most }
@@ -391,6 +421,10 @@ impl ArgumentKind {
             Value::ModelSet(set) => set.name().to_owned(),
             Value::Method(method) => method.name().to_owned(),
             Value::Sample(index) => sample_word(*index).to_owned(),
+            Value::OpenPlan(number) => {
+                let plans = app.session.open_plans().into_iter();
+                plans.filter(|plan| plan.number == *number).map(|plan| plan.title).next().unwrap_or_default()
+            }
             Value::Switch(is_on) => switch_word(*is_on).to_owned(),
             Value::Word(word) => (*word).to_owned(),
             Value::Command(id) | Value::SidePanel(id) => (*id).to_owned(),
@@ -425,6 +459,25 @@ impl ArgumentKind {
             | Self::Keys
             | Self::Elements
             | Self::Points { .. } => return None,
+            Self::RecentFile => {
+                let choice = |path: PathBuf| {
+                    let folder = path.parent().map(|folder| app.session.shown_path(folder)).unwrap_or_default();
+                    let is_missing = app.session.missing.contains(&path);
+                    let trail = if is_missing { "missing".to_owned() } else { String::new() };
+                    let word = path.to_string_lossy().into_owned();
+                    Choice { detail: folder, trail, ..plain(&word, &file_name(&path)) }
+                };
+                app.session.settings.recent().into_iter().map(choice).collect()
+            }
+            Self::OpenPlan => {
+                let choice = |plan: OpenPlan| {
+                    let title = if plan.is_changed { format!("• {}", plan.title) } else { plan.title.clone() };
+                    let path = app.session.origin_of_open(plan.number).and_then(Origin::path);
+                    let place = path.map_or("not saved yet".to_owned(), |path| app.session.shown_path(path));
+                    Choice { detail: place, ..plain(&plan.title, &title) }
+                };
+                app.session.open_plans().into_iter().map(choice).collect()
+            }
             Self::Room => room_choices(app),
             Self::Opening => opening_choices(app),
             Self::Function => app.session.function_choices(),

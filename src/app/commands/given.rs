@@ -75,6 +75,18 @@ impl OfValue for CommandId {
     }
 }
 
+/// The number of an open plan's document.
+pub(super) struct OpenPlanNumber(pub u64);
+
+impl OfValue for OpenPlanNumber {
+    fn of(value: &Value) -> Option<Self> {
+        match value {
+            Value::OpenPlan(number) => Some(Self(*number)),
+            _ => None,
+        }
+    }
+}
+
 /// The id of a panel at a side of the canvas.
 pub(super) struct SidePanelId(pub &'static str);
 
@@ -122,6 +134,8 @@ pub(super) const PLAN_FILE: Kind<PathBuf> = kind(ArgumentKind::PlanFile);
 pub(super) const NEW_PLAN_FILE: Kind<PathBuf> = kind(ArgumentKind::NewPlanFile);
 pub(super) const NEW_FILE: Kind<PathBuf> = kind(ArgumentKind::NewFile);
 pub(super) const PICTURE_FILE: Kind<PathBuf> = kind(ArgumentKind::PictureFile);
+pub(super) const RECENT_FILE: Kind<PathBuf> = kind(ArgumentKind::RecentFile);
+pub(super) const OPEN_PLAN: Kind<OpenPlanNumber> = kind(ArgumentKind::OpenPlan);
 pub(super) const TEXT: Kind<String> = kind(ArgumentKind::Text);
 pub(super) const FUNCTION: Kind<String> = kind(ArgumentKind::Function);
 pub(super) const COUNT: Kind<usize> = kind(ArgumentKind::Count);

@@ -51,6 +51,8 @@ pub struct Command {
     pub tool: Option<(Icon, u8)>,
     /// Its icon and group in the strip of drawing tools; `None` if not there.
     pub strip: Option<(Icon, u8)>,
+    /// Whether the palette lets its path be typed, though a dialog would ask for it elsewhere.
+    types_path: bool,
     availability: fn(&App) -> Availability,
     /// When it can be called with all its arguments, if that requires less.
     complete_availability: Option<fn(&App) -> Availability>,
@@ -181,7 +183,7 @@ impl Command {
 
     /// The required argument after those given, if the palette asks for it.
     pub(super) fn asked_in_palette(&self, given: usize) -> Option<&'static Argument> {
-        let asks_itself = matches!(self.action, Action::With { ask: Some(_), .. });
+        let asks_itself = matches!(self.action, Action::With { ask: Some(_), .. }) && !self.types_path;
         self.arguments.get(given).filter(|argument| !argument.is_optional && !asks_itself)
     }
 
@@ -256,6 +258,12 @@ mod tests {
             for option in tool.options {
                 let (id, kind) = match option {
                     ToolOption::Switch { command, .. } => (*command, ArgumentKind::Switch),
+                    // Without a word it goes on to the next, which is what a click in the bar does.
+                    ToolOption::Choice { command, .. } => {
+                        let arguments = find(command).map_or(&[][..], |command| command.arguments);
+                        assert!(matches!(arguments, [argument] if argument.is_optional), "{command}");
+                        continue;
+                    }
                     ToolOption::Length { command, least_m, most_m, .. } => {
                         (*command, ArgumentKind::Length { least_m: *least_m, most_m: *most_m })
                     }

@@ -10,6 +10,7 @@ use egui::Context;
 
 use super::{Action, COMMANDS, Command, Outcome, find};
 use crate::app::look::keys::Keys;
+use crate::app::look::theme::ThemeChoice;
 use crate::app::session::settings::{Keyed, Settings};
 use crate::app::state::{App, Asked};
 use crate::app::value::{Call, Value, Values, switch_word};
@@ -232,9 +233,18 @@ pub(crate) fn keyed() -> &'static [Keyed] {
 
 impl App {
     /// Keeps settings in a file from now on, and loads those it has.
-    pub fn use_settings(&mut self, file: PathBuf) {
+    pub fn use_settings(&mut self, file: PathBuf, context: &Context) {
         let (settings, problems) = Settings::read(file, keyed());
+        for panel in self.panels.list {
+            if let Some(is_shown) = settings.is_panel_shown(panel.id) {
+                self.panels.set_shown(panel.id, is_shown);
+            }
+        }
         self.session.settings = settings;
+        let theme = self.session.settings.theme().and_then(ThemeChoice::of_word).unwrap_or_default();
+        self.theme = theme;
+        theme.apply(context);
+        self.session.look_for_recent();
         for problem in problems {
             self.session.add_message(problem);
         }
@@ -276,9 +286,14 @@ impl App {
     }
 
     fn keep_settings(&mut self) -> Outcome {
-        if let Err(problem) = self.session.settings.write() {
-            self.session.add_message(problem);
-        }
+        self.session.keep_settings();
         Outcome::Done
+    }
+
+    /// Shows or hides a panel, from now on.
+    pub(super) fn set_panel(&mut self, id: &str, is_shown: bool) {
+        self.panels.set_shown(id, is_shown);
+        self.session.settings.set_panel_shown(id, is_shown);
+        self.session.keep_settings();
     }
 }

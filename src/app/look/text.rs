@@ -6,9 +6,14 @@ use egui::{Context, Id, Response, Ui};
 
 /// Selects all that is in a field, so that what is typed takes its place.
 pub(crate) fn select_all(context: &Context, id: Id, text: &str) {
+    select(context, id, 0..text.chars().count());
+}
+
+/// Selects some characters of a field; of an empty range, puts the cursor there.
+pub(crate) fn select(context: &Context, id: Id, range: std::ops::Range<usize>) {
     let mut state = TextEditState::load(context, id).unwrap_or_default();
-    let all = CCursorRange::two(CCursor::new(0), CCursor::new(text.chars().count()));
-    state.cursor.set_char_range(Some(all));
+    let range = CCursorRange::two(CCursor::new(range.start), CCursor::new(range.end));
+    state.cursor.set_char_range(Some(range));
     state.store(context, id);
 }
 

@@ -20,6 +20,20 @@ pub enum ThemeChoice {
 }
 
 impl ThemeChoice {
+    /// Its word in the settings.
+    pub(crate) const fn word(self) -> &'static str {
+        match self {
+            Self::System => "system",
+            Self::Light => "light",
+            Self::Dark => "dark",
+        }
+    }
+
+    /// The choice with a word.
+    pub(crate) fn of_word(word: &str) -> Option<Self> {
+        [Self::System, Self::Light, Self::Dark].into_iter().find(|choice| choice.word() == word)
+    }
+
     /// Applies it to egui.
     pub(crate) fn apply(self, context: &Context) {
         context.set_theme(match self {

@@ -179,6 +179,11 @@ impl<'a> Row<'a> {
         Self { indent: inset, inset, ..self }
     }
 
+    /// Inset at its end, for what stands there.
+    pub(crate) fn inset_end(self, inset: f32) -> Self {
+        Self { inset, ..self }
+    }
+
     pub(crate) fn indent(self, indent: f32) -> Self {
         Self { indent, ..self }
     }

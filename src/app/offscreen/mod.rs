@@ -158,7 +158,7 @@ impl Offscreen {
 
     /// Keeps settings in a file from now on, and loads those it has. Without this, none are read or kept.
     pub fn use_settings(&mut self, file: &Path) {
-        self.app.use_settings(file.to_owned());
+        self.app.use_settings(file.to_owned(), &self.context);
     }
 
     /// Keeps journals in a folder from now on, and offers those left there. Without this, none are kept.
@@ -181,6 +181,13 @@ impl Offscreen {
     pub fn answer_dialog(&mut self, path: Option<PathBuf>) {
         if let Some(given) = self.given() {
             given.answers.push_back(path);
+        }
+    }
+
+    /// From now on is as on a system without dialogs for files.
+    pub fn be_without_dialogs(&mut self) {
+        if let Some(given) = self.given() {
+            given.has_none = true;
         }
     }
 

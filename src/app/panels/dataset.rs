@@ -26,21 +26,12 @@ struct Dataset {
 
 impl Dataset {
     fn new(app: &App) -> Self {
-        let path = app.session.dataset_path().display().to_string();
+        let path = app.session.shown_path(&app.session.dataset_path());
         Self { path, is_begun: app.session.is_making_dataset() }
     }
 
     fn target(&self, app: &App) -> Option<PathBuf> {
-        let text = self.path.trim();
-        if text.is_empty() || text.ends_with(['/', '\\']) {
-            return None;
-        }
-        let typed = match text.strip_prefix("~/").zip(etcetera::home_dir().ok()) {
-            Some((rest, home)) => home.join(rest),
-            None => PathBuf::from(text),
-        };
-        let folder = app.session.dataset_path();
-        Some(if typed.is_absolute() { typed } else { folder.with_file_name(typed) })
+        app.session.typed_file(&self.path)
     }
 }
 
@@ -58,7 +49,7 @@ impl Dialog for Dataset {
             return After::Close;
         }
         if let Some(path) = app.session.chosen_file.take() {
-            self.path = path.display().to_string();
+            self.path = app.session.shown_path(&path);
         }
         let response = Modal::new(Id::unique("dataset")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
             ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 80.0));
@@ -89,10 +80,11 @@ impl Dataset {
             .session
             .dataset_source()
             .map_or_else(|| (String::new(), 0), |(folder, files)| (app.session.shown_path(folder), files.len()));
+        let folder = if folder.is_empty() { " in this folder".to_owned() } else { format!(" in {folder}") };
         caption(
             ui,
             format!(
-                "One row for each labelled room of the {} in {folder}: where it is from, its features and its label. \
+                "One row for each labelled room of the {}{folder}: where it is from, its features and its label. \
                  Plans are read as they are saved. A room that is in two files counts once. Beside the table go a \
                  schema of its columns and a manifest of how it was made.",
                 count(plans, "plan")

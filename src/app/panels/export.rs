@@ -69,7 +69,7 @@ impl Export {
                 }
             }
         }
-        let path = app.session.export_path(format.0).display().to_string();
+        let path = app.session.shown_path(&app.session.export_path(format.0));
         Self { is_to_print, format, values, path, is_own_path: false, texture: None }
     }
 
@@ -86,15 +86,7 @@ impl Export {
 
     /// The file, if the text is one.
     fn target(&self, app: &App) -> Option<PathBuf> {
-        let text = self.path.trim();
-        if text.is_empty() || text.ends_with(['/', '\\']) {
-            return None;
-        }
-        let typed = match text.strip_prefix("~/").zip(etcetera::home_dir().ok()) {
-            Some((rest, home)) => home.join(rest),
-            None => PathBuf::from(text),
-        };
-        let path = if typed.is_absolute() { typed } else { app.session.export_folder().join(typed) };
+        let path = app.session.typed_file(&self.path)?;
         let name = path.file_name()?.to_string_lossy().into_owned();
         let endings = self.format.0.endings;
         Some(match ending_of(&name, endings) {
@@ -116,14 +108,14 @@ impl Dialog for Export {
             return After::Close;
         }
         if let Some(path) = app.session.chosen_file.take() {
-            self.path = path.display().to_string();
+            self.path = app.session.shown_path(&path);
             self.is_own_path = true;
         }
         let response = Modal::new(Id::unique("export")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
             let window = ui.ctx().content_rect().size();
             let width = (OPTIONS_WIDTH + PREVIEW_WIDTH + 20.0).min(window.x - 80.0);
             ui.set_width(width);
-            ui.label(strong(if self.is_to_print { "Print" } else { "Export" }, theme::TITLE));
+            ui.label(strong(if self.is_to_print { "Print the plan" } else { "Export the plan" }, theme::TITLE));
             ui.add_space(6.0);
             if !self.is_to_print {
                 self.formats(app, ui);
@@ -139,12 +131,13 @@ impl Dialog for Export {
             let shown = is_sheet(self.format.0).then(|| app.session.preview().result().cloned()).flatten();
             ui.horizontal_top(|ui| {
                 ui.spacing_mut().item_spacing.x = 20.0;
-                ui.allocate_ui(vec2(OPTIONS_WIDTH.min(width), height), |ui| {
+                ui.vertical(|ui| {
+                    ui.set_width(OPTIONS_WIDTH.min(width));
                     ScrollArea::vertical().id_salt("options").auto_shrink(false).max_height(height).show(ui, |ui| {
                         self.options(ui);
                     });
                 });
-                ui.allocate_ui(vec2(beside, height), |ui| self.preview(ui, shown.as_ref(), vec2(beside, height)));
+                self.preview(ui, shown.as_ref(), vec2(beside, height));
             });
             ui.add_space(8.0);
             let problem = match &shown {
@@ -188,7 +181,7 @@ impl Export {
         self.format = chosen;
         let ending = chosen.0.endings.first().copied().unwrap_or_default();
         if !self.is_own_path {
-            self.path = app.session.export_path(chosen.0).display().to_string();
+            self.path = app.session.shown_path(&app.session.export_path(chosen.0));
         } else if let Some(old) = ending_of(&self.path, before.0.endings) {
             let stem = self.path.len() - old.len();
             self.path.truncate(stem);
@@ -381,7 +374,7 @@ pub(super) fn told(ui: &mut Ui, said: &Result<String, String>) {
     // As high as two lines, so that the buttons stay where they are.
     let height = 34.0;
     let rich = egui::RichText::new(text).size(theme::SMALL).color(colour);
-    ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
+    ui.vertical(|ui| {
         ui.set_min_height(height);
         ui.add(egui::Label::new(rich).wrap());
     });

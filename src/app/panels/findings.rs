@@ -15,7 +15,7 @@ use crate::check::{Finding, Severity};
 
 /// Height in points: the initial one, and the minimum.
 const USUAL_HEIGHT: f32 = 280.0;
-const LEAST_HEIGHT: f32 = 110.0;
+const LEAST_HEIGHT: f32 = 170.0;
 
 /// The most findings listed of a plan: nobody reads more, and each is laid out in every frame.
 const MOST: usize = 200;
@@ -72,7 +72,11 @@ fn show(app: &mut App, ui: &mut Ui) {
             });
         });
         ui.add_space(2.0);
-        let Some(checked) = checked else { return };
+        let Some(checked) = checked else {
+            // As high as with a list, or the panel would shrink and stay so.
+            ui.take_available_space();
+            return;
+        };
         let id = Id::unique("reason of a finding");
         let mut reason = ui.data_mut(|data| data.get_temp::<Reason>(id)).unwrap_or_default();
         ScrollArea::vertical().id_salt("findings").auto_shrink(false).show(ui, |ui| {

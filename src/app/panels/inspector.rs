@@ -53,9 +53,22 @@ enum Act {
     /// A command with its arguments.
     Choose(&'static str, Vec<String>),
     Picture(PictureAct),
+    /// One after the other: a field is left and the next one written in, in one frame.
+    All(Vec<Act>),
 }
 
 impl Act {
+    /// Both, what is taken before what is typed.
+    fn both(one: Option<Self>, other: Option<Self>) -> Option<Self> {
+        let acts = one.into_iter().chain(other).flat_map(|act| match act {
+            Self::All(acts) => acts,
+            act => vec![act],
+        });
+        let mut acts: Vec<Self> = acts.collect();
+        acts.sort_by_key(|act| matches!(act, Self::Type(_)));
+        if acts.len() > 1 { Some(Self::All(acts)) } else { acts.pop() }
+    }
+
     fn of(asked: prediction::Asked) -> Self {
         match asked {
             (id, Some(word)) => Self::Choose(id, vec![word]),
@@ -110,38 +123,42 @@ fn show(app: &mut App, ui: &mut Ui) {
     app.canvas.evidence = evidence;
     app.canvas.marked_in_panel = marked.get();
     app.panels.focus = None;
+    if let Some(act) = act {
+        perform(app, ui, act);
+    }
+}
+
+fn perform(app: &mut App, ui: &Ui, act: Act) {
     match act {
-        None => {}
-        Some(Act::Pick(ElementId::Room(room))) => {
+        Act::All(acts) => acts.into_iter().for_each(|act| perform(app, ui, act)),
+        Act::Pick(ElementId::Room(room)) => {
             let word = app.plan().map(|plan| commands::room_word(plan, room)).unwrap_or_default();
             app.act("find-room", &[&word], ui.ctx());
         }
-        Some(Act::Pick(ElementId::Wall(_) | ElementId::Corner(_) | ElementId::Dimension(_))) => {}
-        Some(Act::Pick(ElementId::Opening(opening))) => {
-            app.act("pick-opening", &[&opening.to_string(), "on"], ui.ctx())
-        }
-        Some(Act::Label(label)) => {
+        Act::Pick(ElementId::Wall(_) | ElementId::Corner(_) | ElementId::Dimension(_)) => {}
+        Act::Pick(ElementId::Opening(opening)) => app.act("pick-opening", &[&opening.to_string(), "on"], ui.ctx()),
+        Act::Label(label) => {
             let id = label.map_or("label-by-function", |label| LABEL_COMMANDS[label.index()]);
             app.act(id, &[], ui.ctx());
         }
-        Some(Act::Type(field)) => app.session.field = Some(field),
-        Some(Act::Commit(written)) => {
+        Act::Type(field) => app.session.field = Some(field),
+        Act::Commit(written) => {
             app.session.field = written.or(app.session.field.take());
             app.session.commit_field();
         }
-        Some(Act::Revert) => drop(app.session.field.take()),
-        Some(Act::Picture(PictureAct::Opacity(opacity))) => app.session.backdrop.opacity = Some(opacity),
-        Some(Act::Picture(PictureAct::Command(id, arguments))) => {
+        Act::Revert => drop(app.session.field.take()),
+        Act::Picture(PictureAct::Opacity(opacity)) => app.session.backdrop.opacity = Some(opacity),
+        Act::Picture(PictureAct::Command(id, arguments)) => {
             app.session.backdrop.opacity = None;
             let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
             app.act(id, &arguments, ui.ctx());
         }
-        Some(Act::Command(id)) => app.act(id, &[], ui.ctx()),
-        Some(Act::Choose(id, words)) => {
+        Act::Command(id) => app.act(id, &[], ui.ctx()),
+        Act::Choose(id, words) => {
             let words: Vec<&str> = words.iter().map(String::as_str).collect();
             app.act(id, &words, ui.ctx());
         }
-        Some(Act::ShowNotes) => app.act("import-notes", &["on"], ui.ctx()),
+        Act::ShowNotes => app.act("import-notes", &["on"], ui.ctx()),
     }
 }
 

@@ -33,7 +33,9 @@ pub(super) fn menu(app: &mut App, ui: &mut Ui, menu: Menu, top: f32) {
 /// Shows commands as the rows of a menu.
 fn list<'a>(app: &mut App, ui: &mut Ui, commands: impl Iterator<Item = &'a Command>, height: f32) {
     ui.set_width(WIDTH);
-    ScrollArea::vertical().max_height(height.max(LEAST_HEIGHT)).auto_shrink([false, true]).show(ui, |ui| {
+    let height = height.max(LEAST_HEIGHT);
+    let area = ScrollArea::vertical().min_scrolled_height(height).max_height(height).auto_shrink([false, true]);
+    area.show(ui, |ui| {
         ui.set_width(WIDTH);
         ui.spacing_mut().item_spacing.y = 0.0;
         let mut section = None;
@@ -147,6 +149,34 @@ impl App {
     }
 }
 
+/// The commands of a kind of thing: first those of the menu that is about it, and of a menu's sections those first that
+/// are for few other things.
+fn of_thing(kind: On) -> Vec<&'static Command> {
+    let own = match kind {
+        On::Room | On::Several => Menu::Room,
+        On::Wall | On::Opening | On::Corner => Menu::Modify,
+        On::FreeSpace => Menu::Edit,
+        On::ListedPlan => Menu::File,
+    };
+    let mut commands: Vec<&Command> = COMMANDS.iter().filter(|command| command.on.contains(&kind)).collect();
+    let others = |section: Option<(Menu, u8)>| {
+        commands.iter().filter(|command| command.menu == section).map(|command| command.on.len()).min()
+    };
+    let keys: Vec<_> = commands
+        .iter()
+        .map(|command| (command.menu.is_none_or(|(menu, _)| menu != own), others(command.menu), command.id))
+        .collect();
+    // Sections keep together: all of one have the same key but for the id.
+    let key = |command: &Command| {
+        let found = keys.iter().position(|(_, _, id)| *id == command.id).unwrap_or_default();
+        keys.get(found).map(|(is_other, others, _)| (*is_other, *others))
+    };
+    let order: Vec<Option<(Menu, u8)>> = commands.iter().map(|command| command.menu).collect();
+    let place = |command: &Command| order.iter().position(|section| *section == command.menu);
+    commands.sort_by_key(|command| (key(command), place(command)));
+    commands
+}
+
 fn context_menu_id() -> Id {
     Id::unique("context menu")
 }
@@ -202,8 +232,7 @@ pub(super) fn show_context_menu(app: &mut App, ui: &Ui) {
                 }
                 return;
             }
-            let commands = COMMANDS.iter().filter(|command| command.on.contains(&kind));
-            list(app, ui, commands, below.max(above) - EDGE - 24.0);
+            list(app, ui, of_thing(kind).into_iter(), below.max(above) - EDGE - 24.0);
         });
 }
 

@@ -1,6 +1,7 @@
 //! The command palette: finds a command by a few letters of its name, and asks for its arguments.
 
 mod lines;
+mod path_lines;
 
 use crate::app::state::dialogs;
 use egui::text::{LayoutJob, TextFormat};
@@ -10,14 +11,16 @@ use egui::{
 };
 
 use self::lines::{argument_lines, command_lines, row};
+use self::path_lines::{Listing, path_lines, path_problem};
 use crate::app::commands::{Argument, COMMANDS, Choice, Command, find};
 use crate::app::look::{
     icons::Icon,
     search::{Hit, Search},
-    text::select_all,
+    text::{select, select_all},
     theme,
     widgets::{ICON, ROW, colours, hairline_in, put_line, swatch},
 };
+use crate::app::session::paths::{PathUse, split_typed};
 use crate::app::state::App;
 use crate::app::state::{After, Dialog, Entry, Purpose};
 use crate::base::units::Units;
@@ -50,6 +53,10 @@ pub(crate) struct Palette {
     is_stepped: bool,
     /// Whether the field has been shown: the first time, its text is selected.
     is_shown: bool,
+    /// Whether its text was completed: the cursor goes behind it.
+    is_completed: bool,
+    /// What the folder of a typed path offers.
+    listing: Listing,
     /// What numbers are in that are typed without a unit.
     units: Units,
 }
@@ -66,6 +73,8 @@ struct Asking {
     choices: Option<Option<Vec<Choice>>>,
     /// Why the text was rejected; empty if it was not.
     error: String,
+    /// The path of a file that is to be replaced, if it is entered once more.
+    replaces: Option<String>,
     /// Whether the command was chosen from the list, to which Escape returns.
     is_from_list: bool,
 }
@@ -73,12 +82,17 @@ struct Asking {
 impl Asking {
     fn new(command: &'static Command, given: Vec<String>) -> Self {
         let (rest, about, error) = (Vec::new(), String::new(), String::new());
-        Self { command, given, rest, about, choices: None, error, is_from_list: false }
+        Self { command, given, rest, about, choices: None, error, replaces: None, is_from_list: false }
     }
 
     /// The argument being asked for.
     fn argument(&self) -> Option<&'static Argument> {
         self.command.arguments.get(self.given.len())
+    }
+
+    /// What the path that is asked for is for, if it is one that is typed.
+    fn path_use(&self) -> Option<PathUse> {
+        self.argument().filter(|_| !matches!(self.choices, Some(Some(_))))?.kind.path_use()
     }
 
     /// Whether any text is accepted.
@@ -116,6 +130,7 @@ struct Line {
 enum LineLead {
     None,
     Tick,
+    Icon(Icon),
     Swatch(Color32),
 }
 
@@ -123,11 +138,15 @@ enum LineLead {
 enum Taken {
     Command(&'static Command),
     Argument(String),
+    /// The field gets this text.
+    Typed(String),
 }
 
 /// A user action.
 enum Act {
     Take(usize),
+    /// Complete the text by a line.
+    Complete(usize),
     /// Submit the text.
     TakeText,
     /// Go back one step, or close.
@@ -143,6 +162,7 @@ impl Dialog for Palette {
     fn show(&mut self, app: &mut App, ui: &mut Ui) -> After {
         // A question takes precedence, and what was started here is dropped.
         if app.session.question.is_some() {
+            app.session.typed_for = None;
             return After::Close;
         }
         self.units = app.units();
@@ -156,7 +176,12 @@ impl Dialog for Palette {
             Some(Act::Take(index)) => match lines.into_iter().nth(index).map(|line| (line.is_available, line.taken)) {
                 Some((true, Taken::Command(command))) => self.take_command(app, ui, command),
                 Some((true, Taken::Argument(word))) => self.take_argument(app, ui, word),
+                Some((true, Taken::Typed(text))) => self.complete(text),
                 Some((false, _)) | None => true,
+            },
+            Some(Act::Complete(index)) => match lines.into_iter().nth(index).map(|line| line.taken) {
+                Some(Taken::Argument(text) | Taken::Typed(text)) => self.complete(text),
+                Some(Taken::Command(_)) | None => true,
             },
             Some(Act::TakeText) => {
                 let text = self.query.clone();
@@ -167,7 +192,15 @@ impl Dialog for Palette {
         if keep && is_done && !app.dialogs.is_waiting(ID) {
             ui.request_repaint();
         }
-        if keep { After::Stay } else { After::Close }
+        if keep {
+            After::Stay
+        } else {
+            // Whatever waited for a path has it, or is dropped.
+            if !app.dialogs.is_waiting(ID) {
+                app.session.typed_for = None;
+            }
+            After::Close
+        }
     }
 }
 
@@ -178,6 +211,10 @@ impl Palette {
         let mut search = Search::new(&self.query);
         let Some(asking) = &mut self.asking else { return command_lines(app, ui, &mut search) };
         let argument = asking.argument();
+        if let Some(use_) = asking.path_use() {
+            asking.choices.get_or_insert(None);
+            return path_lines(app, &self.query, use_, &mut self.listing);
+        }
         // Nothing changes while the palette is open.
         let choices = asking.choices.get_or_insert_with(|| argument.and_then(|argument| argument.kind.choices(app)));
         let mut lines = argument_lines(app, ui, choices.as_deref().unwrap_or_default(), &mut search);
@@ -199,6 +236,17 @@ impl Palette {
 
     // Actions. Each returns whether the palette stays open.
 
+    /// Puts a text into the field.
+    fn complete(&mut self, text: String) -> bool {
+        self.query = text;
+        self.at = 0;
+        (self.is_completed, self.is_stepped) = (true, true);
+        if let Some(asking) = &mut self.asking {
+            asking.error.clear();
+        }
+        true
+    }
+
     fn go_back(&mut self) -> bool {
         match self.asking.take() {
             Some(asking) if asking.is_from_list => {
@@ -215,7 +263,12 @@ impl Palette {
         app.panels.recent.truncate(RECENT);
         if command.asked_in_palette(0).is_some() {
             let asking = Asking { is_from_list: true, ..Asking::new(command, Vec::new()) };
-            *self = Self { asking: Some(asking), ..Self::default() };
+            let query = match asking.path_use() {
+                None => String::new(),
+                Some(PathUse::New) => app.session.first_text(None, &app.session.offered_name()),
+                Some(_) => app.session.first_text(None, ""),
+            };
+            *self = Self { query, asking: Some(asking), ..Self::default() };
             return true;
         }
         app.act(command.id, &[], ui.ctx());
@@ -225,6 +278,21 @@ impl Palette {
     fn take_argument(&mut self, app: &mut App, ui: &Ui, word: String) -> bool {
         let Some(asking) = &mut self.asking else { return false };
         let Some(argument) = asking.argument() else { return false };
+        let mut word = word;
+        if let Some(use_) = asking.path_use() {
+            if let Some(what) = path_problem(app, &word, use_) {
+                asking.error = sentence(&what);
+                return true;
+            }
+            let path = app.session.typed_path(&word);
+            if use_ == PathUse::New && path.is_file() && asking.replaces.as_ref() != Some(&word) {
+                let (_, name) = split_typed(&word);
+                asking.error = format!("{name} exists; press Enter once more to overwrite it");
+                asking.replaces = Some(word);
+                return true;
+            }
+            word = path.to_string_lossy().into_owned();
+        }
         match argument.kind.read_typed(app, &word) {
             Ok(word) => asking.given.push(word),
             Err(what) => {
@@ -289,7 +357,14 @@ impl Palette {
         if pressed(Key::Escape) > 0 {
             return Some(Act::Back);
         }
+        let path_use = self.asking.as_ref().and_then(Asking::path_use);
+        if path_use.is_some() && pressed(Key::Tab) > 0 && number > 0 {
+            return Some(Act::Complete(self.at));
+        }
         if pressed(Key::Enter) > 0 {
+            if path_use.is_some() && number > 0 {
+                return Some(Act::Take(self.at));
+            }
             let is_free = self.asking.as_ref().is_some_and(Asking::is_free);
             return if is_free { Some(Act::TakeText) } else { (number > 0).then_some(Act::Take(self.at)) };
         }
@@ -335,15 +410,33 @@ impl Palette {
         }
         let field = Rect::from_min_max(pos2(left, rect.top() + 8.0), pos2(rect.right() - 12.0, rect.bottom() - 8.0));
         let field_id = Id::unique("command palette's text");
+        // Before it is shown: without the keyboard a field forgets what is selected.
+        ui.memory_mut(|memory| memory.request_focus(field_id));
         if !std::mem::replace(&mut self.is_shown, true) {
             // The cursor may be anywhere, left from an earlier palette.
-            select_all(ui.ctx(), field_id, &self.query);
+            let text = &self.query;
+            match self.asking.as_ref().and_then(Asking::path_use) {
+                None => select_all(ui.ctx(), field_id, text),
+                // Of a new file its name without the ending; behind a folder.
+                Some(_) => {
+                    let (folder, name) = split_typed(text);
+                    let count = |text: &str| text.chars().count();
+                    let from = count(folder);
+                    select(ui.ctx(), field_id, from..from + count(crate::formats::file_stem(name)));
+                }
+            }
+        }
+        if std::mem::take(&mut self.is_completed) {
+            let end = self.query.chars().count();
+            select(ui.ctx(), field_id, end..end);
         }
         let edit = TextEdit::singleline(&mut self.query)
             .id(field_id)
             .frame(egui::Frame::NONE)
             .margin(egui::Margin::symmetric(4, 4))
             .font(FontId::proportional(theme::TITLE))
+            // Tab completes.
+            .lock_focus(true)
             .hint_text(RichText::new(hint).color(colours.text_weak))
             .align(Align2::LEFT_CENTER)
             .min_size(field.size())
@@ -357,6 +450,7 @@ impl Palette {
             self.is_stepped = true;
             if let Some(asking) = &mut self.asking {
                 asking.error.clear();
+                asking.replaces = None;
             }
         }
     }
@@ -414,6 +508,9 @@ impl Palette {
             (Some(error), _, _) => (error.to_owned(), colours.error),
             (None, Some(Line { taken: Taken::Command(command), .. }), _) => {
                 (command.help.to_owned(), colours.text_weak)
+            }
+            (None, _, Some(asking)) if asking.path_use().is_some() => {
+                ("Tab completes, Enter accepts the marked line".to_owned(), colours.text_weak)
             }
             (None, _, Some(asking)) => (asking.command.help.to_owned(), colours.text_weak),
             (None, _, None) => (String::new(), colours.text_weak),

@@ -1,20 +1,23 @@
-//! The list of plans: those of the folder, and the bundled ones.
+//! The list of plans: the open ones, those of the folder, and the bundled ones.
 
 use std::path::Path;
 
-use egui::{Response, Role, ScrollArea, Ui};
+use egui::{Rect, Response, Role, ScrollArea, Ui, UiBuilder, pos2};
 
 use crate::app::commands;
 use crate::app::look::{
     icons::Icon,
     widgets::{Lead, ROW, Row, icon_button, right, section},
 };
+use crate::app::session::open_plans::OpenPlan;
 use crate::app::session::origin::{Origin, bundled, file_name};
 use crate::app::state::{App, Height, Side, SidePanel, Thing, panels};
+use crate::app::value::{Call, Value};
 
 /// A row of the list.
 enum Entry {
     Title(String),
+    Open(OpenPlan),
     Plan { origin: Origin, text: String },
     Storey { origin: Origin, text: String },
 }
@@ -25,7 +28,7 @@ const LEAST_HEIGHT: f32 = 110.0;
 pub(super) const PANEL: SidePanel = SidePanel {
     id: panels::PLANS,
     title: "Plans",
-    help: "The plans in the folder, and the samples",
+    help: "The open plans, the plans in the folder, and the samples",
     side: Side::Left,
     height: Height::Rest { least: LEAST_HEIGHT },
     is_shown_at_first: true,
@@ -49,7 +52,7 @@ fn show(app: &mut App, ui: &mut Ui) {
         });
     });
     let current = app.session.document.as_ref().map(|document| document.origin.clone());
-    let (mut wanted, mut asked) = (None, None);
+    let (mut wanted, mut asked, mut act) = (None, None, None);
     ui.spacing_mut().item_spacing.y = 0.0;
     ScrollArea::vertical().auto_shrink([false, false]).show_rows(ui, ROW, entries.len(), |ui, range| {
         for entry in &entries[range] {
@@ -59,6 +62,13 @@ fn show(app: &mut App, ui: &mut Ui) {
                         ui.set_min_height(ROW);
                         Row::new(Lead::None, text).muted().indent(8.0).show_only(ui);
                     });
+                }
+                Entry::Open(plan) => {
+                    let (response, chosen) = open_row(ui, plan);
+                    act = chosen.or(act.take());
+                    if let Some(origin) = current.as_ref().filter(|_| plan.is_shown) {
+                        asked = asked.take().or(asks(&response, origin));
+                    }
                 }
                 Entry::Plan { origin, text } => {
                     let is_current = current.as_ref().is_some_and(|current| is_same_file(current, origin));
@@ -80,14 +90,31 @@ fn show(app: &mut App, ui: &mut Ui) {
             }
         }
     });
+    let context = ui.ctx().clone();
     if let Some((origin, at)) = asked {
-        let context = ui.ctx().clone();
         app.open_context_menu(Thing::Listed(origin), at, &context);
     }
     if let Some(origin) = wanted {
-        let context = ui.ctx().clone();
         app.open_listed(&origin, &context);
     }
+    if let Some((id, number)) = act {
+        app.act_on(Call::new(id, [Value::OpenPlan(number)]), &context);
+    }
+}
+
+/// A row of an open plan: shows it, or closes it. Unsaved changes are marked.
+fn open_row(ui: &mut Ui, plan: &OpenPlan) -> (Response, Option<(&'static str, u64)>) {
+    let text = if plan.is_changed { format!("• {}", plan.title) } else { plan.title.clone() };
+    let row = Row::new(Lead::Icon(Icon::Plan), &text).selected(plan.is_shown).inset_end(ROW - 8.0);
+    let response = row.button(ui, Role::ListBoxOption);
+    let place = Rect::from_min_max(pos2(response.rect.right() - ROW, response.rect.top()), response.rect.max);
+    let mut end = ui.new_child(UiBuilder::new().max_rect(place).id_salt(("close", plan.number)));
+    let name = format!("Close {}", plan.title);
+    if icon_button(&mut end, Icon::Close, &name, None).on_hover_text("Close this plan").clicked() {
+        return (response, Some(("close", plan.number)));
+    }
+    let shows = (response.clicked() && !plan.is_shown).then_some(("show-plan", plan.number));
+    (response, shows)
 }
 
 /// The plan of a row whose menu is asked for, and where.
@@ -99,6 +126,11 @@ fn asks(row: &Response, origin: &Origin) -> Option<(Origin, egui::Pos2)> {
 fn entries(app: &App) -> Vec<Entry> {
     let mut entries = Vec::new();
     let document = app.session.document.as_ref();
+    let open = app.session.open_plans();
+    if !open.is_empty() {
+        entries.push(Entry::Title("Open".to_owned()));
+    }
+    entries.extend(open.into_iter().map(Entry::Open));
     if let Some(folder) = &app.session.list.folder
         && !app.session.list.files.is_empty()
     {

@@ -153,7 +153,8 @@ fn one(
                     };
                     let age = now.zip(offered.leftover.modified).and_then(|(now, then)| age(now, then));
                     ui.label(age.map_or(changes.clone(), |age| format!("{changes}, {age}")));
-                    if let Some(step) = recovered.history.steps().get(recovered.history.position()) {
+                    let position = recovered.history.position();
+                    if let Some(step) = recovered.history.steps().get(position).filter(|_| position > 0) {
                         caption(ui, format!("Last change: {}", step.title));
                     }
                     if recovered.draft.is_some() {

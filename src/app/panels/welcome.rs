@@ -1,5 +1,7 @@
 //! The welcome screen, shown when no plan is open, and the drop target for dragged files.
 
+use std::path::PathBuf;
+
 use egui::emath::GuiRounding as _;
 use egui::epaint::StrokeKind;
 use egui::{
@@ -9,17 +11,22 @@ use egui::{
 
 use crate::app::commands;
 use crate::app::look::{
+    icons::Icon,
     theme,
-    widgets::{colours, follow_focus, section, strong, text_button},
+    widgets::{Lead, ROW, Row, colours, follow_focus, link, section, strong, text_button},
 };
-use crate::app::session::origin::{Origin, bundled};
+use crate::app::session::origin::{Origin, bundled, file_name};
 use crate::app::state::App;
+use crate::app::value::{Call, Value};
 use crate::base::wording::count;
 use crate::draw::{Layers, Style, View};
 use crate::plan::Plan;
 
 /// Size of a sample's card, in points.
 const CARD: Vec2 = vec2(208.0, 168.0);
+
+/// How many of the files opened last are shown at once.
+const SHOWN_RECENT: usize = 5;
 
 /// Space between cards.
 const GAP: f32 = 16.0;
@@ -29,9 +36,11 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let palette = app.session.palette(ui);
     ui.painter().rect_filled(rect, 0.0, theme::colour(palette.paper));
     let samples = bundled().len();
+    let recent: Vec<PathBuf> = app.session.settings.recent();
+    let recent_height = if recent.is_empty() { 0.0 } else { 54.0 + recent.len().min(SHOWN_RECENT) as f32 * ROW };
     let columns = ((rect.width() - 48.0 + GAP) / (CARD.x + GAP)).floor().clamp(1.0, 3.0);
     let rows = (samples as f32 / columns).ceil();
-    let size = vec2(columns * (CARD.x + GAP) - GAP, 178.0 + rows * (CARD.y + GAP));
+    let size = vec2(columns * (CARD.x + GAP) - GAP, 178.0 + recent_height + rows * (CARD.y + GAP));
     let column = Rect::from_center_size(rect.center(), size.min(rect.size())).round_to_pixels(ui.pixels_per_point());
     let mut ui = ui.new_child(UiBuilder::new().max_rect(column).layout(Layout::top_down(Align::Min)));
     ScrollArea::vertical().show(&mut ui, |ui| {
@@ -55,6 +64,12 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             ui.label(RichText::new(hint).color(colours(ui).text_weak));
         });
         ui.add_space(20.0);
+        if !recent.is_empty() {
+            section(ui, "Recent");
+            ui.add_space(2.0);
+            recent_rows(app, ui, &recent);
+            ui.add_space(20.0);
+        }
         if samples == 0 {
             return;
         }
@@ -70,6 +85,33 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             }
         });
     });
+}
+
+/// The files opened last. One that is not there is marked, and can be tried all the same.
+fn recent_rows(app: &mut App, ui: &mut Ui, recent: &[PathBuf]) {
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let mut wanted = None;
+    for path in recent.iter().take(SHOWN_RECENT) {
+        let folder = path.parent().map(|folder| app.session.shown_path(folder)).unwrap_or_default();
+        let is_missing = app.session.missing.contains(path);
+        let name = file_name(path);
+        let (icon, trail) = match is_missing {
+            true => (Icon::Warning, format!("missing from {folder}")),
+            false => (Icon::Plan, folder),
+        };
+        let row = Row::new(Lead::Icon(icon), &name).trail(&trail);
+        let row = if is_missing { row.muted() } else { row };
+        if row.button(ui, Role::Button).on_hover_text(app.session.shown_path(path)).clicked() {
+            wanted = Some(path.clone());
+        }
+    }
+    let context = ui.ctx().clone();
+    if let Some(path) = wanted {
+        app.act_on(Call::new("open", [Value::Path(path)]), &context);
+    }
+    if recent.len() > SHOWN_RECENT && link(ui, "More…").clicked() {
+        app.run_command("open-recent", &context);
+    }
 }
 
 /// A sample with its thumbnail.

@@ -50,6 +50,14 @@ impl Folders {
         Ok(target)
     }
 
+    /// Copies a file beside the script to the working folder, under a name of its own.
+    ///
+    /// # Errors
+    /// When it does not exist or cannot be copied.
+    pub(super) fn brought_in_as(&self, path: &str, name: &str) -> Result<(), Fault> {
+        copy(&self.script.join(path), &self.work.join(name)).map_err(|what| cannot_copy(path, &what))
+    }
+
     /// The path in the working folder where the script saves; creates its folder.
     ///
     /// # Errors

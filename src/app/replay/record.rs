@@ -290,6 +290,10 @@ impl App {
             recorder.start = Some((document.number, document.history.position()));
             let line = recorder.open(&document.origin);
             recorder.lines.push(line);
+            if document.closes_rooms != (document.origin == Origin::Untitled) {
+                let word = if document.closes_rooms { "on" } else { "off" };
+                recorder.lines.push(Line::new(&["rooms-from-walls", word]));
+            }
         }
         if let Some(Origin::File { path, storey }) = self.session.ghost.as_ref().and_then(|ghost| ghost.origin.as_ref())
             && let Some(word) = recorder.files.add_file(path)
@@ -416,7 +420,7 @@ impl App {
     fn ask_where_to_save_recording(&mut self, recording: Option<Recording>, then: Option<Intent>) {
         let Some(recording) = recording else { return };
         let purpose = Purpose::Recording(Box::new(move |path| Box::new(News::Chosen { recording, path, then })));
-        self.session.dialogs.ask(purpose, None, "recording.replay".to_owned(), &mut self.session.jobs);
+        self.session.ask_for_file(purpose, None, "recording.replay".to_owned());
     }
 
     /// Receives the messages passed through the session.

@@ -25,6 +25,9 @@ pub(super) struct Stage<'a> {
     pub updated: Vec<PathBuf>,
     /// What the hand did since it was last asked to be counted.
     pub gestures: Gestures,
+    /// Whether settings and journals are kept.
+    keeps_settings: bool,
+    keeps_journal: bool,
 }
 
 /// What a hand does: clicks count one, double clicks two, drags two (pressing and letting go), turns of the wheel one;
@@ -52,11 +55,25 @@ fn held(modifiers: Modifiers) -> usize {
     [alt, ctrl || command, shift].into_iter().filter(|is_held| *is_held).count()
 }
 
+/// The file of the settings that a script keeps.
+pub(super) const SETTINGS: &str = "settings.json";
+
 impl<'a> Stage<'a> {
     pub(super) fn new(folders: &'a Folders, is_updating: bool) -> Self {
         let mut window = Offscreen::new(OffscreenOptions::default());
         window.name_paths_from(&folders.work);
-        Self { window, folders, is_updating, snapshots: 0, updated: Vec::new(), gestures: Gestures::default() }
+        let gestures = Gestures::default();
+        let (keeps_settings, keeps_journal) = (false, false);
+        Self {
+            window,
+            folders,
+            is_updating,
+            snapshots: 0,
+            updated: Vec::new(),
+            gestures,
+            keeps_settings,
+            keeps_journal,
+        }
     }
 
     /// Changes the window's size, scale or theme.
@@ -77,14 +94,46 @@ impl<'a> Stage<'a> {
 
     /// Keeps journals, in the script's working folder.
     pub(super) fn keep_journal(&mut self) {
+        self.keeps_journal = true;
         self.window.use_journal(&self.folders.work.join("journal"));
+    }
+
+    /// Keeps settings, in the script's working folder.
+    pub(super) fn keep_settings(&mut self) {
+        self.keeps_settings = true;
+        self.window.use_settings(&self.folders.work.join(SETTINGS));
     }
 
     /// Ends the program as in a power cut, and restarts it.
     pub(super) fn crash(&mut self) {
+        self.keeps_journal = true;
+        self.start_anew();
+    }
+
+    /// Closes the window and starts the program again.
+    ///
+    /// # Errors
+    /// When the window asks something before it closes.
+    pub(super) fn restart(&mut self) -> Result<(), Fault> {
+        self.window.ask_to_close();
+        let settled = self.window.settle();
+        settled.map_err(|error| Fault::new(error.to_string()))?;
+        if !self.window.is_closed() {
+            return Err(Fault::new("the window did not close").hint("answer its question first: answer discard, say"));
+        }
+        self.start_anew();
+        Ok(())
+    }
+
+    fn start_anew(&mut self) {
         self.window = Offscreen::new(self.window.options());
         self.window.name_paths_from(&self.folders.work);
-        self.keep_journal();
+        if self.keeps_settings {
+            self.keep_settings();
+        }
+        if self.keeps_journal {
+            self.keep_journal();
+        }
     }
 
     /// The open plan.

@@ -44,7 +44,7 @@ impl Session {
     /// Asks where a dataset goes.
     pub(crate) fn ask_where_to_put_dataset(&mut self, path: &Path) {
         let folder = path.parent().map(Path::to_owned).filter(|folder| folder.is_dir());
-        self.dialogs.ask(Purpose::Dataset, folder, file_name(path), &mut self.jobs);
+        self.ask_for_file(Purpose::Dataset, folder, file_name(path));
     }
 
     /// Makes the dataset of the plans in the list, as `enfilade dataset` does, and writes it.

@@ -2,7 +2,7 @@
 
 use crate::app::session::origin::Origin;
 use crate::app::session::origin::bundled;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -13,7 +13,7 @@ use crate::formats::{self, FileError, Note, Place, ReadError};
 use crate::geometry::Bounds;
 use crate::labels::Schemes;
 pub(crate) use crate::pipeline::Derived;
-use crate::plan::{ElementId, History, Meta, Plan, Scale, ScaleOrigin};
+use crate::plan::{CornerId, Difference, ElementId, History, Meta, Plan, Scale, ScaleOrigin};
 use crate::predict::Predictor;
 use crate::store::{self, Stamp};
 
@@ -105,6 +105,9 @@ pub(crate) fn is_own_file(path: &Path) -> bool {
     path.to_string_lossy().to_lowercase().ends_with(".plan.json")
 }
 
+/// In a plan of fewer elements looking at each takes no time.
+const FEW_ELEMENTS: usize = 2000;
+
 /// The open plan.
 pub(crate) struct Document {
     /// Distinguishes documents opened one after the other.
@@ -120,6 +123,8 @@ pub(crate) struct Document {
     saved: Option<Plan>,
     /// Whether its file has been removed.
     pub is_gone: bool,
+    /// Whether what walls close becomes a room: at first where the plan was begun here.
+    pub closes_rooms: bool,
     derived: Option<(Plan, Arc<Derived>)>,
     /// The analysis in progress.
     awaited: Option<Awaited>,
@@ -149,7 +154,21 @@ impl Document {
         }
         let (derived, awaited, predictor) = (None, None, Predictor::default());
         let (saved, is_gone) = (Some(plan), false);
-        Self { number, history, origin, storeys, notes, stamp, saved, is_gone, derived, awaited, predictor }
+        let closes_rooms = origin == Origin::Untitled;
+        Self {
+            number,
+            history,
+            origin,
+            storeys,
+            notes,
+            stamp,
+            saved,
+            is_gone,
+            closes_rooms,
+            derived,
+            awaited,
+            predictor,
+        }
     }
 
     pub(crate) fn plan(&self) -> &Plan {
@@ -238,6 +257,11 @@ impl Document {
         }
     }
 
+    /// The plan is out of sight: it is not analysed any more.
+    pub(crate) fn rests(&mut self) {
+        self.awaited = None;
+    }
+
     /// Whether a job is analysing the plan.
     pub(crate) fn is_awaited(&self) -> bool {
         self.awaited.as_ref().is_some_and(|awaited| awaited.job.is_some())
@@ -249,6 +273,33 @@ impl Document {
             self.derived = Some((plan, derived));
             self.awaited = None;
         }
+    }
+
+    /// The elements that meet a box, or more, found without looking at every one: from the last analysis, and what was
+    /// changed since. `None` where the plan is small, or not analysed yet.
+    pub(crate) fn near(&self, bounds: Bounds) -> Option<BTreeSet<ElementId>> {
+        let (plan, (earlier, derived)) = (self.plan(), self.derived.as_ref()?);
+        if plan.walls().len() + plan.rooms().len() < FEW_ELEMENTS {
+            return None;
+        }
+        let mut near = derived.near(bounds)?;
+        if !earlier.is_same_value(plan) {
+            let difference = Difference::between(earlier, plan);
+            if difference.elements.len() > FEW_ELEMENTS {
+                return None;
+            }
+            near.extend(difference.seen(earlier, plan).into_keys());
+            near.extend(difference.elements.into_keys());
+            near.retain(|&element| plan.has(element));
+        }
+        Some(near)
+    }
+
+    /// The bounding box of all that uses a corner, and of what else is there.
+    pub(crate) fn around(&self, corner: CornerId) -> Bounds {
+        let Some(place) = self.plan().position(corner).map(|place| Bounds::of([place])) else { return Bounds::EMPTY };
+        let near = self.near(place).unwrap_or_default();
+        near.into_iter().filter_map(|element| self.bounds_of(element)).fold(place, Bounds::union)
     }
 
     /// The bounding box of an element.

@@ -112,10 +112,19 @@ impl Session {
         folder.or_else(|| etcetera::home_dir().ok()).unwrap_or_default()
     }
 
+    /// The file that a typed text means, see [`Self::typed_path`]; `None` if it is none.
+    pub(crate) fn typed_file(&self, text: &str) -> Option<PathBuf> {
+        let text = text.trim();
+        if text.is_empty() || text.ends_with(['/', '\\']) {
+            return None;
+        }
+        Some(self.typed_path(text)).filter(|path| path.file_name().is_some())
+    }
+
     /// Asks where to export to.
     pub(crate) fn ask_where_to_export(&mut self, path: &Path) {
         let folder = path.parent().map(Path::to_owned).filter(|folder| folder.is_dir());
-        self.dialogs.ask(Purpose::Export, folder, file_name(path), &mut self.jobs);
+        self.ask_for_file(Purpose::Export, folder, file_name(path));
     }
 
     /// The preview that was made last.

@@ -17,8 +17,8 @@ use crate::store::pictures::PICTURE_ENDINGS;
 
 /// The source of answers.
 pub(crate) enum Dialogs {
-    /// The system's dialogs, one at a time.
-    System { is_open: bool },
+    /// The system's dialogs, one at a time. `are_missing`: it has shown none, so that paths are typed.
+    System { is_open: bool, are_missing: bool },
     /// Predefined answers.
     Given(Given),
 }
@@ -29,6 +29,10 @@ pub(crate) struct Given {
     pub answers: VecDeque<Option<PathBuf>>,
     /// How many dialogs found no answer left.
     pub unanswered: usize,
+    /// Whether to be as a system without dialogs.
+    pub has_none: bool,
+    /// Whether that was found out.
+    pub are_missing: bool,
     /// Whether one is open.
     is_open: bool,
 }
@@ -57,6 +61,9 @@ pub(crate) struct Answer {
     pub path: Option<PathBuf>,
     /// Whether the user can have seen the dialog.
     pub was_shown: bool,
+    /// The folder and the name that the dialog began with.
+    pub folder: Option<PathBuf>,
+    pub name: String,
 }
 
 /// Nobody cancels a dialog faster than this: it was never shown.
@@ -67,18 +74,22 @@ impl Dialogs {
     pub(crate) fn ask(&mut self, purpose: Purpose, folder: Option<PathBuf>, name: String, jobs: &mut Jobs) {
         let kind = Kind::new("ask for a file").if_broken(|session| session.dialogs.answered());
         match self {
+            Self::Given(Given { has_none: true, .. }) => {
+                let was_shown = false;
+                jobs.start(kind, move |_| answers(Answer { purpose, path: None, was_shown, folder, name }));
+            }
             Self::Given(given) => {
                 let answer = given.answers.pop_front();
                 given.unanswered += usize::from(answer.is_none());
                 given.is_open = true;
                 let path = answer.flatten();
-                jobs.start(kind, move |_| answers(Answer { purpose, path, was_shown: true }));
+                jobs.start(kind, move |_| answers(Answer { purpose, path, was_shown: true, folder, name }));
             }
-            Self::System { is_open: true } => {}
-            Self::System { is_open } => {
+            Self::System { is_open: true, .. } => {}
+            Self::System { is_open, .. } => {
                 *is_open = true;
                 let mut dialog = rfd::AsyncFileDialog::new();
-                if let Some(folder) = folder.filter(|folder| folder.is_dir()) {
+                if let Some(folder) = folder.as_ref().filter(|folder| folder.is_dir()) {
                     dialog = dialog.set_directory(folder);
                 }
                 // Created here, on the window's thread, as some systems require; waited for elsewhere.
@@ -100,23 +111,23 @@ impl Dialogs {
                     Purpose::Save { .. } => {
                         let dialog = dialog
                             .set_title("Save the plan")
-                            .set_file_name(name)
+                            .set_file_name(&name)
                             .add_filter("Enfilade plan", &["plan.json"]);
                         Box::pin(dialog.save_file())
                     }
                     Purpose::Export => {
-                        let dialog = dialog.set_title("Export the plan").set_file_name(name);
+                        let dialog = dialog.set_title("Export the plan").set_file_name(&name);
                         Box::pin(dialog.save_file())
                     }
                     Purpose::Dataset => {
                         let dialog =
-                            dialog.set_title("Export the dataset").set_file_name(name).add_filter("Table", &["csv"]);
+                            dialog.set_title("Export the dataset").set_file_name(&name).add_filter("Table", &["csv"]);
                         Box::pin(dialog.save_file())
                     }
                     Purpose::Recording(_) => {
                         let dialog = dialog
                             .set_title("Save the recording")
-                            .set_file_name(name)
+                            .set_file_name(&name)
                             .add_filter("Replay scripts", &["replay"]);
                         Box::pin(dialog.save_file())
                     }
@@ -125,7 +136,7 @@ impl Dialogs {
                     let asked = now();
                     let path = pollster::block_on(chosen).map(|file| file.path().to_owned());
                     let was_shown = path.is_some() || asked.elapsed() >= QUICKEST_CANCEL;
-                    answers(Answer { purpose, path, was_shown })
+                    answers(Answer { purpose, path, was_shown, folder, name })
                 });
             }
         }
@@ -134,14 +145,43 @@ impl Dialogs {
     /// Records that the dialog has closed.
     pub(crate) fn answered(&mut self) {
         match self {
-            Self::System { is_open } | Self::Given(Given { is_open, .. }) => *is_open = false,
+            Self::System { is_open, .. } | Self::Given(Given { is_open, .. }) => *is_open = false,
         }
     }
 
     /// Whether a dialog is open: it, not the window, is meant by what is typed.
     pub(crate) const fn is_open(&self) -> bool {
         match self {
-            Self::System { is_open } | Self::Given(Given { is_open, .. }) => *is_open,
+            Self::System { is_open, .. } | Self::Given(Given { is_open, .. }) => *is_open,
+        }
+    }
+
+    /// Whether the system shows no dialogs, as far as is known.
+    pub(crate) const fn are_missing(&self) -> bool {
+        match self {
+            Self::System { are_missing, .. } | Self::Given(Given { are_missing, .. }) => *are_missing,
+        }
+    }
+
+    /// Records that the system showed no dialog. Returns whether that is news.
+    pub(crate) const fn show_nothing(&mut self) -> bool {
+        match self {
+            Self::System { are_missing, .. } | Self::Given(Given { are_missing, .. }) => {
+                !std::mem::replace(are_missing, true)
+            }
+        }
+    }
+}
+
+impl Purpose {
+    /// The command that takes the path.
+    pub(crate) const fn command(&self) -> &'static str {
+        match self {
+            Self::Open => "open",
+            Self::Picture(PictureUse::Add) => "picture",
+            Self::Picture(PictureUse::Relink) => "relink-picture",
+            Self::Save { .. } => "save-as",
+            Self::Recording(_) | Self::Export | Self::Dataset => "choose-file",
         }
     }
 }

@@ -30,7 +30,7 @@ impl Session {
     /// Asks which plan to open.
     pub(crate) fn choose_plan(&mut self) {
         let folder = self.document.as_ref().and_then(|document| document.origin.folder()).map(Path::to_owned);
-        self.dialogs.ask(Purpose::Open, folder, String::new(), &mut self.jobs);
+        self.ask_for_file(Purpose::Open, folder, String::new());
     }
 
     /// Shows an empty plan.
@@ -49,14 +49,49 @@ impl Session {
         self.request(Intent::Show(Box::new(opened)));
     }
 
-    /// Reads a plan and shows it once it is read.
-    pub(crate) fn open(&mut self, origin: Origin) {
+    /// Reads a plan and shows it once it is read; or shows the open plan that it is. Returns whether it is read.
+    pub(crate) fn open(&mut self, origin: Origin) -> bool {
+        let looked_at = if std::mem::take(&mut self.browses) { self.untouched() } else { None };
+        if let Some(open) = self.open_of(&origin) {
+            self.opening = None;
+            self.show_open(open);
+            self.note_shown();
+            self.close_looked_at(looked_at);
+            return false;
+        }
         self.opening = Some(origin.clone());
         let kind = Kind::new("open a plan").newest_of("plan to show").if_broken(|session| session.opening = None);
         self.jobs.start(kind, move |_| {
             let opened = document::open(origin.clone());
-            move |session: &mut Session, _: &_| session.was_opened(&origin, opened)
+            move |session: &mut Session, _: &_| {
+                session.was_opened(&origin, opened);
+                session.close_looked_at(looked_at);
+            }
         });
+        true
+    }
+
+    /// Reads several plans, one after the other, and shows each.
+    pub(crate) fn open_several(&mut self, paths: Vec<PathBuf>) {
+        for path in &paths {
+            self.note_executed("open", vec![path.to_string_lossy().into_owned()]);
+        }
+        self.jobs.start(Kind::new("open plans"), move |_| {
+            let origins = paths.into_iter().map(|path| Origin::File { path, storey: 0 });
+            let read: Vec<_> = origins.map(|origin| (document::open(origin.clone()), origin)).collect();
+            move |session: &mut Session, _: &_| {
+                for (opened, origin) in read {
+                    session.opening = Some(origin.clone());
+                    session.was_opened(&origin, opened);
+                }
+            }
+        });
+    }
+
+    /// The plan shown, where it has never been changed here.
+    fn untouched(&self) -> Option<u64> {
+        let untouched = self.document.as_ref().filter(|document| document.history.steps().len() == 1);
+        untouched.map(|document| document.number)
     }
 
     pub(crate) fn was_opened(&mut self, origin: &Origin, result: Result<Opened, FileError>) {
@@ -79,6 +114,7 @@ impl Session {
     pub(crate) fn open_neighbour(&mut self, step: isize) {
         let current = self.document.as_ref().map(|document| &document.origin);
         if let Some(origin) = self.list.neighbour(current, step) {
+            self.browses = true;
             self.open(origin);
         }
     }
@@ -89,12 +125,27 @@ impl Session {
         if self.question.is_some() || self.jobs.is_one_to_end() {
             // One thing at a time: while saving, there is no need to ask.
             self.waiting = Some(intent);
-        } else if self.has_unsaved_changes() {
-            let title = self.document.as_ref().map(Document::title).unwrap_or_default();
-            self.ask(Question::unsaved(&title, intent));
-        } else {
-            self.perform(intent);
+            return;
         }
+        match &intent {
+            // Another plan takes nothing away from this one.
+            Intent::Show(_) | Intent::Recover(_) => {}
+            Intent::Close(number) => {
+                // What is asked about is seen.
+                self.show_open(*number);
+                if self.has_unsaved_changes() {
+                    let title = self.document.as_ref().map(Document::title).unwrap_or_default();
+                    self.ask(Question::unsaved(&title, intent));
+                    return;
+                }
+            }
+            Intent::Quit { agreed } => {
+                if !self.can_quit(&agreed.clone()) {
+                    return;
+                }
+            }
+        }
+        self.perform(intent);
     }
 
     /// Continues with what waited for an answer, or for a file to be saved.
@@ -110,25 +161,22 @@ impl Session {
     /// Does it, regardless of unsaved work.
     pub(crate) fn perform(&mut self, intent: Intent) {
         match intent {
-            Intent::Show(opened) => self.show(*opened),
+            Intent::Show(opened) => self.show_read(*opened),
             Intent::Recover(path) => self.recovering = Some(path),
-            Intent::Close => {
-                self.end_journal();
-                self.document = None;
-                self.selection = Selection::default();
-                self.wishes.push(Wish::ForgetDrawing);
-            }
+            Intent::Close(number) => self.close_shown(number),
             // The recording first, or it would be lost.
-            Intent::Quit if self.is_recording => self.wishes.push(Wish::EndRecording(Intent::Quit)),
-            Intent::Quit => {
-                self.end_journal();
+            Intent::Quit { .. } if self.is_recording => self.wishes.push(Wish::EndRecording(intent)),
+            Intent::Quit { .. } => {
+                self.remember_view();
+                self.end_journals();
                 self.quitting = true;
             }
         }
     }
 
+    /// Shows a plan beside those that are open.
     pub(crate) fn show(&mut self, opened: Opened) {
-        self.end_journal();
+        self.make_room();
         let folder = opened.listed.clone().map(|folder| (folder, Depth::All)).or_else(|| {
             let folder = opened.origin.folder().map(Path::to_owned)?;
             Some(self.list.listed_for(folder))
@@ -137,6 +185,8 @@ impl Session {
         self.fresh = None;
         self.field = None;
         self.wishes.push(Wish::ForgetPlan);
+        self.look_as_remembered(&opened.origin);
+        self.remember_opened(&opened.origin);
         self.status.clear();
         let notes = (!opened.notes.is_empty()).then(|| {
             let summary = crate::app::session::origin::notes_in_words(&opened.notes);
@@ -147,6 +197,7 @@ impl Session {
         self.ghost = below.map(|below| Ghost::new(below, None, &self.schemes));
         self.documents += 1;
         self.document = Some(Document::new(self.documents, opened));
+        self.set_as_remembered();
         if let Some(notes) = notes {
             self.add_message(notes);
         }
@@ -155,7 +206,7 @@ impl Session {
         }
     }
 
-    fn list_folder(&mut self, folder: PathBuf, depth: Depth) {
+    pub(super) fn list_folder(&mut self, folder: PathBuf, depth: Depth) {
         self.jobs.start(Kind::new("list the plans of a folder").newest_of("list of plans"), move |_| {
             let files = plan_list::plans_in(&folder, depth);
             move |session: &mut Session, _: &_| session.list.set_folder(folder, depth, files)
@@ -190,7 +241,7 @@ impl Session {
         let Some(document) = &self.document else { return };
         let folder = document.origin.folder().map(Path::to_owned);
         let name = format!("{}.plan.json", document.origin.stem());
-        self.dialogs.ask(Purpose::Save { then, answering }, folder, name, &mut self.jobs);
+        self.ask_for_file(Purpose::Save { then, answering }, folder, name);
     }
 
     /// Saves the plan in the file the user chose, adding the extension if it is missing.
@@ -209,15 +260,17 @@ impl Session {
     }
 
     pub(crate) fn was_chosen(&mut self, answer: Answer, _context: &Context) {
-        let Answer { purpose, path, was_shown } = answer;
+        let Answer { purpose, path, was_shown, folder, name } = answer;
         let Some(path) = path else {
             if !was_shown {
-                self.say(
-                    Severity::Warning,
-                    "Your system offers no file dialog",
-                    "Drop a file on the window, or start Enfilade with the file's path. On Linux, dialogs come from \
-                     the desktop's portal or from zenity.",
-                );
+                // The window asks by itself, now and from now on.
+                if self.dialogs.show_nothing() {
+                    let text = "Your system offers no file dialog; type the path instead";
+                    let detail = "On Linux, dialogs come from the desktop's portal or from zenity.";
+                    self.say_of_program(Severity::Info, text, detail);
+                }
+                self.type_path(purpose, folder, &name);
+                return;
             }
             // Cancel means cancel: what was to follow is dropped.
             if let Purpose::Save { answering: Some(_), .. } = purpose {
@@ -225,6 +278,7 @@ impl Session {
             }
             return;
         };
+        self.remember_folder(&path);
         let run = |id: &'static str| Wish::Run(Call::new(id, [Value::Path(path.clone())]));
         let word = path.to_string_lossy().into_owned();
         match purpose {
@@ -258,6 +312,7 @@ impl Session {
         });
     }
 
+    /// Handles a save that ended, of the plan shown or of another open one.
     pub(crate) fn was_saved(
         &mut self,
         number: u64,
@@ -271,11 +326,16 @@ impl Session {
             Ok(stamp) => {
                 self.status = format!("Saved to {}", file_name(&path));
                 let folder = path.parent().map(Path::to_owned);
-                if let Some(document) = self.document.as_mut().filter(|document| document.number == number) {
+                self.in_plan(number, |session| {
+                    let Some(document) = &mut session.document else { return };
                     let from = document.origin.folder().map(Path::to_owned);
                     document.history.rewrite(|plan| plan_in_folder(plan, from.as_deref(), folder.as_deref()));
                     document.was_saved(plan, path, stamp);
-                    self.is_saved(context);
+                    session.is_saved(context);
+                    session.remember_closes_rooms();
+                });
+                if let Some(origin) = self.origin_of_open(number).cloned() {
+                    self.remember_opened(&origin);
                 }
                 if let Some((folder, depth)) = folder.map(|folder| self.list.listed_for(folder)) {
                     self.list_folder(folder, depth);
@@ -287,13 +347,14 @@ impl Session {
             }
             Err(SaveFailure::ChangedOnDisk) => {
                 self.waiting = None;
+                self.show_open(number);
                 self.look_soon();
                 self.ask(Question::replace(path, true, then));
             }
             Err(SaveFailure::Store(error)) => {
                 // What was to follow a save is dropped if the save fails.
                 self.waiting = None;
-                self.is_not_saved(error);
+                self.in_plan(number, |session| session.is_not_saved(error));
             }
         }
     }

@@ -141,6 +141,10 @@ impl Session {
         let Some(document) = &self.document else { return Ok(()) };
         let elements: BTreeSet<ElementId> =
             place.elements.iter().copied().filter(|&element| document.plan().has(element)).collect();
+        // Corners only where they are all that it is about.
+        let is_corner = |element: &ElementId| matches!(element, ElementId::Corner(_));
+        let others: BTreeSet<ElementId> = elements.iter().copied().filter(|element| !is_corner(element)).collect();
+        let elements = if others.is_empty() { elements } else { others };
         let bounds = elements.iter().filter_map(|&element| document.bounds_of(element));
         let bounds = bounds.chain(place.at.map(|at| Bounds::of([at]))).fold(Bounds::EMPTY, Bounds::union);
         self.select(elements, SelectMode::Replace);

@@ -6,6 +6,7 @@ use crate::app::session::fields::FieldKind;
 use crate::app::session::messages::{Lasts, Message, Remedy, Severity};
 use crate::edit;
 use crate::edit::EditError;
+use crate::geometry::Bounds;
 use crate::plan::ElementId;
 use crate::plan::Meta;
 use crate::plan::Plan;
@@ -33,6 +34,26 @@ impl Session {
             self.say(Severity::Info, text, "");
         }
         Ok(())
+    }
+
+    /// Like [`Self::try_edit`], of an edit that looks at nothing and changes nothing beyond the rooms that meet a box.
+    pub(crate) fn try_edit_near(
+        &mut self,
+        title: &str,
+        bounds: Bounds,
+        change: impl Fn(&Plan) -> Result<Plan, EditError>,
+    ) -> Result<(), EditError> {
+        let Some(document) = &self.document else { return Ok(()) };
+        let rooms = document.near(bounds);
+        let whole = |bounds: Bounds, element: &ElementId| match element {
+            ElementId::Room(_) => bounds.union(document.bounds_of(*element).unwrap_or(Bounds::EMPTY)),
+            _ => bounds,
+        };
+        let around = rooms.iter().flatten().fold(bounds, whole);
+        match document.near(around) {
+            Some(near) => self.try_edit(title, |plan| edit::locally(plan, &near, around, change)),
+            None => self.try_edit(title, change),
+        }
     }
 
     /// Commits the text field's contents to the plan.

@@ -16,8 +16,11 @@ pub(crate) mod history;
 pub(crate) mod jobs;
 pub(crate) mod labelling;
 pub(crate) mod layers;
+pub(crate) mod memory;
 pub(crate) mod messages;
+pub(crate) mod open_plans;
 pub(crate) mod origin;
+pub(crate) mod paths;
 pub(crate) mod picking;
 pub(crate) mod picture_change;
 pub(crate) mod plan_list;
@@ -65,12 +68,23 @@ use std::path::Path;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// The open plan, the selection, questions, recovery: everything about the window except how it is shown.
+/// The open plans, the selection, questions, recovery: everything about the window except how it is shown.
 pub(crate) struct Session {
     pub(crate) schemes: Arc<Schemes>,
+    /// The plan shown.
     pub(crate) document: Option<Document>,
+    /// The other open plans.
+    pub(crate) waiting_plans: Vec<open_plans::Waiting>,
+    /// The view of the plan shown; `None` for all of it.
+    pub(crate) view: Option<open_plans::PlanView>,
     /// The origin of the plan being opened.
     pub(crate) opening: Option<Origin>,
+    /// Whether the next plan is opened to be looked at: one before it that was only looked at is closed.
+    pub(crate) browses: bool,
+    /// What a file is asked for where its path is typed.
+    pub(crate) typed_for: Option<file_dialogs::Purpose>,
+    /// The recently opened files that are not there.
+    pub(crate) missing: std::collections::BTreeSet<PathBuf>,
     pub(crate) list: PlanList,
     pub(crate) selection: Selection,
     /// The step of the history that nudged what is selected, if that was the last thing done.
@@ -149,7 +163,12 @@ impl Session {
         Self {
             schemes: Arc::new(Schemes::bundled()),
             document: None,
+            waiting_plans: Vec::new(),
+            view: None,
             opening: None,
+            browses: false,
+            typed_for: None,
+            missing: std::collections::BTreeSet::new(),
             list: PlanList::default(),
             selection: Selection::default(),
             nudged: None,

@@ -19,8 +19,15 @@ pub(crate) enum Intent {
     Show(Box<Opened>),
     /// Recover the contents of a journal.
     Recover(PathBuf),
-    Close,
-    Quit,
+    /// Close the open plan of this number.
+    Close(u64),
+    /// Close the window. `agreed`: the plans whose unsaved changes are to be given up.
+    Quit { agreed: Vec<u64> },
+}
+
+impl Intent {
+    /// Close the window, after asking about each plan with unsaved changes.
+    pub(crate) const QUIT: Self = Self::Quit { agreed: Vec::new() };
 }
 
 /// A question that must be answered before anything else.
@@ -102,11 +109,7 @@ impl Question {
 
     /// The plan has unsaved changes: save, discard, or keep working?
     pub(crate) fn unsaved(plan: &str, intent: Intent) -> Self {
-        let then = match intent {
-            Intent::Show(_) | Intent::Recover(_) => "before another plan is shown",
-            Intent::Close | Intent::Quit => "before it is closed",
-        };
-        let text = format!("Save them {then}, or you will lose them.");
+        let text = "Save them before the plan is closed, or you will lose them.";
         let asked = Self { then: Some(intent), ..Self::new(format!("Save changes to {plan}?"), text) };
         asked
             .answer(("save", "Save"), |session, reply| {
@@ -116,7 +119,14 @@ impl Question {
                 session.save_by(reply)
             })
             .answer(("discard", "Don't save"), |session, reply| {
-                reply.then.into_iter().for_each(|intent| session.perform(intent));
+                match reply.then {
+                    // Given up for good only when every other plan has been asked about.
+                    Some(Intent::Quit { mut agreed }) => {
+                        agreed.extend(session.document.as_ref().map(|document| document.number));
+                        session.request(Intent::Quit { agreed });
+                    }
+                    then => then.into_iter().for_each(|intent| session.perform(intent)),
+                }
                 true
             })
             .cancel()

@@ -67,14 +67,13 @@ impl Session {
         self.safety.leftovers = offered;
     }
 
-    /// Recovers the Nth leftover, from 1, after asking if that would lose unsaved work.
+    /// Recovers the Nth leftover, from 1, beside the plans that are open.
     pub(crate) fn recover(&mut self, number: usize) -> Result<(), String> {
         let offered = self.offered(number)?;
         if let Err(what) = &offered.leftover.content {
             return Err(what.clone());
         }
         let path = offered.leftover.path.clone();
-        self.wishes.push(Wish::CloseRecovery);
         self.request(Intent::Recover(path));
         Ok(())
     }

@@ -23,19 +23,40 @@ use crate::store::{Journal, JournalFailure, JournalStart, Predecessor, SaveError
 pub(crate) struct Safety {
     /// The folder of journals; `None` to keep none.
     pub(super) folder: Option<PathBuf>,
-    /// The journal of the open plan, while it has unsaved changes.
+    /// What can be recovered, newest first.
+    pub leftovers: Vec<Offered>,
+    /// The clock, if times may be shown.
+    pub clock: Option<fn() -> SystemTime>,
+    /// What keeps the plan shown safe.
+    pub own: OfPlan,
+}
+
+/// What keeps one open plan safe.
+#[derive(Default)]
+pub(crate) struct OfPlan {
+    /// Its journal, while it has unsaved changes.
     journal: Option<Journal>,
     /// Why the journal is not being written.
     journal_failure: Option<JournalFailure>,
     /// Why the last attempt to save the plan failed.
     save_failure: Option<SaveError>,
-    /// What can be recovered, newest first.
-    pub leftovers: Vec<Offered>,
     /// The changes by somebody else to the plan's file.
     pub theirs: Option<Theirs>,
     pub(super) watch: Watch,
-    /// The clock, if times may be shown.
-    pub clock: Option<fn() -> SystemTime>,
+}
+
+impl OfPlan {
+    /// Ends the journal: what it holds is saved, or given up.
+    pub(super) fn end(self) {
+        if let Some(journal) = self.journal {
+            journal.remove();
+        }
+    }
+
+    /// The plan is shown again: its file is looked at soon.
+    pub(super) fn is_shown_again(&mut self) {
+        self.watch.is_shown_again();
+    }
 }
 
 fn start_of(document: &Document) -> JournalStart {
@@ -59,23 +80,28 @@ impl Session {
         self.safety.clock = Some(clock);
     }
 
-    /// Updates the journal with the open plan.
+    /// Updates the journals with the open plans.
     pub(crate) fn keep_journal(&mut self, context: &Context) {
-        if self.quitting {
-            return;
+        if !self.quitting {
+            self.keep_own_journal(context);
+            self.keep_waiting_journals(context);
         }
+    }
+
+    /// Updates the journal of the plan shown.
+    pub(super) fn keep_own_journal(&mut self, context: &Context) {
         let Some(document) = &self.document else { return };
-        if self.safety.journal.is_none() && (document.is_changed() || self.draft.is_some()) {
+        if self.safety.own.journal.is_none() && (document.is_changed() || self.draft.is_some()) {
             self.begin_journal(None, context);
         }
-        let (Some(document), Some(journal)) = (&self.document, &mut self.safety.journal) else { return };
+        let (Some(document), Some(journal)) = (&self.document, &mut self.safety.own.journal) else { return };
         journal.note(&document.history);
         journal.note_draft(self.draft.as_ref());
         if self.jobs.is_inline() {
             // Its result is checked below.
             let _ = journal.wait();
         }
-        self.safety.journal_failure = journal.failure();
+        self.safety.own.journal_failure = journal.failure();
     }
 
     pub(super) fn begin_journal(&mut self, replaces: Option<Predecessor>, context: &Context) {
@@ -83,13 +109,13 @@ impl Session {
         let base = document.saved().cloned().unwrap_or_default();
         let context = context.clone();
         let on_change = move || context.request_repaint();
-        self.safety.journal = Some(Journal::begin(folder, start_of(document), base, replaces, on_change));
+        self.safety.own.journal = Some(Journal::begin(folder, start_of(document), base, replaces, on_change));
     }
 
     /// Records that the plan's file has changed: the journal continues from there.
     pub(super) fn journal_from_file(&mut self, context: &Context) {
-        self.safety.journal_failure = None;
-        let Some(journal) = self.safety.journal.take() else { return };
+        self.safety.own.journal_failure = None;
+        let Some(journal) = self.safety.own.journal.take() else { return };
         if self.has_unsaved_changes() {
             self.begin_journal(Some(Predecessor::Journal(journal)), context);
             self.keep_journal(context);
@@ -100,35 +126,31 @@ impl Session {
 
     /// Ends the journal of a closed plan: its changes are saved, or discarded.
     pub(crate) fn end_journal(&mut self) {
-        if let Some(journal) = self.safety.journal.take() {
-            journal.remove();
-        }
-        let Safety { folder, leftovers, clock, .. } = std::mem::take(&mut self.safety);
-        self.safety = Safety { folder, leftovers, clock, ..Safety::default() };
+        std::mem::take(&mut self.safety.own).end();
     }
 
     // Saving.
 
     pub(crate) fn begins_to_save(&mut self) {
-        self.safety.watch.saves += 1;
+        self.safety.own.watch.saves += 1;
     }
 
     /// Records that the open plan is saved in its file.
     pub(crate) fn is_saved(&mut self, context: &Context) {
-        self.safety.save_failure = None;
-        self.safety.theirs = None;
-        self.safety.watch.seen = None;
+        self.safety.own.save_failure = None;
+        self.safety.own.theirs = None;
+        self.safety.own.watch.seen = None;
         self.wishes.push(Wish::CloseDifferences);
         self.journal_from_file(context);
     }
 
     pub(crate) fn is_not_saved(&mut self, error: SaveError) {
-        self.safety.save_failure = Some(error);
+        self.safety.own.save_failure = Some(error);
     }
 
     /// Why the changes are not being kept safe.
     pub(crate) fn journal_failure(&self) -> Option<&JournalFailure> {
-        self.safety.journal_failure.as_ref()
+        self.safety.own.journal_failure.as_ref()
     }
 
     /// The messages that stay above the canvas as long as they are true.
@@ -141,7 +163,7 @@ impl Session {
         if let Some(remark) = derived.and_then(|derived| derived.drawing.remark()) {
             bar(Severity::Warning, sentence(&remark), "Measurements and exports are not affected.".to_owned(), &[]);
         }
-        if let Some(theirs) = &self.safety.theirs
+        if let Some(theirs) = &self.safety.own.theirs
             && let Some(document) = &self.document
         {
             let file = document.origin.title();
@@ -167,7 +189,7 @@ impl Session {
                 }
             }
         }
-        if let Some(JournalFailure { folder, what }) = &self.safety.journal_failure {
+        if let Some(JournalFailure { folder, what }) = &self.safety.own.journal_failure {
             let detail = format!(
                 "If Enfilade or the computer stops now, your changes are lost, because the recovery file cannot be \
                  written. Save the plan, and free some space.\n{}",
@@ -176,7 +198,7 @@ impl Session {
             let text = format!("Your changes have no backup: {what}");
             bar(Severity::Error, text, detail, &[Remedy::Save, Remedy::SaveElsewhere]);
         }
-        if let Some(SaveError { path, what, hint }) = &self.safety.save_failure {
+        if let Some(SaveError { path, what, hint }) = &self.safety.own.save_failure {
             let text = format!("{} is not saved: {what}", file_name(path));
             let detail = format!("Your changes are still here; {hint}.\n{}", self.shown_path(path));
             bar(Severity::Error, text, detail, &[Remedy::SaveElsewhere, Remedy::Save]);

@@ -1,4 +1,5 @@
-//! User settings, kept in a file between sessions: the shortcuts, the units, the grid.
+//! User settings, kept in a file between sessions: the shortcuts, the units, the grid; and what is remembered, which
+//! `memory` reads and writes.
 //!
 //! The file is JSON. Entries unknown to this version are kept. A file that cannot be read is moved aside
 //! and never overwritten.
@@ -89,6 +90,20 @@ impl Settings {
     /// The default settings, not kept.
     pub(crate) fn new(commands: &'static [Keyed]) -> Self {
         Self { commands, ..Self::default() }
+    }
+
+    /// A value of the file.
+    pub(super) fn value(&self, name: &str) -> Option<&Value> {
+        self.kept.get(name)
+    }
+
+    pub(super) fn set_value(&mut self, name: &str, value: Value) {
+        self.kept.insert(name.to_owned(), value);
+    }
+
+    /// Whether they are kept in a file.
+    pub(crate) const fn is_kept(&self) -> bool {
+        self.file.is_some()
     }
 
     /// All commands.
@@ -294,7 +309,7 @@ fn warning(text: String, detail: String) -> Message {
 }
 
 /// The text of a file; `None` if it does not exist.
-fn read_text(file: &Path) -> Result<Option<String>, String> {
+pub(crate) fn read_text(file: &Path) -> Result<Option<String>, String> {
     match std::fs::metadata(file) {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error.to_string()),

@@ -8,7 +8,6 @@ use std::sync::Arc;
 
 use crate::app::paint::backdrop::{Read, Wanted, read};
 use crate::app::session::{
-    document::Document,
     file_dialogs::Purpose,
     jobs::Kind,
     messages::{Message, Remedy, Severity},
@@ -109,7 +108,7 @@ impl Session {
     /// Asks which picture to use.
     pub(crate) fn choose_picture(&mut self, use_: PictureUse) {
         let folder = self.document.as_ref().and_then(|document| document.origin.folder()).map(Path::to_owned);
-        self.dialogs.ask(Purpose::Picture(use_), folder, String::new(), &mut self.jobs);
+        self.ask_for_file(Purpose::Picture(use_), folder, String::new());
     }
 
     /// Loads a picture and makes it the backdrop.
@@ -122,13 +121,20 @@ impl Session {
         let kind = Kind::new("read a picture").if_broken(|session| session.reading_picture = None);
         // Who names it wants it.
         self.allow_path(&path);
+        let rectification = match use_ {
+            PictureUse::Relink => {
+                self.plan().and_then(Plan::backdrop).and_then(|backdrop| backdrop.rectification.clone())
+            }
+            PictureUse::Add => None,
+        };
         self.jobs.start(kind, move |work| {
             let mut page = page;
-            let mut result = pictures::load_picture_while(&path, page, work);
+            let load = |page| pictures::load_backdrop_while(&path, page, rectification.as_ref(), work);
+            let mut result = load(page);
             // The page was another file's: a scan in place of a document has one.
             if use_ == PictureUse::Relink && page > 1 && result.as_ref().is_err_and(PictureError::lacks_page) {
                 page = 1;
-                result = pictures::load_picture_while(&path, page, work);
+                result = load(page);
             }
             let result = result.map(Box::new);
             move |session: &mut Session, _: &_| session.picture_was_read(document, use_, &path, page, result)
@@ -178,7 +184,7 @@ impl Session {
             }
             // The scale belongs to the other picture, but opacity is a preference.
             (_, before) => {
-                let opacity = before.map_or(1.0, |before| before.opacity);
+                let opacity = before.map_or(NEW_OPACITY, |before| before.opacity);
                 ("Add picture", Backdrop { page, opacity, ..Backdrop::new(stated, hash) })
             }
         };
@@ -186,9 +192,9 @@ impl Session {
         self.backdrop.set_shown(wanted, Arc::from(picture));
         self.layers.backdrop = true;
         let is_new = use_ == PictureUse::Add;
-        let is_empty = document_is_empty(self.document.as_ref());
         self.edit(title, |plan| Ok(edit::set_backdrop(plan, Some(backdrop))));
-        if is_new && is_empty {
+        if is_new {
+            // Wherever one looked: all of it is seen, and what is drawn.
             self.wishes.push(Wish::Fit);
         }
         self.status = format!("{} has {width} x {height} pixels", file_name(path));
@@ -290,6 +296,29 @@ impl Session {
         self.change_picture(PictureChange::Turn { about, angle_rad: angle_deg.to_radians() }, drawing);
     }
 
+    /// Makes the picture flat, so that four points of the plan become the corners of a rectangle; see
+    /// [`edit::rectify_picture`].
+    ///
+    /// # Errors
+    /// When they are no corners of a rectangle, or the picture is not there to be measured.
+    pub(crate) fn rectify_picture(&mut self, corners: [Point; 4], sides_m: Option<[f64; 2]>) -> Result<(), String> {
+        let Some(source_px) = self.backdrop.source_px() else { return Err("the picture is not shown".to_owned()) };
+        let ran = self.try_edit("Make picture flat", |plan| edit::rectify_picture(plan, corners, sides_m, source_px));
+        ran.map_err(|error| error.to_string())?;
+        if let (Some(_), Some(backdrop)) = (sides_m, self.plan().and_then(Plan::backdrop)) {
+            self.status = format!("1 pixel of the picture is {}", millimetres(backdrop.metres_per_pixel));
+        }
+        Ok(())
+    }
+
+    /// Shows the picture as it is in its file.
+    ///
+    /// # Errors
+    /// When it is shown so.
+    pub(crate) fn unrectify_picture(&mut self) -> Result<(), String> {
+        self.try_edit("Show picture as taken", edit::unrectify_picture).map_err(|error| error.to_string())
+    }
+
     pub(crate) fn move_picture(&mut self, by: Vector) {
         self.edit("Move picture", |plan| edit::move_picture(plan, by));
     }
@@ -343,9 +372,8 @@ pub(crate) fn plan_in_folder(plan: &Plan, from: Option<&Path>, to: Option<&Path>
     }
 }
 
-fn document_is_empty(document: Option<&Document>) -> bool {
-    document.is_some_and(|document| document.plan().is_empty())
-}
+/// How strongly a new picture is seen: what is drawn over it stands out.
+const NEW_OPACITY: f64 = 0.5;
 
 /// A pixel size, for display.
 pub(crate) fn millimetres(metres: f64) -> String {

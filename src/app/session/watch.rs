@@ -56,6 +56,14 @@ pub(super) struct Watch {
     pub(super) saves: u64,
 }
 
+impl Watch {
+    /// The plan was out of sight: what was being looked at is forgotten.
+    pub(super) fn is_shown_again(&mut self) {
+        self.is_looking = false;
+        self.next_secs = 0.0;
+    }
+}
+
 /// Facts that show without reading it that a file changed: size, time, number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Facts {
@@ -131,7 +139,7 @@ impl Session {
         let Some(document) = &self.document else { return };
         let Some(path) = document.origin.path().filter(|path| document::is_own_file(path)) else { return };
         let (now_secs, is_focused) = context.input(|input| (input.time, input.focused));
-        let watch = &mut self.safety.watch;
+        let watch = &mut self.safety.own.watch;
         let comes_back = is_focused && !std::mem::replace(&mut watch.was_focused, is_focused);
         context.request_repaint_after_secs(LOOK_SECS as f32);
         if watch.is_looking || self.jobs.is_one_to_end() || (now_secs < watch.next_secs && !comes_back) {
@@ -143,7 +151,7 @@ impl Session {
         let (document, schemes) = (document.number, self.schemes.clone());
         let kind = Kind::new("look at the plan's file").if_broken(move |session| {
             if session.document.as_ref().is_some_and(|open| open.number == document) {
-                session.safety.watch.is_looking = false;
+                session.safety.own.watch.is_looking = false;
             }
         });
         self.jobs.start(kind, move |_| {
@@ -155,16 +163,16 @@ impl Session {
     pub(crate) fn was_looked_at(&mut self, looked: Looked) {
         let Looked { document: number, saves, facts, found } = looked;
         let Some(document) = self.document.as_mut().filter(|document| document.number == number) else { return };
-        self.safety.watch.is_looking = false;
-        if saves != self.safety.watch.saves {
+        self.safety.own.watch.is_looking = false;
+        if saves != self.safety.own.watch.saves {
             return;
         }
-        self.safety.watch.seen = facts;
+        self.safety.own.watch.seen = facts;
         match found {
             Found::Nothing => {}
             Found::Same => {
                 document.is_gone = false;
-                self.safety.theirs = None;
+                self.safety.own.theirs = None;
             }
             // Rewritten, perhaps in another form, with the same contents.
             Found::Theirs(Theirs { stamp, content: Content::Plan(plan, _), .. })
@@ -172,11 +180,11 @@ impl Session {
             {
                 document.is_gone = false;
                 document.stamp = stamp;
-                self.safety.theirs = None;
+                self.safety.own.theirs = None;
             }
             Found::Theirs(theirs) => {
                 document.is_gone = matches!(theirs.content, Content::Gone);
-                self.safety.theirs = Some(theirs);
+                self.safety.own.theirs = Some(theirs);
             }
         }
         if self.their_plan().is_none() {
@@ -187,7 +195,7 @@ impl Session {
     /// Updates the summary of differences from the changed file, if the plan has changed.
     pub(crate) fn compare_with_theirs(&mut self) {
         let (Some(Theirs { content: Content::Plan(theirs, _), differs, .. }), Some(document)) =
-            (&mut self.safety.theirs, &self.document)
+            (&mut self.safety.own.theirs, &self.document)
         else {
             return;
         };
@@ -201,7 +209,7 @@ impl Session {
 
     /// The plan that somebody else saved in the file.
     pub(crate) fn their_plan(&self) -> Option<(&Plan, &Arc<Derived>)> {
-        match &self.safety.theirs.as_ref()?.content {
+        match &self.safety.own.theirs.as_ref()?.content {
             Content::Plan(plan, derived) => Some((plan, derived)),
             Content::Broken(_) | Content::Gone => None,
         }
@@ -209,7 +217,7 @@ impl Session {
 
     /// Replaces the plan by the file's contents, as a step that can be undone.
     pub(crate) fn load_theirs(&mut self, context: &Context) {
-        let Some(Theirs { stamp, content: Content::Plan(plan, _), .. }) = self.safety.theirs.take() else { return };
+        let Some(Theirs { stamp, content: Content::Plan(plan, _), .. }) = self.safety.own.theirs.take() else { return };
         self.wishes.push(Wish::CloseDifferences);
         self.edit("Load the file as it is now", |_| Ok((*plan).clone()));
         if let Some(document) = &mut self.document {
@@ -221,7 +229,7 @@ impl Session {
 
     /// Continues with the plan as it is here: saving it will overwrite the other's changes.
     pub(crate) fn keep_mine(&mut self, context: &Context) {
-        let Some(Theirs { stamp, content, .. }) = self.safety.theirs.take() else { return };
+        let Some(Theirs { stamp, content, .. }) = self.safety.own.theirs.take() else { return };
         self.wishes.push(Wish::CloseDifferences);
         let plan = match content {
             Content::Plan(plan, _) => Some(*plan),
@@ -236,6 +244,6 @@ impl Session {
 
     /// Has the file checked again soon.
     pub(crate) fn look_soon(&mut self) {
-        self.safety.watch.next_secs = 0.0;
+        self.safety.own.watch.next_secs = 0.0;
     }
 }

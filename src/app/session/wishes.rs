@@ -18,6 +18,11 @@ pub(crate) enum Wish {
     /// Move the view if necessary, so that an element is visible.
     Reveal(ElementId),
     ZoomTo(Bounds),
+    /// Show a point in the middle, a metre so many screen points long.
+    LookAt {
+        centre: Point,
+        px_per_m: f64,
+    },
     /// Show the whole plan.
     Fit,
     /// Keep what was scaled about a point in place on the screen.
@@ -30,6 +35,11 @@ pub(crate) enum Wish {
     CloseRecovery,
     CloseDifferences,
     Run(Call),
+    /// Ask for the path that a command takes, beginning with a text.
+    TypePath {
+        command: &'static str,
+        text: String,
+    },
     /// Go on with what was half drawn.
     Resume(Draft),
     /// End the recording, then go on.

@@ -130,5 +130,7 @@ impl App {
     pub(crate) fn set_theme(&mut self, theme: ThemeChoice, context: &Context) {
         self.theme = theme;
         theme.apply(context);
+        self.session.settings.set_theme(theme.word());
+        self.session.keep_settings();
     }
 }

@@ -191,4 +191,8 @@ pub(crate) struct Ground<'a> {
     pub grid_m: Option<f64>,
     /// Whether the pointer is on the canvas.
     pub is_seen: bool,
+    /// Whether a picture lies under the plan.
+    pub is_over_picture: bool,
+    /// Whether a button goes down or up in this frame.
+    pub is_pressing: bool,
 }

@@ -19,6 +19,7 @@ mod opening_grips;
 mod paste;
 mod path;
 mod rectangle;
+mod rectify;
 mod room;
 mod select;
 mod split;
@@ -37,6 +38,7 @@ pub(crate) use input::{Anchor, DrawOptions, Ground, Input, NUDGES_MORE, Scope};
 pub(crate) use number::ENTRY as NUMBER;
 pub(crate) use offset::OFFSET;
 pub(crate) use paste::ENTRY as PASTE;
+pub(crate) use rectify::ENTRY as RECTIFY;
 pub(crate) use select::{REACH_PX, hit};
 pub(crate) use straighten::ENTRY as STRAIGHTEN;
 pub(crate) use tool::{Entry, Group, TakenBack, Tool, ToolOption};
@@ -70,6 +72,7 @@ pub(crate) const TOOLS: &[Entry] = &[
     calibrate::BY_LENGTH,
     calibrate::BY_DOOR,
     straighten::ENTRY,
+    rectify::ENTRY,
 ];
 
 /// Positions and lengths of the backdrop: a hundredth of a millimetre in the plan is below any pixel.

@@ -71,6 +71,7 @@ pub(super) const GRID: ToolOption = ToolOption::Switch { command: "snap-to-grid"
 pub(super) const RIGHT_ANGLES: ToolOption = ToolOption::Switch { command: "right-angles", name: "Right angles" };
 pub(super) const WITH_WALLS: ToolOption = ToolOption::Switch { command: "walls-with-rooms", name: "With walls" };
 pub(super) const CLEAR_SIZES: ToolOption = ToolOption::Switch { command: "clear-sizes", name: "Clear sizes" };
+pub(super) const ROOMS_FROM_WALLS: ToolOption = ToolOption::Switch { command: "rooms-from-walls", name: "Rooms" };
 pub(super) const COPIES: ToolOption = ToolOption::Switch { command: "transform-copies", name: "Copy" };
 pub(super) const OVER_ROOMS: ToolOption = ToolOption::Switch { command: "over-rooms", name: "Over rooms" };
 

@@ -9,7 +9,7 @@ use super::typing;
 use crate::app::paint::places::canvas_id;
 use crate::base::units::Units;
 use crate::geometry::Point;
-use crate::snapping::{self, PlanIndex, Query, Snap};
+use crate::snapping::{self, PlanIndex, Query, Snap, SnapKind};
 use crate::store::Draft;
 
 /// The active tool and its surroundings.
@@ -25,6 +25,8 @@ pub(crate) struct Toolbox {
     /// How often Tab was pressed here, to cycle through snap targets.
     cycled: usize,
     cycled_at: Option<Point>,
+    /// Where the last frame showed that a click would go.
+    shown: Option<Point>,
     /// Whether the pointer is snapped to something now: Tab then goes to the next.
     attracts: bool,
     /// The tool's last hint.
@@ -44,6 +46,7 @@ impl Default for Toolbox {
             pending: Vec::new(),
             cycled: 0,
             cycled_at: None,
+            shown: None,
             attracts: false,
             hint: String::new(),
             options: DrawOptions::default(),
@@ -57,6 +60,11 @@ const SAME_PLACE_PX: f64 = 4.0;
 /// Snapping radius in points: about as much as a finger trembles, and the usual value in CAD programs
 /// (AutoCAD's aperture is 10 pixels).
 const SNAP_RADIUS_PX: f64 = 10.0;
+
+/// How far alignment with far corners pulls over a picture, in points and in metres: its lines are what is meant, and
+/// 5 cm is less than the wall of any of them.
+const OVER_PICTURE_PX: f64 = 3.0;
+const OVER_PICTURE_M: f64 = 0.05;
 
 /// The minimum spacing of the snapping grid, in points.
 const FINEST_GRID_PX: f64 = 8.0;
@@ -245,7 +253,7 @@ impl Toolbox {
 
     /// What a position currently snaps to.
     pub(crate) fn snap(&mut self, ground: &Ground<'_>, pointer: Point) -> Snap {
-        let &Ground { index, seen, px_per_m, modifiers, lines, points, options, grid_m, is_seen } = ground;
+        let &Ground { index, seen, px_per_m, modifiers, lines, points, options, grid_m, is_seen, .. } = ground;
         let empty = PlanIndex::default();
         let anchor = self.tool.anchor();
         if self.cycled_at.is_none_or(|at| at.distance(pointer) * px_per_m > SAME_PLACE_PX) {
@@ -259,6 +267,10 @@ impl Toolbox {
         let query = Query {
             pointer,
             radius_m: SNAP_RADIUS_PX / px_per_m,
+            alignment_m: match ground.is_over_picture {
+                true => (OVER_PICTURE_PX / px_per_m).min(OVER_PICTURE_M),
+                false => SNAP_RADIUS_PX / px_per_m,
+            },
             seen,
             from: anchor.map(|anchor| anchor.from),
             along: anchor.and_then(|anchor| anchor.along),
@@ -277,7 +289,17 @@ impl Toolbox {
         let mut found = snapping::candidates(index.unwrap_or(&empty), &query);
         // The last one is the position itself.
         self.attracts = is_seen && self.tool.snaps() && found.len() > 1;
-        found.swap_remove(self.cycled % found.len())
+        let free = found.last().cloned();
+        let snap = found.swap_remove(self.cycled % found.len());
+        // What comes of something far away is taken only where it has been seen.
+        let is_unseen = snap.kind == SnapKind::Alignment
+            && ground.is_pressing
+            && self.shown.is_none_or(|shown| shown.distance(snap.point) > 1e-9);
+        if let Some(free) = free.filter(|_| is_unseen) {
+            return free;
+        }
+        self.shown = Some(snap.point).filter(|_| is_seen);
+        snap
     }
 }
 

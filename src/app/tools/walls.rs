@@ -3,7 +3,7 @@
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::path::{ARC_HINT, Path};
-use super::tool::{GRID, Group, RIGHT_ANGLES, SNAPPING, THICKNESS, WALL_SIDE};
+use super::tool::{GRID, Group, RIGHT_ANGLES, ROOMS_FROM_WALLS, SNAPPING, THICKNESS, WALL_SIDE};
 use super::{Call, DrawOptions, Entry, Input, Scope, TakenBack, Tool, Value};
 use crate::app::look::icons::Icon;
 use crate::app::look::icons::Part::Line;
@@ -27,7 +27,7 @@ pub(super) const ENTRY: Entry = Entry {
         ]),
         Group::Draw,
     )),
-    options: &[THICKNESS, WALL_SIDE, RIGHT_ANGLES, SNAPPING, GRID],
+    options: &[THICKNESS, WALL_SIDE, ROOMS_FROM_WALLS, RIGHT_ANGLES, SNAPPING, GRID],
     make: || Box::new(Walls::Ready),
 };
 

@@ -15,7 +15,8 @@ use std::path::Path;
 use sha2::{Digest as _, Sha256};
 
 use crate::base::work::Work;
-use crate::picture::{Level, PictureLevels};
+use crate::picture::{Level, PictureLevels, warped};
+use crate::plan::{Backdrop, Rectification};
 pub use apart::{Decoding, decode_apart};
 #[cfg(feature = "cli")]
 pub(crate) use apart::{answer_if_asked, decode_by_this_program};
@@ -73,6 +74,8 @@ pub struct LoadedPicture {
     pub content_hash: String,
     /// How many pages the file has; 1 for anything but a PDF or TIFF.
     pub pages: u32,
+    /// Width and height of the picture in its file, in pixels: those of the levels, unless it is made flat.
+    pub source_px: [u32; 2],
 }
 
 /// The hash that identifies a picture: `sha256:` and the output of `sha256sum`.
@@ -131,6 +134,41 @@ pub fn load_picture_while(path: &Path, page: u32, work: &Work<'_>) -> Result<Loa
     decode_picture_by(apart::chosen(), &read_picture_bytes(path)?, page, work)
 }
 
+/// The picture under a plan from the file at a path, made flat if the plan says so, as long as it is wanted.
+///
+/// # Errors
+/// As [`load_picture`], and when the work is cancelled.
+pub fn load_backdrop_while(
+    path: &Path,
+    page: u32,
+    rectification: Option<&Rectification>,
+    work: &Work<'_>,
+) -> Result<LoadedPicture, PictureError> {
+    let bytes = read_picture_bytes(path)?;
+    let pixels::Decoded { full, pages } = apart::chosen().decode(&bytes, page, work)?;
+    let source_px = [full.width_px, full.height_px];
+    let shown = match rectification {
+        None => full,
+        Some(rectification) => {
+            let wrong = || PictureError::new("cannot be made flat by its corners", "click the corners again");
+            let [width_px, height_px] = rectification.size_px;
+            check_size(width_px, height_px)?;
+            let source_from_shown = rectification.source_from_shown().ok_or_else(wrong)?;
+            warped(&full, &source_from_shown, rectification.size_px, work)
+                .map_err(|_| PictureError::new("is not wanted any more", "look at the plan again"))?
+        }
+    };
+    Ok(LoadedPicture { levels: PictureLevels::new(shown), content_hash: content_hash(&bytes), pages, source_px })
+}
+
+/// The picture under a plan from the file at a path, made flat if the plan says so.
+///
+/// # Errors
+/// As [`load_picture`].
+pub fn load_backdrop(path: &Path, backdrop: &Backdrop) -> Result<LoadedPicture, PictureError> {
+    load_backdrop_while(path, backdrop.page, backdrop.rectification.as_ref(), &Work::quiet())
+}
+
 /// Reads a picture from a file's bytes, like [`load_picture`].
 ///
 /// # Errors
@@ -158,7 +196,8 @@ pub fn decode_picture_by(
     work: &Work<'_>,
 ) -> Result<LoadedPicture, PictureError> {
     let pixels::Decoded { full, pages } = decoding.decode(bytes, page, work)?;
-    Ok(LoadedPicture { levels: PictureLevels::new(full), content_hash: content_hash(bytes), pages })
+    let source_px = [full.width_px, full.height_px];
+    Ok(LoadedPicture { levels: PictureLevels::new(full), content_hash: content_hash(bytes), pages, source_px })
 }
 
 /// Rejects sizes that would not fit into memory.

@@ -32,6 +32,39 @@ pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> R
     }
 }
 
+/// The same for an edit that touches only the rooms that meet a box.
+pub(super) fn edited_near(
+    app: &mut App,
+    title: &str,
+    bounds: Bounds,
+    change: impl Fn(&Plan) -> Result<Plan, EditError>,
+) -> Outcome {
+    match app.session.try_edit_near(title, bounds, change) {
+        Ok(()) => Outcome::Done,
+        Err(error) => Outcome::Refused(error.to_string()),
+    }
+}
+
+/// The same for an edit that may have had to fit openings anew: says so.
+pub(super) fn edited_fitting_near(
+    app: &mut App,
+    title: &str,
+    bounds: Bounds,
+    change: impl Fn(&Plan) -> Result<edit::Changed, EditError>,
+) -> Outcome {
+    let refitted = std::cell::RefCell::new(Vec::new());
+    let ran = edited_near(app, title, bounds, |plan| {
+        let changed = change(plan)?;
+        refitted.replace(changed.refitted);
+        Ok(changed.plan)
+    });
+    app.say_refitted(&refitted.into_inner());
+    ran
+}
+
+/// How far from a path what it meets may lie, in metres: far more than any line is bent to meet another.
+pub(super) const REACH_OF_WALLS_M: f64 = 0.5;
+
 /// The same for an edit that may have had to fit openings anew: says so.
 pub(super) fn edited_fitting(
     app: &mut App,
@@ -123,6 +156,15 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .menu(Menu::Draw, 4),
     switch(
+        "rooms-from-walls",
+        "Rooms from closed walls",
+        "Make a room as soon as walls are closed; on for new plans",
+        has_plan,
+        |app| app.session.closes_rooms(),
+        |app, is_on| app.session.set_closes_rooms(is_on),
+    )
+    .menu(Menu::Draw, 4),
+    switch(
         "over-rooms",
         "Over rooms",
         "Let new rooms lie over others, such as a niche or a corridor inside another room",
@@ -201,7 +243,28 @@ pub(super) const COMMANDS: &[Command] = &[
                 let thickness_m = thickness_m.unwrap_or(app.tools.options.thickness_m);
                 let built = Built { thickness_m, lies: lies.unwrap_or_default() };
                 let drawn = drawn_m.zip(drawn_lies).map(|(thickness_m, lies)| Built { thickness_m, lies });
-                edited(app, "Draw wall", |plan| Ok(edit::draw_walls_beside(plan, &points, built, drawn)?.plan))
+                let draw = |plan: &Plan| edit::draw_walls_beside(plan, &points, built, drawn);
+                if !app.session.closes_rooms() {
+                    // Beside a line, and on to where faces join.
+                    let reach_m = REACH_OF_WALLS_M + 7.0 * thickness_m.max(drawn_m.unwrap_or(0.0));
+                    let around = Bounds::of(points.iter().copied()).inflated(reach_m);
+                    return edited_near(app, "Draw wall", around, |plan| Ok(draw(plan)?.plan));
+                }
+                let mut made = 0;
+                let ran = edited(app, "Draw wall", |plan| {
+                    let drawn = draw(plan)?;
+                    // Walls that meet too often to say what they enclose are drawn all the same.
+                    let closed = edit::fill_closed(plan, &drawn.plan, &drawn.walls).ok();
+                    Ok(closed.map_or(drawn.plan, |closed| {
+                        made = closed.rooms.len();
+                        closed.plan
+                    }))
+                });
+                if made > 0 {
+                    app.session.status =
+                        format!("The walls are closed: made {}", crate::base::wording::count(made, "room"));
+                }
+                ran
             },
         ),
         None,

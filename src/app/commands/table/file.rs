@@ -1,6 +1,7 @@
 //! Opening, saving, closing.
 
 use super::*;
+use crate::app::value::{Call, Value};
 use crate::edit::storey::Keep;
 
 pub(super) const COMMANDS: &[Command] = &[
@@ -37,12 +38,12 @@ pub(super) const COMMANDS: &[Command] = &[
             optional("STOREY", COUNT, "which plan of the file, from 1"),
             |app, path, storey, _| {
                 let storey = storey.map_or(0, |storey| storey - 1);
-                app.session.open(Origin::File { path, storey });
-                Outcome::Done
+                opened(app, Origin::File { path, storey })
             },
         ),
         Some(|app, _| app.session.choose_plan()),
     )
+    .typed_path()
     .keys(&[ctrl(Key::O)])
     .menu(Menu::File, 0),
     with(
@@ -51,11 +52,29 @@ pub(super) const COMMANDS: &[Command] = &[
         "Open one of the plans that come with Enfilade",
         always,
         &given1(needed("SAMPLE", SAMPLE, "the sample's file name without the ending"), |app, Sample(sample), _| {
-            app.session.open(Origin::Bundled(sample));
-            Outcome::Done
+            opened(app, Origin::Bundled(sample))
         }),
         None,
     )
+    .menu(Menu::File, 0),
+    with(
+        "open-recent",
+        "Open recent…",
+        "Open a recent file",
+        has_recent,
+        &given1(needed("PATH", RECENT_FILE, "the file"), |app, path, context| {
+            app.act_on(Call::new("open", [Value::Path(path)]), context);
+            Outcome::Asks
+        }),
+        Some(|app, _| {
+            app.session.look_for_recent();
+            app.ask_for_argument(Asked::of("open-recent"));
+        }),
+    )
+    .menu(Menu::File, 0),
+    command("clear-recent", "Clear recent files", "Empty the list of recent files", has_recent, |app, _| {
+        app.session.forget_recent();
+    })
     .menu(Menu::File, 0),
     with(
         "save",
@@ -75,13 +94,11 @@ pub(super) const COMMANDS: &[Command] = &[
         has_plan,
         &given1(
             needed("PATH", NEW_PLAN_FILE, "the file, which is overwritten if it exists; '.plan.json' is added"),
-            |app, path, _| {
-                app.session.save_in(path, None);
-                Outcome::Done
-            },
+            |app, path, _| if app.session.save_as(path) { Outcome::Asks } else { Outcome::Done },
         ),
         Some(|app, _| app.session.ask_where_to_save(None, None)),
     )
+    .typed_path()
     .keys(&[ctrl_shift(Key::S)])
     .menu(Menu::File, 1)
     .on(&[On::ListedPlan]),
@@ -200,11 +217,67 @@ pub(super) const COMMANDS: &[Command] = &[
     })
     .keys(&[key(Key::PageDown)])
     .menu(Menu::File, 3),
-    command("close", "Close plan", "Close the plan", has_plan, |app, _| app.session.request(Intent::Close))
-        .keys(&[ctrl(Key::W)])
-        .menu(Menu::File, 4)
-        .on(&[On::ListedPlan]),
-    command("quit", "Quit", "Quit Enfilade", always, |app, _| app.session.request(Intent::Quit))
+    with(
+        "show-plan",
+        "Show open plan…",
+        "Show another open plan, as you left it",
+        has_several_open,
+        &given1(needed("PLAN", OPEN_PLAN, "its title in the list"), |app, OpenPlanNumber(number), _| {
+            app.session.show_open(number);
+            Outcome::Done
+        }),
+        None,
+    )
+    .menu(Menu::File, 3),
+    with(
+        "next-open",
+        "Next open plan",
+        "Show the next of the open plans",
+        has_several_open,
+        &given0(|app, _| shown(app, 1)),
+        None,
+    )
+    .keys(&[ctrl(Key::Tab)])
+    .menu(Menu::File, 3),
+    with(
+        "previous-open",
+        "Previous open plan",
+        "Show the previous open plan",
+        has_several_open,
+        &given0(|app, _| shown(app, -1)),
+        None,
+    )
+    .keys(&[ctrl_shift(Key::Tab)])
+    .menu(Menu::File, 3),
+    with(
+        "close",
+        "Close plan",
+        "Close the plan, after asking if it has unsaved changes",
+        has_plan,
+        &given1(optional("PLAN", OPEN_PLAN, "its title in the list; without it, the one shown"), |app, plan, _| {
+            let shown = app.session.document.as_ref().map(|document| document.number);
+            if let Some(number) = plan.map(|OpenPlanNumber(number)| number).or(shown) {
+                app.session.close_plan(number);
+            }
+            Outcome::Done
+        }),
+        None,
+    )
+    .keys(&[ctrl(Key::W)])
+    .menu(Menu::File, 4)
+    .on(&[On::ListedPlan]),
+    command("quit", "Quit", "Quit Enfilade", always, |app, _| app.session.request(Intent::QUIT))
         .keys(&[ctrl(Key::Q)])
         .menu(Menu::File, 4),
 ];
+
+/// Shows the open plan some places after this one, which the session records.
+fn shown(app: &mut App, step: isize) -> Outcome {
+    app.session.show_next_open(step);
+    Outcome::Asks
+}
+
+/// Opens a plan; the session records if it shows one that is open.
+fn opened(app: &mut App, origin: Origin) -> Outcome {
+    if app.session.open(origin) { Outcome::Done } else { Outcome::Asks }
+}

@@ -64,6 +64,7 @@ const fn entry(
         on: &[],
         tool: None,
         strip: None,
+        types_path: false,
         availability,
         complete_availability: None,
         action,
@@ -186,6 +187,11 @@ impl Command {
         Self { strip: Some((icon, group)), ..self }
     }
 
+    /// The palette lets its path be typed.
+    const fn typed_path(self) -> Self {
+        Self { types_path: true, ..self }
+    }
+
     const fn tool(self, icon: Icon, group: u8) -> Self {
         Self { tool: Some((icon, group)), ..self }
     }
@@ -293,6 +299,18 @@ fn has_several_plans(app: &App) -> Availability {
     when(app.session.list.len() > 1, "there is only one plan in the list")
 }
 
+fn has_several_open(app: &App) -> Availability {
+    when(app.session.has_several_open(), "only one plan is open")
+}
+
+fn has_recent(app: &App) -> Availability {
+    when(!app.session.settings.recent().is_empty(), "there are no recent files")
+}
+
+fn is_asked_for_file(app: &App) -> Availability {
+    when(app.session.typed_for.is_some(), "no file is needed now")
+}
+
 fn has_backdrop(app: &App) -> Availability {
     has_plan(app)?;
     let has = app.plan().is_some_and(|plan| plan.backdrop().is_some());
@@ -316,7 +334,7 @@ fn can_recover(app: &App) -> Availability {
 
 fn has_theirs(app: &App) -> Availability {
     has_plan(app)?;
-    when(app.session.safety.theirs.is_some(), "nobody else has changed the plan's file")
+    when(app.session.safety.own.theirs.is_some(), "nobody else has changed the plan's file")
 }
 
 fn has_their_plan(app: &App) -> Availability {
@@ -333,7 +351,8 @@ fn can_record(app: &App) -> Availability {
     when(
         app.is_recording() || !app.has_unsaved_changes(),
         "save the plan first: a script starts from what is in its file",
-    )
+    )?;
+    when(app.is_recording() || !app.session.has_several_open(), "close the other plans first: a script starts with one")
 }
 
 fn has_changed_keys(app: &App) -> Availability {

@@ -8,7 +8,7 @@ use self::acts::{
     Mirror, NO_GAPS, Wanted, Way, copied, has_copied, has_door, has_drawing, has_opening, has_wall, is_labelled,
     is_selectable, select_found, transformed,
 };
-use super::draw::{edited, edited_fitting};
+use super::draw::{REACH_OF_WALLS_M, edited, edited_fitting, edited_fitting_near};
 use super::*;
 use crate::app::session::{document::Document, questions::Question};
 use crate::app::value::MoveOrCopy;
@@ -620,7 +620,9 @@ pub(super) const COMMANDS: &[Command] = &[
                 let Some(ElementId::Corner(corner)) = elements.first().copied() else {
                     return Outcome::Refused("this is no corner".to_owned());
                 };
-                edited_fitting(app, "Move corner", |plan| edit::drag_corners(plan, &[(corner, to)]))
+                let from = app.session.document.as_ref().map_or(Bounds::EMPTY, |document| document.around(corner));
+                let around = from.with(to).inflated(REACH_OF_WALLS_M);
+                edited_fitting_near(app, "Move corner", around, |plan| edit::drag_corners(plan, &[(corner, to)]))
             },
         ),
         None,

@@ -52,6 +52,12 @@ fn is_outside(app: &App) -> Availability {
     when(is, "the picture lies in the plan's folder, or is shown already")
 }
 
+fn is_rectified(app: &App) -> Availability {
+    has_backdrop(app)?;
+    let is = app.plan().and_then(crate::plan::Plan::backdrop).is_some_and(|backdrop| backdrop.rectification.is_some());
+    when(is, "the picture is shown as it is in its file")
+}
+
 fn has_pages(app: &App) -> Availability {
     has_backdrop(app)?;
     when(app.session.backdrop.pages() > 1, "the picture has one page")
@@ -79,6 +85,7 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         Some(|app, _| app.session.choose_picture(PictureUse::Add)),
     )
+    .typed_path()
     .menu(Menu::Picture, 0),
     with(
         "relink-picture",
@@ -93,6 +100,7 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         Some(|app, _| app.session.choose_picture(PictureUse::Relink)),
     )
+    .typed_path()
     .menu(Menu::Picture, 0),
     with(
         "picture-page",
@@ -186,6 +194,39 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     ),
+    tool(&tools::RECTIFY, has_backdrop).menu(Menu::Picture, 2),
+    with(
+        "rectify-picture",
+        "Make picture flat",
+        "Flatten a photographed drawing by the corners of a rectangle in it; its sides set the scale, or else their \
+         ratio is estimated",
+        has_backdrop,
+        &given3(
+            needed("CORNERS", points(4), "its four corners in metres, such as '0,0 4,0 4,3 0,3'"),
+            optional("WIDTH", LENGTH, "its true width"),
+            optional("HEIGHT", LENGTH, "its true height"),
+            |app, corners, width_m, height_m, _| {
+                let Ok(corners) = corners.try_into() else {
+                    return Outcome::Refused("a rectangle has four corners".to_owned());
+                };
+                let sides_m = width_m.zip(height_m).map(|(width_m, height_m)| [width_m, height_m]);
+                if width_m.is_some() != sides_m.is_some() {
+                    return Outcome::Refused("give both sides or neither".to_owned());
+                }
+                done(app.session.rectify_picture(corners, sides_m))
+            },
+        ),
+        None,
+    ),
+    with(
+        "unrectify-picture",
+        "Show picture as taken",
+        "Show the picture as it is in its file, not flattened",
+        is_rectified,
+        &given0(|app, _| done(app.session.unrectify_picture())),
+        None,
+    )
+    .menu(Menu::Picture, 2),
     with(
         "turn-picture",
         "Turn picture…",

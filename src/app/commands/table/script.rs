@@ -129,4 +129,17 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     ),
+    with(
+        "choose-file",
+        "Choose a file",
+        "Give the path of a file, if the system has no file dialog",
+        is_asked_for_file,
+        &given1(needed("PATH", NEW_FILE, "the file"), |app, path, context| {
+            if let Some(purpose) = app.session.typed_for.take() {
+                app.session.was_typed(purpose, path, context);
+            }
+            Outcome::Asks
+        }),
+        None,
+    ),
 ];

@@ -309,7 +309,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Show or hide the panel on the left",
         always,
         |app| app.panels.is_shown(panels::PLANS),
-        |app, is_on| [panels::PLANS, panels::LAYERS].iter().for_each(|id| app.panels.set_shown(id, is_on)),
+        |app, is_on| [panels::PLANS, panels::LAYERS].iter().for_each(|id| app.set_panel(id, is_on)),
     )
     .keys(&[ctrl(Key::Num1)])
     .menu(Menu::View, 4)
@@ -320,7 +320,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Show or hide the panel on the right",
         always,
         |app| app.panels.is_shown(panels::INSPECTOR),
-        |app, is_on| app.panels.set_shown(panels::INSPECTOR, is_on),
+        |app, is_on| app.set_panel(panels::INSPECTOR, is_on),
     )
     .keys(&[ctrl(Key::Num2)])
     .menu(Menu::View, 4)
@@ -331,7 +331,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Show the steps that led to this plan, and go to any of them",
         always,
         |app| app.panels.is_shown(panels::HISTORY),
-        |app, is_on| app.panels.set_shown(panels::HISTORY, is_on),
+        |app, is_on| app.set_panel(panels::HISTORY, is_on),
     )
     .keys(&[ctrl(Key::Num3)])
     .menu(Menu::View, 4),
@@ -417,7 +417,7 @@ pub(super) const COMMANDS: &[Command] = &[
             optional("SWITCH", ON_OR_OFF, "on or off; without it, switches over"),
             |app, SidePanelId(id), is_on, _| {
                 let is_on = is_on.unwrap_or(!app.panels.is_shown(id));
-                app.panels.set_shown(id, is_on);
+                app.set_panel(id, is_on);
                 Outcome::DoneWith(vec![id.to_owned(), switch_word(is_on).to_owned()])
             },
         ),

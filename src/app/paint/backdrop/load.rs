@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::base::work::Work;
-use crate::plan::Backdrop;
+use crate::plan::{Backdrop, Rectification};
 use crate::store::pictures::{self, Found, LoadedPicture, PictureError};
 
 /// The picture to load for a plan.
@@ -15,6 +15,7 @@ pub(crate) struct Wanted {
     pub page: u32,
     /// Like [`Backdrop::content_hash`].
     pub content_hash: String,
+    pub rectification: Option<Rectification>,
 }
 
 impl Wanted {
@@ -23,6 +24,7 @@ impl Wanted {
             path: pictures::resolved_path(&backdrop.path, folder),
             page: backdrop.page,
             content_hash: backdrop.content_hash.clone(),
+            rectification: backdrop.rectification.clone(),
         }
     }
 }
@@ -55,7 +57,8 @@ pub(crate) fn read(
     if !pictures::is_allowed(&wanted.path, folder, allowed) {
         return Read::Outside;
     }
-    let error = match pictures::load_picture_while(&wanted.path, wanted.page, work) {
+    let load = |path: &Path| pictures::load_backdrop_while(path, wanted.page, wanted.rectification.as_ref(), work);
+    let error = match load(&wanted.path) {
         Ok(picture) => return Read::Shown { picture: Arc::new(picture), found_at: None },
         Err(error) => error,
     };
@@ -63,7 +66,7 @@ pub(crate) fn read(
         return Read::Missing { error, candidate: None };
     }
     match folder.and_then(|folder| pictures::find_picture(backdrop, folder)) {
-        Some(Found { path, is_same: true }) => match pictures::load_picture_while(&path, wanted.page, work) {
+        Some(Found { path, is_same: true }) => match load(&path) {
             Ok(picture) => Read::Shown { picture: Arc::new(picture), found_at: Some(path) },
             Err(error) => Read::Missing { error, candidate: None },
         },

@@ -72,6 +72,7 @@ impl BackdropView {
         if let State::Shown { wanted: known, picture, found_at } = &mut self.state
             && picture.content_hash == wanted.content_hash
             && known.page == wanted.page
+            && known.rectification == wanted.rectification
         {
             // The same picture at another path: relinked, or its plan was saved elsewhere.
             *known = wanted;
@@ -112,7 +113,9 @@ impl BackdropView {
 
     /// Shows a picture that was read for the plan before the plan asks for it.
     pub(crate) fn set_shown(&mut self, wanted: Wanted, picture: Arc<LoadedPicture>) {
-        *self = Self { state: State::Shown { wanted, picture, found_at: None }, ..Self::default() };
+        // A view of everything, asked for at once, counts it.
+        let is_seen = true;
+        *self = Self { state: State::Shown { wanted, picture, found_at: None }, is_seen, ..Self::default() };
     }
 
     /// The state of the backdrop; `None` if the plan has none.
@@ -130,6 +133,14 @@ impl BackdropView {
         match &self.state {
             State::Shown { picture, .. } => picture.pages,
             _ => 1,
+        }
+    }
+
+    /// Width and height of the picture in its file, if it is shown.
+    pub(crate) fn source_px(&self) -> Option<[u32; 2]> {
+        match &self.state {
+            State::Shown { picture, .. } => Some(picture.source_px),
+            _ => None,
         }
     }
 

@@ -31,9 +31,9 @@ impl Inspected<'_> {
         );
         ui.add_space(6.0);
         let mut act = self.field(ui, id, FieldKind::Name, &room.name, "Unnamed");
-        act = act.or(self.field(ui, id, FieldKind::Function, &room.function, "Unknown"));
-        act = act.or(self.proposed_function(ui, id));
-        act = act.or(self.field(ui, id, FieldKind::Note, &room.note, "None"));
+        act = Act::both(act, self.field(ui, id, FieldKind::Function, &room.function, "Unknown"));
+        act = Act::both(act, self.proposed_function(ui, id));
+        act = Act::both(act, self.field(ui, id, FieldKind::Note, &room.note, "None"));
         ui.add_space(4.0);
         if let Some(net) = derived.and_then(|derived| derived.analysis.net(id)) {
             let units = self.app.units();

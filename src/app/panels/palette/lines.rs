@@ -28,6 +28,10 @@ pub(super) fn row(ui: &Ui, rect: Rect, index: usize, line: &Line, is_chosen: boo
             let square = Rect::from_center_size(pos2(left + ICON / 2.0, middle), Vec2::splat(ICON));
             Icon::Check.paint(ui.painter(), square, text.gamma_multiply(fade));
         }
+        LineLead::Icon(icon) => {
+            let square = Rect::from_center_size(pos2(left + ICON / 2.0, middle), Vec2::splat(ICON));
+            icon.paint(ui.painter(), square, colours.text_weak);
+        }
         LineLead::Swatch(colour) => swatch(ui, pos2(left + 8.0, middle), colour),
     }
     left += ICON + 8.0;

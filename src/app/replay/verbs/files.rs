@@ -39,8 +39,9 @@ pub(super) const GROUP: Group = Group {
         },
         Verb {
             name: "file-dialog",
-            form: "file-dialog open PATH | save PATH | cancel",
-            help: "What the next dialog that asks for a file will be told; stands before the step that brings it up.",
+            form: "file-dialog open PATH | save PATH | cancel | none",
+            help: "What the next dialog that asks for a file will be told; stands before the step that brings it up. \
+                   With `none` the system has no such dialogs from now on.",
             parse: file_dialog,
         },
         Verb {
@@ -53,6 +54,28 @@ pub(super) const GROUP: Group = Group {
                     Ok(())
                 }))
             },
+        },
+        Verb {
+            name: "settings",
+            form: "settings [FROM]",
+            help: "Keeps settings from now on, in the script's own folder; at first those of the file FROM beside the \
+                   script.",
+            parse: |words| {
+                let from = words.next().map(|word| word.text.clone());
+                Ok(Box::new(move |stage| {
+                    if let Some(from) = &from {
+                        stage.folders.brought_in_as(from, super::super::stage::SETTINGS)?;
+                    }
+                    stage.keep_settings();
+                    Ok(())
+                }))
+            },
+        },
+        Verb {
+            name: "restart",
+            form: "restart",
+            help: "Closes the window and starts the program again, with the settings and journals that are kept.",
+            parse: |_| Ok(Box::new(|stage| stage.restart())),
         },
         Verb {
             name: "crash",
@@ -115,10 +138,16 @@ fn file_dialog(words: &mut Words<'_>) -> Result<Act, String> {
             Ok(())
         }));
     }
+    if words.keyword("none") {
+        return Ok(Box::new(|stage| {
+            stage.window.be_without_dialogs();
+            Ok(())
+        }));
+    }
     let is_open = match words.text("what is answered")? {
         "open" => true,
         "save" => false,
-        other => return Err(format!("a dialog is told open PATH, save PATH or cancel, not {}", written(other))),
+        other => return Err(format!("a dialog is told open PATH, save PATH, cancel or none, not {}", written(other))),
     };
     let path = words.text("the path")?.to_owned();
     Ok(Box::new(move |stage| {

@@ -60,7 +60,9 @@ pub(super) fn command(command: &'static Command, arguments: Vec<String>) -> Resu
             .zip(command.arguments)
             .map(|(word, argument)| {
                 let path = match argument.kind {
-                    ArgumentKind::PlanFile | ArgumentKind::PictureFile => stage.folders.brought_in(word)?,
+                    ArgumentKind::PlanFile | ArgumentKind::PictureFile | ArgumentKind::RecentFile => {
+                        stage.folders.brought_in(word)?
+                    }
                     ArgumentKind::NewPlanFile | ArgumentKind::NewFile => stage.folders.to_write(word)?,
                     _ => return Ok(word.clone()),
                 };

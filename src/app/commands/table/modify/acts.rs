@@ -151,25 +151,34 @@ impl App {
             let pairs = points.windows(2).map(|pair| (&pair[0], &pair[1])).chain(closing);
             pairs.into_iter().any(|(a, b)| bounds.meets(Segment::new(*a, *b)))
         };
-        let mut found = Vec::new();
-        for (id, room) in plan.rooms() {
-            let points = plan.ring_points(&room.outer);
-            let is_around = || polygon::locate_in_ring(&points, bounds.center()) == polygon::Location::Inside;
-            if is_in(&points) || (touches && (is_met(&points, true) || is_around())) {
-                found.push(ElementId::Room(id));
+        let is_chosen = |element: &ElementId| match *element {
+            ElementId::Room(id) => plan.room(id).is_some_and(|room| {
+                let points = plan.ring_points(&room.outer);
+                let is_around = || polygon::locate_in_ring(&points, bounds.center()) == polygon::Location::Inside;
+                is_in(&points) || (touches && (is_met(&points, true) || is_around()))
+            }),
+            ElementId::Wall(_) | ElementId::Opening(_) => {
+                let segment = match *element {
+                    ElementId::Wall(id) => plan.wall(id).and_then(|wall| plan.wall_segment(wall)),
+                    ElementId::Opening(id) => plan.opening(id).and_then(|opening| plan.opening_segment(opening)),
+                    _ => None,
+                };
+                let ends = segment.map(|segment| [segment.a, segment.b]);
+                ends.is_some_and(|ends| is_in(&ends) || (touches && is_met(&ends, false)))
             }
-        }
-        let walls = plan.walls().filter_map(|(id, wall)| Some((ElementId::Wall(id), plan.wall_segment(wall)?)));
-        let openings =
-            plan.openings().filter_map(|(id, opening)| Some((ElementId::Opening(id), plan.opening_segment(opening)?)));
+            // Below, by their lines.
+            ElementId::Corner(_) | ElementId::Dimension(_) => false,
+        };
+        let near = self.session.document.as_ref().and_then(|document| document.near(bounds));
+        let mut found: Vec<ElementId> = match near {
+            Some(near) => near.into_iter().filter(is_chosen).collect(),
+            None => plan.elements().filter(is_chosen).collect(),
+        };
         let dimensions = crate::draw::dimensions::lines(plan).into_iter().filter(|_| self.session.layers.dimensions);
-        let dimensions = dimensions.filter_map(|(id, line)| Some((ElementId::Dimension(id), segment(&line)?)));
-        for (element, segment) in walls.chain(openings).chain(dimensions) {
-            let ends = [segment.a, segment.b];
-            if is_in(&ends) || (touches && is_met(&ends, false)) {
-                found.push(element);
-            }
-        }
+        found.extend(dimensions.filter_map(|(id, line)| {
+            let Segment { a, b } = segment(&line)?;
+            (is_in(&[a, b]) || (touches && is_met(&[a, b], false))).then_some(ElementId::Dimension(id))
+        }));
         found.retain(|&element| is_selectable(self, element));
         found
     }
