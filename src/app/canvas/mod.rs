@@ -352,7 +352,11 @@ impl Canvas {
                 if toolbox.tool().is_busy() {
                     inputs.push(Input::SecondaryClick);
                 } else if let Some(at) = ui.input(|input| input.pointer.interact_pos()) {
-                    *act = Some(Act::Menu(self.pointed.element, at));
+                    // The handle of a corner lies over all else.
+                    let reach_m = scope.metres(tools::REACH_PX);
+                    let handle = tools::handle_at(scope.plan, scope.selection, pointer, reach_m);
+                    let corner = handle.map(|(corner, _)| ElementId::Corner(corner));
+                    *act = Some(Act::Menu(corner.or(self.pointed.element), at));
                 }
             }
         }

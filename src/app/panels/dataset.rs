@@ -31,7 +31,7 @@ impl Dataset {
     }
 
     fn target(&self, app: &App) -> Option<PathBuf> {
-        app.session.typed_path(&self.path)
+        app.session.typed_file(&self.path)
     }
 }
 

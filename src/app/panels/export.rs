@@ -86,7 +86,7 @@ impl Export {
 
     /// The file, if the text is one.
     fn target(&self, app: &App) -> Option<PathBuf> {
-        let path = app.session.typed_path(&self.path)?;
+        let path = app.session.typed_file(&self.path)?;
         let name = path.file_name()?.to_string_lossy().into_owned();
         let endings = self.format.0.endings;
         Some(match ending_of(&name, endings) {

@@ -129,9 +129,11 @@ impl App {
             // What the menu is about is what its commands are about.
             self.act_on(Call::new("select", [Value::Elements(vec![element])]), context);
         }
-        self.panels.context_menu = Some((thing, at));
+        // Each is a popup of its own: the press that opens it closes the one before.
+        let number = self.panels.context_menu.as_ref().map_or(0, |(_, _, number)| number + 1);
+        self.panels.context_menu = Some((thing, at, number));
         self.panels.menu_takes_keyboard = false;
-        Popup::open_id(context, context_menu_id());
+        Popup::open_id(context, context_menu_id(number));
     }
 
     /// What a thing is in the table of commands.
@@ -177,14 +179,14 @@ fn of_thing(kind: On) -> Vec<&'static Command> {
     commands
 }
 
-fn context_menu_id() -> Id {
-    Id::unique("context menu")
+fn context_menu_id(number: usize) -> Id {
+    Id::unique(("context menu", number))
 }
 
 /// Shows the context menu, if one is open.
 pub(super) fn show_context_menu(app: &mut App, ui: &Ui) {
-    let Some((thing, at)) = app.panels.context_menu.clone() else { return };
-    let id = context_menu_id();
+    let Some((thing, at, number)) = app.panels.context_menu.clone() else { return };
+    let id = context_menu_id(number);
     if !Popup::is_id_open(ui.ctx(), id) {
         app.panels.context_menu = None;
         return;

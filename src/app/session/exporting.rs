@@ -112,18 +112,13 @@ impl Session {
         folder.or_else(|| etcetera::home_dir().ok()).unwrap_or_default()
     }
 
-    /// The file that a typed text means; `None` if it is none. Relative ones lie where exports go.
-    pub(crate) fn typed_path(&self, text: &str) -> Option<PathBuf> {
+    /// The file that a typed text means, see [`Self::typed_path`]; `None` if it is none.
+    pub(crate) fn typed_file(&self, text: &str) -> Option<PathBuf> {
         let text = text.trim();
         if text.is_empty() || text.ends_with(['/', '\\']) {
             return None;
         }
-        let typed = match text.strip_prefix("~/").zip(etcetera::home_dir().ok()) {
-            Some((rest, home)) => home.join(rest),
-            None => PathBuf::from(text),
-        };
-        typed.file_name()?;
-        Some(self.named_from.clone().unwrap_or_else(|| self.export_folder()).join(typed))
+        Some(self.typed_path(text)).filter(|path| path.file_name().is_some())
     }
 
     /// Asks where to export to.

@@ -79,8 +79,8 @@ pub(crate) struct Panels {
     shown: BTreeSet<&'static str>,
     /// The form in which an element is changed where it is.
     pub here: Option<Here>,
-    /// The thing whose context menu is open, and where.
-    pub context_menu: Option<(Thing, egui::Pos2)>,
+    /// The thing whose context menu is open, where, and which menu in a row it is.
+    pub context_menu: Option<(Thing, egui::Pos2, usize)>,
     /// The buttons of the menus in the bar, from the left.
     pub menu_buttons: BTreeMap<usize, egui::Id>,
     /// Whether the menu that opens gets the keyboard.

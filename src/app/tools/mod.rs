@@ -39,7 +39,7 @@ pub(crate) use number::ENTRY as NUMBER;
 pub(crate) use offset::OFFSET;
 pub(crate) use paste::ENTRY as PASTE;
 pub(crate) use rectify::ENTRY as RECTIFY;
-pub(crate) use select::{REACH_PX, hit};
+pub(crate) use select::{REACH_PX, handle_at, hit};
 pub(crate) use straighten::ENTRY as STRAIGHTEN;
 pub(crate) use tool::{Entry, Group, TakenBack, Tool, ToolOption};
 pub(crate) use toolbox::{Toolbox, attracting_grid_m};

@@ -5,7 +5,7 @@ use super::{Call, Scope, Value};
 use crate::app::paint::preview::{Look, Preview};
 use crate::base::units::Units;
 use crate::edit::{self, End, beside_opening};
-use crate::geometry::{Point, Segment};
+use crate::geometry::{Point, Segment, Vector};
 use crate::plan::{ElementId, OpeningId, Place, Plan};
 
 /// What is grabbed of an opening.
@@ -13,8 +13,8 @@ use crate::plan::{ElementId, OpeningId, Place, Plan};
 pub(super) enum Grip {
     /// An end, while the other stays.
     End(OpeningId, End),
-    /// The whole of it.
-    Middle(OpeningId),
+    /// The whole of it: its middle is so far from the pointer.
+    Middle(OpeningId, Vector),
 }
 
 /// The selected opening, if nothing else is selected, and where it lies.
@@ -24,13 +24,19 @@ fn selected(scope: &Scope<'_>) -> Option<(OpeningId, Segment)> {
     Some((id, scope.plan.opening_segment(opening)?))
 }
 
+/// The grip of the whole of an opening that is grabbed anywhere, such as by its leaf.
+pub(super) fn held(plan: &Plan, id: OpeningId, pointer: Point) -> Grip {
+    let segment = plan.opening(id).and_then(|opening| plan.opening_segment(opening));
+    Grip::Middle(id, segment.map_or(Vector::default(), |segment| segment.midpoint() - pointer))
+}
+
 /// The grip at a point.
 pub(super) fn grip_at(scope: &Scope<'_>, point: Point, reach_m: f64) -> Option<Grip> {
     let (id, segment) = selected(scope)?;
     // Where it is small on the screen, its middle is still there to be grabbed.
     let reach_m = reach_m.min(segment.length() / 3.0);
     let ends = End::BOTH.map(|end| (end.of(segment).distance(point), Grip::End(id, end)));
-    let middle = (segment.midpoint().distance(point), Grip::Middle(id));
+    let middle = (segment.midpoint().distance(point), Grip::Middle(id, segment.midpoint() - point));
     let near = ends.into_iter().chain([middle]).filter(|(distance_m, _)| *distance_m <= reach_m);
     near.min_by(|p, q| p.0.total_cmp(&q.0)).map(|(_, grip)| grip)
 }
@@ -54,7 +60,7 @@ const fn step_m(units: Units) -> f64 {
 impl Grip {
     const fn opening(self) -> OpeningId {
         match self {
-            Self::End(id, _) | Self::Middle(id) => id,
+            Self::End(id, _) | Self::Middle(id, _) => id,
         }
     }
 
@@ -62,14 +68,17 @@ impl Grip {
     fn dragged(self, plan: &Plan, towards: Point) -> Option<Plan> {
         match self {
             Self::End(id, end) => edit::stretch_opening(plan, id, end, towards).ok(),
-            Self::Middle(id) => edit::slide_opening(plan, id, towards).ok(),
+            Self::Middle(id, _) => edit::slide_opening(plan, id, towards).ok(),
         }
     }
 
     /// Where the grip goes when the pointer is where it is: to a round width, or a round distance from what lies beside
     /// it, unless Alt is held.
     fn target(self, scope: &Scope<'_>) -> Point {
-        let towards = scope.pointer;
+        let towards = match self {
+            Self::End(..) => scope.pointer,
+            Self::Middle(_, offset) => scope.pointer + offset,
+        };
         if scope.modifiers.alt {
             return towards;
         }
@@ -80,7 +89,7 @@ impl Grip {
             let (now_m, outwards) = match self {
                 Self::End(_, End::End) => (segment.length(), segment.vector().unit()?),
                 Self::End(_, End::Start) => (segment.length(), -segment.vector().unit()?),
-                Self::Middle(_) => {
+                Self::Middle(..) => {
                     let [before, _] = beside_opening(&next, id)?;
                     (before.distance_m, segment.vector().unit()?)
                 }
@@ -89,7 +98,7 @@ impl Grip {
             let by_m = (now_m / step_m).round() * step_m - now_m;
             let grip = match self {
                 Self::End(_, end) => end.of(segment),
-                Self::Middle(_) => segment.midpoint(),
+                Self::Middle(..) => segment.midpoint(),
             };
             Some(grip + outwards * by_m)
         };
@@ -101,7 +110,7 @@ impl Grip {
         let to = Value::point(self.target(scope));
         match self {
             Self::End(id, end) => Call::new("stretch-opening", [Value::Opening(id), Value::word(end), to]),
-            Self::Middle(id) => Call::new("slide-opening", [Value::Opening(id), to]),
+            Self::Middle(id, _) => Call::new("slide-opening", [Value::Opening(id), to]),
         }
     }
 
@@ -109,8 +118,8 @@ impl Grip {
         let is_free = scope.plan.opening(self.opening()).is_some_and(|it| matches!(it.place, Place::Free { .. }));
         match self {
             Self::End(..) => "The other end stays · Alt takes any width · Esc drops it".to_owned(),
-            Self::Middle(_) if is_free => "The opening slides along its line · Esc drops it".to_owned(),
-            Self::Middle(_) => "The opening slides along its wall · Alt takes any place · Esc drops it".to_owned(),
+            Self::Middle(..) if is_free => "The opening slides along its line · Esc drops it".to_owned(),
+            Self::Middle(..) => "The opening slides along its wall · Alt takes any place · Esc drops it".to_owned(),
         }
     }
 

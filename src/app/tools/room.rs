@@ -3,7 +3,7 @@
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::path::{ARC_HINT, Path};
-use super::tool::{CLEAR_SIZES, GRID, Group, OVER_ROOMS, RIGHT_ANGLES, SNAPPING, THICKNESS_WITH_ROOMS, WITH_WALLS};
+use super::tool::{GRID, Group, OVER_ROOMS, RIGHT_ANGLES, SNAPPING, THICKNESS_WITH_ROOMS, WITH_WALLS};
 use super::{Call, DrawOptions, Entry, Input, Scope, Tool};
 use crate::app::look::icons::Icon;
 use crate::app::look::icons::Part::{Disc, Fill, Loop};
@@ -26,7 +26,8 @@ pub(super) const ENTRY: Entry = Entry {
         ]),
         Group::Draw,
     )),
-    options: &[THICKNESS_WITH_ROOMS, WITH_WALLS, CLEAR_SIZES, OVER_ROOMS, RIGHT_ANGLES, SNAPPING, GRID],
+    // Clear sizes are in the menu: one more, and the bar covers two lines of a small window.
+    options: &[THICKNESS_WITH_ROOMS, WITH_WALLS, OVER_ROOMS, RIGHT_ANGLES, SNAPPING, GRID],
     make: || Box::new(Room::default()),
 };
 

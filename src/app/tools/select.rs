@@ -163,13 +163,7 @@ impl Select {
         if let Some(grip) = opening_grips::grip_at(scope, pointer, reach_m) {
             return Some(Grabbed::Opening(grip));
         }
-        let handles = handles_of(scope.plan, scope.selection);
-        let nearest = handles
-            .iter()
-            .filter_map(|&corner| Some((corner, scope.plan.position(corner)?)))
-            .filter(|(_, place)| place.distance(pointer) <= reach_m)
-            .min_by(|p, q| p.1.distance(pointer).total_cmp(&q.1.distance(pointer)));
-        if let Some((corner, place)) = nearest {
+        if let Some((corner, place)) = handle_at(scope.plan, scope.selection, pointer, reach_m) {
             return Some(Grabbed::Corner(corner, place));
         }
         let found = hit(scope.derived?, scope.plan, scope.layers, pointer, scope.px_per_m);
@@ -178,7 +172,7 @@ impl Select {
             (ElementId::Opening(id), Some(_))
                 if scope.plan.opening(id).is_some_and(|opening| matches!(opening.place, Place::Hosted { .. })) =>
             {
-                Some(Grabbed::Opening(Grip::Middle(id)))
+                Some(Grabbed::Opening(opening_grips::held(scope.plan, id, pointer)))
             }
             _ => Some(Grabbed::Selection),
         }
@@ -235,6 +229,15 @@ fn mode(scope: &Scope<'_>) -> SelectMode {
 /// A box dragged to the right takes what is inside; to the left also what it touches, as in CAD programs.
 fn is_inside(from: Point, to: Point) -> bool {
     to.x >= from.x
+}
+
+/// The corner of what is selected whose handle is at a point, and its place.
+pub(crate) fn handle_at(plan: &Plan, selection: &Selection, point: Point, reach_m: f64) -> Option<(CornerId, Point)> {
+    handles_of(plan, selection)
+        .into_iter()
+        .filter_map(|corner| Some((corner, plan.position(corner)?)))
+        .filter(|(_, place)| place.distance(point) <= reach_m)
+        .min_by(|p, q| p.1.distance(point).total_cmp(&q.1.distance(point)))
 }
 
 /// The corners of the selected elements, if few enough to be shown and grabbed.

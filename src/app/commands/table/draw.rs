@@ -258,6 +258,19 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     ),
+    command(
+        "dimension-rooms",
+        "Dimension rooms",
+        "Draw chains of the clear width and depth of the selected rooms",
+        has_rooms_selected,
+        |app, _| {
+            let rooms: Vec<RoomId> = app.selection().rooms().collect();
+            app.session.edit("Dimension rooms", |plan| {
+                rooms.iter().try_fold(plan.clone(), |plan, &room| edit::dimension_room(&plan, room))
+            });
+        },
+    )
+    .menu(Menu::Draw, 3),
     with(
         "draw-dimension",
         "Draw a dimension chain",
@@ -470,6 +483,11 @@ fn pieces_said(drawn: &edit::DrawnInFreeSpace, units: Units) -> String {
 /// An opening goes into a wall this near to the point that a script names: points are rounded, and a
 /// drawing is not known to the millimetre.
 const OPENING_REACH_M: f64 = 0.1;
+
+fn has_rooms_selected(app: &App) -> Availability {
+    has_plan(app)?;
+    when(app.selection().rooms().next().is_some(), "select a room first")
+}
 
 fn has_walls(app: &App) -> Availability {
     has_plan(app)?;
