@@ -56,6 +56,8 @@ const STATES: &[(&str, fn(&mut Offscreen))] = &[
     ("changing rooms", |window| run(window, "change-rooms", &[])),
     ("exporting", |window| run(window, "export", &[])),
     ("a finding", |window| {
+        // High enough that nothing of the list is scrolled away.
+        window.resize(1280, 1200);
         run(window, "findings", &["on"]);
         run(window, "draw-walls", &["20,0 24,0"]);
         press(window, "Ignore…");
