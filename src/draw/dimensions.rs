@@ -121,7 +121,8 @@ fn figure(at: Point, along: Vector, level: f64, content: String, size_px: f64, i
         size_px,
         weight: Weight::Regular,
         colour: ink,
-        halo: (style.halo || !(upright || is_level)).then(|| style.palette().halo),
+        // Raised figures may stand on the lines to what is measured.
+        halo: (style.halo || level > 0.0 || !(upright || is_level)).then(|| style.palette().halo),
         anchor: Anchor::Middle,
         upright,
     })

@@ -4,12 +4,13 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::{EditError, checked_position, fail};
-use crate::geometry::{Point, Segment, Transform, Vector, trim_m};
+use crate::geometry::{Bounds, Point, Segment, Transform, Vector, trim_m};
 use crate::plan::builder::new_dimension_id;
 use crate::plan::{
-    CornerId, Dimension, DimensionAlong, DimensionHost, DimensionId, DimensionPoint, OpeningId, Place, Plan, WallId,
-    WallSide, ordered,
+    CornerId, Dimension, DimensionAlong, DimensionHost, DimensionId, DimensionPoint, OpeningId, Place, Plan, RoomId,
+    WallId, WallSide, ordered,
 };
+use crate::topology::net_of;
 
 /// A point this near to something, in metres, lies on it: rounding to the 0.1 mm grid, at any angle.
 const ON_IT_M: f64 = 5e-4;
@@ -31,7 +32,7 @@ pub fn draw_dimension(
 ) -> Result<(Plan, DimensionId), EditError> {
     let mut dimension = dimension_between(points, along, through)?;
     let Some(line) = plan.dimension_line(&dimension) else {
-        return fail("the points lie one above the other along the line: there is nothing to measure");
+        return fail("the points coincide along the line, so there is nothing to measure");
     };
     let hosts = Hosts::new(plan);
     for point in &mut dimension.points {
@@ -58,6 +59,40 @@ pub fn dimension_between(points: &[Point], along: DimensionAlong, through: Point
     let offset_m = trim_m((checked_position(through)? - first.last).dot(direction.left()));
     Ok(Dimension { points, along, offset_m, extra: None })
 }
+
+/// From the faces of a room's walls to the chains inside it, in metres: clear of the figures of a chain at a door.
+const INSIDE_M: f64 = 0.4;
+
+/// Draws two chains inside a room: of its clear width near its lower side and of its clear depth near its left one, each
+/// with all corners between.
+///
+/// # Errors
+/// When the room does not exist or encloses nothing.
+pub fn dimension_room(plan: &Plan, id: RoomId) -> Result<Plan, EditError> {
+    let Some(room) = plan.room(id) else { return fail(format!("the room {id} does not exist")) };
+    let holes: Vec<Vec<Point>> = room.holes.iter().map(|hole| plan.ring_points(hole)).collect();
+    let net = net_of(plan, &plan.ring_points(&room.outer), &holes);
+    let mut corners: Vec<Point> = net.pieces.iter().flat_map(|(outer, _)| outer.iter().copied()).collect();
+    let bounds = Bounds::of(corners.iter().copied());
+    if bounds.is_empty() {
+        return fail("the room encloses nothing");
+    }
+    let mut next = plan.clone();
+    let inside = Vector::new(INSIDE_M.min(bounds.width() / 2.0), INSIDE_M.min(bounds.height() / 2.0));
+    let through = bounds.min + inside;
+    for along in [DimensionAlong::Horizontal, DimensionAlong::Vertical] {
+        let direction = along.direction().unwrap_or_default();
+        let place = |point: &Point| (*point - bounds.min).dot(direction);
+        corners.sort_by(|p, q| place(p).total_cmp(&place(q)));
+        let mut measured = corners.clone();
+        measured.dedup_by(|next, kept| place(next) - place(kept) < SAME_CORNER_M);
+        next = draw_dimension(&next, &measured, along, through)?.0;
+    }
+    Ok(next)
+}
+
+/// Corners of a room nearer to each other along a chain, in metres, are one: a layer of plaster.
+const SAME_CORNER_M: f64 = 0.02;
 
 /// Moves the line of a chain through a place; what it measures stays.
 ///
@@ -218,7 +253,7 @@ impl Hosts {
 mod tests {
     use super::*;
     use crate::edit;
-    use crate::plan::{Builder, ElementId, Meta, Opening, OpeningKind};
+    use crate::plan::{Builder, ElementId, Meta, Opening, OpeningKind, Room};
 
     /// A wall of 6 m with a door, walls of 0.24 m at its ends and a partition in between.
     fn plan() -> Plan {
@@ -276,6 +311,23 @@ mod tests {
         assert_eq!(settled.fixed, 2);
         assert_eq!(lengths(&settled.plan, id), [1.43, 0.9, 1.5, 0.1, 1.83]);
         assert_eq!(settled.plan.violations(), Vec::new());
+    }
+
+    #[test]
+    fn a_room_gets_chains_of_its_clear_sizes() {
+        let mut builder = Builder::new(Meta::default());
+        let corners = [(0.0, 0.0), (5.0, 0.0), (5.0, 2.0), (3.0, 2.0), (3.0, 4.0), (0.0, 4.0)];
+        let outer = builder.ring(corners.map(|(x, y)| Point::new(x, y)));
+        for i in 0..6 {
+            builder.wall(outer[i], outer[(i + 1) % 6], 0.2);
+        }
+        let room = builder.room("", Room { outer, ..Room::default() });
+        let plan = dimension_room(&builder.finish().expect("a sound plan"), room).expect("it is measured");
+        let mut chains: Vec<Vec<f64>> = plan.dimensions().map(|(id, _)| lengths(&plan, id)).collect();
+        chains.sort_by(|p, q| p[0].total_cmp(&q[0]));
+        assert_eq!(chains, [[1.8, 2.0], [2.8, 2.0]]);
+        let all = plan.dimensions().flat_map(|(_, chain)| &chain.points);
+        assert!(all.into_iter().all(|point| point.on.is_some()));
     }
 
     #[test]

@@ -54,7 +54,7 @@ pub use calibration::{
 };
 pub use close::fill_closed;
 pub use copy::{Array, array, array_fitted, copy_elements, fragment, insert, insert_fitted};
-pub use dimensions::{Settled, dimension_between, draw_dimension, move_dimension, settle_dimensions};
+pub use dimensions::{Settled, dimension_between, dimension_room, draw_dimension, move_dimension, settle_dimensions};
 pub use dragging::{Reach, WallDrag, drag_corners, move_corners};
 pub use draw::{Drawn, cut_out, cut_out_by, draw_room, draw_walls, split_room, split_room_by};
 pub use fill::{Filled, fill_all, fill_at};

@@ -170,6 +170,7 @@ impl FromStr for ElementId {
             Some(b'c') => text.parse().map(Self::Corner),
             Some(b'w') => text.parse().map(Self::Wall),
             Some(b'o') => text.parse().map(Self::Opening),
+            Some(b'd') => text.parse().map(Self::Dimension),
             _ => text.parse().map(Self::Room),
         }
     }

@@ -63,7 +63,7 @@ fn a_drawing_is_whole_in_itself() {
         let mut handles = BTreeSet::new();
         for object in &objects {
             let handle = object.first(if object.kind == "DIMSTYLE" { 105 } else { 5 });
-            if !handle.is_empty() && object.section != "HEADER" {
+            if !handle.is_empty() && object.kind != "SECTION" {
                 assert!(handles.insert(u64::from_str_radix(handle, 16).unwrap()), "{name}: {handle} twice");
             }
         }

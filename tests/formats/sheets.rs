@@ -72,7 +72,7 @@ fn a_metre_at_1_to_100_is_a_centimetre_on_paper() {
         let page = decode_picture(&pdf, 1).unwrap();
         let level = &page.levels.all()[0];
         let dots = DOTS_PER_INCH / 25.4;
-        assert_eq!(page.levels.size_px(), [297.0, 210.0].map(|mm: f64| (mm * dots).round() as u32), "{scale}");
+        assert_eq!(page.levels.size_px(), [297.0, 210.0].map(|mm: f64| (mm * dots) as u32), "{scale}");
         let middle = i64::from(level.height_px / 2) + 20;
         let row = (0..i64::from(level.width_px)).map(|x| level.pixel(x, middle));
         let shown = dark_span_mm(row, dots);

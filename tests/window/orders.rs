@@ -35,7 +35,7 @@ fn breaks(window: &mut Offscreen, job: &str) {
     let messages = window.app().messages();
     let is_said = messages
         .iter()
-        .any(|message| message.severity == Severity::Error && message.text == "Something broke inside Enfilade");
+        .any(|message| message.severity == Severity::Error && message.text == "Something went wrong inside Enfilade");
     assert!(is_said, "{messages:?}");
 }
 
@@ -126,7 +126,7 @@ fn large(folder: &Path) -> Offscreen {
     window
 }
 
-/// Whether the plan is analysed as it is now: rooms can be gone through.
+/// Whether the plan is analysed : rooms can be gone through.
 fn is_analysed(window: &mut Offscreen) -> bool {
     window.run_command("clear-selection");
     window.run_command("next-room");

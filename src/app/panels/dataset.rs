@@ -26,21 +26,12 @@ struct Dataset {
 
 impl Dataset {
     fn new(app: &App) -> Self {
-        let path = app.session.dataset_path().display().to_string();
+        let path = app.session.shown_path(&app.session.dataset_path());
         Self { path, is_begun: app.session.is_making_dataset() }
     }
 
     fn target(&self, app: &App) -> Option<PathBuf> {
-        let text = self.path.trim();
-        if text.is_empty() || text.ends_with(['/', '\\']) {
-            return None;
-        }
-        let typed = match text.strip_prefix("~/").zip(etcetera::home_dir().ok()) {
-            Some((rest, home)) => home.join(rest),
-            None => PathBuf::from(text),
-        };
-        let folder = app.session.dataset_path();
-        Some(if typed.is_absolute() { typed } else { folder.with_file_name(typed) })
+        app.session.typed_file(&self.path)
     }
 }
 
@@ -58,7 +49,7 @@ impl Dialog for Dataset {
             return After::Close;
         }
         if let Some(path) = app.session.chosen_file.take() {
-            self.path = path.display().to_string();
+            self.path = app.session.shown_path(&path);
         }
         let response = Modal::new(Id::unique("dataset")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
             ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 80.0));
@@ -89,17 +80,18 @@ impl Dataset {
             .session
             .dataset_source()
             .map_or_else(|| (String::new(), 0), |(folder, files)| (app.session.shown_path(folder), files.len()));
+        let folder = if folder.is_empty() { " in this folder".to_owned() } else { format!(" in {folder}") };
         caption(
             ui,
             format!(
-                "One row for each labelled room of the {} in {folder}: where it is from, its features and its label. \
+                "One row for each labelled room of the {}{folder}: where it is from, its features and its label. \
                  Plans are read as they are saved. A room that is in two files counts once. Beside the table go a \
                  schema of its columns and a manifest of how it was made.",
                 count(plans, "plan")
             ),
         );
         ui.add_space(10.0);
-        section(ui, "Where it goes");
+        section(ui, "File");
         ui.add_space(2.0);
         let mut enter = false;
         ui.horizontal(|ui| {
@@ -107,7 +99,7 @@ impl Dataset {
                 .id(Id::unique("dataset path"))
                 .desired_width(ui.available_width() - 100.0)
                 .align(Align2::LEFT_CENTER);
-            let response = ui.add(edit).accessible_name("Where it goes");
+            let response = ui.add(edit).accessible_name("File");
             enter = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             if text_button(ui, "Choose…", false).clicked() {
                 let path = self.target(app).unwrap_or_else(|| app.session.dataset_path());
@@ -119,14 +111,14 @@ impl Dataset {
         let is_missing_folder = target.as_ref().and_then(|path| path.parent()).is_some_and(|folder| !folder.is_dir());
         let said = match &target {
             None => Err("Give the file a name.".to_owned()),
-            Some(_) if is_missing_folder => Err("There is no such folder.".to_owned()),
+            Some(_) if is_missing_folder => Err("This folder does not exist.".to_owned()),
             Some(_) if plans == 0 => Err("Open a plan of a folder first.".to_owned()),
             Some(path) if exists => {
                 let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-                Ok(format!("{name} is there already, and will be replaced."))
+                Ok(format!("{name} exists and will be overwritten."))
             }
             Some(_) if app.session.has_unsaved_changes() => {
-                Ok("The open plan has changes that are not saved: they are not in the dataset.".to_owned())
+                Ok("Unsaved changes of the open plan are not included.".to_owned())
             }
             Some(_) => Ok(String::new()),
         };
@@ -158,7 +150,7 @@ fn progress(app: &App, ui: &mut Ui) -> Option<End> {
     ui.add_space(12.0);
     ui.horizontal(|ui| {
         right(ui, |ui| {
-            if text_button(ui, "Go on in the background", true).clicked() {
+            if text_button(ui, "Continue in the background", true).clicked() {
                 act = Some(End::Leave);
             }
             if text_button(ui, "Give up", false).clicked() {

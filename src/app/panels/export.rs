@@ -69,7 +69,7 @@ impl Export {
                 }
             }
         }
-        let path = app.session.export_path(format.0).display().to_string();
+        let path = app.session.shown_path(&app.session.export_path(format.0));
         Self { is_to_print, format, values, path, is_own_path: false, texture: None }
     }
 
@@ -86,15 +86,7 @@ impl Export {
 
     /// The file, if the text is one.
     fn target(&self, app: &App) -> Option<PathBuf> {
-        let text = self.path.trim();
-        if text.is_empty() || text.ends_with(['/', '\\']) {
-            return None;
-        }
-        let typed = match text.strip_prefix("~/").zip(etcetera::home_dir().ok()) {
-            Some((rest, home)) => home.join(rest),
-            None => PathBuf::from(text),
-        };
-        let path = if typed.is_absolute() { typed } else { app.session.export_folder().join(typed) };
+        let path = app.session.typed_file(&self.path)?;
         let name = path.file_name()?.to_string_lossy().into_owned();
         let endings = self.format.0.endings;
         Some(match ending_of(&name, endings) {
@@ -116,14 +108,14 @@ impl Dialog for Export {
             return After::Close;
         }
         if let Some(path) = app.session.chosen_file.take() {
-            self.path = path.display().to_string();
+            self.path = app.session.shown_path(&path);
             self.is_own_path = true;
         }
         let response = Modal::new(Id::unique("export")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
             let window = ui.ctx().content_rect().size();
             let width = (OPTIONS_WIDTH + PREVIEW_WIDTH + 20.0).min(window.x - 80.0);
             ui.set_width(width);
-            ui.label(strong(if self.is_to_print { "Print" } else { "Export" }, theme::TITLE));
+            ui.label(strong(if self.is_to_print { "Print the plan" } else { "Export the plan" }, theme::TITLE));
             ui.add_space(6.0);
             if !self.is_to_print {
                 self.formats(app, ui);
@@ -139,12 +131,13 @@ impl Dialog for Export {
             let shown = is_sheet(self.format.0).then(|| app.session.preview().result().cloned()).flatten();
             ui.horizontal_top(|ui| {
                 ui.spacing_mut().item_spacing.x = 20.0;
-                ui.allocate_ui(vec2(OPTIONS_WIDTH.min(width), height), |ui| {
+                ui.vertical(|ui| {
+                    ui.set_width(OPTIONS_WIDTH.min(width));
                     ScrollArea::vertical().id_salt("options").auto_shrink(false).max_height(height).show(ui, |ui| {
                         self.options(ui);
                     });
                 });
-                ui.allocate_ui(vec2(beside, height), |ui| self.preview(ui, shown.as_ref(), vec2(beside, height)));
+                self.preview(ui, shown.as_ref(), vec2(beside, height));
             });
             ui.add_space(8.0);
             let problem = match &shown {
@@ -188,7 +181,7 @@ impl Export {
         self.format = chosen;
         let ending = chosen.0.endings.first().copied().unwrap_or_default();
         if !self.is_own_path {
-            self.path = app.session.export_path(chosen.0).display().to_string();
+            self.path = app.session.shown_path(&app.session.export_path(chosen.0));
         } else if let Some(old) = ending_of(&self.path, before.0.endings) {
             let stem = self.path.len() - old.len();
             self.path.truncate(stem);
@@ -262,8 +255,7 @@ impl Export {
                 "Preview: drawing the sheet".to_owned()
             }
             None => {
-                let text =
-                    format!("{} has no sheet to look at: the plan is written in its own size.", self.format.0.name);
+                let text = format!("{} has no preview: the plan is written at its true size.", self.format.0.name);
                 note(ui, rect, &text);
                 text
             }
@@ -296,7 +288,7 @@ impl Export {
 
     fn foot(&mut self, app: &mut App, ui: &mut Ui, problem: Option<String>) -> Option<End> {
         let mut act = None;
-        section(ui, "Where it goes");
+        section(ui, "File");
         ui.add_space(2.0);
         let mut enter = false;
         ui.horizontal(|ui| {
@@ -304,7 +296,7 @@ impl Export {
                 .id(Id::unique("export path"))
                 .desired_width(ui.available_width() - 100.0)
                 .align(Align2::LEFT_CENTER);
-            let response = ui.add(edit).accessible_name("Where it goes");
+            let response = ui.add(edit).accessible_name("File");
             self.is_own_path |= response.changed();
             enter = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             if text_button(ui, "Choose…", false).clicked() {
@@ -320,12 +312,12 @@ impl Export {
             (Some(problem), _) => Err(sentence(&format!("{problem}."))),
             (None, None) => Err("Give the file a name.".to_owned()),
             (None, Some(_)) if is_own => {
-                Err("This is the plan's own file: save it instead, or choose another.".to_owned())
+                Err("This is the plan's own file. Save the plan instead, or choose another name.".to_owned())
             }
-            (None, Some(_)) if is_missing_folder => Err("There is no such folder.".to_owned()),
+            (None, Some(_)) if is_missing_folder => Err("This folder does not exist.".to_owned()),
             (None, Some(path)) if exists => {
                 let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-                Ok(format!("{name} is there already, and will be replaced."))
+                Ok(format!("{name} exists and will be overwritten."))
             }
             (None, Some(_)) => Ok(String::new()),
         };
@@ -349,12 +341,12 @@ impl Export {
 
     fn print_foot(&self, ui: &mut Ui, problem: Option<String>) -> Option<End> {
         let mut act = None;
-        let said = match problem {
-            Some(problem) => Err(sentence(&format!("{problem}."))),
-            None => Ok("Makes a PDF and opens it in the desktop's viewer. Print it there in its actual size, so that \
-                        the scale holds."
-                .to_owned()),
-        };
+        let said =
+            match problem {
+                Some(problem) => Err(sentence(&format!("{problem}."))),
+                None => Ok("Makes a PDF and opens it in your viewer. Print it there at actual size to keep the scale."
+                    .to_owned()),
+            };
         told(ui, &said);
         ui.horizontal(|ui| {
             right(ui, |ui| {
@@ -382,7 +374,7 @@ pub(super) fn told(ui: &mut Ui, said: &Result<String, String>) {
     // As high as two lines, so that the buttons stay where they are.
     let height = 34.0;
     let rich = egui::RichText::new(text).size(theme::SMALL).color(colour);
-    ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
+    ui.vertical(|ui| {
         ui.set_min_height(height);
         ui.add(egui::Label::new(rich).wrap());
     });

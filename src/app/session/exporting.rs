@@ -43,7 +43,7 @@ fn format_of(path: &Path) -> Result<Writable, String> {
     writable().into_iter().find(|(format, _)| ending_of(&name, format.endings).is_some()).ok_or_else(|| {
         let endings: Vec<String> =
             writable().iter().flat_map(|(format, _)| format.endings).map(|ending| format!(".{ending}")).collect();
-        format!("the file's ending says the format: {}", endings.join(", "))
+        format!("the file's ending gives the format: {}", endings.join(", "))
     })
 }
 
@@ -110,6 +110,15 @@ impl Session {
         let own = self.document.as_ref().and_then(|document| document.origin.folder()).map(Path::to_owned);
         let folder = own.or_else(|| self.list.folder.clone()).or_else(|| self.named_from.clone());
         folder.or_else(|| etcetera::home_dir().ok()).unwrap_or_default()
+    }
+
+    /// The file that a typed text means, see [`Self::typed_path`]; `None` if it is none.
+    pub(crate) fn typed_file(&self, text: &str) -> Option<PathBuf> {
+        let text = text.trim();
+        if text.is_empty() || text.ends_with(['/', '\\']) {
+            return None;
+        }
+        Some(self.typed_path(text)).filter(|path| path.file_name().is_some())
     }
 
     /// Asks where to export to.
@@ -211,12 +220,12 @@ impl Session {
             };
             move |session: &mut Session, _: &Context| match (written, opened) {
                 (Ok(()), Ok(())) if is_shown => {
-                    session.status = format!("{} is open in the viewer: print it there", file_name(&path));
+                    session.status = format!("{} is open in your viewer; print it there", file_name(&path));
                 }
                 (Ok(()), Ok(())) => session.status = format!("Made {} to print", file_name(&path)),
                 (Ok(()), Err(error)) => {
                     let detail = format!("{error}\n{}", path.display());
-                    session.say(Severity::Warning, "The PDF is made, but no viewer opened it", detail);
+                    session.say(Severity::Warning, "The PDF was made, but no viewer opened it", detail);
                 }
                 (Err(error), _) => session.say(Severity::Error, "The plan was not printed", error),
             }

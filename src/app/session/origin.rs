@@ -72,8 +72,8 @@ pub(crate) fn notes_in_words(notes: &[Note]) -> String {
     let things = |number: usize| if number == 1 { "thing" } else { "things" };
     match (healed, skipped) {
         (0, skipped) => format!("{skipped} {} left out", things(skipped)),
-        (healed, 0) => format!("{healed} {} mended", things(healed)),
-        (healed, skipped) => format!("{healed} {} mended, {skipped} left out", things(healed)),
+        (healed, 0) => format!("{healed} {} repaired", things(healed)),
+        (healed, skipped) => format!("{healed} {} repaired, {skipped} left out", things(healed)),
     }
 }
 

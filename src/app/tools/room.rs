@@ -3,7 +3,7 @@
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::path::{ARC_HINT, Path};
-use super::tool::{CLEAR_SIZES, GRID, Group, OVER_ROOMS, RIGHT_ANGLES, SNAPPING, THICKNESS_WITH_ROOMS, WITH_WALLS};
+use super::tool::{GRID, Group, OVER_ROOMS, RIGHT_ANGLES, SNAPPING, THICKNESS_WITH_ROOMS, WITH_WALLS};
 use super::{Call, DrawOptions, Entry, Input, Scope, Tool};
 use crate::app::look::icons::Icon;
 use crate::app::look::icons::Part::{Disc, Fill, Loop};
@@ -26,7 +26,8 @@ pub(super) const ENTRY: Entry = Entry {
         ]),
         Group::Draw,
     )),
-    options: &[THICKNESS_WITH_ROOMS, WITH_WALLS, CLEAR_SIZES, OVER_ROOMS, RIGHT_ANGLES, SNAPPING, GRID],
+    // Clear sizes are in the menu: one more, and the bar covers two lines of a small window.
+    options: &[THICKNESS_WITH_ROOMS, WITH_WALLS, OVER_ROOMS, RIGHT_ANGLES, SNAPPING, GRID],
     make: || Box::new(Room::default()),
 };
 
@@ -123,10 +124,16 @@ impl Tool for Room {
             return ARC_HINT.to_owned();
         }
         match self.path.points.len() {
-            0 if scope.options.over_rooms => "Room: click its first corner · it takes what rooms cover too".to_owned(),
-            0 => "Room: click its first corner · it takes what no room has: lines may run through rooms".to_owned(),
-            1 | 2 => "Click the next corner, or type a length (3.2) · Shift frees the angle · Ctrl+Z takes a corner back".to_owned(),
-            _ => "Click the next corner · click the first one or press Enter to close; the last corner follows from right angles".to_owned(),
+            0 if scope.options.over_rooms => {
+                "Room: click the first corner · it takes space of other rooms too".to_owned()
+            }
+            0 => "Room: click the first corner · it takes only free space, so lines may cross other rooms".to_owned(),
+            1 | 2 => {
+                "Click the next corner, or type a length (3.2) · Shift: any angle · Ctrl+Z removes a corner".to_owned()
+            }
+            _ => "Click the next corner · click the first or press Enter to close, with the last corner at a right \
+                  angle"
+                .to_owned(),
         }
     }
 
