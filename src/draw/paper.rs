@@ -534,7 +534,7 @@ mod tests {
         let sheet = Sheet { scale: Some(50), ..Sheet::default() };
         let refused = laid_out(&drawing(30.0, 15.0), &Style::default(), &sheet).unwrap_err();
         assert!(refused.starts_with("at 1:50 the plan is 600 x 300 mm, and A4 has"), "{refused}");
-        assert!(refused.ends_with("take 1:150, or A1"), "{refused}");
+        assert!(refused.ends_with("use 1:125 or A1"), "{refused}");
         let refused = laid_out(&drawing(9000.0, 9000.0), &Style::default(), &Sheet::default()).unwrap_err();
         assert!(refused.contains("fits no sheet up to A0 at 1:2000"), "{refused}");
     }

@@ -118,7 +118,7 @@ fn what_a_command_needs_is_asked_in_place() {
             r#"find-room "Study""#,
             r#"rename-plan "House with an enfilade II""#,
             r#"set-shortcut "set-typology" "Ctrl+T""#,
-            r#"rename "Studys""#,
+            r#"rename "s""#,
         ]
     );
 }

@@ -186,12 +186,18 @@ impl Session {
 
     /// Remembers where the plan shown is looked at.
     pub(crate) fn remember_view(&mut self) {
-        let origin = self.document.as_ref().map(|document| document.origin.clone());
-        if let Some((path, storey)) = origin.as_ref().and_then(remembered)
+        if let Some(origin) = self.document.as_ref().map(|document| document.origin.clone()) {
+            self.remember_view_of(&origin, self.view);
+            self.keep_settings();
+        }
+    }
+
+    /// The same of any plan; the settings are not written yet.
+    pub(super) fn remember_view_of(&mut self, origin: &Origin, view: Option<PlanView>) {
+        if let Some((path, storey)) = remembered(origin)
             && let Some(path) = path.to_str().filter(|_| self.settings.is_kept())
         {
-            self.settings.set_view_of(path, storey, self.view);
-            self.keep_settings();
+            self.settings.set_view_of(path, storey, view);
         }
     }
 

@@ -239,7 +239,10 @@ impl Session {
         let is_shown = self.document.as_ref().is_some_and(|document| document.number == number);
         let waits_unchanged = |waiting: &Waiting| waiting.document.number == number && !waiting.document.is_changed();
         if !is_shown && let Some(index) = self.waiting_plans.iter().position(waits_unchanged) {
-            self.waiting_plans.remove(index).own.end();
+            let waiting = self.waiting_plans.remove(index);
+            self.remember_view_of(&waiting.document.origin, waiting.view);
+            self.keep_settings();
+            waiting.own.end();
             return;
         }
         self.request(Intent::Close(number));
@@ -255,12 +258,14 @@ impl Session {
         false
     }
 
-    /// Ends all journals: everything is saved, or given up.
+    /// Ends all journals: everything is saved, or given up. Where each plan was looked at is remembered.
     pub(super) fn end_journals(&mut self) {
         self.end_journal();
         for waiting in std::mem::take(&mut self.waiting_plans) {
+            self.remember_view_of(&waiting.document.origin, waiting.view);
             waiting.own.end();
         }
+        self.keep_settings();
     }
 
     /// Closes a plan that was only looked at, now that another is shown.

@@ -85,8 +85,8 @@ mod tests {
     #[test]
     fn summaries_read_well() {
         let note = |kind| Note { kind, place: Place::default(), what: String::new() };
-        assert_eq!(notes_in_words(&[note(NoteKind::Healed)]), "1 thing mended");
+        assert_eq!(notes_in_words(&[note(NoteKind::Healed)]), "1 thing repaired");
         assert_eq!(notes_in_words(&[note(NoteKind::Skipped), note(NoteKind::Skipped)]), "2 things left out");
-        assert_eq!(notes_in_words(&[note(NoteKind::Skipped), note(NoteKind::Healed)]), "1 thing mended, 1 left out");
+        assert_eq!(notes_in_words(&[note(NoteKind::Skipped), note(NoteKind::Healed)]), "1 thing repaired, 1 left out");
     }
 }

@@ -61,6 +61,13 @@ impl Turning {
         Self { kind, selected: Selected::default(), points: Vec::new() }
     }
 
+    /// Takes a point, unless it is the last one again.
+    fn go_to(&mut self, point: Point) {
+        if self.points.last().is_none_or(|last| last.distance(point) >= SAME_M) {
+            self.points.push(point);
+        }
+    }
+
     /// How many points are clicked before the last one.
     fn needed(&self) -> usize {
         if self.kind == Kind::Mirror { 1 } else { 2 }
@@ -138,16 +145,8 @@ impl Tool for Turning {
                 }
             }
             // Ready -> Drawing, Drawing -> Drawing
-            Input::Click => {
-                if self.points.last().is_none_or(|last| last.distance(scope.at()) >= SAME_M) {
-                    self.points.push(scope.at());
-                }
-            }
-            Input::DragStart { at, .. } if self.points.len() < self.needed() => {
-                if self.points.last().is_none_or(|last| last.distance(at) >= SAME_M) {
-                    self.points.push(at);
-                }
-            }
+            Input::Click => self.go_to(scope.at()),
+            Input::DragStart { at, .. } if self.points.len() < self.needed() => self.go_to(at),
             Input::Typed(typed) => {
                 if let Some((call, _)) = self.typed(typed, scope) {
                     return done(call);

@@ -281,7 +281,7 @@ pub(super) const COMMANDS: &[Command] = &[
             });
         },
     )
-    .menu(Menu::Draw, 3),
+    .menu(Menu::Draw, 4),
     with(
         "draw-dimension",
         "Draw a dimension chain",
