@@ -60,8 +60,8 @@ fn wrong_words_are_told_with_what_was_meant() {
         ("rename", &["x"], "'rename' is not available: select a room first"),
         ("backdrop", &["on"], "'backdrop' is not available: the plan has no picture under it"),
         ("answer", &["save"], "'answer' is not available: nothing is asked"),
-        ("fit", &["now"], "'fit' takes no arguments, but got but got but got but got 1 are given"),
-        ("zoom-to", &["1", "2", "3", "4", "5"], "'zoom-to' takes 4 arguments, 5 are given"),
+        ("fit", &["now"], "'fit' takes no arguments, but got 1"),
+        ("zoom-to", &["1", "2", "3", "4", "5"], "'zoom-to' takes 4 arguments, but got 5"),
         ("zoom-to", &["1", "two"], "Y of 'zoom-to' is 'two': expected a number of metres from -1000000 to 1000000"),
         (
             "zoom-to",

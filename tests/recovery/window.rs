@@ -223,7 +223,7 @@ fn a_journal_with_an_unsound_step_says_so_and_is_kept() {
     window.settle().unwrap();
     run(&mut window, "recover", &["1"]);
     let said: Vec<String> = window.app().messages().iter().map(|message| message.text.clone()).collect();
-    assert!(said.iter().any(|text| text.contains("not sound")), "{said:?}");
+    assert!(said.iter().any(|text| text.contains("is damaged")), "{said:?}");
     assert_eq!(window.app().plan().unwrap().violations(), []);
     assert!(window.run_command_with("undo", &[]).is_err(), "nothing before it");
     assert_eq!(files(folder.path()), [folder.path().join("plan-a.journal")]);

@@ -86,7 +86,7 @@ fn every_field_keeps_every_letter() {
             // A click into it, all that stood there, letters: in one frame.
             window.be_slow();
             // One that has the keyboard already may be scrolled out of sight.
-            if window.focused().is_none_or(|focused| focused.name != name) {
+            if window.focused().is_none_or(|focused| focused.rect != field.rect) {
                 window.click(field.rect.center());
             }
             window.key(Modifiers::COMMAND, Key::A);
