@@ -81,6 +81,10 @@ fn settled(
     let (next, fitted) = refit(moved, next, &wanted.collect())?;
     refitted.extend(fitted);
     let (plan, left) = beside_each_other(next, divided);
+    if let Some(lost) = left.iter().find(|one| one.how == crate::edit::Refit::LeftOut) {
+        let kind = lost.kind.name();
+        return fail(format!("a {kind} would meet another opening: move or narrow one of them first"));
+    }
     refitted.extend(left);
     Ok(Changed { plan, refitted })
 }
