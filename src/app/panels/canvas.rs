@@ -60,11 +60,10 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         Some(Act::Nudge(direction, distance_m)) => {
             run(app, vec![Call::new("nudge", [Value::word(direction), Value::Number(distance_m)])], ui);
         }
-        Some(Act::Flip) => {
-            if commands::find("flip").is_some_and(|flip| flip.why_not(app).is_none()) {
-                app.run_command("flip", ui.ctx());
-            }
+        Some(Act::Flip) if commands::find("flip").is_some_and(|flip| flip.why_not(app).is_none()) => {
+            app.run_command("flip", ui.ctx());
         }
+        Some(Act::Flip) => {}
         Some(Act::Menu(element, at)) => {
             app.open_context_menu(element.map_or(Thing::Free, Thing::Element), at, ui.ctx());
         }
