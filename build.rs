@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 /// Folders of `assets`, the ending of the files taken from each, and whether they are packed, as zlib does.
 /// `OUT_DIR/{folder}.rs` becomes a list of them: the name without the ending, and the text or the packed bytes.
-const LISTS: [(&str, &str, bool); 2] = [("models", ".model.json", true), ("schemes", ".scheme.toml", false)];
+const LISTS: [(&str, &str, bool); 3] =
+    [("models", ".model.json", true), ("schemes", ".scheme.toml", false), ("words", ".words.toml", false)];
 
 /// How hard to pack, 1..=10: above 6 takes several times as long for a twentieth less.
 const LEVEL: u8 = 6;

@@ -10,9 +10,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
+use crate::base::units::Units;
 use crate::base::work::{Cancelled, Work};
 use crate::classify::model_file::ModelFileError;
 use crate::classify::models::{Models, StoredModel};
+use crate::classify::why::Why;
 use crate::dataset::RoomNetwork;
 use crate::draw::Drawing;
 use crate::features::{Analysis, NeighbourLabels, analyse};
@@ -115,7 +117,7 @@ pub struct Derived {
     /// Which models were to predict.
     pub predictor: Option<Predictor>,
     /// Why a room got its label, for the last room asked about.
-    reason: Mutex<Option<(RoomId, Option<String>)>>,
+    reason: Mutex<Option<((RoomId, Units), Option<Arc<Why>>)>>,
     /// A spatial index of corners, walls and boundaries: for snapping and selecting.
     pub index: PlanIndex,
     /// Doorways left open in walls.
@@ -274,16 +276,16 @@ impl Derived {
         Some(near)
     }
 
-    /// Why a room got its predicted label, in words; `None` if it has none. Computed when asked about
+    /// Why a room got its predicted label, with areas in these units; `None` if it has none. Computed when asked about
     /// another room.
-    pub fn reason(&self, room: RoomId) -> Option<String> {
+    pub fn why(&self, room: RoomId, units: Units) -> Option<Arc<Why>> {
         let predictions = self.predictions.as_ref()?;
         // A poisoned mutex still holds the previous value, which is valid.
         let mut last = self.reason.lock().unwrap_or_else(PoisonError::into_inner);
-        if last.as_ref().is_none_or(|(of, _)| *of != room) {
-            *last = Some((room, predictions.reason(room)));
+        if last.as_ref().is_none_or(|(of, _)| *of != (room, units)) {
+            *last = Some(((room, units), predictions.why(room, units).map(Arc::new)));
         }
-        last.as_ref().and_then(|(_, reason)| reason.clone())
+        last.as_ref().and_then(|(_, why)| why.clone())
     }
 
     /// What can be picked at a point: openings within `reach_m` metres, then walls, nearest first, then doors whose

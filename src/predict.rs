@@ -5,15 +5,18 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
+use crate::base::units::Units;
 use crate::base::wording::{count, sentence};
 use crate::classify::in_plan::{self, InPlan};
 use crate::classify::joint::FirstRound;
 use crate::classify::learned::Acquaintance;
 use crate::classify::model_file::ModelFileError;
 use crate::classify::models::{Models, StoredModel, bundled_typologies, bundled_unknown};
+use crate::classify::typology::TypologyReason;
+use crate::classify::why::{OnPlan, Why};
 use crate::classify::{Distribution, Method, PlanClassifier};
-use crate::dataset::RoomNetwork;
 use crate::dataset::sets::STANDARD;
+use crate::dataset::{NetworkDoor, RoomNetwork};
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
 use crate::plan::{OpeningId, RoomId};
@@ -45,8 +48,9 @@ impl ModelSet {
     /// The name for menus.
     pub fn title(&self) -> String {
         match self {
-            Self::OfPlan => "Of the plan".to_owned(),
-            Self::Auto => "Inferred".to_owned(),
+            Self::OfPlan => "Set for the plan".to_owned(),
+            Self::Auto => "Inferred from the plan".to_owned(),
+            Self::Named(name) if name == STANDARD => "Any kind of building".to_owned(),
             Self::Named(name) => sentence(name),
             Self::Model(name) => name.clone(),
         }
@@ -55,14 +59,18 @@ impl ModelSet {
     /// A description, in a sentence without a full stop.
     pub fn help(&self) -> String {
         match self {
-            Self::OfPlan => "Predict by models of the plan's own typology, inferred where it has none".to_owned(),
-            Self::Auto => {
-                "Predict by models of the typology that is inferred from the plan, whatever it says of itself"
+            Self::OfPlan => {
+                "Predict with models for the typology set for this plan; where none is set, it is inferred from the plan"
                     .to_owned()
             }
-            Self::Named(name) if name == STANDARD => "Predict by models that learned from all typologies".to_owned(),
-            Self::Named(name) => format!("Predict by models that learned from the typology '{name}'"),
-            Self::Model(name) => format!("Predict by your own model '{name}'"),
+            Self::Auto => "Infer the typology from the number of rooms, their areas and openings, even where one is set, \
+                           and predict with models for it"
+                .to_owned(),
+            Self::Named(name) if name == STANDARD => {
+                "Predict with models that learned from all kinds of buildings together".to_owned()
+            }
+            Self::Named(name) => format!("Predict with models that learned from plans of the typology '{name}'"),
+            Self::Model(name) => format!("Predict with your own model '{name}'"),
         }
     }
 
@@ -157,7 +165,7 @@ impl Predictor {
         let has_models = |typology: &&Typology| models.methods(typology.as_str()).contains(&self.method);
         match (&self.set, network.typology.as_ref().filter(has_models)) {
             (ModelSet::Named(name) | ModelSet::Model(name), _) => Choice::stated(name, "as told"),
-            (ModelSet::OfPlan, Some(stated)) => Choice::stated(stated.as_str(), "the plan's"),
+            (ModelSet::OfPlan, Some(stated)) => Choice::stated(stated.as_str(), "set for the plan"),
             (ModelSet::OfPlan | ModelSet::Auto, _) => infer(network),
         }
     }
@@ -168,15 +176,20 @@ impl Predictor {
 pub struct Choice {
     /// A typology, or [`STANDARD`].
     pub set: String,
-    /// The reason, in a few words: 'the plan's'.
+    /// The reason, in a few words: 'set for the plan'.
     pub because: String,
     /// If inferred: the probability of each typology, most probable first, 0..=1.
     pub posterior: Vec<(Typology, f64)>,
     /// If inferred: the evidence for it, strongest first.
-    pub reasons: Vec<String>,
+    pub reasons: Vec<TypologyReason>,
 }
 
 impl Choice {
+    /// The evidence in a sentence without its end, with areas in these units; empty if nothing was inferred.
+    pub fn reasons_in_words(&self, units: Units) -> String {
+        self.reasons.iter().map(|reason| reason.words(units)).collect::<Vec<_>>().join("; ")
+    }
+
     /// A choice that needs no inference.
     pub fn stated(set: &str, because: &str) -> Self {
         Self { set: set.to_owned(), because: because.to_owned(), posterior: Vec::new(), reasons: Vec::new() }
@@ -186,16 +199,16 @@ impl Choice {
 /// Infers the typology from the plan itself.
 fn infer(network: &RoomNetwork) -> Choice {
     let Some(model) = bundled_typologies().filter(|_| !network.rooms.is_empty()) else {
-        return Choice::stated(STANDARD, "nothing tells the typology");
+        return Choice::stated(STANDARD, "the plan has no typology");
     };
     // If the plan states a typology, its labels follow from functions by that typology's scheme: they
     // would add no evidence.
     let known = if network.typology.is_none() { network.known_labels() } else { Vec::new() };
     let posterior = model.posterior(network, &known);
     let Some((typology, probability)) = posterior.first().cloned() else {
-        return Choice::stated(STANDARD, "nothing tells the typology");
+        return Choice::stated(STANDARD, "the plan has no typology");
     };
-    let because = format!("inferred, {:.0} %", 100.0 * probability);
+    let because = format!("inferred from the plan, {:.0} % sure", 100.0 * probability);
     Choice { set: typology.as_str().to_owned(), because, posterior, reasons: model.reasons(network, &known) }
 }
 
@@ -225,7 +238,7 @@ impl Predictions {
         known: &[Option<Label>],
         neighbours: Option<NeighbourLabels>,
     ) -> Self {
-        let choice = Choice::stated(model.set(), "the model's");
+        let choice = Choice::stated(model.set(), "of the model");
         Self::new(network, choice, model, known, neighbours)
     }
 
@@ -277,16 +290,53 @@ impl Predictions {
         self.distribution(room).map(Distribution::label)
     }
 
-    /// Why a room got its label, in one or two sentences; `None` if it is not classified.
-    pub fn reason(&self, room: RoomId) -> Option<String> {
+    /// Why a room got its label, with areas in these units; `None` if it is not classified.
+    pub fn why(&self, room: RoomId, units: Units) -> Option<Why> {
         let &index = self.index_of.get(&room)?;
         match &self.model.classifier {
-            PlanClassifier::Each(classifier) => Some(classifier.explain(&self.result.features[index].values()).words()),
+            PlanClassifier::Each(classifier) => {
+                Some(classifier.explain(&self.result.features[index].values()).why(units))
+            }
             PlanClassifier::Joint(joint) => {
                 let round = self.first_round.as_ref()?;
-                Some(joint.explain_from(round, &self.network, &self.known, index)?.words())
+                Some(joint.explain_from(round, &self.network, &self.known, index)?.why(units))
             }
         }
+    }
+
+    /// What is to be marked on the plan where a point of a room's reason is seen; nothing for a room that is not
+    /// classified.
+    pub fn marks(&self, room: RoomId, on_plan: &OnPlan) -> Marks {
+        let mut marks = Marks { room, shows_area: false, shows_axes: false, rooms: Vec::new(), openings: Vec::new() };
+        let Some(of) = self.index_of.get(&room).and_then(|&index| self.network.rooms.get(index)) else { return marks };
+        match on_plan {
+            OnPlan::Area => marks.shows_area = true,
+            OnPlan::Axes => marks.shows_axes = true,
+            OnPlan::Openings(to) => {
+                let leads = |door: &&NetworkDoor| {
+                    to.is_none_or(|label| door.to.is_some_and(|other| self.seen_label(other) == Some(label)))
+                };
+                marks.openings = of.doors.iter().filter(leads).map(|door| door.opening).collect();
+                marks.openings.dedup();
+            }
+            OnPlan::Rooms(rooms) => {
+                marks.rooms = rooms.iter().filter_map(|&other| Some(self.network.rooms.get(other)?.id)).collect();
+            }
+        }
+        marks
+    }
+
+    /// The label that counted for a room when others had it as a neighbour.
+    fn seen_label(&self, index: usize) -> Option<Label> {
+        let temporary = self.network.rooms.get(index)?.temporary;
+        let known = self.known.get(index).copied().flatten();
+        Some(match self.neighbours {
+            NeighbourLabels::Temporary => temporary,
+            NeighbourLabels::True => known.unwrap_or(temporary),
+            NeighbourLabels::Predicted => {
+                known.or_else(|| self.result.distributions.get(index).map(Distribution::label))?
+            }
+        })
     }
 
     /// The predicted labels of all classified rooms.
@@ -345,6 +395,20 @@ impl Predictions {
     }
 }
 
+/// What is marked on the plan for a point of a room's reason.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Marks {
+    /// The room in question.
+    pub room: RoomId,
+    /// Whether its area, its axes are shown.
+    pub shows_area: bool,
+    pub shows_axes: bool,
+    /// Other rooms.
+    pub rooms: Vec<RoomId>,
+    /// Openings, in the order they are counted in.
+    pub openings: Vec<OpeningId>,
+}
+
 /// How predictions compare with the labels that are known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Agreement {
@@ -373,7 +437,7 @@ impl fmt::Display for Agreement {
             None => f.write_str("no room has a label to compare with"),
             Some(share) => {
                 let Self { known, right } = self;
-                write!(f, "{right} of {known} labelled rooms are said to be what they are ({:.0} %)", 100.0 * share)
+                write!(f, "{right} of {known} known labels predicted correctly ({:.0} %)", 100.0 * share)
             }
         }
     }

@@ -152,8 +152,8 @@ impl App {
             return;
         }
         if dropped.len() > 1 {
-            let text = format!("{} files were dropped; the first is laid under the plan", dropped.len());
-            self.session.say_of_program(Severity::Info, text, "A plan has one picture under it.");
+            let text = format!("{} files were dropped; the first is now under the plan", dropped.len());
+            self.session.say_of_program(Severity::Info, text, "A plan can have one picture.");
         }
         let id = if pictures::is_picture_name(first.path()) { "picture" } else { "open" };
         self.act_on(Call::new(id, [Value::Path(first.path().to_owned())]), context);

@@ -160,7 +160,7 @@ impl Worded for Alignment {
 
 impl Worded for Reach {
     const WORDS: &'static [(&'static str, &'static str)] =
-        &[("run", "The straight run that the wall is part of"), ("piece", "Only this piece of it")];
+        &[("run", "The whole straight wall"), ("piece", "Only this piece of it")];
     const ALL: &'static [Self] = &[Self::Run, Self::Piece];
 }
 
@@ -174,7 +174,7 @@ pub(crate) enum MoveOrCopy {
 
 impl Worded for MoveOrCopy {
     const WORDS: &'static [(&'static str, &'static str)] =
-        &[("move", "Move what is selected"), ("copy", "Leave the original and make a copy")];
+        &[("move", "Move the selection"), ("copy", "Keep the original and make a copy")];
     const ALL: &'static [Self] = &[Self::Move, Self::Copy];
 }
 

@@ -27,7 +27,7 @@ impl Check for AxesRatioIsImplausible {
         name: "axes_ratio_is_implausible",
         title: "Room's axes ratio is implausible",
         severity: Severity::Warning,
-        remedy: "look for a spike or a cut corner in its boundary, or a room that is only a gap between others",
+        remedy: "look for a spike or a cut corner in its boundary, or a gap drawn as a room",
     };
 
     fn find(context: &Context) -> Vec<Self> {

@@ -94,7 +94,7 @@ pub trait Check: Sized {
     /// # Errors
     /// When it has no fix, or the edit is refused.
     fn fixed(&self, _plan: &Plan) -> Result<Plan, EditError> {
-        Err(EditError("there is no fix that is right for certain".to_owned()))
+        Err(EditError("there is no safe fix".to_owned()))
     }
 
     /// The severity: that of its kind, unless the figures say otherwise.

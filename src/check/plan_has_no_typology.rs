@@ -10,7 +10,7 @@ impl Check for PlanHasNoTypology {
         name: "plan_has_no_typology",
         title: "The plan has no typology",
         severity: Severity::Warning,
-        remedy: "set it to house, school, office, or one of a label scheme of yours",
+        remedy: "choose house, school, office or a typology of your own",
     };
 
     fn find(context: &Context) -> Vec<Self> {
@@ -22,6 +22,6 @@ impl Check for PlanHasNoTypology {
     }
 
     fn what(&self) -> String {
-        "its rooms' functions have no labels without one".to_owned()
+        "without it, functions give rooms no labels".to_owned()
     }
 }

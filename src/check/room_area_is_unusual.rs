@@ -24,7 +24,7 @@ impl Check for RoomAreaIsUnusual {
         name: "room_area_is_unusual",
         title: "Room's area is unusual for its label",
         severity: Severity::Info,
-        remedy: "look whether its function and its boundary are right",
+        remedy: "check its function and its boundary",
     };
 
     fn find(context: &Context) -> Vec<Self> {

@@ -20,7 +20,7 @@ impl Check for RoomBoundaryEnclosesNothing {
         name: "room_boundary_encloses_nothing",
         title: "Room's boundary encloses nothing",
         severity: Severity::Error,
-        remedy: "draw its boundary anew, or delete the room",
+        remedy: "draw its boundary again, or delete the room",
     };
 
     fn find(context: &Context) -> Vec<Self> {

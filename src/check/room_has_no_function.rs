@@ -17,7 +17,7 @@ impl Check for RoomHasNoFunction {
         name: "room_has_no_function",
         title: "Room has neither function nor label",
         severity: Severity::Warning,
-        remedy: "say what it is for, or accept a prediction",
+        remedy: "set its function, or accept a prediction",
     };
 
     fn find(context: &Context) -> Vec<Self> {

@@ -41,7 +41,7 @@ impl Check for ScaleIsImplausible {
         name: "scale_is_implausible",
         title: "The plan's scale is implausible",
         severity: Severity::Warning,
-        remedy: "measure something of known length and set the scale anew",
+        remedy: "measure something of known length and set the scale again",
     };
 
     fn find(context: &Context) -> Vec<Self> {

@@ -31,6 +31,6 @@ impl Check for TypologyHasNoScheme {
     }
 
     fn what(&self) -> String {
-        format!("no scheme says what label a function has in {}", with_article(&printable(self.typology.as_str())))
+        format!("no label scheme covers {}", with_article(&printable(self.typology.as_str())))
     }
 }

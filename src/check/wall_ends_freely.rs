@@ -22,7 +22,7 @@ impl Check for WallEndsFreely {
         name: "wall_ends_freely",
         title: "Wall ends freely",
         severity: Severity::Info,
-        remedy: "draw it on to the next wall if it should enclose a room",
+        remedy: "extend it to the next wall if it should enclose a room",
     };
 
     fn find(context: &Context) -> Vec<Self> {

@@ -55,6 +55,6 @@ impl Classifier {
         let distribution = self.predict(values);
         let label = distribution.label();
         let reason = self.model().explain(values, label, &|values| self.predict(values));
-        Explanation { label, probability: distribution.probability(label), reason }
+        Explanation { label, distribution, values: *values, reason }
     }
 }

@@ -1,9 +1,11 @@
-//! Why a room got its label: as data, and in words.
+//! Why a room got its label by itself: as data, and as people read it ([`Why`]).
 
-use std::fmt::Write as _;
-
+use super::Distribution;
 use super::condition::{Bound, Condition};
-use super::numbers::{in_words, percent, value_in_words};
+use super::numbers::{count_in_words, rounded, times};
+use super::why::{OnPlan, Point, Why, and_list, area, nothing_stands_out, sorted, speaks};
+use crate::base::units::Units;
+use crate::base::wording::thousands;
 use crate::dataset::table::{FEATURES, RoomSource, Values};
 use crate::features::Features;
 use crate::labels::Label;
@@ -13,8 +15,9 @@ use crate::labels::Label;
 pub struct Explanation {
     /// The predicted label.
     pub label: Label,
-    /// Its probability, 0..=1.
-    pub probability: f64,
+    pub distribution: Distribution,
+    /// The room's features.
+    pub values: Values,
     pub reason: Reason,
 }
 
@@ -95,10 +98,8 @@ pub struct Effect {
     pub value: f64,
     /// The median over the training rooms.
     pub typical: f64,
-    /// The probability of the predicted label if the feature had its typical value.
-    pub probability_if_typical: f64,
-    /// The label predicted in that case.
-    pub label_if_typical: Label,
+    /// What is predicted if the feature has its typical value.
+    pub if_typical: Distribution,
 }
 
 /// The bounds on one feature.
@@ -121,49 +122,42 @@ impl Bounds {
         bounds
     }
 
-    /// In words: `area at most 6.2 m²`, `axes ratio from 1.4 to 2`, `at least 3 openings`.
-    fn words(self, feature: usize) -> Option<String> {
+    /// In words: `at most 6.2 m²`, `1.4 to 2`, `at least 3`. `None` without a bound that says anything.
+    fn words(self, feature: usize, units: Units) -> Option<String> {
         if feature >= 2 {
-            return self.count_words(feature);
+            return self.count_words();
         }
-        let value = |bound| value_in_words(feature, bound);
-        let words = match (self.low, self.at_most) {
+        let value = |bound| if feature == 0 { area(bound, units) } else { rounded(bound) };
+        Some(match (self.low, self.at_most) {
             (None, None) => return None,
             (None, Some(most)) => format!("at most {}", value(most)),
             (Some(Bound::Over(less)), None) => format!("over {}", value(less)),
             (Some(Bound::AtLeast(least) | Bound::AtMost(least)), None) => format!("at least {}", value(least)),
             (Some(Bound::Over(low) | Bound::AtLeast(low) | Bound::AtMost(low)), Some(most)) => {
-                format!("from {} to {}", value(low), value(most))
+                format!("{} to {}", value(low), value(most))
             }
-        };
-        Some(format!("{} {words}", in_words::NAMES[feature]))
+        })
     }
 
     /// Counts are integers: over 2 is at least 3.
-    fn count_words(self, feature: usize) -> Option<String> {
+    fn count_words(self) -> Option<String> {
         let least = self.low.map(|low| match low {
             Bound::Over(less) => less.floor() + 1.0,
             Bound::AtLeast(least) | Bound::AtMost(least) => least.ceil(),
         });
         let most = self.at_most.map(f64::floor);
-        let name = |count| in_words::of_count(feature, count);
         Some(match (least.filter(|&least| least > 0.0), most) {
             (None, None) => return None,
-            (None, Some(most)) if most <= 0.0 => name(0.0),
-            (None, Some(most)) => format!("at most {}", name(most)),
-            (Some(least), None) => format!("at least {}", name(least)),
-            (Some(least), Some(most)) if least == most => format!("exactly {}", name(most)),
-            (Some(least), Some(most)) => format!("{least} to {}", name(most)),
+            (None, Some(most)) if most <= 0.0 => "none".to_owned(),
+            (None, Some(most)) => format!("at most {most}"),
+            (Some(least), None) => format!("at least {least}"),
+            (Some(least), Some(most)) if least == most => format!("exactly {most}"),
+            (Some(least), Some(most)) => format!("{least} to {most}"),
         })
     }
 }
 
 impl Condition {
-    /// The condition in words: `area at most 6.2 m²`.
-    pub fn words(&self) -> String {
-        joined(&[*self])
-    }
-
     /// The condition in the paper's notation: `a <= 6.2`.
     pub fn formula(&self) -> String {
         let name = Features::NAMES[self.feature];
@@ -175,94 +169,133 @@ impl Condition {
     }
 }
 
-/// Conditions as one phrase, with the two bounds of a feature combined.
-fn joined(conditions: &[Condition]) -> String {
-    let words: Vec<String> =
-        (0..FEATURES).filter_map(|feature| Bounds::of(conditions, feature).words(feature)).collect();
-    match words.split_last() {
-        None => "any value".to_owned(),
-        Some((only, [])) => only.clone(),
-        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+/// A feature with its value: `12.4 m² along axes`, `1.4 times as long as wide`, `3 openings`.
+fn value_in_words(feature: usize, value: f64, units: Units) -> String {
+    match feature {
+        // The paper's area, not the clear one that the drawing shows.
+        0 => format!("{} along axes", area(value, units)),
+        1 => times(value),
+        _ => count_in_words(feature, value),
+    }
+}
+
+/// What of a room answers the conditions, and which bounds it keeps.
+fn answers(conditions: &[Condition], values: &Values, units: Units) -> Vec<Point> {
+    let point = |feature: usize| {
+        let bounds = Bounds::of(conditions, feature).words(feature, units)?;
+        let value = value_in_words(feature, values[feature], units);
+        // 'No openings to halls' needs no 'at most 3'.
+        let is_none = feature >= 2 && values[feature] == 0.0;
+        let seen = if is_none { value } else { format!("{value} ({bounds})") };
+        Some(Point { seen, speaks: None, on_plan: OnPlan::of_feature(feature) })
+    };
+    (0..FEATURES).filter_map(point).collect()
+}
+
+/// How many of the rooms that a model learned from have the label: `Of the 31 rooms like it in the training plans, 25
+/// are big rooms.`
+fn share(rooms: u32, right: u32, label: Label, like: &str) -> String {
+    let label = label.name();
+    match (rooms, right) {
+        (0, _) => format!("The model learned from no room{like}."),
+        (1, 1) => format!("The only room{like} that the model learned from is a {label}."),
+        (1, _) => format!("The only room{like} that the model learned from is no {label}."),
+        _ if rooms == right => {
+            format!("All {} rooms{like} that the model learned from are {label}s.", thousands(u64::from(rooms)))
+        }
+        _ => {
+            let are = if right == 1 { format!("one is a {label}") } else { format!("{right} are {label}s") };
+            format!("Of the {} rooms{like} that the model learned from, {are}.", thousands(u64::from(rooms)))
+        }
     }
 }
 
 /// The most neighbours named in a sentence; the data have all.
 const NAMED: usize = 3;
 
-/// A feature is named in a sentence if the probability would be lower by this without it.
-const MATTERS: f64 = 0.05;
-
 impl Explanation {
-    /// The reason in one or two sentences.
-    pub fn words(&self) -> String {
-        let mut words = String::new();
-        let label = self.label.name();
-        // Writing to a string cannot fail.
-        let _ = match &self.reason {
-            Reason::Rule(reason) => reason.write(label, &mut words),
-            Reason::Path(reason) => reason.write(label, &mut words),
-            Reason::Neighbours(reason) => reason.write(self.label, &mut words),
-            Reason::Features(reason) => reason.write(label, self.probability, &mut words),
+    /// The probability of the predicted label, 0..=1.
+    pub fn probability(&self) -> f64 {
+        self.distribution.probability(self.label)
+    }
+
+    /// The reason as people read it, with areas in these units.
+    pub fn why(&self, units: Units) -> Why {
+        let (label, values) = (self.label, &self.values);
+        let (points, conclusion) = match &self.reason {
+            Reason::Rule(reason) => (answers(&reason.conditions, values, units), reason.conclusion(label)),
+            Reason::Path(reason) => (answers(&reason.conditions, values, units), reason.conclusion(label)),
+            Reason::Neighbours(reason) => (compared(values, units), reason.conclusion(label, units)),
+            Reason::Features(reason) => reason.points(label, &self.distribution, units),
         };
-        words
+        Why { label, points, conclusion }
     }
 }
 
 impl RuleReason {
-    fn write(&self, label: &str, words: &mut String) -> std::fmt::Result {
-        let Self { number, rules, decides, right, .. } = self;
-        match (self.conditions.is_empty(), rules - 1) {
-            (true, 0) => write!(words, "The only rule: every room is a {label}.")?,
-            (true, 1) => write!(words, "The one rule before does not apply, so it is a {label}.")?,
-            (true, before) => write!(words, "None of the {before} rules before applies, so it is a {label}.")?,
-            (false, _) => write!(words, "Rule {number} of {rules}: {} means {label}.", joined(&self.conditions))?,
-        }
-        match (decides, right) {
-            (0, _) => write!(words, " It decides no training room."),
-            (1, 1) => write!(words, " It decides one training room, rightly."),
-            (1, _) => write!(words, " It decides one training room, wrongly."),
-            _ if decides == right => write!(words, " It decides {decides} training rooms, all of them rightly."),
-            _ => write!(words, " It decides {decides} training rooms, {right} of them rightly."),
+    fn conclusion(&self, label: Label) -> String {
+        let share = |like| share(self.decides, self.right, label, like);
+        match (self.conditions.is_empty(), self.rules - 1) {
+            (false, _) => share(" like this"),
+            (true, 0) => share(""),
+            (true, 1) => format!("The only rule for other labels does not apply. {}", share(" left over")),
+            (true, before) => format!("None of the {before} rules for other labels applies. {}", share(" left over")),
         }
     }
 }
 
 impl PathReason {
-    fn write(&self, label: &str, words: &mut String) -> std::fmt::Result {
-        let Self { rooms, right, .. } = self;
-        let with =
-            if self.conditions.is_empty() { String::new() } else { format!(" with {}", joined(&self.conditions)) };
-        match (rooms, right) {
-            (1, 1) => write!(words, "The only training room{with} is a {label}."),
-            _ if rooms == right => write!(words, "All {rooms} training rooms{with} are {label}s."),
-            (_, 1) => write!(words, "Of the {rooms} training rooms{with}, one is a {label}."),
-            _ => write!(words, "Of the {rooms} training rooms{with}, {right} are {label}s."),
-        }
+    fn conclusion(&self, label: Label) -> String {
+        share(self.rooms, self.right, label, if self.conditions.is_empty() { "" } else { " like this" })
     }
 }
 
+/// What is compared with other rooms.
+fn compared(values: &Values, units: Units) -> Vec<Point> {
+    let of = |feature: usize| (value_in_words(feature, values[feature], units), OnPlan::of_feature(feature));
+    let to = |feature: &usize| values[*feature] > 0.0;
+    let to: Vec<String> = (3..FEATURES)
+        .filter(to)
+        .map(|feature| {
+            let name = Label::ALL[feature - 3].name();
+            format!("{} to {name}s", values[feature])
+        })
+        .collect();
+    let (openings, on_plan) = of(2);
+    let openings = if to.is_empty() { openings } else { format!("{openings}: {}", and_list(&to)) };
+    [of(0), of(1), (openings, on_plan)]
+        .into_iter()
+        .map(|(seen, on_plan)| Point { seen, speaks: None, on_plan })
+        .collect()
+}
+
 impl NeighboursReason {
-    fn write(&self, label: Label, words: &mut String) -> std::fmt::Result {
+    fn conclusion(&self, label: Label, units: Units) -> String {
         let alike: Vec<&NearRoom> = self.neighbours.iter().filter(|near| near.label == label).collect();
-        match (alike.len(), self.neighbours.len()) {
-            (1, 1) => write!(words, "The most similar training room is a {label}")?,
-            (all, most) if all == most => write!(words, "All {most} most similar training rooms are {label}s")?,
-            (1, most) => write!(words, "Of the {most} most similar training rooms one is a {label}")?,
-            (some, most) => write!(words, "Of the {most} most similar training rooms {some} are {label}s")?,
-        }
+        let name = label.name();
+        let lead = match (alike.len(), self.neighbours.len()) {
+            (1, 1) => format!("The most similar room that the model learned from is a {name}"),
+            (all, most) if all == most => {
+                format!("All {most} most similar rooms that the model learned from are {name}s")
+            }
+            (1, most) => format!("Of the {most} most similar rooms that the model learned from, one is a {name}"),
+            (some, most) => {
+                format!("Of the {most} most similar rooms that the model learned from, {some} are {name}s")
+            }
+        };
         let named: Vec<String> = alike
             .iter()
             .take(NAMED)
             .map(|near| {
-                let area = value_in_words(0, near.values[0]);
-                format!("{} ({area}, {})", place(&near.source), in_words::of_count(2, near.values[2]))
+                let openings = count_in_words(2, near.values[2]);
+                format!("{} ({}, {openings})", place(&near.source), area(near.values[0], units))
             })
             .collect();
         match (named.as_slice(), alike.len()) {
-            ([], _) => write!(words, "."),
-            ([only], _) => write!(words, ": {only}."),
-            (named, all) if named.len() == all => write!(words, ": {}.", named.join("; ")),
-            (named, _) => write!(words, ", the nearest of them {}.", named.join("; ")),
+            ([], _) => format!("{lead}."),
+            ([only], _) => format!("{lead}: {only}."),
+            (named, all) if named.len() == all => format!("{lead}: {}.", named.join("; ")),
+            (named, _) => format!("{lead}, the nearest: {}.", named.join("; ")),
         }
     }
 }
@@ -272,37 +305,31 @@ fn place(source: &RoomSource) -> String {
     format!("{} in {}", readable(&source.room), source.plan)
 }
 
-/// A room's readable name. Of a generated id (a UUID), people read only the first part.
-pub(super) fn readable(room: &str) -> String {
+/// A room's readable name. An id that a program made (a UUID, a number) says nothing to people.
+fn readable(room: &str) -> &str {
     let parts: Vec<&str> = room.split('-').collect();
     let lengths = parts.iter().map(|part| part.len());
     let is_uuid =
         lengths.eq([8, 4, 4, 4, 12]) && parts.iter().all(|part| part.bytes().all(|byte| byte.is_ascii_hexdigit()));
-    if is_uuid { format!("room {}", parts[0]) } else { room.to_owned() }
+    let is_number = room.bytes().all(|byte| byte.is_ascii_digit());
+    if is_uuid || is_number { "a room" } else { room }
 }
 
 impl FeaturesReason {
-    fn write(&self, label: &str, probability: f64, words: &mut String) -> std::fmt::Result {
-        let matters = |effect: &&Effect| effect.probability_if_typical < probability - MATTERS;
-        let mut effects = self.effects.iter().filter(matters).take(NAMED).peekable();
-        if effects.peek().is_none() {
-            return write!(
-                words,
-                "No single feature decides: with any one at its typical value a {label} is as likely."
-            );
-        }
-        write!(words, "What speaks for a {label}: ")?;
-        let parts: Vec<String> = effects
-            .map(|effect| {
-                format!(
-                    "{} (with the typical {} the probability would be {}, not {})",
-                    in_words::of_value(effect.feature, effect.value),
-                    value_in_words(effect.feature, effect.typical),
-                    percent(effect.probability_if_typical),
-                    percent(probability)
-                )
-            })
-            .collect();
-        write!(words, "{}.", parts.join("; "))
+    fn points(&self, label: Label, said: &Distribution, units: Units) -> (Vec<Point>, String) {
+        let points = self.effects.iter().filter_map(|effect| {
+            let Effect { feature, value, typical, if_typical } = effect;
+            let gain = |label| said.probability(label) - if_typical.probability(label);
+            let (speaks, change) = speaks(label, gain)?;
+            let usual = match feature {
+                0 => area(*typical, units),
+                _ => rounded(*typical),
+            };
+            let seen = format!("{} (usual: {usual})", value_in_words(*feature, *value, units));
+            Some((Point { seen, speaks: Some(speaks), on_plan: OnPlan::of_feature(*feature) }, change))
+        });
+        let points = sorted(label, points.collect());
+        let conclusion = if points.is_empty() { nothing_stands_out(label) } else { String::new() };
+        (points, conclusion)
     }
 }

@@ -95,7 +95,7 @@ impl Acquaintance {
     /// The same in a few words, for where there is little room.
     pub fn short_words(&self) -> String {
         match self.out_of_fold {
-            Some(share) => format!("The model learned from this plan; without it {:.0} % are right", 100.0 * share),
+            Some(share) => format!("The model learned from this plan; without it, {:.0} % are right", 100.0 * share),
             None => "The model learned from this plan".to_owned(),
         }
     }
@@ -104,13 +104,13 @@ impl Acquaintance {
     pub fn words(&self) -> String {
         let rooms =
             if self.rooms == self.of { String::new() } else { format!(" ({} of {} rooms)", self.rooms, self.of) };
-        let learned = format!("learned from this plan{rooms}: agreement shows nothing");
+        let learned = format!("learned from this plan{rooms}, so agreement proves nothing");
         match self.out_of_fold {
             Some(share) if self.folds_by == "building" => {
-                format!("{learned}; without this building {:.0} % of its labels were said rightly", 100.0 * share)
+                format!("{learned}; without this building it predicts {:.0} % of the labels correctly", 100.0 * share)
             }
             Some(share) => {
-                format!("{learned}; without these rooms {:.0} % of their labels were said rightly", 100.0 * share)
+                format!("{learned}; without these rooms it predicts {:.0} % of their labels correctly", 100.0 * share)
             }
             None => learned,
         }

@@ -54,7 +54,9 @@ impl Method {
     pub fn help(self) -> &'static str {
         match self {
             Self::Each(algorithm) => algorithm.learner().help(),
-            Self::Joint => "a classifier that looks at all rooms of the plan in relation to each other",
+            Self::Joint => {
+                "comparing all rooms of the plan: their sizes, shapes and openings, and which opens to which"
+            }
         }
     }
 }

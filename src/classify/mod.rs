@@ -20,6 +20,7 @@ pub mod scale;
 mod scores;
 pub mod typology;
 pub mod unknown;
+pub mod why;
 
 pub use classifier::Classifier;
 pub use distribution::Distribution;

@@ -20,55 +20,38 @@ pub(super) fn readable_between(low: f64, high: f64) -> f64 {
     low
 }
 
-/// Features and values as parts of a sentence.
-pub(super) mod in_words {
-    use super::{FEATURES, value_in_words};
+/// What each count of `F_r` is called, from the third feature on.
+const COUNTS: [&str; FEATURES - 2] = [
+    "openings",
+    "openings to small rooms",
+    "openings to medium rooms",
+    "openings to big rooms",
+    "openings to corridors",
+    "openings to halls",
+];
 
-    /// What each feature is called, in the order of [`Features::NAMES`](crate::features::Features::NAMES).
-    pub(in crate::classify) const NAMES: [&str; FEATURES] = [
-        "area",
-        "axes ratio",
-        "openings",
-        "openings to small rooms",
-        "openings to medium rooms",
-        "openings to big rooms",
-        "openings to corridors",
-        "openings to halls",
-    ];
-
-    /// A number of openings: `no openings to halls`, `1 opening`, `3 openings`.
-    pub(in crate::classify) fn of_count(feature: usize, count: f64) -> String {
-        let name = NAMES[feature];
-        if count == 0.0 {
-            format!("no {name}")
-        } else if count == 1.0 {
-            format!("1 {}", name.replacen("openings", "opening", 1))
-        } else {
-            format!("{count} {name}")
-        }
-    }
-
-    /// A feature with its value: `an area of 12.4 m²`, `3 openings`.
-    pub(in crate::classify) fn of_value(feature: usize, value: f64) -> String {
-        if feature < 2 {
-            format!("an {} of {}", NAMES[feature], value_in_words(feature, value))
-        } else {
-            of_count(feature, value)
-        }
+/// A count of openings: `no openings to halls`, `1 opening`, `3 openings`. Other features are counted as openings.
+pub(super) fn count_in_words(feature: usize, count: f64) -> String {
+    let name = feature.checked_sub(2).and_then(|count| COUNTS.get(count)).unwrap_or(&COUNTS[0]);
+    if count == 0.0 {
+        format!("no {name}")
+    } else if count == 1.0 {
+        format!("1 {}", name.replacen("openings", "opening", 1))
+    } else {
+        format!("{count} {name}")
     }
 }
 
-/// A feature's value with its unit, short: `12.4 m²`, `1.9`, `3`.
-pub(super) fn value_in_words(feature: usize, value: f64) -> String {
-    match feature {
-        0 => format!("{} m²", rounded(value)),
-        1 => rounded(value),
-        _ => value.to_string(),
+/// Proportions: `1.9 times as long as wide`, `as long as wide`.
+pub(super) fn times(ratio: f64) -> String {
+    match rounded(ratio) {
+        one if one == "1" => "as long as wide".to_owned(),
+        times => format!("{times} times as long as wide"),
     }
 }
 
 /// At most two decimals, fewer for large numbers, without trailing zeros.
-fn rounded(value: f64) -> String {
+pub(super) fn rounded(value: f64) -> String {
     let unit = if value.abs() >= 100.0 {
         1.0
     } else if value.abs() >= 10.0 {
@@ -77,18 +60,6 @@ fn rounded(value: f64) -> String {
         100.0
     };
     ((value * unit).round() / unit).to_string()
-}
-
-/// A probability in percent: `88 %`, but never `100 %` unless certain.
-pub(super) fn percent(probability: f64) -> String {
-    let percent = (probability * 100.0).round();
-    if percent >= 100.0 && probability < 1.0 {
-        "over 99 %".to_owned()
-    } else if percent <= 0.0 && probability > 0.0 {
-        "under 1 %".to_owned()
-    } else {
-        format!("{percent} %")
-    }
 }
 
 #[cfg(test)]
@@ -115,13 +86,11 @@ mod tests {
 
     #[test]
     fn values_are_short() {
-        assert_eq!(value_in_words(0, 12.4499), "12.4 m²");
-        assert_eq!(value_in_words(0, 1234.5), "1235 m²");
-        assert_eq!(value_in_words(1, 1.9), "1.9");
-        assert_eq!(value_in_words(2, 3.0), "3");
+        assert_eq!([12.4499, 1234.5, 1.9, 3.0].map(rounded), ["12.4", "1235", "1.9", "3"]);
         assert_eq!(
-            (percent(0.876).as_str(), percent(0.999).as_str(), percent(1.0).as_str()),
-            ("88 %", "over 99 %", "100 %")
+            [0.0, 1.0, 3.0].map(|count| count_in_words(7, count)),
+            ["no openings to halls", "1 opening to halls", "3 openings to halls"]
         );
+        assert_eq!([1.0, 1.9].map(times), ["as long as wide", "1.9 times as long as wide"]);
     }
 }

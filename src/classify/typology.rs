@@ -13,6 +13,7 @@ use nalgebra::{Cholesky, Const, SMatrix, SVector};
 use serde_json::{Value, json};
 
 use crate::base::random::Random;
+use crate::base::units::Units;
 use crate::dataset::RoomNetwork;
 use crate::labels::{Label, Typology};
 use crate::plan::OpeningKind;
@@ -61,17 +62,27 @@ impl Measure {
         ["rooms", "median_area", "spread", "largest", "openings", "ends", "long", "passages"][self as usize]
     }
 
-    /// A value in words. Counts, areas and ratios are measured as logarithms.
-    fn words(self, value: f64) -> String {
+    /// A value with its unit. Counts, areas and ratios are measured as logarithms.
+    fn value(self, value: f64, units: Units) -> String {
         match self {
-            Self::Rooms => format!("{:.0} rooms", value.exp()),
-            Self::MedianArea => format!("median area {:.1} m²", value.exp()),
-            Self::Spread => format!("areas vary by a factor of {:.1}", value.exp()),
-            Self::Largest => format!("largest room {:.1} times the median", value.exp()),
-            Self::Openings => format!("{:.1} openings a room", value.exp()),
-            Self::Ends => format!("{:.0} % of rooms are ends", value * 100.0),
-            Self::Long => format!("{:.0} % of rooms are long", value * 100.0),
-            Self::Passages => format!("{:.0} % of openings are free passages", value * 100.0),
+            Self::Rooms => format!("{:.0}", value.exp()),
+            Self::MedianArea => units.area(value.exp()),
+            Self::Spread | Self::Largest | Self::Openings => format!("{:.1}", value.exp()),
+            Self::Ends | Self::Long | Self::Passages => format!("{:.0} %", value * 100.0),
+        }
+    }
+
+    /// A sentence about a value with its unit.
+    fn words(self, value: &str) -> String {
+        match self {
+            Self::Rooms => format!("it has {value} rooms"),
+            Self::MedianArea => format!("half of its rooms are over {value}"),
+            Self::Spread => format!("its rooms differ in area by a factor of {value}"),
+            Self::Largest => format!("its largest room is {value} times the median"),
+            Self::Openings => format!("its rooms have {value} openings on average"),
+            Self::Ends => format!("{value} of its rooms open to at most one other"),
+            Self::Long => format!("{value} of its rooms are long and narrow"),
+            Self::Passages => format!("{value} of its openings have no door"),
         }
     }
 }
@@ -254,9 +265,9 @@ impl TypologyModel {
         posterior
     }
 
-    /// The evidence for the most probable typology against the runner-up, in words, strongest first: `48
-    /// rooms (school 33, office 41)`. Empty if there is only one typology, or no room.
-    pub fn reasons(&self, network: &RoomNetwork, known: &[Option<Label>]) -> Vec<String> {
+    /// The evidence for the most probable typology against the runner-up, strongest first. Empty if there is only one
+    /// typology, or no room.
+    pub fn reasons(&self, network: &RoomNetwork, known: &[Option<Label>]) -> Vec<TypologyReason> {
         let posterior = self.posterior(network, known);
         let find = |rank: usize| {
             let (typology, _) = posterior.get(rank)?;
@@ -266,32 +277,24 @@ impl TypologyModel {
             return Vec::new();
         };
         let weights = self.solver().solve(&self.used(best.mean - next.mean));
-        let mut reasons: Vec<(f64, String)> = Measure::ALL
+        let mut reasons: Vec<(f64, TypologyReason)> = Measure::ALL
             .iter()
             .enumerate()
             .map(|(i, measure)| {
                 let evidence = weights[i] * (measured[i] - (best.mean[i] + next.mean[i]) / 2.0);
-                let words = format!(
-                    "{} (typical of {}: {}; of {}: {})",
-                    measure.words(measured[i]),
-                    best.typology,
-                    measure.words(best.mean[i]),
-                    next.typology,
-                    measure.words(next.mean[i])
-                );
-                (evidence, words)
+                let usual = [best, next].map(|known| (known.typology.clone(), known.mean[i]));
+                (evidence, TypologyReason::Measure { measure: *measure, value: measured[i], usual })
             })
             .collect();
         let counts = counts_of(known);
         let labels = urn(&counts, &best.labels) - urn(&counts, &next.labels);
         match counts.iter().sum::<u32>() {
             0 => {}
-            1 => reasons.push((labels, "the 1 room whose label is known".to_owned())),
-            count => reasons.push((labels, format!("the {count} rooms whose labels are known"))),
+            rooms => reasons.push((labels, TypologyReason::KnownLabels { rooms })),
         }
         reasons.retain(|(evidence, _)| *evidence > SPEAKS);
         reasons.sort_by(|p, q| q.0.total_cmp(&p.0));
-        reasons.into_iter().map(|(_, words)| words).collect()
+        reasons.into_iter().map(|(_, reason)| reason).collect()
     }
 
     /// The measures with the omitted ones set to zero.
@@ -406,6 +409,32 @@ impl TypologyModel {
         let temperature = number(value.get("temperature")).filter(|temperature| *temperature > 0.0);
         let temperature = temperature.ok_or(refuse("'temperature' is no positive number"))?;
         Ok(Self { known, covariance, left_out, temperature })
+    }
+}
+
+/// What speaks for the typology of a plan.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TypologyReason {
+    /// A measure of the plan, and what is usual in the most probable typology and in the next.
+    Measure { measure: Measure, value: f64, usual: [(Typology, f64); 2] },
+    /// The labels that are known of so many rooms.
+    KnownLabels { rooms: u32 },
+}
+
+impl TypologyReason {
+    /// A clause: `it has 48 rooms (usual: school 41, office 33)`.
+    pub fn words(&self, units: Units) -> String {
+        match self {
+            Self::Measure { measure, value, usual } => {
+                let usual: Vec<String> = usual
+                    .iter()
+                    .map(|(typology, value)| format!("{typology} {}", measure.value(*value, units)))
+                    .collect();
+                format!("{} (usual: {})", measure.words(&measure.value(*value, units)), usual.join(", "))
+            }
+            Self::KnownLabels { rooms: 1 } => "one of its rooms has a label that fits".to_owned(),
+            Self::KnownLabels { rooms } => format!("{rooms} of its rooms have labels that fit"),
+        }
     }
 }
 

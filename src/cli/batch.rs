@@ -218,5 +218,5 @@ pub fn for_each_import<T: Send>(
 
 /// What every subcommand says when there is nothing that it could work on, after the reason for each input.
 pub fn nothing_to_read() -> CliError {
-    CliError::new("nothing to read: no plan could be read; nothing was written")
+    CliError::new("no plan could be read; nothing was written")
 }

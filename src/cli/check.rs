@@ -25,19 +25,19 @@ pub struct CheckCommand {
     /// Plans, or folders of plans, of any known format
     #[arg(required = true, value_name = "PLAN")]
     plans: Vec<PathBuf>,
-    /// List all findings of a kind in a plan, not only the first three
+    /// List all findings, not only the first three of each kind in a plan
     #[arg(long)]
     all: bool,
-    /// Leave out findings that are less severe
+    /// Hide findings less severe than this
     #[arg(long, value_name = "SEVERITY", default_value = "info", value_parser = severity)]
     least: Severity,
-    /// Exit with 1 for warnings too, not only for errors
+    /// Exit with 1 for warnings too
     #[arg(long)]
     strict: bool,
     /// Print JSON (docs/json/check.md describes it)
     #[arg(long)]
     json: bool,
-    /// Label scheme that extends the bundled ones (may be given several times)
+    /// Label scheme to add to the bundled ones (can be repeated)
     #[arg(long, value_name = "FILE.scheme.toml")]
     scheme: Vec<PathBuf>,
 }
@@ -272,12 +272,12 @@ const fn note_severity(kind: NoteKind) -> Severity {
 const fn note_title(kind: NoteKind) -> &'static str {
     match kind {
         NoteKind::Skipped => "Left out when reading the file",
-        NoteKind::Healed => "Mended when reading the file",
+        NoteKind::Healed => "Repaired when reading the file",
     }
 }
 
 fn note_groups(notes: &[Note], least: Severity) -> Vec<Group> {
-    [(NoteKind::Skipped, "mend it in the source, or draw it here"), (NoteKind::Healed, "look whether it is right")]
+    [(NoteKind::Skipped, "fix it in the source, or draw it here"), (NoteKind::Healed, "check that it is right")]
         .into_iter()
         .filter_map(|(kind, remedy)| {
             let of_kind = notes.iter().filter(|note| note.kind == kind);

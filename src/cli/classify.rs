@@ -1,3 +1,4 @@
+use crate::base::units::Units;
 use crate::base::wording::{count, shortened};
 use std::fmt::Write as _;
 use std::io::Write as _;
@@ -12,6 +13,7 @@ use super::door::one_line;
 use super::outputs::{Care, Outputs, is_stdout};
 use super::train::{each_room, method};
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
+use crate::classify::why::Why;
 use crate::classify::{Distribution, Method, models::Models};
 use crate::dataset::NetworkRoom;
 use crate::edit;
@@ -39,29 +41,29 @@ pub struct ClassifyCommand {
     plans: Vec<PathBuf>,
     #[command(flatten)]
     predictor: PredictorOptions,
-    /// Use the model of this file, or your own of this name ('enfilade models' lists them)
+    /// Use the model in this file, or your own model of this name ('enfilade models' lists them)
     #[arg(long, value_name = "FILE|NAME", conflicts_with_all = ["typology", "algorithm"])]
     model: Option<PathBuf>,
-    /// Neighbours' labels: 'true' (where known, else temporary), 'temporary', or 'predicted' (where not
-    /// known, repeated until stable); without it, as the model learned
+    /// Neighbours' labels: 'true' (where known, else temporary), 'temporary', or 'predicted' (where not known,
+    /// repeated until stable) [default: as the model learned]
     #[arg(long, value_name = "MODE", value_parser = neighbour_labels)]
     neighbours: Option<NeighbourLabels>,
-    /// Pretend that no room's label is known, to see what would be said of a new building
+    /// Ignore all known labels, to see the predictions for a new building
     #[arg(long)]
     hide_labels: bool,
-    /// Say as well, for each opening that leads into unexplored space or outside, what would lie behind it
+    /// Also predict what lies behind each opening that leads into unexplored space or outside
     #[arg(long)]
     unknown: bool,
-    /// Write the predictions into the plan file, marked as predictions, for rooms without a label
+    /// Write the predictions for rooms without a label to the plan file, marked as predictions
     #[arg(long)]
     write: bool,
-    /// With --write: write to this plan file (.plan.json) instead; for several plans, into this folder
+    /// With --write: write to this plan file (.plan.json) instead, or for several plans to this folder
     #[arg(short, long, value_name = "FILE|DIR", requires = "write")]
     output: Option<PathBuf>,
     /// Print JSON (docs/json/classify.md describes it)
     #[arg(long)]
     json: bool,
-    /// Label scheme that extends the bundled ones (may be given several times)
+    /// Label scheme to add to the bundled ones (can be repeated)
     #[arg(long, value_name = "FILE.scheme.toml")]
     scheme: Vec<PathBuf>,
 }
@@ -69,13 +71,13 @@ pub struct ClassifyCommand {
 /// Options of every subcommand that predicts.
 #[derive(clap::Args)]
 pub struct PredictorOptions {
-    /// Predict by models of this typology, or of 'standard' (learned from all), or by the model of this name,
-    /// bundled or your own ('enfilade models' lists them); 'auto' infers the typology from the plan; without
-    /// it the plan's own, inferred where it has none
+    /// Use models for this typology, for 'standard' (learned from all typologies), or the model of this name
+    /// ('enfilade models' lists them); 'auto' infers the typology from the plan [default: the plan's own typology,
+    /// inferred if it has none]
     #[arg(long, value_name = "NAME", default_value = "plan", hide_default_value = true)]
     typology: String,
     #[arg(long, value_name = "NAME", default_value = DEFAULT_METHOD.name(), value_parser = method,
-          help = format!("{}, each room by itself; or joint, all rooms of a plan together", each_room()))]
+          help = format!("{} (each room by itself) or joint (all rooms of a plan together)", each_room()))]
     algorithm: Method,
     #[command(flatten)]
     models: ModelsOption,
@@ -84,7 +86,7 @@ pub struct PredictorOptions {
 /// Where a subcommand finds the user's own models.
 #[derive(clap::Args)]
 pub struct ModelsOption {
-    /// The folder of your own models, instead of the usual one ('enfilade models' names it)
+    /// Folder of your own models [default: the one that 'enfilade models' names]
     #[arg(long = "models", value_name = "DIR")]
     folder: Option<PathBuf>,
 }
@@ -126,7 +128,7 @@ impl PredictorOptions {
 
 impl Subcommand for ClassifyCommand {
     const NAME: &'static str = "classify";
-    const ABOUT: &'static str = "Predict the labels of rooms, with probability and reason";
+    const ABOUT: &'static str = "Predict the labels of rooms, with probabilities and reasons";
     const EXAMPLE: &'static str = "enfilade classify plans/office.plan.json --algorithm tree";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
@@ -141,7 +143,7 @@ impl Subcommand for ClassifyCommand {
         let files = batch::inputs_into(&self.plans, folder);
         if let (Some(output), None, true) = (&self.output, folder, files.len() > 1) {
             return Err(CliError::call(format!(
-                "-o {}: is one file, but {} plans are to be written; name a folder",
+                "-o {}: is a single file, but there are {} plans to write; name a folder",
                 output.display(),
                 files.len()
             )));
@@ -215,7 +217,7 @@ impl ClassifyCommand {
             (None, None) if is_own => file.path.clone(),
             (None, None) => {
                 return Err(CliError::new(format!(
-                    "{}: predictions can be written into plan files (.plan.json) only; say with -o where to write one",
+                    "{}: predictions can only be written to plan files (.plan.json); name one with -o",
                     file.path.display()
                 )));
             }
@@ -252,7 +254,7 @@ fn text(plan: &Plan, said: &Predictions, with_unknown: bool) -> Result<String, s
     let mut out = String::new();
     writeln!(out, "{name}: typology {} ({}), model {}", said.choice.set, said.choice.because, said.model.name)?;
     if !said.choice.reasons.is_empty() {
-        writeln!(out, "  {} because of {}", said.choice.set, said.choice.reasons.join("; "))?;
+        writeln!(out, "  {} because {}", said.choice.set, said.choice.reasons_in_words(Units::Metric))?;
     }
     if rooms.is_empty() {
         writeln!(out, "  no rooms to classify")?;
@@ -275,7 +277,7 @@ fn text(plan: &Plan, said: &Predictions, with_unknown: bool) -> Result<String, s
             room.label.map_or("–", Label::name),
             label.name(),
             100.0 * distribution.probability(label),
-            said.reason(room.id).unwrap_or_default()
+            said.why(room.id, Units::Metric).map(|why| why.sentences()).unwrap_or_default()
         )?;
     }
     writeln!(out, "  {}; neighbours' labels: {}", said.agreement(), said.neighbours_in_words())?;
@@ -311,6 +313,7 @@ fn json(plan: &Plan, said: &Predictions, with_unknown: bool) -> serde_json::Valu
         .iter()
         .zip(&said.result.distributions)
         .map(|(room, distribution)| {
+            let why = said.why(room.id, Units::Metric);
             json!({
                 "room": room.key,
                 "id": room.id.to_string(),
@@ -318,7 +321,8 @@ fn json(plan: &Plan, said: &Predictions, with_unknown: bool) -> serde_json::Valu
                 "label": room.label.map(Label::letter),
                 "predicted": distribution.label().letter(),
                 "probabilities": probabilities(distribution),
-                "reason": said.reason(room.id),
+                "reason": why.as_ref().map(Why::sentences),
+                "evidence": why.as_ref().map(Why::to_value),
             })
         })
         .collect();
@@ -343,7 +347,7 @@ fn json(plan: &Plan, said: &Predictions, with_unknown: bool) -> serde_json::Valu
         "typology": said.choice.set,
         "typology_because": said.choice.because,
         "typology_posterior": posterior,
-        "typology_reasons": said.choice.reasons,
+        "typology_reasons": said.choice.reasons.iter().map(|reason| reason.words(Units::Metric)).collect::<Vec<_>>(),
         "model": said.model.name,
         "neighbours": said.neighbours.name(),
         "rounds": said.result.rounds,

@@ -22,17 +22,16 @@ use crate::plan::titles::first_of;
 /// Options of every subcommand that learns from labelled rooms.
 #[derive(clap::Args)]
 pub struct CollectOptions {
-    /// Plans, folders of plans, or datasets (.csv, of which neighbours are not known; '-' reads one from stdin) with
-    /// labelled rooms
+    /// Plans, folders of plans, or datasets (.csv, without neighbours; '-' reads one from stdin) with labelled rooms
     #[arg(required = true, value_name = "DATA")]
     pub data: Vec<PathBuf>,
-    /// Take at most about N rooms of each typology (whole buildings; the paper has about 2000 of each)
+    /// Use at most about N rooms of each typology, in whole buildings (the paper has about 2000 of each)
     #[arg(long, value_name = "N")]
     pub most_rooms: Option<usize>,
-    /// Keep rooms that are read twice, which flatters whatever is tested on them
+    /// Keep rooms that are read twice, which makes test results look better than they are
     #[arg(long)]
     pub keep_repeats: bool,
-    /// Label scheme that extends the bundled ones (may be given several times)
+    /// Label scheme to add to the bundled ones (can be repeated)
     #[arg(long, value_name = "FILE.scheme.toml")]
     pub scheme: Vec<PathBuf>,
 }
@@ -109,8 +108,9 @@ pub fn collect(options: &CollectOptions, seed: u64, terminal: &mut Terminal) -> 
     let (collection, read) = match (tables.is_empty(), plans.is_empty()) {
         (false, false) => {
             return Err(CliError::call(
-                "plans and datasets (.csv) cannot be mixed: a dataset does not tell which rooms are neighbours; make \
-                 a dataset of the plans with 'enfilade dataset', or give the plans of the other",
+                "plans and datasets (.csv) cannot be mixed, because a dataset does not say which rooms are \
+                 neighbours; make a dataset of the plans with 'enfilade dataset', or give the plans behind the \
+                 dataset",
             ));
         }
         (false, true) => {
@@ -294,7 +294,7 @@ fn read_tables(
         let kept: Vec<Row> = of_file.into_iter().filter(is_new).collect();
         if kept.len() < all {
             let rooms = count(all - kept.len(), "room");
-            terminal.remark(format!("{}: {rooms} left out that were read before", path.display()))?;
+            terminal.remark(format!("{}: {rooms} left out, already read", path.display()))?;
         }
         rows.extend(kept);
     }

@@ -8,17 +8,17 @@ use crate::app::commands::{ArgumentKind, COMMANDS, Command, keys_of, manual};
 /// `enfilade commands`: what the window can do.
 #[derive(clap::Args)]
 pub struct CommandsCommand {
-    /// Print them as JSON (docs/json/commands.md describes it)
+    /// Print JSON (docs/json/commands.md describes it)
     #[arg(long)]
     json: bool,
-    /// Print the manual's page of them
+    /// Print the page of the manual
     #[arg(long, conflicts_with = "json")]
     markdown: bool,
 }
 
 impl Subcommand for CommandsCommand {
     const NAME: &'static str = "commands";
-    const ABOUT: &'static str = "List the window's commands: their words in scripts, their keys, what they do";
+    const ABOUT: &'static str = "List the window's commands, with their words in scripts, keys and purpose";
     const EXAMPLE: &'static str = "enfilade commands | grep zoom";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {

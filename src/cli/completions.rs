@@ -18,7 +18,7 @@ pub struct CompletionsCommand {
 
 impl Subcommand for CompletionsCommand {
     const NAME: &'static str = "completions";
-    const ABOUT: &'static str = "Print a script that lets your shell complete enfilade's words";
+    const ABOUT: &'static str = "Print a completion script for your shell";
     const EXAMPLE: &'static str = "enfilade completions bash -o ~/.local/share/bash-completion/completions/enfilade";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {

@@ -20,18 +20,19 @@ pub struct DatasetCommand {
     /// Folders of plans, or plans, of any known format
     #[arg(required = true, value_name = "DIR")]
     plans: Vec<PathBuf>,
-    /// Write the dataset here instead of to stdout; beside it what its columns mean (.schema.json) and how it came about
-    /// (.manifest.json)
+    /// Write the dataset here instead of to stdout, with a description of its columns (.schema.json) and of its
+    /// making (.manifest.json)
     #[arg(short, long, value_name = "FILE.csv")]
     output: Option<PathBuf>,
-    /// Print the paper's Table 2 for the rooms: per label its share, mean and deviation of a and d,
-    /// mean rt. Without --output the dataset itself is not printed
+    /// Print the paper's Table 2 for these rooms: for each label its share, mean and deviation of a and d, and mean
+    /// rt; without --output the dataset itself is not printed
     #[arg(long)]
     stats: bool,
-    /// Folds of the column 'fold': how many, the same that 'evaluate' tests with; or a table (.csv) with the columns file, id, fold
+    /// Folds for the column 'fold': their number, the same as in 'evaluate', or a table (.csv) with the columns file,
+    /// id, fold
     #[arg(long, value_name = "N|FILE", default_value = "10", value_parser = FoldsFrom::read)]
     folds: FoldsFrom,
-    /// What is assigned to folds: 'building', which folds then never split, or 'room'
+    /// Assign whole buildings ('building') or single rooms ('room') to folds
     #[arg(long, value_name = "UNIT", default_value = "building", value_parser = grouping)]
     by: Grouping,
     /// Seed of the folds
@@ -40,7 +41,7 @@ pub struct DatasetCommand {
     /// Keep rooms that are read twice
     #[arg(long)]
     keep_repeats: bool,
-    /// Put an apostrophe before texts that begin with = + - @, which a spreadsheet would run as formulas
+    /// Put an apostrophe before texts that begin with = + - @, so that spreadsheets do not run them as formulas
     #[arg(long)]
     guard_formulas: bool,
     #[command(flatten)]

@@ -70,7 +70,10 @@ impl Door {
     /// When a terminal would have to show it, or it cannot be written.
     pub(super) fn write_binary(&mut self, bytes: &[u8]) -> io::Result<()> {
         if self.is_terminal {
-            return Err(io::Error::other("a terminal cannot show this; name a file with -o, or redirect the output"));
+            return Err(io::Error::other(
+                "this cannot be shown on a terminal; name a file with -o, or redirect the \
+                                         output",
+            ));
         }
         self.flush()?;
         self.sink.write_all(bytes)

@@ -18,41 +18,43 @@ use crate::study::{About, Options, report, study_with_predictions};
 pub struct EvaluateCommand {
     #[command(flatten)]
     collect: CollectOptions,
-    /// Folds of each cross-validation: how many, or a table (.csv) with the columns file, id, fold, such as a dataset
+    /// Folds of each cross-validation: their number, or a table (.csv) with the columns file, id, fold, such as a
+    /// dataset
     #[arg(long, value_name = "N|FILE", default_value = "10", value_parser = FoldsFrom::read)]
     folds: FoldsFrom,
-    /// What is assigned to folds: 'room', as in the paper, or 'building', which none is tested on that was
-    /// learned from; 'room' unless a table of folds splits no building
+    /// Assign single rooms ('room', as in the paper) or whole buildings ('building', so that test buildings are new)
+    /// to folds [default: 'room', unless a table of folds splits no building]
     #[arg(long, value_name = "UNIT", value_parser = grouping)]
     by: Option<Grouping>,
-    /// Neighbours' labels: 'true' (given, as in the paper), 'temporary' (the naive classifier's) or
-    /// 'predicted' (repeated until stable)
+    /// Neighbours' labels: 'true' (as in the paper), 'temporary' (the naive classifier's) or 'predicted' (repeated
+    /// until stable)
     #[arg(long, value_name = "MODE", default_value = "true", value_parser = neighbour_labels)]
     neighbours: NeighbourLabels,
-    /// Seed of all that is random: the same seed gives the same bytes
+    /// Seed for everything random: the same seed gives the same bytes
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Write what was said of each room by classifiers that did not learn from it (CSV): a line for each room, set and algorithm,
-    /// on buildings never seen and under the condition of the report
+    /// Write the predictions for each room by classifiers that did not learn from it (CSV): a line per room, set and
+    /// algorithm, for new buildings and under the report's condition
     #[arg(long, value_name = "FILE.csv")]
     predictions: Option<PathBuf>,
-    /// Put an apostrophe before texts of the predictions that begin with = + - @, which a spreadsheet would run as formulas
+    /// Put an apostrophe before texts in the predictions that begin with = + - @, so that spreadsheets do not run
+    /// them as formulas
     #[arg(long)]
     guard_formulas: bool,
-    /// The date that the report is to name; without it, it names none
+    /// The date to print on the report [default: none]
     #[arg(long, value_name = "TEXT")]
     date: Option<String>,
     /// Folder for the report: report.html, report.json and a CSV file for each table
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Print the report's JSON as well
+    /// Also print the report as JSON
     #[arg(long)]
     json: bool,
 }
 
 impl Subcommand for EvaluateCommand {
     const NAME: &'static str = "evaluate";
-    const ABOUT: &'static str = "Compare the classifiers on labelled plans, beside the paper's figures";
+    const ABOUT: &'static str = "Compare the classifiers on labelled plans, and with the paper's figures";
     const EXAMPLE: &'static str = "enfilade evaluate schools offices houses --most-rooms 2000 -o study";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {

@@ -42,43 +42,43 @@ pub struct ExploreCommand {
     /// The folder to write to
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Noise of scanners and odometry in units of the usual one; 0 for none
+    /// Noise of scanners and odometry, as a multiple of the usual; 0 for none
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = numbers::share)]
     noise: f64,
     /// Standard deviation of a range reading, instead of the usual 0.005
     #[arg(long, value_name = "METRES", value_parser = numbers::metres)]
     range_noise: Option<f64>,
-    /// Share of range readings that are lost, instead of the usual 0.001
+    /// Share of lost range readings, instead of the usual 0.001
     #[arg(long, value_name = "SHARE", value_parser = numbers::share)]
     drop_out: Option<f64>,
-    /// How far the scanners see
+    /// Range of the scanners
     #[arg(long, value_name = "METRES", default_value_t = 20.0, value_parser = numbers::metres)]
     range: f64,
-    /// Angle from one beam to the next
+    /// Angle between beams
     #[arg(long, value_name = "DEGREES", default_value_t = 0.5, value_parser = numbers::degrees)]
     resolution: f64,
     /// Noise of the odometry: alpha 1 to 4 of the standard motion model
     #[arg(long, value_name = "A1,A2,A3,A4", value_parser = alphas)]
     odometry: Option<OdometryNoise>,
-    /// Pieces of furniture a room
+    /// Pieces of furniture per room
     #[arg(long, value_name = "N", default_value_t = 0)]
     furniture: usize,
     /// Share of the inner doors that are closed
     #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = numbers::share)]
     closed: f64,
-    /// Share of the inner doors that are ajar: seen through, not passed
+    /// Share of the inner doors that are ajar: the robot sees through but cannot pass
     #[arg(long, value_name = "SHARE", default_value_t = 0.0, value_parser = numbers::share)]
     ajar: f64,
     /// Leave the doors to the outside open
     #[arg(long)]
     outer_doors_open: bool,
-    /// Decides the start, the noise, the furniture and the doors
+    /// Seed for the start, the noise, the furniture and the doors
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Find doorways by the paper's rule alone
+    /// Find doorways by the paper's rule only
     #[arg(long)]
     paper: bool,
-    /// Dark ink on light paper, or the other way round
+    /// Dark on light, or light on dark
     #[arg(long, value_name = "THEME", default_value = "light",
           value_parser = PossibleValuesParser::new(Theme::ALL.map(Theme::name)))]
     theme: String,
@@ -162,7 +162,7 @@ impl ExploreCommand {
         let shares = [("--closed", self.closed), ("--ajar", self.ajar), ("--drop-out", self.drop_out.unwrap_or(0.0))];
         for (name, share) in shares {
             if !(0.0..=1.0).contains(&share) {
-                return Err(CliError::call(format!("{name} {share}: a share lies between 0 and 1")));
+                return Err(CliError::call(format!("{name} {share}: must be between 0 and 1")));
             }
         }
         let limits = [
@@ -316,7 +316,7 @@ fn labelled(map: &Map, world_from_map: Pose, truth: &Plan) -> Result<ExploredPla
     let make = |said: &Said| {
         plan_of(&map.found, &map.frontiers, world_from_map, meta.clone(), said).map_err(|violations| {
             let first = violations.first().map(ToString::to_string).unwrap_or_default();
-            CliError::new(format!("the rooms that were found make no plan: {first}; please report this with the seed"))
+            CliError::new(format!("the rooms found do not make a plan: {first}; please report this with the seed"))
         })
     };
     let bare = make(&Said::default())?;

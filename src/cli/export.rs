@@ -19,16 +19,16 @@ pub struct ExportCommand {
     /// Plans, or folders of plans, of any known format
     #[arg(required = true, value_name = "PLAN")]
     plans: Vec<PathBuf>,
-    /// The file to write, its ending telling the format; with several plans the folder to write to
+    /// The file to write, whose ending gives the format; for several plans the folder
     #[arg(short, long, value_name = "FILE|DIR")]
     output: PathBuf,
-    /// The format to write, by its word or ending; 'geojson' where the output does not tell
+    /// The format to write, by its word or ending [default: from the output's ending, else geojson]
     #[arg(long, value_name = "FORMAT")]
     format: Option<String>,
-    /// Set an option of the format (may be given several times); the list is below
+    /// Set an option of the format (can be repeated); see the list below
     #[arg(long, value_name = "NAME=VALUE")]
     option: Vec<String>,
-    /// Label scheme that extends the bundled ones (may be given several times)
+    /// Label scheme to add to the bundled ones (can be repeated)
     #[arg(long, value_name = "FILE.scheme.toml")]
     scheme: Vec<PathBuf>,
 }
@@ -50,7 +50,7 @@ impl Subcommand for ExportCommand {
         let (exporter, options) = (target.exporter, target.options.clone());
         if target.stem.is_some() && files.len() > 1 && exporter.holds() == Holds::OnePlan {
             return Err(CliError::call(format!(
-                "-o {}: is one file, but {} plans are to be written; name a folder",
+                "-o {}: is a single file, but there are {} plans to write; name a folder",
                 self.output.display(),
                 files.len()
             )));
@@ -148,7 +148,7 @@ impl ExportCommand {
             (several, _) => {
                 let ids: Vec<&str> = several.iter().map(|(format, _)| format.id).collect();
                 return Err(CliError::call(format!(
-                    "{}: may be of the format {}; say which with --format",
+                    "{}: could be any of {}; choose one with --format",
                     self.output.display(),
                     ids.join(" or ")
                 )));
@@ -156,7 +156,7 @@ impl ExportCommand {
         };
         if !is_single && output_name.contains('.') && !is_folder {
             return Err(CliError::call(format!(
-                "{}: neither a folder nor a file with a known ending ({})",
+                "{}: not a folder and not a file with a known ending ({})",
                 self.output.display(),
                 endings()
             )));

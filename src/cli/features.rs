@@ -37,11 +37,11 @@ pub struct FeaturesCommand {
 /// Options of every subcommand that computes features.
 #[derive(clap::Args)]
 pub struct FeatureOptions {
-    /// Which labels of its neighbours a room counts: 'true' (where known, else temporary) or
-    /// 'temporary' (the naive classifier's for all)
+    /// Neighbours' labels to count: 'true' (where known, else temporary) or 'temporary' (the naive classifier's for
+    /// all)
     #[arg(long, value_name = "MODE", default_value = "true", value_parser = neighbour_labels)]
     pub neighbours: NeighbourLabels,
-    /// Label scheme that extends the bundled ones (may be given several times)
+    /// Label scheme to add to the bundled ones (can be repeated)
     #[arg(long, value_name = "FILE.scheme.toml")]
     pub scheme: Vec<PathBuf>,
 }

@@ -27,16 +27,16 @@ pub struct ImportCommand {
     /// Files of any known format, or folders of them
     #[arg(required = true, value_name = "FILE|DIR")]
     inputs: Vec<PathBuf>,
-    /// Folder to write the plans to; the folders of a DIR are made again in it
+    /// Folder to write the plans to; it gets the same folder structure as the input
     #[arg(short, long, value_name = "DIR", required_unless_present = "preview")]
     output: Option<PathBuf>,
-    /// The format of all files, where they do not tell it themselves
+    /// The format of all files, if it cannot be recognised
     #[arg(long, value_name = "FORMAT", value_parser = importer)]
     from: Option<Found<'static>>,
-    /// Set an option of a format (may be given several times); the list is below
+    /// Set an option of a format (can be repeated); see the list below
     #[arg(long, value_name = "NAME=VALUE")]
     option: Vec<String>,
-    /// Only say what is in each file, and write nothing
+    /// Only show what is in each file; write nothing
     #[arg(long)]
     preview: bool,
     /// Print the whole report as JSON (docs/json/import.md describes it)
@@ -54,7 +54,7 @@ fn importer(word: &str) -> Result<Found<'static>, String> {
 
 impl Subcommand for ImportCommand {
     const NAME: &'static str = "import";
-    const ABOUT: &'static str = "Read plans of other programs, mend them, and save them as plan files";
+    const ABOUT: &'static str = "Read plans of other programs, repair them, and save them as plan files";
     const EXAMPLE: &'static str = "enfilade import annotated -o plans   # every plan below the folder 'annotated'";
 
     fn more_help() -> String {
@@ -220,7 +220,8 @@ fn same_buildings(files: &mut [File]) {
             let Some(spelling) = spellings.get(&key_of(meta)).filter(|spelling| **spelling != meta.building) else {
                 continue;
             };
-            let what = format!("its building '{}' is spelled '{spelling}' elsewhere; taken as that", meta.building);
+            let what =
+                format!("its building '{}' is spelled '{spelling}' elsewhere; that spelling is used", meta.building);
             notes.insert(0, Note { kind: NoteKind::Healed, place: Place::default(), what });
             plan.plan = edit::set_meta(&plan.plan, Meta { building: spelling.clone(), ..meta.clone() });
         }

@@ -24,13 +24,13 @@ pub struct LabelCommand {
     /// The corrections: a table (.csv) with the columns file and id, and label or function or both. An empty cell changes nothing
     #[arg(long, value_name = "FILE.csv", required = true)]
     from: PathBuf,
-    /// Say what would be done, and write nothing
+    /// Only show what would change; write nothing
     #[arg(long)]
     dry_run: bool,
     /// Print JSON (docs/json/label.md describes it)
     #[arg(long)]
     json: bool,
-    /// Label scheme that extends the bundled ones (may be given several times)
+    /// Label scheme to add to the bundled ones (can be repeated)
     #[arg(long, value_name = "FILE.scheme.toml")]
     scheme: Vec<PathBuf>,
 }
@@ -139,9 +139,9 @@ fn read_table(path: &Path) -> Result<Vec<Correction>, CliError> {
             None => {}
         }
         if row.file.is_empty() || row.id.is_empty() {
-            row.refused = Some("names no file and id".to_owned());
+            row.refused = Some("has no file and id".to_owned());
         } else if row.label.is_none() && row.function.is_none() && row.refused.is_none() {
-            row.refused = Some("gives neither a label nor a function".to_owned());
+            row.refused = Some("has neither a label nor a function".to_owned());
         }
         table.push(row);
     }
@@ -168,7 +168,7 @@ fn refuse_if_contradicting(table: &mut [Correction], rows: &[usize]) -> bool {
         return false;
     }
     let lines: Vec<String> = rows.iter().map(|&row| table[row].line.to_string()).collect();
-    let why = format!("lines {} say different things of one room", lines.join(" and "));
+    let why = format!("lines {} contradict each other about one room", lines.join(" and "));
     rows.iter().for_each(|&row| table[row].refused = Some(why.clone()));
     true
 }
@@ -218,7 +218,7 @@ impl Targets {
         if self.is_plan_file[found] {
             return Ok(found);
         }
-        Err(format!("{} is no plan file (.plan.json); import it, and correct what comes of it", printable(&file)))
+        Err(format!("{} is not a plan file (.plan.json); import it and correct the result", printable(&file)))
     }
 }
 
@@ -256,7 +256,7 @@ fn apply(
             several => {
                 let what =
                     format!("{} rooms of {} are called {}", several.len(), path.display(), printable(&table[row].id));
-                table[row].refused = Some(format!("{what}; give the id of a dataset's column 'id'"));
+                table[row].refused = Some(format!("{what}; use the id from the column 'id' of a dataset"));
             }
         }
     }
@@ -332,7 +332,7 @@ impl Done {
             if of.1.is_empty() { label.to_owned() } else { format!("{label} ({})", printable(&of.1)) }
         };
         let room = if self.room.is_empty() { String::new() } else { format!("{} ", printable(&self.room)) };
-        let own = if self.is_overruled { "; the label given to the room itself stays" } else { "" };
+        let own = if self.is_overruled { "; the room's own label stays" } else { "" };
         if self.is_changed {
             format!("{room}{}: {} -> {}{own}", self.id, name(&self.was), name(&self.is))
         } else {

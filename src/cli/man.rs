@@ -9,7 +9,7 @@ use super::{CliError, Outcome, Subcommand, Terminal, command};
 /// `enfilade man`: pages for `man`.
 #[derive(clap::Args)]
 pub struct ManCommand {
-    /// Write the pages of all subcommands into this folder, instead of the program's own page to stdout
+    /// Write the pages of all subcommands to this folder, instead of the program's own page to stdout
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
 }

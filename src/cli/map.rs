@@ -24,10 +24,10 @@ pub struct MapCommand {
     /// The folder to write to
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Do not recognise places seen before: the path drifts
+    /// Do not recognise places seen before; the path drifts
     #[arg(long)]
     no_loop_closing: bool,
-    /// Dark ink on light paper, or the other way round
+    /// Dark on light, or light on dark
     #[arg(long, value_name = "THEME", default_value = "light",
           value_parser = PossibleValuesParser::new(Theme::ALL.map(Theme::name)))]
     theme: String,
@@ -46,12 +46,12 @@ impl Subcommand for MapCommand {
             terminal.remark(format!("{}: {note}", self.log.display()))?;
         }
         if let Some(broken_off) = &loaded.broken_off {
-            terminal.remark(format!("{}: {broken_off}; read as far as it goes", self.log.display()))?;
+            terminal.remark(format!("{}: {broken_off}; read up to there", self.log.display()))?;
         }
         let log = loaded.log;
         if !log.has_odometry {
             terminal.remark(format!(
-                "{}: the odometry never moves; scans are matched from one another alone",
+                "{}: the odometry never moves; scans are matched with one another only",
                 self.log.display()
             ))?;
         }
@@ -75,7 +75,7 @@ impl Subcommand for MapCommand {
         let scans = log.readings.iter().filter(|reading| !reading.scans.is_empty()).count();
         let (closures, doubted) = mapped.closures;
         let metres: f64 = segments.iter().map(|segment| segment.length()).sum();
-        let doubted = if doubted > 0 { format!(", {doubted} of them not believed") } else { String::new() };
+        let doubted = if doubted > 0 { format!(", {doubted} of them rejected") } else { String::new() };
         terminal.report(format!(
             "{}: {scans} scans, {} lines of {metres:.0} m, {closures} places recognised{doubted}",
             self.output.display(),

@@ -267,7 +267,7 @@ fn with_common_options(command: Command) -> Command {
     const HEADING: &str = "Common options";
     let flag = |name: &'static str| Arg::new(name).long(name).action(ArgAction::SetTrue).help_heading(HEADING);
     let writes = command.get_arguments().any(|argument| argument.get_id() == "output");
-    let force = flag("force").help("Replace files that are there, whoever made them");
+    let force = flag("force").help("Overwrite existing files, whoever wrote them");
     let force = writes.then_some(force);
     command
         .args(force)
@@ -279,10 +279,10 @@ fn with_common_options(command: Command) -> Command {
                 .value_name("N")
                 .value_parser(clap::value_parser!(u16).range(1..))
                 .help_heading(HEADING)
-                .help("Threads to work on [default: one a processor]; no result depends on it"),
+                .help("Number of threads [default: one per processor]; results do not depend on it"),
         )
-        .arg(flag("quiet").short('q').conflicts_with("verbose").help("Say nothing but results and what is wrong"))
-        .arg(flag("verbose").short('v').help("Say more: what readers mended or left out, and where"))
+        .arg(flag("quiet").short('q').conflicts_with("verbose").help("Print only results and errors"))
+        .arg(flag("verbose").short('v').help("Print more: what readers repaired or left out, and where"))
 }
 
 /// Runs the program with the process's arguments and gives its exit code: 0 done, 1 the input is
@@ -299,14 +299,14 @@ pub fn main() -> u8 {
 pub fn command() -> Command {
     let command = Command::new("enfilade")
         .version(VERSION)
-        .about("Draw and label floor plans, classify their rooms by building typology, export datasets.")
+        .about("Draw floor plans, label their rooms, predict labels by building type, and export datasets.")
         .long_about(
-            "Draw and label floor plans, classify their rooms by building typology, export datasets.\n\n\
-             Without a subcommand the window opens, on PLAN if one is given.",
+            "Draw floor plans, label their rooms, predict labels by building type, and export datasets.\n\nWithout a \
+             subcommand the window opens, with PLAN if you give one.",
         )
         .after_help(
-            "A '-' in the place of a file means stdin or stdout. Exit codes: 0 done, 1 something is wrong with the \
-             input, 2 with the call.",
+            "Use '-' instead of a file for stdin or stdout. Exit codes: 0 done, 1 something is wrong with the input, \
+             2 the call is wrong.",
         )
         .arg(
             Arg::new("plan")

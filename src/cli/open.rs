@@ -26,13 +26,13 @@ pub fn open(plan: Option<&Path>, terminal: &mut Terminal) -> Result<Outcome, Cli
     if let Some(plan) = plan
         && !plan.exists()
     {
-        return Err(CliError::new(format!("{}: there is no such file or folder; check the path", plan.display())));
+        return Err(CliError::new(format!("{}: no such file or folder; check the path", plan.display())));
     }
     let why = match window(plan) {
         None => return Ok(Outcome::Done),
         Some(why) => why,
     };
-    writeln!(terminal.err, "{why}: doing the same job without a window, in ./{OUTPUT}")?;
+    writeln!(terminal.err, "{why}: doing the same work without a window, in ./{OUTPUT}")?;
     headless(plan, terminal)
 }
 

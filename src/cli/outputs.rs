@@ -73,7 +73,7 @@ impl Outputs {
         if let Some(first) = self.written.get(&key(path)) {
             let of = if first.as_os_str().is_empty() { String::new() } else { format!(" by {}", first.display()) };
             return Err(CliError::new(format!(
-                "{}: is written already{of}; give a folder, or each file its own name",
+                "{}: already written{of}; name a folder, or give each file its own name",
                 path.display()
             )));
         }
@@ -106,8 +106,8 @@ impl Outputs {
 
     fn refusal(&self, path: &Path, terminal: &Terminal) -> String {
         format!(
-            "{}: not written: a file of this name is there, which 'enfilade {}' did not make or which was changed since; \
-             choose another name, or replace it with --force",
+            "{}: not written, because the file exists and 'enfilade {}' did not write it, or it was changed since; \
+             choose another name, or overwrite it with --force",
             path.display(),
             terminal.call.command
         )
@@ -164,7 +164,7 @@ impl Outputs {
 /// When the path means stdout.
 pub fn must_be_folder(output: &Path) -> Result<(), CliError> {
     if is_stdout(output) {
-        return Err(CliError::call("-o -: several files are written, which stdout cannot take; name a folder"));
+        return Err(CliError::call("-o -: there are several files to write; name a folder"));
     }
     if output.is_file() {
         return Err(CliError::call(format!("-o {}: is a file; name a folder", output.display())));

@@ -26,36 +26,36 @@ pub struct RenderCommand {
     /// Plans, or folders of plans, of any known format
     #[arg(required = true, value_name = "PLAN")]
     plans: Vec<PathBuf>,
-    /// The picture to write, .png or .svg; with several plans the folder to write to
+    /// The picture to write, .png or .svg; for several plans the folder
     #[arg(short, long, value_name = "FILE|DIR")]
     output: PathBuf,
     /// Pixels of the longer side, or WIDTHxHEIGHT
     #[arg(long, value_name = "PIXELS", default_value = "1600", value_parser = page_size)]
     size: PageSize,
-    /// What the rooms are coloured by; with 'prediction', a known label that is another rims its room
+    /// What the colours of the rooms show; with 'prediction', a known label that differs shows as a rim
     #[arg(long, alias = "color", value_name = "BY", default_value = "label",
           value_parser = PossibleValuesParser::new(Fill::ALL.map(Fill::name)))]
     colour: String,
     #[command(flatten)]
     predictor: PredictorOptions,
-    /// Draw the graph of rooms and openings over the plan
+    /// Draw the graph of rooms and openings
     #[arg(long)]
     graph: bool,
-    /// Draw a grid of metres under the plan
+    /// Draw a grid of metres
     #[arg(long)]
     grid: bool,
-    /// Dark ink on light paper, or the other way round
+    /// Dark on light, or light on dark
     #[arg(long, value_name = "THEME", default_value = "light",
           value_parser = PossibleValuesParser::new(Theme::ALL.map(Theme::name)))]
     theme: String,
-    /// The five colours of the labels
+    /// Colours of the labels
     #[arg(long, value_name = "PALETTE", default_value = "standard",
           value_parser = PossibleValuesParser::new(LabelColours::ALL.map(LabelColours::name)))]
     palette: String,
-    /// Leave out the picture that the plan was traced over
+    /// Leave out the picture under the plan
     #[arg(long)]
     no_picture: bool,
-    /// Also read pictures from this folder and below; without, only from each plan's own (may be given several times)
+    /// Also read pictures from this folder and below, not only from each plan's own (can be repeated)
     #[arg(long, value_name = "DIR")]
     pictures_from: Vec<PathBuf>,
     /// Leave out the rooms' names and areas
@@ -64,17 +64,17 @@ pub struct RenderCommand {
     /// Leave out title, legend and scale bar
     #[arg(long)]
     bare: bool,
-    /// The ending of the pictures to write into a folder or to stdout
+    /// Format of pictures written to a folder or to stdout
     #[arg(long, value_name = "ENDING", default_value = "png", value_parser = ["png", "svg"])]
     format: String,
-    /// Label scheme that extends the bundled ones (may be given several times)
+    /// Label scheme to add to the bundled ones (can be repeated)
     #[arg(long, value_name = "FILE.scheme.toml")]
     scheme: Vec<PathBuf>,
 }
 
 impl Subcommand for RenderCommand {
     const NAME: &'static str = "render";
-    const ABOUT: &'static str = "Draw plans as pictures, PNG or SVG";
+    const ABOUT: &'static str = "Draw plans as PNG or SVG pictures";
     const EXAMPLE: &'static str = "enfilade render plans/office.plan.json -o office.png --size 2000 --graph";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
@@ -82,7 +82,7 @@ impl Subcommand for RenderCommand {
         let single = picture_ending(&self.output).filter(|_| !self.output.is_dir());
         if single.is_none() && self.output.extension().is_some() && !self.output.is_dir() {
             return Err(CliError::call(format!(
-                "{}: neither a folder nor a picture; pictures end in .png or .svg",
+                "{}: not a folder and not a picture; pictures end in .png or .svg",
                 self.output.display()
             )));
         }
@@ -93,7 +93,7 @@ impl Subcommand for RenderCommand {
         let files = batch::inputs_into(&self.plans, (!is_single).then_some(self.output.as_path()));
         if is_single && files.len() > 1 {
             return Err(CliError::call(format!(
-                "-o {}: is one picture, but {} plans are to be drawn; name a folder",
+                "-o {}: is a single picture, but there are {} plans to draw; name a folder",
                 self.output.display(),
                 files.len()
             )));
@@ -178,7 +178,7 @@ impl RenderCommand {
             let path = pictures::resolved_path(&backdrop.path, file.parent());
             if !pictures::is_allowed(&path, file.parent(), &self.pictures_from) {
                 let what = pictures::is_outside().what;
-                let hint = "give its folder with --pictures-from if you know the plan";
+                let hint = "allow its folder with --pictures-from if you trust the plan";
                 warning = Some(format!("{}: left out: the picture {what}; {hint}", path.display()));
                 return None;
             }
@@ -253,11 +253,11 @@ fn picture_ending(path: &Path) -> Option<&'static str> {
 fn page_size(text: &str) -> Result<PageSize, String> {
     let (least, most) = (SMALLEST_SIDE_PX, png::LARGEST_SIDE_PX);
     let side = |text: &str| {
-        let side: u32 = text.trim().parse().map_err(|_| format!("'{text}' is no number of pixels"))?;
+        let side: u32 = text.trim().parse().map_err(|_| format!("'{text}' is not a number of pixels"))?;
         if (least..=most).contains(&side) {
             Ok(f64::from(side))
         } else {
-            Err(format!("{side} pixels are outside {least} to {most}"))
+            Err(format!("{side} pixels is not between {least} and {most}"))
         }
     };
     match text.split_once(['x', 'X', '×']) {

@@ -35,7 +35,7 @@ pub fn repeats_in_words(sightings: &[Sighting], repeats: &Repeats, keep: bool, l
     if repeats.left_out.is_empty() && repeats.pairs.is_empty() {
         return lines;
     }
-    let what = if keep { "kept all the same" } else { "each counts once" };
+    let what = if keep { "kept anyway" } else { "each counts once" };
     if !repeats.left_out.is_empty() {
         lines.push(format!("{} read twice; {what}:", count(repeats.left_out.len(), "room")));
     }

@@ -13,29 +13,29 @@ pub struct ReplayCommand {
     /// Scripts, or folders of scripts (*.replay)
     #[arg(required_unless_present = "list", value_name = "SCRIPT|DIR")]
     scripts: Vec<PathBuf>,
-    /// Where the pictures are that snapshots are compared with, a folder a script [default: beside each script]
+    /// Folder of the reference pictures, with a folder per script [default: beside each script]
     #[arg(long, value_name = "DIR")]
     snapshots: Option<PathBuf>,
-    /// Make the pictures and plans that come out the new references
+    /// Make the results the new references
     #[arg(long)]
     update: bool,
-    /// Keep what the scripts save, and every picture, a folder a script
+    /// Keep every picture and what the scripts save, in a folder per script
     #[arg(short, long, alias = "out", value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Tell of each step, by its line, as soon as it is done; runs one script after the other
+    /// Report each step as soon as it is done; runs the scripts one by one
     #[arg(long, conflicts_with = "json")]
     steps: bool,
-    /// Report as JSON (docs/json/replay.md describes it)
+    /// Print JSON (docs/json/replay.md describes it)
     #[arg(long)]
     json: bool,
-    /// Print every verb, place and expectation of scripts; every command of the window is a step too
+    /// List all steps, places and expectations of scripts; every command of the window is a step too
     #[arg(long)]
     list: bool,
 }
 
 impl Subcommand for ReplayCommand {
     const NAME: &'static str = "replay";
-    const ABOUT: &'static str = "Run scripts that drive the window without a display, and compare its pictures";
+    const ABOUT: &'static str = "Run scripts in the window without a display, and compare pictures";
     const EXAMPLE: &'static str = "enfilade replay tests/replay -o pictures";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {

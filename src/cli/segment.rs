@@ -31,22 +31,22 @@ pub struct SegmentCommand {
     /// A map of map_server (.yaml), or a picture of one with --resolution
     #[arg(value_name = "MAP.yaml|IMAGE")]
     map: PathBuf,
-    /// Metres a pixel, for a plain picture: white is free, all else is not
+    /// Metres per pixel of a plain picture, in which white is free and all else is not
     #[arg(long, value_name = "METRES", value_parser = numbers::metres)]
     resolution: Option<f64>,
     /// The folder to write to
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Take the ids, names and functions of rooms from this semantic map; without it, from the one that an
-    /// earlier run left in the folder
+    /// Take ids, names and functions of rooms from this semantic map [default: the one that an earlier run left in
+    /// the folder]
     #[arg(long, value_name = "NAME_semantics.yaml")]
     update: Option<PathBuf>,
-    /// The frame that the semantic map's coordinates are in
+    /// The frame of the semantic map's coordinates
     #[arg(long, value_name = "NAME", default_value = "map")]
     frame: String,
     #[command(flatten)]
     predictor: PredictorOptions,
-    /// Label scheme that extends the bundled ones (may be given several times)
+    /// Label scheme to add to the bundled ones (can be repeated)
     #[arg(long, value_name = "FILE.scheme.toml")]
     scheme: Vec<PathBuf>,
 }
@@ -114,7 +114,7 @@ impl Subcommand for SegmentCommand {
         write(&semantics_name, semantic.to_yaml()?.as_bytes())?;
 
         let kept = known.iter().filter(|known| !known.id.is_empty()).count();
-        let update = before.map_or(String::new(), |_| format!(", {kept} of the rooms known before"));
+        let update = before.map_or(String::new(), |_| format!(", {kept} of the rooms known from before"));
         terminal.report(format!(
             "{}: {}, {}, typology {} ({}){update}",
             self.output.display(),
@@ -139,16 +139,15 @@ impl SegmentCommand {
     /// Whether the options fit the map.
     fn check(&self) -> Result<(), CliError> {
         match (is_map_yaml(&self.map), self.resolution) {
-            (true, Some(_)) => Err(CliError::call(format!(
-                "{}: says its resolution itself; leave out --resolution",
-                self.map.display()
-            ))),
+            (true, Some(_)) => {
+                Err(CliError::call(format!("{}: has its own resolution; leave out --resolution", self.map.display())))
+            }
             (false, None) => Err(CliError::call(format!(
-                "{}: a picture needs --resolution, in metres a pixel (0.05 is usual)",
+                "{}: a picture needs --resolution, in metres per pixel (usually 0.05)",
                 self.map.display()
             ))),
             (false, Some(resolution)) if !(resolution.is_finite() && resolution > 0.0) => {
-                Err(CliError::call(format!("--resolution {resolution}: metres a pixel are more than 0")))
+                Err(CliError::call(format!("--resolution {resolution}: must be more than 0 metres per pixel")))
             }
             _ => Ok(()),
         }
@@ -173,10 +172,10 @@ impl SegmentCommand {
         let fail = |what: String| CliError::new(format!("{}: {what}", path.display()));
         let size = std::fs::metadata(&path).map_err(|error| fail(error.to_string()))?.len();
         if size > semantics::LARGEST_BYTES as u64 {
-            return Err(fail("this is too large for a semantic map; is it another file?".to_owned()));
+            return Err(fail("this file is too large for a semantic map; is it the right one?".to_owned()));
         }
         let text = std::fs::read_to_string(&path).map_err(|error| fail(error.to_string()))?;
-        let hint = if self.update.is_some() { "" } else { "; move it away to start anew" };
+        let hint = if self.update.is_some() { "" } else { "; move it away to start again" };
         let read = SemanticMap::from_yaml(&text).map_err(|error| fail(format!("{error}{hint}")))?;
         Ok(Some(read))
     }

@@ -21,19 +21,19 @@ use crate::study::suspects::{Suspect, contradiction, suspects};
 pub struct SuspectsCommand {
     #[command(flatten)]
     collect: CollectOptions,
-    /// List so many rooms, the most suspicious first; 0 for all
+    /// Number of rooms to list, most suspicious first; 0 for all
     #[arg(long, value_name = "N", default_value_t = 40)]
     most: usize,
-    /// Folds: how many, or a table (.csv) with the columns file, id, fold, which splits no building
+    /// Folds: their number, or a table (.csv) with the columns file, id, fold that splits no building
     #[arg(long, value_name = "N|FILE", default_value = "10", value_parser = FoldsFrom::read)]
     folds: FoldsFrom,
-    /// Seed of all that is random: the same seed gives the same list
+    /// Seed for everything random: the same seed gives the same list
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Write the list here (CSV), with all rooms; corrected in its column 'label', 'enfilade label' applies it
+    /// Write the list of all rooms here (CSV); correct its column 'label', and 'enfilade label' applies it
     #[arg(short, long, value_name = "FILE.csv")]
     output: Option<PathBuf>,
-    /// Put an apostrophe before texts that begin with = + - @, which a spreadsheet would run as formulas
+    /// Put an apostrophe before texts that begin with = + - @, so that spreadsheets do not run them as formulas
     #[arg(long)]
     guard_formulas: bool,
     /// Print JSON (docs/json/suspects.md describes it)
@@ -43,7 +43,7 @@ pub struct SuspectsCommand {
 
 impl Subcommand for SuspectsCommand {
     const NAME: &'static str = "suspects";
-    const ABOUT: &'static str = "List the labels that are probably wrong, with the reason";
+    const ABOUT: &'static str = "List labels that are probably wrong, with reasons";
     const EXAMPLE: &'static str = "enfilade suspects plans --most 100 -o suspects.csv";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
@@ -194,7 +194,8 @@ fn print(told: &[Told<'_>], most: usize, terminal: &mut Terminal) -> Result<(), 
     }
     writeln!(
         out,
-        "\nA label may be right all the same: look at the room. 'enfilade label' applies a table of corrections (file, id, label)."
+        "\nA label may still be right: look at the room. 'enfilade label' applies a table of corrections (file, id, \
+         label)."
     )?;
     Ok(())
 }

@@ -37,36 +37,36 @@ pub struct TrainCommand {
     #[command(flatten)]
     collect: CollectOptions,
     #[arg(long, value_name = "NAME", value_parser = method, help = format!(
-        "{}, which look at each room by itself, or joint, which looks at all rooms of a plan together; without it, \
-         all of them",
+        "{} (each room by itself) or joint (all rooms of a plan together) [default: all of them]",
         each_room()
     ))]
     algorithm: Option<Method>,
-    /// Learn from this typology's rooms only, or 'standard' for all rooms; without it, a model for each
-    /// typology of the data, and standard ones where there are several
+    /// Learn only from rooms of this typology, or 'standard' for all rooms [default: a model for each typology in the
+    /// data, and standard ones if there are several]
     #[arg(long, value_name = "NAME")]
     typology: Option<String>,
     /// Neighbours' labels while learning: 'predicted' (as they look in use), 'temporary' or 'true' (as in
     /// the paper)
     #[arg(long, value_name = "MODE", value_parser = neighbour_labels)]
     neighbours: Option<NeighbourLabels>,
-    /// Folds of the cross-validation whose scores the model file tells: how many, 0 for none, or a table (.csv) with the columns
-    /// file, id, fold, such as a dataset
+    /// Folds of the cross-validation whose scores go into the model file: their number, 0 for none, or a table (.csv)
+    /// with the columns file, id, fold, such as a dataset
     #[arg(long, value_name = "N|FILE", default_value = "10", value_parser = FoldsFrom::read_or_none)]
     folds: FoldsFrom,
-    /// Seed of all that is random: the same data and seed give the same bytes
+    /// Seed for everything random: the same data and seed give the same bytes
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Write what cross-validation said of each room (CSV): a line for each room, set, algorithm and way of dealing folds
+    /// Write the predictions of the cross-validation (CSV): a line per room, set, algorithm and kind of folds
     #[arg(long, value_name = "FILE.csv")]
     predictions: Option<PathBuf>,
-    /// Put an apostrophe before texts of the predictions that begin with = + - @, which a spreadsheet would run as formulas
+    /// Put an apostrophe before texts in the predictions that begin with = + - @, so that spreadsheets do not run
+    /// them as formulas
     #[arg(long)]
     guard_formulas: bool,
-    /// Under which terms the models may be used, and whose data they hold
+    /// Licence of the models, and whose data they contain
     #[arg(long, value_name = "TEXT", default_value = "")]
     licence: String,
-    /// The model file (.model.json); for several models the folder to write them to
+    /// The model file (.model.json); for several models the folder
     #[arg(short, long, value_name = "FILE|DIR")]
     output: PathBuf,
 }
@@ -86,7 +86,7 @@ pub fn method(word: &str) -> Result<Method, String> {
 
 impl Subcommand for TrainCommand {
     const NAME: &'static str = "train";
-    const ABOUT: &'static str = "Learn classifiers from labelled rooms";
+    const ABOUT: &'static str = "Train models on labelled rooms";
     const EXAMPLE: &'static str = "enfilade train schools --algorithm tree --typology school -o school.model.json";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
@@ -99,7 +99,7 @@ impl Subcommand for TrainCommand {
         let methods: Vec<Method> = match (self.algorithm, &collection) {
             (Some(Method::Joint), Collection::Rows(_)) => {
                 return Err(CliError::new(
-                    "rows of a dataset file do not tell which rooms belong together; give the plans instead",
+                    "a dataset file does not say which rooms belong together; give the plans instead",
                 ));
             }
             (Some(method), _) => vec![method],
@@ -111,12 +111,13 @@ impl Subcommand for TrainCommand {
         for (typology, _) in &parts {
             // The name of a typology becomes a part of the model's: said before any is learned.
             component(set_name(typology.as_ref())).map_err(|error| {
-                CliError::new(format!("a model cannot be named after its typology: {error}; change it in the plans"))
+                CliError::new(format!("the typology cannot be part of a model's name: {error}; change it in the plans"))
             })?;
         }
         if is_file && parts.len() * methods.len() > 1 {
             return Err(CliError::new(format!(
-                "{}: is one file, but {} models are to be trained; name a folder, or choose with --algorithm and --typology",
+                "{}: is a single file, but there are {} models to train; name a folder, or choose with --algorithm \
+                 and --typology",
                 self.output.display(),
                 parts.len() * methods.len()
             )));
@@ -162,7 +163,7 @@ impl Subcommand for TrainCommand {
                 let mut bytes = serde_json::to_vec_pretty(&model.to_value())?;
                 bytes.push(b'\n');
                 write_model(&path, &bytes, &mut outputs, terminal)?;
-                terminal.report(format!("{}: what tells the typologies apart", path.display()))?;
+                terminal.report(format!("{}: infers the typology of plans", path.display()))?;
             }
             let mut unknown = serde_json::Map::new();
             for (typology, part) in &parts {
@@ -175,7 +176,7 @@ impl Subcommand for TrainCommand {
                 let mut bytes = serde_json::to_vec(&unknown)?;
                 bytes.push(b'\n');
                 write_model(&path, &bytes, &mut outputs, terminal)?;
-                terminal.report(format!("{}: what lies behind openings", path.display()))?;
+                terminal.report(format!("{}: predicts what lies behind openings", path.display()))?;
             }
         }
         Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
@@ -188,15 +189,15 @@ impl TrainCommand {
         let is_file = is_stdout(&self.output) || self.output.to_string_lossy().ends_with(MODEL_ENDING);
         if is_file && self.algorithm.is_none() {
             return Err(CliError::call(format!(
-                "-o {}: is one file, but a model of each algorithm is to be trained; name a folder, or choose with \
-                 --algorithm",
+                "-o {}: is a single file, but there is a model of each algorithm to train; name a folder, or choose \
+                 with --algorithm",
                 self.output.display()
             )));
         }
         let is_table = |path: &PathBuf| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
         if self.algorithm == Some(Method::Joint) && self.collect.data.iter().all(is_table) {
             return Err(CliError::call(
-                "rows of a dataset file do not tell which rooms belong together; give the plans instead",
+                "a dataset file does not say which rooms belong together; give the plans instead",
             ));
         }
         Ok(())
@@ -318,8 +319,8 @@ impl TrainCommand {
     ) -> Result<Vec<u8>, CliError> {
         let mut rows: Vec<Row> = part.rows(neighbours).ok_or_else(|| {
             CliError::new(format!(
-                "rows of a dataset file do not tell which rooms are neighbours, so {} neighbour labels cannot be \
-                 taken; give the plans instead",
+                "a dataset file does not say which rooms are neighbours, so there are no {} neighbour labels; give \
+                 the plans instead",
                 neighbours.name()
             ))
         })?;

@@ -156,7 +156,7 @@ mod tests {
                 Transform::rotation(Point::new(1.0, 2.0), 0.3),
                 mirror,
             ] {
-                let elements = plan.corners().map(|(id, _)| crate::plan::ElementId::Corner(id)).collect();
+                let elements = plan.elements().collect();
                 let after = of(&edit::move_elements(&plan, &elements, way).unwrap());
                 assert_eq!(before.len(), after.len());
                 for (a, b) in before.iter().zip(&after) {

@@ -39,6 +39,8 @@ pub struct NetworkRoom {
     pub id: RoomId,
     /// Its key in tables, see [`room_keys`].
     pub key: String,
+    /// Its name; empty if it has none.
+    pub name: String,
     pub function: String,
     /// Its label, if known: its own, or the scheme's for its function.
     pub label: Option<Label>,
@@ -147,6 +149,7 @@ impl RoomNetwork {
             rooms.push(NetworkRoom {
                 id,
                 key,
+                name: room.name.clone(),
                 function: room.function.clone(),
                 label: result.status.label(),
                 label_origin: origin_of(room),

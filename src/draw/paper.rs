@@ -265,7 +265,9 @@ fn too_small(sheet: &Sheet, size_m: [f64; 2], layout: &Layout, best: impl Fn(Pap
     let Some(scale) = sheet.scale else {
         let [width, height] = size_m;
         return match Paper::ALL.into_iter().filter(|&other| other > sheet.paper).find(|&other| best(other).is_some()) {
-            Some(other) => format!("no scale down to 1:2000 fits the plan on {paper}{turned}; take {}", other.name()),
+            Some(other) => {
+                format!("the plan does not fit {paper}{turned} at any scale down to 1:2000; use {}", other.name())
+            }
             None => format!("the plan of {width:.0} x {height:.0} m fits no sheet up to A0 at 1:2000"),
         };
     };
@@ -277,7 +279,7 @@ fn too_small(sheet: &Sheet, size_m: [f64; 2], layout: &Layout, best: impl Fn(Pap
         .find(|&other| best(other).is_some_and(|most| most <= scale))
         .map(|other| other.name().to_owned());
     let remedy = match (fitting_scale, fitting_paper) {
-        (Some(scale), Some(paper)) => format!("take {scale}, or {paper}"),
+        (Some(scale), Some(paper)) => format!("use {scale} or {paper}"),
         (Some(one), None) | (None, Some(one)) => format!("take {one}"),
         (None, None) => "no scale and no paper up to A0 fits".to_owned(),
     };
@@ -532,7 +534,7 @@ mod tests {
         let sheet = Sheet { scale: Some(50), ..Sheet::default() };
         let refused = laid_out(&drawing(30.0, 15.0), &Style::default(), &sheet).unwrap_err();
         assert!(refused.starts_with("at 1:50 the plan is 600 x 300 mm, and A4 has"), "{refused}");
-        assert!(refused.ends_with("take 1:150, or A1"), "{refused}");
+        assert!(refused.ends_with("use 1:125 or A1"), "{refused}");
         let refused = laid_out(&drawing(9000.0, 9000.0), &Style::default(), &Sheet::default()).unwrap_err();
         assert!(refused.contains("fits no sheet up to A0 at 1:2000"), "{refused}");
     }

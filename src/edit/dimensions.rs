@@ -32,7 +32,7 @@ pub fn draw_dimension(
 ) -> Result<(Plan, DimensionId), EditError> {
     let mut dimension = dimension_between(points, along, through)?;
     let Some(line) = plan.dimension_line(&dimension) else {
-        return fail("the points lie one above the other along the line: there is nothing to measure");
+        return fail("the points coincide along the line, so there is nothing to measure");
     };
     let hosts = Hosts::new(plan);
     for point in &mut dimension.points {

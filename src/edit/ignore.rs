@@ -15,7 +15,7 @@ const LONGEST_REASON: usize = 500;
 pub fn ignore_finding(plan: &Plan, ignored: Ignored) -> Result<Plan, EditError> {
     let reason = ignored.reason.trim();
     if reason.is_empty() {
-        return fail("say why: the reason is kept in the plan".to_owned());
+        return fail("give a reason; it is kept in the plan".to_owned());
     }
     if reason.chars().count() > LONGEST_REASON || reason.chars().any(char::is_control) {
         return fail(format!("a reason is one line of at most {LONGEST_REASON} letters"));

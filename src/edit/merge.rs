@@ -15,7 +15,7 @@ use crate::edit::{self, EditError, fail};
 use crate::geometry::areas::{self, Ring, Shapes};
 use crate::geometry::runs::NOTCH_M;
 use crate::geometry::segments::SegmentIndex;
-use crate::geometry::{Point, TOUCH_M, polygon};
+use crate::geometry::{Point, Segment, TOUCH_M, polygon};
 use crate::plan::{CornerId, ElementId, Joint, OpeningId, Plan, Room, RoomId, THICKEST_WALL_M, WallId};
 use crate::topology::plan_faces::is_sliver;
 use crate::topology::{RoomShape, RoomShapes, sides_by_geometry};
@@ -82,10 +82,17 @@ pub fn merge_rooms(plan: &Plan, rooms: &[RoomId]) -> Result<Plan, EditError> {
             corners.extend(room.rings().flat_map(|ring| ring.iter().copied()));
         }
     }
-    let Some(now) = next.room(largest.id).map(|room| Inside::new(&next, room)) else { return Ok(next) };
+    let Some(room) = next.room(largest.id) else { return Ok(next) };
+    let now = Inside::new(&next, room);
+    // Rounding does not put a wall along the boundary between the rooms.
+    let boundary: Vec<Segment> =
+        room.rings().flat_map(|ring| polygon::edges(&next.ring_points(ring)).collect::<Vec<_>>()).collect();
+    let is_along = |at: Point| boundary.iter().any(|edge| edge.distance(at) <= 2.0 * TOUCH_M);
     let is_between = |from: CornerId, to: CornerId| {
         let middle = next.position(from).zip(next.position(to)).map(|(a, b)| a.midpoint(b));
-        middle.is_some_and(|middle| now.holds(middle) && !was_inside.iter().any(|inside| inside.holds(middle)))
+        middle.is_some_and(|middle| {
+            now.holds(middle) && !is_along(middle) && !was_inside.iter().any(|inside| inside.holds(middle))
+        })
     };
     let walls: Vec<WallId> =
         next.walls().filter(|(_, wall)| is_between(wall.from, wall.to)).map(|(id, _)| id).collect();

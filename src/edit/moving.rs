@@ -125,9 +125,9 @@ fn with_dimensions(
     elements: &BTreeSet<ElementId>,
     transform: Transform,
 ) -> Result<Plan, EditError> {
-    let chains =
+    let mut chains =
         elements.iter().filter_map(|element| if let ElementId::Dimension(id) = element { Some(*id) } else { None });
-    chains.fold(Ok(after), |after, id| super::dimensions::transformed(before, &after?, id, transform))
+    chains.try_fold(after, |after, id| super::dimensions::transformed(before, &after, id, transform))
 }
 
 /// Rejects a scaling that leaves an edge without length.

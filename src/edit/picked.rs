@@ -109,7 +109,7 @@ impl Part {
         let bounded = plan.rooms().filter(|(id, room)| !self.rooms.contains(id) && room_edges(room).contains(&edge));
         let names: Vec<String> = bounded.map(|(_, room)| crate::edit::draw::named(room)).collect();
         fail(format!(
-            "the wall bounds {}, which would stay behind without it: pick the rooms as well, or make a copy",
+            "the wall bounds {}, which would lose it; select the rooms too, or make a copy",
             names.join(" and ")
         ))
     }

@@ -41,7 +41,7 @@ pub fn rectify_picture(
     let on_source = corners_on_source(backdrop, corners)?;
     let [upper, right, lower, left] = [0, 1, 2, 3].map(|i| on_source[i].distance(on_source[(i + 1) % 4]));
     if upper.min(right).min(lower).min(left) < SHORTEST_SIDE_PX {
-        return fail("the corners lie too close together: take a larger rectangle");
+        return fail("the corners are too close together; use a larger rectangle");
     }
     let [width, height] = source_px.map(f64::from);
     let ratio = match sides_m {
@@ -132,7 +132,7 @@ pub fn in_order(corners: [Point; 4]) -> Result<[Point; 4], EditError> {
     });
     // A corner that is all but straight is none.
     if !turns.iter().all(|turn| *turn < -0.02) {
-        return fail("these are not the corners of a rectangle: take its four corners, one after the other");
+        return fail("these are not the corners of a rectangle; click its four corners");
     }
     let upper_left = (0..4).min_by(|&i, &j| {
         let across = |i: usize| around[i].x - around[i].y;

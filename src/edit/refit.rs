@@ -174,7 +174,8 @@ pub(super) fn wanted_middles(plan: &Plan, moved: &BTreeMap<CornerId, Point>) -> 
                 let length_m = a.distance(b);
                 let share = if length_m > 0.0 { at_m / length_m } else { 0.0 };
                 let mean = from_start * (1.0 - share) + from_end * share;
-                if (from_start - from_end).length() <= GRID_M {
+                // A wall that is as long as before moved or turned as a whole.
+                if (start.distance(end) - length_m).abs() <= 2.0 * GRID_M {
                     mean
                 } else {
                     (b - a).left().unit().map_or(mean, |across| across * mean.dot(across))

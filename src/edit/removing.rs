@@ -157,11 +157,13 @@ fn corners_met(plan: &Plan, elements: &BTreeSet<ElementId>) -> BTreeSet<CornerId
 /// there are none, or more.
 pub fn rooms_joined_by(before: &Plan, after: &Plan, elements: &[ElementId]) -> Option<[RoomId; 2]> {
     let walls = elements.iter().filter_map(|element| if let ElementId::Wall(id) = element { Some(*id) } else { None });
-    let open: BTreeSet<[CornerId; 2]> = walls
-        .filter_map(|id| before.wall(id))
-        .map(|wall| ordered(wall.from, wall.to))
-        .filter(|edge| !after.walls().any(|(_, wall)| ordered(wall.from, wall.to) == *edge))
-        .collect();
+    let mut open: BTreeSet<[CornerId; 2]> =
+        walls.filter_map(|id| before.wall(id)).map(|wall| ordered(wall.from, wall.to)).collect();
+    if !open.is_empty() {
+        for (_, wall) in after.walls() {
+            open.remove(&ordered(wall.from, wall.to));
+        }
+    }
     if open.is_empty() {
         return None;
     }

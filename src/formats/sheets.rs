@@ -40,7 +40,7 @@ pub const PNG: Format = Format {
     id: "png",
     name: "PNG",
     endings: &["png"],
-    about: "The same sheet as a picture, at so many dots to the inch",
+    about: "The same sheet as a picture",
     importer: None,
     exporter: Some(&Kind::Png),
 };
@@ -50,7 +50,7 @@ static PAPER: Choice = Choice { name: "paper", words: &["A4", "A3", "A2", "A1", 
 static ORIENTATION: Choice = Choice {
     name: "orientation",
     words: &["auto", "landscape", "portrait"],
-    help: "How the paper is turned; 'auto' takes the way that shows the plan larger",
+    help: "The orientation of the paper; 'auto' takes the one that shows the plan larger",
 };
 
 static SCALE: Choice = Choice {
@@ -62,25 +62,25 @@ static SCALE: Choice = Choice {
 };
 
 static COLOURED_BY: Choice =
-    Choice { name: "colour", words: &["label", "function", "none"], help: "What the rooms are coloured by" };
+    Choice { name: "colour", words: &["label", "function", "none"], help: "What the colours of the rooms show" };
 
 static PALETTE: Choice =
-    Choice { name: "palette", words: &["standard", "colour-blind-safe"], help: "The five colours of the labels" };
+    Choice { name: "palette", words: &["standard", "colour-blind-safe"], help: "Colours of the labels" };
 
 static UNITS: Choice =
     Choice { name: "units", words: &["metric", "imperial"], help: "The units of areas and dimensions" };
 
 static TITLE_BLOCK: Switch = Switch { name: "title-block", default: true, help: "Draw the frame and the title block" };
-static LEGEND: Switch = Switch { name: "legend", default: true, help: "Say what the colours mean" };
+static LEGEND: Switch = Switch { name: "legend", default: true, help: "Draw the legend of the colours" };
 static SCALE_BAR: Switch = Switch { name: "scale-bar", default: true, help: "Draw a scale bar" };
 static DIMENSIONS: Switch =
     Switch { name: "dimensions", default: true, help: "Draw the overall width and height beside the plan" };
-static NAMES: Switch = Switch { name: "names", default: true, help: "Write the rooms' names" };
-static AREAS: Switch = Switch { name: "areas", default: true, help: "Write the rooms' areas" };
-static GRAPH: Switch = Switch { name: "graph", default: false, help: "Draw which rooms the openings join" };
+static NAMES: Switch = Switch { name: "names", default: true, help: "Show the names of rooms" };
+static AREAS: Switch = Switch { name: "areas", default: true, help: "Show the areas of rooms" };
+static GRAPH: Switch = Switch { name: "graph", default: false, help: "Draw which rooms the openings connect" };
 
 static DPI: Number =
-    Number { name: "dpi", default: Some(150.0), least: 36.0, most: 600.0, help: "Dots to the inch of paper" };
+    Number { name: "dpi", default: Some(150.0), least: 36.0, most: 600.0, help: "Dots per inch of paper" };
 
 const OPTIONS: [FormatOption; 13] = [
     FormatOption::Choice(&PAPER),

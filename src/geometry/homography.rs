@@ -18,6 +18,9 @@ impl Homography {
         // About their middles and of a size near 1, so that the equations are well conditioned (Hartley 1997).
         let (near_from, near_to) = (normalising(&from)?, normalising(&to)?);
         let (from, to) = (from.map(|p| applied(&near_from, p)), to.map(|p| applied(&near_to, p)));
+        if has_three_in_line(&from) || has_three_in_line(&to) {
+            return None;
+        }
         let mut left = SMatrix::<f64, 8, 8>::zeros();
         let mut right = SVector::<f64, 8>::zeros();
         for (i, (p, q)) in from.iter().zip(&to).enumerate() {
@@ -36,7 +39,6 @@ impl Homography {
         let between = Matrix3::new(h[0], h[1], h[2], h[3], h[4], h[5], h[6], h[7], 1.0);
         let whole = near_to.try_inverse()? * between * near_from;
         let is_finite = whole.iter().all(|value| value.is_finite());
-        // Three points on a line have no way back.
         let map = Self(whole);
         (is_finite && map.inverse().is_some()).then_some(map)
     }
@@ -70,6 +72,17 @@ fn normalising(points: &[Point; 4]) -> Option<Matrix3<f64>> {
     let scale = 1.0 / size;
     (size > 0.0 && scale.is_finite() && size.is_finite())
         .then(|| Matrix3::new(scale, 0.0, -x * scale, 0.0, scale, -y * scale, 0.0, 0.0, 1.0))
+}
+
+/// Whether three of four points of a size near 1 lie on a line, up to rounding.
+fn has_three_in_line(points: &[Point; 4]) -> bool {
+    (0..4).any(|left_out| {
+        let mut others = (0..4).filter(|&index| index != left_out).map(|index| points[index]);
+        match (others.next(), others.next(), others.next()) {
+            (Some(a), Some(b), Some(c)) => (b - a).cross(c - a).abs() <= HORIZON,
+            _ => true,
+        }
+    })
 }
 
 fn applied(map: &Matrix3<f64>, point: Point) -> Point {

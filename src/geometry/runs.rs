@@ -126,6 +126,10 @@ pub struct Axes {
     pub minor_m: f64,
     /// Whether `m` is an extent, because no run is perpendicular to `M`.
     pub minor_is_extent: bool,
+    /// The run that is as long as `M`.
+    pub major: Run,
+    /// The run that is as long as `m`, or a line across the room where `m` is an extent.
+    pub minor: Run,
 }
 
 impl Axes {
@@ -163,12 +167,21 @@ pub fn axes<R: AsRef<[Point]>>(outer: &[Point], holes: &[R]) -> Option<Axes> {
                     let turn = turn_rad(run.vector(), other.vector());
                     (turn - std::f64::consts::FRAC_PI_2).abs() <= ANGLE_TOLERANCE_RAD
                 })
-                .map(|other| other.length_m())
-                .fold(0.0, f64::max);
-            if perpendicular >= SHORTEST_WALL_M {
-                return Axes { major_m: run.length_m(), minor_m: perpendicular, minor_is_extent: false };
+                .reduce(|longest, other| if other.length_m() > longest.length_m() { other } else { longest });
+            let axes = |minor: Run, minor_m: f64, minor_is_extent: bool| Axes {
+                major_m: run.length_m(),
+                minor_m,
+                minor_is_extent,
+                major: *run,
+                minor,
+            };
+            match perpendicular.filter(|minor| minor.length_m() >= SHORTEST_WALL_M) {
+                Some(minor) => axes(*minor, minor.length_m(), false),
+                None => {
+                    let across = run.vector().left();
+                    axes(across_ring(outer, across), extent_m(outer, across), true)
+                }
             }
-            Axes { major_m: run.length_m(), minor_m: extent_m(outer, run.vector().left()), minor_is_extent: true }
         })
         .filter(|axes| axes.minor_m > 0.0)
         .max_by(|p, q| {
@@ -189,6 +202,16 @@ fn extent_m(ring: &[Point], direction: Vector) -> f64 {
         most = most.max(along);
     }
     most - least
+}
+
+/// The line along a direction, from the point of a ring that lies first in it, as long as the ring extends.
+fn across_ring(ring: &[Point], direction: Vector) -> Run {
+    let along = |unit: Vector, point: Point| (point - Point::default()).dot(unit);
+    let (Some(unit), Some(&first)) = (direction.unit(), ring.first()) else {
+        return Run { start: Point::default(), end: Point::default() };
+    };
+    let start = ring.iter().copied().fold(first, |p, q| if along(unit, q) < along(unit, p) { q } else { p });
+    Run { start, end: start + unit * extent_m(ring, direction) }
 }
 
 #[cfg(test)]

@@ -1,7 +1,9 @@
 //! The five labels, typologies, and label schemes: the tables from functions to labels.
 
+mod about;
 mod expectations;
 mod label;
+mod names;
 mod scheme;
 mod typology;
 

@@ -27,7 +27,7 @@ const STEPS: usize = 60;
 pub fn show_in_viewer(path: &Path) -> Result<(), String> {
     let quiet = || Stdio::null();
     let started = Command::new(OPENER).arg(path).stdin(quiet()).stdout(quiet()).stderr(quiet()).spawn();
-    let by_hand = "open the file by hand";
+    let by_hand = "open the file yourself";
     match started {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
             Err(format!("this system has no {OPENER}, which opens files with the desktop's programs; {by_hand}"))

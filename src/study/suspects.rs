@@ -6,6 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::StudyError;
 use crate::base::random::seed_of_part;
+use crate::base::units::Units;
 use crate::base::work::{Cancelled, Work};
 use crate::classify::joint::{FirstRound, Joint};
 use crate::classify::{Algorithm, Distribution, Validation, evaluate_all};
@@ -241,7 +242,11 @@ impl Opinions {
                 let Some((_, first, distributions)) = &round else { continue };
                 let doubted = of.rooms[room].label.is_some_and(|label| distributions[room].label() != label);
                 let why = doubted.then(|| joint.explain_from(first, of, &known, room)).flatten();
-                predicted.push((row, distributions[room], why.map(|why| why.words()).unwrap_or_default()));
+                predicted.push((
+                    row,
+                    distributions[room],
+                    why.map(|why| why.why(Units::Metric).sentences()).unwrap_or_default(),
+                ));
             }
             Some(predicted)
         };
@@ -257,5 +262,5 @@ impl Opinions {
 /// What a label scheme says of a function, where that differs from the label given: a sentence, or nothing.
 pub fn contradiction(row: &Row, by_scheme: Option<Label>) -> Option<String> {
     let by_scheme = by_scheme.filter(|&label| label != row.label)?;
-    Some(format!("By its function, {}, it would be a {}.", row.function, by_scheme.name()))
+    Some(format!("Its function, {}, makes it a {}.", row.function, by_scheme.name()))
 }

@@ -107,8 +107,11 @@ mod tests {
     use super::*;
     use crate::plan::{Builder, Meta, Room};
 
+    /// A wall's ends and thickness.
+    type Standing = ((f64, f64), (f64, f64), f64);
+
     /// A room of 4 m by 3 m between walls on its boundary, with what stands in it.
-    fn net(thickness_m: f64, inside: &[((f64, f64), (f64, f64), f64)]) -> NetRoom {
+    fn net(thickness_m: f64, inside: &[Standing]) -> NetRoom {
         let mut builder = Builder::new(Meta::default());
         let at = |(x, y): (f64, f64)| Point::new(x, y);
         let outer = builder.ring([(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0)].map(at));

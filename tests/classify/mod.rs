@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use enfilade::base::hash;
+use enfilade::base::units::Units;
 use enfilade::base::work::Work;
 use enfilade::classify::explain::Reason;
 use enfilade::classify::model_file::{About, DataSummary, ScoreSummary, from_bytes, to_bytes};
@@ -306,7 +307,7 @@ fn explanations_agree_with_predictions() {
             let explanation = classifier.explain(&values);
             let predicted = classifier.predict(&values);
             assert_eq!(explanation.label, predicted.label());
-            assert_eq!(explanation.probability, predicted.probability(predicted.label()));
+            assert_eq!(explanation.probability(), predicted.probability(predicted.label()));
             match &explanation.reason {
                 Reason::Rule(reason) => assert!((1..=reason.rules).contains(&reason.number)),
                 Reason::Path(reason) => {
@@ -334,7 +335,7 @@ fn assert_survives(table: &Table, context: &str) {
         let classifier = trained(algorithm, table, 1);
         for values in table.values().iter().chain(&odd) {
             assert_is_distribution(&classifier.predict(values), &format!("{context}, {algorithm}, {values:?}"));
-            let words = classifier.explain(values).words();
+            let words = classifier.explain(values).why(Units::Metric).sentences();
             assert!(words.ends_with('.'), "{context}, {algorithm}: {words}");
         }
         let about = About { data: DataSummary::of(&[], table), scores: Vec::new(), ..about(&generated_rows(40, 1)) };
@@ -471,7 +472,7 @@ proptest! {
             let classifier = trained(algorithm, &table, seed);
             for values in questions.iter().chain(table.values()) {
                 assert_is_distribution(&classifier.predict(values), algorithm.name());
-                prop_assert!(classifier.explain(values).words().ends_with('.'));
+                prop_assert!(classifier.explain(values).why(Units::Metric).sentences().ends_with('.'));
             }
         }
     }

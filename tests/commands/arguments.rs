@@ -48,20 +48,20 @@ fn wrong_words_are_told_with_what_was_meant() {
         "there is no command 'label-coridor'; did you mean 'label-corridor'?"
     );
     assert_eq!(refusal(&mut window, "xyzzy", &[]), "there is no command 'xyzzy'");
-    assert_eq!(refusal(&mut window, "fit", &[]), "'fit' cannot be done now: open a plan first");
+    assert_eq!(refusal(&mut window, "fit", &[]), "'fit' is not available: open a plan first");
     assert_eq!(
         refusal(&mut window, "open-sample", &["dweling"]),
-        "SAMPLE of 'open-sample' is 'dweling': expected a plan that comes with the program; did you mean 'dwelling'?"
+        "SAMPLE of 'open-sample' is 'dweling': expected one of the sample plans; did you mean 'dwelling'?"
     );
     let mut window = window_with("dwelling");
     for (id, arguments, expected) in [
-        ("undo", &[][..], "'undo' cannot be done now: there is nothing to undo"),
-        ("redo", &[], "'redo' cannot be done now: nothing was undone"),
-        ("rename", &["x"], "'rename' cannot be done now: pick a room first"),
-        ("backdrop", &["on"], "'backdrop' cannot be done now: the plan has no picture under it"),
-        ("answer", &["save"], "'answer' cannot be done now: nothing is asked"),
-        ("fit", &["now"], "'fit' takes no arguments, 1 are given"),
-        ("zoom-to", &["1", "2", "3", "4", "5"], "'zoom-to' takes 4 arguments, 5 are given"),
+        ("undo", &[][..], "'undo' is not available: there is nothing to undo"),
+        ("redo", &[], "'redo' is not available: nothing was undone"),
+        ("rename", &["x"], "'rename' is not available: select a room first"),
+        ("backdrop", &["on"], "'backdrop' is not available: the plan has no picture under it"),
+        ("answer", &["save"], "'answer' is not available: nothing is asked"),
+        ("fit", &["now"], "'fit' takes no arguments, but got 1"),
+        ("zoom-to", &["1", "2", "3", "4", "5"], "'zoom-to' takes 4 arguments, but got 5"),
         ("zoom-to", &["1", "two"], "Y of 'zoom-to' is 'two': expected a number of metres from -1000000 to 1000000"),
         (
             "zoom-to",
@@ -101,7 +101,7 @@ fn rooms_of_one_name_are_told_apart_by_id() {
     let mut window = Offscreen::new(OffscreenOptions::default());
     run(&mut window, "open", &[path.to_str().unwrap()]);
     let error = refusal(&mut window, "pick", &["office"]);
-    assert!(error.contains("an id, for 2 rooms have this name"), "{error}");
+    assert!(error.contains("an id, because 2 rooms have this name"), "{error}");
     assert!(ids[..2].iter().all(|id| error.contains(&id.to_string())), "{error}");
     for (word, id) in [(ids[1].to_string(), ids[1]), ("STORE".to_owned(), ids[2]), (ids[3].to_string(), ids[3])] {
         run(&mut window, "pick", &[&word]);
@@ -139,7 +139,7 @@ fn a_question_comes_first_and_has_its_own_answers() {
     run(&mut window, "label-hall", &[]);
     run(&mut window, "close", &[]);
     let error = refusal(&mut window, "label-big", &[]);
-    assert_eq!(error, "'label-big' cannot be done now: answer 'Save changes to House with an enfilade?' first");
+    assert_eq!(error, "'label-big' is not available: answer 'Save changes to House with an enfilade?' first");
     let error = refusal(&mut window, "answer", &["replace"]);
     assert_eq!(
         error,

@@ -44,7 +44,7 @@ fn a_few_letters_and_enter() {
     // Up goes round to the end, where a reason stands.
     keys(&mut window, "Up");
     let last = lines(&window).1.unwrap();
-    assert!(last.contains("not now: "), "{last}");
+    assert!(last.contains("not available: "), "{last}");
     keys(&mut window, "Enter");
     assert!(is_open(&window), "what cannot be done does nothing");
     keys(&mut window, "Escape");
@@ -118,7 +118,7 @@ fn what_a_command_needs_is_asked_in_place() {
             r#"find-room "Study""#,
             r#"rename-plan "House with an enfilade II""#,
             r#"set-shortcut "set-typology" "Ctrl+T""#,
-            r#"rename "Studys""#,
+            r#"rename "s""#,
         ]
     );
 }

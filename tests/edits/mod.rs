@@ -4,6 +4,7 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 #![allow(clippy::print_stdout, reason = "says why it was skipped")]
 
+mod along;
 mod areas;
 mod changing;
 mod drawing;

@@ -102,7 +102,7 @@ fn a_plan_that_differs_is_replaced_only_by_force() {
     assert_eq!(kept.status.code(), Some(1));
     assert_eq!(
         text(&kept.stderr),
-        "enfilade: out/a.plan.json: kept: it differs from what a.xml gives; --force replaces it\n"
+        "enfilade: out/a.plan.json: kept, because it differs from the result of a.xml; --force overwrites it\n"
     );
     assert_eq!(tree(&folder.path().join("out"))[0].1, b"somebody's work");
     let forced = import(folder.path(), &["a.xml", "-o", "out", "--force"]);
@@ -163,7 +163,7 @@ fn the_authors_collection_is_imported_the_same_each_time() {
     for output in ["once", "again"] {
         let result = import(folder.path(), &[root.to_str().unwrap(), "-o", output]);
         assert_eq!(result.status.code(), Some(0), "{}", text(&result.stderr));
-        assert!(text(&result.stdout).contains("Passed over as no plans: 3 x XML with the root <buildingtype>."));
+        assert!(text(&result.stdout).contains("Skipped, not plans: 3 x XML with the root <buildingtype>."));
     }
     let (once, again) = (tree(&folder.path().join("once")), tree(&folder.path().join("again")));
     assert_eq!(once.len(), 56);

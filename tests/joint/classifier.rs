@@ -1,6 +1,7 @@
 use std::sync::atomic::AtomicBool;
 
 use enfilade::base::random::Random;
+use enfilade::base::units::Units;
 use enfilade::base::work::Work;
 use enfilade::classify::joint::{Joint, JointTrainError, cross_validate};
 use enfilade::dataset::{Form, RoomNetwork};
@@ -60,8 +61,9 @@ fn a_reason_names_what_mattered() {
     for (index, prediction) in predictions.iter().enumerate() {
         let explanation = joint.explain(network, &[], index).unwrap();
         assert_eq!(explanation.label, prediction.label());
-        assert_eq!(explanation.probability, prediction.probability(prediction.label()));
-        assert!(explanation.words().contains(explanation.label.name()), "{}", explanation.words());
+        assert_eq!(explanation.distribution, *prediction);
+        let words = explanation.why(Units::Metric).sentences();
+        assert!(words.contains(explanation.label.name()) && words.ends_with('.'), "{words}");
         assert_eq!(explanation.neighbours.len(), if index == 0 { network.rooms.len() - 1 } else { 1 });
     }
     assert_eq!(joint.explain(network, &[], network.rooms.len()), None);

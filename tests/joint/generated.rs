@@ -12,6 +12,7 @@ pub fn room(key: &str, label: Option<Label>, length_m: f64, width_m: f64) -> Net
     NetworkRoom {
         id: RoomId::of_key(key),
         key: key.to_owned(),
+        name: String::new(),
         function: String::new(),
         label,
         label_origin: None,

@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use enfilade::base::random::Random;
+use enfilade::base::units::Units;
 use enfilade::base::work::{Cancelled, Work};
 use enfilade::edit;
 use enfilade::formats::plan_json;
@@ -39,7 +40,8 @@ fn held(plan: &Plan) -> Vec<Value> {
             "label": room.label.map(Label::letter),
             "predicted": said.label().letter(),
             "probabilities": probabilities,
-            "reason": derived.reason(room.id),
+            "reason": derived.why(room.id, Units::Metric).map(|why| why.sentences()),
+            "evidence": derived.why(room.id, Units::Metric).map(|why| why.to_value()),
         })
     });
     rooms.collect()

@@ -243,7 +243,7 @@ fn hostile_journals_do_no_harm() {
         (Vec::new(), "no journal"),
         (b"PK\x03\x04".to_vec(), "no journal"),
         (b"enfilade journal 2\n".to_vec(), "damaged"),
-        (b"enfilade journal 2\nanything".to_vec(), "another version"),
+        (b"enfilade journal 3\nanything".to_vec(), "another version"),
         (with_records(&[b"{\"do\":\"start\"}\n{}".to_vec()]), "damaged"),
         (with_records(&[step("{}")]), "damaged"),
     ] {

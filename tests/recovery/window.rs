@@ -82,7 +82,7 @@ fn a_full_disk_stays_in_sight_until_a_save_works() {
     // Another place.
     let other = folder.path().join("other.plan.json");
     window.answer_dialog(Some(other.clone()));
-    press(&mut window, "Save in another place…");
+    press(&mut window, "Save to another place…");
     assert_eq!(window.app().messages(), []);
     assert_eq!(load_plan(&other).unwrap(), *window.app().plan().unwrap());
     assert!(!window.app().has_unsaved_changes());
@@ -101,11 +101,11 @@ fn a_journal_that_cannot_be_written_stays_in_sight_until_it_can() {
     change(&mut window);
     let messages = window.app().messages();
     let [bar] = messages.as_slice() else { panic!("{messages:?}") };
-    assert!(bar.text.starts_with("Your changes are not kept safe: "), "{}", bar.text);
+    assert!(bar.text.starts_with("Your changes have no backup: "), "{}", bar.text);
     assert!(bar.stays && bar.severity == Severity::Error);
     #[cfg(target_os = "linux")]
     compare_messages(&mut window, "journal_fails_dark.png");
-    assert!(window.controls().iter().any(|control| control.name == "● Not kept safe"), "the status line says so too");
+    assert!(window.controls().iter().any(|control| control.name == "● No backup"), "the status line says so too");
     std::fs::remove_file(&state).unwrap();
     run(&mut window, "label-small", &[]);
     // It is tried again every two seconds.
@@ -223,7 +223,7 @@ fn a_journal_with_an_unsound_step_says_so_and_is_kept() {
     window.settle().unwrap();
     run(&mut window, "recover", &["1"]);
     let said: Vec<String> = window.app().messages().iter().map(|message| message.text.clone()).collect();
-    assert!(said.iter().any(|text| text.contains("not sound")), "{said:?}");
+    assert!(said.iter().any(|text| text.contains("is damaged")), "{said:?}");
     assert_eq!(window.app().plan().unwrap().violations(), []);
     assert!(window.run_command_with("undo", &[]).is_err(), "nothing before it");
     assert_eq!(files(folder.path()), [folder.path().join("plan-a.journal")]);

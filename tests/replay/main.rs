@@ -35,6 +35,10 @@ fn main() -> ExitCode {
         manual::is_complete();
         Ok(())
     }));
+    trials.push(Trial::test("the_gestures_are_counted", || {
+        manual::counts_gestures_as_they_are();
+        Ok(())
+    }));
     libtest_mimic::run(&Arguments::from_args(), trials).exit_code()
 }
 

@@ -111,7 +111,7 @@ fn ids_names_and_functions_stay_when_the_map_is_updated() {
     let moved = YAML.replace("[-2.0, 1.0, 0.0]", "[-1.95, 1.05, 0.0]");
     std::fs::write(folder.path().join("floor.yaml"), moved).unwrap();
     let (code, out, err) = segment(folder.path(), &[]);
-    assert!(code == 0 && out.contains("2 of the rooms known before"), "{out}{err}");
+    assert!(code == 0 && out.contains("2 of the rooms known from before"), "{out}{err}");
     let updated = semantics(folder.path());
     let ids = |map: &SemanticMap| map.rooms.iter().map(|room| room.id.clone()).collect::<BTreeSet<_>>();
     assert_eq!(ids(&updated), ids(&named));

@@ -89,7 +89,7 @@ fn every_control_has_a_name_and_is_reached() {
     window.run_command_with("pick", &["Study"]).unwrap();
     window.run_command("label-hall");
     window.settle().unwrap();
-    assert!(window.control("Use the function's label").is_some());
+    assert!(window.control("Clear label").is_some());
     check_reach(&mut window, "room", nothing);
     key(&mut window, Key::Escape);
     let plan = window.app().plan().unwrap().clone();
@@ -280,7 +280,7 @@ fn one_sees_where_the_keyboard_is() {
             }
             before = picture;
         }
-        for name in ["File", "Graph", "Function", "Office on a corner", "Name", "Use the function's label"] {
+        for name in ["File", "Graph", "Function", "Office on a corner", "Name", "Clear label"] {
             assert!(seen.iter().any(|seen| seen == name), "{name} among {seen:?}");
         }
     }

@@ -85,7 +85,10 @@ fn every_field_keeps_every_letter() {
             let field = find(&window).unwrap_or_else(|| panic!("{state}: no field {name}"));
             // A click into it, all that stood there, letters: in one frame.
             window.be_slow();
-            window.click(field.rect.center());
+            // One that has the keyboard already may be scrolled out of sight.
+            if window.focused().is_none_or(|focused| focused.rect != field.rect) {
+                window.click(field.rect.center());
+            }
             window.key(Modifiers::COMMAND, Key::A);
             TEXT.iter().for_each(|text| window.text(text));
             window.key(Modifiers::NONE, Key::Backspace);
@@ -98,17 +101,8 @@ fn every_field_keeps_every_letter() {
             seen.insert(name.clone());
         }
     }
-    let wanted = [
-        "Name",
-        "Function",
-        "Note",
-        "Length",
-        "Thickness",
-        "Width",
-        "Find a command",
-        "Search shortcuts",
-        "Where it goes",
-    ];
+    let wanted =
+        ["Name", "Function", "Note", "Length", "Thickness", "Width", "Find a command", "Search shortcuts", "File"];
     for name in wanted {
         assert!(seen.contains(name), "{name} is not among {seen:?}");
     }

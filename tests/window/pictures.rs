@@ -12,6 +12,7 @@ fn the_same_state_gives_the_same_picture() {
     window.wheel(2.0);
     window.advance(3.0);
     window.run_command("graph");
+    window.run_command("close");
     window.open_bundled("dwelling");
     window.settle().unwrap();
     window.run_command("zoom-in");

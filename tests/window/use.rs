@@ -146,7 +146,7 @@ fn rooms_are_reached_by_keyboard() {
     }
     let first = window.app().picked();
     assert!(matches!(first, Some(ElementId::Room(_))), "{first:?}");
-    assert!(canvas(&window).name.contains("picked"), "{}", canvas(&window).name);
+    assert!(canvas(&window).name.contains("selected"), "{}", canvas(&window).name);
     let mut seen = vec![first];
     let rooms = window.app().plan().unwrap().rooms().len();
     for _ in 1..rooms {

@@ -64,7 +64,7 @@ pub(super) fn describe(document: &Document, picked: Option<ElementId>) -> String
     let plan = document.plan();
     let mut text = format!("Plan {}, {} rooms", document.title(), plan.rooms().len());
     if let Some(picked) = picked {
-        text.push_str(&format!("; picked: {}", title_of(plan, picked)));
+        text.push_str(&format!("; selected: {}", title_of(plan, picked)));
     }
     text
 }

@@ -259,13 +259,13 @@ pub(super) fn paint_beginning(painter: &Painter, rect: Rect, palette: &Palette, 
     let lines = [
         ("Nothing is drawn yet".to_owned(), theme::TITLE, palette.ink),
         (
-            format!("{}   Draw walls, then {} makes rooms of what they enclose", beginning.walls, beginning.fill),
+            format!("{}   Draw walls; {} then makes rooms inside them", beginning.walls, beginning.fill),
             theme::BODY,
             palette.ink_muted,
         ),
-        (format!("{}   Draw rooms as rectangles", beginning.rectangle), theme::BODY, palette.ink_muted),
-        (format!("{}   Put doors in", beginning.door), theme::BODY, palette.ink_muted),
-        ("Or drop a picture of a plan here, to trace it".to_owned(), theme::BODY, palette.ink_muted),
+        (format!("{}   Draw rectangular rooms", beginning.rectangle), theme::BODY, palette.ink_muted),
+        (format!("{}   Add doors", beginning.door), theme::BODY, palette.ink_muted),
+        ("Or drop a picture of a plan here to trace it".to_owned(), theme::BODY, palette.ink_muted),
     ];
     const LINE: f32 = 26.0;
     // On a small canvas the hints would hide everything.

@@ -3,6 +3,7 @@
 mod accessibility;
 mod camera;
 pub(crate) mod dimensions;
+mod evidence;
 pub(crate) mod guides;
 mod marks;
 pub(crate) mod rulers;
@@ -33,6 +34,7 @@ use crate::base::units::{METRES_PER_FOOT, Units};
 use crate::draw::{self, Layers, Style, View};
 use crate::geometry::Point;
 use crate::plan::{ElementId, Plan};
+use crate::predict::Marks;
 
 /// The state of the canvas between frames.
 #[derive(Default)]
@@ -44,6 +46,8 @@ pub(crate) struct Canvas {
     seen: Option<(View, Rect)>,
     /// The element of the row hovered in a panel.
     pub hovered_in_panel: Option<ElementId>,
+    /// What the point of a reason is about that is hovered in a panel.
+    pub evidence: Option<Marks>,
     /// The place that a field of a panel is about.
     pub marked_in_panel: Option<Point>,
     /// What is under the pointer.
@@ -236,7 +240,12 @@ impl Canvas {
         }
         guides::paint(&painter, rect, &view, session, self.guide_drag);
         if let Some(derived) = fresh {
-            dimensions::paint(&painter, rect, &view, session, derived, || self.painter.text_boxes(rect, &view));
+            // Dimensions would hide what a reason is about.
+            if self.evidence.is_some() {
+                self.paint_evidence(&painter, rect, &view, document.plan(), derived, session.units(), palette);
+            } else {
+                dimensions::paint(&painter, rect, &view, session, derived, || self.painter.text_boxes(rect, &view));
+            }
         }
         let tool = toolbox.tool();
         let mut preview = Preview::default();

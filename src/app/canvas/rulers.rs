@@ -247,7 +247,7 @@ fn take_pointer(
     }
     if response.hovered() {
         response.on_hover_text(if under.is_some() {
-            "Drag the guide along, drag it off or double-click to remove it"
+            "Drag to move the guide; drag it off or double-click to remove it"
         } else {
             help
         });

@@ -144,7 +144,7 @@ impl ArgumentKind {
             Self::NewPlanFile => "a file to write the plan to".to_owned(),
             Self::NewFile => "a file to write".to_owned(),
             Self::PictureFile => "a file with a picture".to_owned(),
-            Self::RecentFile => "a file that was opened before".to_owned(),
+            Self::RecentFile => "a recent file".to_owned(),
             Self::OpenPlan => "an open plan".to_owned(),
             Self::Text => "a text".to_owned(),
             Self::Number { unit, least, most } => format!("a number{unit} from {least} to {most}"),
@@ -164,18 +164,18 @@ impl ArgumentKind {
             Self::Count => "1, 2, 3, …".to_owned(),
             Self::Room => "the name of a room of this plan, or its id".to_owned(),
             Self::Opening => "the id of an opening of this plan".to_owned(),
-            Self::Elements => "ids of elements of this plan, with blanks between".to_owned(),
+            Self::Elements => "ids of elements of this plan, separated by blanks".to_owned(),
             Self::Points { least: 1 } => "points of the plan in metres, such as '0,0 4.2,0'".to_owned(),
             Self::Points { least } => format!("at least {least} points of the plan in metres, such as '0,0 4.2,0'"),
             Self::Function => "what a room is for".to_owned(),
             Self::Typology => "a typology, or 'unknown'".to_owned(),
-            Self::ModelSet => "'plan', 'auto', or models at hand".to_owned(),
+            Self::ModelSet => "'plan', 'auto', or available models".to_owned(),
             Self::Method => "an algorithm".to_owned(),
-            Self::Sample => "a plan that comes with the program".to_owned(),
+            Self::Sample => "one of the sample plans".to_owned(),
             Self::Switch => "'on' or 'off'".to_owned(),
             Self::Answer => "a button of the question".to_owned(),
-            Self::Command => "the id of a command that stands in a menu".to_owned(),
-            Self::SidePanel => "a panel beside the canvas that has no command of its own".to_owned(),
+            Self::Command => "the id of a command in a menu".to_owned(),
+            Self::SidePanel => "a panel without a command of its own".to_owned(),
             Self::Keys => NoKeys.to_string(),
             Self::Word(words) => {
                 let words: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
@@ -473,7 +473,7 @@ impl ArgumentKind {
                 let choice = |plan: OpenPlan| {
                     let title = if plan.is_changed { format!("• {}", plan.title) } else { plan.title.clone() };
                     let path = app.session.origin_of_open(plan.number).and_then(Origin::path);
-                    let place = path.map_or("in no file yet".to_owned(), |path| app.session.shown_path(path));
+                    let place = path.map_or("not saved yet".to_owned(), |path| app.session.shown_path(path));
                     Choice { detail: place, ..plain(&plan.title, &title) }
                 };
                 app.session.open_plans().into_iter().map(choice).collect()

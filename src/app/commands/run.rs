@@ -51,13 +51,13 @@ impl fmt::Display for CommandError {
             Self::Unknown { id, similar } => {
                 write!(f, "there is no command '{id}'; did you mean {}?", or_list(similar))
             }
-            Self::NotNow { id, reason } => write!(f, "'{id}' cannot be done now: {reason}"),
+            Self::NotNow { id, reason } => write!(f, "'{id}' is not available: {reason}"),
             Self::WrongArgument { id, argument, given, what } => {
                 write!(f, "{argument} of '{id}' is '{given}': {what}")
             }
-            Self::TooManyArguments { id, given, most: 0 } => write!(f, "'{id}' takes no arguments, {given} are given"),
-            Self::TooManyArguments { id, given, most: 1 } => write!(f, "'{id}' takes 1 argument, {given} are given"),
-            Self::TooManyArguments { id, given, most } => write!(f, "'{id}' takes {most} arguments, {given} are given"),
+            Self::TooManyArguments { id, given, most: 0 } => write!(f, "'{id}' takes no arguments, but got {given}"),
+            Self::TooManyArguments { id, given, most: 1 } => write!(f, "'{id}' takes 1 argument, but got {given}"),
+            Self::TooManyArguments { id, given, most } => write!(f, "'{id}' takes {most} arguments, but got {given}"),
         }
     }
 }

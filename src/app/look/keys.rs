@@ -56,6 +56,7 @@ impl Keys {
     pub fn why_reserved(self) -> Option<&'static str> {
         let Modifiers { command, alt, .. } = self.modifiers;
         match self.key {
+            Key::Tab if command => None,
             Key::Tab | Key::Space | Key::Enter | Key::ArrowLeft | Key::ArrowRight | Key::ArrowUp | Key::ArrowDown => {
                 Some("it goes from control to control and presses them")
             }

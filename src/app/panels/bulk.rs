@@ -163,7 +163,7 @@ impl NameForm {
         self.along = along;
         if !matches!(self.which, Which::Along(_)) {
             line(ui, "Order", |ui| {
-                choose(ui, &mut self.order, &[("Line by line", Order::Rows), ("Column by column", Order::Columns)]);
+                choose(ui, &mut self.order, &[("Row by row", Order::Rows), ("Column by column", Order::Columns)]);
             });
         }
         let mut is_typed = false;
@@ -194,7 +194,7 @@ impl NameForm {
         let number = names.as_ref().map_or(0, |names| names.changed.len());
         let said = match (&names, start) {
             (Err(error), _) => Err(error.to_string()),
-            (_, None) => Err("numbers start at 0, 1, 2, …".to_owned()),
+            (_, None) => Err("start with a whole number: 0, 1, 2, …".to_owned()),
             (Ok(names), _) => Ok(said_of_names(names, self.which == Which::Unnamed)),
         };
         let can = said.is_ok() && number > 0;
@@ -222,7 +222,7 @@ impl NameForm {
             let area = ScrollArea::vertical().id_salt("names").auto_shrink(false).max_height(most);
             area.min_scrolled_height(most).show_rows(ui, ROW, changed.len().max(1), |ui, range| {
                 if changed.is_empty() {
-                    caption(ui, "No room would get another name.");
+                    caption(ui, "No name would change.");
                 }
                 for (id, name) in changed.get(range).unwrap_or_default() {
                     let Some(room) = plan.room(*id) else { continue };
@@ -280,7 +280,7 @@ impl ChangeForm {
             }
             Change::Label(_) => {
                 let by = "By function";
-                line(ui, "", |ui| labels(ui, palette, &mut self.to_label, by, "As the label scheme says"));
+                line(ui, "", |ui| labels(ui, palette, &mut self.to_label, by, "The label of its function"));
                 self.change = Change::Label(self.to_label);
             }
         }
@@ -326,7 +326,7 @@ impl ChangeForm {
                 shown.len().max(1),
                 |ui, range| {
                     if shown.is_empty() {
-                        caption(ui, "A new function: the label scheme does not know it.");
+                        caption(ui, "The label scheme does not know this function.");
                     }
                     for choice in shown.get(range).unwrap_or_default() {
                         let status = choice.status.unwrap_or(RoomStatus::Unlabelled);

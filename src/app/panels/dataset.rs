@@ -91,7 +91,7 @@ impl Dataset {
             ),
         );
         ui.add_space(10.0);
-        section(ui, "Where it goes");
+        section(ui, "File");
         ui.add_space(2.0);
         let mut enter = false;
         ui.horizontal(|ui| {
@@ -99,7 +99,7 @@ impl Dataset {
                 .id(Id::unique("dataset path"))
                 .desired_width(ui.available_width() - 100.0)
                 .align(Align2::LEFT_CENTER);
-            let response = ui.add(edit).accessible_name("Where it goes");
+            let response = ui.add(edit).accessible_name("File");
             enter = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             if text_button(ui, "Choose…", false).clicked() {
                 let path = self.target(app).unwrap_or_else(|| app.session.dataset_path());
@@ -111,14 +111,14 @@ impl Dataset {
         let is_missing_folder = target.as_ref().and_then(|path| path.parent()).is_some_and(|folder| !folder.is_dir());
         let said = match &target {
             None => Err("Give the file a name.".to_owned()),
-            Some(_) if is_missing_folder => Err("There is no such folder.".to_owned()),
+            Some(_) if is_missing_folder => Err("This folder does not exist.".to_owned()),
             Some(_) if plans == 0 => Err("Open a plan of a folder first.".to_owned()),
             Some(path) if exists => {
                 let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-                Ok(format!("{name} is there already, and will be replaced."))
+                Ok(format!("{name} exists and will be overwritten."))
             }
             Some(_) if app.session.has_unsaved_changes() => {
-                Ok("The open plan has changes that are not saved: they are not in the dataset.".to_owned())
+                Ok("Unsaved changes of the open plan are not included.".to_owned())
             }
             Some(_) => Ok(String::new()),
         };
@@ -150,7 +150,7 @@ fn progress(app: &App, ui: &mut Ui) -> Option<End> {
     ui.add_space(12.0);
     ui.horizontal(|ui| {
         right(ui, |ui| {
-            if text_button(ui, "Go on in the background", true).clicked() {
+            if text_button(ui, "Continue in the background", true).clicked() {
                 act = Some(End::Leave);
             }
             if text_button(ui, "Give up", false).clicked() {

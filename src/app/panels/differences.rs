@@ -61,7 +61,7 @@ fn lines_of(
     both: &BTreeSet<ElementId>,
 ) -> Vec<(MarkKind, String)> {
     let parts = [
-        (difference.meta, "What is known of the plan"),
+        (difference.meta, "Plan details"),
         (difference.backdrop, "The picture under the plan"),
         (difference.guides, "The guide lines"),
         (difference.extra, "Fields of another version"),
@@ -127,7 +127,7 @@ impl Differences {
             let width = 980.0_f32.min(window.x - 80.0);
             ui.set_width(width);
             ui.label(strong(format!("{file}: here and in the file"), theme::TITLE));
-            let text = "What each side changed since they were the same.";
+            let text = "What each side has changed.";
             ui.add(Label::new(RichText::new(text).color(colours(ui).text_weak)).wrap());
             ui.add_space(10.0);
             let gap = 16.0;
@@ -136,7 +136,7 @@ impl Differences {
             let picture = vec2(side, (side * 0.66).min(window.y - list_height - 300.0).max(120.0));
             ui.horizontal_top(|ui| {
                 ui.spacing_mut().item_spacing.x = gap;
-                for (index, title) in ["Here, not saved", "In the file now"].into_iter().enumerate() {
+                for (index, title) in ["Yours, not saved", "In the file"].into_iter().enumerate() {
                     ui.vertical(|ui| {
                         ui.set_width(side);
                         section(ui, title);
@@ -163,9 +163,9 @@ impl Differences {
                 legend(ui, kinds.filter(used));
                 right(ui, |ui| {
                     let close = text_button(ui, "Close", false).clicked().then(closed);
-                    let hint = "Saving then replaces what somebody else put in the file";
+                    let hint = "Saving then overwrites what someone else saved";
                     let keep = text_button(ui, "Keep mine", false).on_hover_text(hint).clicked();
-                    let hint = "A step that can be undone";
+                    let hint = "You can undo it";
                     let load = text_button(ui, "Load the file", true).on_hover_text(hint).clicked();
                     act = close
                         .or(keep.then(|| Call::new("keep-mine", [])))
@@ -189,7 +189,7 @@ fn list(ui: &mut Ui, lines: &[(MarkKind, String)]) {
     }
     for (kind, text) in lines.iter().take(MOST_LINES) {
         let colour = if *kind == MarkKind::Both { colours(ui).error } else { colours(ui).text };
-        let text = if *kind == MarkKind::Both { format!("{text}, on the other side too") } else { text.clone() };
+        let text = if *kind == MarkKind::Both { format!("{text}, on both sides") } else { text.clone() };
         ui.add(Label::new(RichText::new(text).size(theme::SMALL).color(colour)).wrap());
     }
     if lines.len() > MOST_LINES {

@@ -255,8 +255,7 @@ impl Export {
                 "Preview: drawing the sheet".to_owned()
             }
             None => {
-                let text =
-                    format!("{} has no sheet to look at: the plan is written in its own size.", self.format.0.name);
+                let text = format!("{} has no preview: the plan is written at its true size.", self.format.0.name);
                 note(ui, rect, &text);
                 text
             }
@@ -289,7 +288,7 @@ impl Export {
 
     fn foot(&mut self, app: &mut App, ui: &mut Ui, problem: Option<String>) -> Option<End> {
         let mut act = None;
-        section(ui, "Where it goes");
+        section(ui, "File");
         ui.add_space(2.0);
         let mut enter = false;
         ui.horizontal(|ui| {
@@ -297,7 +296,7 @@ impl Export {
                 .id(Id::unique("export path"))
                 .desired_width(ui.available_width() - 100.0)
                 .align(Align2::LEFT_CENTER);
-            let response = ui.add(edit).accessible_name("Where it goes");
+            let response = ui.add(edit).accessible_name("File");
             self.is_own_path |= response.changed();
             enter = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             if text_button(ui, "Choose…", false).clicked() {
@@ -313,12 +312,12 @@ impl Export {
             (Some(problem), _) => Err(sentence(&format!("{problem}."))),
             (None, None) => Err("Give the file a name.".to_owned()),
             (None, Some(_)) if is_own => {
-                Err("This is the plan's own file: save it instead, or choose another.".to_owned())
+                Err("This is the plan's own file. Save the plan instead, or choose another name.".to_owned())
             }
-            (None, Some(_)) if is_missing_folder => Err("There is no such folder.".to_owned()),
+            (None, Some(_)) if is_missing_folder => Err("This folder does not exist.".to_owned()),
             (None, Some(path)) if exists => {
                 let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-                Ok(format!("{name} is there already, and will be replaced."))
+                Ok(format!("{name} exists and will be overwritten."))
             }
             (None, Some(_)) => Ok(String::new()),
         };
@@ -342,12 +341,12 @@ impl Export {
 
     fn print_foot(&self, ui: &mut Ui, problem: Option<String>) -> Option<End> {
         let mut act = None;
-        let said = match problem {
-            Some(problem) => Err(sentence(&format!("{problem}."))),
-            None => Ok("Makes a PDF and opens it in the desktop's viewer. Print it there in its actual size, so that \
-                        the scale holds."
-                .to_owned()),
-        };
+        let said =
+            match problem {
+                Some(problem) => Err(sentence(&format!("{problem}."))),
+                None => Ok("Makes a PDF and opens it in your viewer. Print it there at actual size to keep the scale."
+                    .to_owned()),
+            };
         told(ui, &said);
         ui.horizontal(|ui| {
             right(ui, |ui| {

@@ -23,7 +23,7 @@ const MOST: usize = 200;
 pub(super) const PANEL: SidePanel = SidePanel {
     id: panels::FINDINGS,
     title: "Findings",
-    help: "What is wrong with the plan or worth a look",
+    help: "What is wrong with the plan",
     side: Side::Right,
     height: Height::Dragged { usual: USUAL_HEIGHT, least: LEAST_HEIGHT },
     is_shown_at_first: false,
@@ -87,12 +87,12 @@ fn show(app: &mut App, ui: &mut Ui) {
                 act = done.map(|done| (index, done)).or(act.take());
             }
             if checked.open.len() > MOST {
-                caption(ui, format!("and {} more, of the same kinds: see to these first", checked.open.len() - MOST));
+                caption(ui, format!("and {} more of the same kinds", checked.open.len() - MOST));
             }
             if checked.open.is_empty() {
                 ui.horizontal(|ui| {
                     ui.add_space(8.0);
-                    caption(ui, "Nothing that is to be looked at.");
+                    caption(ui, "No findings.");
                 });
             }
             if !checked.ignored.is_empty() {
@@ -147,7 +147,7 @@ fn row(
             ui.add_space(26.0);
             ui.spacing_mut().item_spacing.x = 12.0;
             if why.is_some() {
-                if link(ui, "Heed again").clicked() {
+                if link(ui, "Stop ignoring").clicked() {
                     act = Some(Act::Heed);
                 }
                 return;
@@ -166,7 +166,7 @@ fn row(
                 ui.add_space(26.0);
                 let edit = TextEdit::singleline(&mut reason.text)
                     .id(Id::unique("reason"))
-                    .hint_text("Why? Kept in the plan")
+                    .hint_text("Reason, kept in the plan")
                     .desired_width(ui.available_width() - 8.0);
                 let response = ui.add(edit).accessible_name("Reason to ignore it");
                 if std::mem::take(&mut reason.is_new) {

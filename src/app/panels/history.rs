@@ -29,7 +29,7 @@ const LEAST_HEIGHT: f32 = 90.0;
 pub(super) const PANEL: SidePanel = SidePanel {
     id: panels::HISTORY,
     title: "History",
-    help: "The steps that led to the plan",
+    help: "The steps that led to this plan",
     side: Side::Right,
     height: Height::Dragged { usual: USUAL_HEIGHT, least: LEAST_HEIGHT },
     is_shown_at_first: false,

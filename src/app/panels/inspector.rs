@@ -1,6 +1,7 @@
 //! What is known of what is picked: a room, an opening, or the plan as a whole.
 
 mod opening;
+mod proposals;
 mod room;
 mod wall;
 
@@ -17,7 +18,8 @@ use crate::app::look::{
     length_field::LengthField,
     theme,
     widgets::{
-        Lead, ROW, Row, Segment, caption, colours, follow_focus, hairline, link, section, segmented, strong, value,
+        Lead, ROW, Row, Segment, caption, colours, follow_focus, hairline, link, section, segmented, strong,
+        text_button, value,
     },
 };
 use crate::app::session::document::{Derived, Document};
@@ -35,6 +37,7 @@ use crate::plan::{
     ElementId, Joint, LabelOrigin, Opening, OpeningId, OpeningKind, Place, Plan, Room, RoomId, ScaleOrigin,
     titles::{room_title, title_of},
 };
+use crate::predict::Marks;
 use crate::topology::RoomShape;
 
 /// A user action in the inspector.
@@ -80,7 +83,7 @@ const LEAST_HEIGHT: f32 = 160.0;
 pub(super) const PANEL: SidePanel = SidePanel {
     id: panels::INSPECTOR,
     title: "Inspector",
-    help: "What is known of what is picked",
+    help: "The properties of the selection",
     side: Side::Right,
     height: Height::Rest { least: LEAST_HEIGHT },
     is_shown_at_first: true,
@@ -92,6 +95,7 @@ pub(super) const PANEL: SidePanel = SidePanel {
 fn show(app: &mut App, ui: &mut Ui) {
     let mut act = None;
     let mut hovered = None;
+    let mut evidence = None;
     let marked = Cell::new(None);
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         let margin = egui::Margin { left: 16, right: 16, top: 14, bottom: 16 };
@@ -102,7 +106,7 @@ fn show(app: &mut App, ui: &mut Ui) {
             let inspected = Inspected { app, document, plan: document.plan(), palette, marked: &marked };
             act = match app.picked() {
                 Some(ElementId::Room(id)) => {
-                    document.plan().room(id).and_then(|room| inspected.room(ui, id, room, &mut hovered))
+                    document.plan().room(id).and_then(|room| inspected.room(ui, id, room, &mut hovered, &mut evidence))
                 }
                 Some(ElementId::Opening(id)) => {
                     document.plan().opening(id).and_then(|opening| inspected.opening(ui, id, opening, &mut hovered))
@@ -116,6 +120,7 @@ fn show(app: &mut App, ui: &mut Ui) {
         });
     });
     app.canvas.hovered_in_panel = hovered;
+    app.canvas.evidence = evidence;
     app.canvas.marked_in_panel = marked.get();
     app.panels.focus = None;
     if let Some(act) = act {
@@ -272,6 +277,7 @@ impl Inspected<'_> {
         let typology = meta.typology.as_ref().map_or("Typology unknown".to_owned(), crate::labels::Typology::title);
         header(ui, None, Some(Icon::Plan), &self.document.title(), &typology);
         ui.add_space(6.0);
+        let chosen = self.typology_choice(ui);
         let mut row = |name: &str, text: &str| {
             if !text.is_empty() {
                 value(ui, name, text);
@@ -290,10 +296,10 @@ impl Inspected<'_> {
             drop(response);
             caption(ui, &meta.scale.note);
         }
-        let mut act = None;
+        let mut act = chosen;
         if let Some(backdrop) = self.plan.backdrop() {
             hairline(ui);
-            act = picture::show(ui, self.app, backdrop).map(Act::Picture);
+            act = act.or(picture::show(ui, self.app, backdrop).map(Act::Picture));
         }
         hairline(ui);
         section(ui, "Contents");
@@ -326,7 +332,7 @@ impl Inspected<'_> {
             }
         }
         ui.add_space(10.0);
-        caption(ui, "Click a room or a door to see what is known of it.");
+        caption(ui, "Click a room or a door to see its properties.");
         act
     }
 
@@ -410,13 +416,13 @@ fn header(
 const CLEAR: &str = "Between wall faces, without piers and other walls inside: the net floor area";
 
 /// What the other one is.
-const ALONG: &str = "What the boundary encloses: to the axes of the walls, or as it was drawn or imported";
+const ALONG: &str = "Within the boundary: to the axes of the walls, or as drawn or imported";
 
 /// `F_r` with readable names.
 fn features(ui: &mut Ui, analysed: &RoomAnalysis, perimeter_m: Option<f64>, units: Units) {
     let Some(features) = &analysed.features else {
         let why = if analysed.status == RoomStatus::NotClassified {
-            "Rooms that are not classified have none: they count like the outside."
+            "None: the label scheme leaves this room out, so it counts as outside."
         } else {
             "The room encloses no area."
         };
@@ -441,8 +447,8 @@ fn features(ui: &mut Ui, analysed: &RoomAnalysis, perimeter_m: Option<f64>, unit
     }
     if let Some(temporary) = analysed.temporary {
         ui.add_space(4.0);
-        caption(ui, format!("By area, ratio and openings alone: {temporary}"))
-            .on_hover_text("The naive classifier's temporary label, which neighbours see while a room has none");
+        caption(ui, format!("From area, ratio and openings alone: {temporary}"))
+            .on_hover_text("The temporary label that counts for its neighbours while the room has no label");
     }
 }
 

@@ -9,7 +9,7 @@ use crate::app::look::{
 };
 use crate::app::session::document::Document;
 use crate::app::state::{App, Height, Side, SidePanel, panels};
-use crate::draw::{self, Fill, Palette};
+use crate::draw::{self, Fill};
 use crate::features::RoomStatus;
 use crate::labels::Label;
 
@@ -25,7 +25,7 @@ const USUAL_HEIGHT: f32 = 360.0;
 pub(super) const PANEL: SidePanel = SidePanel {
     id: panels::LAYERS,
     title: "Layers",
-    help: "What is shown of the plan, and what its colours mean",
+    help: "What the plan shows, and what its colours mean",
     side: Side::Left,
     height: Height::Content { usual: USUAL_HEIGHT },
     is_shown_at_first: true,
@@ -56,7 +56,7 @@ fn show(app: &mut App, ui: &mut Ui) {
         app.run_command(fills[index].0, &context);
     }
     if let Some(document) = &app.session.document {
-        legend(ui, document, app.session.layers.fill, app.session.palette(ui));
+        legend(ui, app, document);
     }
     hairline(ui);
     section(ui, "Layers");
@@ -79,9 +79,11 @@ fn show(app: &mut App, ui: &mut Ui) {
 }
 
 /// The legend: each colour's meaning, and the number of rooms.
-fn legend(ui: &mut Ui, document: &Document, fill: Fill, palette: &Palette) {
+fn legend(ui: &mut Ui, app: &App, document: &Document) {
     let Some(derived) = document.derived() else { return };
-    let mut rows: Vec<(draw::Rgba, String, usize)> = Vec::new();
+    let (fill, palette) = (app.session.layers.fill, app.session.palette(ui));
+    // Colour, name, number, and what the name means.
+    let mut rows: Vec<(draw::Rgba, String, usize, String)> = Vec::new();
     let mut note = None;
     match fill {
         Fill::None => {}
@@ -91,26 +93,30 @@ fn legend(ui: &mut Ui, document: &Document, fill: Fill, palette: &Palette) {
                 if is_predicted { derived.drawing.predicted_counts() } else { derived.drawing.counts() };
             for label in Label::ALL {
                 let name = crate::base::wording::sentence(label.name());
-                rows.push((palette.label(label), name, labelled[label.index()]));
+                let about = app.session.schemes.about(label, document.plan().meta().typology.as_ref(), app.units());
+                rows.push((palette.label(label), name, labelled[label.index()], about));
             }
             let unlabelled_name = if is_predicted { "No prediction" } else { "No label" };
+            let without = "Set a function that the label scheme knows, or a label, or accept the prediction.";
+            let outside =
+                "The label scheme leaves these rooms out, such as balconies and shafts: they count as outside.";
             let others = [
-                (RoomStatus::Unlabelled, unlabelled_name, unlabelled),
-                (RoomStatus::NotClassified, "Not classified", not_classified),
+                (RoomStatus::Unlabelled, unlabelled_name, unlabelled, without),
+                (RoomStatus::NotClassified, "Not classified", not_classified, outside),
             ];
-            for (status, name, number) in others.into_iter().filter(|(_, _, number)| *number > 0) {
-                rows.push((palette.status(status), name.to_owned(), number));
+            for (status, name, number, about) in others.into_iter().filter(|(_, _, number, _)| *number > 0) {
+                rows.push((palette.status(status), name.to_owned(), number, about.to_owned()));
             }
             note = (is_predicted && derived.drawing.missed() > 0)
-                .then(|| format!("{} rimmed in the colour of a known label that is another", derived.drawing.missed()));
+                .then(|| format!("{} with another known label, shown as a rim", derived.drawing.missed()));
         }
         Fill::Function => {
             let number = |function: &str| derived.functions.get(function).copied().unwrap_or_default();
             for (function, colour) in palette.functions(derived.functions.keys().map(String::as_str)) {
-                rows.push((colour, crate::base::wording::sentence(&function), number(&function)));
+                rows.push((colour, crate::base::wording::sentence(&function), number(&function), String::new()));
             }
             if number("") > 0 {
-                rows.push((palette.unlabelled, "No function".to_owned(), number("")));
+                rows.push((palette.unlabelled, "No function".to_owned(), number(""), String::new()));
             }
         }
     }
@@ -122,9 +128,13 @@ fn legend(ui: &mut Ui, document: &Document, fill: Fill, palette: &Palette) {
     // As high as necessary, however high the panel was before.
     let area = ScrollArea::vertical().id_salt("legend").min_scrolled_height(height).max_height(height);
     area.auto_shrink([false, true]).show(ui, |ui| {
-        for (colour, name, number) in &rows {
+        for (colour, name, number, about) in &rows {
             let trail = if *number == 0 { "–".to_owned() } else { number.to_string() };
-            Row::new(Lead::Swatch(theme::colour(*colour)), name).trail(&trail).indent(8.0).inset(8.0).show_only(ui);
+            let row = Row::new(Lead::Swatch(theme::colour(*colour)), name).trail(&trail).indent(8.0).inset(8.0);
+            let response = row.show_only(ui);
+            if !about.is_empty() {
+                response.on_hover_text(about);
+            }
         }
     });
     if let Some(note) = note {

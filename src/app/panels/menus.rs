@@ -217,7 +217,7 @@ pub(super) fn show_context_menu(app: &mut App, ui: &Ui) {
         .style(egui::containers::menu::menu_style)
         .gap(2.0)
         .close_behavior(PopupCloseBehavior::CloseOnClick)
-        .accessible_name(format!("What can be done with {title}"))
+        .accessible_name(format!("Menu of {title}"))
         .show(|ui| {
             ui.set_width(WIDTH);
             let (rect, _) = ui.allocate_exact_size(egui::vec2(WIDTH, 24.0), egui::Sense::hover());

@@ -20,6 +20,7 @@ pub(super) mod plan_picture;
 mod plans;
 mod prediction;
 mod questions;
+mod reasons;
 pub(super) mod recovery;
 pub(super) mod shortcuts;
 mod sides;
@@ -55,7 +56,7 @@ pub(crate) const SIDE_PANELS: &[SidePanel] =
 pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     let colours = theme::colours(ui.visuals());
     let frame = |margin: Margin| Frame::new().fill(colours.panel).inner_margin(margin);
-    (app.canvas.hovered_in_panel, app.canvas.marked_in_panel) = (None, None);
+    (app.canvas.hovered_in_panel, app.canvas.marked_in_panel, app.canvas.evidence) = (None, None, None);
     Panel::top("top bar").exact_size(44.0).frame(frame(Margin::symmetric(8, 0))).show(ui, |ui| top_bar::show(app, ui));
     // Only reserves its place: its contents come last in Tab order.
     let status_rect = Panel::bottom("status line")

@@ -287,7 +287,7 @@ impl Palette {
             let path = app.session.typed_path(&word);
             if use_ == PathUse::New && path.is_file() && asking.replaces.as_ref() != Some(&word) {
                 let (_, name) = split_typed(&word);
-                asking.error = format!("There is a file {name}: press Enter once more to replace it");
+                asking.error = format!("{name} exists; press Enter once more to overwrite it");
                 asking.replaces = Some(word);
                 return true;
             }
@@ -510,7 +510,7 @@ impl Palette {
                 (command.help.to_owned(), colours.text_weak)
             }
             (None, _, Some(asking)) if asking.path_use().is_some() => {
-                ("Tab completes, Enter takes the line that is marked".to_owned(), colours.text_weak)
+                ("Tab completes, Enter accepts the marked line".to_owned(), colours.text_weak)
             }
             (None, _, Some(asking)) => (asking.command.help.to_owned(), colours.text_weak),
             (None, _, None) => (String::new(), colours.text_weak),

@@ -48,12 +48,12 @@ pub(super) fn show(ui: &mut Ui, app: &App, backdrop: &Backdrop) -> Option<Pictur
     // A plan may have a scale measured before the lengths were kept.
     let is_known =
         backdrop.is_measured() || app.plan().is_some_and(|plan| plan.meta().scale.origin == ScaleOrigin::Measured);
-    let scale = if is_known { "1 px is" } else { "1 px is taken as" };
+    let scale = if is_known { "1 px is" } else { "1 px, as assumed" };
     value(ui, "Scale", &format!("{scale} {}", millimetres(backdrop.metres_per_pixel)));
     if backdrop.is_measured() {
         act = act.or(measurements(ui, app.units(), &backdrop.measurements));
     } else if !is_known {
-        caption(ui, "Its scale is not set: measure a length that you know, or the width of a door.");
+        caption(ui, "The scale is not set. Measure a length you know, or the width of a door.");
     }
     ui.add_space(4.0);
     let measure = if backdrop.is_measured() { "Measure another…" } else { "Set scale…" };
@@ -121,7 +121,7 @@ fn measurements(ui: &mut Ui, units: Units, measurements: &[Measurement]) -> Opti
     });
     if measurements.len() > 1 {
         let largest = calibration.residuals.iter().fold(0.0, |most: f64, residual| most.max(residual.abs()));
-        let advice = if largest > AGREEMENT { ": look at the one that fits worst" } else { "" };
+        let advice = if largest > AGREEMENT { "; check the one that fits worst" } else { "" };
         caption(ui, format!("They agree within {}{advice}", percent(largest)));
     }
     act
@@ -160,7 +160,7 @@ fn length(ui: &mut Ui, units: Units, index: usize, measurement: &Measurement, re
     response.widget_info(|| {
         WidgetInfo::labeled(Role::Label, true, format!("Measured length {}: {length}, {fit}{said}", index + 1))
     });
-    response.on_hover_text("By how much it differs at the scale that fits all of them best");
+    response.on_hover_text("How far it is off at the scale that fits all lengths best");
     let slot = egui::Rect::from_min_max(pos2(rect.right() - ROW, rect.top()), rect.max);
     let mut child = ui.new_child(egui::UiBuilder::new().max_rect(slot).id_salt("remove"));
     let name = format!("Remove measured length {}", index + 1);

@@ -28,7 +28,7 @@ const LEAST_HEIGHT: f32 = 110.0;
 pub(super) const PANEL: SidePanel = SidePanel {
     id: panels::PLANS,
     title: "Plans",
-    help: "The open plans, those of the folder, and those that come with the program",
+    help: "The open plans, the plans in the folder, and the samples",
     side: Side::Left,
     height: Height::Rest { least: LEAST_HEIGHT },
     is_shown_at_first: true,

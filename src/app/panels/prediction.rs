@@ -1,17 +1,20 @@
 //! The predictions for the rooms, and the choice of models.
 
+use super::reasons;
 use egui::{Align2, ComboBox, FontId, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
 use crate::app::commands;
 use crate::app::look::theme;
 use crate::app::look::widgets::{caption, colours, focus_ring, follow_focus, section, text_button};
 use crate::app::state::App;
-use crate::base::wording::sentence;
+use crate::base::wording::{sentence, thousands};
+use crate::classify::why::Why;
+use crate::dataset::sets::STANDARD;
 use crate::draw::Palette;
 use crate::features::RoomStatus;
 use crate::labels::Label;
 use crate::plan::RoomId;
-use crate::predict::Predictions;
+use crate::predict::{Marks, Predictions};
 
 /// The id of a requested command, with the word of its argument.
 pub(super) type Asked = (&'static str, Option<String>);
@@ -22,13 +25,14 @@ pub(super) fn of_room(
     app: &App,
     palette: &Palette,
     predictions: &Predictions,
-    reason: Option<String>,
     room: RoomId,
     status: RoomStatus,
+    why: Option<&Why>,
+    evidence: &mut Option<Marks>,
 ) -> Option<Asked> {
     section(ui, "Prediction");
     let Some(distribution) = predictions.distribution(room) else {
-        caption(ui, "Only rooms with an area that the label scheme classifies are predicted.");
+        caption(ui, "No prediction: the room has no area, or the label scheme leaves it out.");
         return None;
     };
     let said = distribution.label();
@@ -39,13 +43,13 @@ pub(super) fn of_room(
     }
     ui.spacing_mut().item_spacing.y = 4.0;
     ui.add_space(4.0);
-    if let Some(reason) = reason {
-        caption(ui, reason);
+    if let Some(why) = why {
+        *evidence = reasons::show(ui, why).map(|point| predictions.marks(room, &point.on_plan));
     }
     let mut asked = None;
     match status.label() {
         Some(known) if known == said => drop(caption(ui, "Agrees with the label.")),
-        Some(_) => drop(caption(ui, "Another label is known for this room.")),
+        Some(_) => drop(caption(ui, "Differs from the label.")),
         None => {
             ui.add_space(2.0);
             if text_button(ui, &format!("Accept {said}"), false).clicked() {
@@ -61,8 +65,12 @@ pub(super) fn of_plan(ui: &mut Ui, app: &App, predictions: &Predictions) -> Opti
     section(ui, "Prediction");
     let agreement = predictions.agreement();
     if let Some(share) = agreement.share() {
-        let text =
-            format!("{} of {} known labels predicted ({:.0} %)", agreement.right, agreement.known, 100.0 * share);
+        let text = format!(
+            "{} of {} known labels predicted correctly ({:.0} %)",
+            agreement.right,
+            agreement.known,
+            100.0 * share
+        );
         caption(ui, text);
     }
     if let Some(known) = predictions.acquaintance() {
@@ -83,17 +91,22 @@ pub(super) fn of_plan(ui: &mut Ui, app: &App, predictions: &Predictions) -> Opti
 /// The choice of models. Returns the command requested.
 fn models(ui: &mut Ui, app: &App, predictions: &Predictions) -> Option<Asked> {
     ui.add_space(4.0);
-    let mut asked = choice(ui, app, "Typology", "models");
-    asked = choice(ui, app, "Algorithm", "predict-by").or(asked);
+    let mut asked = choice(ui, app, "Models", "models");
+    asked = choice(ui, app, "Method", "predict-by").or(asked);
     let about = &predictions.model.about;
-    let learned = format!("{} rooms of {} buildings", about.data.rooms, about.data.buildings);
+    let learned = format!("{} rooms in {} buildings", thousands(about.data.rooms as u64), about.data.buildings);
     let set = &predictions.choice;
     let because = if set.because == "as told" { String::new() } else { format!(" ({})", set.because) };
-    let response = caption(ui, format!("{} models{because}, learned from {learned}", sentence(&set.set)));
+    let response = caption(ui, format!("Models for {}{because}, trained on {learned}", kind(&set.set)));
     if !set.reasons.is_empty() {
-        response.on_hover_text(format!("{} because of {}", sentence(&set.set), set.reasons.join("; ")));
+        response.on_hover_text(format!("{} because {}", sentence(&set.set), set.reasons_in_words(app.units())));
     }
     asked
+}
+
+/// A set of models, in words.
+fn kind(set: &str) -> &str {
+    if set == STANDARD { "any kind of building" } else { set }
 }
 
 /// The choices of a command, as a drop-down list.
@@ -114,11 +127,13 @@ fn choice(ui: &mut Ui, app: &App, name: &str, id: &'static str) -> Option<Asked>
                 }
             }
         });
+        let detail = choices.iter().find(|choice| choice.word == set).map_or("", |choice| choice.detail.as_str());
         follow_focus(&shown.response);
         focus_ring(ui, shown.response.rect, &shown.response);
         let is_enabled = ui.is_enabled();
         let text = format!("{name}: {current}");
         shown.response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, is_enabled, text.clone()));
+        shown.response.on_hover_text(detail);
     });
     asked
 }

@@ -70,8 +70,8 @@ fn show(pictures: &mut BTreeMap<PathBuf, PlanPicture>, app: &mut App, ui: &Ui) {
     let response = Modal::new(Id::unique("recovery")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
         ui.set_width(680.0_f32.min(ui.ctx().content_rect().width() - 80.0).max(0.0));
         ui.label(strong("Recover unsaved work", theme::TITLE));
-        let text = "Enfilade ended before these changes were saved. Recovering opens them as they were; nothing is \
-                    written to a file until you save.";
+        let text = "Enfilade closed before these changes were saved. Recover opens them as they were; your files do \
+                    not change until you save.";
         ui.add(Label::new(RichText::new(text).color(colours(ui).text_weak)).wrap());
         ui.add_space(10.0);
         let mut act = None;
@@ -96,7 +96,7 @@ fn show(pictures: &mut BTreeMap<PathBuf, PlanPicture>, app: &mut App, ui: &Ui) {
             };
             legend(ui, all.filter(used));
             right(ui, |ui| {
-                let hint = "They are offered again when Enfilade starts, and in the menu File";
+                let hint = "You can recover them later from the File menu, and when Enfilade starts";
                 if text_button(ui, "Later", false).on_hover_text(hint).clicked() {
                     act = Some(Act::Later);
                 }
@@ -128,7 +128,7 @@ fn one(
     ui.horizontal_top(|ui| {
         ui.spacing_mut().item_spacing.x = 18.0;
         match picture {
-            Some(picture) => picture.show(ui, PICTURE, &format!("What would be recovered of {title}")),
+            Some(picture) => picture.show(ui, PICTURE, &format!("Unsaved work on {title}")),
             None => {
                 ui.allocate_space(vec2(PICTURE.x, 90.0));
             }
@@ -138,32 +138,32 @@ fn one(
             ui.add(Label::new(strong(&title, theme::BODY)).wrap());
             match &offered.leftover.content {
                 Err(what) => {
-                    let text = RichText::new(format!("It cannot be read: {what}.")).color(colours(ui).error);
+                    let text = RichText::new(format!("Cannot be read: {what}.")).color(colours(ui).error);
                     ui.add(Label::new(text).wrap());
                     caption(ui, app.session.shown_path(&offered.leftover.path));
                 }
                 Ok(recovered) => {
                     let file = recovered.start.file.as_deref();
-                    let place = file.map_or("In no file yet".to_owned(), |path| app.session.shown_path(path));
+                    let place = file.map_or("Never saved".to_owned(), |path| app.session.shown_path(path));
                     ui.add(Label::new(RichText::new(place).size(theme::SMALL).color(colours(ui).text_weak)).wrap());
                     ui.add_space(4.0);
                     let changes = match (recovered.history.position(), &recovered.draft) {
-                        (0, Some(_)) => "Something half drawn".to_owned(),
+                        (0, Some(_)) => "An unfinished drawing".to_owned(),
                         (number, _) => count(number.max(1), "change"),
                     };
                     let age = now.zip(offered.leftover.modified).and_then(|(now, then)| age(now, then));
                     ui.label(age.map_or(changes.clone(), |age| format!("{changes}, {age}")));
                     let position = recovered.history.position();
                     if let Some(step) = recovered.history.steps().get(position).filter(|_| position > 0) {
-                        caption(ui, format!("The last: {}", step.title));
+                        caption(ui, format!("Last change: {}", step.title));
                     }
                     if recovered.draft.is_some() {
-                        caption(ui, "What was half drawn is there too.");
+                        caption(ui, "The unfinished drawing is there too.");
                     }
                     if recovered.unsound.is_some() {
-                        caption(ui, "A change that gives a plan that is not sound is left out, with what followed.");
+                        caption(ui, "One change is damaged; it and the changes after it are left out.");
                     } else if recovered.is_cut {
-                        caption(ui, "What was being written at the end is incomplete and left out.");
+                        caption(ui, "The last change was cut off and is left out.");
                     }
                 }
             }

@@ -115,18 +115,18 @@ impl Sheet {
                 };
                 let done = match keys {
                     Some(keys) => format!("{} is now the shortcut of '{}'", keys.text(ui.ctx()), command.plain_title()),
-                    None => format!("'{}' has no shortcut any more", command.plain_title()),
+                    None => format!("'{}' no longer has a shortcut", command.plain_title()),
                 };
                 let waits = ran.is_err().then_some(command.id);
                 (Some(said(ran, done)), waits)
             }
             Act::Reset(command) => {
                 let ran = app.run_command_with("reset-shortcut", &[command.id], ui.ctx());
-                (Some(said(ran, format!("'{}' has the shortcut it comes with", command.plain_title()))), None)
+                (Some(said(ran, format!("'{}' has its original shortcut again", command.plain_title()))), None)
             }
             Act::ResetAll => {
                 let ran = app.run_command_with("reset-shortcuts", &[], ui.ctx());
-                (Some(said(ran, "All commands have the shortcuts they come with".to_owned())), None)
+                (Some(said(ran, "All commands have their original shortcuts".to_owned())), None)
             }
         };
         (self.said, self.changing) = (said, changing);
@@ -212,7 +212,7 @@ impl Sheet {
                 shown.response.widget_info(|| WidgetInfo::labeled(role, true, text));
             }
             None => {
-                caption(ui, "Click the keys of a command to change them. Backspace leaves it without.");
+                caption(ui, "Click the keys of a command to change them. Backspace removes them.");
             }
         }
     }
@@ -314,7 +314,7 @@ impl Sheet {
             follow_focus(&reset);
             let name = format!("Reset the shortcut of {}", command.plain_title());
             reset.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
-            if reset.on_hover_text("Back to the keys it comes with").clicked() {
+            if reset.on_hover_text("Restore the original keys").clicked() {
                 act = Some(Act::Reset(command));
             }
             left_of_chip = square.left();

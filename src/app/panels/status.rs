@@ -23,7 +23,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             ui.add_space(6.0);
         }
         if app.session.journal_failure().is_some() {
-            ui.label(RichText::new("● Not kept safe").size(theme::SMALL).color(colours(ui).error));
+            ui.label(RichText::new("● No backup").size(theme::SMALL).color(colours(ui).error));
             ui.add_space(6.0);
         }
         super::findings::badge(app, ui);
@@ -44,7 +44,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             let font = egui::FontId::proportional(theme::SMALL);
             ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, &text, font, weak);
             response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, format!("Scale {text}")));
-            response.on_hover_text("Scale on a screen of 96 points to the inch");
+            response.on_hover_text("Scale on a screen with 96 points per inch");
             zoom_button(app, ui, Icon::Minus, "zoom-out");
             ui.add_space(14.0);
             if let Some(point) = app.session.pointed.at {
@@ -78,7 +78,7 @@ pub(crate) fn left_text(app: &App) -> String {
         return "Reading the picture…".to_owned();
     }
     if document.derived().is_none() {
-        return "Working out rooms and features…".to_owned();
+        return "Computing rooms and features…".to_owned();
     }
     let said: Vec<&str> =
         [app.session.status.as_str(), app.tools.hint.as_str()].into_iter().filter(|text| !text.is_empty()).collect();

@@ -59,7 +59,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
                                 app.act_on(Call::new(command, [Value::Number(to_the_millimetre)]), &context);
                                 if trim_m(length_m) != to_the_millimetre {
                                     let taken = units.exact_length(to_the_millimetre);
-                                    app.session.status = format!("{name}: {taken}, to the millimetre");
+                                    app.session.status = format!("{name}: {taken}, rounded to the millimetre");
                                 }
                             }
                             if !entered.refused.is_empty() {

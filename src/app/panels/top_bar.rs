@@ -101,7 +101,7 @@ pub(super) fn with_tooltip(app: &App, response: Response, context: &Context, com
         });
         ui.label(command.help);
         if let Some(why_not) = why_not {
-            ui.label(egui::RichText::new(format!("Not now: {why_not}")).color(colours(ui).text_weak));
+            ui.label(egui::RichText::new(format!("Not available: {why_not}")).color(colours(ui).text_weak));
         }
     };
     response.on_hover_ui(show).on_disabled_hover_ui(show)

@@ -47,7 +47,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         ui.label(strong("Enfilade", theme::DISPLAY));
         ui.add_space(2.0);
         let text =
-            "Draw or open a floor plan to see its rooms, the doors that join them, and what both say of each room.";
+            "Draw or open a floor plan, and see its rooms, how doors connect them, and what each room is likely to be.";
         ui.add(Label::new(RichText::new(text).color(colours(ui).text_weak)).wrap());
         ui.add_space(10.0);
         ui.horizontal(|ui| {

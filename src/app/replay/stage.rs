@@ -3,7 +3,7 @@
 use super::fault::Fault;
 use std::path::PathBuf;
 
-use egui::Pos2;
+use egui::{Modifiers, Pos2};
 
 use super::folders::Folders;
 use super::words::{did_you_mean, in_quotes};
@@ -23,9 +23,36 @@ pub(super) struct Stage<'a> {
     pub snapshots: usize,
     /// The references written.
     pub updated: Vec<PathBuf>,
+    /// What the hand did since it was last asked to be counted.
+    pub gestures: Gestures,
     /// Whether settings and journals are kept.
     keeps_settings: bool,
     keeps_journal: bool,
+}
+
+/// What a hand does: clicks count one, double clicks two, drags two (pressing and letting go), turns of the wheel one;
+/// each key counts one, also those held with others or with a click, and each character typed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Gestures {
+    pub clicks: usize,
+    pub keys: usize,
+}
+
+impl Gestures {
+    pub(super) fn click(&mut self, clicks: usize, modifiers: Modifiers) {
+        self.clicks += clicks;
+        self.keys += held(modifiers);
+    }
+
+    pub(super) fn key(&mut self, modifiers: Modifiers) {
+        self.keys += 1 + held(modifiers);
+    }
+}
+
+/// How many modifier keys are held.
+fn held(modifiers: Modifiers) -> usize {
+    let Modifiers { alt, ctrl, shift, command, .. } = modifiers;
+    [alt, ctrl || command, shift].into_iter().filter(|is_held| *is_held).count()
 }
 
 /// The file of the settings that a script keeps.
@@ -35,8 +62,18 @@ impl<'a> Stage<'a> {
     pub(super) fn new(folders: &'a Folders, is_updating: bool) -> Self {
         let mut window = Offscreen::new(OffscreenOptions::default());
         window.name_paths_from(&folders.work);
+        let gestures = Gestures::default();
         let (keeps_settings, keeps_journal) = (false, false);
-        Self { window, folders, is_updating, snapshots: 0, updated: Vec::new(), keeps_settings, keeps_journal }
+        Self {
+            window,
+            folders,
+            is_updating,
+            snapshots: 0,
+            updated: Vec::new(),
+            gestures,
+            keeps_settings,
+            keeps_journal,
+        }
     }
 
     /// Changes the window's size, scale or theme.

@@ -150,7 +150,7 @@ pub(crate) enum Order {
 
 impl Order {
     pub(crate) const WORDS: &'static [(&'static str, &'static str)] =
-        &[("rows", "Line by line"), ("columns", "Column by column")];
+        &[("rows", "Row by row"), ("columns", "Column by column")];
 }
 
 /// New names for rooms.

@@ -53,7 +53,7 @@ impl Session {
     /// When no folder is open, or a dataset is being made already.
     pub(crate) fn export_dataset(&mut self, mut path: PathBuf) -> Result<(), String> {
         if self.is_making_dataset() {
-            return Err("a dataset is being made already".to_owned());
+            return Err("a dataset is already being made".to_owned());
         }
         let Some((folder, files)) = self.dataset_source() else {
             return Err("open a folder with plans first, or save the plan".to_owned());
@@ -91,7 +91,7 @@ impl Session {
     /// Gives up making the dataset: nothing is written.
     pub(crate) fn cancel_dataset(&mut self) {
         if self.dataset_job.take().is_some() {
-            self.status = "The dataset was given up: nothing was written".to_owned();
+            self.status = "The dataset was cancelled; nothing was written".to_owned();
         }
     }
 
@@ -141,7 +141,7 @@ fn make(
     command: &str,
     work: &Work<'_>,
 ) -> Result<Finished, String> {
-    let cancelled = |_: Cancelled| "it was given up".to_owned();
+    let cancelled = |_: Cancelled| "it was cancelled".to_owned();
     let read_one = |index: usize| {
         let import = formats::read_file(&files[index])?;
         let bytes = formats::read_bytes(&files[index]).map(|bytes| sha256(&bytes)).unwrap_or_default();

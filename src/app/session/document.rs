@@ -81,7 +81,7 @@ pub(crate) fn open(origin: Origin) -> Result<Opened, FileError> {
             let folder = path.clone();
             let first = plan_list::plans_in(path, Depth::All).into_iter().next();
             let Some(path) = first else {
-                let what = "there is no plan in this folder".to_owned();
+                let what = "this folder contains no plan".to_owned();
                 let hint = format!("open a plan file; {}", formats::known_formats());
                 let error = ReadError { place: Place::default(), what, hint };
                 return Err(FileError { path: path.clone(), error });

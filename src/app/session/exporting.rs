@@ -43,7 +43,7 @@ fn format_of(path: &Path) -> Result<Writable, String> {
     writable().into_iter().find(|(format, _)| ending_of(&name, format.endings).is_some()).ok_or_else(|| {
         let endings: Vec<String> =
             writable().iter().flat_map(|(format, _)| format.endings).map(|ending| format!(".{ending}")).collect();
-        format!("the file's ending says the format: {}", endings.join(", "))
+        format!("the file's ending gives the format: {}", endings.join(", "))
     })
 }
 
@@ -220,12 +220,12 @@ impl Session {
             };
             move |session: &mut Session, _: &Context| match (written, opened) {
                 (Ok(()), Ok(())) if is_shown => {
-                    session.status = format!("{} is open in the viewer: print it there", file_name(&path));
+                    session.status = format!("{} is open in your viewer; print it there", file_name(&path));
                 }
                 (Ok(()), Ok(())) => session.status = format!("Made {} to print", file_name(&path)),
                 (Ok(()), Err(error)) => {
                     let detail = format!("{error}\n{}", path.display());
-                    session.say(Severity::Warning, "The PDF is made, but no viewer opened it", detail);
+                    session.say(Severity::Warning, "The PDF was made, but no viewer opened it", detail);
                 }
                 (Err(error), _) => session.say(Severity::Error, "The plan was not printed", error),
             }

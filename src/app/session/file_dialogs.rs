@@ -103,7 +103,7 @@ impl Dialogs {
                     }
                     Purpose::Picture(_) => {
                         let dialog = dialog
-                            .set_title("Choose a picture to trace over")
+                            .set_title("Choose a picture to trace")
                             .add_filter("Pictures", PICTURE_ENDINGS)
                             .add_filter("All files", &["*"]);
                         Box::pin(dialog.pick_file())

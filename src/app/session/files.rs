@@ -103,7 +103,7 @@ impl Session {
         match result {
             Ok(opened) => self.request(Intent::Show(Box::new(opened))),
             Err(FileError { path, error }) => {
-                self.say(Severity::Error, format!("Could not open {}", file_name(&path)), {
+                self.say(Severity::Error, format!("Cannot open {}", file_name(&path)), {
                     format!("{error}\n{}", self.shown_path(&path))
                 });
             }
@@ -265,7 +265,7 @@ impl Session {
             if !was_shown {
                 // The window asks by itself, now and from now on.
                 if self.dialogs.show_nothing() {
-                    let text = "This system shows no dialog to choose files: type the path instead";
+                    let text = "Your system offers no file dialog; type the path instead";
                     let detail = "On Linux, dialogs come from the desktop's portal or from zenity.";
                     self.say_of_program(Severity::Info, text, detail);
                 }
@@ -324,7 +324,7 @@ impl Session {
     ) {
         match result {
             Ok(stamp) => {
-                self.status = format!("Saved in {}", file_name(&path));
+                self.status = format!("Saved to {}", file_name(&path));
                 let folder = path.parent().map(Path::to_owned);
                 self.in_plan(number, |session| {
                     let Some(document) = &mut session.document else { return };

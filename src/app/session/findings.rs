@@ -162,7 +162,7 @@ impl Session {
         let checked = self.findings().ok_or("the plan is still being checked")?;
         let number = checked.open.len();
         if number == 0 {
-            return Err("nothing was found that is to be looked at".to_owned());
+            return Err("there are no findings".to_owned());
         }
         let next = match self.findings.current {
             Some(current) => (current as isize + step).rem_euclid(number as isize) as usize,
@@ -175,7 +175,7 @@ impl Session {
     /// Does what is right for certain about a finding.
     pub(crate) fn fix_finding(&mut self, number: usize) -> Result<(), String> {
         let (finding, _) = self.finding(number)?;
-        let title = finding.fix_title().ok_or("there is no fix that is right for certain: see what it says to do")?;
+        let title = finding.fix_title().ok_or("there is no safe fix; see what it says to do")?;
         let finding = finding.clone();
         self.try_edit(title, |plan| finding.fixed(plan)).map_err(|error| error.to_string())?;
         self.status = title.to_owned();

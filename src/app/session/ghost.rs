@@ -86,7 +86,7 @@ impl Session {
                 self.show_ghost(Some(ghost));
             }
             Err(FileError { path, error }) => {
-                let text = format!("Could not read {} to show it below", origin.title());
+                let text = format!("Cannot read {} to show it below", origin.title());
                 self.say(Severity::Error, text, format!("{error}\n{}", self.shown_path(&path)));
             }
         }

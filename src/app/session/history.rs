@@ -13,7 +13,7 @@ use crate::plan::Plan;
 impl Session {
     pub(crate) fn edit(&mut self, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) {
         if let Err(error) = self.try_edit(title, change) {
-            self.say_refused(format!("Nothing was changed: {error}"));
+            self.say_refused(format!("Nothing changed: {error}"));
         }
     }
 
@@ -30,7 +30,7 @@ impl Session {
         self.fresh = None;
         if fixed > 0 {
             let points = crate::base::wording::count(fixed, "point");
-            let text = format!("{points} of dimensions lost what they were on: they stay where they are");
+            let text = format!("{points} of dimensions lost what they measured and stay where they are");
             self.say(Severity::Info, text, "");
         }
         Ok(())
@@ -124,8 +124,8 @@ impl Session {
         if let Some(rooms) = edit::rooms_joined_by(&before, after, elements) {
             let names = rooms.map(|id| after.room(id).map(|room| room.name.clone()).unwrap_or_default());
             let text = match names {
-                [a, b] if !a.is_empty() && !b.is_empty() => format!("No wall divides {a} and {b} any more"),
-                _ => "No wall divides these two rooms any more".to_owned(),
+                [a, b] if !a.is_empty() && !b.is_empty() => format!("No wall separates {a} and {b} now"),
+                _ => "No wall separates these two rooms now".to_owned(),
             };
             let remedies = vec![Remedy::MergeRooms(rooms)];
             let lasts = Lasts::Step(self.document.as_ref().map_or(0, |document| document.history.position()));

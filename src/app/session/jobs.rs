@@ -263,8 +263,8 @@ impl Session {
                     }
                     self.say_of_program(
                         Severity::Error,
-                        "Something broke inside Enfilade",
-                        "Your plan is untouched. Please report what you did.",
+                        "Something went wrong inside Enfilade",
+                        "Your plan has not changed. Please report what you did.",
                     );
                 }
             }

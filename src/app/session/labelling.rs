@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 use super::Session;
 use crate::app::session::words::{self, Choice};
 use crate::base::wording::count;
+use crate::base::wording::or_words;
 use crate::base::wording::sentence;
 use crate::edit::{self, EditError};
 use crate::features::RoomStatus;
-use crate::labels::{Label, Meaning, normalised_function};
+use crate::labels::{Label, Meaning, Typology, normalised_function};
 use crate::plan::titles::room_title;
 use crate::plan::{ElementId, LabelOrigin, Plan, RoomId, RoomLabel};
 
@@ -78,9 +79,9 @@ impl Session {
     /// Labels rooms, or removes their own labels, in one step.
     pub(crate) fn label_rooms(&mut self, target: &Target, label: Option<Label>) {
         let Some(plan) = self.plan() else { return };
-        let what = label.map_or("Label by function".to_owned(), |label| format!("Label {label}"));
+        let what = label.map_or("Clear label".to_owned(), |label| format!("Label {label}"));
         let title = if target.rooms.len() == 1 { what } else { format!("{what}: {}", target.title(plan)) };
-        let status = label.map_or("labelled by function".to_owned(), |label| label.name().to_owned());
+        let status = label.map_or("label cleared".to_owned(), |label| label.name().to_owned());
         let status = format!("{}: {status}", target.title(plan));
         let given = label.map(|label| RoomLabel { label, origin: LabelOrigin::Person });
         self.keeping_fresh(|session| {
@@ -107,6 +108,31 @@ impl Session {
         self.remember_function(function);
     }
 
+    /// The functions that names speak for, of the rooms among these that have none.
+    pub(crate) fn proposed_functions(&self, rooms: &[RoomId]) -> Vec<(RoomId, String)> {
+        let Some(plan) = self.plan() else { return Vec::new() };
+        let typology = plan.meta().typology.as_ref();
+        let proposed = |&id: &RoomId| {
+            let room = plan.room(id).filter(|room| room.function.trim().is_empty())?;
+            Some((id, self.schemes.function_of_name(typology, &room.name)?))
+        };
+        rooms.iter().filter_map(proposed).collect()
+    }
+
+    /// Sets the functions that the rooms' names speak for, in one step.
+    pub(crate) fn accept_functions(&mut self, target: &Target) {
+        let proposed = self.proposed_functions(&target.rooms);
+        let title = match proposed.as_slice() {
+            [] => return,
+            [(_, function)] => format!("Set function: {function}"),
+            several => format!("Set function: {}", count(several.len(), "room")),
+        };
+        self.edit(&title, |plan| {
+            proposed.iter().try_fold(plan.clone(), |plan, (room, function)| edit::set_function(&plan, *room, function))
+        });
+        self.status = title;
+    }
+
     /// Remembers a function for the next list.
     pub(crate) fn remember_function(&mut self, function: &str) {
         let function = normalised_function(function);
@@ -128,11 +154,17 @@ impl Session {
             *used.entry(normalised_function(&room.function)).or_default() += 1;
         }
         used.remove("");
-        let mut functions: Vec<String> = typology
-            .into_iter()
-            .flat_map(|typology| self.schemes.functions(typology))
-            .map(|(f, _)| f.to_owned())
-            .collect();
+        // Without a typology, what any scheme knows.
+        let typologies: Vec<&Typology> = match typology {
+            Some(typology) => vec![typology],
+            None => self.schemes.typologies().collect(),
+        };
+        let mut functions: Vec<String> = Vec::new();
+        for (function, _) in typologies.iter().flat_map(|typology| self.schemes.functions(typology)) {
+            if !functions.iter().any(|known| known == function) {
+                functions.push(function.to_owned());
+            }
+        }
         let more = used.keys().chain(&self.recent_functions);
         for function in more.collect::<Vec<_>>() {
             if !functions.contains(function) {
@@ -145,15 +177,20 @@ impl Session {
         // Stable: ties keep their order.
         functions.sort_by_key(|function| (std::cmp::Reverse(number(function)), recent(function)));
         let choice = |function: String| {
+            let known = |typology: &&&Typology| self.schemes.meaning(Some(typology), &function).is_some();
             let (status, detail) = match self.schemes.meaning(typology, &function) {
-                Some(Meaning::Labelled(label)) => (RoomStatus::Labelled(label), label.name()),
-                Some(Meaning::NotClassified) => (RoomStatus::NotClassified, "not classified"),
-                None => (RoomStatus::Unlabelled, "not in the label scheme"),
+                Some(Meaning::Labelled(label)) => (RoomStatus::Labelled(label), label.name().to_owned()),
+                Some(Meaning::NotClassified) => (RoomStatus::NotClassified, "not classified".to_owned()),
+                None if typology.is_none() && typologies.iter().any(|typology| known(&typology)) => {
+                    let of: Vec<&str> = typologies.iter().filter(known).map(|typology| typology.as_str()).collect();
+                    (RoomStatus::Unlabelled, format!("in a plan of typology {}", or_words(&of)))
+                }
+                None => (RoomStatus::Unlabelled, "not in the label scheme".to_owned()),
             };
             let number = number(&function);
             Choice {
                 title: sentence(&function),
-                detail: detail.to_owned(),
+                detail,
                 trail: if number > 0 { count(number, "room") } else { String::new() },
                 status: Some(status),
                 word: function,

@@ -150,7 +150,7 @@ impl Remedy {
             Self::LoadTheirs => "Load the file",
             Self::KeepMine => "Keep mine",
             Self::Save => "Save",
-            Self::SaveElsewhere => "Save in another place…",
+            Self::SaveElsewhere => "Save to another place…",
             Self::RelinkPicture => "Relink…",
             Self::ShowPicture => "Show it",
             Self::KeepPicture => "Keep this picture",

@@ -72,8 +72,8 @@ pub(crate) fn notes_in_words(notes: &[Note]) -> String {
     let things = |number: usize| if number == 1 { "thing" } else { "things" };
     match (healed, skipped) {
         (0, skipped) => format!("{skipped} {} left out", things(skipped)),
-        (healed, 0) => format!("{healed} {} mended", things(healed)),
-        (healed, skipped) => format!("{healed} {} mended, {skipped} left out", things(healed)),
+        (healed, 0) => format!("{healed} {} repaired", things(healed)),
+        (healed, skipped) => format!("{healed} {} repaired, {skipped} left out", things(healed)),
     }
 }
 
@@ -85,8 +85,8 @@ mod tests {
     #[test]
     fn summaries_read_well() {
         let note = |kind| Note { kind, place: Place::default(), what: String::new() };
-        assert_eq!(notes_in_words(&[note(NoteKind::Healed)]), "1 thing mended");
+        assert_eq!(notes_in_words(&[note(NoteKind::Healed)]), "1 thing repaired");
         assert_eq!(notes_in_words(&[note(NoteKind::Skipped), note(NoteKind::Skipped)]), "2 things left out");
-        assert_eq!(notes_in_words(&[note(NoteKind::Skipped), note(NoteKind::Healed)]), "1 thing mended, 1 left out");
+        assert_eq!(notes_in_words(&[note(NoteKind::Skipped), note(NoteKind::Healed)]), "1 thing repaired, 1 left out");
     }
 }

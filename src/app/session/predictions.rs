@@ -60,14 +60,14 @@ impl Session {
             let (schemes, errors) = store::schemes_in(&folder);
             self.schemes = Arc::new(schemes);
             for error in errors {
-                self.say_of_program(Severity::Warning, "A label scheme cannot be used.", error.to_string());
+                self.say_of_program(Severity::Warning, "A label scheme cannot be used", error.to_string());
             }
         }
         if let Some(folder) = store::models_folder() {
             let (own, errors) = store::models_in(&folder);
             self.models = Models::bundled().with(own);
             for error in errors {
-                self.say_of_program(Severity::Warning, "A model cannot be used.", error.to_string());
+                self.say_of_program(Severity::Warning, "A model cannot be used", error.to_string());
             }
         }
     }

@@ -109,7 +109,7 @@ impl Question {
 
     /// The plan has unsaved changes: save, discard, or keep working?
     pub(crate) fn unsaved(plan: &str, intent: Intent) -> Self {
-        let text = "They are in no file yet. Save them before it is closed, or they are lost.";
+        let text = "Save them before the plan is closed, or you will lose them.";
         let asked = Self { then: Some(intent), ..Self::new(format!("Save changes to {plan}?"), text) };
         asked
             .answer(("save", "Save"), |session, reply| {
@@ -145,7 +145,7 @@ impl Question {
         let counts = ["room", "wall", "opening"].map(|kind| (others(kind), kind));
         let said: Vec<String> =
             counts.iter().filter(|(number, _)| *number > 0).map(|(number, kind)| count(*number, kind)).collect();
-        let text = format!("{} cannot stand without it and would go as well: red on the plan.", said.join(", "));
+        let text = format!("This also deletes {}, shown in red on the plan.", said.join(", "));
         let asked = Self { shown: Shown::Gone(gone), ..Self::new(title, text) };
         asked.simply(("delete", "Delete"), move |session| session.delete(&selected)).cancel()
     }
@@ -166,8 +166,11 @@ impl Question {
     /// The file to be saved has other contents: replace it?
     pub(crate) fn replace(path: PathBuf, is_changed_since: bool, then: Option<Intent>) -> Self {
         let text = match is_changed_since {
-            true => "Somebody else has changed the file since it was opened here. Replacing it loses their changes.",
-            false => "There is a file of this name. Replacing it loses what it holds.",
+            true => {
+                "Someone else has changed the file since you opened it. If you overwrite it, their changes are \
+                     lost."
+            }
+            false => "A file with this name exists. If you overwrite it, its contents are lost.",
         };
         Self { then, ..Self::new(format!("Replace {}?", file_name(&path)), text) }
             .answer(("elsewhere", "Save as…"), Session::save_by)
@@ -180,7 +183,7 @@ impl Question {
 
     /// Discard a journal left behind by a program?
     pub(crate) fn discard(path: PathBuf, plan: &str) -> Self {
-        let text = "They are in no file and cannot be brought back.";
+        let text = "They are not saved anywhere, and you cannot get them back.";
         Self::new(format!("Discard the changes to {plan}?"), text)
             .cancel()
             .simply(("discard", "Discard"), move |session| session.discard_leftover(&path))
@@ -192,8 +195,7 @@ impl Question {
             PictureChange::Measurements(_) => "Scale the drawing along with the picture?",
             PictureChange::Turn { .. } => "Turn the drawing along with the picture?",
         };
-        let text = "What was traced on the picture should go along, so that it stays on its lines. What was right \
-                    before stays where it is.";
+        let text = "What you traced from the picture should move with it. What already had the right size should stay.";
         let alone = change.clone();
         Self::new(title, text)
             .simply(("along", "Drawing too"), move |session| {

@@ -106,7 +106,7 @@ impl Session {
         match offered.leftover.remove() {
             Ok(()) => self.status = format!("Discarded the changes to {title}"),
             Err(error) => {
-                let text = format!("The journal of {title} could not be removed");
+                let text = format!("The recovery file of {title} could not be removed");
                 self.say_of_program(Severity::Warning, text, format!("{error}\n{}", self.shown_path(path)));
             }
         }
@@ -136,8 +136,8 @@ impl Session {
             document.history = recovered.history;
         }
         let detail = match origin.path() {
-            Some(path) => format!("Nothing is in the file until you save.\n{}", self.shown_path(path)),
-            None => "It is in no file until you save.".to_owned(),
+            Some(path) => format!("The file does not change until you save.\n{}", self.shown_path(path)),
+            None => "Save it to keep it.".to_owned(),
         };
         let title = self.document.as_ref().map(Document::title).unwrap_or_default();
         let said = Message::new(Severity::Info, format!("Recovered {changes} of {title}"), detail);
@@ -146,12 +146,15 @@ impl Session {
         // What was left behind stays until the new journal holds it; what cannot be held stays for good.
         let mut replaced = Some(Predecessor::Leftover(leftover));
         if let Some(what) = &recovered.unsound {
-            let text = "A change in the journal gives a plan that is not sound: it and what followed are left out";
-            let detail = format!("{what}\nEverything before it is here. The journal is kept, and offered again.");
+            let text = "One recovered change is damaged; it and the changes after it are left out";
+            let detail = format!(
+                "{what}\nEverything before it is here. The recovery file is kept, and you will be \
+                                  asked again."
+            );
             self.say(Severity::Warning, text, detail);
             replaced = None;
         } else if recovered.is_cut {
-            let text = "The last change was not written completely when the program ended";
+            let text = "The last change was cut off when Enfilade closed";
             self.say(Severity::Warning, text, "Everything before it is here.");
         }
         self.begin_journal(replaced, context);

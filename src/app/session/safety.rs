@@ -161,26 +161,26 @@ impl Session {
         };
         let derived = self.document.as_ref().and_then(Document::derived);
         if let Some(remark) = derived.and_then(|derived| derived.drawing.remark()) {
-            bar(Severity::Warning, sentence(&remark), "Measures and exports are not affected.".to_owned(), &[]);
+            bar(Severity::Warning, sentence(&remark), "Measurements and exports are not affected.".to_owned(), &[]);
         }
         if let Some(theirs) = &self.safety.own.theirs
             && let Some(document) = &self.document
         {
             let file = document.origin.title();
-            let by_somebody = format!("{file} was changed by somebody else");
+            let by_somebody = format!("Someone else has changed {file}");
             match &theirs.content {
                 Content::Plan(..) => {
                     let differ = theirs.differs.as_ref().map(|(_, differ)| differ.as_str()).unwrap_or_default();
                     let detail = match document.is_changed() {
-                        true => format!("Your own changes are in no file yet. Between the two: {differ}."),
-                        false => format!("What you see is what it held before. Between the two: {differ}."),
+                        true => format!("Your own changes are not saved. Differences: {differ}."),
+                        false => format!("You see the earlier version. Differences: {differ}."),
                     };
                     let remedies = [Remedy::ShowDifferences, Remedy::LoadTheirs, Remedy::KeepMine];
                     bar(Severity::Warning, by_somebody, detail, &remedies);
                 }
                 Content::Broken(what) => {
-                    let text = format!("{by_somebody} and cannot be read any more");
-                    let detail = format!("What you see is what it held before. {what}.");
+                    let text = format!("{by_somebody}, and it can no longer be read");
+                    let detail = format!("You see the earlier version. {what}.");
                     bar(Severity::Warning, text, detail, &[Remedy::KeepMine, Remedy::SaveElsewhere]);
                 }
                 Content::Gone => {
@@ -191,11 +191,11 @@ impl Session {
         }
         if let Some(JournalFailure { folder, what }) = &self.safety.own.journal_failure {
             let detail = format!(
-                "If the program or the machine stops now, what you changed is lost: the journal cannot be written. Save \
-                 the plan, and free some space.\n{}",
+                "If Enfilade or the computer stops now, your changes are lost, because the recovery file cannot be \
+                 written. Save the plan, and free some space.\n{}",
                 self.shown_path(folder)
             );
-            let text = format!("Your changes are not kept safe: {what}");
+            let text = format!("Your changes have no backup: {what}");
             bar(Severity::Error, text, detail, &[Remedy::Save, Remedy::SaveElsewhere]);
         }
         if let Some(SaveError { path, what, hint }) = &self.safety.own.save_failure {

@@ -67,7 +67,7 @@ impl Refused {
     /// The reason in a sentence.
     pub(crate) fn reason(self, keys: &str) -> String {
         match self {
-            Self::Taken(title) => format!("{keys} is the shortcut of '{}'", title.trim_end_matches('…')),
+            Self::Taken(title) => format!("{keys} is already the shortcut of '{}'", title.trim_end_matches('…')),
             Self::Reserved(why) => format!("{keys} cannot be a shortcut: {why}"),
         }
     }
@@ -119,23 +119,21 @@ impl Settings {
             Err(what) => {
                 // Neither read nor ever written.
                 let text = format!("Your settings cannot be read: {what}");
-                let detail = format!("What you change lasts until the window is closed.\n{}", file.display());
+                let detail = format!("Changes last until you close the window.\n{}", file.display());
                 return (Self::new(commands), vec![warning(text, detail)]);
             }
         };
         let kept = match text.as_deref().map(serde_json::from_str::<Map<String, Value>>) {
             None => Map::new(),
             Some(Ok(kept)) if kept.get("version").and_then(Value::as_u64).is_some_and(|version| version > VERSION) => {
-                let text = "Your settings are of a newer version of Enfilade".to_owned();
-                let detail = format!(
-                    "They are left as they are; what you change lasts until the window is closed.\n{}",
-                    file.display()
-                );
+                let text = "Your settings come from a newer version of Enfilade".to_owned();
+                let detail =
+                    format!("They are left as they are. Changes last until you close the window.\n{}", file.display());
                 return (Self::new(commands), vec![warning(text, detail)]);
             }
             Some(Ok(kept)) => kept,
             Some(Err(error)) => {
-                let text = "Your settings are damaged: Enfilade starts with its own".to_owned();
+                let text = "Your settings are damaged; Enfilade starts with its defaults".to_owned();
                 let at = format!("line {}, column {}: {}", error.line(), error.column(), file.display());
                 return match set_aside(&file) {
                     Ok(aside) => {
@@ -143,8 +141,10 @@ impl Settings {
                         (Self { file: Some(file), ..Self::new(commands) }, problems)
                     }
                     Err(error) => {
-                        let detail =
-                            format!("{at}\nIt cannot be moved aside ({error}), so nothing you change is kept.");
+                        let detail = format!(
+                            "{at}\nThe file cannot be moved aside ({error}), so changes to settings are not \
+                                     kept."
+                        );
                         (Self::new(commands), vec![warning(text, detail)])
                     }
                 };
@@ -170,7 +170,7 @@ impl Settings {
                 value.as_array().and_then(|list| list.iter().map(|keys| keys.as_str()?.parse().ok()).collect());
             match keys {
                 Some(keys) => drop(self.changed.insert(command.id, keys)),
-                None => wrong.push(format!("{id}: {value} is no list of keys")),
+                None => wrong.push(format!("{id}: {value} is not a list of keys")),
             }
         }
         // With all changes in place, so that two commands may have swapped keys. One that is dropped gets
@@ -298,8 +298,8 @@ impl Settings {
             store::save_bytes(file, (text + "\n").as_bytes()).map_err(|error| error.to_string())
         });
         written.map_err(|what| {
-            let detail = format!("{what}\nWhat you change lasts until the window is closed.");
-            warning("Your settings could not be kept".to_owned(), detail)
+            let detail = format!("{what}\nChanges last until you close the window.");
+            warning("Your settings could not be saved".to_owned(), detail)
         })
     }
 }
@@ -313,7 +313,7 @@ pub(crate) fn read_text(file: &Path) -> Result<Option<String>, String> {
     match std::fs::metadata(file) {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
         Err(error) => Err(error.to_string()),
-        Ok(metadata) if !metadata.is_file() => Err("it is no file".to_owned()),
+        Ok(metadata) if !metadata.is_file() => Err("it is not a file".to_owned()),
         Ok(metadata) if metadata.len() > MOST_BYTES => Err("it is too large".to_owned()),
         // Anything that is not text is damaged, like text that is not JSON.
         Ok(_) => std::fs::read(file)

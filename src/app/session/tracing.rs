@@ -54,13 +54,13 @@ impl Session {
                 if wanted.content_hash.is_empty() || wanted.content_hash == picture.content_hash {
                     return;
                 }
-                let text = "The picture under the plan has changed since it was put there".to_owned();
-                let detail = format!("Check that what is drawn still lies on its lines.\n{shown}");
+                let text = "The picture under the plan has changed".to_owned();
+                let detail = format!("Check that your drawing still fits it.\n{shown}");
                 (Severity::Warning, text, detail, Remedy::KeepPicture)
             }
             Read::Shown { found_at: Some(path), .. } => {
-                let text = format!("The picture under the plan has moved: it was found at {}", self.shown_path(path));
-                let detail = format!("The plan says that it lies at {shown}");
+                let text = format!("The picture under the plan has moved; it was found at {}", self.shown_path(path));
+                let detail = format!("The plan expects it at {shown}");
                 (Severity::Info, text, detail, Remedy::KeepPicture)
             }
             Read::Missing { error, candidate } => {
@@ -73,11 +73,13 @@ impl Session {
             }
             Read::Outside => {
                 let text = format!(
-                    "The picture under the plan is not shown: {} lies outside the plan's folder",
+                    "The picture under the plan is hidden: {} lies outside the plan's folder",
                     file_name(&wanted.path)
                 );
-                let detail =
-                    format!("A plan from elsewhere may name any picture. Show it if you know the plan.\n{shown}");
+                let detail = format!(
+                    "A plan from someone else could refer to any file. Show the picture if you trust the \
+                             plan.\n{shown}"
+                );
                 (Severity::Warning, text, detail, Remedy::ShowPicture)
             }
         };
@@ -153,7 +155,7 @@ impl Session {
             Ok(picture) => picture,
             Err(error) => {
                 let text = format!("{} cannot be used: it {}", file_name(path), error.what);
-                let detail = format!("To do: {}.\n{}", error.hint, self.shown_path(path));
+                let detail = format!("What to do: {}.\n{}", error.hint, self.shown_path(path));
                 let lasts = self.while_this_picture();
                 self.add_message(Message::new(Severity::Error, text, detail).lasting(lasts));
                 return;
@@ -174,8 +176,8 @@ impl Session {
                 if !before.content_hash.is_empty() && before.content_hash != hash {
                     self.say(
                         Severity::Warning,
-                        "The picture linked now is not the one that was under the plan",
-                        "Its place and scale are kept. Check that what is drawn lies on its lines.",
+                        "This is not the picture that was under the plan",
+                        "Place and scale are kept. Check that your drawing fits it.",
                     );
                 }
                 ("Relink picture", Backdrop { path: stated, content_hash: hash, page, ..before })
@@ -304,7 +306,7 @@ impl Session {
         let ran = self.try_edit("Make picture flat", |plan| edit::rectify_picture(plan, corners, sides_m, source_px));
         ran.map_err(|error| error.to_string())?;
         if let (Some(_), Some(backdrop)) = (sides_m, self.plan().and_then(Plan::backdrop)) {
-            self.status = format!("A pixel of the picture is {}", millimetres(backdrop.metres_per_pixel));
+            self.status = format!("1 pixel of the picture is {}", millimetres(backdrop.metres_per_pixel));
         }
         Ok(())
     }
@@ -348,7 +350,7 @@ impl Session {
             self.wishes.push(Wish::ScaleView { about: origin, factor });
         }
         if let PictureChange::Measurements(_) = change {
-            self.status = format!("A pixel of the picture is {}", millimetres(after));
+            self.status = format!("1 pixel of the picture is {}", millimetres(after));
         }
     }
 }

@@ -222,7 +222,7 @@ impl Session {
         self.edit("Load the file as it is now", |_| Ok((*plan).clone()));
         if let Some(document) = &mut self.document {
             document.stands_in_file(Some(*plan), stamp);
-            self.status = format!("Loaded {} as it is now", document.origin.title());
+            self.status = format!("Loaded the new version of {}", document.origin.title());
         }
         self.journal_from_file(context);
     }
@@ -237,7 +237,7 @@ impl Session {
         };
         if let Some(document) = &mut self.document {
             document.stands_in_file(plan, stamp);
-            self.status = "Saving replaces what somebody else put in the file".to_owned();
+            self.status = "Saving overwrites what someone else saved".to_owned();
         }
         self.journal_from_file(context);
     }

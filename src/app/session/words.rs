@@ -59,7 +59,7 @@ pub(crate) fn room(plan: &Plan, word: &str) -> Result<RoomId, Option<String>> {
         several => {
             let ids: Vec<String> = several.iter().take(MOST_TOLD).map(RoomId::to_string).collect();
             let more = if several.len() > MOST_TOLD { ", …" } else { "" };
-            Err(Some(format!("an id, for {} rooms have this name: {}{more}", several.len(), ids.join(", "))))
+            Err(Some(format!("an id, because {} rooms have this name: {}{more}", several.len(), ids.join(", "))))
         }
     }
 }

@@ -78,8 +78,9 @@ fn first_frame(events: &VecDeque<(f64, Event)>, is_typing: bool) -> usize {
         if waits {
             return index;
         }
-        // The text that a key writes belongs to the key: it is none of a field that the key opens.
-        let is_key = matches!(event, Event::Key { .. });
+        // The text that a key writes belongs to the key: it is none of a field that the key opens. Enter and the like
+        // write none.
+        let is_key = matches!(event, Event::Key { key, .. } if !matches!(key, Key::Enter | Key::Tab | Key::Escape));
         let has_text = matches!(events.get(index + 1), Some((_, Event::Text(_))));
         return index + 1 + usize::from(is_key && has_text);
     }

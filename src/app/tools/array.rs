@@ -11,7 +11,7 @@ use crate::geometry::{Point, Vector};
 pub(crate) const ARRAY: Entry = Entry {
     id: "array",
     title: "Array",
-    help: "Copy what is selected into columns and rows: click from where to where the next one is, type how many",
+    help: "Copy the selection into columns and rows: click a point and where it is on the next copy, type how many",
     keys: &[],
     strip: None,
     options: &[SNAPPING, GRID],
@@ -21,7 +21,7 @@ pub(crate) const ARRAY: Entry = Entry {
 pub(crate) const POLAR_ARRAY: Entry = Entry {
     id: "polar-array",
     title: "Array around a point",
-    help: "Copy what is selected around a point: type how many, click the point",
+    help: "Copy the selection around a point: type how many, click the point",
     keys: &[],
     strip: None,
     options: &[SNAPPING, GRID],
@@ -89,10 +89,11 @@ impl Tool for Grid {
         let many = format!("{columns} x {rows}");
         match self.from {
             None => format!(
-                "Array of {many}: click a point of what is selected · type columns x rows (4x2), or with the steps (4x2 3.5,4)"
+                "Array of {many}: click a point of the selection · type columns x rows (4x2), or with steps (4x2 \
+                 3.5,4)"
             ),
             Some(_) => format!(
-                "Array of {many}: click where that point is on the next one · type columns x rows (4x2) · Esc drops it"
+                "Array of {many}: click where that point is on the next copy · type columns x rows (4x2) · Esc cancels"
             ),
         }
     }
@@ -166,9 +167,7 @@ impl Tool for Polar {
 
     fn hint(&self, _: &Scope<'_>) -> String {
         let (count, step) = (self.count, crate::base::units::angle(self.step_deg().to_radians()));
-        format!(
-            "Array of {count}, {step} apart: click the point in the middle · type how many (6), or with the angle (6<30)"
-        )
+        format!("Array of {count}, {step} apart: click the centre · type how many (6), or with the angle (6<30)")
     }
 
     fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {

@@ -11,7 +11,8 @@ use crate::plan::Backdrop;
 pub(crate) const BY_LENGTH: Entry = Entry {
     id: "tool-calibrate",
     title: "Set scale by a length",
-    help: "Click both ends of a length on the picture and type how long it is in truth; more lengths make it surer",
+    help: "Click both ends of a known length in the picture and type the length; more lengths make the scale more \
+           accurate",
     keys: &[],
     strip: None,
     options: &[],
@@ -20,7 +21,8 @@ pub(crate) const BY_LENGTH: Entry = Entry {
 pub(crate) const BY_DOOR: Entry = Entry {
     id: "tool-calibrate-door",
     title: "Set scale by a door",
-    help: "Click both sides of a door on the picture: it is as wide as doors are drawn, 0.9 m unless set otherwise",
+    help: "Click both sides of a door in the picture; it counts as wide as new doors are, 0.9 m unless you set \
+           another width",
     keys: &[],
     strip: None,
     options: &[],
@@ -111,19 +113,22 @@ impl Tool for Calibrate {
 
     fn hint(&self, scope: &Scope<'_>) -> String {
         if scope.plan.backdrop().is_none() {
-            return "The plan has no picture under it: add one first".to_owned();
+            return "This plan has no picture; add one first".to_owned();
         }
         let door = scope.units.exact_length(scope.options.opening_width_m);
         match (self.state, self.known) {
             (State::Ready, Known::Typed) => {
-                "Scale: click one end of a length that you know, the longer the better".to_owned()
+                "Scale: click one end of a length you know, the longer the better".to_owned()
             }
             (State::Ready, Known::Door) => {
                 format!("Scale: click one side of a door that is {door} wide, or type another width")
             }
-            (State::From(_), Known::Typed) => "Click the other end · Esc drops it".to_owned(),
-            (State::From(_), Known::Door) => format!("Click the door's other side: it is {door} wide · Esc drops it"),
-            (State::Between(_), _) => "Type the true length and press Enter · click to start anew".to_owned(),
+            (State::From(_), Known::Typed) => "Click the other end · Esc cancels".to_owned(),
+            (State::From(_), Known::Door) => format!(
+                "Click the other side of the door: it is {door} wide · Esc \
+                                                      cancels"
+            ),
+            (State::Between(_), _) => "Type the true length and press Enter · click to start again".to_owned(),
         }
     }
 
@@ -145,7 +150,7 @@ impl Tool for Calibrate {
         preview.dimension(line, said);
         if let (State::From(_), Known::Door) = (self.state, self.known) {
             let metres_per_pixel = scope.options.opening_width_m / pixels.max(1.0);
-            preview.label(scope.pointer, format!("a pixel would be {}", millimetres(metres_per_pixel)), Look::New);
+            preview.label(scope.pointer, format!("1 pixel = {}", millimetres(metres_per_pixel)), Look::New);
         }
     }
 

@@ -104,10 +104,10 @@ impl Tool for CutOut {
         match self.path.points.len() {
             0 => "Courtyard: drag a rectangle inside a room, or click its corners".to_owned(),
             1 if self.rectangle(scope.at(), scope).is_some() => {
-                "Click the opposite corner of the rectangle · Shift draws a line instead · Esc drops it".to_owned()
+                "Click the opposite corner of the rectangle · Shift: a line instead · Esc cancels".to_owned()
             }
-            1 => "Click the next corner of the outline, or the opposite one of a rectangle · Esc drops it".to_owned(),
-            _ => "Click the next corner · the first one again or Enter closes · Esc drops it".to_owned(),
+            1 => "Click the next corner of the outline, or the opposite corner of a rectangle · Esc cancels".to_owned(),
+            _ => "Click the next corner · click the first again or press Enter to close · Esc cancels".to_owned(),
         }
     }
 

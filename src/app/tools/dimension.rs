@@ -121,14 +121,14 @@ impl Tool for Dimension {
     fn hint(&self, scope: &Scope<'_>) -> String {
         match self {
             Self::Picking(points) if points.is_empty() => {
-                "Dimension: click what is measured: corners, faces and axes of walls, edges of openings".to_owned()
+                "Dimension: click what to measure: corners, faces and axes of walls, edges of openings".to_owned()
             }
-            Self::Picking(points) if points.len() == 1 => "Click the next point · Esc drops it".to_owned(),
+            Self::Picking(points) if points.len() == 1 => "Click the next point · Esc cancels".to_owned(),
             Self::Picking(_) if Self::is_beside(scope) => {
-                "Click to put the line here, or go on to the next point".to_owned()
+                "Click to place the line here, or click the next point".to_owned()
             }
-            Self::Picking(_) => "Click the next point, or click beside the walls to put the line there".to_owned(),
-            Self::Placing(_) => "Click where the line lies · Esc drops it".to_owned(),
+            Self::Picking(_) => "Click the next point, or click beside the walls to place the line there".to_owned(),
+            Self::Placing(_) => "Click where to place the line · Esc cancels".to_owned(),
         }
     }
 

@@ -15,7 +15,7 @@ use crate::topology::{PlanFace, PlanFaces, net_of};
 pub(super) const ENTRY: Entry = Entry {
     id: "tool-fill",
     title: "Fill",
-    help: "Make a room of what walls enclose",
+    help: "Click inside closed walls to make a room",
     keys: &[KeyboardShortcut::new(Modifiers::NONE, Key::E)],
     strip: Some((
         Icon::Drawn(&[
@@ -62,8 +62,8 @@ impl Tool for Fill {
 
     fn hint(&self, scope: &Scope<'_>) -> String {
         match self.with_face(scope, scope.pointer, |face| clear_area(scope, face)) {
-            Some(area) => format!("Click to make a room of these {area}"),
-            None => "Fill: point at a place that walls enclose and no room covers · Shift+E fills all".to_owned(),
+            Some(area) => format!("Click to make a room of {area}"),
+            None => "Fill: point inside closed walls where there is no room yet · Shift+E fills all".to_owned(),
         }
     }
 

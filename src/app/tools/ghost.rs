@@ -17,21 +17,29 @@ const MOST_LINES: usize = 3000;
 /// What belongs to the selection: found once, and again when the plan or the selection changes.
 #[derive(Default)]
 pub(super) struct Selected {
-    known: RefCell<Option<(Plan, BTreeSet<ElementId>, Rc<Plan>)>>,
+    known: RefCell<Option<Known>>,
+}
+
+/// What belongs to some elements of a plan.
+struct Known {
+    plan: Plan,
+    elements: BTreeSet<ElementId>,
+    part: Rc<Plan>,
 }
 
 impl Selected {
     /// As a plan of its own; empty if nothing is selected.
     pub(super) fn part(&self, scope: &Scope<'_>) -> Rc<Plan> {
         let mut known = self.known.borrow_mut();
-        if let Some((plan, elements, part)) = known.as_ref()
+        if let Some(Known { plan, elements, part }) = known.as_ref()
             && plan.is_same_value(scope.plan)
             && elements == scope.selection.elements()
         {
             return Rc::clone(part);
         }
         let part = Rc::new(edit::fragment(scope.plan, scope.selection.elements()).unwrap_or_default());
-        *known = Some((scope.plan.clone(), scope.selection.elements().clone(), Rc::clone(&part)));
+        let (plan, elements) = (scope.plan.clone(), scope.selection.elements().clone());
+        *known = Some(Known { plan, elements, part: Rc::clone(&part) });
         part
     }
 }

@@ -79,7 +79,7 @@ impl Tool for Measure {
     fn hint(&self, scope: &Scope<'_>) -> String {
         let points = self.points(scope);
         if points.len() < 2 {
-            return "Measure: click from point to point · the first one again closes an area".to_owned();
+            return "Measure: click from point to point · click the first again for an area".to_owned();
         }
         let total_m: f64 = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
         let mut text = format!("Length {}", scope.units.length(total_m));

@@ -69,20 +69,21 @@ impl Moving {
 
     pub(super) fn hint(&self, scope: &Scope<'_>) -> String {
         let what = match self {
-            Self::Part(part) if part.rooms().len() == 0 => "Alt suspends snapping",
-            Self::Part(_) => "It comes away from its neighbours, which stay as they are · Alt suspends snapping",
+            Self::Part(part) if part.rooms().len() == 0 => "Alt: no snapping",
+            Self::Part(_) => "It comes away from its neighbours, which stay as they are · Alt: no snapping",
             Self::Walls { .. } if self.piece(scope).is_some() => {
                 "Only this piece moves; short walls at right angles join it with the rest"
             }
             Self::Walls { piece: Some(_), .. } => {
-                "The whole straight wall moves, and what shares it follows · Ctrl moves only this piece · Shift frees the direction"
+                "The whole straight wall moves, and what shares it follows · Ctrl: only this piece · Shift: any \
+                 direction"
             }
             Self::Walls { across: Some(_), .. } => {
-                "What shares the wall follows · Shift frees the direction · Alt suspends snapping"
+                "What shares the wall follows · Shift: any direction · Alt: no snapping"
             }
-            Self::Walls { .. } => "What shares these walls follows · Alt suspends snapping",
+            Self::Walls { .. } => "What shares these walls follows · Alt: no snapping",
         };
-        format!("{what} · Esc drops it")
+        format!("{what} · Esc cancels")
     }
 
     /// Where it would be.

@@ -7,7 +7,7 @@ use crate::geometry::{Point, polygon};
 pub(crate) const ENTRY: Entry = Entry {
     id: "tool-number",
     title: "Name along a line",
-    help: "Drag a line through rooms: they are named in the order in which it comes to them",
+    help: "Drag a line through rooms to name them in that order",
     keys: &[],
     strip: None,
     options: &[],
@@ -58,9 +58,9 @@ impl Tool for Number {
 
     fn hint(&self, _: &Scope<'_>) -> String {
         if self.line.is_empty() {
-            "Number: drag a line through the rooms, in the order in which they are to be counted".to_owned()
+            "Name: drag a line through the rooms in the order you want".to_owned()
         } else {
-            "Let go to name these rooms · Escape drops the line".to_owned()
+            "Release to name these rooms · Esc cancels".to_owned()
         }
     }
 

@@ -12,7 +12,8 @@ use crate::plan::WallId;
 pub(crate) const OFFSET: Entry = Entry {
     id: "offset",
     title: "Offset copy",
-    help: "Draw walls beside the selected walls, or inside or outside the selected room: click how far away, or type it",
+    help: "Draw walls parallel to the selected walls, or inside or outside the selected room: click or type the \
+           distance",
     keys: &[],
     strip: None,
     options: &[THICKNESS, SNAPPING, GRID],
@@ -55,8 +56,7 @@ impl Tool for Offset {
     }
 
     fn hint(&self, _: &Scope<'_>) -> String {
-        "Offset: click how far away the copy goes · type the distance (0.5): it goes to the side of the pointer"
-            .to_owned()
+        "Offset: click the distance · or type it (0.5), to the side of the pointer".to_owned()
     }
 
     fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {

@@ -16,7 +16,7 @@ use crate::topology::{Gap, sides_by_geometry};
 pub(super) const DOOR: Entry = Entry {
     id: "tool-door",
     title: "Door",
-    help: "Put a door into a wall",
+    help: "Place a door in a wall",
     keys: &[KeyboardShortcut::new(Modifiers::NONE, Key::D)],
     strip: Some((Icon::Door, Group::Openings)),
     options: &[WIDTH],
@@ -25,7 +25,7 @@ pub(super) const DOOR: Entry = Entry {
 pub(super) const DOUBLE_DOOR: Entry = Entry {
     id: "tool-double-door",
     title: "Double door",
-    help: "Put a door with two leaves into a wall",
+    help: "Place a door with two leaves in a wall",
     keys: &[KeyboardShortcut::new(Modifiers::SHIFT, Key::D)],
     strip: Some((Icon::DoubleDoor, Group::Openings)),
     options: &[WIDTH],
@@ -34,7 +34,7 @@ pub(super) const DOUBLE_DOOR: Entry = Entry {
 pub(super) const PASSAGE: Entry = Entry {
     id: "tool-passage",
     title: "Passage",
-    help: "Put a free passage into a wall or a boundary",
+    help: "Place an opening without a door in a wall or a room boundary",
     keys: &[KeyboardShortcut::new(Modifiers::NONE, Key::O)],
     strip: Some((Icon::Passage, Group::Openings)),
     options: &[WIDTH],
@@ -43,7 +43,7 @@ pub(super) const PASSAGE: Entry = Entry {
 pub(super) const WINDOW: Entry = Entry {
     id: "tool-window",
     title: "Window",
-    help: "Put a window into a wall",
+    help: "Place a window in a wall",
     keys: &[KeyboardShortcut::new(Modifiers::SHIFT, Key::O)],
     strip: Some((Icon::Window, Group::Openings)),
     options: &[WIDTH],
@@ -150,11 +150,11 @@ impl Tool for Opening {
         let name = crate::base::wording::sentence(self.kind.name());
         if let Some(gap) = Self::gap(scope) {
             let width = scope.units.length(gap.width_m);
-            return format!("{name}: click to close this gap of {width} with a doorway");
+            return format!("{name}: click to close this gap of {width}");
         }
         match self.planned(scope) {
-            Some(_) => format!("{name}: click to place it, drag along the wall for another width, or type a width"),
-            None => format!("{name}: point at a wall or at a room's boundary"),
+            Some(_) => format!("{name}: click to place it, drag along the wall to set the width, or type a width"),
+            None => format!("{name}: point at a wall or a room boundary"),
         }
     }
 

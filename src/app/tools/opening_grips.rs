@@ -117,9 +117,9 @@ impl Grip {
     pub(super) fn hint(self, scope: &Scope<'_>) -> String {
         let is_free = scope.plan.opening(self.opening()).is_some_and(|it| matches!(it.place, Place::Free { .. }));
         match self {
-            Self::End(..) => "The other end stays · Alt takes any width · Esc drops it".to_owned(),
-            Self::Middle(..) if is_free => "The opening slides along its line · Esc drops it".to_owned(),
-            Self::Middle(..) => "The opening slides along its wall · Alt takes any place · Esc drops it".to_owned(),
+            Self::End(..) => "The other end stays · Alt: any width · Esc cancels".to_owned(),
+            Self::Middle(..) if is_free => "The opening slides along its line · Esc cancels".to_owned(),
+            Self::Middle(..) => "The opening slides along its wall · Alt: any place · Esc cancels".to_owned(),
         }
     }
 

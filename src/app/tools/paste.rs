@@ -8,7 +8,7 @@ use crate::geometry::Transform;
 pub(crate) const ENTRY: Entry = Entry {
     id: "paste",
     title: "Paste",
-    help: "Place what was copied: it hangs on the pointer until you click",
+    help: "Paste what was copied; click to place it",
     keys: &[],
     strip: None,
     options: &[],
@@ -28,7 +28,7 @@ impl Tool for Paste {
     }
 
     fn hint(&self, _: &Scope<'_>) -> String {
-        "Paste: click where its middle goes, as often as you like · Esc ends".to_owned()
+        "Paste: click to place it, as often as you like · Esc ends".to_owned()
     }
 
     fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {

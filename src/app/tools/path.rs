@@ -37,8 +37,7 @@ enum Bend {
 }
 
 /// The hint while drawing an arc.
-pub(super) const ARC_HINT: &str =
-    "Arc: click a point that it passes through, then its end · A goes back to straight lines";
+pub(super) const ARC_HINT: &str = "Arc: click a point on the arc, then its end · A goes back to straight lines";
 
 /// Two points closer than this are the same: the grid of plans.
 const SAME_M: f64 = 1e-4;

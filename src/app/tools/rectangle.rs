@@ -14,7 +14,7 @@ use crate::snapping::Faces;
 pub(super) const ENTRY: Entry = Entry {
     id: "tool-rectangle",
     title: "Rectangular room",
-    help: "Draw a room as a rectangle: it takes what no room covers yet",
+    help: "Draw a rectangular room; it fills only what no other room covers",
     keys: &[KeyboardShortcut::new(Modifiers::NONE, Key::R)],
     strip: Some((
         Icon::Drawn(&[
@@ -92,10 +92,10 @@ impl Tool for Rectangle {
     fn hint(&self, scope: &Scope<'_>) -> String {
         match self {
             Self::Ready => {
-                let takes = if scope.options.over_rooms { "what rooms cover too" } else { "what no room has" };
-                format!("Rectangle: click a corner of the room, or drag from corner to corner · it takes {takes}")
+                let takes = if scope.options.over_rooms { "space of other rooms too" } else { "only free space" };
+                format!("Rectangle: click a corner, or drag from corner to corner · it takes {takes}")
             }
-            Self::Sized { .. } => "Click the opposite corner, or type both sides (4x3) · Esc drops it".to_owned(),
+            Self::Sized { .. } => "Click the opposite corner, or type both sides (4x3) · Esc cancels".to_owned(),
         }
     }
 

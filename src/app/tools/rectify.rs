@@ -8,7 +8,7 @@ use crate::geometry::{Homography, Point, Segment};
 pub(crate) const ENTRY: Entry = Entry {
     id: "tool-rectify",
     title: "Make flat by four corners",
-    help: "Click the four corners of a rectangle of a photographed drawing, then type its sides or have them estimated",
+    help: "Click the four corners of a rectangle in a photographed drawing, then type its sides or have them estimated",
     keys: &[],
     strip: None,
     options: &[],
@@ -83,13 +83,14 @@ impl Tool for Rectify {
 
     fn hint(&self, scope: &Scope<'_>) -> String {
         if scope.plan.backdrop().is_none() {
-            return "The plan has no picture under it: add one first".to_owned();
+            return "This plan has no picture; add one first".to_owned();
         }
         match self.corners.len() {
-            0 => "Make flat: click the four corners of a rectangle of the drawing, the larger the better".to_owned(),
-            4 => "Type its width and height, as 8.2x6.1, or press Enter to have them estimated · click mends a corner"
+            0 => "Make flat: click the four corners of a rectangle in the drawing, the larger the better".to_owned(),
+            4 => "Type its width and height, such as 8.2x6.1, or press Enter to estimate them · click to correct a \
+                  corner"
                 .to_owned(),
-            number => format!("Click the next corner, {} to go · Esc drops them", 4 - number),
+            number => format!("Click the next corner, {} to go · Esc cancels", 4 - number),
         }
     }
 

@@ -124,10 +124,16 @@ impl Tool for Room {
             return ARC_HINT.to_owned();
         }
         match self.path.points.len() {
-            0 if scope.options.over_rooms => "Room: click its first corner · it takes what rooms cover too".to_owned(),
-            0 => "Room: click its first corner · it takes what no room has: lines may run through rooms".to_owned(),
-            1 | 2 => "Click the next corner, or type a length (3.2) · Shift frees the angle · Ctrl+Z takes a corner back".to_owned(),
-            _ => "Click the next corner · click the first one or press Enter to close; the last corner follows from right angles".to_owned(),
+            0 if scope.options.over_rooms => {
+                "Room: click the first corner · it takes space of other rooms too".to_owned()
+            }
+            0 => "Room: click the first corner · it takes only free space, so lines may cross other rooms".to_owned(),
+            1 | 2 => {
+                "Click the next corner, or type a length (3.2) · Shift: any angle · Ctrl+Z removes a corner".to_owned()
+            }
+            _ => "Click the next corner · click the first or press Enter to close, with the last corner at a right \
+                  angle"
+                .to_owned(),
         }
     }
 

@@ -23,7 +23,7 @@ use crate::plan::{CornerId, ElementId, Place, Plan};
 pub(super) const ENTRY: Entry = Entry {
     id: "tool-select",
     title: "Select",
-    help: "Select, move, drag corners; drag over free space for a box",
+    help: "Select and move things, drag corners; drag across free space to select with a box",
     keys: &[KeyboardShortcut::new(Modifiers::NONE, Key::V)],
     strip: Some((
         Icon::Drawn(&[Loop(&[
@@ -288,11 +288,11 @@ impl Tool for Select {
                 )
             }
             State::Boxing { from } if is_inside(*from, scope.pointer) => {
-                "Selects what lies inside · pull to the left for what is touched · Shift adds".to_owned()
+                "Selects what lies inside · drag to the left for what is touched · Shift adds".to_owned()
             }
             State::Boxing { .. } => "Selects what is inside or touched · Shift adds".to_owned(),
             State::MovingCorner { .. } => {
-                "Everything that shares the corner follows · Alt suspends snapping · Esc drops it".to_owned()
+                "Everything that shares the corner follows · Alt: no snapping · Esc cancels".to_owned()
             }
             State::Moving { what, .. } => what.hint(scope),
             State::Gripping(grip) => grip.hint(scope),

@@ -104,12 +104,12 @@ impl Tool for Split {
     fn hint(&self, scope: &Scope<'_>) -> String {
         if self.path.is_empty() {
             match self.across(scope) {
-                Some(_) => "Click to split straight across · drag, or Shift+click, to begin another line".to_owned(),
-                None if scope.modifiers.shift => "Click where the line begins, on a room's boundary".to_owned(),
-                None => "Split: point at a room's boundary; a click splits the room straight across".to_owned(),
+                Some(_) => "Click to split straight across · drag, or Shift+click, for a line of your own".to_owned(),
+                None if scope.modifiers.shift => "Click where the line starts, on a room boundary".to_owned(),
+                None => "Split: point at a room boundary; a click splits the room straight across".to_owned(),
             }
         } else {
-            "Click on the boundary across · points in between bend the line · Esc drops it".to_owned()
+            "Click the boundary on the other side · points in between bend the line · Esc cancels".to_owned()
         }
     }
 

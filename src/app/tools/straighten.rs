@@ -8,7 +8,7 @@ use crate::geometry::{Point, Segment};
 pub(crate) const ENTRY: Entry = Entry {
     id: "tool-straighten",
     title: "Straighten",
-    help: "Click along a wall of the picture that should be level or upright: the picture turns",
+    help: "Click along a wall of the picture that should be horizontal or vertical, to turn the picture",
     keys: &[],
     strip: None,
     options: &[],
@@ -48,11 +48,11 @@ impl Tool for Straighten {
 
     fn hint(&self, scope: &Scope<'_>) -> String {
         if scope.plan.backdrop().is_none() {
-            return "The plan has no picture under it: add one first".to_owned();
+            return "This plan has no picture; add one first".to_owned();
         }
         match self.from {
-            None => "Straighten: click along a wall of the picture that should be level or upright".to_owned(),
-            Some(_) => "Click further along the wall, the further the better · Esc drops it".to_owned(),
+            None => "Straighten: click along a wall of the picture that should be horizontal or vertical".to_owned(),
+            Some(_) => "Click further along the wall, the further the better · Esc cancels".to_owned(),
         }
     }
 

@@ -12,7 +12,7 @@ use crate::geometry::{Point, Transform, Vector};
 pub(crate) const MIRROR: Entry = Entry {
     id: "mirror-across",
     title: "Mirror",
-    help: "Mirror what is selected across an axis: click two of its points, or type its angle",
+    help: "Mirror the selection across an axis: click two points of the axis, or type its angle",
     keys: &[],
     strip: None,
     options: &[COPIES, RIGHT_ANGLES, SNAPPING, GRID],
@@ -22,7 +22,7 @@ pub(crate) const MIRROR: Entry = Entry {
 pub(crate) const ROTATE: Entry = Entry {
     id: "rotate",
     title: "Rotate",
-    help: "Turn what is selected: click the centre, then from where to where, or type the angle",
+    help: "Rotate the selection: click the centre, then a point and where it goes, or type the angle",
     keys: &[],
     strip: None,
     options: &[COPIES, RIGHT_ANGLES, SNAPPING, GRID],
@@ -32,8 +32,7 @@ pub(crate) const ROTATE: Entry = Entry {
 pub(crate) const SCALE: Entry = Entry {
     id: "scale-selection",
     title: "Scale",
-    help: "Make what is selected larger or smaller: click the point that stays, then from where to where, or type \
-           the factor",
+    help: "Scale the selection: click the point that stays, then another and where it goes, or type the factor",
     keys: &[],
     strip: None,
     options: &[COPIES, SNAPPING, GRID],
@@ -60,6 +59,13 @@ const SAME_M: f64 = 1e-3;
 impl Turning {
     fn of(kind: Kind) -> Self {
         Self { kind, selected: Selected::default(), points: Vec::new() }
+    }
+
+    /// Takes a point, unless it is the last one again.
+    fn go_to(&mut self, point: Point) {
+        if self.points.last().is_none_or(|last| last.distance(point) >= SAME_M) {
+            self.points.push(point);
+        }
     }
 
     /// How many points are clicked before the last one.
@@ -139,16 +145,8 @@ impl Tool for Turning {
                 }
             }
             // Ready -> Drawing, Drawing -> Drawing
-            Input::Click => {
-                if self.points.last().is_none_or(|last| last.distance(scope.at()) >= SAME_M) {
-                    self.points.push(scope.at());
-                }
-            }
-            Input::DragStart { at, .. } if self.points.len() < self.needed() => {
-                if self.points.last().is_none_or(|last| last.distance(at) >= SAME_M) {
-                    self.points.push(at);
-                }
-            }
+            Input::Click => self.go_to(scope.at()),
+            Input::DragStart { at, .. } if self.points.len() < self.needed() => self.go_to(at),
             Input::Typed(typed) => {
                 if let Some((call, _)) = self.typed(typed, scope) {
                     return done(call);
@@ -165,23 +163,26 @@ impl Tool for Turning {
         let kept = if scope.options.copies { "makes a copy" } else { "what it shares stays with its neighbours" };
         match (self.kind, self.points.len()) {
             (Kind::Mirror, 0) => {
-                format!("Mirror: click a point of the axis · type its angle for one through the middle (90) · {kept}")
+                format!(
+                    "Mirror: click a point of the axis · or type its angle (90) for an axis through the middle · \
+                         {kept}"
+                )
             }
             (Kind::Mirror, _) => {
-                "Click another point of the axis, or type its angle · Shift frees it · Esc drops it".to_owned()
+                "Click another point of the axis, or type its angle · Shift: any angle · Esc cancels".to_owned()
             }
             (Kind::Rotate, 0) => {
-                format!("Rotate: click the centre · type an angle to turn about the middle (45) · {kept}")
+                format!("Rotate: click the centre · or type an angle (45) to rotate about the middle · {kept}")
             }
-            (Kind::Rotate, 1) => "Click a point to turn from, or type the angle · Esc drops it".to_owned(),
+            (Kind::Rotate, 1) => "Click a point to rotate from, or type the angle · Esc cancels".to_owned(),
             (Kind::Rotate, _) => {
-                "Click where it turns to, or type the angle · Shift frees it · Esc drops it".to_owned()
+                "Click where that point goes, or type the angle · Shift: any angle · Esc cancels".to_owned()
             }
             (Kind::Scale, 0) => {
-                format!("Scale: click the point that stays · type a factor to scale about the middle (1.5) · {kept}")
+                format!("Scale: click the point that stays · or type a factor (1.5) to scale about the middle · {kept}")
             }
-            (Kind::Scale, 1) => "Click a point to scale from, or type the factor · Esc drops it".to_owned(),
-            (Kind::Scale, _) => "Click where that point goes, or type the factor · Esc drops it".to_owned(),
+            (Kind::Scale, 1) => "Click a point to scale from, or type the factor · Esc cancels".to_owned(),
+            (Kind::Scale, _) => "Click where that point goes, or type the factor · Esc cancels".to_owned(),
         }
     }
 

@@ -134,13 +134,13 @@ pub(super) fn read(typing: Typing, typed: &str, units: Units) -> Result<Typed, S
                 Some((count, angle)) => (count, Some(angle)),
                 None => (typed, None),
             };
-            let count = whole(count).filter(|count| *count > 1).ok_or("how many is a whole number from 2 on")?;
+            let count = whole(count).filter(|count| *count > 1).ok_or("type a whole number from 2 up")?;
             let angle_rad = angle.map(parse_angle_rad).transpose().map_err(|error| error.to_string())?;
             Ok(Typed::Polar { count, angle_rad })
         }
         Typing::Size => {
             let Some((width, height)) = sides(typed) else {
-                return Err("both sides are needed, with an x between, such as 4x3".to_owned());
+                return Err("type both sides with an x between them, such as 4x3".to_owned());
             };
             let (width_m, height_m) = (length_m(width)?, length_m(height)?);
             if width_m.min(height_m) < LEAST_SIDE_M {
@@ -153,7 +153,7 @@ pub(super) fn read(typing: Typing, typed: &str, units: Units) -> Result<Typed, S
 
 /// Columns and rows, perhaps with their steps behind a blank: '4x2 3.5,4'.
 fn read_grid(typed: &str, units: Units) -> Result<Typed, String> {
-    const WRONG: &str = "columns and rows are whole numbers with an x between, such as 4x2";
+    const WRONG: &str = "type columns and rows as whole numbers with an x between, such as 4x2";
     let typed = typed.trim();
     let (counts, steps) = match typed.split_once(char::is_whitespace) {
         Some((counts, steps)) => (counts, Some(steps.trim())),

@@ -131,10 +131,11 @@ impl Tool for Walls {
 
     fn hint(&self, _: &Scope<'_>) -> String {
         match self {
-            Self::Ready => "Walls: click where the chain begins".to_owned(),
+            Self::Ready => "Walls: click where the walls start".to_owned(),
             Self::Drawing { path, .. } if path.is_bending() => ARC_HINT.to_owned(),
             Self::Drawing { .. } => {
-                "Click the next corner, or type a length: 3.2, 3.2<45 (angle), 3.2<<30 (turn) · S: side · A: arc · Shift: any angle · Enter ends"
+                "Click the next corner, or type a length: 3.2, 3.2<45 (angle), 3.2<<30 (turn) · S: side · A: arc · \
+                 Shift: any angle · Enter ends"
                     .to_owned()
             }
         }

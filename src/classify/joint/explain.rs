@@ -1,28 +1,29 @@
 //! Why the joint classifier gave a room its label.
 
 use super::around::Around;
-use super::{FirstRound, Group, Joint, group_of};
+use super::{FirstRound, Group, Joint, group_of, view};
+use crate::base::units::Units;
+use crate::base::wording::count;
 use crate::classify::Distribution;
-use crate::classify::explain::readable;
-use crate::classify::numbers::percent;
-use crate::dataset::RoomNetwork;
-use crate::labels::Label;
+use crate::classify::numbers::times;
+use crate::classify::why::{OnPlan, Point, Why, and_list, area, nothing_stands_out, sorted, speaks};
+use crate::dataset::{NetworkRoom, RoomNetwork};
+use crate::labels::{Label, function_title};
+use crate::plan::OpeningKind;
 
 /// A prediction and the reasons for it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointExplanation {
     /// The predicted label.
     pub label: Label,
-    /// Its probability, 0..=1.
-    pub probability: f64,
+    pub distribution: Distribution,
     /// The prediction of the first round, which knows no labels of other rooms.
     pub first: Distribution,
     /// The effect of each group of features, strongest support for the label first.
     pub groups: Vec<GroupEffect>,
     /// The effect of each room it opens to, strongest support for the label first.
     pub neighbours: Vec<NeighbourEffect>,
-    /// Facts about the room in words, by group.
-    facts: Vec<(Group, String)>,
+    seen: Seen,
 }
 
 /// The effect of a group of features: the second round is repeated with each of them at its median over
@@ -30,8 +31,8 @@ pub struct JointExplanation {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroupEffect {
     pub group: Group,
-    /// The probability of the predicted label if the group were typical.
-    pub probability_if_typical: f64,
+    /// What is predicted if the group is typical.
+    pub if_typical: Distribution,
 }
 
 /// The effect of a neighbour's label, known or predicted: the second round is repeated with no belief
@@ -40,20 +41,40 @@ pub struct GroupEffect {
 pub struct NeighbourEffect {
     /// Its index in the network.
     pub room: usize,
-    /// Its key.
-    pub key: String,
+    /// Its name, or else its function; empty if it has neither.
+    pub name: String,
     /// Its label: the known one, else the first round's.
     pub label: Label,
     pub is_known: bool,
-    /// The probability of the predicted label if all labels were equally likely for the neighbour.
-    pub probability_if_unknown: f64,
+    /// What is predicted if all labels are equally likely for the neighbour.
+    pub if_unknown: Distribution,
 }
 
-/// Effects below this are not worth mentioning.
-const MATTERS: f64 = 0.02;
-
-/// The most groups, and neighbours, named in a sentence; the data have all.
-const NAMED: usize = 3;
+/// What the sentences say of a room and its plan.
+#[derive(Clone, Debug, PartialEq)]
+struct Seen {
+    area_m2: f64,
+    median_m2: f64,
+    /// Rooms of the plan, this one included, and how many of them are larger.
+    rooms: usize,
+    larger: usize,
+    ratio: f64,
+    walls: u32,
+    convexity: f64,
+    /// Its openings by kind, and how many lead to no classified room.
+    doors: Vec<(OpeningKind, usize)>,
+    outside: usize,
+    /// Share of the shortest ways between other rooms that lead through it.
+    betweenness: f64,
+    /// The rooms that it opens to, their areas in m², and their most openings to other rooms.
+    joined: Vec<usize>,
+    joined_m2: Vec<f64>,
+    most_joined: usize,
+    /// The labels of these rooms, with how many have each.
+    joined_labels: Vec<(Label, usize)>,
+    /// Other rooms of about its area.
+    alike: Vec<usize>,
+}
 
 impl Joint {
     /// Why a room gets its label; `None` for a room that is not in the network. `known` as in
@@ -70,7 +91,7 @@ impl Joint {
         known: &[Option<Label>],
         room: usize,
     ) -> Option<JointExplanation> {
-        let it = network.rooms.get(room)?;
+        network.rooms.get(room)?;
         let FirstRound { looked, opinions: first } = round;
         let values = |first: &[Distribution], known: &[Option<Label>]| {
             looked.with_labels_around(room, &Around::new(&looked.view, first, known), &self.left_out)
@@ -80,7 +101,6 @@ impl Joint {
         let told = values(first, known);
         let distribution = self.answer(&told);
         let label = distribution.label();
-        let probability = distribution.probability(label);
         let mut groups: Vec<GroupEffect> = Group::ALL
             .into_iter()
             .map(|group| {
@@ -90,10 +110,10 @@ impl Joint {
                         *value = self.typical[feature];
                     }
                 }
-                GroupEffect { group, probability_if_typical: self.answer(&typical).probability(label) }
+                GroupEffect { group, if_typical: self.answer(&typical) }
             })
             .collect();
-        groups.sort_by(|p, q| p.probability_if_typical.total_cmp(&q.probability_if_typical));
+        groups.sort_by(|p, q| p.if_typical.probability(label).total_cmp(&q.if_typical.probability(label)));
         let mut neighbours: Vec<NeighbourEffect> = looked.view.joined[room]
             .iter()
             .filter(|&&other| other != room)
@@ -110,82 +130,185 @@ impl Joint {
                 unsure[other] = first[other];
                 NeighbourEffect {
                     room: other,
-                    key: network.rooms[other].key.clone(),
+                    name: name(&network.rooms[other]),
                     label: known_label.unwrap_or_else(|| first[other].label()),
                     is_known: known_label.is_some(),
-                    probability_if_unknown: self.answer(&told).probability(label),
+                    if_unknown: self.answer(&told),
                 }
             })
             .collect();
-        neighbours.sort_by(|p, q| p.probability_if_unknown.total_cmp(&q.probability_if_unknown));
-        // The facts that sentences name.
-        let all = network.rooms.len();
-        let larger = network.rooms.iter().filter(|other| other.area_m2 > it.area_m2).count();
+        neighbours.sort_by(|p, q| p.if_unknown.probability(label).total_cmp(&q.if_unknown.probability(label)));
+        let seen = Seen::of(network, round, room, &neighbours);
+        Some(JointExplanation { label, distribution, first: first[room], groups, neighbours, seen })
+    }
+}
+
+/// What people call a room.
+fn name(room: &NetworkRoom) -> String {
+    if room.name.is_empty() { function_title(&room.function) } else { room.name.clone() }
+}
+
+impl Seen {
+    fn of(network: &RoomNetwork, round: &FirstRound, room: usize, neighbours: &[NeighbourEffect]) -> Self {
+        let it = &network.rooms[room];
+        let view = &round.looked.view;
         let mut areas: Vec<f64> = network.rooms.iter().map(|room| room.area_m2).collect();
+        let larger = areas.iter().filter(|&&area_m2| area_m2 > it.area_m2).count();
         areas.sort_by(f64::total_cmp);
-        let median_m2 = (areas[(all - 1) / 2] + areas[all / 2]) / 2.0;
-        let joined = looked.view.joined[room].len();
-        let alike = areas.iter().filter(|&&area| (area / it.area_m2).ln().abs() <= super::view::ALIKE).count() - 1;
-        let facts = vec![
-            (
-                Group::Size,
+        let rooms = areas.len();
+        let is_alike =
+            |other: &usize| *other != room && (view.log_area[*other] - view.log_area[room]).abs() <= super::view::ALIKE;
+        let of_kind = |kind: OpeningKind| (kind, it.doors.iter().filter(|door| door.kind == kind).count());
+        let of_label = |label: Label| (label, neighbours.iter().filter(|neighbour| neighbour.label == label).count());
+        let betweenness = view::FEATURES.iter().position(|(_, name)| *name == "betweenness");
+        let joined: Vec<usize> = view.joined[room].iter().copied().filter(|&other| other != room).collect();
+        Self {
+            area_m2: it.area_m2,
+            median_m2: (areas[(rooms - 1) / 2] + areas[rooms / 2]) / 2.0,
+            rooms,
+            larger,
+            ratio: it.axes_ratio.max(1.0 / it.axes_ratio.max(1e-9)),
+            walls: it.form.walls,
+            convexity: it.form.convexity,
+            doors: OpeningKind::ALL.map(of_kind).into_iter().filter(|(_, count)| *count > 0).collect(),
+            outside: it.doors.iter().filter(|door| door.to.is_none()).count(),
+            betweenness: betweenness.map_or(0.0, |feature| f64::from(round.looked.features[room][feature])),
+            joined_m2: joined.iter().map(|&other| network.rooms[other].area_m2).collect(),
+            most_joined: joined.iter().map(|&other| view.joined[other].len()).max().unwrap_or_default(),
+            joined,
+            joined_labels: Label::ALL.map(of_label).into_iter().filter(|(_, count)| *count > 0).collect(),
+            alike: (0..rooms).filter(is_alike).collect(),
+        }
+    }
+
+    /// What is seen of a group of features, in words, and where.
+    fn of_group(&self, group: Group, first: Label, label: Label, units: Units) -> (String, OnPlan) {
+        match group {
+            Group::Size => (self.size(units), OnPlan::Area),
+            Group::Form => {
+                let bent = if self.convexity < 0.95 { ", with a corner that points inwards" } else { "" };
+                (format!("{}, {}{bent}", times(self.ratio), count(self.walls as usize, "wall")), OnPlan::Axes)
+            }
+            Group::Openings => (self.openings(), OnPlan::Openings(None)),
+            Group::Place => (self.place(), OnPlan::Rooms(self.joined.clone())),
+            Group::Neighbours => (self.neighbours(units), OnPlan::Rooms(self.joined.clone())),
+            Group::Alike => {
+                let words = match self.alike.len() {
+                    0 => "no other room is about as large".to_owned(),
+                    1 => "one other room is about as large".to_owned(),
+                    others => format!("{others} other rooms are about as large"),
+                };
+                (words, OnPlan::Rooms(self.alike.clone()))
+            }
+            Group::Plan => {
+                let words = format!(
+                    "a plan of {}, half of them over {}",
+                    count(self.rooms, "room"),
+                    area(self.median_m2, units)
+                );
+                (words, OnPlan::Rooms((0..self.rooms).collect()))
+            }
+            Group::Labels => {
+                let labels: Vec<String> =
+                    self.joined_labels.iter().map(|(label, rooms)| count(*rooms, label.name())).collect();
+                let opens = match labels.as_slice() {
+                    [] => "it opens to no other room".to_owned(),
+                    labels => format!("it opens to {}", and_list(labels)),
+                };
+                let itself =
+                    if first == label { format!("it looks like a {label} by itself, and ") } else { String::new() };
+                (itself + &opens, OnPlan::Rooms(self.joined.clone()))
+            }
+        }
+    }
+
+    fn size(&self, units: Units) -> String {
+        // The paper's area, not the clear one that the drawing shows.
+        let own = format!("{} along axes", area(self.area_m2, units));
+        let others = self.rooms - 1;
+        match self.larger {
+            _ if others == 0 => own,
+            0 => format!("{own}, the largest of {} rooms", self.rooms),
+            larger if larger == others => format!("{own}, the smallest of {} rooms", self.rooms),
+            larger => {
+                let are = if larger == 1 { "is" } else { "are" };
                 format!(
-                    "{:.1} m², {:.1} times the plan's median, {} of {all} rooms are larger",
-                    it.area_m2,
-                    it.area_m2 / median_m2,
-                    larger
-                ),
-            ),
-            (
-                Group::Form,
-                format!(
-                    "{:.1} times as long as wide, {} walls",
-                    it.form.length_m / it.form.width_m.max(1e-9),
-                    it.form.walls
-                ),
-            ),
-            (Group::Openings, format!("{} to {joined} of the rooms", it.doors.len())),
-            (Group::Alike, format!("{alike} others of about its area")),
-        ];
-        Some(JointExplanation { label, probability, first: first[room], groups, neighbours, facts })
+                    "{own}, {:.1} times the plan's median; {larger} of the {others} other rooms {are} larger",
+                    self.area_m2 / self.median_m2
+                )
+            }
+        }
+    }
+
+    fn openings(&self) -> String {
+        if self.doors.is_empty() {
+            return "no openings".to_owned();
+        }
+        let doors: Vec<String> = self.doors.iter().map(|(kind, doors)| count(*doors, kind.name())).collect();
+        let rooms = match self.joined.len() {
+            0 => String::new(),
+            rooms => format!(", to {}", count(rooms, "room")),
+        };
+        let outside = match self.outside {
+            0 => "",
+            _ if self.joined.is_empty() => ", to the outside",
+            _ => " and the outside",
+        };
+        format!("{}{rooms}{outside}", and_list(&doors))
+    }
+
+    fn place(&self) -> String {
+        match self.joined.len() {
+            0 => "no way leads to another room".to_owned(),
+            1 => "a dead end: it opens to one room only".to_owned(),
+            _ if self.betweenness < 0.005 => "no way between other rooms leads through it".to_owned(),
+            _ => format!("{:.0} % of the ways between other rooms lead through it", 100.0 * self.betweenness),
+        }
+    }
+
+    fn neighbours(&self, units: Units) -> String {
+        let least_m2 = self.joined_m2.iter().copied().fold(f64::INFINITY, f64::min);
+        let most_m2 = self.joined_m2.iter().copied().fold(0.0, f64::max);
+        let most = count(self.most_joined, "room");
+        match self.joined_m2.len() {
+            0 => "it opens to no other room".to_owned(),
+            1 => format!("it opens to a room of {}, which opens to {most}", area(most_m2, units)),
+            _ => {
+                let (least, largest) = (area(least_m2, units), area(most_m2, units));
+                format!("it opens to rooms of {least} to {largest}, one of which opens to {most}")
+            }
+        }
     }
 }
 
 impl JointExplanation {
-    /// The reason in one to three sentences.
-    pub fn words(&self) -> String {
-        let label = self.label.name();
-        let groups = self.groups.iter().filter(|effect| effect.probability_if_typical < self.probability - MATTERS);
-        let groups: Vec<String> = groups
-            .take(NAMED)
-            .map(|effect| {
-                let fact = self.facts.iter().find(|(group, _)| *group == effect.group);
-                let fact = fact.map(|(_, fact)| format!("{fact}; ")).unwrap_or_default();
-                let probability = percent(effect.probability_if_typical);
-                format!("{} ({fact}if typical {probability})", effect.group.words())
-            })
-            .collect();
-        let mut words = if groups.is_empty() {
-            format!("No single trait decides for {label} ({}).", percent(self.probability))
-        } else {
-            format!("What speaks for {label} ({}): {}.", percent(self.probability), groups.join(", "))
-        };
-        let neighbours: Vec<String> = self
-            .neighbours
-            .iter()
-            .filter(|effect| effect.probability_if_unknown < self.probability - MATTERS)
-            .take(NAMED)
-            .map(|effect| {
-                let how = if effect.is_known { "known" } else { "predicted" };
-                format!("{} ({how}: {})", readable(&effect.key), effect.label.name())
-            })
-            .collect();
-        if !neighbours.is_empty() {
-            words.push_str(&format!(" So do the rooms beside it: {}.", neighbours.join(", ")));
+    /// The probability of the predicted label, 0..=1.
+    pub fn probability(&self) -> f64 {
+        self.distribution.probability(self.label)
+    }
+
+    /// The reason as people read it, with areas in these units.
+    pub fn why(&self, units: Units) -> Why {
+        let (label, first) = (self.label, self.first.label());
+        let gain = |without: &Distribution, of: Label| self.distribution.probability(of) - without.probability(of);
+        let groups = self.groups.iter().filter_map(|effect| {
+            let (speaks, change) = speaks(label, |of| gain(&effect.if_typical, of))?;
+            let (seen, on_plan) = self.seen.of_group(effect.group, first, label, units);
+            Some((Point { seen, speaks: Some(speaks), on_plan }, change))
+        });
+        let neighbours = self.neighbours.iter().filter_map(|effect| {
+            let (speaks, change) = speaks(label, |of| gain(&effect.if_unknown, of))?;
+            let name = if effect.name.is_empty() { "an unnamed room" } else { &effect.name };
+            let probably = if effect.is_known { "" } else { "probably " };
+            let seen = format!("it opens to {name}, {probably}a {}", effect.label);
+            Some((Point { seen, speaks: Some(speaks), on_plan: OnPlan::Rooms(vec![effect.room]) }, change))
+        });
+        let points = sorted(label, groups.chain(neighbours).collect());
+        let mut conclusion = if points.is_empty() { nothing_stands_out(label) } else { String::new() };
+        if first != label {
+            let gap = if conclusion.is_empty() { "" } else { " " };
+            conclusion.push_str(&format!("{gap}By itself, without the rooms around it, it would be a {first}."));
         }
-        if self.first.label() != self.label {
-            words.push_str(&format!(" By itself it would be a {}.", self.first.label().name()));
-        }
-        words
+        Why { label, points, conclusion }
     }
 }

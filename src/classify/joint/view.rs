@@ -31,20 +31,6 @@ pub enum Group {
 impl Group {
     pub const ALL: [Self; 8] =
         [Self::Size, Self::Form, Self::Openings, Self::Place, Self::Neighbours, Self::Alike, Self::Plan, Self::Labels];
-
-    /// What the group is called in a sentence about a room.
-    pub const fn words(self) -> &'static str {
-        [
-            "its size among the rooms of the plan",
-            "its shape",
-            "its openings",
-            "its place in the graph",
-            "the shape of the rooms it opens to",
-            "the rooms of its size",
-            "the plan as a whole",
-            "the labels around it",
-        ][self as usize]
-    }
 }
 
 /// The features of the first round, in their order.

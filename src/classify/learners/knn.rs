@@ -50,7 +50,7 @@ impl Learner for NearestNeighbours {
     }
 
     fn help(&self) -> &'static str {
-        "the most similar rooms of the training set"
+        "the most similar rooms that the model learned from, each room by itself"
     }
 
     fn train(&self, table: &Table, seed: u64, work: &Work<'_>) -> Result<Trained<Arc<dyn Model>>, Cancelled> {

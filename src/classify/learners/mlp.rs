@@ -71,7 +71,7 @@ impl Learner for Backpropagation {
     }
 
     fn help(&self) -> &'static str {
-        "a multilayer perceptron"
+        "a small neural network, each room by itself"
     }
 
     fn train(&self, table: &Table, seed: u64, work: &Work<'_>) -> Result<Trained<Arc<dyn Model>>, Cancelled> {
@@ -107,17 +107,10 @@ impl Model for Perceptron {
         let effect = |feature: usize| {
             let mut changed = *values;
             changed[feature] = self.typical[feature];
-            let distribution = predict(&changed);
-            Effect {
-                feature,
-                value: values[feature],
-                typical: self.typical[feature],
-                probability_if_typical: distribution.probability(label),
-                label_if_typical: distribution.label(),
-            }
+            Effect { feature, value: values[feature], typical: self.typical[feature], if_typical: predict(&changed) }
         };
         let mut effects: Vec<Effect> = (0..FEATURES).map(effect).collect();
-        effects.sort_by(|p, q| p.probability_if_typical.total_cmp(&q.probability_if_typical));
+        effects.sort_by(|p, q| p.if_typical.probability(label).total_cmp(&q.if_typical.probability(label)));
         Reason::Features(FeaturesReason { effects })
     }
 

@@ -46,7 +46,7 @@ impl Learner for C45 {
     }
 
     fn help(&self) -> &'static str {
-        "a decision tree"
+        "a decision tree, each room by itself"
     }
 
     fn train(&self, table: &Table, _: u64, work: &Work<'_>) -> Result<Trained<Arc<dyn Model>>, Cancelled> {

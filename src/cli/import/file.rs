@@ -89,7 +89,7 @@ impl File {
         for plan in self.plans() {
             match &plan.state {
                 State::Kept => terminal.error(format!(
-                    "{}: kept: it differs from what {} gives; --force replaces it",
+                    "{}: kept, because it differs from the result of {}; --force overwrites it",
                     plan.target.display(),
                     self.job.input.path.display()
                 ))?,

@@ -22,7 +22,7 @@ pub(super) fn list_notes(files: &[File], terminal: &mut Terminal) -> Result<(), 
             writeln!(terminal.out, "{}", note.what)?;
         }
         if let Content::Foreign(kind) = &file.content {
-            writeln!(terminal.out, "{}: passed over: {kind}", file.job.input.path.display())?;
+            writeln!(terminal.out, "{}: skipped: {kind}", file.job.input.path.display())?;
         }
     }
     if files.iter().any(|file| !file.notes().is_empty() || matches!(file.content, Content::Foreign(_))) {
@@ -53,7 +53,7 @@ pub(super) fn summarise_notes(files: &[File], terminal: &mut Terminal) -> Result
     if groups.is_empty() {
         return Ok(());
     }
-    writeln!(terminal.out, "Mended and left out, with the first place of each (-v lists all):")?;
+    writeln!(terminal.out, "Repaired and left out, with the first place of each (-v lists all):")?;
     let mut groups: Vec<((NoteKind, String), Group<'_>)> = groups.into_iter().collect();
     groups.sort_by(|((a_kind, _), a), ((b_kind, _), b)| a_kind.cmp(b_kind).then(b.count.cmp(&a.count)));
     for ((kind, what), Group { count, first: (file, note) }) in groups {
@@ -179,7 +179,7 @@ pub(super) fn print_outcome(files: &[File], output: &Path, terminal: &mut Termin
         }
     }
     for (kind, count) in kinds {
-        writeln!(terminal.out, "Passed over as no plans: {count} x {kind}.")?;
+        writeln!(terminal.out, "Skipped, not plans: {count} x {kind}.")?;
     }
     Ok(())
 }

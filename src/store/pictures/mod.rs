@@ -150,7 +150,7 @@ pub fn load_backdrop_while(
     let shown = match rectification {
         None => full,
         Some(rectification) => {
-            let wrong = || PictureError::new("cannot be made flat by its corners", "take the corners anew");
+            let wrong = || PictureError::new("cannot be made flat by its corners", "click the corners again");
             let [width_px, height_px] = rectification.size_px;
             check_size(width_px, height_px)?;
             let source_from_shown = rectification.source_from_shown().ok_or_else(wrong)?;

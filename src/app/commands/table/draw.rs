@@ -7,13 +7,22 @@ use crate::geometry::GRID_M;
 use crate::plan::{DimensionAlong, OpeningId, OpeningKind};
 
 const PATH: Arg<Vec<Point>> =
-    needed("POINTS", points(2), "points in metres, as '0,0 4.2,0', where the last may be the first");
-const RING: Arg<Vec<Point>> = needed("CORNERS", points(3), "corners in metres, as '0,0 4,0 4,3 0,3'");
-const PLACE: Arg<Point> = needed("PLACE", POINT, "a point in metres, as '2,1.5'");
+    needed("POINTS", points(2), "points in metres, such as '0,0 4.2,0'; the last may be the first");
+const RING: Arg<Vec<Point>> = needed("CORNERS", points(3), "corners in metres, such as '0,0 4,0 4,3 0,3'");
+const PLACE: Arg<Point> = needed("PLACE", POINT, "a point in metres, such as '2,1.5'");
 /// For what makes boundaries: how thick the walls along them are.
-const NEW_WALLS: Arg<Option<f64>> =
-    optional("THICKNESS", length(0.0, 10.0), "of walls along new boundaries, 0 for none; what is set without");
-const THICKNESS: Arg<Option<f64>> = optional("THICKNESS", length(0.0, 10.0), "of walls; what is set without");
+const NEW_WALLS: Arg<Option<f64>> = optional(
+    "THICKNESS",
+    length(0.0, 10.0),
+    "of walls along new boundaries, 0 for none; the thickness set for new \
+                                              walls without it",
+);
+const THICKNESS: Arg<Option<f64>> = optional(
+    "THICKNESS",
+    length(0.0, 10.0),
+    "of walls; the thickness set for new \
+                                                                              walls without it",
+);
 
 /// Applies an edit; if the edit is refused, so is the command.
 pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) -> Outcome {
@@ -76,7 +85,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "fill-all",
         "Fill all",
-        "Make rooms of everything that walls enclose and no room covers",
+        "Make a room wherever walls enclose space that no room covers",
         has_walls,
         &given0(|app, _| {
             let mut filled = 0;
@@ -99,7 +108,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "right-angles",
         "Right angles",
-        "Keep lines to right angles; Shift frees them",
+        "Draw at right angles only; hold Shift to draw freely",
         always,
         |app| app.tools.options.right_angles,
         |app, is_on| app.tools.options.right_angles = is_on,
@@ -109,7 +118,8 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "snapping",
         "Snap to the drawing",
-        "Snap to corners, crossings, midpoints, axes and faces of walls, and alignments; Alt suspends it, Tab goes on to the next",
+        "Snap to corners, crossings, midpoints, axes and faces of walls, and alignments; hold Alt to suspend it, \
+         press Tab for the next snap",
         always,
         |app| app.tools.options.snaps,
         |app, is_on| app.tools.options.snaps = is_on,
@@ -119,7 +129,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "snap-to-grid",
         "Snap to the grid",
-        "Snap to the grid, and to round lengths, where it is shown and no picture is",
+        "Snap to the grid and to round lengths while the grid is shown and no picture is",
         always,
         |app| app.tools.options.snaps_to_grid,
         |app, is_on| app.tools.options.snaps_to_grid = is_on,
@@ -129,7 +139,8 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "walls-with-rooms",
         "With walls",
-        "Put walls along every new boundary: of rooms, where rooms are split, around courtyards, and where a room comes away from its neighbours",
+        "Draw walls along every new boundary: of rooms, of splits, of courtyards, and where a room comes away from \
+         its neighbours",
         always,
         |app| app.tools.options.walls_with_rooms,
         |app, is_on| app.tools.options.walls_with_rooms = is_on,
@@ -138,7 +149,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "clear-sizes",
         "Clear sizes",
-        "Draw rooms by their clear size, between wall faces; without, by the axes of their walls",
+        "Draw rooms by their clear size, between wall faces, instead of by the axes of their walls",
         always,
         |app| app.tools.options.clear_sizes,
         |app, is_on| app.tools.options.clear_sizes = is_on,
@@ -147,7 +158,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "rooms-from-walls",
         "Rooms from closed walls",
-        "Make a room of what walls enclose as soon as they are closed; on for plans begun here",
+        "Make a room as soon as walls are closed; on for new plans",
         has_plan,
         |app| app.session.closes_rooms(),
         |app, is_on| app.session.set_closes_rooms(is_on),
@@ -156,7 +167,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "over-rooms",
         "Over rooms",
-        "Let new rooms take what rooms cover too, as a niche or a corridor that lies within another room",
+        "Let new rooms lie over others, such as a niche or a corridor inside another room",
         always,
         |app| app.tools.options.over_rooms,
         |app, is_on| app.tools.options.over_rooms = is_on,
@@ -166,7 +177,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "wall-thickness",
         "Wall thickness…",
-        "Say how thick new walls are",
+        "Set the thickness of new walls",
         always,
         &given1(needed("THICKNESS", length(0.0, 10.0), "of new walls"), |app, thickness_m, _| {
             app.tools.options.thickness_m = thickness_m;
@@ -178,12 +189,12 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "wall-side",
         "Wall side…",
-        "Say on which side of the line new walls stand, seen along it: left, centre or right; S while drawing goes on to the next",
+        "Choose the side of the line that new walls lie on: left, centre or right; press S while drawing for the next",
         always,
-        &given1(optional("SIDE", one_of::<Lies>(), "left, centre or right; the next without"), |app, lies, _| {
+        &given1(optional("SIDE", one_of::<Lies>(), "left, centre or right; without it, the next"), |app, lies, _| {
             let lies = lies.unwrap_or(app.tools.options.lies.next());
             app.tools.options.lies = lies;
-            app.session.status = format!("New walls stand {}", said_of(lies));
+            app.session.status = format!("New walls lie {}", said_of(lies));
             Outcome::Done
         }),
         None,
@@ -192,7 +203,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "opening-width",
         "Opening width…",
-        "Say how wide new doors, passages and windows are; double doors are twice as wide",
+        "Set the width of new doors, passages and windows; double doors are twice as wide",
         always,
         &given1(needed("WIDTH", length(0.1, 100.0), "of new openings"), |app, width_m, _| {
             app.tools.options.opening_width_m = width_m;
@@ -204,10 +215,10 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "arc-tolerance",
         "Arc tolerance…",
-        "Say how near the chords stay to the arcs that they draw; press A while drawing for an arc",
+        "Set how closely straight pieces follow an arc; press A while drawing for an arc",
         always,
         &given1(
-            needed("TOLERANCE", length(0.0005, 10.0), "how far a chord may be from its arc"),
+            needed("TOLERANCE", length(0.0005, 10.0), "how far a straight piece may be from its arc"),
             |app, tolerance_m, _| {
                 app.tools.options.arc_tolerance_m = tolerance_m;
                 Outcome::Done
@@ -220,14 +231,14 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "draw-walls",
         "Draw walls",
-        "Draw a chain of walls from point to point; a room that they cross is split",
+        "Draw a chain of walls from point to point; rooms that they cross are split",
         has_plan,
         &given5(
             PATH,
             THICKNESS,
-            optional("SIDE", one_of::<Lies>(), "on which side of the line they stand; centre without"),
-            optional("DRAWN-THICKNESS", length(0.0, 10.0), "of the first wall, where it stands already"),
-            optional("DRAWN-SIDE", one_of::<Lies>(), "of the first wall, where it stands already"),
+            optional("SIDE", one_of::<Lies>(), "the side of the line they lie on; centre by default"),
+            optional("DRAWN-THICKNESS", length(0.0, 10.0), "of the first wall, if it exists already"),
+            optional("DRAWN-SIDE", one_of::<Lies>(), "of the first wall, if it exists already"),
             |app, points, thickness_m, lies, drawn_m, drawn_lies, _| {
                 let thickness_m = thickness_m.unwrap_or(app.tools.options.thickness_m);
                 let built = Built { thickness_m, lies: lies.unwrap_or_default() };
@@ -270,16 +281,16 @@ pub(super) const COMMANDS: &[Command] = &[
             });
         },
     )
-    .menu(Menu::Draw, 3),
+    .menu(Menu::Draw, 4),
     with(
         "draw-dimension",
         "Draw a dimension chain",
-        "Draw a chain that measures from point to point and follows what lies there",
+        "Draw a dimension chain from point to point that follows what it measures",
         has_plan,
         &given3(
-            needed("POINTS", points(2), "what is measured: points in metres, as '0,0 4.2,0'"),
+            needed("POINTS", points(2), "what to measure: points in metres, such as '0,0 4.2,0'"),
             needed("ALONG", one_of::<DimensionAlong>(), "horizontal, vertical or aligned"),
-            needed("THROUGH", POINT, "where the line lies: a point in metres, as '2,-1'"),
+            needed("THROUGH", POINT, "where the line lies: a point in metres, such as '2,-1'"),
             |app, points, along, through, _| {
                 edited(app, "Draw dimension", |plan| Ok(edit::draw_dimension(plan, &points, along, through)?.0))
             },
@@ -296,7 +307,7 @@ pub(super) const COMMANDS: &[Command] = &[
             optional(
                 "SPACE",
                 one_of::<Space>(),
-                "exact (without) for this boundary, free for what no room covers of it",
+                "exact (default) for this boundary, free for the part of it that no room covers",
             ),
             THICKNESS,
             |app, points, space, thickness_m, context| {
@@ -367,13 +378,13 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "add-opening",
         "Add an opening",
-        "Put an opening into the wall or the boundary at a point",
+        "Place an opening in the wall or boundary at a point",
         has_plan,
         &given4(
             needed("KIND", one_of::<OpeningKind>(), "door, double-door, passage or window"),
             PLACE,
-            optional("WIDTH", length(0.01, 1000.0), "how wide; what is set without"),
-            optional("TOWARDS", POINT, "a point on the side that a door opens to"),
+            optional("WIDTH", length(0.01, 1000.0), "the width; the width set for new openings without it"),
+            optional("TOWARDS", POINT, "a point on the side that a door swings to"),
             |app, kind, at, width_m, towards, _| {
                 let width_m = width_m.unwrap_or(app.tools.options.opening_width_m);
                 let mut made = None;
@@ -400,8 +411,7 @@ impl App {
             let keys =
                 |id: &str| super::super::find(id).map(|command| self.keys_text(command, context)).unwrap_or_default();
             let [function, name] = ["set-function", "rename"].map(keys);
-            self.session.status =
-                format!("The keys of labels mean the new room, {function} says its function, {name} names it");
+            self.session.status = format!("Label keys apply to the new room · {function}: function · {name}: name");
         }
     }
 
@@ -425,7 +435,7 @@ impl App {
                         let [from, to] = [from_m, to_m].map(|width_m| units.length(width_m));
                         format!("{kind} made narrower to fit its wall: {to} wide, not {from}")
                     }
-                    edit::Refit::LeftOut => format!("{kind} left out: another opening stands there"),
+                    edit::Refit::LeftOut => format!("{kind} left out: another opening is there"),
                 }
             }
             several => {
@@ -433,7 +443,7 @@ impl App {
                 let counts = [
                     (number(|how| matches!(how, edit::Refit::Moved { .. })), "moved to fit"),
                     (number(|how| matches!(how, edit::Refit::Narrowed { .. })), "made narrower"),
-                    (number(|how| matches!(how, edit::Refit::LeftOut)), "left out, for others stand there"),
+                    (number(|how| matches!(how, edit::Refit::LeftOut)), "left out, because others are there"),
                 ];
                 let counts = counts.into_iter().filter(|(number, _)| *number > 0);
                 let said: Vec<String> = counts

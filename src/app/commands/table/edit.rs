@@ -6,7 +6,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "undo",
         "Undo",
-        "Take the last change back; while something is drawn, its last corner",
+        "Undo the last change; while you draw, the last corner",
         can_undo, // A corner in the making is no change of the plan.
         &given0(|app, _| if app.undo() { Outcome::Done } else { Outcome::Asks }),
         None,
@@ -15,7 +15,7 @@ pub(super) const COMMANDS: &[Command] = &[
     .menu(Menu::Edit, 0)
     .on(&[On::FreeSpace])
     .tool(Icon::Undo, 0),
-    command("redo", "Redo", "Do again what was taken back", can_redo, |app, _| app.session.redo())
+    command("redo", "Redo", "Redo what was undone", can_redo, |app, _| app.session.redo())
         .keys(&[ctrl_shift(Key::Z), ctrl(Key::Y)])
         .menu(Menu::Edit, 0)
         .on(&[On::FreeSpace])
@@ -23,9 +23,9 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "jump-to-step",
         "Go to a step…",
-        "Go back or forth to a step of the history",
+        "Go back or forward to a step of the history",
         has_plan,
-        &given1(needed("STEP", COUNT, "which step of the history, the plan as it came being 1"), |app, step, _| {
+        &given1(needed("STEP", COUNT, "which step of the history; 1 is the plan as it was opened"), |app, step, _| {
             match app.session.jump_to_step(step - 1) {
                 Ok(()) => Outcome::Done,
                 Err(reason) => Outcome::Refused(reason),
@@ -34,7 +34,7 @@ pub(super) const COMMANDS: &[Command] = &[
         Some(|app, _| app.panels.set_shown(panels::HISTORY, true)),
     )
     .menu(Menu::Edit, 0),
-    command("clear-selection", "Clear selection", "Put the tool away, or select nothing", can_clear, |app, _| {
+    command("clear-selection", "Clear selection", "Leave the tool, or clear the selection", can_clear, |app, _| {
         if app.tools.is_selecting() { app.session.pick(None) } else { app.put_tool_away() }
     })
     .keys(&[key(Key::Escape)])
@@ -42,7 +42,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "rename-plan",
         "Rename the plan…",
-        "Write the plan's name",
+        "Change the plan's name",
         has_plan,
         &given1(needed("NAME", TEXT, "the plan's name"), |app, name, _| {
             app.session.change_meta("Rename plan", |meta| meta.name = name);
@@ -58,7 +58,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "set-typology",
         "Typology…",
-        "Say what the plan's building is for: its label scheme says what the rooms' functions mean",
+        "Choose the kind of building; its label scheme gives rooms the labels of their functions",
         has_plan,
         &given1(needed("TYPOLOGY", TYPOLOGY, "a typology with a label scheme, or 'unknown'"), |app, typology, _| {
             app.session.change_meta("Set typology", |meta| meta.typology = typology);

@@ -5,19 +5,17 @@ use crate::app::value::{Call, Value};
 use crate::edit::storey::Keep;
 
 pub(super) const COMMANDS: &[Command] = &[
-    command("new-plan", "New plan", "Begin a plan on which nothing is drawn yet", always, |app, _| {
-        app.session.new_plan()
-    })
-    .keys(&[ctrl(Key::N)])
-    .menu(Menu::File, 0),
+    command("new-plan", "New plan", "Start an empty plan", always, |app, _| app.session.new_plan())
+        .keys(&[ctrl(Key::N)])
+        .menu(Menu::File, 0),
     with(
         "copy-storey",
         "Copy to another storey…",
-        "Begin a plan of another storey with the same walls and rooms; this one is drawn faintly below it",
+        "Start a plan of another storey with the same walls and rooms; this storey shows faintly below it",
         has_plan,
         &given2(
-            needed("STOREY", TEXT, "what the new storey is called, as on the drawing: 2, first floor"),
-            optional("KEEP", one_of::<Keep>(), "what rooms keep: functions (without), all or outlines"),
+            needed("STOREY", TEXT, "the name of the new storey, such as 2 or first floor"),
+            optional("KEEP", one_of::<Keep>(), "what rooms keep: functions (default), all or outlines"),
             |app, storey, keep, _| {
                 if storey.is_empty() {
                     return Outcome::Refused("the new storey needs a name".to_owned());
@@ -33,10 +31,10 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "open",
         "Open…",
-        "Open a plan: a plan file, the authors' XML, or GeoJSON",
+        "Open a plan file, or a plan in another format such as GeoJSON or the paper authors' XML",
         always,
         &given2(
-            needed("PATH", PLAN_FILE, "a file with a plan, or a folder of which the first plan is opened"),
+            needed("PATH", PLAN_FILE, "a file with a plan, or a folder, whose first plan is opened"),
             optional("STOREY", COUNT, "which plan of the file, from 1"),
             |app, path, storey, _| {
                 let storey = storey.map_or(0, |storey| storey - 1);
@@ -51,7 +49,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "open-sample",
         "Open a sample…",
-        "Open a plan that comes with the program",
+        "Open one of the plans that come with Enfilade",
         always,
         &given1(needed("SAMPLE", SAMPLE, "the sample's file name without the ending"), |app, Sample(sample), _| {
             opened(app, Origin::Bundled(sample))
@@ -62,7 +60,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "open-recent",
         "Open recent…",
-        "Open a file that was opened or saved before",
+        "Open a recent file",
         has_recent,
         &given1(needed("PATH", RECENT_FILE, "the file"), |app, path, context| {
             app.act_on(Call::new("open", [Value::Path(path)]), context);
@@ -74,14 +72,14 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
     )
     .menu(Menu::File, 0),
-    command("clear-recent", "Clear recent files", "Forget which files were opened before", has_recent, |app, _| {
+    command("clear-recent", "Clear recent files", "Empty the list of recent files", has_recent, |app, _| {
         app.session.forget_recent();
     })
     .menu(Menu::File, 0),
     with(
         "save",
         "Save",
-        "Save the plan in its file",
+        "Save the plan to its file",
         has_plan,
         &given0(|app, _| if app.session.save(None) { Outcome::Done } else { Outcome::Asks }),
         None,
@@ -92,10 +90,10 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "save-as",
         "Save as…",
-        "Save the plan in another file",
+        "Save the plan to a new file",
         has_plan,
         &given1(
-            needed("PATH", NEW_PLAN_FILE, "the file, which is replaced if it exists; '.plan.json' is added"),
+            needed("PATH", NEW_PLAN_FILE, "the file, which is overwritten if it exists; '.plan.json' is added"),
             |app, path, _| if app.session.save_as(path) { Outcome::Asks } else { Outcome::Done },
         ),
         Some(|app, _| app.session.ask_where_to_save(None, None)),
@@ -110,8 +108,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Write the plan as a PDF, picture or drawing for other programs",
         has_plan,
         &given2(
-            needed("PATH", NEW_FILE, "the file, whose ending says the format; one that exists is replaced"),
-            optional("OPTIONS", TEXT, "options of the format, as NAME=VALUE parted by blanks: paper=A3 scale=1:100"),
+            needed("PATH", NEW_FILE, "the file, whose ending gives the format; an existing file is overwritten"),
+            optional("OPTIONS", TEXT, "options of the format as NAME=VALUE, separated by blanks: paper=A3 scale=1:100"),
             |app, path, options, _| {
                 let options = options.unwrap_or_default();
                 app.session.export(path, &options).map_or_else(Outcome::Refused, |()| Outcome::Done)
@@ -125,10 +123,10 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "print",
         "Print…",
-        "Put the plan on a sheet of paper to scale, and open it in the desktop's viewer, which prints",
+        "Make a sheet to scale and open it in your PDF viewer to print",
         has_plan,
         &given1(
-            needed("OPTIONS", TEXT, "options of the sheet, as NAME=VALUE parted by blanks; 'default' for none"),
+            needed("OPTIONS", TEXT, "options of the sheet as NAME=VALUE, separated by blanks; 'default' for none"),
             |app, options, _| app.session.print(&options).map_or_else(Outcome::Refused, |()| Outcome::Done),
         ),
         Some(|app, _| app.open_dialog_for(dialogs::EXPORT, Purpose::Print)),
@@ -138,7 +136,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "export-dataset",
         "Export dataset…",
-        "Write the labelled rooms of all plans in the open folder as a table, with what its columns mean",
+        "Write the labelled rooms of all plans in the open folder as a table, with a description of its columns",
         has_folder,
         &given1(needed("PATH", NEW_FILE, "the table, to which '.csv' is added"), |app, path, _| {
             app.session.export_dataset(path).map_or_else(Outcome::Refused, |()| Outcome::Done)
@@ -149,7 +147,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "recovery",
         "Recover unsaved work",
-        "Show what was not saved when Enfilade was ended, with pictures",
+        "Show unsaved work from earlier sessions, with a picture of each plan",
         has_leftovers,
         |app| app.dialogs.is_open(dialogs::RECOVERY),
         |app, is_on| app.set_dialog(dialogs::RECOVERY, is_on),
@@ -158,7 +156,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "recover",
         "Recover",
-        "Open what was not saved when Enfilade was ended; nothing is written until it is saved",
+        "Open unsaved work from an earlier session; no file changes until you save",
         can_recover,
         &given1(needed("NUMBER", COUNT, "which, from the top"), |app, number, _| {
             app.session.recover(number).map_or_else(Outcome::Refused, |()| Outcome::Done)
@@ -168,7 +166,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "discard-recovered",
         "Discard what can be recovered",
-        "Give up what was not saved when Enfilade was ended, after asking once more",
+        "Discard unsaved work from an earlier session, after asking once more",
         has_leftovers,
         &given1(needed("NUMBER", COUNT, "which, from the top"), |app, number, _| {
             app.session.ask_to_discard(number).map_or_else(Outcome::Refused, |()| Outcome::Done)
@@ -178,7 +176,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "differences",
         "Differences to the file",
-        "Show how the plan and its file, which somebody else changed, differ",
+        "Show how this plan differs from its file, which someone else has changed",
         has_their_plan,
         |app| app.dialogs.is_open(dialogs::DIFFERENCES),
         |app, is_on| app.set_dialog(dialogs::DIFFERENCES, is_on),
@@ -187,7 +185,7 @@ pub(super) const COMMANDS: &[Command] = &[
     command(
         "load-theirs",
         "Load the file as it is now",
-        "Make the plan what somebody else put in its file; undo brings yours back",
+        "Load the version that someone else saved; Undo brings yours back",
         has_their_plan,
         |app, context| app.session.load_theirs(context),
     )
@@ -195,7 +193,7 @@ pub(super) const COMMANDS: &[Command] = &[
     command(
         "keep-mine",
         "Keep mine",
-        "Go on with the plan as it is here: saving replaces what somebody else put in its file",
+        "Keep your version; saving overwrites what someone else saved",
         has_theirs,
         |app, context| app.session.keep_mine(context),
     )
@@ -203,7 +201,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "import-notes",
         "Import notes",
-        "Show what was mended or left out when the plan was opened",
+        "Show what was repaired or left out when the plan was opened",
         has_notes,
         |app| app.dialogs.is_open(dialogs::NOTES),
         |app, is_on| app.set_dialog(dialogs::NOTES, is_on),
@@ -222,7 +220,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "show-plan",
         "Show open plan…",
-        "Show another of the open plans, as it was left",
+        "Show another open plan, as you left it",
         has_several_open,
         &given1(needed("PLAN", OPEN_PLAN, "its title in the list"), |app, OpenPlanNumber(number), _| {
             app.session.show_open(number);
@@ -244,7 +242,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "previous-open",
         "Previous open plan",
-        "Show the open plan before this one",
+        "Show the previous open plan",
         has_several_open,
         &given0(|app, _| shown(app, -1)),
         None,
@@ -256,7 +254,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Close plan",
         "Close the plan, after asking if it has unsaved changes",
         has_plan,
-        &given1(optional("PLAN", OPEN_PLAN, "its title in the list; without, the one shown"), |app, plan, _| {
+        &given1(optional("PLAN", OPEN_PLAN, "its title in the list; without it, the one shown"), |app, plan, _| {
             let shown = app.session.document.as_ref().map(|document| document.number);
             if let Some(number) = plan.map(|OpenPlanNumber(number)| number).or(shown) {
                 app.session.close_plan(number);
@@ -268,7 +266,7 @@ pub(super) const COMMANDS: &[Command] = &[
     .keys(&[ctrl(Key::W)])
     .menu(Menu::File, 4)
     .on(&[On::ListedPlan]),
-    command("quit", "Quit", "Close the window", always, |app, _| app.session.request(Intent::QUIT))
+    command("quit", "Quit", "Quit Enfilade", always, |app, _| app.session.request(Intent::QUIT))
         .keys(&[ctrl(Key::Q)])
         .menu(Menu::File, 4),
 ];

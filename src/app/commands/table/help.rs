@@ -6,7 +6,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "commands",
         "Commands…",
-        "Find a command by its name and do it",
+        "Find a command by its name and run it",
         always,
         &given0(|app, _| {
             app.open_dialog(dialogs::PALETTE);
@@ -32,7 +32,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "set-shortcut",
         "Set a shortcut…",
-        "Give a command other keys than it has",
+        "Change the shortcut of a command",
         always,
         &given2(
             needed("COMMAND", A_COMMAND, "the command's id"),
@@ -45,7 +45,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "remove-shortcut",
         "Remove a shortcut…",
-        "Leave a command without keys",
+        "Remove the shortcut of a command",
         always,
         &given1(needed("COMMAND", A_COMMAND, "the command's id"), |app, CommandId(id), _| app.set_shortcut(id, None)),
         None,
@@ -53,7 +53,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "reset-shortcut",
         "Reset a shortcut…",
-        "Give a command the keys it comes with",
+        "Restore the original shortcut of a command",
         has_changed_keys,
         &given1(needed("COMMAND", A_COMMAND, "the command's id"), |app, CommandId(id), _| app.reset_shortcut(id)),
         None,
@@ -61,7 +61,7 @@ pub(super) const COMMANDS: &[Command] = &[
     command(
         "reset-shortcuts",
         "Reset all shortcuts",
-        "Give every command the keys it comes with",
+        "Restore the original shortcuts of all commands",
         has_changed_keys,
         |app, _| {
             app.reset_all_shortcuts();
@@ -71,7 +71,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "record-script",
         "Record a script",
-        "Write what is done as a script that does it again; once more to end and save it",
+        "Record what you do as a script; run it again to stop and save",
         can_record,
         App::is_recording,
         |app, _| if app.is_recording() { app.stop_recording(None) } else { app.wants_recording = true },

@@ -81,7 +81,7 @@ const fn command(
     entry(id, title, help, availability, Action::Plain(run))
 }
 
-const SWITCH: &[Argument] = &[optional("SWITCH", ON_OR_OFF, "on or off; without, the other of what it is").argument()];
+const SWITCH: &[Argument] = &[optional("SWITCH", ON_OR_OFF, "on or off; without it, switches over").argument()];
 
 /// A command that turns something on or off.
 const fn switch(
@@ -219,7 +219,7 @@ fn has_folder(app: &App) -> Availability {
 fn has_findings(app: &App) -> Availability {
     has_plan(app)?;
     let Some(checked) = app.session.findings() else { return Err("the plan is still being checked") };
-    when(!checked.open.is_empty() || !checked.ignored.is_empty(), "nothing was found")
+    when(!checked.open.is_empty() || !checked.ignored.is_empty(), "there are no findings")
 }
 
 fn has_picked(app: &App) -> Availability {
@@ -233,7 +233,7 @@ fn can_clear(app: &App) -> Availability {
 
 fn has_room(app: &App) -> Availability {
     has_plan(app)?;
-    when(matches!(app.picked(), Some(ElementId::Room(_))), "pick a room first")
+    when(matches!(app.picked(), Some(ElementId::Room(_))), "select a room first")
 }
 
 fn has_rooms(app: &App) -> Availability {
@@ -261,7 +261,7 @@ fn can_redo(app: &App) -> Availability {
 /// Rooms are selected, or there is one under the pointer.
 fn has_target(app: &App) -> Availability {
     has_plan(app)?;
-    when(app.session.target(None).is_some(), "pick a room first, or point at one")
+    when(app.session.target(None).is_some(), "select a room first, or point at one")
 }
 
 fn has_own_label(app: &App) -> Availability {
@@ -271,9 +271,16 @@ fn has_own_label(app: &App) -> Availability {
     when(has, "the room has no label of its own")
 }
 
+fn has_proposed_function(app: &App) -> Availability {
+    has_target(app)?;
+    let target = app.session.target(None);
+    let proposed = target.map(|target| app.session.proposed_functions(&target.rooms)).unwrap_or_default();
+    when(!proposed.is_empty(), "no room without a function has a name that says what it is for")
+}
+
 fn has_prediction(app: &App) -> Availability {
     has_plan(app)?;
-    when(app.session.selection.rooms().next().is_some(), "pick a room first")?;
+    when(app.session.selection.rooms().next().is_some(), "select a room first")?;
     when(!app.session.predictions_of_selected().is_empty(), "the room is not one that is predicted")
 }
 
@@ -297,11 +304,11 @@ fn has_several_open(app: &App) -> Availability {
 }
 
 fn has_recent(app: &App) -> Availability {
-    when(!app.session.settings.recent().is_empty(), "no file was opened yet")
+    when(!app.session.settings.recent().is_empty(), "there are no recent files")
 }
 
 fn is_asked_for_file(app: &App) -> Availability {
-    when(app.session.typed_for.is_some(), "no file is asked for")
+    when(app.session.typed_for.is_some(), "no file is needed now")
 }
 
 fn has_backdrop(app: &App) -> Availability {
@@ -363,10 +370,9 @@ const X: Arg<f64> = needed("X", coordinate(-FAR_M, FAR_M), "to the right, in met
 const Y: Arg<f64> = needed("Y", coordinate(-FAR_M, FAR_M), "up, in metres");
 const WIDTH: Arg<f64> = needed("WIDTH", coordinate(0.001, FAR_M), "how wide, in metres");
 const HEIGHT: Arg<f64> = needed("HEIGHT", coordinate(0.001, FAR_M), "how high, in metres");
-const SCALE: Arg<f64> =
-    needed("SCALE", number(" of pixels to the metre", 0.001, 1e5), "how many pixels a metre is long");
+const SCALE: Arg<f64> = needed("SCALE", number(" of pixels to the metre", 0.001, 1e5), "pixels per metre");
 
-const ROOM: Arg<RoomId> = needed("ROOM", A_ROOM, "a room's name, or its id where several have the name");
+const ROOM: Arg<RoomId> = needed("ROOM", A_ROOM, "a room's name, or its id if several rooms have the name");
 
 /// The zoom factor of one step.
 const ZOOM_STEP: f64 = 1.25;

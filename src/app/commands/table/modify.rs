@@ -17,7 +17,7 @@ use crate::geometry::Transform;
 use crate::plan::{LeafSide, OpeningId, Swing};
 use crate::topology;
 
-const MODE: Arg<Option<SelectMode>> = optional("MODE", one_of::<SelectMode>(), "replace (without), add or toggle");
+const MODE: Arg<Option<SelectMode>> = optional("MODE", one_of::<SelectMode>(), "replace (default), add or toggle");
 
 pub(super) const COMMANDS: &[Command] = &[
     command("select-all", "Select all", "Select everything that is not locked", has_drawing, |app, _| {
@@ -52,9 +52,9 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "select-by-function",
         "Select by function…",
-        "Select all rooms that are for something",
+        "Select all rooms with a function",
         has_rooms,
-        &given2(needed("FUNCTION", FUNCTION, "what the rooms are for"), MODE, |app, function, mode, _| {
+        &given2(needed("FUNCTION", FUNCTION, "the function of the rooms"), MODE, |app, function, mode, _| {
             let wanted = normalised_function(&function);
             let Some(plan) = app.plan() else { return Outcome::Done };
             let found: Vec<ElementId> = plan
@@ -70,7 +70,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "delete",
         "Delete",
-        "Delete what is selected, and what cannot stand without it",
+        "Delete the selection and what depends on it",
         has_picked,
         &given0(|app, _| app.delete_selected()),
         None,
@@ -82,7 +82,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "copy",
         "Copy",
-        "Keep what is selected, to paste it here or into another plan",
+        "Copy the selection, to paste it here or in another plan",
         has_picked,
         &given0(|app, context| app.copy_selected(context)),
         None,
@@ -93,7 +93,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "cut",
         "Cut",
-        "Keep what is selected, to paste it, and delete it here",
+        "Cut the selection, to paste it here or in another plan",
         has_picked,
         &given0(|app, context| match app.copy_selected(context) {
             Outcome::Done => app.delete_selected(),
@@ -113,7 +113,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "duplicate",
         "Duplicate",
-        "Place a copy of what is selected",
+        "Copy the selection, and click to place the copy",
         has_picked,
         &given0(|app, context| {
             let ran = app.copy_selected(context);
@@ -149,7 +149,7 @@ pub(super) const COMMANDS: &[Command] = &[
     command(
         "rotate-left",
         "Rotate left",
-        "Turn what is selected by a right angle, counter-clockwise",
+        "Rotate the selection by a right angle, counter-clockwise",
         has_picked,
         |app, _| {
             let about = app.centre_of_selection(None);
@@ -165,7 +165,7 @@ pub(super) const COMMANDS: &[Command] = &[
         tools::MIRROR.help,
         has_picked,
         &given2(
-            needed("AXIS", points(2), "two points of the axis, in metres, as '4,0 4,3'"),
+            needed("AXIS", points(2), "two points of the axis in metres, such as '4,0 4,3'"),
             COPY,
             |app, axis, copy, _| match axis.as_slice() {
                 &[a, b, ..] => match Transform::reflection(a, b) {
@@ -181,7 +181,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "mirror",
         "Flip…",
-        "Mirror what is selected left and right, or up and down, about its middle",
+        "Mirror the selection left and right, or up and down, about its middle",
         has_picked,
         &given3(
             needed("WAY", one_of::<Mirror>(), "left-right or up-down"),
@@ -224,7 +224,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "transform-copies",
         "Copy",
-        "Leave the original where it is when mirroring, rotating or scaling",
+        "Keep the original when mirroring, rotating or scaling",
         always,
         |app| app.tools.options.copies,
         |app, is_on| app.tools.options.copies = is_on,
@@ -235,9 +235,9 @@ pub(super) const COMMANDS: &[Command] = &[
         tools::ARRAY.help,
         has_picked,
         &given3(
-            needed("COLUMNS", COUNT, "how many side by side, the original among them"),
-            needed("ROWS", COUNT, "how many above each other"),
-            needed("STEP", POINT, "from column to column and from row to row, as '4,3'"),
+            needed("COLUMNS", COUNT, "how many side by side, including the original"),
+            needed("ROWS", COUNT, "how many above each other, including the original"),
+            needed("STEP", POINT, "the distance between columns and between rows, such as '4,3'"),
             |app, columns, rows, step, _| {
                 let (column_step, row_step) = (Vector::new(step.x, 0.0), Vector::new(0.0, step.y));
                 copied(app, Array::Grid { columns, rows, column_step, row_step })
@@ -253,8 +253,8 @@ pub(super) const COMMANDS: &[Command] = &[
         tools::POLAR_ARRAY.help,
         has_picked,
         &given3(
-            needed("ABOUT", POINT, "the point, as '4,3'"),
-            needed("COUNT", COUNT, "how many, the original among them"),
+            needed("ABOUT", POINT, "the point, such as '4,3'"),
+            needed("COUNT", COUNT, "how many, including the original"),
             needed("ANGLE", angle(-360.0, 360.0), "from one to the next, in degrees"),
             |app, about, count, step, _| {
                 let step_rad = step.to_radians();
@@ -267,7 +267,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "align",
         "Align…",
-        "Bring sides or middles of what is selected into line",
+        "Align sides or middles of the selection",
         has_picked,
         &given1(
             needed("SIDE", one_of::<Alignment>(), "left, right, top, bottom, centre or middle"),
@@ -283,7 +283,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "distribute",
         "Distribute…",
-        "Put what is selected at equal distances",
+        "Space the selection evenly",
         has_picked,
         &given1(needed("WAY", one_of::<Way>(), "across or up"), |app, way, _| {
             let is_upright = way == Way::Up;
@@ -297,13 +297,13 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "square-up",
         "Square up",
-        "Make angles that are nearly right ones right: of the selected rooms, or of all",
+        "Make nearly right angles exactly right, in the selected rooms or in all",
         has_drawing,
         &given1(
             optional(
                 "ANGLE",
                 angle(0.01, 44.0),
-                "how far from right an angle may be, in degrees; 10 without, the paper's threshold",
+                "how far from a right angle, in degrees; 10 by default, the paper's threshold",
             ),
             |app, angle, _| {
                 let max_rad = angle.unwrap_or(10.0).to_radians();
@@ -319,9 +319,9 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "weld",
         "Weld corners…",
-        "Join corners that are no further apart than a tolerance; shows what it does before it does it",
+        "Join corners closer than a tolerance; shows the result first",
         has_drawing,
-        &given1(needed("TOLERANCE", length(0.0001, 10.0), "how far apart at most"), |app, tolerance_m, _| {
+        &given1(needed("TOLERANCE", length(0.0001, 10.0), "the largest distance"), |app, tolerance_m, _| {
             app.ask_to_weld(tolerance_m)
         }),
         None,
@@ -334,8 +334,8 @@ pub(super) const COMMANDS: &[Command] = &[
         tools::OFFSET.help,
         has_picked,
         &given2(
-            needed("DISTANCE", length(0.001, 1000.0), "how far away"),
-            optional("TOWARDS", POINT, "a point on the side where the copy goes; without, where the pointer is"),
+            needed("DISTANCE", length(0.001, 1000.0), "the distance"),
+            optional("TOWARDS", POINT, "a point on the side where the copy goes; without it, the side of the pointer"),
             |app, distance_m, towards, _| app.offset_selected(distance_m, towards),
         ),
         Some(|app, _| app.tools.take_up(tools::OFFSET.id)),
@@ -345,7 +345,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "set-thickness",
         "Thickness…",
-        "Make the selected walls as thick as this",
+        "Set the thickness of the selected walls",
         has_picked,
         &given1(needed("THICKNESS", length(0.0, 10.0), "how thick"), |app, thickness_m, _| {
             let walls: Vec<_> = app.session.selection.walls().collect();
@@ -361,11 +361,11 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "set-wall-length",
         "Length of wall…",
-        "Make the selected wall so long: one end moves along it, with the walls that meet it there at a right angle",
+        "Set the length of the selected wall: one end moves, with the walls that meet it there at a right angle",
         has_wall,
         &given2(
-            needed("LENGTH", length(0.001, 1e5), "how long, along its middle"),
-            optional("END", one_of::<End>(), "which end moves: start or end (without)"),
+            needed("LENGTH", length(0.001, 1e5), "the length along its centre line"),
+            optional("END", one_of::<End>(), "the end that moves: start or end (default)"),
             |app, length_m, end, _| {
                 let Some(ElementId::Wall(wall)) = app.picked() else {
                     return Outcome::Refused("select one wall first".to_owned());
@@ -381,9 +381,9 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "merge-rooms",
         "Merge rooms",
-        "Make one room of the selected ones; walls and openings between them go",
+        "Merge the selected rooms into one; walls and openings between them are removed",
         has_picked,
-        &given1(optional("ROOMS", ELEMENTS, "which ones; the selected ones without"), |app, named, _| {
+        &given1(optional("ROOMS", ELEMENTS, "which ones; without it, the selected ones"), |app, named, _| {
             let is_room = |element: ElementId| if let ElementId::Room(id) = element { Some(id) } else { None };
             let named: Option<Vec<RoomId>> = named.map(|named| named.into_iter().filter_map(is_room).collect());
             let rooms = named.unwrap_or_else(|| app.session.selection.rooms().collect());
@@ -401,7 +401,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "bridge-gaps",
         "Doors into all gaps",
-        "Close the gaps of 30 to 150 cm between collinear walls with doorways",
+        "Place doors in all gaps of 30 to 150 cm between aligned walls",
         has_drawing,
         &given0(|app, _| app.ask_to_bridge()),
         None,
@@ -410,8 +410,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "flip",
         "Flip",
-        "Hang the selected doors, or the one just placed, the next way: at the other end, to the other side; Space on \
-         the plan does it",
+        "Flip the selected doors, or the one just placed, through all ways they can hang; Space does the same",
         has_door,
         &given0(|app, _| app.flip_doors()),
         None,
@@ -421,7 +420,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "flip-hinge",
         "Hinge at the other end",
-        "Hinge the selected doors at their other end",
+        "Move the hinge of the selected doors to their other end",
         has_opening,
         &given0(|app, _| app.change_openings("Flip hinge", edit::flip_hinge)),
         None,
@@ -431,7 +430,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "flip-side",
         "Open to the other side",
-        "Let the selected doors open to their other side",
+        "Make the selected doors open to their other side",
         has_opening,
         &given0(|app, _| app.change_openings("Flip side", edit::flip_side)),
         None,
@@ -441,7 +440,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "set-opening-kind",
         "Kind of opening…",
-        "Make doors, double doors, passages or windows of the selected openings",
+        "Change the selected openings to doors, double doors, passages or windows",
         has_opening,
         &given1(needed("KIND", one_of::<OpeningKind>(), "door, double-door, passage or window"), |app, kind, _| {
             app.change_openings("Change opening", |plan, id, _| edit::set_opening_kind(plan, id, kind))
@@ -453,7 +452,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "set-opening-width",
         "Width of opening…",
-        "Make the selected openings as wide as this",
+        "Set the width of the selected openings",
         has_opening,
         &given1(needed("WIDTH", length(0.01, 1000.0), "how wide"), |app, width_m, _| {
             let ran = app.change_openings("Set width", |plan, id, _| edit::resize_opening(plan, id, width_m));
@@ -470,11 +469,11 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "set-opening-distance",
         "Distance of opening…",
-        "Move the selected opening along its wall until it is so far from what lies beside it",
+        "Set the distance of the selected opening from what is beside it",
         has_opening,
         &given2(
-            needed("DISTANCE", length(0.0, 1000.0), "from its end to the next opening, or the next wall's face"),
-            optional("END", one_of::<End>(), "which of its ends: start (without) or end"),
+            needed("DISTANCE", length(0.0, 1000.0), "from its end to the next opening or the face of the next wall"),
+            optional("END", one_of::<End>(), "which of its ends: start (default) or end"),
             |app, distance_m, end, _| {
                 let Some(ElementId::Opening(opening)) = app.picked() else {
                     return Outcome::Refused("select one opening first".to_owned());
@@ -490,9 +489,9 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "set-hinge",
         "Hinge…",
-        "Hinge the selected doors at an end",
+        "Set the hinge side of the selected doors",
         has_opening,
-        &given1(needed("END", one_of::<End>(), "start or end, as the opening lies"), |app, end, _| {
+        &given1(needed("END", one_of::<End>(), "start or end of the opening"), |app, end, _| {
             app.change_openings("Set hinge", |plan, id, shown| {
                 edit::change_swing(plan, id, shown, |swing| Swing { hinge_at_start: end == End::Start, ..swing })
             })
@@ -503,10 +502,10 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "set-side",
         "Side that a door opens to…",
-        "Let the selected doors open to a side",
+        "Set the side that the selected doors open to",
         has_opening,
         &given1(
-            needed("SIDE", one_of::<LeafSide>(), "left or right, from the opening's start to its end"),
+            needed("SIDE", one_of::<LeafSide>(), "left or right, seen from the opening's start to its end"),
             |app, side, _| {
                 app.change_openings("Set side", |plan, id, shown| {
                     edit::change_swing(plan, id, shown, |swing| Swing { side, ..swing })
@@ -519,7 +518,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "lock-rooms",
         "Lock rooms",
-        "Let the pointer neither select nor move rooms",
+        "Keep the pointer from selecting or moving rooms",
         always,
         |app| app.session.layers.locked.rooms,
         |app, is_on| app.session.layers.locked.rooms = is_on,
@@ -528,7 +527,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "lock-walls",
         "Lock walls",
-        "Let the pointer neither select nor move walls",
+        "Keep the pointer from selecting or moving walls",
         always,
         |app| app.session.layers.locked.walls,
         |app, is_on| app.session.layers.locked.walls = is_on,
@@ -537,7 +536,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "lock-openings",
         "Lock openings",
-        "Let the pointer neither select nor move openings",
+        "Keep the pointer from selecting or moving openings",
         always,
         |app| app.session.layers.locked.openings,
         |app, is_on| app.session.layers.locked.openings = is_on,
@@ -547,11 +546,11 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "select-box",
         "Select in a box",
-        "Select what lies in a box, or also what it touches",
+        "Select what lies inside a box, or also what it touches",
         has_plan,
         &given3(
             needed("CORNERS", points(2), "two opposite corners of the box"),
-            optional("HOW", one_of::<Boxed>(), "inside (without) or touching"),
+            optional("HOW", one_of::<Boxed>(), "inside (default) or touching"),
             MODE,
             |app, corners, boxed, mode, _| {
                 let bounds = Bounds::of(corners);
@@ -566,15 +565,11 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "move-selection",
         "Move the selection",
-        "Move what is selected: rooms come away from what they share, of walls what shares them follows",
+        "Move the selection: rooms come away from what they share, while what shares walls follows",
         has_picked,
         &given2(
-            needed("BY", POINT, "how far right and up, in metres, as '0.5,-1'"),
-            optional(
-                "REACH",
-                one_of::<Reach>(),
-                "of a wall: run (without) for the straight run it is part of, or piece",
-            ),
+            needed("BY", POINT, "how far to the right and up in metres, such as '0.5,-1'"),
+            optional("REACH", one_of::<Reach>(), "for a wall: run (default) for the whole straight wall, or piece"),
             |app, by, reach, _| {
                 let selected = app.session.selection.elements().clone();
                 let own_walls = app.tools.options.walls_with_rooms;
@@ -588,19 +583,19 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "paste-at",
         "Paste at a place",
-        "Place what was copied with its middle at a point",
+        "Paste what was copied, centred on a point",
         has_copied,
-        &given1(needed("PLACE", POINT, "a point in metres, as '2,1.5'"), |app, at, _| app.paste_at(at)),
+        &given1(needed("PLACE", POINT, "a point in metres, such as '2,1.5'"), |app, at, _| app.paste_at(at)),
         None,
     ),
     with(
         "bridge-gap",
         "Door into a gap",
-        "Close the gap between two collinear walls that is nearest to a point with an opening",
+        "Place an opening in the gap between two aligned walls that is nearest to a point",
         has_drawing,
         &given2(
-            needed("PLACE", POINT, "a point in metres, as '2,1.5'"),
-            optional("KIND", one_of::<OpeningKind>(), "door (without), double-door, passage or window"),
+            needed("PLACE", POINT, "a point in metres, such as '2,1.5'"),
+            optional("KIND", one_of::<OpeningKind>(), "door (default), double-door, passage or window"),
             |app, at, kind, _| {
                 let kind = kind.unwrap_or(OpeningKind::Door);
                 edited(app, "Bridge gap", |plan| {
@@ -635,7 +630,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "nudge",
         "Nudge",
-        "Move what is selected a little, as an arrow key on the plan does; an opening along its wall",
+        "Nudge the selection, as an arrow key does; an opening moves along its wall",
         has_picked,
         &given2(
             needed("DIRECTION", one_of::<Direction>(), "left, right, up or down"),
@@ -647,11 +642,11 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "stretch-opening",
         "Stretch an opening",
-        "Move one end of an opening along its wall, as near to a point as there is space; its other end stays",
+        "Move one end of an opening along its wall towards a point; its other end stays",
         has_openings,
         &given3(
             needed("OPENING", OPENING, "the opening's id"),
-            needed("END", one_of::<End>(), "start or end, as the opening lies"),
+            needed("END", one_of::<End>(), "start or end of the opening"),
             needed("TOWARDS", POINT, "a point, in metres"),
             |app, opening, end, towards, _| {
                 edited(app, "Set width", |plan| edit::stretch_opening(plan, opening, end, towards))
@@ -662,7 +657,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "slide-opening",
         "Slide an opening",
-        "Slide an opening along its wall, as near to a point as the wall lets it",
+        "Slide an opening along its wall towards a point",
         has_openings,
         &given2(
             needed("OPENING", OPENING, "the opening's id"),
@@ -674,7 +669,7 @@ pub(super) const COMMANDS: &[Command] = &[
 ];
 
 const COPY: Arg<Option<MoveOrCopy>> =
-    optional("COPY", one_of::<MoveOrCopy>(), "move (without), or copy to leave the original where it is");
+    optional("COPY", one_of::<MoveOrCopy>(), "move (default), or copy to keep the original");
 
 const CENTRE: Arg<Option<Point>> =
-    optional("ABOUT", POINT, "a point, in metres, as '4,3'; the middle of what is selected without");
+    optional("ABOUT", POINT, "a point in metres, such as '4,3'; without it, the middle of the selection");

@@ -6,10 +6,15 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "models",
         "Models…",
-        "Say which models predict: those of the plan's typology, of another, or one of your own",
+        "Choose the models that predict: those for the plan's typology, for another, or your own",
         always,
         &given1(
-            needed("MODELS", MODEL_SET, "'plan', 'auto' (inferred), a typology, 'standard', or a model's name"),
+            needed(
+                "MODELS",
+                MODEL_SET,
+                "'plan' (as set for it), 'auto' (inferred from it), a typology, 'standard' \
+                                         (any kind of building), or a model's name",
+            ),
             |app, set, _| {
                 app.session.predictor.set = set;
                 Outcome::Done
@@ -21,10 +26,15 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "predict-by",
         "Predict by…",
-        "Say by which algorithm is predicted",
+        "Choose the method that predicts",
         always,
         &given1(
-            needed("ALGORITHM", METHOD, "an algorithm, or 'joint' for all rooms of the plan together"),
+            needed(
+                "ALGORITHM",
+                METHOD,
+                "a method: 'joint' compares all rooms of the plan, the others look at each \
+                                         room by itself",
+            ),
             |app, method, _| {
                 app.session.predictor.method = method;
                 Outcome::Done
@@ -36,7 +46,7 @@ pub(super) const COMMANDS: &[Command] = &[
     command(
         "accept-prediction",
         "Accept the prediction",
-        "Make the predicted labels the selected rooms' own",
+        "Give the selected rooms their predicted labels",
         has_prediction,
         |app, _| app.session.accept_prediction(),
     )
@@ -46,7 +56,7 @@ pub(super) const COMMANDS: &[Command] = &[
     command(
         "accept-all-predictions",
         "Accept all predictions",
-        "Make the predicted labels those of all rooms without a label",
+        "Give all rooms without a label their predicted labels",
         has_unlabelled,
         |app, _| app.session.accept_all_predictions(),
     )

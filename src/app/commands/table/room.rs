@@ -8,7 +8,7 @@ use crate::app::value::room_word;
 const TARGET: Arg<Option<RoomId>> = optional(
     "ROOM",
     A_ROOM,
-    "a room's name or id; without, the selected rooms, or the one under the pointer where nothing is selected",
+    "a room's name or id; without it, the selected rooms, or the one under the pointer if nothing is selected",
 );
 
 /// Gives rooms a label.
@@ -36,7 +36,7 @@ fn label_target(app: &mut App, room: Option<RoomId>, label: Option<Label>) -> Ou
 /// Exactly one room is selected, just drawn or under the pointer.
 fn has_one_target(app: &App) -> Availability {
     has_target(app)?;
-    when(app.session.target(None).is_some_and(|target| target.rooms.len() == 1), "pick one room first")
+    when(app.session.target(None).is_some_and(|target| target.rooms.len() == 1), "select one room first")
 }
 
 impl App {
@@ -55,7 +55,7 @@ impl App {
 /// Acts on the rooms a command applies to; a recording names a room that was just under the pointer.
 fn on_target(app: &mut App, named: Option<RoomId>, given: &[&str], act: impl FnOnce(&mut App, &Target)) -> Outcome {
     let Some((plan, target)) = app.plan().zip(app.session.target(named)) else {
-        return Outcome::Refused("pick a room first, or point at one".to_owned());
+        return Outcome::Refused("select a room first, or point at one".to_owned());
     };
     let words = given.iter().map(|word| (*word).to_owned()).chain(target.word(plan)).collect();
     act(app, &target);
@@ -66,7 +66,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "find-room",
         "Find a room…",
-        "Pick a room by its name and bring it into sight",
+        "Find a room by its name, select it and bring it into view",
         has_rooms,
         &given1(ROOM, |app, room, _| {
             app.session.pick(Some(ElementId::Room(room)));
@@ -80,7 +80,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "rename",
         "Rename…",
-        "Write a room's name: the picked one's, or that of the one just drawn or under the pointer",
+        "Change the name of a room: the selected one, or the one just drawn or under the pointer",
         has_one_target,
         &given1(needed("NAME", TEXT, "the room's name"), |app, name, _| {
             app.session.write_field(FieldKind::Name, &name);
@@ -95,11 +95,11 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "set-function",
         "Set function…",
-        "Say what the selected rooms are for, or the one under the pointer: functions of the typology, those \
-         most used first, or any other",
+        "Set what the selected rooms, or the one under the pointer, are for: a function of the typology, most used \
+         first, or any other",
         has_target,
         &given2(
-            needed("FUNCTION", FUNCTION, "what the room is for, as the label scheme or as the source has it"),
+            needed("FUNCTION", FUNCTION, "what the room is for, in the words of the label scheme or any other"),
             TARGET,
             |app, function, room, _| {
                 on_target(app, room, &[&function], |app, target| app.session.set_function_of(target, &function))
@@ -117,9 +117,23 @@ pub(super) const COMMANDS: &[Command] = &[
     .menu(Menu::Room, 1)
     .on(&[On::Room, On::Several]),
     with(
+        "accept-function",
+        "Use the name as function",
+        "Set the function that a room's name speaks for, such as kitchen for 'Kitchen 2' or 'Küche', for the selected \
+         rooms that have none, or the one under the pointer",
+        has_proposed_function,
+        &given1(TARGET, |app, room, _| {
+            on_target(app, room, &[], |app, target| app.session.accept_functions(target))
+        }),
+        None,
+    )
+    .when_complete(has_rooms)
+    .keys(&[shift(Key::F4)])
+    .menu(Menu::Room, 1),
+    with(
         "set-note",
         "Write note…",
-        "Write a note on a room: the picked one, or the one just drawn or under the pointer",
+        "Write a note on a room: the selected one, or the one just drawn or under the pointer",
         has_one_target,
         &given1(needed("TEXT", TEXT, "the note"), |app, note, _| {
             app.session.write_field(FieldKind::Note, &note);
@@ -133,17 +147,17 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "name-rooms",
         "Name rooms…",
-        "Name many rooms by a pattern such as {function} {n}, after showing what each would be called",
+        "Name many rooms by a pattern such as {function} {n}; shows the names first",
         has_rooms,
         &given4(
             needed("PATTERN", TEXT, "text with {n}, {nn}, {function}, {label}, {letter}, {storey}, {building}"),
             optional(
                 "ROOMS",
                 TEXT,
-                "unnamed (without), selected, all, 'function office', 'label big' or 'along 1,2 5,2'",
+                "unnamed (default), selected, all, 'function office', 'label big' or 'along 1,2 5,2'",
             ),
-            optional("ORDER", one_of::<Order>(), "rows (without) or columns, from the top left"),
-            optional("START", whole(1_000_000), "the first number, 1 without"),
+            optional("ORDER", one_of::<Order>(), "rows (default) or columns, from the top left"),
+            optional("START", whole(1_000_000), "the first number, 1 by default"),
             |app, pattern, which, order, start, _| {
                 let which = Which::of_word(which.as_deref().unwrap_or("unnamed"));
                 let order = order.unwrap_or(Order::Rows);
@@ -163,10 +177,10 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "name-along",
         "Name rooms along a line",
-        "Name the rooms that a line goes through, in the order in which it comes to them; asks for a pattern",
+        "Name the rooms that a line crosses, in that order; asks for a pattern",
         has_rooms,
         &given1(
-            needed("POINTS", points(2), "the line's points, X,Y in metres with blanks between"),
+            needed("POINTS", points(2), "the points of the line, such as '1,2 5,2', in metres"),
             |app, points, _| {
                 let which = Which::Along(points);
                 if app.session.rooms_of(&which).is_empty() {
@@ -181,8 +195,8 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "change-rooms",
         "Change rooms…",
-        "Give all rooms of a function, of a label, or selected, another function or label, after showing how many \
-         they are",
+        "Give all rooms of a function or a label, or the selected ones, another function or label; shows how many \
+         first",
         has_rooms,
         &given2(
             needed("ROOMS", TEXT, "selected, unnamed, all, 'function office' or 'label big'"),
@@ -203,7 +217,8 @@ pub(super) const COMMANDS: &[Command] = &[
     label(
         "label-small",
         "Small room",
-        "Label the selected rooms, or the one under the pointer, as a small room",
+        "Label the selected rooms, or the one under the pointer, as a small room: a side room such as a bathroom, a \
+         closet or a store",
         &given1(TARGET, |app, room, _| label_target(app, room, Some(Label::SmallRoom))),
         |app| app.session.selected_label() == Some(Label::SmallRoom),
     )
@@ -211,7 +226,8 @@ pub(super) const COMMANDS: &[Command] = &[
     label(
         "label-medium",
         "Medium room",
-        "Label the selected rooms, or the one under the pointer, as a medium room",
+        "Label the selected rooms, or the one under the pointer, as a medium room: an ordinary room such as a bedroom, \
+         an office or a classroom",
         &given1(TARGET, |app, room, _| label_target(app, room, Some(Label::MediumRoom))),
         |app| app.session.selected_label() == Some(Label::MediumRoom),
     )
@@ -219,7 +235,8 @@ pub(super) const COMMANDS: &[Command] = &[
     label(
         "label-big",
         "Big room",
-        "Label the selected rooms, or the one under the pointer, as a big room",
+        "Label the selected rooms, or the one under the pointer, as a big room: a large room such as a living room, a \
+         canteen or an open-plan office",
         &given1(TARGET, |app, room, _| label_target(app, room, Some(Label::BigRoom))),
         |app| app.session.selected_label() == Some(Label::BigRoom),
     )
@@ -227,7 +244,8 @@ pub(super) const COMMANDS: &[Command] = &[
     label(
         "label-corridor",
         "Corridor",
-        "Label the selected rooms, or the one under the pointer, as a corridor",
+        "Label the selected rooms, or the one under the pointer, as a corridor: a way from room to room, mostly long and \
+         with several doors",
         &given1(TARGET, |app, room, _| label_target(app, room, Some(Label::Corridor))),
         |app| app.session.selected_label() == Some(Label::Corridor),
     )
@@ -235,15 +253,16 @@ pub(super) const COMMANDS: &[Command] = &[
     label(
         "label-hall",
         "Hall",
-        "Label the selected rooms, or the one under the pointer, as a hall",
+        "Label the selected rooms, or the one under the pointer, as a hall: a wide space that people enter by or gather \
+         in, such as a lobby",
         &given1(TARGET, |app, room, _| label_target(app, room, Some(Label::Hall))),
         |app| app.session.selected_label() == Some(Label::Hall),
     )
     .keys(&[key(Key::H), key(Key::Num5)]),
     with(
         "label-by-function",
-        "Label by function",
-        "Drop the rooms' own labels: the label scheme's answer for their functions counts",
+        "Clear labels",
+        "Remove the labels given to the selected rooms, so that each gets the label of its function again",
         has_own_label,
         &given1(TARGET, |app, room, _| label_target(app, room, None)),
         None,
@@ -251,12 +270,12 @@ pub(super) const COMMANDS: &[Command] = &[
     .when_complete(has_rooms)
     .menu(Menu::Room, 2)
     .on(&[On::Room, On::Several]),
-    command("next-room", "Next room", "Pick the next room, as one reads: from the top left", has_rooms, |app, _| {
+    command("next-room", "Next room", "Select the next room, in reading order from the top left", has_rooms, |app, _| {
         app.session.pick_neighbour(1);
     })
     .keys(&[key(Key::CloseBracket)])
     .menu(Menu::Room, 3),
-    command("previous-room", "Previous room", "Pick the room before", has_rooms, |app, _| {
+    command("previous-room", "Previous room", "Select the room before", has_rooms, |app, _| {
         app.session.pick_neighbour(-1);
     })
     .keys(&[key(Key::OpenBracket)])

@@ -47,17 +47,17 @@ pub(super) const COMMANDS: &[Command] = &[
         .menu(Menu::View, 0)
         .on(&[On::FreeSpace])
         .tool(Icon::Fit, 1),
-    command("zoom-to-selection", "Zoom to selection", "Show what is picked as large as fits", has_picked, |app, _| {
+    command("zoom-to-selection", "Zoom to selection", "Show the selection as large as fits", has_picked, |app, _| {
         app.session.zoom_to_picked();
     })
     .keys(&[shift(Key::F)])
     .menu(Menu::View, 0)
     .on(&[On::Room, On::Wall, On::Opening, On::Corner, On::Several])
     .tool(Icon::ZoomToSelection, 1),
-    command("zoom-in", "Zoom in", "Show the plan larger", has_plan, |app, _| app.canvas.zoom_by(ZOOM_STEP))
+    command("zoom-in", "Zoom in", "Zoom in", has_plan, |app, _| app.canvas.zoom_by(ZOOM_STEP))
         .keys(&[key(Key::Plus), key(Key::Equals)])
         .menu(Menu::View, 0),
-    command("zoom-out", "Zoom out", "Show the plan smaller", has_plan, |app, _| app.canvas.zoom_by(1.0 / ZOOM_STEP))
+    command("zoom-out", "Zoom out", "Zoom out", has_plan, |app, _| app.canvas.zoom_by(1.0 / ZOOM_STEP))
         .keys(&[key(Key::Minus)])
         .menu(Menu::View, 0),
     choose(
@@ -73,7 +73,7 @@ pub(super) const COMMANDS: &[Command] = &[
     choose(
         "fill-function",
         "Fill by function",
-        "Colour each room by what it is for",
+        "Colour each room by its function",
         always,
         |app| app.session.layers.fill == Fill::Function,
         |app, _| app.session.layers.fill = Fill::Function,
@@ -83,7 +83,7 @@ pub(super) const COMMANDS: &[Command] = &[
     choose(
         "fill-prediction",
         "Fill by prediction",
-        "Colour each room by its predicted label; a known label that is another rims its room",
+        "Colour each room by its predicted label; where the known label differs, it shows as a rim",
         always,
         |app| app.session.layers.fill == Fill::Prediction,
         |app, _| app.session.layers.fill = Fill::Prediction,
@@ -93,7 +93,7 @@ pub(super) const COMMANDS: &[Command] = &[
     choose(
         "fill-none",
         "No fill",
-        "Show walls and openings only",
+        "Show only walls and openings",
         always,
         |app| app.session.layers.fill == Fill::None,
         |app, _| app.session.layers.fill = Fill::None,
@@ -103,7 +103,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "colour-blind-safe",
         "Colour-blind safe colours",
-        "Show labels in five colours that are told apart without seeing red, green or blue",
+        "Use label colours that people with any colour blindness can tell apart",
         always,
         |app| app.session.layers.colours == LabelColours::ColourBlindSafe,
         |app, is_on| {
@@ -114,7 +114,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "graph",
         "Graph",
-        "Show which rooms the openings join",
+        "Show which rooms the openings connect",
         always,
         |app| app.session.layers.graph,
         |app, is_on| app.session.layers.graph = is_on,
@@ -168,7 +168,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "dimensions",
         "Dimensions",
-        "Show dimension chains, and clear lengths, area and perimeter of what is selected",
+        "Show dimension chains, and clear lengths, area and perimeter of the selection",
         always,
         |app| app.session.layers.dimensions,
         |app, is_on| app.session.layers.dimensions = is_on,
@@ -178,7 +178,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "ghost-layer",
         "Storey below",
-        "Show the plan that was chosen as the storey below, faintly",
+        "Show the plan chosen as the storey below, faintly",
         has_ghost,
         |app| app.session.layers.ghost,
         |app, is_on| app.session.layers.ghost = is_on,
@@ -187,14 +187,14 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "ghost",
         "Show a storey below…",
-        "Draw another plan faintly under this one: the storey below, say",
+        "Show another plan faintly under this one, such as the storey below",
         has_plan,
         &given2(
             needed("PATH", PLAN_FILE, "a file with a plan"),
             optional(
                 "STOREY",
                 COUNT,
-                "which plan of the file, from 1; without, the first, of the open file the one before",
+                "which plan of the file, from 1; without it, the first, or for the open file the one before",
             ),
             |app, path, storey, _| {
                 app.session.read_ghost(path, storey.map(|storey| storey - 1));
@@ -207,14 +207,14 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
     )
     .menu(Menu::View, 3),
-    command("clear-ghost", "Show no storey below", "Take the storey below away", has_ghost, |app, _| {
+    command("clear-ghost", "Show no storey below", "Remove the storey below", has_ghost, |app, _| {
         app.session.show_ghost(None);
     })
     .menu(Menu::View, 3),
     switch(
         "rulers",
         "Rulers",
-        "Show rulers along the canvas, out of which guide lines are dragged",
+        "Show rulers along the canvas; drag guide lines out of them",
         always,
         |app| app.session.layers.rulers,
         |app, is_on| app.session.layers.rulers = is_on,
@@ -224,7 +224,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "add-guide",
         "Add a guide…",
-        "Add a line to draw along; or drag one out of a ruler",
+        "Add a line to draw along; you can also drag one out of a ruler",
         has_plan,
         &given2(AXIS, POSITION, |app, axis, at_m, _| {
             app.change_guides("Add guide", |plan| add_guide(plan, axis, at_m))
@@ -236,34 +236,31 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "move-guide",
         "Move a guide",
-        "Move a guide line; or drag its mark along a ruler",
+        "Move a guide line; you can also drag its mark along the ruler",
         has_guides,
-        &given3(
-            AXIS,
-            POSITION,
-            needed("TO", length(-FAR_M, FAR_M), "where it is to be"),
-            |app, axis, from_m, to_m, _| app.change_guides("Move guide", |plan| move_guide(plan, axis, from_m, to_m)),
-        ),
+        &given3(AXIS, POSITION, needed("TO", length(-FAR_M, FAR_M), "its new place"), |app, axis, from_m, to_m, _| {
+            app.change_guides("Move guide", |plan| move_guide(plan, axis, from_m, to_m))
+        }),
         None,
     ),
     with(
         "remove-guide",
         "Remove a guide",
-        "Take a guide line away; or drag its mark off the ruler, or double-click the mark",
+        "Remove a guide line; you can also drag its mark off the ruler, or double-click the mark",
         has_guides,
         &given2(AXIS, POSITION, |app, axis, at_m, _| {
             app.change_guides("Remove guide", |plan| remove_guide(plan, axis, at_m))
         }),
         None,
     ),
-    command("clear-guides", "Clear guides", "Take all guide lines away", has_guides, |app, _| {
+    command("clear-guides", "Clear guides", "Remove all guide lines", has_guides, |app, _| {
         app.session.edit("Clear guides", |plan| Ok(clear_guides(plan)));
     })
     .menu(Menu::View, 3),
     with(
         "grid-spacing",
         "Grid spacing…",
-        "Set how far the grid's lines are apart, or leave it to the zoom",
+        "Set the distance between grid lines, or 'auto' to follow the zoom",
         always,
         &given1(needed("SPACING", TEXT, "a length, or 'auto'"), |app, text, _| {
             if text == AUTO {
@@ -291,7 +288,7 @@ pub(super) const COMMANDS: &[Command] = &[
     choose(
         "units-metric",
         "Metres",
-        "Show lengths and areas in metres and square metres; numbers typed without a unit are metres",
+        "Show metres and square metres; numbers typed without a unit are metres",
         always,
         |app| app.units() == Units::Metric,
         |app, _| app.set_units(Units::Metric),
@@ -300,7 +297,7 @@ pub(super) const COMMANDS: &[Command] = &[
     choose(
         "units-imperial",
         "Feet and inches",
-        "Show lengths in feet and inches, areas in square feet; numbers typed without a unit are feet",
+        "Show feet, inches and square feet; numbers typed without a unit are feet",
         always,
         |app| app.units() == Units::Imperial,
         |app, _| app.set_units(Units::Imperial),
@@ -309,7 +306,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "plan-panel",
         "Plans and layers",
-        "Show the panel on the left",
+        "Show or hide the panel on the left",
         always,
         |app| app.panels.is_shown(panels::PLANS),
         |app, is_on| [panels::PLANS, panels::LAYERS].iter().for_each(|id| app.set_panel(id, is_on)),
@@ -320,7 +317,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "inspector",
         "Inspector",
-        "Show the panel on the right",
+        "Show or hide the panel on the right",
         always,
         |app| app.panels.is_shown(panels::INSPECTOR),
         |app, is_on| app.set_panel(panels::INSPECTOR, is_on),
@@ -331,7 +328,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "history",
         "History",
-        "Show the steps that led to the plan, and go to any of them",
+        "Show the steps that led to this plan, and go to any of them",
         always,
         |app| app.panels.is_shown(panels::HISTORY),
         |app, is_on| app.set_panel(panels::HISTORY, is_on),
@@ -341,7 +338,7 @@ pub(super) const COMMANDS: &[Command] = &[
     switch(
         "findings",
         "Findings",
-        "Show what is wrong with the plan or worth a look, and what to do about it",
+        "Show what is wrong with the plan, and what to do about it",
         always,
         |app| app.panels.is_shown(panels::FINDINGS),
         |app, is_on| app.panels.set_shown(panels::FINDINGS, is_on),
@@ -351,7 +348,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "next-finding",
         "Next finding",
-        "Select what the next finding is about, and bring it into view",
+        "Select what the next finding is about and bring it into view",
         has_findings,
         &given0(|app, _| done(app.session.step_finding(1))),
         None,
@@ -361,7 +358,7 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "previous-finding",
         "Previous finding",
-        "Select what the finding before is about, and bring it into view",
+        "Select what the previous finding is about and bring it into view",
         has_findings,
         &given0(|app, _| done(app.session.step_finding(-1))),
         None,
@@ -373,7 +370,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Go to finding",
         "Select what a finding is about, and bring it into view",
         has_findings,
-        &given1(needed("NUMBER", COUNT, "which, in the order of the panel"), |app, number, _| {
+        &given1(needed("NUMBER", COUNT, "its number in the panel"), |app, number, _| {
             done(app.session.go_to_finding(number))
         }),
         None,
@@ -381,9 +378,9 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "fix-finding",
         "Fix finding",
-        "Do what is right for certain about a finding; others say what to do and leave it to you",
+        "Fix a finding that has a safe fix; for others, read what to do",
         has_findings,
-        &given1(needed("NUMBER", COUNT, "which, in the order of the panel"), |app, number, _| {
+        &given1(needed("NUMBER", COUNT, "its number in the panel"), |app, number, _| {
             done(app.session.fix_finding(number))
         }),
         None,
@@ -391,10 +388,10 @@ pub(super) const COMMANDS: &[Command] = &[
     with(
         "ignore-finding",
         "Ignore finding",
-        "Leave a finding as it is, for a reason that is kept in the plan and told by 'enfilade check'",
+        "Ignore a finding, for a reason that is kept in the plan and shown by 'enfilade check'",
         has_findings,
         &given2(
-            needed("NUMBER", COUNT, "which, in the order of the panel"),
+            needed("NUMBER", COUNT, "its number in the panel"),
             needed("REASON", TEXT, "why, in one line"),
             |app, number, reason, _| done(app.session.ignore_finding(number, &reason)),
         ),
@@ -405,7 +402,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "Heed finding",
         "No longer ignore a finding",
         has_findings,
-        &given1(needed("NUMBER", COUNT, "which, in the order of the panel"), |app, number, _| {
+        &given1(needed("NUMBER", COUNT, "its number in the panel"), |app, number, _| {
             done(app.session.heed_finding(number))
         }),
         None,
@@ -416,8 +413,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "Show or hide a panel beside the canvas",
         has_other_panels,
         &given2(
-            needed("PANEL", PANEL, "a panel that has no command of its own"),
-            optional("SWITCH", ON_OR_OFF, "on or off; without, the other of what it is"),
+            needed("PANEL", PANEL, "a panel without a command of its own"),
+            optional("SWITCH", ON_OR_OFF, "on or off; without it, switches over"),
             |app, SidePanelId(id), is_on, _| {
                 let is_on = is_on.unwrap_or(!app.panels.is_shown(id));
                 app.set_panel(id, is_on);
@@ -430,7 +427,7 @@ pub(super) const COMMANDS: &[Command] = &[
     choose(
         "theme-system",
         "Follow the system",
-        "Light or dark as the system says",
+        "Light or dark, as the system is set",
         always,
         |app| app.theme == ThemeChoice::System,
         |app, context| app.set_theme(ThemeChoice::System, context),
@@ -439,7 +436,7 @@ pub(super) const COMMANDS: &[Command] = &[
     choose(
         "theme-light",
         "Light",
-        "Light, whatever the system says",
+        "Always light",
         always,
         |app| app.theme == ThemeChoice::Light,
         |app, context| app.set_theme(ThemeChoice::Light, context),
@@ -448,7 +445,7 @@ pub(super) const COMMANDS: &[Command] = &[
     choose(
         "theme-dark",
         "Dark",
-        "Dark, whatever the system says",
+        "Always dark",
         always,
         |app| app.theme == ThemeChoice::Dark,
         |app, context| app.set_theme(ThemeChoice::Dark, context),

@@ -16,7 +16,7 @@ impl Inspected<'_> {
     ) -> Option<Act> {
         let subtitle = match opening.place {
             Place::Hosted { .. } => "In a wall",
-            Place::Free { .. } => "At a place of its own",
+            Place::Free { .. } => "Not in a wall",
         };
         header(ui, None, Some(opening_icon(opening.kind)), &sentence(opening.kind.name()), subtitle);
         ui.add_space(6.0);
@@ -40,7 +40,7 @@ impl Inspected<'_> {
             act = act.or(self.swing(ui, id, opening, names));
         }
         if !opening.kind.is_passable() {
-            caption(ui, "Windows are for drawing only: they join nothing.");
+            caption(ui, "Windows do not connect rooms.");
             return act;
         }
         hairline(ui);
@@ -73,9 +73,9 @@ impl Inspected<'_> {
             }
         });
         ui.add_space(4.0);
-        caption(ui, if connection.pinned { "Stated by the file or by a person" } else { "Found from where it lies" });
+        caption(ui, if connection.pinned { "Set by the file or by hand" } else { "Found from its position" });
         if connection.joins_nothing() {
-            ui.label(RichText::new("Both sides are the same: it joins nothing.").color(colours(ui).warning));
+            ui.label(RichText::new("Both sides are the same room, so it connects nothing.").color(colours(ui).warning));
         }
         act
     }

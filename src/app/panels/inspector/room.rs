@@ -4,7 +4,14 @@ use super::*;
 use crate::app::look::text::{select_all, select_when_entered};
 
 impl Inspected<'_> {
-    pub(super) fn room(&self, ui: &mut Ui, id: RoomId, room: &Room, hovered: &mut Option<ElementId>) -> Option<Act> {
+    pub(super) fn room(
+        &self,
+        ui: &mut Ui,
+        id: RoomId,
+        room: &Room,
+        hovered: &mut Option<ElementId>,
+        evidence: &mut Option<Marks>,
+    ) -> Option<Act> {
         let derived = self.document.derived();
         let analysed = derived.and_then(|derived| derived.analysis.room(id));
         let status = RoomStatus::of(self.plan, &self.app.session.schemes, room);
@@ -25,6 +32,7 @@ impl Inspected<'_> {
         ui.add_space(6.0);
         let mut act = self.field(ui, id, FieldKind::Name, &room.name, "Unnamed");
         act = Act::both(act, self.field(ui, id, FieldKind::Function, &room.function, "Unknown"));
+        act = Act::both(act, self.proposed_function(ui, id));
         act = Act::both(act, self.field(ui, id, FieldKind::Note, &room.note, "None"));
         ui.add_space(4.0);
         if let Some(net) = derived.and_then(|derived| derived.analysis.net(id)) {
@@ -36,15 +44,15 @@ impl Inspected<'_> {
         act = act.or(self.label(ui, room, status));
         hairline(ui);
         if let Some(derived) = derived {
-            act = act.or(self.predicted(ui, id, status, derived));
+            act = act.or(self.predicted(ui, id, status, derived, evidence));
             hairline(ui);
         }
         section(ui, "Features");
         match analysed {
             None if self.app.session.document.as_ref().is_some_and(|document| !document.is_awaited()) => {
-                caption(ui, "Could not be worked out");
+                caption(ui, "Could not be computed");
             }
-            None => drop(caption(ui, "Being worked out…")),
+            None => drop(caption(ui, "Computing…")),
             Some(analysed) => {
                 let perimeter_m =
                     derived.and_then(|derived| derived.analysis.shapes.get(id)).map(RoomShape::perimeter_m);
@@ -58,10 +66,17 @@ impl Inspected<'_> {
         act
     }
 
-    pub(super) fn predicted(&self, ui: &mut Ui, id: RoomId, status: RoomStatus, derived: &Derived) -> Option<Act> {
+    pub(super) fn predicted(
+        &self,
+        ui: &mut Ui,
+        id: RoomId,
+        status: RoomStatus,
+        derived: &Derived,
+        evidence: &mut Option<Marks>,
+    ) -> Option<Act> {
         let predictions = derived.predictions.as_ref()?;
-        let reason = derived.reason(id);
-        prediction::of_room(ui, self.app, self.palette, predictions, reason, id, status).map(Act::of)
+        let why = derived.why(id, self.app.units());
+        prediction::of_room(ui, self.app, self.palette, predictions, id, status, why.as_deref(), evidence).map(Act::of)
     }
 
     /// An editable text of a room.
@@ -178,6 +193,8 @@ impl Inspected<'_> {
 
     /// The five labels side by side; returns one that was clicked.
     pub(super) fn label_segments(&self, ui: &mut Ui, current: Option<Label>) -> Option<Label> {
+        let typology = self.plan.meta().typology.as_ref();
+        let about = Label::ALL.map(|label| self.app.session.schemes.about(label, typology, self.app.units()));
         let segments: Vec<Segment<'_>> = Label::ALL
             .into_iter()
             .zip(LABEL_COMMANDS)
@@ -186,7 +203,7 @@ impl Inspected<'_> {
                 Some(Segment {
                     text: label.letter(),
                     name: command.title,
-                    help: command.help,
+                    help: &about[label.index()],
                     is_on: current == Some(label),
                     colour: Some(theme::colour(self.palette.label(label))),
                 })
@@ -198,8 +215,11 @@ impl Inspected<'_> {
     pub(super) fn label(&self, ui: &mut Ui, room: &Room, status: RoomStatus) -> Option<Act> {
         let mut act = self.label_segments(ui, status.label()).map(|label| Act::Label(Some(label)));
         caption(ui, self.label_origin(room, status));
-        if room.label.is_some() && link(ui, "Use the function's label").clicked() {
+        if room.label.is_some() && link(ui, "Clear label").clicked() {
             act = Some(Act::Label(None));
+        }
+        if room.label.is_none() {
+            act = act.or(self.typology_choice(ui));
         }
         act
     }
@@ -208,19 +228,19 @@ impl Inspected<'_> {
     pub(super) fn label_origin(&self, room: &Room, status: RoomStatus) -> String {
         if let Some(given) = room.label {
             return match given.origin {
-                LabelOrigin::Person => "Given by a person".to_owned(),
-                LabelOrigin::Imported => "Stated by the imported file".to_owned(),
-                LabelOrigin::AcceptedPrediction => "A prediction that was accepted".to_owned(),
-                LabelOrigin::Prediction => "A prediction that nobody has accepted".to_owned(),
+                LabelOrigin::Person => "Set by hand".to_owned(),
+                LabelOrigin::Imported => "From the imported file".to_owned(),
+                LabelOrigin::AcceptedPrediction => "An accepted prediction".to_owned(),
+                LabelOrigin::Prediction => "A prediction, not accepted yet".to_owned(),
             };
         }
         let typology = self.plan.meta().typology.as_ref();
         match (status, typology) {
             (RoomStatus::Labelled(_) | RoomStatus::NotClassified, Some(typology)) => {
-                format!("From its function, by the label scheme for {typology}")
+                format!("From its function, as the label scheme for {typology} says")
             }
-            (_, None) => "The plan has no typology, so no scheme says what its functions mean".to_owned(),
-            (_, Some(_)) if room.function.trim().is_empty() => "No function is known".to_owned(),
+            (_, None) => "Its function gives it no label, because the plan has no typology.".to_owned(),
+            (_, Some(_)) if room.function.trim().is_empty() => "No label: it has no function".to_owned(),
             (_, Some(typology)) => format!("The label scheme for {typology} does not know this function"),
         }
     }

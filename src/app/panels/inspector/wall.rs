@@ -23,7 +23,7 @@ impl Inspected<'_> {
     pub(super) fn wall(&self, ui: &mut Ui, id: WallId, wall: &Wall) -> Option<Act> {
         let segment = self.plan.wall_segment(wall)?;
         let icon = TOOLS.iter().find(|tool| tool.id == "tool-walls").and_then(|tool| tool.strip).map(|(icon, _)| icon);
-        header(ui, None, icon, "Wall", "Measured along its middle");
+        header(ui, None, icon, "Wall", "Along its centre line");
         ui.add_space(6.0);
         let end = self.moving_end(ui, id, wall);
         let names = names_of_ends(segment);

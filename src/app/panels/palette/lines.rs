@@ -8,7 +8,7 @@ pub(super) fn row(ui: &Ui, rect: Rect, index: usize, line: &Line, is_chosen: boo
     let name = match (line.detail.as_str(), line.is_available) {
         ("", _) => line.title.clone(),
         (detail, true) => format!("{}, {detail}", line.title),
-        (detail, false) => format!("{}, not now: {detail}", line.title),
+        (detail, false) => format!("{}, not available: {detail}", line.title),
     };
     response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, line.is_available, is_chosen, &name));
     let colours = colours(ui);

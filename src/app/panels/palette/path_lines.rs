@@ -50,7 +50,7 @@ pub(super) fn path_lines(app: &App, typed: &str, use_: PathUse, listing: &mut Li
     let mut lines: Vec<Line> = found.into_iter().map(|(_, line)| line).collect();
     if use_ == PathUse::New && !part.is_empty() {
         let is_there = place.join(part).is_file();
-        let detail = if is_there { "replaces the file of this name" } else { "" }.to_owned();
+        let detail = if is_there { "overwrites the file with this name" } else { "" }.to_owned();
         let line = plain(format!("Save as ‘{part}’"), Vec::new(), Taken::Argument(typed.to_owned()));
         lines.insert(0, Line { detail, lead: LineLead::Icon(Icon::Save), ..line });
     }
@@ -81,7 +81,7 @@ pub(super) fn path_problem(app: &App, typed: &str, use_: PathUse) -> Option<Stri
         _ if name.is_empty() => Some("type the path of a file".to_owned()),
         PathUse::New if path.is_dir() => Some(format!("{name} is a folder: add a name for the file")),
         PathUse::New if path.parent().is_some_and(|folder| !folder.is_dir()) => {
-            Some("there is no such folder".to_owned())
+            Some("this folder does not exist".to_owned())
         }
         PathUse::New => None,
         PathUse::Plan if path.is_dir() => None,

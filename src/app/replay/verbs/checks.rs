@@ -8,7 +8,7 @@ use crate::app::offscreen::controls::Control;
 use crate::app::replay::act::Act;
 use crate::app::replay::fault::Fault;
 use crate::app::replay::snapshot::{self, Look, Region};
-use crate::app::replay::stage::{Stage, count};
+use crate::app::replay::stage::{Gestures, Stage, count};
 use crate::app::replay::verbs::window::{is_dark, scale, size};
 use crate::app::replay::words::{Words, did_you_mean, in_quotes, told, written};
 use crate::base::file_name::inner_path;
@@ -35,6 +35,17 @@ pub(super) const GROUP: Group = Group {
                     return Err(format!("{} is nothing that can be expected{near}", told(name)));
                 };
                 (expectation.parse)(words).map_err(|what| format!("{what}, as in expect {}", expectation.form))
+            },
+        },
+        Verb {
+            name: "count-gestures",
+            form: "count-gestures",
+            help: "Counts clicks and keys from here on, for `expect gestures`.",
+            parse: |_| {
+                Ok(Box::new(|stage| {
+                    stage.gestures = Gestures::default();
+                    Ok(())
+                }))
             },
         },
         Verb {
@@ -232,6 +243,19 @@ pub(super) const EXPECTATIONS: &[Expectation] = &[
         parse: |words| {
             let expected = words.count("the number of messages")?;
             Ok(Box::new(move |stage| same_number("message", expected, stage.window.app().messages().len())))
+        },
+    },
+    Expectation {
+        name: "gestures",
+        form: "gestures CLICKS KEYS",
+        help: "so many clicks and keys since `count-gestures`, or the start; a double click and a drag count two, a turn \
+               of the wheel one, a key held with others one, and each character typed",
+        parse: |words| {
+            let (clicks, keys) = (words.count("the number of clicks")?, words.count("the number of keys")?);
+            Ok(Box::new(move |stage| {
+                let Gestures { clicks: found_clicks, keys: found_keys } = stage.gestures;
+                same("what the hand did", &format!("{clicks} {keys}"), &format!("{found_clicks} {found_keys}"))
+            }))
         },
     },
     Expectation {

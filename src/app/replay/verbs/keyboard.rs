@@ -16,6 +16,7 @@ pub(super) const GROUP: Group = Group {
             parse: |words| {
                 let (modifiers, key) = chord(words.text("the key")?)?;
                 Ok(Box::new(move |stage| {
+                    stage.gestures.key(modifiers);
                     stage.window.key(modifiers, key);
                     Ok(())
                 }))
@@ -28,6 +29,7 @@ pub(super) const GROUP: Group = Group {
             parse: |words| {
                 let text = words.text("the text")?.to_owned();
                 Ok(Box::new(move |stage| {
+                    stage.gestures.keys += text.chars().count();
                     stage.window.text(&text);
                     Ok(())
                 }))
@@ -103,6 +105,7 @@ fn hold(words: &mut Words<'_>, pressed: bool) -> Result<Act, String> {
     let name = words.text("the key")?;
     if let Some(modifier) = modifier(name) {
         return Ok(Box::new(move |stage| {
+            stage.gestures.keys += usize::from(pressed);
             let held = stage.window.modifiers();
             let held = if pressed { held.plus(modifier) } else { without(held, modifier) };
             stage.window.hold_modifiers(held);
@@ -111,6 +114,7 @@ fn hold(words: &mut Words<'_>, pressed: bool) -> Result<Act, String> {
     }
     let key = key_of(name)?;
     Ok(Box::new(move |stage| {
+        stage.gestures.keys += usize::from(pressed);
         stage.window.hold(key, pressed);
         Ok(())
     }))

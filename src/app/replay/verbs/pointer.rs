@@ -134,6 +134,7 @@ fn clicks_with(words: &mut Words<'_>, button: PointerButton, count: usize) -> Re
     let modifiers = with(words)?;
     Ok(Box::new(move |stage| {
         let at = place.on_screen(stage)?;
+        stage.gestures.click(count, modifiers);
         holding(stage, modifiers, |stage| stage.window.clicks(button, at, count));
         Ok(())
     }))
@@ -159,6 +160,7 @@ fn drag(words: &mut Words<'_>) -> Result<Act, String> {
             // A hand does not jump: code that follows the pointer must see it move.
             way.insert(1, from + (to - from) / 2.0);
         }
+        stage.gestures.click(2, modifiers);
         holding(stage, modifiers, |stage| stage.window.drag_along(button, &way));
         Ok(())
     }))
@@ -166,6 +168,7 @@ fn drag(words: &mut Words<'_>) -> Result<Act, String> {
 
 fn press(button: PointerButton, pressed: bool) -> Act {
     Box::new(move |stage| {
+        stage.gestures.click(1, Modifiers::NONE);
         stage.window.button(button, pressed);
         Ok(())
     })
@@ -181,6 +184,7 @@ fn over_place(words: &mut Words<'_>, act: impl Fn(&mut Stage<'_>) + Send + Sync 
             let at = place.on_screen(stage)?;
             stage.window.move_to(at);
         }
+        stage.gestures.click(1, modifiers);
         holding(stage, modifiers, &act);
         Ok(())
     }))

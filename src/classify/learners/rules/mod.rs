@@ -55,7 +55,7 @@ impl Learner for Ripper {
     }
 
     fn help(&self) -> &'static str {
-        "rules that can be read"
+        "rules that you can read, each room by itself"
     }
 
     fn train(&self, table: &Table, seed: u64, work: &Work<'_>) -> Result<Trained<Arc<dyn Model>>, Cancelled> {

@@ -51,7 +51,7 @@ impl Worded for Wanted {
     ];
 }
 
-pub(super) const NO_GAPS: &str = "there is no gap of 30 to 150 cm between collinear walls";
+pub(super) const NO_GAPS: &str = "there is no gap of 30 to 150 cm between aligned walls";
 
 /// Moves, turns, mirrors or scales the selection, or a copy of it.
 pub(super) fn transformed(app: &mut App, title: &str, transform: Transform, copy: Option<MoveOrCopy>) -> Outcome {
@@ -252,7 +252,8 @@ impl App {
                 let count = crate::base::wording::count;
                 let (corners, edges) = (count(weld.merged.len(), "corner"), count(weld.onto_edges.len(), "edge"));
                 let text = format!(
-                    "{corners} would become another within {}, and {edges} would be split at a corner: marked on the plan.",
+                    "{corners} would join another within {}, and {edges} would be split at a corner, as marked on the \
+                     plan.",
                     self.units().length(tolerance_m)
                 );
                 let answer = ("weld", "Weld");
@@ -273,8 +274,8 @@ impl App {
             Err(error) => Outcome::Refused(error.to_string()),
             Ok((next, _)) => {
                 let gaps_said = crate::base::wording::count(gaps.len(), "gap");
-                let (title, answer) = ("Put doors into these gaps?", ("bridge", "Put doors in"));
-                let text = format!("{gaps_said} between collinear walls, 30 to 150 cm wide: marked on the plan.");
+                let (title, answer) = ("Place doors in these gaps?", ("bridge", "Place doors"));
+                let text = format!("{gaps_said} between aligned walls, 30 to 150 cm wide, marked on the plan.");
                 let marks = gaps.into_iter().map(|gap| gap.segment).collect();
                 self.session.ask(Question::change(title, text, answer, "Bridge gaps", next, marks));
                 Outcome::Asks
@@ -364,7 +365,7 @@ impl App {
                 let segment = plan.opening(opening).and_then(|opening| plan.opening_segment(opening));
                 let Some(segment) = segment else { return Ok(plan.clone()) };
                 if segment.vector().unit().is_none_or(|along| along.dot(direction.vector()).abs() < 0.1) {
-                    return Err(EditError("an opening goes along its wall only".to_owned()));
+                    return Err(EditError("an opening moves only along its wall".to_owned()));
                 }
                 edit::slide_opening(plan, opening, segment.midpoint() + by)
             }),
