@@ -107,6 +107,9 @@ impl Asked {
     }
 }
 
+/// Why a room got its label, for the last room asked about, with the units it is told in.
+type Reason = ((RoomId, Units), Option<Arc<Why>>);
+
 /// What is derived from a plan.
 pub struct Derived {
     pub analysis: Analysis,
@@ -116,8 +119,7 @@ pub struct Derived {
     pub predictions: Option<Predictions>,
     /// Which models were to predict.
     pub predictor: Option<Predictor>,
-    /// Why a room got its label, for the last room asked about.
-    reason: Mutex<Option<((RoomId, Units), Option<Arc<Why>>)>>,
+    reason: Mutex<Option<Reason>>,
     /// A spatial index of corners, walls and boundaries: for snapping and selecting.
     pub index: PlanIndex,
     /// Doorways left open in walls.

@@ -71,6 +71,10 @@ impl App {
         self.grant_wishes(&context);
         panels::show(self, ui);
         self.grant_wishes(&context);
+        // Without a plan there is nothing to use a tool on: the next one begins with none in hand.
+        if self.session.document.is_none() && !self.tools.is_selecting() {
+            self.put_tool_away();
+        }
         self.was_typing = context.text_edit_focused();
         self.session.view = self.canvas.free_view();
         self.session.draft = self.tools.draft();

@@ -135,7 +135,7 @@ fn a_picture_that_is_gone_is_found_or_relinked() {
     // Another picture is taken, but not without a word.
     let other = put(root, "other.bmp", &encoded(&walls().rotate90(), ImageFormat::Bmp));
     run(&mut window, "relink-picture", &[&other.to_string_lossy()]);
-    assert!(said(&window)[0].contains("not the one"), "{:?}", said(&window));
+    assert!(said(&window)[0].contains("not the picture that was"), "{:?}", said(&window));
     assert_eq!(backdrop(&window).path, "other.bmp");
     // In a folder below: found by itself, the plan still unchanged until it is kept.
     put(root, "scans/renamed.png", &bytes);

@@ -37,6 +37,12 @@ fn every_shortcut_does_its_command() {
                 run(&mut window, "set-function", &["of no scheme"]);
             }
             match command.id {
+                // Walls that end nowhere.
+                "next-finding" | "previous-finding" => run(&mut window, "draw-walls", &["20,0 24,0"]),
+                "accept-function" => {
+                    run(&mut window, "set-function", &[""]);
+                    run(&mut window, "rename", &["Kitchen 2"]);
+                }
                 // Walls that enclose what no room covers.
                 "fill-all" => {
                     run(&mut window, "delete", &[]);
@@ -82,6 +88,7 @@ fn every_shortcut_does_its_command() {
                     keys(&mut window, "Enter");
                     (done(&mut window)[0].starts_with(command.id), "a name")
                 }
+                "next-open" | "previous-open" => (said.starts_with("show-plan "), "another open plan"),
                 // Going on to another plan closes one that nothing was done in.
                 id => (said.split("; ").any(|one| one == id || one.starts_with(&format!("{id} "))), id),
             };

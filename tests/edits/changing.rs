@@ -48,7 +48,7 @@ fn rooms_move_alone_walls_take_neighbours_along_and_mirrored_doors_open_into_the
     assert_eq!((areas(&dragged), dragged.corners().len()), (vec![9.0, 15.0], 6));
     let refused =
         edit::move_elements(&plan, &[ElementId::Wall(between)].into(), Transform::rotation(Point::default(), 1.0));
-    assert!(refused.unwrap_err().0.contains("pick the rooms as well"));
+    assert!(refused.unwrap_err().0.contains("select the rooms too"));
     let mirror = Transform::reflection(Point::new(4., 0.), Point::new(4., 1.)).unwrap();
     let mirrored = edit::move_elements(&plan, &rooms(&[left, right]), mirror).unwrap();
     let side = |plan: &Plan| plan.opening(door).unwrap().swing.unwrap().side;

@@ -176,7 +176,7 @@ fn the_command_line_says_what_is_there_and_what_is_lost() {
     for (arguments, expected) in [
         (vec!["export", plan, "-o", &at("x.geojson"), "--option", "colour=red"], "there is no option 'colour'"),
         (vec!["export", plan, "-o", &at("x.geojson"), "--option", "rooms-only=2"], "use yes or no"),
-        (vec!["export", plan, "-o", &at("x.dwg")], "neither a folder nor a file with a known ending"),
+        (vec!["export", plan, "-o", &at("x.dwg")], "not a folder and not a file with a known ending"),
         (vec!["export", plan, "-o", &at("x"), "--format", "dwg"], "cannot write '.dwg'; known endings: .plan.json"),
         (vec!["import", xml, "-o", &at("out"), "--from", "dwg"], "use one of enfilade, authors-xml, geojson"),
         (vec!["import", xml, "-o", &at("out"), "--from", "geojson"], "is no JSON object: it starts with '<'"),

@@ -47,11 +47,19 @@ fn wrong_calls_and_wrong_input_say_what_to_do() {
     let out = |name: &str| folder.path().join(name);
     let office = plan("office.plan.json");
     let cases: [(&[&Path], u8, &str); 5] = [
-        (&[&office, Path::new("-o"), &out("a.png"), Path::new("--size"), Path::new("100000")], 2, "outside 16 to 8192"),
-        (&[&office, Path::new("-o"), &out("a.png"), Path::new("--size"), Path::new("big")], 2, "no number of pixels"),
+        (
+            &[&office, Path::new("-o"), &out("a.png"), Path::new("--size"), Path::new("100000")],
+            2,
+            "not between 16 and 8192",
+        ),
+        (
+            &[&office, Path::new("-o"), &out("a.png"), Path::new("--size"), Path::new("big")],
+            2,
+            "not a number of pixels",
+        ),
         (&[&office, Path::new("-o"), &out("a.bmp")], 2, "pictures end in .png or .svg"),
         (&[&out("missing.plan.json"), Path::new("-o"), &out("a.png")], 1, "missing.plan.json"),
-        (&[&office, &office, Path::new("-o"), &out("a.png")], 2, "is one picture, but 2 plans"),
+        (&[&office, &office, Path::new("-o"), &out("a.png")], 2, "is a single picture, but there are 2 plans"),
     ];
     for (arguments, expected, word) in cases {
         let (code, _, err) = render(arguments);

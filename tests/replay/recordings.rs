@@ -156,9 +156,16 @@ fn any_use(seed: u64) -> Result<bool, Failed> {
     save(&mut window, &path);
     window.event(Event::PointerGone);
     window.settle()?;
+    // Messages lie over the canvas, and name files where they are.
+    let mut dismissed = 0;
+    while dismissed < 20 && window.run_command("dismiss-message") {
+        dismissed += 1;
+    }
+    window.settle()?;
     let plan = window.app().canvas_rect().map(|rect| window.picture_of(rect));
     let mut text = std::fs::read_to_string(&path)?;
     if plan.is_some() {
+        text.push_str(&"dismiss-message\n".repeat(dismissed));
         text.push_str("snapshot end --region canvas\n");
         std::fs::write(&path, &text)?;
     }

@@ -30,7 +30,7 @@ fn dataset(arguments: &[&str]) -> (Vec<Row>, String) {
 }
 
 fn moved(plan: &Plan, way: Transform) -> Plan {
-    let elements: BTreeSet<ElementId> = plan.corners().map(|(id, _)| ElementId::Corner(id)).collect();
+    let elements: BTreeSet<ElementId> = plan.elements().collect();
     edit::move_elements(plan, &elements, way).unwrap()
 }
 

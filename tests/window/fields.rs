@@ -22,8 +22,11 @@ fn run(window: &mut Offscreen, id: &str, words: &[&str]) {
     window.settle().unwrap();
 }
 
+/// Brings fields up in a window.
+type BringUp = fn(&mut Offscreen);
+
 /// Ways to bring text fields up.
-const STATES: &[(&str, fn(&mut Offscreen))] = &[
+const STATES: &[(&str, BringUp)] = &[
     ("a room", |window| {
         let id = room(window, "Study");
         run(window, "pick", &[&id.to_string()]);

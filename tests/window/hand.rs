@@ -345,7 +345,7 @@ fn menus_fit_and_are_reached_by_keys() {
             );
             assert!(!rect.contains(window.pointer()), "{menu:?} opens under the pointer");
             // To its last entry, by the keyboard: that comes into view.
-            let last = COMMANDS.iter().filter(|command| command.menu.is_some_and(|(of, _)| of == menu)).next_back();
+            let last = COMMANDS.iter().rfind(|command| command.menu.is_some_and(|(of, _)| of == menu));
             key(&mut window, Modifiers::NONE, Key::ArrowUp);
             let focused = window.focused().unwrap();
             assert!(

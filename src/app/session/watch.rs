@@ -99,7 +99,7 @@ enum Found {
     Nothing,
     /// Its contents are the same as when last read or written here.
     Same,
-    Theirs(Theirs),
+    Theirs(Box<Theirs>),
 }
 
 /// Checks a file that had the stamp `stamp`, and the facts `seen` when its bytes were last read.
@@ -108,7 +108,7 @@ fn look(path: &Path, stamp: Option<Stamp>, seen: Option<&Facts>, schemes: &Schem
         Ok(facts) => facts,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
             let gone = Theirs::new(None, Content::Gone);
-            return (None, if stamp.is_none() { Found::Nothing } else { Found::Theirs(gone) });
+            return (None, if stamp.is_none() { Found::Nothing } else { Found::Theirs(Box::new(gone)) });
         }
         Err(_) => return (None, Found::Nothing),
     };
@@ -130,7 +130,7 @@ fn look(path: &Path, stamp: Option<Stamp>, seen: Option<&Facts>, schemes: &Schem
         ),
         Err(error) => Content::Broken(error.error.to_string()),
     };
-    (Some(facts), Found::Theirs(Theirs::new(Some(now), content)))
+    (Some(facts), Found::Theirs(Box::new(Theirs::new(Some(now), content))))
 }
 
 impl Session {
@@ -175,16 +175,15 @@ impl Session {
                 self.safety.own.theirs = None;
             }
             // Rewritten, perhaps in another form, with the same contents.
-            Found::Theirs(Theirs { stamp, content: Content::Plan(plan, _), .. })
-                if document.saved() == Some(&*plan) =>
+            Found::Theirs(theirs) if matches!(&theirs.content, Content::Plan(plan, _) if document.saved() == Some(&**plan)) =>
             {
                 document.is_gone = false;
-                document.stamp = stamp;
+                document.stamp = theirs.stamp;
                 self.safety.own.theirs = None;
             }
             Found::Theirs(theirs) => {
                 document.is_gone = matches!(theirs.content, Content::Gone);
-                self.safety.own.theirs = Some(theirs);
+                self.safety.own.theirs = Some(*theirs);
             }
         }
         if self.their_plan().is_none() {
