@@ -281,10 +281,10 @@ impl Array {
     }
 }
 
-/// As [`array`]; also says what became of openings that would have stood where others do.
+/// As [`array()`]; also says what became of openings that would have stood where others do.
 ///
 /// # Errors
-/// As [`array`].
+/// As [`array()`].
 pub fn array_fitted(
     plan: &Plan,
     elements: &BTreeSet<ElementId>,

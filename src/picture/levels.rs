@@ -40,7 +40,6 @@ impl std::fmt::Debug for Level {
 
 impl Level {
     /// The same picture in the smallest format that holds it: colour scans are often grey and opaque.
-    #[cfg_attr(not(feature = "pictures"), expect(dead_code, reason = "those who decode pictures use it"))]
     pub(crate) fn simplified(self) -> Self {
         let size = self.samples.bytes();
         let is_opaque = self.samples != Samples::Rgba || self.data.chunks_exact(4).all(|pixel| pixel[3] == 255);
