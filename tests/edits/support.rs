@@ -30,7 +30,9 @@ pub fn areas(plan: &Plan) -> Vec<f64> {
 /// So many cases, or as many as `PROPTEST_CASES` says.
 pub fn config(cases: u32) -> ProptestConfig {
     let default = ProptestConfig { failure_persistence: None, ..ProptestConfig::default() };
-    if std::env::var_os("PROPTEST_CASES").is_some() { default } else { ProptestConfig { cases, ..default } }
+    // The same cases each time; with `PROPTEST_CASES` so many new ones.
+    let rng_seed = proptest::test_runner::RngSeed::Fixed(12);
+    if std::env::var_os("PROPTEST_CASES").is_some() { default } else { ProptestConfig { cases, rng_seed, ..default } }
 }
 
 /// The area of all rooms together.
