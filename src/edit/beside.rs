@@ -49,6 +49,10 @@ impl Lies {
     }
 }
 
+/// The axes of the walls near a point, or of more, with their thickness in metres. Near is where their
+/// faces may pass through the point.
+pub type WallsNear<'a> = dyn Fn(Point) -> Vec<(Segment, f64)> + 'a;
+
 /// How the walls along a line are built.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Built {
@@ -78,12 +82,13 @@ const LONGEST_MITRE: f64 = 6.0;
 /// As [`draw_walls`].
 pub fn draw_walls_beside(plan: &Plan, line: &[Point], built: Built, drawn: Option<Built>) -> Result<Drawn, EditError> {
     let chain = Chain::new(line, built, drawn);
-    let Some(axis) = chain.as_ref().and_then(|chain| chain.axis(plan)) else {
+    let walls = |_| wall_bodies::axes(plan).map(|(_, thickness_m, axis)| (axis, thickness_m)).collect();
+    let Some(axis) = chain.as_ref().and_then(|chain| chain.axis(&walls)) else {
         return draw_walls(plan, line, built.thickness_m);
     };
     let mut next = plan.clone();
     // Where the chain ended before its last corner, and where it began before it closed.
-    let earlier = chain.as_ref().and_then(Chain::without_last).and_then(|earlier| earlier.axis(plan));
+    let earlier = chain.as_ref().and_then(Chain::without_last).and_then(|earlier| earlier.axis(&walls));
     if let Some(earlier) = earlier {
         let before_last = axis.stretches.len().checked_sub(2).and_then(|index| axis.stretches.get(index));
         let ends = [(earlier.end(), before_last.map(|stretch| stretch.b)), (earlier.start(), axis.start())];
@@ -135,10 +140,11 @@ pub fn draw_walls_beside(plan: &Plan, line: &[Point], built: Built, drawn: Optio
     }
 }
 
-/// The axes of the walls that [`draw_walls_beside`] draws, with their thickness in metres: for a preview.
-pub fn walls_beside(plan: &Plan, line: &[Point], built: Built, drawn: Option<Built>) -> Vec<(Segment, f64)> {
+/// The axes of the walls that [`draw_walls_beside`] draws, with their thickness in metres: for a preview, which tells
+/// what walls stand near a point.
+pub fn walls_beside(near: &WallsNear<'_>, line: &[Point], built: Built, drawn: Option<Built>) -> Vec<(Segment, f64)> {
     let Some(chain) = Chain::new(line, built, drawn) else { return Vec::new() };
-    let Some(axis) = chain.axis(plan) else { return Vec::new() };
+    let Some(axis) = chain.axis(near) else { return Vec::new() };
     axis.stretches.into_iter().zip(chain.pieces).map(|(axis, piece)| (axis, piece.built.thickness_m)).collect()
 }
 
@@ -147,7 +153,7 @@ pub fn walls_beside(plan: &Plan, line: &[Point], built: Built, drawn: Option<Bui
 pub fn boundary_around(clear: &[Point], thickness_m: f64) -> Vec<Point> {
     let lies = if polygon::signed_area(clear) > 0.0 { Lies::Right } else { Lies::Left };
     let closed: Vec<Point> = clear.iter().chain(clear.first()).copied().collect();
-    let axes: Vec<Segment> = walls_beside(&Plan::default(), &closed, Built { thickness_m, lies }, None)
+    let axes: Vec<Segment> = walls_beside(&|_| Vec::new(), &closed, Built { thickness_m, lies }, None)
         .into_iter()
         .map(|(axis, _)| axis)
         .collect();
@@ -212,7 +218,7 @@ impl Chain {
     }
 
     /// The axes, joined where the faces join; `None` for a chain without pieces.
-    fn axis(&self, plan: &Plan) -> Option<Axis> {
+    fn axis(&self, near: &WallsNear<'_>) -> Option<Axis> {
         let mut stretches: Vec<Segment> = self.pieces.iter().map(Piece::axis).collect();
         let count = stretches.len();
         for i in 0..count {
@@ -226,8 +232,8 @@ impl Chain {
         }
         if !self.is_closed {
             let (first, last) = (self.pieces.first()?, self.pieces.last()?);
-            stretches[0].a = reaching(plan, first.line.a, stretches[0].a, -first.along());
-            stretches[count - 1].b = reaching(plan, last.line.b, stretches[count - 1].b, last.along());
+            stretches[0].a = reaching(near(first.line.a), first.line.a, stretches[0].a, -first.along());
+            stretches[count - 1].b = reaching(near(last.line.b), last.line.b, stretches[count - 1].b, last.along());
         }
         Some(Axis { stretches, is_closed: self.is_closed })
     }
@@ -265,8 +271,8 @@ fn joint(first: &Piece, second: &Piece) -> Option<Point> {
 }
 
 /// The end of an axis whose clicked point is on the face of another wall: carried on to that wall's axis.
-fn reaching(plan: &Plan, clicked: Point, end: Point, outwards: Vector) -> Point {
-    let reached = wall_bodies::axes(plan).filter_map(|(_, thickness_m, axis)| {
+fn reaching(walls: Vec<(Segment, f64)>, clicked: Point, end: Point, outwards: Vector) -> Point {
+    let reached = walls.into_iter().filter_map(|(axis, thickness_m)| {
         let way = axis.vector().unit()?;
         let half_m = thickness_m / 2.0;
         let (aside_m, place_m) = (way.cross(clicked - axis.a).abs(), (clicked - axis.a).dot(way));

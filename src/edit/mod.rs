@@ -46,7 +46,7 @@ pub use along::{
     Beside, End, NARROWEST_OPENING_M, beside_opening, change_swing, next_swing, set_opening_distance, set_wall_length,
     stretch_opening,
 };
-pub use beside::{Built, Lies, boundary_around, draw_walls_beside, walls_beside};
+pub use beside::{Built, Lies, WallsNear, boundary_around, draw_walls_beside, walls_beside};
 pub use bridge::bridge_gaps;
 pub use calibration::{
     Calibration, DrawingMoves, UNMEASURED_METRES_PER_PIXEL, move_picture, set_measurements, straightening_rad,

@@ -173,6 +173,12 @@ impl PlanIndex {
         found
     }
 
+    /// The axes of the walls within a radius, with their thickness in metres.
+    pub fn walls_near(&self, point: Point, radius_m: f64) -> Vec<(Segment, f64)> {
+        let edges = self.edges_near(point, radius_m).into_iter();
+        edges.filter(|edge| edge.wall.is_some()).map(|edge| (edge.segment, edge.thickness_m)).collect()
+    }
+
     /// The corners in a box, and the walls whose boxes meet it; `None` where the index does not have all of them.
     pub fn elements_in(&self, bounds: Bounds) -> Option<impl Iterator<Item = ElementId> + '_> {
         let envelope = AABB::from_corners([bounds.min.x, bounds.min.y], [bounds.max.x, bounds.max.y]);

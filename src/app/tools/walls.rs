@@ -13,6 +13,9 @@ use crate::geometry::Point;
 use crate::plan::DEFAULT_WALL_THICKNESS_M;
 use crate::snapping::Faces;
 
+/// How far from its axis a face may be clicked, in metres: at a corner of the thickest wall there can be, of 10 m.
+const FACES_WITHIN_M: f64 = 7.1;
+
 pub(super) const ENTRY: Entry = Entry {
     id: "tool-walls",
     title: "Walls",
@@ -149,7 +152,9 @@ impl Tool for Walls {
             let stand = built.len();
             built.resize(line.len().saturating_sub(1), scope.options.built());
             if let Some(run) = Run::of(&line, &built) {
-                let walls = edit::walls_beside(scope.plan, run.line, run.built, run.drawn);
+                let near =
+                    |at| scope.derived.map_or_else(Vec::new, |derived| derived.index.walls_near(at, FACES_WITHIN_M));
+                let walls = edit::walls_beside(&near, run.line, run.built, run.drawn);
                 // Those that stand are in the plan.
                 let new = built.len() - stand;
                 for &(axis, thickness_m) in walls.iter().rev().take(new) {

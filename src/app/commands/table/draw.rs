@@ -14,22 +14,18 @@ const PLACE: Arg<Point> = needed("PLACE", POINT, "a point in metres, such as '2,
 const NEW_WALLS: Arg<Option<f64>> = optional(
     "THICKNESS",
     length(0.0, 10.0),
-    "of walls along new boundaries, 0 for none; the thickness set for new \
-                                              walls without it",
+    "of walls along new boundaries, 0 for none; the thickness set for new walls without it",
 );
-const THICKNESS: Arg<Option<f64>> = optional(
-    "THICKNESS",
-    length(0.0, 10.0),
-    "of walls; the thickness set for new \
-                                                                              walls without it",
-);
+const THICKNESS: Arg<Option<f64>> =
+    optional("THICKNESS", length(0.0, 10.0), "of walls; the thickness set for new walls without it");
+
+fn outcome(edited: Result<(), EditError>) -> Outcome {
+    edited.map_or_else(|error| Outcome::Refused(error.to_string()), |()| Outcome::Done)
+}
 
 /// Applies an edit; if the edit is refused, so is the command.
 pub(super) fn edited(app: &mut App, title: &str, change: impl FnOnce(&Plan) -> Result<Plan, EditError>) -> Outcome {
-    match app.session.try_edit(title, change) {
-        Ok(()) => Outcome::Done,
-        Err(error) => Outcome::Refused(error.to_string()),
-    }
+    outcome(app.session.try_edit(title, change))
 }
 
 /// The same for an edit that touches only the rooms that meet a box.
@@ -39,10 +35,7 @@ pub(super) fn edited_near(
     bounds: Bounds,
     change: impl Fn(&Plan) -> Result<Plan, EditError>,
 ) -> Outcome {
-    match app.session.try_edit_near(title, bounds, change) {
-        Ok(()) => Outcome::Done,
-        Err(error) => Outcome::Refused(error.to_string()),
-    }
+    outcome(app.session.try_edit_near(title, bounds, change))
 }
 
 /// The same for an edit that may have had to fit openings anew: says so.
