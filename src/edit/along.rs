@@ -93,7 +93,9 @@ fn sides_at(plan: &Plan, id: OpeningId, at_m: f64, width_m: f64) -> Option<[Besi
     let mut behind = (line.length_m - reach_m(plan, to, &line), false);
     for (other, opening) in plan.openings() {
         let is_beside = matches!(opening.place, Place::Hosted { from: p, to: q, .. } if [p, q] == [from, to] || [p, q] == [to, from]);
-        let Some(segment) = plan.opening_segment(opening).filter(|_| is_beside && other != id) else { continue };
+        // Of all others not even the place is looked up: this is asked in each frame.
+        let beside = (is_beside && other != id).then_some(opening);
+        let Some(segment) = beside.and_then(|opening| plan.opening_segment(opening)) else { continue };
         let ends = [line.at(segment.a), line.at(segment.b)];
         let (least, most) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
         if (least + most) / 2.0 <= at_m {
