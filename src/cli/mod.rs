@@ -31,6 +31,7 @@ mod render;
 mod repeats;
 #[cfg(feature = "gui")]
 mod replay;
+mod scales;
 mod segment;
 mod suspects;
 mod train;
