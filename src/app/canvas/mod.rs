@@ -52,6 +52,8 @@ pub(crate) struct Canvas {
     picture_bounds: Option<Bounds>,
     /// The place that a field of a panel is about.
     pub marked_in_panel: Option<Point>,
+    /// The end that moves when what is typed in the form beside a thing is taken.
+    pub marked_here: Option<Point>,
     /// What is under the pointer.
     pub pointed: Pointed,
     painter: ScenePainter,
@@ -275,7 +277,7 @@ impl Canvas {
         let tool = toolbox.tool();
         let mut preview = Preview::default();
         preview_question(session, document.plan(), &mut preview);
-        if let Some(place) = self.marked_in_panel {
+        for place in self.marked_in_panel.into_iter().chain(self.marked_here) {
             preview.handle(place, Look::Danger);
         }
         tool.preview(&scope, &mut preview);
