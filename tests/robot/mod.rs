@@ -3,3 +3,6 @@
 mod explore;
 mod logs;
 mod maps;
+mod properties;
+mod splitting;
+mod strange_plans;
