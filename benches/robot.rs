@@ -38,11 +38,11 @@ fn sweeps() {
     for (name, plan) in bundled_plans().unwrap() {
         let world = World::new(&plan, &WorldOptions::default());
         let scanner = Scanner::lms200(Pose::IDENTITY);
-        let places: Vec<Pose> = (0..200)
-            .filter_map(|seed| world.start(0.3, seed).map(|at| Pose::new(at.x, at.y, seed as f64)))
-            .collect();
+        let places: Vec<Pose> =
+            (0..200).filter_map(|seed| world.start(0.3, seed).map(|at| Pose::new(at.x, at.y, seed as f64))).collect();
         let mut random = Random::new(1);
-        let seconds = least_s(5, || places.iter().map(|&at| scanner.scan(&world, at, &mut random).ranges_m.len()).sum::<usize>());
+        let seconds =
+            least_s(5, || places.iter().map(|&at| scanner.scan(&world, at, &mut random).ranges_m.len()).sum::<usize>());
         println!("  {name:<24} {:9.0}", places.len() as f64 / seconds);
     }
 }
@@ -78,7 +78,10 @@ fn street(rooms: usize) -> World {
 
 fn growth() {
     println!("\na look of two scans, matched and fused, while the map grows: usual noise, 0.25 m a step");
-    println!("  {:>6} {:>7} {:>8} {:>12} {:>20} {:>8}", "rooms", "looks", "lines", "µs a look", "µs, last 100 looks", "ratio");
+    println!(
+        "  {:>6} {:>7} {:>8} {:>12} {:>20} {:>8}",
+        "rooms", "looks", "lines", "µs a look", "µs, last 100 looks", "ratio"
+    );
     let mut first = None;
     for rooms in [16, 64, 256] {
         let world = Arc::new(street(rooms));
@@ -120,7 +123,9 @@ fn floor(side: usize) -> GridMap {
         let (column, row) = (x % across, y % up);
         let in_door = |at: usize, from: usize| (from..from + 20).contains(&at);
         let is_outer = x < 4 || y < 4 || x + 4 >= side || y + 4 >= side;
-        is_outer || (column < 4 && !in_door(row, 30 + (x / across) % 15)) || (row < 4 && !in_door(column, 40 + (y / up) % 20))
+        is_outer
+            || (column < 4 && !in_door(row, 30 + (x / across) % 15))
+            || (row < 4 && !in_door(column, 40 + (y / up) % 20))
     };
     let cell = |at: usize| if is_wall(at % side, at / side) { Cell::Occupied } else { Cell::Free };
     GridMap::new(side, side, 0.05, Pose::IDENTITY, (0..side * side).map(cell).collect()).unwrap()
@@ -135,7 +140,11 @@ fn grids() {
         let rooms = segment(&map).rooms;
         let seconds = least_s(if side > 1000 { 2 } else { 5 }, || segment(&map));
         let each = 1e9 * seconds / (side * side) as f64;
-        println!("  {:>10} {rooms:>7} {seconds:>9.3} {each:>18.0} {:>8.2}", side * side, each / *first.get_or_insert(each));
+        println!(
+            "  {:>10} {rooms:>7} {seconds:>9.3} {each:>18.0} {:>8.2}",
+            side * side,
+            each / *first.get_or_insert(each)
+        );
     }
 }
 
@@ -154,7 +163,10 @@ fn logs() {
             let log = load_log(&path).unwrap().log;
             map_log(&log, &MapperOptions::default(), &Work::quiet().on_threads(1)).unwrap().map.len()
         });
-        println!("  {name:<28} {scans:>6} scans {seconds:>7.2} s of {recorded_s:>6.0} s: {:.0} times faster", recorded_s / seconds);
+        println!(
+            "  {name:<28} {scans:>6} scans {seconds:>7.2} s of {recorded_s:>6.0} s: {:.0} times faster",
+            recorded_s / seconds
+        );
     }
 }
 

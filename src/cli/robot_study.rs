@@ -33,6 +33,9 @@ pub struct RobotStudyCommand {
     /// Explore at most N plans of each typology, drawn by the seed; the others only teach
     #[arg(long, value_name = "N")]
     most_plans: Option<usize>,
+    /// Explore no plan with more than N rooms: they take long, and teach all the same
+    #[arg(long, value_name = "N")]
+    most_rooms: Option<usize>,
     /// Levels of sensor noise, as multiples of the usual
     #[arg(long, value_name = "LEVELS", default_value = "0,1,4,10", value_parser = Levels::read)]
     sensor_noise: Levels,
@@ -115,13 +118,14 @@ impl Subcommand for RobotStudyCommand {
         let schemes = inputs::schemes(&self.scheme)?;
         let (plans, read) = self.read(&schemes, terminal)?;
         if plans.iter().all(|plan| !plan.is_explored) {
-            return Err(CliError::new("there is no plan with rooms to explore; name plans, or a folder of plans"));
+            return Err(CliError::new("there is no plan with rooms to explore; name plans, or a folder of plans, and a larger --most-rooms"));
         }
         let mut outputs = Outputs::new(terminal);
         outputs.folder(&self.output.join(RUNS_FOLDER))?;
         let all = runs(&plans, &options);
         let records = self.perform(&plans, &all, &mut outputs, terminal)?;
-        let mut study = with_progress("labelling", None, terminal, |work| gather(&plans, &all, &records, &options, work))?;
+        let mut study =
+            with_progress("labelling", None, terminal, |work| gather(&plans, &all, &records, &options, work))?;
         let hashes: Vec<&str> = read.sources.iter().map(|source| source.sha256.as_str()).collect();
         study.program = program();
         study.about = About {
@@ -160,6 +164,7 @@ impl RobotStudyCommand {
         words.extend(self.plans.iter().map(path));
         words.extend(self.learn.iter().map(|it| format!("--learn {}", path(it))));
         words.extend(self.most_plans.map(|most| format!("--most-plans {most}")));
+        words.extend(self.most_rooms.map(|most| format!("--most-rooms {most}")));
         words.extend(self.scheme.iter().map(|it| format!("--scheme {}", path(it))));
         words.push(format!("--sensor-noise {}", self.sensor_noise.words()));
         words.push(format!("--odometry-noise {}", self.odometry_noise.words()));
@@ -208,6 +213,11 @@ impl RobotStudyCommand {
             .filter(|(network, _)| network.rooms.iter().any(|room| !room.is_repeat))
             .map(|(network, (plan, is_explored))| StudyPlan { plan, network, is_explored })
             .collect();
+        if let Some(most) = self.most_rooms {
+            for plan in &mut plans {
+                plan.is_explored &= plan.plan.rooms().len() <= most;
+            }
+        }
         if let Some(most) = self.most_plans {
             draw(&mut plans, most, self.seed);
         }
@@ -237,7 +247,11 @@ impl RobotStudyCommand {
             missing.insert(key, *run);
         }
         if !kept.is_empty() {
-            terminal.remark(format!("{} of {} runs are kept from an earlier call", kept.len(), kept.len() + missing.len()))?;
+            terminal.remark(format!(
+                "{} of {} runs are kept from an earlier call",
+                kept.len(),
+                kept.len() + missing.len()
+            ))?;
         }
         let mut missing: Vec<(&str, Run)> = missing.into_iter().collect();
         missing.sort_by_key(|(_, run)| (run.plan, run.repeat));
@@ -265,9 +279,10 @@ impl RobotStudyCommand {
             });
             for (index, record) in receiver {
                 let key = missing[index].0;
-                let save = record.to_bytes().map_err(CliError::from).and_then(|bytes| {
-                    outputs.save(&path(key), &bytes, Care::Fast, terminal)
-                });
+                let save = record
+                    .to_bytes()
+                    .map_err(CliError::from)
+                    .and_then(|bytes| outputs.save(&path(key), &bytes, Care::Fast, terminal));
                 if let (Err(error), true) = (save, saved.is_ok()) {
                     progress.never.store(true, std::sync::atomic::Ordering::Relaxed);
                     saved = Err(error);

@@ -1,6 +1,7 @@
 //! The robot: logs, grid maps, exploration.
 
 mod explore;
+mod hostile;
 mod logs;
 mod maps;
 mod properties;

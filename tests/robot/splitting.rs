@@ -61,7 +61,8 @@ fn means<'a>(scans: impl Iterator<Item = &'a Scan>, vertices: usize) -> [f64; 5]
 
 #[test]
 fn a_simulated_room_is_explained_whole() {
-    let corners = [(0.0, 0.0), (5.0, 0.0), (5.0, 4.0), (3.0, 4.0), (3.0, 6.0), (0.0, 6.0)].map(|(x, y)| Point::new(x, y));
+    let corners =
+        [(0.0, 0.0), (5.0, 0.0), (5.0, 4.0), (3.0, 4.0), (3.0, 6.0), (0.0, 6.0)].map(|(x, y)| Point::new(x, y));
     let walls = (0..corners.len()).map(|at| Segment::new(corners[at], corners[(at + 1) % corners.len()]));
     let world = World::of_obstacles(walls.collect());
     let mut random = Random::new(3);

@@ -15,7 +15,9 @@ fn plans(folder: &Path) -> PathBuf {
     let plans = folder.join("plans");
     std::fs::create_dir_all(&plans).unwrap();
     for (at, (typology, function)) in
-        [("school", "classroom"), ("school", "classroom"), ("house", "bedroom"), ("house", "bedroom")].into_iter().enumerate()
+        [("school", "classroom"), ("school", "classroom"), ("house", "bedroom"), ("house", "bedroom")]
+            .into_iter()
+            .enumerate()
     {
         let (width, deep) = (3.6 + 0.4 * at as f64, 3.0 + 0.3 * at as f64);
         let rectangle = |left: f64, low: f64, right: f64, high: f64| {
@@ -50,11 +52,14 @@ fn plans(folder: &Path) -> PathBuf {
 
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).filter(|path| path.is_file());
-    entries.map(|path| (path.file_name().unwrap().to_string_lossy().into_owned(), std::fs::read(path).unwrap())).collect()
+    entries
+        .map(|path| (path.file_name().unwrap().to_string_lossy().into_owned(), std::fs::read(path).unwrap()))
+        .collect()
 }
 
 fn study(plans: &Path, output: &Path, more: &[&str]) -> (String, String) {
-    let words = ["robot-study", text_of(plans), "-o", text_of(output), "--sensor-noise", "1,4", "--odometry-noise", "1"];
+    let words =
+        ["robot-study", text_of(plans), "-o", text_of(output), "--sensor-noise", "1,4", "--odometry-noise", "1"];
     let (code, out, err) = enfilade(words.into_iter().chain(["--furniture", "0"]).chain(more.iter().copied()));
     assert_eq!(code, 0, "{out}{err}");
     (out, err)

@@ -194,7 +194,8 @@ fn provenance(study: &RobotStudy) -> Markup {
 
 /// Charts of what changes along a factor.
 fn along(study: &RobotStudy, factor: Factor) -> Markup {
-    let levels: Vec<f64> = study.sets.first().map(|set| study.along(set, factor)).into_iter().flatten().map(|at| at.0).collect();
+    let levels: Vec<f64> =
+        study.sets.first().map(|set| study.along(set, factor)).into_iter().flatten().map(|at| at.0).collect();
     let (Some(&from), Some(&to)) = (levels.first(), levels.last()) else { return html! {} };
     if from == to {
         return html! {};
@@ -308,23 +309,38 @@ fn optional(value: Option<f64>) -> String {
 }
 
 fn condition_cells(condition: &RobotCondition) -> [String; 3] {
-    [
-        condition.sensor_noise.to_string(),
-        condition.odometry_noise.to_string(),
-        condition.furniture.to_string(),
-    ]
+    [condition.sensor_noise.to_string(), condition.odometry_noise.to_string(), condition.furniture.to_string()]
 }
 
 fn conditions(study: &RobotStudy) -> Table {
     let mut table = Table::new(&[
-        "set", "sensor_noise", "odometry_noise", "furniture", "runs", "ended", "rooms", "found", "split", "merged", "missed",
-        "found_rooms", "room_recall", "room_precision", "iou", "true_edges", "right_edges", "wrong_edges", "edge_recall",
-        "edge_precision", "driven_m", "collisions", "path_error_m",
+        "set",
+        "sensor_noise",
+        "odometry_noise",
+        "furniture",
+        "runs",
+        "ended",
+        "rooms",
+        "found",
+        "split",
+        "merged",
+        "missed",
+        "found_rooms",
+        "room_recall",
+        "room_precision",
+        "iou",
+        "true_edges",
+        "right_edges",
+        "wrong_edges",
+        "edge_recall",
+        "edge_precision",
+        "driven_m",
+        "collisions",
+        "path_error_m",
     ]);
     for line in &study.conditions {
-        let counts = [
-            line.runs, line.ended, line.rooms, line.found, line.split, line.merged, line.missed, line.found_rooms,
-        ];
+        let counts =
+            [line.runs, line.ended, line.rooms, line.found, line.split, line.merged, line.missed, line.found_rooms];
         table.push(
             std::iter::once(line.set.clone())
                 .chain(condition_cells(&line.condition))
@@ -340,8 +356,16 @@ fn conditions(study: &RobotStudy) -> Table {
 
 fn labels(study: &RobotStudy) -> Table {
     let mut table = Table::new(&[
-        "set", "sensor_noise", "odometry_noise", "furniture", "method", "seen_as", "rooms", "typology_classifier",
-        "standard_classifier", "found_and_right",
+        "set",
+        "sensor_noise",
+        "odometry_noise",
+        "furniture",
+        "method",
+        "seen_as",
+        "rooms",
+        "typology_classifier",
+        "standard_classifier",
+        "found_and_right",
     ]);
     for line in &study.labels {
         for (at, view) in View::ALL.into_iter().enumerate() {
@@ -359,14 +383,39 @@ fn labels(study: &RobotStudy) -> Table {
 
 fn runs(study: &RobotStudy) -> Table {
     let mut table = Table::new(&[
-        "file", "plan", "building", "typology", "sensor_noise", "odometry_noise", "furniture", "seed", "outcome", "rooms", "found",
-        "found_rooms", "unreachable", "true_edges", "right_edges", "wrong_edges", "driven_m", "collisions", "path_error_m",
-        "labelled", "labels_right_average", "labels_right_joint",
+        "file",
+        "plan",
+        "building",
+        "typology",
+        "sensor_noise",
+        "odometry_noise",
+        "furniture",
+        "seed",
+        "outcome",
+        "rooms",
+        "found",
+        "found_rooms",
+        "unreachable",
+        "true_edges",
+        "right_edges",
+        "wrong_edges",
+        "driven_m",
+        "collisions",
+        "path_error_m",
+        "labelled",
+        "labels_right_average",
+        "labels_right_joint",
     ]);
     for line in &study.runs {
         let texts = [&line.file, &line.plan, &line.building, &line.typology].map(Clone::clone);
         let counts = [
-            line.rooms, line.found, line.found_rooms, line.unreachable, line.true_edges, line.right_edges, line.wrong_edges,
+            line.rooms,
+            line.found,
+            line.found_rooms,
+            line.unreachable,
+            line.true_edges,
+            line.right_edges,
+            line.wrong_edges,
         ];
         table.push(
             texts

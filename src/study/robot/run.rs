@@ -155,9 +155,11 @@ pub fn explore(
         fate: room.fate.name().to_owned(),
     });
     let at = |pose: &Pose| exploration.world_from_map.apply(pose.position());
-    let off_m = exploration.path.iter().zip(exploration.poses()).map(|(step, estimate)| {
-        step.true_pose.position().distance(at(&estimate))
-    });
+    let off_m = exploration
+        .path
+        .iter()
+        .zip(exploration.poses())
+        .map(|(step, estimate)| step.true_pose.position().distance(at(&estimate)));
     let driven =
         exploration.path.windows(2).map(|pair| pair[0].true_pose.position().distance(pair[1].true_pose.position()));
     let plan = serde_json::from_slice(&plan_json::to_bytes(&explored.plan)).unwrap_or_default();

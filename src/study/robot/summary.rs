@@ -394,7 +394,9 @@ impl RobotStudy {
             .conditions
             .iter()
             .filter(|line| line.set == set)
-            .filter_map(|line| Some((factor.level(&line.condition)?, line, self.label(set, &line.condition, "average"))))
+            .filter_map(|line| {
+                Some((factor.level(&line.condition)?, line, self.label(set, &line.condition, "average")))
+            })
             .collect();
         lines.sort_by(|p, q| p.0.total_cmp(&q.0));
         lines
