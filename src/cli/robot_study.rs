@@ -118,7 +118,9 @@ impl Subcommand for RobotStudyCommand {
         let schemes = inputs::schemes(&self.scheme)?;
         let (plans, read) = self.read(&schemes, terminal)?;
         if plans.iter().all(|plan| !plan.is_explored) {
-            return Err(CliError::new("there is no plan with rooms to explore; name plans, or a folder of plans, and a larger --most-rooms"));
+            return Err(CliError::new(
+                "there is no plan with rooms to explore; name plans, or a folder of plans, and a larger --most-rooms",
+            ));
         }
         let mut outputs = Outputs::new(terminal);
         outputs.folder(&self.output.join(RUNS_FOLDER))?;

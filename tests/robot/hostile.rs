@@ -72,9 +72,16 @@ const YAML: &str = "image: floor.png\nresolution: 0.05\norigin: [-2.0, 1.0, 0.1]
 fn picture() -> Vec<u8> {
     let mut image = image::GrayImage::from_pixel(70, 50, image::Luma([205]));
     for (x, y, pixel) in image.enumerate_pixels_mut() {
-        let is_free = (5..65).contains(&x) && (5..45).contains(&y) && !((33..35).contains(&x) && !(20..38).contains(&y));
+        let is_free =
+            (5..65).contains(&x) && (5..45).contains(&y) && !((33..35).contains(&x) && !(20..38).contains(&y));
         let is_near = (3..67).contains(&x) && (3..47).contains(&y);
-        pixel.0 = [if is_free { 254 } else if is_near { 0 } else { 205 }];
+        pixel.0 = [if is_free {
+            254
+        } else if is_near {
+            0
+        } else {
+            205
+        }];
     }
     let mut bytes = std::io::Cursor::new(Vec::new());
     image.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
@@ -95,7 +102,11 @@ fn every_key_counts_in_every_mode() {
     let rooms = |yaml: &str| {
         let (code, out, err) = segment(folder.path(), yaml.as_bytes(), &picture());
         assert_eq!(code, 0, "{yaml}: {err}");
-        out.split(": ").nth(1).and_then(|rest| rest.split(' ').next()).and_then(|word| word.parse::<usize>().ok()).unwrap()
+        out.split(": ")
+            .nth(1)
+            .and_then(|rest| rest.split(' ').next())
+            .and_then(|word| word.parse::<usize>().ok())
+            .unwrap()
     };
     assert_eq!(rooms(YAML), 2);
     assert_eq!(rooms(&YAML.replace("trinary", "scale")), 2);
@@ -117,7 +128,10 @@ fn every_key_counts_in_every_mode() {
         ("mode: trinary", "mode: fancy", "fancy"),
     ] {
         let (code, _, err) = segment(folder.path(), YAML.replace(from, to).as_bytes(), &picture());
-        assert!(code == 1 && err.contains("floor.yaml") | err.contains("other.png") && err.contains(what), "{to}: {err}");
+        assert!(
+            code == 1 && err.contains("floor.yaml") | err.contains("other.png") && err.contains(what),
+            "{to}: {err}"
+        );
     }
 }
 
@@ -127,7 +141,8 @@ fn mutated_maps_never_panic() {
     let folder = tempfile::tempdir().unwrap();
     assert_eq!(segment(folder.path(), YAML.as_bytes(), &picture()).0, 0);
     let semantics = std::fs::read(folder.path().join("out/floor_semantics.yaml")).unwrap();
-    let words: [&[u8]; 9] = [b"nan", b".inf", b"-1", b"1e308", b"[[[[", b"&a *a", b"\xff", b"99999999999999999999", b"raw"];
+    let words: [&[u8]; 9] =
+        [b"nan", b".inf", b"-1", b"1e308", b"[[[[", b"&a *a", b"\xff", b"99999999999999999999", b"raw"];
     for round in 0..120 {
         let mut random = Random::new(round);
         let mut mutated = |bytes: &[u8]| {
