@@ -156,4 +156,5 @@ pub(crate) mod ids {
     pub(crate) const INSPECTOR: &str = "inspector";
     pub(crate) const HISTORY: &str = "history";
     pub(crate) const FINDINGS: &str = "findings";
+    pub(crate) const ROBOT: &str = "robot";
 }
