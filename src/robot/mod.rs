@@ -17,6 +17,7 @@ pub mod grid_plan;
 pub mod line_map;
 pub mod lines;
 pub mod log_map;
+pub mod log_replay;
 pub mod loop_closing;
 pub mod map_server;
 pub mod mapper;

@@ -25,6 +25,7 @@ use crate::app::paint::ghost::GhostPainter;
 use crate::app::paint::pending::Pending;
 use crate::app::paint::places::{canvas_id, plan_point};
 use crate::app::paint::preview::{Look, Preview};
+use crate::app::paint::robot::RobotPainter;
 use crate::app::paint::scene_painter::{ScenePainter, paint_group};
 use crate::app::session::document::{Derived, Document};
 use crate::app::session::{Pointed, Session};
@@ -58,6 +59,7 @@ pub(crate) struct Canvas {
     pub pointed: Pointed,
     painter: ScenePainter,
     ghost: GhostPainter,
+    robot: RobotPainter,
     /// The edits not yet analysed.
     pending: Option<Pending>,
     /// The guide that is being dragged.
@@ -240,6 +242,9 @@ impl Canvas {
             paint_group(&painter, rect, &view, &group);
         }
         self.ghost.paint(&painter, rect, session.shown_ghost().map(|ghost| &ghost.derived), &style, &view);
+        if let Some(seen) = session.robot_seen() {
+            self.robot.paint(&painter, rect, &view, palette, session.units(), &seen, self.pointed.at);
+        }
         match fresh {
             // Never show a stale label as current.
             None => self.paint_pending(&painter, rect, &view, document, session, &style),
@@ -286,8 +291,10 @@ impl Canvas {
             tools::paint_snap(&painter, rect, &view, palette, &scope.snap);
         }
         paint_typed(&painter, rect, &view, palette, &scope, toolbox);
-        let is_blank =
-            document.plan().is_empty() && document.plan().backdrop().is_none() && session.ghost_plan().is_none();
+        let is_blank = session.shown_run().is_none()
+            && document.plan().is_empty()
+            && document.plan().backdrop().is_none()
+            && session.ghost_plan().is_none();
         if is_blank && toolbox.is_selecting() {
             paint_beginning(&painter, rect, palette, beginning);
         }

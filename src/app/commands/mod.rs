@@ -144,12 +144,13 @@ pub enum Menu {
     Room,
     Picture,
     Predict,
+    Robot,
     View,
     Help,
 }
 
 impl Menu {
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::File,
         Self::Edit,
         Self::Draw,
@@ -157,6 +158,7 @@ impl Menu {
         Self::Room,
         Self::Picture,
         Self::Predict,
+        Self::Robot,
         Self::View,
         Self::Help,
     ];
@@ -170,6 +172,7 @@ impl Menu {
             Self::Room => "Room",
             Self::Picture => "Picture",
             Self::Predict => "Predict",
+            Self::Robot => "Robot",
             Self::View => "View",
             Self::Help => "Help",
         }

@@ -160,4 +160,5 @@ pub(crate) mod ids {
     pub(crate) const INSPECTOR: &str = "inspector";
     pub(crate) const HISTORY: &str = "history";
     pub(crate) const FINDINGS: &str = "findings";
+    pub(crate) const ROBOT: &str = "robot";
 }
