@@ -31,7 +31,7 @@ mod tiles;
 mod walls;
 
 pub use colour::Rgba;
-pub use drawing::Drawing;
+pub use drawing::{Drawing, FromAfar};
 pub use openings::PlacedOpening;
 pub use palette::{LabelColours, Palette, Theme};
 pub use scene::{Anchor, Dash, Frame, Group, Item, Layer, Length, Scene, Text, View, Weight};
