@@ -208,7 +208,7 @@ mod tests {
             [(0.0, 0.0), (8.0, 0.0), (8.0, 3.0), (4.0, 3.0), (4.0, 6.0), (0.0, 6.0)].map(|(x, y)| Point::new(x, y));
         let plan = draw_room(&Plan::default(), &ring, Some(0.3)).unwrap().0;
         let window = |plan: &Plan, x: f64, y: f64| {
-            place_opening(plan, OpeningKind::Window, Point::new(x, y), 1.0, 0.5, Point::new(4.0, 1.5)).unwrap().0
+            place_opening(plan, OpeningKind::Window, Point::new(x, y), 1.0, 0.5, Some(Point::new(4.0, 1.5))).unwrap().0
         };
         // Below, at the step, and on the right.
         let plan = window(&window(&window(&plan, 2.0, 0.0), 6.0, 3.0), 8.0, 1.5);
