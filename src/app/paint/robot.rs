@@ -91,8 +91,6 @@ pub(crate) struct MapSeen {
 /// What one scanner saw.
 #[derive(Clone, Debug)]
 pub(crate) struct FanSeen {
-    /// The scanner's pose on the robot.
-    pub robot_from_scanner: Pose,
     /// Where each beam ended; `None` without a return.
     pub ends: Vec<Option<Point>>,
 }

@@ -8,7 +8,7 @@ use crate::app::look::{
     theme,
     widgets::{
         ROW, Segment, caption, colours, focus_ring, follow_focus, hairline, link, put_line, right, section, segmented,
-        text_button, toggle, value,
+        toggle, value,
     },
 };
 use crate::app::paint::robot::Tone;
@@ -94,7 +94,7 @@ fn contents(app: &App, ui: &mut Ui) -> Option<Call> {
 fn button(app: &App, ui: &mut Ui, id: &'static str, text: &str, is_main: bool) -> Option<Call> {
     let command = commands::find(id)?;
     let why_not = command.why_not(app);
-    let response = ui.add_enabled_ui(why_not.is_none(), |ui| text_button(ui, text, is_main)).inner;
+    let response = ui.add_enabled_ui(why_not.is_none(), |ui| compact_button(ui, text, is_main)).inner;
     let response = response.on_hover_text(command.help);
     let response = match why_not {
         Some(why_not) => response.on_disabled_hover_text(sentence(why_not)),
@@ -104,6 +104,22 @@ fn button(app: &App, ui: &mut Ui, id: &'static str, text: &str, is_main: bool) -
     response.clicked().then(|| Call::new(id, []))
 }
 
+/// A button no wider than its text needs: four of them fit beside each other.
+fn compact_button(ui: &mut Ui, text: &str, is_main: bool) -> egui::Response {
+    let colours = colours(ui);
+    let (fill, rim, ink) = if is_main {
+        (colours.accent, egui::Color32::TRANSPARENT, colours.on_accent)
+    } else {
+        (colours.raised, colours.outline, colours.text)
+    };
+    let text = egui::RichText::new(text).color(ink);
+    let button = egui::Button::new(text).fill(fill).stroke(Stroke::new(1.0, rim)).min_size(vec2(0.0, ROW));
+    let response = ui.add(button.wrap_mode(egui::TextWrapMode::Extend));
+    let around = if is_main { response.rect.expand(3.0) } else { response.rect };
+    focus_ring(ui, around, &response);
+    response
+}
+
 /// What makes it go.
 fn transport(app: &App, ui: &mut Ui) -> Option<Call> {
     let mut call = None;
@@ -111,7 +127,7 @@ fn transport(app: &App, ui: &mut Ui) -> Option<Call> {
     let run = app.session.robot_run();
     let is_live = run.is_some_and(|run| matches!(run.state, State::Preparing | State::Running | State::Paused));
     if is_live {
-        ui.horizontal_wrapped(|ui| {
+        ui.horizontal(|ui| {
             let is_running = run.is_some_and(|run| run.state == State::Running);
             let title = if is_running { "Pause" } else { "Run" };
             call = button(app, ui, "robot-run", title, !is_running).or(call.take());
@@ -139,9 +155,11 @@ fn transport(app: &App, ui: &mut Ui) -> Option<Call> {
         return call;
     }
     if run.is_some_and(|run| run.state == State::Finished) {
-        ui.horizontal_wrapped(|ui| {
+        ui.horizontal(|ui| {
             call = button(app, ui, "open-robot-map", "Open the map as a plan", true).or(call.take());
-            let is_log = run.is_some_and(|run| matches!(run.source, Source::Log(_)));
+        });
+        ui.horizontal(|ui| {
+            let is_log = run.is_some_and(|run| matches!(run.source, Source::Log));
             let is_compared = run.is_some_and(|run| run.is_compared);
             if !is_log {
                 let title = if is_compared { "Back to the map" } else { "Compare with the true plan" };
@@ -150,7 +168,7 @@ fn transport(app: &App, ui: &mut Ui) -> Option<Call> {
             call = button(app, ui, "robot-stop", "Put away", false).or(call.take());
         });
     }
-    ui.horizontal_wrapped(|ui| {
+    ui.horizontal(|ui| {
         let title = if run.is_some() { "Explore again" } else { "Explore this plan" };
         call = button(app, ui, "explore-plan", title, run.is_none()).or(call.take());
         call = button(app, ui, "replay-log", "Replay a log…", false).or(call.take());
@@ -169,7 +187,11 @@ fn news(app: &App, ui: &mut Ui, run: &Run) -> Option<Call> {
         warn(ui, why);
     }
     if app.session.shown_run().is_none() {
-        warn(ui, &format!("The robot is in {}, which is not shown; it waits.", run.title));
+        let is_live = matches!(run.state, State::Preparing | State::Running | State::Paused);
+        match is_live {
+            true => warn(ui, &format!("The robot is in {}, which is not shown; it waits.", run.title)),
+            false => drop(caption(ui, format!("This is about {}, which is not shown.", run.title))),
+        }
         if link(ui, "Show its plan").clicked() {
             call = Some(Call::new("show-robots-plan", []));
         }

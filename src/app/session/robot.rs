@@ -25,6 +25,7 @@ use crate::app::session::origin::file_name;
 use crate::app::session::wishes::Wish;
 use crate::base::wording::count;
 use crate::base::work::Work;
+use crate::draw::Fill;
 use crate::edit;
 use crate::formats::FileError;
 use crate::geometry::{Bounds, Point};
@@ -143,8 +144,8 @@ enum Until {
 pub(crate) enum Source {
     /// The plan as it was at the start.
     Plan(Plan),
-    /// A log: its file's name.
-    Log(String),
+    /// A log.
+    Log,
 }
 
 /// A run: from its start until the robot is put away.
@@ -245,23 +246,18 @@ impl Run {
         self.result.as_ref()?.labelled.choice.as_ref()
     }
 
-    /// Whether it goes on to somewhere without showing each step.
-    pub(crate) fn is_hurrying(&self) -> bool {
-        self.until.is_some()
-    }
-
     /// What it is doing, in a word or two.
     pub(crate) fn state_in_words(&self) -> &'static str {
         match (&self.state, &self.source) {
             (State::Preparing, Source::Plan(_)) => "Furnishing the world…",
-            (State::Preparing, Source::Log(_)) => "Reading the log…",
+            (State::Preparing, Source::Log) => "Reading the log…",
             (State::Running, _) if self.until.is_some() => "Hurrying ahead…",
             (State::Running, Source::Plan(_)) => "Exploring",
-            (State::Running, Source::Log(_)) => "Replaying",
+            (State::Running, Source::Log) => "Replaying",
             (State::Paused, _) => "Paused",
             (State::Finished, Source::Plan(_)) if self.gave_up => "Gave up",
             (State::Finished, Source::Plan(_)) => "Explored",
-            (State::Finished, Source::Log(_)) => "Replayed",
+            (State::Finished, Source::Log) => "Replayed",
             (State::Failed(_), _) => "Failed",
         }
     }
@@ -389,7 +385,6 @@ impl Session {
         self.robot.runs += 1;
         let this = self.robot.runs;
         let mut run = Run::new(Source::Plan(plan.clone()), title, number, radius_m);
-        run.is_compared = false;
         let kind = Kind::new("prepare the robot").if_broken(|session| session.robot_broke());
         run.job = Some(self.jobs.start_wanted(kind, move |_| {
             let ready = explorer(plan, &settings, labels);
@@ -439,7 +434,7 @@ impl Session {
         let replay = LogReplay::new(Arc::new(loaded.log), &MapperOptions::default());
         let vehicle = Box::new(LogVehicle { replay, time_s: None });
         self.robot.runs += 1;
-        let mut run = Run::new(Source::Log(name.clone()), name.clone(), number, robot.radius_m);
+        let mut run = Run::new(Source::Log, name.clone(), number, robot.radius_m);
         let seed = self.robot.settings.seed;
         run.drive = Some(Box::new(Drive::new(vehicle, Pose::IDENTITY, meta, labels, seed, None)));
         run.state = State::Running;
@@ -590,7 +585,9 @@ impl Session {
         let begun = Begun { title: "Open the robot's map".to_owned(), plan, below: None };
         self.opening = None;
         self.show(Opened { begun: Some(Box::new(begun)), ..Opened::untitled() });
-        self.status = "The robot's map is a plan of its own now".to_owned();
+        // Nobody has reviewed its labels: they are predictions.
+        self.layers.fill = Fill::Prediction;
+        self.status = "The robot's map is a plan of its own now; its labels are predicted".to_owned();
         Ok(())
     }
 
@@ -689,7 +686,7 @@ impl Session {
             return;
         }
         let Some(run) = &mut self.robot.run else { return };
-        if !matches!(run.source, Source::Log(_)) {
+        if !matches!(run.source, Source::Log) {
             return;
         }
         let known = run.map.free.iter().flat_map(|part| part.outer.iter().copied());

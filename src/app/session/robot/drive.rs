@@ -530,7 +530,7 @@ fn fans(scans: &[Scan], world_from_robot: Pose) -> Vec<FanSeen> {
     let fan = |scan: &Scan| {
         let world_from_scanner = world_from_robot.compose(scan.robot_from_scanner);
         let ends = (0..scan.ranges_m.len()).map(|beam| scan.point(beam).map(|point| world_from_scanner.apply(point)));
-        FanSeen { robot_from_scanner: scan.robot_from_scanner, ends: ends.collect() }
+        FanSeen { ends: ends.collect() }
     };
     scans.iter().map(fan).collect()
 }
