@@ -1,7 +1,7 @@
 //! What a robot knows, prepared to be painted: triangles and places are made beside the frames. All in the
 //! plan's frame, in metres.
 
-mod painter;
+pub(crate) mod painter;
 mod sights;
 
 use std::sync::Arc;
@@ -11,8 +11,6 @@ use crate::geometry::areas::{self, Shapes};
 use crate::geometry::{Point, Segment, Vector};
 use crate::labels::Label;
 use crate::robot::{Pose, RayGrid};
-
-pub(crate) use painter::RobotPainter;
 
 /// An area with its triangles.
 #[derive(Clone, Debug, Default)]
