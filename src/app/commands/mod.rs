@@ -105,6 +105,12 @@ pub enum On {
     Wall,
     Opening,
     Corner,
+    /// A dimension chain.
+    Dimension,
+    /// A guide line; commands get its direction and its place first.
+    Guide,
+    /// The picture under the plan, where nothing is drawn.
+    Picture,
     /// Several elements that are selected.
     Several,
     /// A place of the plan where nothing is.
@@ -114,8 +120,18 @@ pub enum On {
 }
 
 impl On {
-    pub const ALL: [Self; 7] =
-        [Self::Room, Self::Wall, Self::Opening, Self::Corner, Self::Several, Self::FreeSpace, Self::ListedPlan];
+    pub const ALL: [Self; 10] = [
+        Self::Room,
+        Self::Wall,
+        Self::Opening,
+        Self::Corner,
+        Self::Dimension,
+        Self::Guide,
+        Self::Picture,
+        Self::Several,
+        Self::FreeSpace,
+        Self::ListedPlan,
+    ];
 }
 
 /// A menu of the menu bar, in order.

@@ -416,6 +416,14 @@ pub(crate) fn text_button(ui: &mut Ui, text: &str, is_main: bool) -> Response {
     response
 }
 
+/// The main button of a dialog. True if it was clicked, or if Enter was pressed while nothing else had the keys: a
+/// field that Enter was typed into has let go of them by then, if it was drawn before.
+pub(crate) fn main_button(ui: &mut Ui, text: &str, is_enabled: bool) -> bool {
+    let is_clicked = ui.add_enabled_ui(is_enabled, |ui| text_button(ui, text, true)).inner.clicked();
+    let is_entered = ui.input(|input| input.key_pressed(egui::Key::Enter)) && ui.memory(|it| it.focused().is_none());
+    is_clicked || is_enabled && is_entered
+}
+
 /// The frame of a dialog.
 pub(crate) fn dialog_frame(ui: &Ui) -> egui::Frame {
     egui::Frame::window(ui.style()).inner_margin(egui::Margin::same(22))

@@ -125,7 +125,7 @@ fn tools_of_the_strip() -> Vec<Command> {
                 Group::Measure => 2,
             };
             let on: &[On] = match group {
-                Group::Draw => &[On::FreeSpace],
+                Group::Draw => &[On::Picture, On::FreeSpace],
                 Group::Openings => &[On::Wall],
                 Group::Divide => &[On::Room],
                 Group::Select | Group::Measure => &[],
