@@ -25,7 +25,7 @@ use crate::app::paint::ghost::GhostPainter;
 use crate::app::paint::pending::Pending;
 use crate::app::paint::places::{canvas_id, plan_point};
 use crate::app::paint::preview::{Look, Preview};
-use crate::app::paint::robot::RobotPainter;
+use crate::app::paint::robot::painter::RobotPainter;
 use crate::app::paint::scene_painter::{ScenePainter, paint_group};
 use crate::app::session::document::{Derived, Document};
 use crate::app::session::{Pointed, Session};

@@ -1,7 +1,7 @@
 //! What a robot knows, prepared to be painted: triangles and places are made beside the frames. All in the
 //! plan's frame, in metres.
 
-mod painter;
+pub(crate) mod painter;
 mod sights;
 
 use std::sync::Arc;
@@ -11,8 +11,6 @@ use crate::geometry::areas::{self, Shapes};
 use crate::geometry::{Point, Segment, Vector};
 use crate::labels::Label;
 use crate::robot::{Pose, RayGrid};
-
-pub(crate) use painter::RobotPainter;
 
 /// An area with its triangles.
 #[derive(Clone, Debug, Default)]
@@ -91,8 +89,6 @@ pub(crate) struct MapSeen {
 /// What one scanner saw.
 #[derive(Clone, Debug)]
 pub(crate) struct FanSeen {
-    /// The scanner's pose on the robot.
-    pub robot_from_scanner: Pose,
     /// Where each beam ended; `None` without a return.
     pub ends: Vec<Option<Point>>,
 }

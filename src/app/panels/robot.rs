@@ -1,24 +1,26 @@
 //! The robot's panel: what it does and has found, its settings, the legend, the comparison with the true plan.
 
+mod legend;
+
 use egui::text::{LayoutJob, TextFormat};
-use egui::{FontId, Margin, Pos2, Rect, Role, ScrollArea, Sense, Shape, Slider, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{FontId, Margin, Rect, Role, ScrollArea, Sense, Slider, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use crate::app::commands;
 use crate::app::look::{
     theme,
     widgets::{
         ROW, Segment, caption, colours, focus_ring, follow_focus, hairline, link, put_line, right, section, segmented,
-        text_button, toggle, value,
+        toggle, value,
     },
 };
 use crate::app::paint::robot::Tone;
 use crate::app::session::robot::compared::{Compared, Verdict};
-use crate::app::session::robot::{MOST_FURNITURE, RobotSettings, Run, SPEEDS, Source, State};
+use crate::app::session::robot::run::{Run, Source, State};
+use crate::app::session::robot::settings::{MOST_FURNITURE, RobotSettings, SPEEDS};
 use crate::app::state::{App, Height, Side, SidePanel, panels};
 use crate::app::value::{Call, Value};
 use crate::base::wording::{count, sentence};
 use crate::draw::{self, Palette, RobotColours};
-use crate::labels::Label;
 
 /// Height in points: the initial one, and the minimum.
 const USUAL_HEIGHT: f32 = 560.0;
@@ -83,7 +85,7 @@ fn contents(app: &App, ui: &mut Ui) -> Option<Call> {
     hairline(ui);
     take(view(app, ui));
     if run.is_some() {
-        legend(app, ui);
+        legend::legend(app, ui);
     }
     hairline(ui);
     take(settings(ui, &app.session.robot.settings, run.is_some()));
@@ -94,7 +96,7 @@ fn contents(app: &App, ui: &mut Ui) -> Option<Call> {
 fn button(app: &App, ui: &mut Ui, id: &'static str, text: &str, is_main: bool) -> Option<Call> {
     let command = commands::find(id)?;
     let why_not = command.why_not(app);
-    let response = ui.add_enabled_ui(why_not.is_none(), |ui| text_button(ui, text, is_main)).inner;
+    let response = ui.add_enabled_ui(why_not.is_none(), |ui| compact_button(ui, text, is_main)).inner;
     let response = response.on_hover_text(command.help);
     let response = match why_not {
         Some(why_not) => response.on_disabled_hover_text(sentence(why_not)),
@@ -104,6 +106,22 @@ fn button(app: &App, ui: &mut Ui, id: &'static str, text: &str, is_main: bool) -
     response.clicked().then(|| Call::new(id, []))
 }
 
+/// A button no wider than its text needs: four of them fit beside each other.
+fn compact_button(ui: &mut Ui, text: &str, is_main: bool) -> egui::Response {
+    let colours = colours(ui);
+    let (fill, rim, ink) = if is_main {
+        (colours.accent, egui::Color32::TRANSPARENT, colours.on_accent)
+    } else {
+        (colours.raised, colours.outline, colours.text)
+    };
+    let text = egui::RichText::new(text).color(ink);
+    let button = egui::Button::new(text).fill(fill).stroke(Stroke::new(1.0, rim)).min_size(vec2(0.0, ROW));
+    let response = ui.add(button.wrap_mode(egui::TextWrapMode::Extend));
+    let around = if is_main { response.rect.expand(3.0) } else { response.rect };
+    focus_ring(ui, around, &response);
+    response
+}
+
 /// What makes it go.
 fn transport(app: &App, ui: &mut Ui) -> Option<Call> {
     let mut call = None;
@@ -111,7 +129,7 @@ fn transport(app: &App, ui: &mut Ui) -> Option<Call> {
     let run = app.session.robot_run();
     let is_live = run.is_some_and(|run| matches!(run.state, State::Preparing | State::Running | State::Paused));
     if is_live {
-        ui.horizontal_wrapped(|ui| {
+        ui.horizontal(|ui| {
             let is_running = run.is_some_and(|run| run.state == State::Running);
             let title = if is_running { "Pause" } else { "Run" };
             call = button(app, ui, "robot-run", title, !is_running).or(call.take());
@@ -139,9 +157,11 @@ fn transport(app: &App, ui: &mut Ui) -> Option<Call> {
         return call;
     }
     if run.is_some_and(|run| run.state == State::Finished) {
-        ui.horizontal_wrapped(|ui| {
+        ui.horizontal(|ui| {
             call = button(app, ui, "open-robot-map", "Open the map as a plan", true).or(call.take());
-            let is_log = run.is_some_and(|run| matches!(run.source, Source::Log(_)));
+        });
+        ui.horizontal(|ui| {
+            let is_log = run.is_some_and(|run| matches!(run.source, Source::Log));
             let is_compared = run.is_some_and(|run| run.is_compared);
             if !is_log {
                 let title = if is_compared { "Back to the map" } else { "Compare with the true plan" };
@@ -150,7 +170,7 @@ fn transport(app: &App, ui: &mut Ui) -> Option<Call> {
             call = button(app, ui, "robot-stop", "Put away", false).or(call.take());
         });
     }
-    ui.horizontal_wrapped(|ui| {
+    ui.horizontal(|ui| {
         let title = if run.is_some() { "Explore again" } else { "Explore this plan" };
         call = button(app, ui, "explore-plan", title, run.is_none()).or(call.take());
         call = button(app, ui, "replay-log", "Replay a log…", false).or(call.take());
@@ -169,7 +189,11 @@ fn news(app: &App, ui: &mut Ui, run: &Run) -> Option<Call> {
         warn(ui, why);
     }
     if app.session.shown_run().is_none() {
-        warn(ui, &format!("The robot is in {}, which is not shown; it waits.", run.title));
+        let is_live = matches!(run.state, State::Preparing | State::Running | State::Paused);
+        match is_live {
+            true => warn(ui, &format!("The robot is in {}, which is not shown; it waits.", run.title)),
+            false => drop(caption(ui, format!("This is about {}, which is not shown.", run.title))),
+        }
         if link(ui, "Show its plan").clicked() {
             call = Some(Call::new("show-robots-plan", []));
         }
@@ -230,99 +254,6 @@ fn view(app: &App, ui: &mut Ui) -> Option<Call> {
         }
     });
     call
-}
-
-/// A sign of the legend.
-#[derive(Clone, Copy)]
-enum Sign {
-    Robot,
-    Solid,
-    Dashed,
-    Dotted,
-    Wall,
-    Frontier,
-    Fan,
-    Doorway,
-    Unknown,
-    Room(Label),
-}
-
-fn legend(app: &App, ui: &mut Ui) {
-    let palette = app.session.palette(ui);
-    ui.add_space(4.0);
-    let mut signs = vec![
-        (Sign::Robot, "Robot"),
-        (Sign::Fan, "Laser"),
-        (Sign::Wall, "Segments"),
-        (Sign::Unknown, "Not seen yet"),
-        (Sign::Frontier, "Frontier"),
-        (Sign::Doorway, "Doorway"),
-    ];
-    if app.session.robot.settings.shows_paths {
-        signs.push((Sign::Solid, "Path as estimated"));
-        let knows_truth = app.session.robot_run().is_some_and(|run| matches!(run.source, Source::Plan(_)));
-        if knows_truth {
-            signs.push((Sign::Dashed, "True path"));
-        }
-        signs.push((Sign::Dotted, "By odometry alone"));
-    }
-    let names: Vec<(Label, String)> = Label::ALL.into_iter().map(|label| (label, sentence(label.name()))).collect();
-    signs.extend(names.iter().map(|(label, name)| (Sign::Room(*label), name.as_str())));
-    let half = ui.available_width() / 2.0;
-    for pair in signs.chunks(2) {
-        let (row, _) = ui.allocate_exact_size(vec2(ui.available_width(), 19.0), Sense::hover());
-        for (column, (sign, name)) in pair.iter().enumerate() {
-            let left = row.left() + column as f32 * half;
-            let at = pos2(left + 11.0, row.center().y);
-            paint_sign(ui, at, *sign, palette);
-            let text = Rect::from_min_max(pos2(left + 28.0, row.top()), pos2(left + half - 2.0, row.bottom()));
-            put_line(ui, name, FontId::proportional(theme::SMALL), colours(ui).text, text);
-        }
-    }
-}
-
-fn paint_sign(ui: &Ui, at: Pos2, sign: Sign, palette: &Palette) {
-    let robot = RobotColours::of(palette.theme);
-    let painter = ui.painter();
-    let ends = [at - vec2(10.0, 0.0), at + vec2(10.0, 0.0)];
-    let colour = theme::colour;
-    match sign {
-        Sign::Robot => {
-            painter.circle(at, 6.0, colour(robot.estimate), Stroke::new(1.0, colour(robot.free)));
-            let tip = |x: f32, y: f32| at + vec2(x, y);
-            let arrow = vec![tip(4.0, 0.0), tip(-2.5, -3.0), tip(-2.5, 3.0)];
-            painter.add(Shape::convex_polygon(arrow, colour(robot.free), Stroke::NONE));
-        }
-        Sign::Solid => drop(painter.line_segment(ends, Stroke::new(2.2, colour(robot.estimate)))),
-        Sign::Dashed => painter.extend(Shape::dashed_line(&ends, Stroke::new(1.2, colour(robot.truth)), 5.0, 3.0)),
-        Sign::Dotted => painter.extend(Shape::dotted_line(&ends, colour(robot.odometry), 4.0, 1.2)),
-        Sign::Wall => drop(painter.line_segment(ends, Stroke::new(2.0, colour(robot.obstacle)))),
-        Sign::Frontier => {
-            painter.line_segment(ends, Stroke::new(6.0, colour(robot.frontier).gamma_multiply(0.16)));
-            painter.extend(Shape::dashed_line(&ends, Stroke::new(2.4, colour(robot.frontier)), 5.0, 3.0));
-        }
-        Sign::Fan => {
-            let fan = vec![at - vec2(9.0, 0.0), at + vec2(9.0, -6.0), at + vec2(9.0, 6.0)];
-            let fill = colour(robot.laser).gamma_multiply(0.3);
-            painter.add(Shape::convex_polygon(fan, fill, Stroke::new(0.8, colour(robot.laser).gamma_multiply(0.6))));
-        }
-        Sign::Doorway => {
-            let short = [at - vec2(7.0, 0.0), at + vec2(7.0, 0.0)];
-            painter.line_segment(short, Stroke::new(3.0, colour(robot.doorway)));
-            for end in short {
-                painter.circle_filled(end, 2.6, colour(robot.doorway));
-            }
-        }
-        Sign::Unknown => swatch(ui, at, colour(robot.unknown)),
-        Sign::Room(label) => swatch(ui, at, colour(palette.label(label))),
-    }
-}
-
-fn swatch(ui: &Ui, at: Pos2, fill: egui::Color32) {
-    let place = Rect::from_center_size(at, vec2(18.0, 12.0));
-    ui.painter().rect_filled(place, 2.0, fill);
-    let rim = Stroke::new(1.0, colours(ui).text.gamma_multiply(0.22));
-    ui.painter().rect_stroke(place, 2.0, rim, egui::epaint::StrokeKind::Inside);
 }
 
 /// A slider for a setting: its name, its value in words.

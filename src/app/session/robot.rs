@@ -7,41 +7,38 @@
 
 pub(crate) mod compared;
 pub(crate) mod drive;
+pub(crate) mod run;
+pub(crate) mod settings;
+mod vehicle;
 
-use std::collections::VecDeque;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use egui::Context;
 
-use self::drive::{Batch, Drive, LogVehicle, Step, Truth};
+use self::drive::{Batch, Drive, Truth};
+use self::run::{Run, Source, State, Until};
+use self::settings::RobotSettings;
+use self::vehicle::LogVehicle;
 use super::Session;
-use crate::app::paint::robot::{MapSeen, Paths, RobotSeen};
+use crate::app::paint::robot::RobotSeen;
 use crate::app::session::document::{Begun, Opened};
 use crate::app::session::file_dialogs::Purpose;
-use crate::app::session::jobs::{Kind, Wanted};
+use crate::app::session::jobs::Kind;
 use crate::app::session::messages::Severity;
 use crate::app::session::origin::file_name;
 use crate::app::session::wishes::Wish;
 use crate::base::wording::count;
 use crate::base::work::Work;
+use crate::draw::Fill;
 use crate::edit;
 use crate::formats::FileError;
-use crate::geometry::{Bounds, Point};
+use crate::geometry::Bounds;
 use crate::plan::{Meta, Plan, Scale, ScaleOrigin};
 use crate::predict::explored::explored_meta;
 use crate::robot::log_replay::LogReplay;
-use crate::robot::pose::wrapped_rad;
-use crate::robot::{Exploration, MapperOptions, Pose, RobotOptions, Scanner, World, WorldOptions};
+use crate::robot::{Exploration, MapperOptions, Pose, RobotOptions, World};
 use crate::store::{self, LoadedLog};
-
-/// How many times faster than the robot its steps are shown.
-pub(crate) const SPEEDS: [f64; 5] = [1.0, 4.0, 8.0, 16.0, 64.0];
-
-/// The limits of the settings.
-pub(crate) const MOST_NOISE: f64 = 10.0;
-pub(crate) const MOST_FURNITURE: usize = 12;
-pub(crate) const MOST_SEED: usize = 9999;
 
 /// Steps of a job: few, so that the first ones are soon there; more where nobody watches each.
 const STEPS: usize = 12;
@@ -56,303 +53,6 @@ const LONGEST_FRAME_S: f64 = 0.1;
 
 /// Where nothing moves smoothly, a frame follows after so many seconds.
 const STILL_FRAME_S: f32 = 0.05;
-
-/// Points of a path closer together than this, in metres, are one.
-const SAME_POINT_M: f64 = 0.03;
-
-/// The world and the robot of the next run, and how they are shown.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct RobotSettings {
-    /// Noise of the scanners, as a multiple of the usual.
-    pub scanner_noise: f64,
-    /// Drift of the odometry, as a multiple of the usual.
-    pub drift: f64,
-    /// Pieces of furniture a room.
-    pub furniture: usize,
-    pub seed: u64,
-    /// Shares of the inner doors, in percent.
-    pub ajar_percent: f64,
-    pub closed_percent: f64,
-    pub speed: f64,
-    pub shows_sights: bool,
-    pub shows_paths: bool,
-}
-
-impl Default for RobotSettings {
-    fn default() -> Self {
-        Self {
-            scanner_noise: 1.0,
-            drift: 1.0,
-            furniture: 0,
-            seed: 1,
-            ajar_percent: 0.0,
-            closed_percent: 0.0,
-            speed: 16.0,
-            shows_sights: false,
-            shows_paths: true,
-        }
-    }
-}
-
-impl RobotSettings {
-    fn world(&self) -> WorldOptions {
-        let closed_share = (self.closed_percent / 100.0).clamp(0.0, 1.0);
-        WorldOptions {
-            closed_share,
-            ajar_share: (self.ajar_percent / 100.0).clamp(0.0, 1.0 - closed_share),
-            outer_doors_open: false,
-            furniture: self.furniture,
-            seed: self.seed,
-        }
-    }
-
-    fn robot(&self) -> RobotOptions {
-        let robot = RobotOptions { seed: self.seed, ..RobotOptions::default() };
-        let noisy = |scanner: Scanner| match self.scanner_noise {
-            0.0 => scanner.exact(),
-            noise => {
-                Scanner { noise_m: scanner.noise_m * noise, drop_out: (scanner.drop_out * noise).min(1.0), ..scanner }
-            }
-        };
-        let scanners = robot.scanners.into_iter().map(noisy).collect();
-        RobotOptions { odometry: robot.odometry.times(self.drift), scanners, ..robot }
-    }
-}
-
-/// What the robot is doing.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum State {
-    /// The world is made, or the log is read.
-    Preparing,
-    Running,
-    Paused,
-    Finished,
-    /// It cannot go on, for a reason.
-    Failed(String),
-}
-
-/// Where a run goes on to without showing each step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Until {
-    Metres(f64),
-    End,
-}
-
-/// What a run is about.
-#[derive(Clone, Debug)]
-pub(crate) enum Source {
-    /// The plan as it was at the start.
-    Plan(Plan),
-    /// A log: its file's name.
-    Log(String),
-}
-
-/// A run: from its start until the robot is put away.
-pub(crate) struct Run {
-    pub source: Source,
-    pub title: String,
-    pub state: State,
-    /// The number of the document it is shown over.
-    document: u64,
-    radius_m: f64,
-    /// The drive; `None` while a job has it.
-    drive: Option<Box<Drive>>,
-    job: Option<Wanted>,
-    /// Whether the drive has come to its end, though not all is shown yet.
-    is_over: bool,
-    ahead: VecDeque<Step>,
-    /// What was reached last.
-    at: Option<Step>,
-    /// How far it is to the next step, in the robot's seconds.
-    since_s: f64,
-    until: Option<Until>,
-    /// Steps to be shown while paused.
-    single_steps: usize,
-    pub map: MapSeen,
-    pub paths: Paths,
-    pub time_s: f64,
-    pub steps: usize,
-    result: Option<drive::Result>,
-    pub progress: Option<(usize, usize)>,
-    pub trouble: Option<String>,
-    gave_up: bool,
-    /// What of a log's map is in view.
-    in_view: Bounds,
-    pub is_compared: bool,
-    /// The line of the comparison that is looked at.
-    pub current: Option<usize>,
-}
-
-impl Run {
-    fn new(source: Source, title: String, document: u64, radius_m: f64) -> Self {
-        Self {
-            source,
-            title,
-            state: State::Preparing,
-            document,
-            radius_m,
-            drive: None,
-            job: None,
-            is_over: false,
-            ahead: VecDeque::new(),
-            at: None,
-            since_s: 0.0,
-            until: None,
-            single_steps: 0,
-            map: MapSeen::default(),
-            paths: Paths::default(),
-            time_s: 0.0,
-            steps: 0,
-            result: None,
-            progress: None,
-            trouble: None,
-            gave_up: false,
-            in_view: Bounds::EMPTY,
-            is_compared: false,
-            current: None,
-        }
-    }
-
-    /// The way driven so far, in metres.
-    pub(crate) fn driven_m(&self) -> f64 {
-        self.at.as_ref().map_or(0.0, |step| step.driven_m)
-    }
-
-    /// How many places were recognised.
-    pub(crate) fn closures(&self) -> usize {
-        self.at.as_ref().map_or(0, |step| step.closures)
-    }
-
-    /// How far the estimate is from the truth now, in metres.
-    pub(crate) fn error_m(&self) -> Option<f64> {
-        let at = self.at.as_ref()?;
-        Some(at.true_pose?.position().distance(at.pose.position()))
-    }
-
-    /// How far odometry alone would be from the truth now, in metres.
-    pub(crate) fn drift_m(&self) -> Option<f64> {
-        let at = self.at.as_ref()?;
-        Some(at.true_pose?.position().distance(at.odometry.position()))
-    }
-
-    /// The comparison with the true plan, if it is there.
-    pub(crate) fn compared(&self) -> Option<&Arc<compared::Compared>> {
-        self.result.as_ref()?.compared.as_ref().filter(|_| self.state == State::Finished)
-    }
-
-    /// Which models gave the labels, and why.
-    pub(crate) fn choice(&self) -> Option<&crate::predict::Choice> {
-        self.result.as_ref()?.labelled.choice.as_ref()
-    }
-
-    /// Whether it goes on to somewhere without showing each step.
-    pub(crate) fn is_hurrying(&self) -> bool {
-        self.until.is_some()
-    }
-
-    /// What it is doing, in a word or two.
-    pub(crate) fn state_in_words(&self) -> &'static str {
-        match (&self.state, &self.source) {
-            (State::Preparing, Source::Plan(_)) => "Furnishing the world…",
-            (State::Preparing, Source::Log(_)) => "Reading the log…",
-            (State::Running, _) if self.until.is_some() => "Hurrying ahead…",
-            (State::Running, Source::Plan(_)) => "Exploring",
-            (State::Running, Source::Log(_)) => "Replaying",
-            (State::Paused, _) => "Paused",
-            (State::Finished, Source::Plan(_)) if self.gave_up => "Gave up",
-            (State::Finished, Source::Plan(_)) => "Explored",
-            (State::Finished, Source::Log(_)) => "Replayed",
-            (State::Failed(_), _) => "Failed",
-        }
-    }
-
-    /// The pose between the last step and the next.
-    fn pose(&self) -> Option<(Pose, Option<Pose>)> {
-        let at = self.at.as_ref()?;
-        let next = self.ahead.front().filter(|next| next.secs > 0.0 && self.since_s > 0.0);
-        let Some(next) = next else { return Some((at.pose, at.true_pose)) };
-        let share = (self.since_s / next.secs).clamp(0.0, 1.0);
-        let truth = at.true_pose.zip(next.true_pose).map(|(from, to)| between(from, to, share));
-        Some((between(at.pose, next.pose, share), truth))
-    }
-
-    /// Goes to the next step.
-    fn take(&mut self) {
-        let Some(step) = self.ahead.pop_front() else { return };
-        fn add(path: &mut Vec<Point>, point: Point) {
-            if path.last().is_none_or(|last| last.distance(point) > SAME_POINT_M) {
-                path.push(point);
-            }
-        }
-        add(&mut self.paths.odometry, step.odometry.position());
-        if let Some(truth) = step.true_pose {
-            add(&mut self.paths.truth, truth.position());
-        }
-        match &step.path {
-            Some(path) => {
-                self.paths.estimate.clear();
-                path.iter().for_each(|&point| add(&mut self.paths.estimate, point));
-            }
-            None => add(&mut self.paths.estimate, step.pose.position()),
-        }
-        if let Some(map) = &step.map {
-            self.map = map.clone();
-        }
-        self.time_s += step.secs;
-        self.steps += 1;
-        self.at = Some(step);
-    }
-
-    /// Shows what the clock has come to. Returns whether something moved.
-    fn play(&mut self, robot_secs: f64) -> bool {
-        if self.ahead.is_empty() {
-            self.since_s = 0.0;
-            return false;
-        }
-        self.since_s += robot_secs;
-        while let Some(next) = self.ahead.front() {
-            if self.since_s < next.secs {
-                return true;
-            }
-            self.since_s -= next.secs;
-            self.take();
-        }
-        // The drive is behind: it does not catch up in a leap.
-        self.since_s = 0.0;
-        true
-    }
-
-    /// Goes on to where it is to hurry, as far as the drive has come. Returns whether it is there.
-    fn hurry(&mut self, until: Until) -> bool {
-        self.since_s = 0.0;
-        loop {
-            let is_there = match until {
-                Until::Metres(metres) => self.driven_m() >= metres && self.at.is_some(),
-                Until::End => false,
-            };
-            if is_there || self.ahead.is_empty() {
-                return is_there;
-            }
-            self.take();
-        }
-    }
-
-    /// Whether all is driven and shown.
-    fn is_done(&self) -> bool {
-        self.is_over && self.ahead.is_empty() && self.drive.is_some()
-    }
-
-    /// How far ahead of what is shown the drive is, in the robot's seconds.
-    fn ahead_s(&self) -> f64 {
-        self.ahead.iter().map(|step| step.secs).sum()
-    }
-}
-
-/// The pose a share of the way from one to another.
-fn between(from: Pose, to: Pose, share: f64) -> Pose {
-    let at = from.position().lerp(to.position(), share);
-    Pose::new(at.x, at.y, from.heading_rad + share * wrapped_rad(to.heading_rad - from.heading_rad))
-}
 
 /// The robot of the window.
 #[derive(Default)]
@@ -389,7 +89,6 @@ impl Session {
         self.robot.runs += 1;
         let this = self.robot.runs;
         let mut run = Run::new(Source::Plan(plan.clone()), title, number, radius_m);
-        run.is_compared = false;
         let kind = Kind::new("prepare the robot").if_broken(|session| session.robot_broke());
         run.job = Some(self.jobs.start_wanted(kind, move |_| {
             let ready = explorer(plan, &settings, labels);
@@ -439,7 +138,7 @@ impl Session {
         let replay = LogReplay::new(Arc::new(loaded.log), &MapperOptions::default());
         let vehicle = Box::new(LogVehicle { replay, time_s: None });
         self.robot.runs += 1;
-        let mut run = Run::new(Source::Log(name.clone()), name.clone(), number, robot.radius_m);
+        let mut run = Run::new(Source::Log, name.clone(), number, robot.radius_m);
         let seed = self.robot.settings.seed;
         run.drive = Some(Box::new(Drive::new(vehicle, Pose::IDENTITY, meta, labels, seed, None)));
         run.state = State::Running;
@@ -590,7 +289,9 @@ impl Session {
         let begun = Begun { title: "Open the robot's map".to_owned(), plan, below: None };
         self.opening = None;
         self.show(Opened { begun: Some(Box::new(begun)), ..Opened::untitled() });
-        self.status = "The robot's map is a plan of its own now".to_owned();
+        // Nobody has reviewed its labels: they are predictions.
+        self.layers.fill = Fill::Prediction;
+        self.status = "The robot's map is a plan of its own now; its labels are predicted".to_owned();
         Ok(())
     }
 
@@ -689,7 +390,7 @@ impl Session {
             return;
         }
         let Some(run) = &mut self.robot.run else { return };
-        if !matches!(run.source, Source::Log(_)) {
+        if !matches!(run.source, Source::Log) {
             return;
         }
         let known = run.map.free.iter().flat_map(|part| part.outer.iter().copied());

@@ -1,7 +1,8 @@
 //! The simulated robot, and logs of real ones.
 
 use super::*;
-use crate::app::session::robot::{MOST_FURNITURE, MOST_NOISE, MOST_SEED, State};
+use crate::app::session::robot::run::State;
+use crate::app::session::robot::settings::{MOST_FURNITURE, MOST_NOISE, MOST_SEED};
 
 fn done(result: Result<(), String>) -> Outcome {
     result.map_or_else(Outcome::Refused, |()| Outcome::Done)

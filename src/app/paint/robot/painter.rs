@@ -29,9 +29,8 @@ const LEAST_ROBOT_PX: f32 = 7.0;
 /// The fan of the laser: how opaque it is at the scanner and at its end.
 const FAN: [f32; 2] = [0.30, 0.07];
 
-/// Two ends of neighbouring beams further apart than this, in metres, are on different things: the fan stays
-/// behind the nearer one.
-const FAN_JUMP_M: f64 = 1.0;
+/// Of two neighbouring beams the fan follows the longer one no further than this beyond the shorter, in metres.
+const FAN_JUMP_M: f64 = 0.3;
 
 /// The most frontiers that get a label; the longest are first.
 const MOST_TAGS: usize = 12;
@@ -182,17 +181,16 @@ impl RobotPainter {
 fn paint_fan(ground: &Ground<'_>, fan: &FanSeen, pose: Pose) {
     let colour = theme::colour(ground.colours.laser);
     let [inner, outer] = FAN.map(|strength| colour.gamma_multiply(strength));
-    let tip = pose.compose(fan.robot_from_scanner).position();
+    // From the robot's middle, so that the fans of two scanners meet.
+    let tip = pose.position();
     let mut mesh = Mesh::default();
     let vertex = |at: Pos2, color: Color32| Vertex { pos: at, uv: WHITE_UV, color };
     mesh.vertices.push(vertex(ground.at(tip), inner));
     for pair in fan.ends.windows(2) {
         let &[Some(from), Some(to)] = pair else { continue };
-        // Between two things at different distances the nearer one hides the rest.
-        let (near, far) = (tip.distance(from).min(tip.distance(to)), tip.distance(from).max(tip.distance(to)));
-        if far - near > FAN_JUMP_M {
-            continue;
-        }
+        // Between two things at different distances the nearer one ends the fan.
+        let near_m = tip.distance(from).min(tip.distance(to)) + FAN_JUMP_M;
+        let [from, to] = [from, to].map(|end| tip + (end - tip) * (near_m / tip.distance(end).max(near_m)));
         let first = mesh.vertices.len() as u32;
         mesh.vertices.push(vertex(ground.at(from), outer));
         mesh.vertices.push(vertex(ground.at(to), outer));
@@ -260,8 +258,9 @@ fn paint_tags(ground: &Ground<'_>, frontiers: &[FrontierSeen]) {
     for frontier in tagged.into_iter().take(MOST_TAGS) {
         let Some((label, probability)) = frontier.behind else { continue };
         let outward = vec2(frontier.outward.x as f32, -frontier.outward.y as f32);
-        let at = ground.at(frontier.middle) + outward * 22.0;
-        let about = Rect::from_center_size(at, vec2(96.0, 20.0));
+        let half = vec2(52.0, 11.0);
+        let at = ground.at(frontier.middle) + outward * (10.0 + half.x * outward.x.abs() + half.y * outward.y.abs());
+        let about = Rect::from_center_size(at, 2.0 * half);
         if !ground.rect.contains_rect(about) || taken.iter().any(|other| other.intersects(about)) {
             continue;
         }
@@ -378,7 +377,9 @@ fn paint_mark(ground: &Ground<'_>, mark: &MarkSeen, is_current: bool) {
     }
     // What is right needs no sign unless it is looked at.
     if (mark.tone != Tone::Good || is_current) && ground.seen.contains(mark.at) {
-        let at = ground.at(mark.at);
+        // Above the label of a room.
+        let above = if mark.rings.is_empty() { 0.0 } else { 27.0 };
+        let at = ground.at(mark.at) - vec2(0.0, above);
         ground.painter.circle(at, 9.0, theme::colour(ground.palette.paper), Stroke::new(1.5, colour));
         let font = FontId::new(theme::SMALL, theme::semibold());
         ground.painter.text(at, Align2::CENTER_CENTER, mark.sign, font, colour);

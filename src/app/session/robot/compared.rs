@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use crate::app::paint::robot::{MarkSeen, RoomsSeen, Tone};
-use crate::base::wording::count;
 use crate::features::RoomStatus;
 use crate::geometry::{Bounds, Point};
 use crate::labels::Schemes;
@@ -89,7 +88,7 @@ pub(crate) struct Compared {
     pub list: Vec<Difference>,
     /// Of each line.
     pub marks: Vec<MarkSeen>,
-    /// The figures, a line each.
+    /// The figures of rooms, connections and labels.
     pub figures: Vec<String>,
 }
 
@@ -176,13 +175,9 @@ impl Compared {
         let (list, marks) = lines.into_iter().unzip();
         let doors = score.wrong_edges;
         let figures = vec![
-            format!("{} of {} found", score.count(Fate::Found), count(score.rooms.len(), "room")),
-            format!(
-                "{} of {} right, {doors} wrong",
-                score.right_edges.len(),
-                count(score.true_edges.len(), "connection")
-            ),
-            format!("{right} of {} right", count(known, "label")),
+            format!("{} of {} found", score.count(Fate::Found), score.rooms.len()),
+            format!("{} of {} right, {doors} wrong", score.right_edges.len(), score.true_edges.len()),
+            format!("{right} of {known} right"),
         ];
         Self { list, marks, figures }
     }
