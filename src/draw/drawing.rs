@@ -98,6 +98,7 @@ impl Drawing {
                 holes: shape.holes.clone(),
                 bounds: shape.bounds,
                 centre: raster::centre(&shape.outer, &shape.holes),
+                text_at: room.text_offset.map(|offset| shape.bounds.center() + offset),
                 above: Vec::new(),
                 openings: Vec::new(),
             })

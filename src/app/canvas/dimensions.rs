@@ -210,8 +210,9 @@ impl Sheet<'_> {
         let beside = [
             pos2(on_screen.right() + 40.0 + half.x, on_screen.center().y),
             pos2(on_screen.left() - 40.0 - half.x, on_screen.center().y),
-            // Where it can always be found.
+            // Where it can always be found: beside the scale bar or, where the canvas is narrow, above it.
             pos2(self.rect.center().x, self.rect.bottom() - 18.0),
+            pos2(self.rect.center().x, self.rect.bottom() - 42.0),
         ];
         for centre in below.chain(beside) {
             if self.add(Label { galley: galley.clone(), centre, angle_rad: 0.0 }, labels) {

@@ -28,6 +28,7 @@ pub(crate) mod plan_list;
 pub(crate) mod predictions;
 pub(crate) mod questions;
 pub(crate) mod recovery;
+pub(crate) mod robot;
 pub(crate) mod safety;
 pub(crate) mod samples;
 pub(crate) mod selection;
@@ -146,6 +147,8 @@ pub(crate) struct Session {
     pub(crate) chosen_file: Option<PathBuf>,
     /// The dataset being made.
     pub(crate) dataset_job: Option<jobs::Wanted>,
+    /// The simulated robot, or the log being replayed.
+    pub(crate) robot: robot::Robot,
     /// Requests to the rest of the window.
     pub(crate) wishes: Vec<Wish>,
 }
@@ -207,6 +210,7 @@ impl Session {
             preview: exporting::SheetPreview::default(),
             chosen_file: None,
             dataset_job: None,
+            robot: robot::Robot::default(),
             wishes: Vec::new(),
         }
     }
