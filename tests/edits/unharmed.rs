@@ -118,14 +118,12 @@ struct Done {
     dragged: BTreeSet<CornerId>,
     /// Where something came to be: in the plan after.
     made: BTreeSet<ElementId>,
-    /// Where walls go that were not picked: between two rooms that become one.
-    between: Box<dyn Fn(Point) -> bool>,
 }
 
 impl Done {
     fn new(after: Plan) -> Self {
         let (picked, dragged, made) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
-        Self { after, picked, dragged, made, between: Box::new(|_| false) }
+        Self { after, picked, dragged, made }
     }
 }
 
@@ -225,8 +223,8 @@ fn done(plan: &Plan, step: &Step) -> Option<Done> {
                 rooms.map(|room| room.rings().map(|ring| plan.ring_points(ring)).collect()).collect()
             };
             let (were, merged) = (rings(plan), rings(&after));
-            // What lies between them goes, what lies within one of them stays.
-            let between = move |at: Point| {
+            // What lies between them goes, with all of a wall that does so in part; what lies within one of them stays.
+            let between = |at: Point| {
                 let is_in =
                     |rooms: &[Vec<Vec<Point>>], by_m: f64| rooms.iter().any(|rings| is_deep_in(rings, at, by_m));
                 is_in(&merged, 1e-4) && !is_in(&were, 1e-3)
@@ -236,11 +234,11 @@ fn done(plan: &Plan, step: &Step) -> Option<Done> {
             let gone = gone.filter(|element| !matches!(element, ElementId::Wall(_)));
             let goes = |&id: &WallId| {
                 let segment = plan.wall_segment(plan.wall(id).unwrap()).unwrap();
-                SHARES.iter().all(|&share| between(segment.a.lerp(segment.b, share)))
+                SHARES.iter().any(|&share| between(segment.a.lerp(segment.b, share)))
             };
             let goes: Vec<ElementId> = walls.iter().copied().filter(goes).map(ElementId::Wall).collect();
             let picked: BTreeSet<ElementId> = both.into_iter().map(ElementId::Room).chain(gone).chain(goes).collect();
-            Some(Done { between: Box::new(between), ..of(after, picked) })
+            Some(of(after, picked))
         }
     }
 }
@@ -339,7 +337,7 @@ fn as_written(plan: &Plan, element: ElementId) -> String {
 
 /// Holds the rule for one edit.
 fn holds(before: &Plan, done: &Done) -> Result<(), TestCaseError> {
-    let Done { after, picked, dragged, made, between } = done;
+    let Done { after, picked, dragged, made } = done;
     let violations = after.violations();
     prop_assert!(violations.is_empty(), "{violations:?}");
     let doubled_now: Vec<[WallId; 2]> = doubled(after).difference(&doubled(before)).copied().collect();
@@ -420,9 +418,6 @@ fn holds(before: &Plan, done: &Done) -> Result<(), TestCaseError> {
                 let segment = before.wall_segment(wall).unwrap();
                 for share in SHARES {
                     let at = segment.a.lerp(segment.b, share);
-                    if between(at) {
-                        continue;
-                    }
                     let stands = after.walls().any(|(_, other)| {
                         after.wall_segment(other).is_some_and(|it| it.distance(at) <= SAME_M)
                             && other.thickness_m == wall.thickness_m
@@ -442,7 +437,17 @@ fn holds(before: &Plan, done: &Done) -> Result<(), TestCaseError> {
                         let at = after.position(corner).unwrap();
                         (is_new || is_dragged(&[corner])) && was.distance(at) <= SAME_M
                     });
-                prop_assert!(off_m <= SAME_M || is_divided, "the opening {} went {} m", id, off_m);
+                // Or it makes way for a neighbour that is.
+                let makes_way = || {
+                    before.openings().filter(|(other, _)| *other != id).any(|(other, old)| {
+                        let places = before
+                            .opening_segment(old)
+                            .zip(after.opening(other).and_then(|new| after.opening_segment(new)));
+                        places.is_some_and(|(old, new)| old.a.distance(new.a) > SAME_M && apart_m(new, was) <= SAME_M)
+                    })
+                };
+                let makes_way = !dragged.is_empty() && off_m > SAME_M && makes_way();
+                prop_assert!(off_m <= SAME_M || is_divided || makes_way, "the opening {} went {} m", id, off_m);
             }
             ElementId::Dimension(_) => {}
         }
