@@ -1,6 +1,8 @@
 //! Predictions for the rooms of a plan: which model fits the plan, and what it predicts for each room.
 //! The one function behind the window, the command line and scripts; fast enough to run after every edit.
 
+pub mod explored;
+
 use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::{Arc, OnceLock};
@@ -24,7 +26,8 @@ use crate::plan::{OpeningId, RoomId};
 /// Which models predict.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ModelSet {
-    /// Those of the plan's own typology; inferred from the plan if it has none, or one without models.
+    /// Those of the plan's own typology; those of all typologies if there are none of its own; inferred from the plan if
+    /// it has no typology, or the method has no model of its own.
     #[default]
     OfPlan,
     /// Those of the typology inferred from the plan, whatever the plan states.
@@ -162,11 +165,19 @@ impl Predictor {
 
     /// Chooses the set of models for a plan.
     pub fn choose(&self, network: &RoomNetwork, models: &Models) -> Choice {
-        let has_models = |typology: &&Typology| models.methods(typology.as_str()).contains(&self.method);
-        match (&self.set, network.typology.as_ref().filter(has_models)) {
+        let stated = network.typology.as_ref();
+        match (&self.set, stated) {
             (ModelSet::Named(name) | ModelSet::Model(name), _) => Choice::stated(name, "as told"),
-            (ModelSet::OfPlan, Some(stated)) => Choice::stated(stated.as_str(), "set for the plan"),
-            (ModelSet::OfPlan | ModelSet::Auto, _) => infer(network),
+            (ModelSet::OfPlan, Some(stated)) => match models.methods(stated.as_str()) {
+                methods if methods.contains(&self.method) => Choice::stated(stated.as_str(), "set for the plan"),
+                // Models of another typology would know it less well than those of all.
+                methods if methods.is_empty() => {
+                    let because = format!("there are no models of the typology '{}'", stated.as_str());
+                    Choice::stated(STANDARD, &because)
+                }
+                _ => infer(network),
+            },
+            (ModelSet::OfPlan, None) | (ModelSet::Auto, _) => infer(network),
         }
     }
 }

@@ -11,6 +11,7 @@ mod corners_nearly_coincide;
 mod finding;
 mod function_is_unknown;
 mod invariant_is_broken;
+pub mod likely_scale;
 mod opening_contradicts_its_place;
 mod opening_is_far_from_its_rooms;
 mod opening_is_wider_than_its_wall;

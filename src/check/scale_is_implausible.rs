@@ -1,17 +1,17 @@
 use super::{Check, Context, Kind, Place, Severity};
 use crate::base::numbers::lower_median;
 use crate::base::wording::thousands;
-use crate::plan::{DEFAULT_DOOR_WIDTH_M, OpeningKind, ScaleOrigin};
+use crate::check::likely_scale::{LikelyScale, MEDIAN_DOOR_M, likely_scale};
+use crate::edit::{EditError, rescale};
+use crate::plan::{Plan, ScaleOrigin};
 
 /// Doors or rooms are so much larger or smaller than usual that the plan's scale is probably wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScaleIsImplausible {
     /// How many times too long the plan's lengths seem, on all evidence.
     pub factor: f64,
-    /// Median width of its doors in metres, if the source gives widths.
-    pub door_width_m: Option<f64>,
-    /// How many times too long its lengths seem, judging by its rooms' areas.
-    pub rooms_factor: Option<f64>,
+    /// What its doors and rooms say, if they say anything.
+    pub likely: Option<LikelyScale>,
     /// Area of its median room in m², where nothing else tells and no building has such rooms.
     pub median_room_m2: Option<f64>,
     pub origin: ScaleOrigin,
@@ -25,9 +25,6 @@ const IMPLAUSIBLE_FACTOR: f64 = 1.5;
 /// A scale wrong by this factor is a unit error (2.54 is an inch for a centimetre), whatever the
 /// building.
 const CERTAIN_FACTOR: f64 = 2.5;
-
-/// Fewer doors than this say nothing about the scale: one may be a gate.
-const DOORS_FOR_SCALE: usize = 3;
 
 /// The median room of a plan has an area in m² within this range, whatever the building: of 56 schools and
 /// offices the medians lie between 2 and 140. Beyond, millimetres were taken for metres or the like.
@@ -45,21 +42,14 @@ impl Check for ScaleIsImplausible {
     };
 
     fn find(context: &Context) -> Vec<Self> {
-        let door_width_m = door_width_m(context);
-        let rooms_factor = context.length_factor.map(|(factor, _)| factor);
-        let mut factors: Vec<f64> =
-            door_width_m.map(|width_m| width_m / DEFAULT_DOOR_WIDTH_M).into_iter().chain(rooms_factor).collect();
-        let median_room_m2 = if factors.is_empty() { impossible_median_m2(context) } else { None };
-        factors.extend(median_room_m2.map(|area_m2| (area_m2 / USUAL_MEDIAN_M2).sqrt()));
-        if factors.is_empty() {
-            return Vec::new();
-        }
-        // The geometric mean: contradictory evidence cancels out.
-        let factor = (factors.iter().map(|factor| factor.ln()).sum::<f64>() / factors.len() as f64).exp();
+        let likely = likely_scale(context);
+        let median_room_m2 = if likely.is_none() { impossible_median_m2(context) } else { None };
+        let by_median = median_room_m2.map(|area_m2| (area_m2 / USUAL_MEDIAN_M2).sqrt());
+        let Some(factor) = likely.map(|likely| likely.factor()).or(by_median) else { return Vec::new() };
         if factor < IMPLAUSIBLE_FACTOR && factor > 1.0 / IMPLAUSIBLE_FACTOR {
             return Vec::new();
         }
-        vec![Self { factor, door_width_m, rooms_factor, median_room_m2, origin: context.plan.meta().scale.origin }]
+        vec![Self { factor, likely, median_room_m2, origin: context.plan.meta().scale.origin }]
     }
 
     fn severity(&self) -> Severity {
@@ -73,11 +63,12 @@ impl Check for ScaleIsImplausible {
 
     fn what(&self) -> String {
         let mut reasons = Vec::new();
-        if let Some(width_m) = self.door_width_m {
-            reasons.push(format!("its doors are {width_m:.2} m wide instead of {DEFAULT_DOOR_WIDTH_M}"));
+        if let Some(doors) = self.likely.and_then(|likely| likely.doors) {
+            let width_m = doors.median_width_m;
+            reasons.push(format!("its doors are {width_m:.2} m wide at the median instead of {MEDIAN_DOOR_M}"));
         }
-        if let Some(factor) = self.rooms_factor {
-            let areas = factor * factor;
+        if let Some(rooms) = self.likely.and_then(|likely| likely.rooms) {
+            let areas = rooms.factor * rooms.factor;
             reasons.push(format!("its rooms have {areas:.1} times the area usual for their labels"));
         }
         if let Some(area_m2) = self.median_room_m2 {
@@ -88,26 +79,28 @@ impl Check for ScaleIsImplausible {
         format!("lengths seem {factor:.1} times too {way}: {} (scale {})", reasons.join(", "), self.origin.name())
     }
 
-    fn figures(&self) -> Vec<(&'static str, f64)> {
-        let door = self.door_width_m.map(|width_m| ("door_width_m", width_m));
-        let rooms = self.rooms_factor.map(|factor| ("rooms_factor", factor));
-        let median = self.median_room_m2.map(|area_m2| ("median_room_m2", area_m2));
-        [("factor", self.factor)].into_iter().chain(door).chain(rooms).chain(median).collect()
+    fn fix_title(&self) -> Option<&'static str> {
+        // Rooms alone say it less surely, and doors that contradict them may be gates.
+        let is_sure = |likely: LikelyScale| likely.doors.is_some() && !likely.is_contradictory();
+        self.likely.is_some_and(is_sure).then_some("Scale the plan by its doors")
     }
-}
 
-/// The median width of single doors in metres, if the source gives widths. A door of exactly the default
-/// width may have been given it by an import: if most are, they say nothing (and if they are real,
-/// nothing is wrong).
-fn door_width_m(context: &Context) -> Option<f64> {
-    let doors = context.openings.iter().filter(|placed| placed.opening.kind == OpeningKind::Door);
-    let widths: Vec<f64> = doors.map(|placed| placed.segment.length()).collect();
-    let is_given = |width_m: &f64| (width_m - DEFAULT_DOOR_WIDTH_M).abs() > crate::geometry::GRID_M;
-    let mut given: Vec<f64> = widths.iter().copied().filter(is_given).collect();
-    if given.len() < DOORS_FOR_SCALE || 2 * given.len() < widths.len() {
-        return None;
+    fn fixed(&self, plan: &Plan) -> Result<Plan, EditError> {
+        if self.fix_title().is_none() {
+            return Err(EditError("there is no safe fix".to_owned()));
+        }
+        let how = format!("estimated from the widths of its doors, which were {:.1} times the usual", self.factor);
+        rescale(plan, 1.0 / self.factor, &how)
     }
-    lower_median(&mut given)
+
+    fn figures(&self) -> Vec<(&'static str, f64)> {
+        let doors = self.likely.and_then(|likely| likely.doors).map(|doors| ("door_width_m", doors.median_width_m));
+        let rooms = self.likely.and_then(|likely| likely.rooms).map(|rooms| ("rooms_factor", rooms.factor));
+        let range = self.likely.map(|likely| likely.range());
+        let range = range.into_iter().flat_map(|(least, most)| [("factor_least", least), ("factor_most", most)]);
+        let median = self.median_room_m2.map(|area_m2| ("median_room_m2", area_m2));
+        [("factor", self.factor)].into_iter().chain(range).chain(doors).chain(rooms).chain(median).collect()
+    }
 }
 
 /// The area of the median room in m², where no building has such rooms.

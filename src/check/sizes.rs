@@ -16,9 +16,12 @@ pub const fn tolerated_factors(label: Label) -> (f64, f64) {
     }
 }
 
-/// Fewer rooms than this say nothing about the scale: the areas of rooms of one label deviate from their
-/// median by a factor of about 2.2 (measured: standard deviation of the logarithm 0.8 in schools and
-/// offices), so a median of five by about 1.5, and the length by 1.25.
+/// By how much the areas of rooms of one label deviate from their median, as the standard deviation of the logarithm,
+/// measured in schools and offices: a factor of about 2.2.
+pub const ROOM_SPREAD: f64 = 0.8;
+
+/// Fewer rooms than this say nothing about the scale: the median of five areas deviates by about 1.5 ([`ROOM_SPREAD`]),
+/// and the length by 1.25.
 pub const ROOMS_FOR_SCALE: usize = 5;
 
 /// How many times too long the lengths of a plan seem, judging by its rooms (label and area in m²), and

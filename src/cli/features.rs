@@ -6,6 +6,7 @@ use super::batch::{self, Input};
 use super::collect::content_of;
 use super::manifest;
 use super::outputs::Outputs;
+use super::scales::PlanScale;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
 use crate::dataset::{BY_SCHEME, csv::cell, csv::feature_cells};
 use crate::features::{Features, NeighbourLabels};
@@ -30,6 +31,10 @@ pub struct FeaturesCommand {
     /// Add the clear area of every room, between wall faces, as the column 'net'
     #[arg(long)]
     net: bool,
+    /// Instead of rooms, print what the widths of doors and the areas of rooms say about each plan's scale
+    /// (docs/scale.md)
+    #[arg(long, conflicts_with = "net")]
+    scale: bool,
     #[command(flatten)]
     shared: FeatureOptions,
 }
@@ -58,6 +63,9 @@ impl Subcommand for FeaturesCommand {
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let schemes = inputs::schemes(&self.shared.scheme)?;
         let files = batch::inputs_into(&self.plans, self.output.as_deref());
+        if self.scale {
+            return self.scales(&files, &schemes, terminal);
+        }
         let mut writer = csv::Writer::from_writer(Vec::new());
         let mut objects: Vec<serde_json::Value> = Vec::new();
         let mut rooms_written = 0;
@@ -116,6 +124,36 @@ struct RoomFeatures {
 }
 
 impl FeaturesCommand {
+    /// Prints what doors and rooms say about each plan's scale.
+    fn scales(&self, files: &[Input], schemes: &Schemes, terminal: &mut Terminal) -> Result<Outcome, CliError> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        let mut objects: Vec<serde_json::Value> = Vec::new();
+        writer.write_record(PlanScale::head())?;
+        let scales = |input: &Input, import: Import| -> Vec<PlanScale> {
+            let file = input.path.display().to_string();
+            import.plans.iter().map(|plan| PlanScale::of(plan, &file, schemes)).collect()
+        };
+        let failed = batch::for_each_import(files, "weighing scales", terminal, scales, |_, scales, _| {
+            for scale in scales {
+                if self.json {
+                    objects.push(scale.json());
+                } else {
+                    writer.write_record(scale.cells())?;
+                }
+            }
+            Ok(())
+        })?;
+        let bytes = if self.json {
+            let mut text = serde_json::to_vec_pretty(&json!({ "version": 1, "plans": objects }))?;
+            text.push(b'\n');
+            text
+        } else {
+            writer.into_inner().map_err(|error| CliError::new(error.to_string()))?
+        };
+        Outputs::new(terminal).result(self.output.as_deref(), &bytes, terminal)?;
+        Ok(if failed == 0 { Outcome::Done } else { Outcome::InputWrong })
+    }
+
     fn rooms(&self, plan: &Plan, file: &str, schemes: &Schemes) -> Vec<RoomFeatures> {
         let pipeline = Pipeline::counting(plan, schemes, self.shared.neighbours);
         let analysis = pipeline.analysis();
@@ -165,7 +203,7 @@ impl RoomFeatures {
 }
 
 /// A number as JSON: an integer without a decimal point, otherwise at most six decimals.
-fn rounded(value: f64) -> serde_json::Value {
+pub(super) fn rounded(value: f64) -> serde_json::Value {
     let value = (value * 1e6).round() / 1e6;
     if value.fract() == 0.0 && value.abs() < 1e15 { (value as i64).into() } else { value.into() }
 }

@@ -32,6 +32,7 @@ mod repeats;
 #[cfg(feature = "gui")]
 mod replay;
 mod robot_study;
+mod scales;
 mod segment;
 mod suspects;
 mod train;

@@ -210,6 +210,32 @@ pub fn move_picture(plan: &Plan, by: Vector) -> Result<Plan, EditError> {
     Ok(set_backdrop(plan, Some(Backdrop { origin, ..backdrop.clone() })))
 }
 
+/// Scales the whole plan about the origin, its backdrop with it. Its scale becomes an estimate; `how` says in words how
+/// it was found.
+///
+/// # Errors
+/// When something would leave the drawing area or lose its length, or the factor is not a number above 0.
+pub fn rescale(plan: &Plan, factor: f64, how: &str) -> Result<Plan, EditError> {
+    if !(factor > 0.0 && factor.is_finite()) {
+        return fail(format!("a plan is scaled by a factor above 0, not {factor}"));
+    }
+    let mut next = transformed(plan, Point::default(), factor, 0.0)?;
+    if let Some(backdrop) = plan.backdrop() {
+        let origin = checked_position(Point::default() + (backdrop.origin - Point::default()) * factor)?;
+        let metres_per_pixel = backdrop.metres_per_pixel * factor;
+        if !METRES_PER_PIXEL.contains(&metres_per_pixel) {
+            return fail("the picture under the plan would become too small or too large");
+        }
+        // Its measurements said otherwise.
+        let measurements = Vec::new();
+        next = set_backdrop(&next, Some(Backdrop { origin, metres_per_pixel, measurements, ..backdrop.clone() }));
+    }
+    let scale = &plan.meta().scale;
+    let metres_per_unit = scale.metres_per_unit.map(|metres| metres * factor).filter(|metres| metres.is_finite());
+    let scale = Scale { origin: ScaleOrigin::Estimated, metres_per_unit, note: how.to_owned() };
+    Ok(set_meta(&next, crate::plan::Meta { scale, ..plan.meta().clone() }))
+}
+
 /// Scales and rotates all that is drawn about a point; the backdrop stays.
 ///
 /// # Errors
@@ -340,6 +366,25 @@ mod tests {
         let turned = turn_picture(&along, Point::new(1.0, 1.0), 0.3, DrawingMoves::Along).expect("it turns");
         for (before, after) in on_picture(&plan).into_iter().zip(on_picture(&turned)) {
             assert!(before.distance(after) < 0.01, "{before:?} {after:?}");
+        }
+    }
+
+    #[test]
+    fn a_plan_is_scaled_with_its_picture() {
+        let plan = traced();
+        let twice = rescale(&plan, 2.0, "by its doors").expect("it scales");
+        assert_eq!(twice.violations(), []);
+        for (before, after) in on_picture(&plan).into_iter().zip(on_picture(&twice)) {
+            assert!(before.distance(after) < 1e-6, "{before:?} {after:?}");
+        }
+        let (_, opening) = twice.openings().next().expect("a door");
+        assert!(matches!(opening.place, Place::Hosted { at_m: 4.0, width_m: 1.6, .. }));
+        assert_eq!(
+            (twice.meta().scale.origin, twice.meta().scale.note.as_str()),
+            (ScaleOrigin::Estimated, "by its doors")
+        );
+        for factor in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e9, 1e-9] {
+            assert!(rescale(&plan, factor, "").is_err(), "{factor}");
         }
     }
 

@@ -138,8 +138,9 @@ fn place_near(plan: &Plan, opening: &Opening, middle: Point, reaches_over: bool)
     });
     let (host, width_m) = match hosts {
         Some((_, host)) => {
+            // Rounded down: what is wider than its edge by a grid step would reach over the next.
             let length_m = edge(host).map_or(0.0, Segment::length);
-            (host, width_m.min(trim_m(length_m)))
+            (host, if width_m <= length_m { width_m } else { trim_m((length_m / GRID_M).floor() * GRID_M) })
         }
         None => {
             let length_m = edge((from, to)).map_or(0.0, Segment::length);

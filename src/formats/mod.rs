@@ -10,6 +10,7 @@ pub mod dxf;
 mod files;
 pub mod geojson;
 mod json_text;
+pub mod kth_xml;
 pub mod manual;
 mod notes;
 pub mod options;
@@ -19,6 +20,7 @@ pub mod registry;
 mod room_schedule;
 pub mod sheets;
 mod text;
+mod xml;
 
 pub use files::{
     DiskFolder, FILE_LIMIT_BYTES, HEAD_BYTES, Reading, dialog_endings, file_stem, find_format, folder_format,
@@ -35,6 +37,7 @@ pub use registry::{
 pub const FORMATS: &[&Format] = &[
     &plan_json::FORMAT,
     &authors_xml::FORMAT,
+    &kth_xml::FORMAT,
     &geojson::FORMAT,
     &sheets::PDF,
     &sheets::SVG,

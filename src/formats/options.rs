@@ -185,6 +185,15 @@ fn split(pair: &str) -> Result<(&str, &str), OptionError> {
     Ok((name.trim(), value))
 }
 
+/// The option of formats whose lengths are pixels.
+pub(super) static METRES_PER_PIXEL: Number = Number {
+    name: "metres-per-pixel",
+    default: None,
+    least: 1e-4,
+    most: 10.0,
+    help: "The scale, where the file states none or a wrong one",
+};
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -32,6 +32,9 @@ pub enum Meaning {
 /// Functions are compared by [`normalised_function`]. A later file extends an earlier one, and wins where
 /// both name a function.
 ///
+/// With `by_words = true` the words in a longer function count where it is not known as a whole: 'PLÅTVERKSTAD 2' ends
+/// with 'verkstad'.
+///
 /// A table may also say what to expect of rooms, see [`TemporaryRule`] and [`UsualArea`]; without this, a
 /// neighbour's temporary label follows the rules of `[standard]`, and no size is unusual:
 ///
@@ -55,9 +58,34 @@ pub struct Schemes {
 struct Scheme {
     /// By [`normalised_function`].
     functions: BTreeMap<String, Meaning>,
+    /// Whether the words in a longer function count where it is not known as a whole, see [`Scheme::meaning_of_words`].
+    by_words: bool,
     /// The first that holds gives the label; if empty, those of [`Schemes::standard`] apply.
     temporary: Vec<TemporaryRule>,
     usual_areas: BTreeMap<Label, UsualArea>,
+}
+
+/// The fewest letters of a function that is found at the end of a longer word: 'förråd' in 'städförråd', but no 'el' in
+/// 'hotel'.
+const LEAST_ENDING: usize = 3;
+
+impl Scheme {
+    /// What the words in a function say, normalised: of 'städ/frd' the part before the stroke counts first; in a part
+    /// all its words together, then its last word, then those before it; then the longest known function that one of
+    /// its words ends with, since Germanic languages put what a thing is at the end ('kemikalieförråd' is a store).
+    fn meaning_of_words(&self, function: &str) -> Option<Meaning> {
+        let known = |word: &str| self.functions.get(word).copied();
+        let ending = |word: &str| {
+            let starts = word.char_indices().map(|(start, _)| start).skip(1);
+            let long = starts.map(|start| &word[start..]).take_while(|end| end.chars().count() >= LEAST_ENDING);
+            long.into_iter().find_map(known)
+        };
+        function.split(['/', '(', ')']).find_map(|part| {
+            let words: Vec<&str> = part.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).collect();
+            let last_first = || words.iter().rev().copied();
+            known(&words.join(" ")).or_else(|| last_first().find_map(known)).or_else(|| last_first().find_map(ending))
+        })
+    }
 }
 
 /// The table of a scheme file that is not a typology: it applies when no typology is known.
@@ -98,6 +126,8 @@ struct DiskScheme {
     #[serde(default)]
     not_classified: Vec<String>,
     #[serde(default)]
+    by_words: bool,
+    #[serde(default)]
     temporary: Vec<DiskRule>,
     #[serde(default)]
     usual_area_m2: BTreeMap<String, [f64; 2]>,
@@ -136,7 +166,7 @@ impl Schemes {
             let typology = Typology::new(&name).ok_or_else(|| SchemeError("a typology needs a name".to_owned()))?;
             let disk: DiskScheme = value.try_into().map_err(|error: toml::de::Error| {
                 SchemeError(format!(
-                    "[{name}]: {}; the keys are S, M, B, C, H, not_classified, temporary and usual_area_m2",
+                    "[{name}]: {}; the keys are S, M, B, C, H, not_classified, by_words, temporary and usual_area_m2",
                     error.message()
                 ))
             })?;
@@ -171,6 +201,7 @@ impl Schemes {
             }
             let scheme = self.by_typology.entry(typology).or_default();
             scheme.functions.extend(added);
+            scheme.by_words |= disk.by_words;
             scheme.usual_areas.extend(usual_areas);
             if !temporary.is_empty() {
                 scheme.temporary = temporary;
@@ -193,7 +224,10 @@ impl Schemes {
     /// What the scheme of a typology says about a function; `None` if it does not know it, or if the plan
     /// has no typology or one without a scheme. Never guessed.
     pub fn meaning(&self, typology: Option<&Typology>, function: &str) -> Option<Meaning> {
-        self.by_typology.get(typology?)?.functions.get(&normalised_function(function)).copied()
+        let scheme = self.by_typology.get(typology?)?;
+        let function = normalised_function(function);
+        let of_words = || if scheme.by_words { scheme.meaning_of_words(&function) } else { None };
+        scheme.functions.get(&function).copied().or_else(of_words)
     }
 
     /// The rules for temporary labels in a typology: its own, or else the standard ones.
@@ -230,12 +264,50 @@ mod tests {
     fn bundled_schemes_are_complete() {
         let schemes = Schemes::bundled();
         let names: Vec<&str> = schemes.typologies().map(Typology::as_str).collect();
-        assert_eq!(names, ["house", "office", "school"]);
+        assert_eq!(names, ["house", "office", "school", "university"]);
         let house = Typology::new("House");
         assert_eq!(schemes.meaning(house.as_ref(), "LIVING_room"), Some(Meaning::Labelled(Label::BigRoom)));
         assert_eq!(schemes.meaning(house.as_ref(), "balcony"), Some(Meaning::NotClassified));
         assert_eq!(schemes.meaning(house.as_ref(), "observatory"), None);
         assert_eq!(schemes.meaning(None, "balcony"), None);
+    }
+
+    #[test]
+    fn words_in_a_function_count_where_a_scheme_says_so() {
+        let schemes = Schemes::bundled();
+        let university = Typology::new("university");
+        let label = |function: &str| match schemes.meaning(university.as_ref(), function) {
+            Some(Meaning::Labelled(label)) => label.letter(),
+            Some(Meaning::NotClassified) => "-",
+            None => "?",
+        };
+        for (function, expected) in [
+            ("KONTOR", "M"),
+            ("KONTOR 2P", "M"),
+            ("KONTOR 3P", "B"),
+            ("3 KONT", "B"),
+            ("Lab.", "M"),
+            ("LAB 2", "M"),
+            ("LABHALL MT", "B"),
+            ("VERKST. KONTOR", "M"),
+            ("KEMIKALIE FÖRRÅD", "S"),
+            ("INSTRUMENTFÖRRÅD", "S"),
+            ("STÄD/FRD", "S"),
+            ("PLÅTVERKSTAD", "B"),
+            ("OMKL. HERRAR", "S"),
+            ("KORRIDOR B", "C"),
+            ("ENTRE/FOAJE", "H"),
+            ("STUDIEHALL ÖVRE DEL", "B"),
+            ("(NEDRE DEL)", "-"),
+            ("hotel", "?"),
+            ("BYGGPLATS 1", "?"),
+            ("", "?"),
+            ("12", "?"),
+            ("/", "?"),
+        ] {
+            assert_eq!(label(function), expected, "{function}");
+        }
+        assert_eq!(schemes.meaning(Typology::new("school").as_ref(), "main corridor"), None);
     }
 
     #[test]

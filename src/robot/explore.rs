@@ -244,6 +244,11 @@ impl Exploration {
         self.collisions
     }
 
+    /// The number of places recognised so far.
+    pub fn closures(&self) -> usize {
+        self.closures
+    }
+
     /// Whether the last step added to the free space.
     pub fn has_new_look(&self) -> bool {
         self.has_new_look

@@ -287,7 +287,7 @@ pub fn cases() -> Vec<Case> {
         ),
         case!(
             scale_is_implausible,
-            only!(|draft| { doors_of_width(&mut draft, 1.3) }),
+            only!(|draft| { doors_of_width(&mut draft, 1.25) }),
             only!(|draft| { doors_of_width(&mut draft, 1.6) })
         ),
         case!(

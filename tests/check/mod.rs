@@ -347,6 +347,6 @@ fn fixes_mend_what_they_are_for() {
     }
     assert_eq!(
         mended.into_iter().collect::<Vec<_>>(),
-        ["corners_nearly_coincide", "openings_overlap", "wall_has_no_length", "walls_overlap"]
+        ["corners_nearly_coincide", "openings_overlap", "scale_is_implausible", "wall_has_no_length", "walls_overlap"]
     );
 }

@@ -204,8 +204,14 @@ pub(super) fn paint_typed(
     if !refused.is_empty() {
         let below = tag.left_bottom() + vec2(0.0, 4.0);
         let colour = theme::colour(palette.error);
-        // What is wrong, and below it what would be right.
-        let lines = refused.replacen("; ", "\n", 1);
+        // What is wrong, and below it what would be right, in as many lines as a narrow canvas needs.
+        let font = egui::FontId::proportional(theme::SMALL);
+        let most = (rect.width() - 32.0).max(120.0);
+        let parts = refused.splitn(2, "; ").map(|part| {
+            let galley = painter.layout(part.to_owned(), font.clone(), colour, most);
+            galley.rows.iter().map(|row| row.text().trim_end().to_owned()).collect::<Vec<_>>().join("\n")
+        });
+        let lines = parts.collect::<Vec<_>>().join("\n");
         tools::tag(painter, below, egui::Align2::LEFT_TOP, &lines, colour, palette);
     }
 }
@@ -235,15 +241,9 @@ pub(super) fn is_over_picture(session: &Session, plan: &Plan) -> bool {
 
 /// A scale bar of a round length in the lower left corner.
 pub(super) fn paint_scale_bar(painter: &Painter, rect: Rect, view: &View, palette: &Palette, units: Units) {
-    // The maximum length of the bar, in points.
-    const LONGEST: f64 = 120.0;
-    let length_m = units.round_length_at_most(LONGEST / view.px_per_m);
-    let width = (length_m * view.px_per_m) as f32;
-    let left = rect.left_bottom() + vec2(16.0, -18.0);
+    let ScaleBar { left, width, text, ground } = scale_bar(rect, view, units);
     let ink = theme::colour(palette.ink_muted);
-    let text = units.round_length(length_m);
     let galley = painter.layout_no_wrap(text, egui::FontId::proportional(theme::SMALL), ink);
-    let ground = Rect::from_min_max(left + vec2(-6.0, -8.0), left + vec2(width + 12.0 + galley.rect.width(), 8.0));
     painter.rect_filled(ground, 4.0, theme::colour(palette.paper).gamma_multiply(0.85));
     let stroke = Stroke::new(1.5, ink);
     painter.line_segment([left, left + vec2(width, 0.0)], stroke);
@@ -252,6 +252,30 @@ pub(super) fn paint_scale_bar(painter: &Painter, rect: Rect, view: &View, palett
     }
     let beside = left + vec2(width + 6.0, -galley.rect.height() / 2.0);
     painter.galley(beside, galley, ink);
+}
+
+/// The scale bar in the lower left of the canvas.
+pub(super) struct ScaleBar {
+    /// Its left end.
+    left: egui::Pos2,
+    /// In points.
+    width: f32,
+    text: String,
+    /// What it takes up.
+    pub ground: Rect,
+}
+
+pub(super) fn scale_bar(rect: Rect, view: &View, units: Units) -> ScaleBar {
+    // The maximum length of the bar, in points.
+    const LONGEST: f64 = 120.0;
+    let length_m = units.round_length_at_most(LONGEST / view.px_per_m);
+    let width = (length_m * view.px_per_m) as f32;
+    let left = rect.left_bottom() + vec2(16.0, -18.0);
+    let text = units.round_length(length_m);
+    let font = crate::draw::font::Font::of(crate::draw::Weight::Regular);
+    let text_width = font.width_px(&text, f64::from(theme::SMALL)).ceil() as f32;
+    let ground = Rect::from_min_max(left + vec2(-6.0, -8.0), left + vec2(width + 12.0 + text_width, 8.0));
+    ScaleBar { left, width, text, ground }
 }
 
 /// Hints on an empty plan: the tools to begin with, and their keys.

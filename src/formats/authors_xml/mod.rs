@@ -8,12 +8,12 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use serde_json::{Map, Value};
 
-use self::document::{DAMAGED_HINT, Document, Floor, Offset, Portal, Space};
-use super::options::Number;
+use self::document::{Document, Floor, Portal, Space};
+use super::options::METRES_PER_PIXEL;
 use super::point_openings::{self, Ring};
+use super::xml::{DAMAGED_HINT, Notes, root_name};
 use super::{
-    Format, FormatOption, Head, Import, Importer, Note, NoteKind, Options, Place, Preview, ReadError, Recognition,
-    Source,
+    Format, FormatOption, Head, Import, Importer, NoteKind, Options, Place, Preview, ReadError, Recognition, Source,
 };
 use super::{building_name, text};
 use crate::geometry::{Bounds, COORDINATE_LIMIT_M, Point, Segment, Vector};
@@ -22,9 +22,6 @@ use crate::plan::{
     Builder, CornerId, DEFAULT_DOOR_WIDTH_M, Extra, Joint, Meta, Opening, OpeningKind, Place as OpeningPlace, Plan,
     Room, RoomId, THICKEST_WALL_M,
 };
-
-/// Maximum notes per file. More help nobody, and a hostile file must not fill the memory.
-const NOTE_LIMIT: usize = 10_000;
 
 /// The most edges examined to place all openings. The largest real file needs 4,431.
 const EDGE_LIMIT: usize = 10_000_000;
@@ -46,14 +43,6 @@ pub const FORMAT: Format = Format {
     exporter: None,
 };
 
-static METRES_PER_PIXEL: Number = Number {
-    name: "metres-per-pixel",
-    default: None,
-    least: 1e-4,
-    most: 10.0,
-    help: "The scale, where the file states none or a wrong one",
-};
-
 struct AuthorsXml;
 
 impl Importer for AuthorsXml {
@@ -64,7 +53,7 @@ impl Importer for AuthorsXml {
     fn recognises(&self, head: &Head<'_>) -> Recognition {
         let Head::File { start, .. } = head else { return Recognition::No };
         let is_named = head.ends_with(FORMAT.endings);
-        match document::root_name(start) {
+        match root_name(start) {
             Some(root) if root == "building" => Recognition::Yes,
             Some(root) if is_named => Recognition::Foreign(format!("XML with the root <{root}>")),
             None if is_named => Recognition::Perhaps,
@@ -113,45 +102,8 @@ fn read(bytes: &[u8], stem: &str, metres_per_pixel: Option<f64>) -> Result<Impor
     import(text, &document, stem, metres_per_pixel)
 }
 
-/// Notes with their lines.
-struct Notes<'a> {
-    text: &'a str,
-    /// Positions of line ends; filled with the first note.
-    line_ends: Vec<Offset>,
-    notes: Vec<Note>,
-    left_off: usize,
-}
-
-impl Notes<'_> {
-    fn line(&mut self, at: Offset) -> usize {
-        if self.line_ends.is_empty() {
-            self.line_ends = self.text.match_indices('\n').map(|(offset, _)| offset).collect();
-        }
-        1 + self.line_ends.partition_point(|&end| end < at)
-    }
-
-    fn push(&mut self, kind: NoteKind, at: Option<Offset>, element: impl Into<String>, what: impl Into<String>) {
-        if self.notes.len() >= NOTE_LIMIT {
-            self.left_off += 1;
-            return;
-        }
-        let line = at.map(|at| self.line(at));
-        self.notes.push(Note { kind, place: Place { line, element: element.into() }, what: what.into() });
-    }
-
-    /// All notes, in the file's order.
-    fn finish(mut self) -> Vec<Note> {
-        self.notes.sort_by_key(|note| note.place.line);
-        if self.left_off > 0 {
-            let what = format!("{} more things were mended or left out", self.left_off);
-            self.notes.push(Note { kind: NoteKind::Healed, place: Place::default(), what });
-        }
-        self.notes
-    }
-}
-
 fn import(text: &str, document: &Document, stem: &str, metres_per_pixel: Option<f64>) -> Result<Import, ReadError> {
-    let mut notes = Notes { text, line_ends: Vec::new(), notes: Vec::new(), left_off: 0 };
+    let mut notes = Notes::new(text);
     if document.floors.iter().all(|floor| floor.spaces.is_empty()) {
         return Err(ReadError {
             place: Place::default(),
@@ -163,10 +115,7 @@ fn import(text: &str, document: &Document, stem: &str, metres_per_pixel: Option<
     for (at, what) in &found.healings {
         notes.push(NoteKind::Healed, *at, "scale", what.as_str());
     }
-    for (name, &(count, at)) in &document.unknown {
-        let times = if count == 1 { String::new() } else { format!(" ({count} times)") };
-        notes.push(NoteKind::Skipped, Some(at), format!("<{name}>"), format!("is no known element{times}; left out"));
-    }
+    notes.unknown(&document.unknown);
     let mut meta = meta_of(document, stem, &mut notes);
     meta.scale = found.scale;
     let mut plans = Vec::new();

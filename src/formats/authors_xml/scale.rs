@@ -1,6 +1,7 @@
 //! Determines how many metres a pixel is.
 
-use super::document::{Document, Length, Offset};
+use super::super::xml::Offset;
+use super::document::{Document, Length};
 use crate::base::numbers::upper_median;
 use crate::geometry::polygon;
 use crate::plan::{Scale, ScaleOrigin};
