@@ -330,7 +330,11 @@ fn a_traced_office_is_changed() {
             let mut corners: BTreeSet<_> = drag.targets(by).into_iter().map(|(id, _)| id).collect();
             corners.extend([wall.from, wall.to]);
             let picked = rooms_at(plan, &corners);
-            if reach == Reach::Run { runs += 1 } else { pieces += 1 };
+            if reach == Reach::Run {
+                runs += 1
+            } else {
+                pieces += 1
+            };
             site.edit(&format!("drag {id}"), &picked, |_| changed.plan);
             let before = site.plan().clone();
             if let Ok(back) = edit::move_picked(&before, &one(ElementId::Wall(id)), -by, reach, true)
