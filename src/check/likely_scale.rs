@@ -88,9 +88,8 @@ impl LikelyScale {
     /// Puts together what is known; `None` if nothing is.
     pub fn of(doors: Option<Doors>, rooms: Option<Rooms>) -> Option<Self> {
         let evidence = doors.map(Doors::evidence).into_iter().chain(rooms.map(Rooms::evidence));
-        let (weighted, weight) = evidence.fold((0.0, 0.0), |(sum, weight), (mean, variance)| {
-            (sum + mean / variance, weight + 1.0 / variance)
-        });
+        let (weighted, weight) = evidence
+            .fold((0.0, 0.0), |(sum, weight), (mean, variance)| (sum + mean / variance, weight + 1.0 / variance));
         let (mean, deviation) = (weighted / weight, (1.0 / weight).sqrt());
         (mean.is_finite() && deviation.is_finite()).then_some(Self { doors, rooms, mean, deviation })
     }

@@ -14,8 +14,7 @@ const HEAD: [&str; 6] = ["file", "building", "typology", "storey", "plan", "scal
 
 /// The columns of what is measured: numbers of doorways and rooms that tell, the doorways' median width, how many times
 /// too long lengths seem by the rooms, and on all evidence with the range that holds it with 90 % probability.
-const MEASURES: [&str; 7] =
-    ["doors", "door_width_m", "rooms", "rooms_factor", "factor", "factor_least", "factor_most"];
+const MEASURES: [&str; 7] = ["doors", "door_width_m", "rooms", "rooms_factor", "factor", "factor_least", "factor_most"];
 
 /// A plan's line.
 pub(super) struct PlanScale {

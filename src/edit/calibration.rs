@@ -379,7 +379,10 @@ mod tests {
         }
         let (_, opening) = twice.openings().next().expect("a door");
         assert!(matches!(opening.place, Place::Hosted { at_m: 4.0, width_m: 1.6, .. }));
-        assert_eq!((twice.meta().scale.origin, twice.meta().scale.note.as_str()), (ScaleOrigin::Estimated, "by its doors"));
+        assert_eq!(
+            (twice.meta().scale.origin, twice.meta().scale.note.as_str()),
+            (ScaleOrigin::Estimated, "by its doors")
+        );
         for factor in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e9, 1e-9] {
             assert!(rescale(&plan, factor, "").is_err(), "{factor}");
         }

@@ -50,7 +50,10 @@ pub use along::{
 };
 pub use beside::{Built, Lies, WallsNear, boundary_around, draw_walls_beside, walls_beside};
 pub use bridge::bridge_gaps;
-pub use calibration::{Calibration, DrawingMoves, UNMEASURED_METRES_PER_PIXEL, move_picture, rescale, set_measurements, straightening_rad, turn_picture};
+pub use calibration::{
+    Calibration, DrawingMoves, UNMEASURED_METRES_PER_PIXEL, move_picture, rescale, set_measurements, straightening_rad,
+    turn_picture,
+};
 pub use close::fill_closed;
 pub use copy::{Array, array, array_fitted, copy_elements, fragment, insert, insert_fitted, middle_of};
 pub use dimension_length::{StretchChange, dimension_stretch, set_dimension_length};

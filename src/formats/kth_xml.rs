@@ -18,8 +18,8 @@ use crate::geometry::polygon::{self, Location};
 use crate::geometry::{COORDINATE_LIMIT_M, Point, Segment, trim_m};
 use crate::labels::Typology;
 use crate::plan::{
-    Builder, CornerId, Joint, Meta, Opening, OpeningKind, Place as OpeningPlace, Room, RoomId, Scale,
-    ScaleOrigin, THICKEST_WALL_M,
+    Builder, CornerId, Joint, Meta, Opening, OpeningKind, Place as OpeningPlace, Room, RoomId, Scale, ScaleOrigin,
+    THICKEST_WALL_M,
 };
 
 /// The most comparisons to find openings' partners and edges. The largest real file needs 12,000.
@@ -358,8 +358,12 @@ impl<'a> Reader<'a> {
                 let Some(other) = found else {
                     let what = match line.target.as_str() {
                         "" => "a portal names no room that it leads to; taken as leading outside".to_owned(),
-                        own if own == space.name => "a portal leads to its own room; taken as leading outside".to_owned(),
-                        other => format!("a portal leads to '{other}', which is not in the file; taken as leading outside"),
+                        own if own == space.name => {
+                            "a portal leads to its own room; taken as leading outside".to_owned()
+                        }
+                        other => {
+                            format!("a portal leads to '{other}', which is not in the file; taken as leading outside")
+                        }
                     };
                     self.note(NoteKind::Healed, line.at, space, &what);
                     joined.push(Joined { stated: vec![stated], sides: [Some(room), None] });
@@ -389,7 +393,8 @@ impl<'a> Reader<'a> {
                     self.note(NoteKind::Skipped, *at, space, &what);
                     continue;
                 }
-                let what = format!("a portal to '{target}' is drawn nowhere; put where the rooms are next to each other");
+                let what =
+                    format!("a portal to '{target}' is drawn nowhere; put where the rooms are next to each other");
                 self.note(NoteKind::Healed, *at, space, &what);
                 joined.push(Joined { stated: Vec::new(), sides: [Some(room), Some(other)] });
             }
@@ -438,9 +443,10 @@ impl<'a> Reader<'a> {
         for (side, all) in [first, second].into_iter().enumerate() {
             for stated in all.iter().zip(&taken[side]).filter(|(_, taken)| !**taken).map(|(stated, _)| *stated) {
                 let beside = |opening: &&mut Joined| {
-                    opening.stated.iter().any(|known| {
-                        known.room != stated.room && alongside(known.segment, stated.segment)
-                    })
+                    opening
+                        .stated
+                        .iter()
+                        .any(|known| known.room != stated.room && alongside(known.segment, stated.segment))
                 };
                 let space = &self.floor.spaces[stated.room];
                 if let Some(opening) = joined.iter_mut().find(beside) {

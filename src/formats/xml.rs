@@ -328,7 +328,13 @@ impl<'a> Notes<'a> {
         1 + self.line_ends.partition_point(|&end| end < at)
     }
 
-    pub(super) fn push(&mut self, kind: NoteKind, at: Option<Offset>, element: impl Into<String>, what: impl Into<String>) {
+    pub(super) fn push(
+        &mut self,
+        kind: NoteKind,
+        at: Option<Offset>,
+        element: impl Into<String>,
+        what: impl Into<String>,
+    ) {
         if self.notes.len() >= NOTE_LIMIT {
             self.left_off += 1;
             return;
@@ -341,7 +347,12 @@ impl<'a> Notes<'a> {
     pub(super) fn unknown(&mut self, unknown: &Unknown) {
         for (name, &(count, at)) in unknown {
             let times = if count == 1 { String::new() } else { format!(" ({count} times)") };
-            self.push(NoteKind::Skipped, Some(at), format!("<{name}>"), format!("is no known element{times}; left out"));
+            self.push(
+                NoteKind::Skipped,
+                Some(at),
+                format!("<{name}>"),
+                format!("is no known element{times}; left out"),
+            );
         }
     }
 

@@ -81,8 +81,7 @@ impl Scheme {
             long.into_iter().find_map(known)
         };
         function.split(['/', '(', ')']).find_map(|part| {
-            let words: Vec<&str> =
-                part.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).collect();
+            let words: Vec<&str> = part.split(|c: char| !c.is_alphabetic()).filter(|word| !word.is_empty()).collect();
             let last_first = || words.iter().rev().copied();
             known(&words.join(" ")).or_else(|| last_first().find_map(known)).or_else(|| last_first().find_map(ending))
         })

@@ -48,7 +48,8 @@ fn a_floor_is_read_at_its_true_scale() {
     assert_eq!((scale.origin, scale.metres_per_unit), (ScaleOrigin::Imported, Some(0.01)));
     let room = |name: &str| plan.rooms().find(|(_, room)| room.name == name).unwrap();
     let area = |name: &str| {
-        let rings: Vec<_> = room(name).1.rings().map(|ring| polygon::signed_area(&plan.ring_points(ring)).abs()).collect();
+        let rings: Vec<_> =
+            room(name).1.rings().map(|ring| polygon::signed_area(&plan.ring_points(ring)).abs()).collect();
         rings[0] - rings[1..].iter().sum::<f64>()
     };
     assert!((area("201") - 3.0 * 3.85).abs() < 1e-9);
@@ -64,7 +65,10 @@ fn a_floor_is_read_at_its_true_scale() {
     widths.sort();
     let (door, double, passage, window) =
         (OpeningKind::Door, OpeningKind::DoubleDoor, OpeningKind::Passage, OpeningKind::Window);
-    assert_eq!(widths, [(door, 85), (door, 90), (door, 120), (double, 140), (passage, 400), (window, 200), (window, 300)]);
+    assert_eq!(
+        widths,
+        [(door, 85), (door, 90), (door, 120), (double, 140), (passage, 400), (window, 200), (window, 300)]
+    );
     let corridor = Joint::Room(room("200").0);
     let doors = plan.openings().filter(|(_, opening)| opening.kind.is_passable());
     assert!(doors.into_iter().all(|(_, opening)| opening.pinned.unwrap().contains(&corridor)));
@@ -78,24 +82,53 @@ fn broken_files_say_what_where_and_what_to_do() {
         floor.replacen(from, to, 1)
     };
     let lines: String = (0..10_001).map(|i| format!("<linesegment x1='{i}' y1='0' x2='{}' y2='0'/>", i + 1)).collect();
-    let portals: String = (0..6000)
-        .map(|i| format!("<linesegment x1='{i}' y1='0' x2='{i}' y2='1' type='Portal' target='N'/>"))
-        .collect();
-    let space = |name: &str| format!("<space name='{name}'><contour>{}</contour></space>", portals.replace('N', if name == "A" { "B" } else { "A" }));
+    let portals: String =
+        (0..6000).map(|i| format!("<linesegment x1='{i}' y1='0' x2='{i}' y2='1' type='Portal' target='N'/>")).collect();
+    let space = |name: &str| {
+        format!(
+            "<space name='{name}'><contour>{}</contour></space>",
+            portals.replace('N', if name == "A" { "B" } else { "A" })
+        )
+    };
     for (name, text, expected) in [
         ("empty", String::new(), "is empty; restore it from a copy"),
-        ("another root", "<svg/>".to_owned(), "line 1: is XML, but no floor of the KTH campus: its root is <svg>; a plan starts with <floor>"),
+        (
+            "another root",
+            "<svg/>".to_owned(),
+            "line 1: is XML, but no floor of the KTH campus: its root is <svg>; a plan starts with <floor>",
+        ),
         ("no rooms", "<floor BuildingName='B'/>".to_owned(), "holds no room; check that this is the whole file"),
         ("cut off", floor[..floor.len() / 2].to_owned(), "restore it from a complete copy"),
-        ("NaN", with("x1=\"0\"", "x1=\"NaN\""), "line 8, space B1_200: x1=\"NaN\" of a line is no number within ±1000000"),
+        (
+            "NaN",
+            with("x1=\"0\"", "x1=\"NaN\""),
+            "line 8, space B1_200: x1=\"NaN\" of a line is no number within ±1000000",
+        ),
         ("infinite", with("y2=\"400\"", "y2=\"inf\""), "space B1_200: y2=\"inf\" of a line is no number"),
-        ("no x2", with(" x2=\"100\"", ""), "line 8, space B1_200: a line lacks one of x1, y1, x2 and y2; correct it by hand"),
-        ("too large", with("PixelDistance=\"2000\"", "PixelDistance=\"3\"").replacen("x1=\"0\"", "x1=\"999999\"", 1), "m from the origin; correct the scale"),
-        ("too many lines", format!("<floor><space><contour>{lines}</contour></space></floor>"), "the contour has more than 10000 lines"),
-        ("too many portals", format!("<floor BuildingName=''>{}{}</floor>", space("A"), space("B")), "has too many portals in rooms with too many corners"),
+        (
+            "no x2",
+            with(" x2=\"100\"", ""),
+            "line 8, space B1_200: a line lacks one of x1, y1, x2 and y2; correct it by hand",
+        ),
+        (
+            "too large",
+            with("PixelDistance=\"2000\"", "PixelDistance=\"3\"").replacen("x1=\"0\"", "x1=\"999999\"", 1),
+            "m from the origin; correct the scale",
+        ),
+        (
+            "too many lines",
+            format!("<floor><space><contour>{lines}</contour></space></floor>"),
+            "the contour has more than 10000 lines",
+        ),
+        (
+            "too many portals",
+            format!("<floor BuildingName=''>{}{}</floor>", space("A"), space("B")),
+            "has too many portals in rooms with too many corners",
+        ),
         ("tags crossed", with("</contour>", "</space>"), "is not well-formed XML"),
     ] {
-        let found = read(text.as_bytes()).map_or_else(|error| error.to_string(), |import| format!("{:?}", import.notes));
+        let found =
+            read(text.as_bytes()).map_or_else(|error| error.to_string(), |import| format!("{:?}", import.notes));
         assert!(found.contains(expected), "{name}: {found:?} lacks {expected:?}");
     }
 }
@@ -161,7 +194,11 @@ fn every_real_floor_is_read_whole() {
         hosted += doors().filter(|(_, opening)| matches!(opening.place, Place::Hosted { .. })).count();
         let windows = text.matches("type=\"Window\"").count();
         let read_windows = plan.openings().len() - doors().count();
-        assert!(read_windows <= windows && read_windows + 2 >= windows, "{}: {read_windows} of {windows} windows", path.display());
+        assert!(
+            read_windows <= windows && read_windows + 2 >= windows,
+            "{}: {read_windows} of {windows} windows",
+            path.display()
+        );
         let functions = plan.rooms().map(|(_, room)| &room.function).filter(|function| !function.is_empty());
         for function in functions {
             named += 1;

@@ -109,8 +109,7 @@ pub struct Group {
 /// When it is not well-formed XML with the root `<building>`, a number is invalid, a list exceeds the
 /// limits above, or a room has no id; the error has the line, the element and a hint.
 pub fn parse(text: &str) -> Result<Document> {
-    let mut parser =
-        Parser { xml: Xml::new(text, "plan of the authors' program"), spaces: 0, portals: 0, segments: 0 };
+    let mut parser = Parser { xml: Xml::new(text, "plan of the authors' program"), spaces: 0, portals: 0, segments: 0 };
     parser.file()
 }
 
@@ -139,7 +138,8 @@ impl<'a> Parser<'a> {
     }
 
     fn building(&mut self, start: &BytesStart<'a>, at: Offset) -> Result<Document> {
-        let mut document = Document { id: self.xml.attribute(start, at, "id")?.unwrap_or_default(), ..Document::default() };
+        let mut document =
+            Document { id: self.xml.attribute(start, at, "id")?.unwrap_or_default(), ..Document::default() };
         while let Some((child, at)) = self.xml.child()? {
             match child.name().as_ref() {
                 "name" => document.name = self.xml.text()?,
@@ -415,4 +415,3 @@ struct RawSegment<'a> {
     /// The bounding box of its two points.
     points: Bounds,
 }
-

@@ -11,10 +11,10 @@ use serde_json::{Map, Value};
 use self::document::{Document, Floor, Portal, Space};
 use super::options::METRES_PER_PIXEL;
 use super::point_openings::{self, Ring};
+use super::xml::{DAMAGED_HINT, Notes, root_name};
 use super::{
     Format, FormatOption, Head, Import, Importer, NoteKind, Options, Place, Preview, ReadError, Recognition, Source,
 };
-use super::xml::{DAMAGED_HINT, Notes, root_name};
 use super::{building_name, text};
 use crate::geometry::{Bounds, COORDINATE_LIMIT_M, Point, Segment, Vector};
 use crate::labels::Typology;
