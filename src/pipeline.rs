@@ -231,7 +231,7 @@ impl Derived {
         // Compared here, beside the frames, for the panel that shows it.
         predictions.as_ref().map(Predictions::acquaintance);
         let drawing = drawing.with_predictions(&labels);
-        let reading_order = reading_order(&analysis);
+        let reading_order = analysis.shapes.reading_order();
         let openings = RTree::bulk_load(openings);
         let leaf = |(id, [hinge, shut, tip]): (OpeningId, [Point; 3])| LeafPlace { id, hinge, shut, tip };
         let leaves = RTree::bulk_load(drawing.sweeps().map(leaf).collect());
@@ -264,7 +264,7 @@ impl Derived {
 
     /// The rooms with a boundary from the top left, column by column.
     pub fn column_order(&self) -> Vec<RoomId> {
-        in_lines(&self.analysis, |bounds| (bounds.min.x, bounds.width()), |bounds| -bounds.max.y)
+        self.analysis.shapes.column_order()
     }
 
     /// The elements of the plan whose boxes meet a box, corners included; `None` where they are not known.
@@ -317,34 +317,4 @@ impl Derived {
             self.index.edges_near(point, reach_m / 2.0).into_iter().filter_map(|edge| edge.wall).map(ElementId::Wall);
         openings.chain(walls).chain(leaves).chain(rooms).collect()
     }
-}
-
-/// Rooms from the top left, line by line.
-fn reading_order(analysis: &Analysis) -> Vec<RoomId> {
-    in_lines(analysis, |bounds| (-bounds.max.y, bounds.height()), |bounds| bounds.min.x)
-}
-
-/// Rooms in lines, and in order within each. `across` returns where a room begins across the lines and
-/// how far it extends: a line is as wide as half a typical room.
-fn in_lines(
-    analysis: &Analysis,
-    across: impl Fn(&Bounds) -> (f64, f64),
-    along: impl Fn(&Bounds) -> f64,
-) -> Vec<RoomId> {
-    let mut rooms: Vec<(RoomId, Bounds)> = analysis
-        .shapes
-        .all()
-        .iter()
-        .filter(|shape| !shape.bounds.is_empty())
-        .map(|shape| (shape.id, shape.bounds))
-        .collect();
-    let mut extents: Vec<f64> = rooms.iter().map(|(_, bounds)| across(bounds).1).collect();
-    extents.sort_by(f64::total_cmp);
-    let line_m = extents.get(extents.len() / 2).map_or(1.0, |extent| (extent / 2.0).max(0.1));
-    let line = |bounds: &Bounds| (across(bounds).0 / line_m).ceil() as i64;
-    rooms.sort_by(|(p, a), (q, b)| {
-        let within = along(a).total_cmp(&along(b)).then(across(a).0.total_cmp(&across(b).0));
-        line(a).cmp(&line(b)).then(within).then(p.cmp(q))
-    });
-    rooms.into_iter().map(|(id, _)| id).collect()
 }

@@ -1,6 +1,8 @@
 //! Predictions for the rooms of a plan: which model fits the plan, and what it predicts for each room.
 //! The one function behind the window, the command line and scripts; fast enough to run after every edit.
 
+pub mod explored;
+
 use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::{Arc, OnceLock};

@@ -68,6 +68,7 @@ impl App {
         self.session.check_findings(&context);
         self.session.compare_with_theirs();
         self.session.drop_stale_messages();
+        self.session.drive_robot(&context);
         self.grant_wishes(&context);
         panels::show(self, ui);
         self.grant_wishes(&context);

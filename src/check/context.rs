@@ -1,3 +1,5 @@
+use std::collections::BTreeMap;
+
 use rstar::primitives::{GeomWithData, Rectangle};
 
 use super::FINDINGS_LIMIT;
@@ -8,9 +10,9 @@ use crate::features::{Analysis, RoomStatus};
 use crate::geometry::segments::SegmentIndex;
 use crate::geometry::{Bounds, Point, Segment, polygon};
 use crate::labels::Schemes;
-use crate::plan::titles::{OpeningName, RoomName};
-use crate::plan::{Opening, OpeningId, Plan, RoomId, WallId};
-use crate::topology::RoomShape;
+use crate::plan::titles::{OpeningName, RoomName, WallName, numbers_of_unnamed};
+use crate::plan::{Joint, Opening, OpeningId, Plan, Room, RoomId, WallId};
+use crate::topology::{RoomShape, sides_by_geometry};
 
 /// What the checks look at: the plan, its analysis, and intermediate results shared by several checks.
 pub struct Context<'a> {
@@ -32,6 +34,8 @@ pub struct Context<'a> {
     /// How many times too long the plan's lengths seem, judging by its rooms' areas, and from how many
     /// rooms, see `sizes::length_factor`.
     pub length_factor: Option<(f64, usize)>,
+    /// The numbers of the rooms without a name.
+    numbers: BTreeMap<RoomId, usize>,
 }
 
 /// Two rooms that share area.
@@ -67,11 +71,8 @@ pub struct PlacedOpening<'a> {
     pub segment: Segment,
 }
 
-impl PlacedOpening<'_> {
-    pub fn name(&self) -> OpeningName {
-        OpeningName::new(self.id, self.opening)
-    }
-}
+/// What lies beside a wall is looked for so far from its face, in metres.
+const BESIDE_M: f64 = 0.05;
 
 /// The finest drawing tolerance in metres: more than snapping to the millimetre and rounding leave, less
 /// than any wall finish is thick.
@@ -110,6 +111,7 @@ impl<'a> Context<'a> {
                     Some(PlacedOpening { id, opening, segment })
                 })
                 .collect(),
+            numbers: numbers_of_unnamed(plan, &analysis.shapes.reading_order()),
             length_factor: sizes::length_factor(schemes, plan.meta().typology.as_ref(), labelled_areas),
         }
     }
@@ -128,14 +130,47 @@ impl<'a> Context<'a> {
     pub fn name(&self, room: usize) -> RoomName {
         let id = self.shapes()[room].id;
         self.plan.room(id).map_or_else(
-            || RoomName { id, source_id: String::new(), name: String::new(), function: String::new() },
-            |room| RoomName::new(id, room),
+            || RoomName { id, source_id: String::new(), name: String::new(), function: String::new(), number: None },
+            |room| self.name_of_room(id, room),
         )
     }
 
     /// A room's name, by id; `None` if there is no such room.
     pub fn name_of(&self, id: RoomId) -> Option<RoomName> {
-        Some(RoomName::new(id, self.plan.room(id)?))
+        Some(self.name_of_room(id, self.plan.room(id)?))
+    }
+
+    /// What a room is called.
+    pub fn name_of_room(&self, id: RoomId, room: &Room) -> RoomName {
+        RoomName::new(id, room, self.numbers.get(&id).copied())
+    }
+
+    /// What an opening is called.
+    pub fn opening_name(&self, id: OpeningId, opening: &Opening) -> OpeningName {
+        let sides = opening.pinned.unwrap_or_else(|| sides_by_geometry(self.plan, &self.analysis.shapes, opening));
+        let mut rooms: Vec<RoomId> = sides.into_iter().filter_map(Joint::room).collect();
+        rooms.dedup();
+        OpeningName::new(id, opening, rooms.into_iter().filter_map(|room| self.name_of(room)).collect())
+    }
+
+    /// What a wall is called.
+    pub fn wall_name(&self, id: WallId) -> WallName {
+        let wall = self.plan.wall(id);
+        let found = wall.and_then(|wall| Some((self.plan.wall_segment(wall)?, wall.thickness_m)));
+        let sides = found.and_then(|(axis, thickness_m)| {
+            let beside = axis.vector().left().unit()? * (thickness_m / 2.0 + BESIDE_M);
+            // The smallest room, where one lies in another.
+            let room = |at: Point| {
+                let found = self.analysis.shapes.at(at).into_iter();
+                found.min_by(|&p, &q| self.shapes()[p].area_m2().total_cmp(&self.shapes()[q].area_m2()))
+            };
+            Some([room(axis.midpoint() + beside), room(axis.midpoint() + -beside)])
+        });
+        let sides = sides.unwrap_or_default();
+        let mut rooms: Vec<usize> = sides.into_iter().flatten().collect();
+        rooms.dedup();
+        let rooms = rooms.into_iter().map(|room| self.name(room)).collect();
+        WallName { id, rooms, is_outer: sides.iter().any(Option::is_none) }
     }
 
     /// Whether a room, by index, is one in the paper's sense: not a balcony or a shaft.

@@ -81,8 +81,7 @@ impl Check for CornersNearlyCoincide {
     }
 
     fn what(&self) -> String {
-        let [one, other] = self.corners;
-        format!("corners {one} and {other} lie {:.1} mm apart", 1000.0 * self.distance_m)
+        format!("two corners lie {:.1} mm apart", 1000.0 * self.distance_m)
     }
 
     fn figures(&self) -> Vec<(&'static str, f64)> {

@@ -35,7 +35,7 @@ impl Check for FunctionIsUnknown {
         for (index, (id, room)) in context.plan.rooms().enumerate() {
             let function = normalised_function(&room.function);
             if !function.is_empty() && context.status(index) == RoomStatus::Unlabelled {
-                by_function.entry(function).or_default().push(RoomName::new(id, room));
+                by_function.entry(function).or_default().push(context.name_of_room(id, room));
             }
         }
         by_function

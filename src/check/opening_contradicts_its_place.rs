@@ -43,7 +43,12 @@ impl Check for OpeningContradictsItsPlace {
                 .index_of(missing)
                 .is_some_and(|index| context.distance_to_room(at, index, THICKEST_WALL_M).is_some());
             if let (true, Some(stated), Some(instead)) = (is_near, context.name_of(missing), context.name_of(instead)) {
-                found.push(Self { opening: placed.name(), stated, found: instead, at });
+                found.push(Self {
+                    opening: context.opening_name(placed.id, placed.opening),
+                    stated,
+                    found: instead,
+                    at,
+                });
             }
         }
         found

@@ -38,7 +38,7 @@ impl Check for OpeningIsFarFromItsRooms {
                     continue;
                 }
                 found.push(Self {
-                    opening: placed.name(),
+                    opening: context.opening_name(placed.id, placed.opening),
                     room: context.name(index),
                     distance_m: context.distance_to_room(at, index, LOOK_M),
                     at,

@@ -37,7 +37,12 @@ impl Check for OpeningIsWiderThanItsWall {
                 .filter_map(|end| beyond_walls_m(&context.edges.index, &context.walls.index, placed.segment, end))
                 .fold(0.0, f64::max);
             if excess_m > TOLERATED_EXCESS_M.max(context.drawing_tolerance_m) {
-                found.push(Self { opening: placed.name(), width_m, excess_m, at: placed.segment.midpoint() });
+                found.push(Self {
+                    opening: context.opening_name(placed.id, placed.opening),
+                    width_m,
+                    excess_m,
+                    at: placed.segment.midpoint(),
+                });
             }
         }
         found

@@ -29,7 +29,7 @@ impl Check for OpeningJoinsARoomToItself {
                 let (Joint::Room(room), true) = (connection.sides[0], connection.joins_nothing()) else { return None };
                 let opening = context.plan.opening(connection.opening)?;
                 Some(Self {
-                    opening: OpeningName::new(connection.opening, opening),
+                    opening: context.opening_name(connection.opening, opening),
                     room: context.name_of(room)?,
                     at: context.plan.opening_segment(opening).map(|segment| segment.midpoint()),
                     pinned: connection.pinned,

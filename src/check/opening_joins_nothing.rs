@@ -27,7 +27,7 @@ impl Check for OpeningJoinsNothing {
             .filter_map(|connection| {
                 let opening = context.plan.opening(connection.opening)?;
                 Some(Self {
-                    opening: OpeningName::new(connection.opening, opening),
+                    opening: context.opening_name(connection.opening, opening),
                     at: context.plan.opening_segment(opening).map(|segment| segment.midpoint()),
                     pinned: connection.pinned,
                 })

@@ -73,7 +73,15 @@ impl Check for OpeningsOverlap {
                 let is_repeat = placed.opening.kind == other.opening.kind
                     && placed.opening.pinned == other.opening.pinned
                     && are_same(placed.segment, other.segment);
-                found.push(Self { openings: [placed.name(), other.name()], overlap_m: to - from, at, is_repeat });
+                found.push(Self {
+                    openings: [
+                        context.opening_name(placed.id, placed.opening),
+                        context.opening_name(other.id, other.opening),
+                    ],
+                    overlap_m: to - from,
+                    at,
+                    is_repeat,
+                });
                 if found.len() >= FINDINGS_LIMIT {
                     return found;
                 }

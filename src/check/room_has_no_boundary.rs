@@ -21,7 +21,7 @@ impl Check for RoomHasNoBoundary {
             .plan
             .rooms()
             .filter(|(_, room)| !room.has_boundary())
-            .map(|(id, room)| Self { room: RoomName::new(id, room) })
+            .map(|(id, room)| Self { room: context.name_of_room(id, room) })
             .collect()
     }
 

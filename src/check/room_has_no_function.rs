@@ -29,7 +29,7 @@ impl Check for RoomHasNoFunction {
             .map(|(index, (id, room))| {
                 let shape = &context.shapes()[index];
                 let at = (!shape.outer.is_empty()).then(|| shape.bounds.center());
-                Self { room: RoomName::new(id, room), at }
+                Self { room: context.name_of_room(id, room), at }
             })
             .collect()
     }

@@ -27,7 +27,7 @@ impl Check for RoomNameRepeats {
             let name = room.name.trim();
             // Names without a digit describe a kind of room ('Office', 'WC') rather than identify one.
             if name.chars().any(char::is_numeric) {
-                by_name.entry(name).or_default().push(RoomName::new(id, room));
+                by_name.entry(name).or_default().push(context.name_of_room(id, room));
             }
         }
         by_name

@@ -3,12 +3,13 @@ use std::collections::BTreeMap;
 use super::{Check, Context, Kind, Place, Severity};
 use crate::geometry::segments::SegmentIndex;
 use crate::geometry::{Bounds, Point, Segment, TOUCH_M};
+use crate::plan::titles::WallName;
 use crate::plan::{CornerId, ElementId, WallId};
 
 /// A wall with an end that meets nothing: no room is enclosed there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WallEndsFreely {
-    pub wall: WallId,
+    pub wall: WallName,
     /// The ends that meet nothing and their positions; one or both.
     pub ends: Vec<(CornerId, Point)>,
 }
@@ -50,7 +51,7 @@ impl Check for WallEndsFreely {
             let length_m = plan.wall_segment(wall).map_or(0.0, Segment::length);
             let is_pier = ends.len() == 2 && length_m <= PIER_RATIO * wall.thickness_m;
             if !ends.is_empty() && !is_pier {
-                found.push(Self { wall: id, ends });
+                found.push(Self { wall: context.wall_name(id), ends });
             }
         }
         found
@@ -59,7 +60,7 @@ impl Check for WallEndsFreely {
     fn place(&self) -> Place<'_> {
         let corners = self.ends.iter().map(|&(corner, _)| ElementId::Corner(corner));
         Place {
-            elements: [ElementId::Wall(self.wall)].into_iter().chain(corners).collect(),
+            elements: [ElementId::Wall(self.wall.id)].into_iter().chain(corners).collect(),
             rooms: Vec::new(),
             at: self.ends.first().map(|&(_, at)| at),
         }
@@ -67,8 +68,8 @@ impl Check for WallEndsFreely {
 
     fn what(&self) -> String {
         match self.ends.as_slice() {
-            [(corner, _)] => format!("wall {} meets nothing at its corner {corner}", self.wall),
-            _ => format!("wall {} meets nothing at either end", self.wall),
+            [_] => format!("{} meets nothing at one end", self.wall),
+            _ => format!("{} meets nothing at either end", self.wall),
         }
     }
 }

@@ -2,14 +2,14 @@ use super::{Check, Context, FINDINGS_LIMIT, Kind, Place, Severity};
 use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
 use crate::geometry::segments::are_parallel;
 use crate::geometry::{Point, Segment};
-use crate::plan::titles::OpeningName;
-use crate::plan::{ElementId, OpeningKind, WallId};
+use crate::plan::titles::{OpeningName, WallName};
+use crate::plan::{ElementId, OpeningKind};
 
 /// A wall that ends in a door or passage, or goes through it: nobody passes there, and the opening leads to
 /// the room on one side of the wall only.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WallStandsInAnOpening {
-    pub wall: WallId,
+    pub wall: WallName,
     pub opening: OpeningName,
     /// How much of the opening lies to the nearer side of the wall's centre line, in metres.
     pub beside_m: f64,
@@ -47,7 +47,12 @@ impl Check for WallStandsInAnOpening {
                 if beside_m <= half_m.max(context.drawing_tolerance_m) {
                     continue;
                 }
-                found.push(Self { wall: walls.ids[wall], opening: placed.name(), beside_m, at });
+                found.push(Self {
+                    wall: context.wall_name(walls.ids[wall]),
+                    opening: context.opening_name(placed.id, placed.opening),
+                    beside_m,
+                    at,
+                });
                 if found.len() >= FINDINGS_LIMIT {
                     return found;
                 }
@@ -62,14 +67,14 @@ impl Check for WallStandsInAnOpening {
 
     fn place(&self) -> Place<'_> {
         Place {
-            elements: vec![ElementId::Wall(self.wall), ElementId::Opening(self.opening.id)],
+            elements: vec![ElementId::Wall(self.wall.id), ElementId::Opening(self.opening.id)],
             rooms: Vec::new(),
             at: Some(self.at),
         }
     }
 
     fn what(&self) -> String {
-        format!("wall {} stands in {}, {:.2} m from its end", self.wall, self.opening, self.beside_m)
+        format!("{} stands in {}, {:.2} m from its end", self.wall, self.opening, self.beside_m)
     }
 
     fn figures(&self) -> Vec<(&'static str, f64)> {

@@ -4,12 +4,13 @@ use super::{Check, Context, FINDINGS_LIMIT, Kind, Place, Severity};
 use crate::edit::{self, EditError};
 use crate::geometry::segments::{are_parallel, common_stretch};
 use crate::geometry::{Point, Segment};
+use crate::plan::titles::WallName;
 use crate::plan::{CornerId, ElementId, Place as OpeningPlace, Plan, WallId, ordered};
 
 /// Two walls in the same place: one is drawn twice, or extends over the end of the other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WallsOverlap {
-    pub walls: [WallId; 2],
+    pub walls: [WallName; 2],
     pub overlap_m: f64,
     pub at: Point,
     /// The wall that lies in the other all along, is no thicker, and holds no opening.
@@ -59,7 +60,8 @@ impl Check for WallsOverlap {
                 if let Some((overlap_m, at)) = overlap(segment, walls.index.get(j)) {
                     let within = [(j, i), (i, j)].into_iter().find(|&(one, other)| is_within(one, other, overlap_m));
                     let superfluous = within.map(|(one, _)| walls.ids[one]);
-                    found.push(Self { walls: [walls.ids[i], walls.ids[j]], overlap_m, at, superfluous });
+                    let names = [i, j].map(|index| context.wall_name(walls.ids[index]));
+                    found.push(Self { walls: names, overlap_m, at, superfluous });
                     if found.len() >= FINDINGS_LIMIT {
                         return found;
                     }
@@ -74,7 +76,11 @@ impl Check for WallsOverlap {
     }
 
     fn place(&self) -> Place<'_> {
-        Place { elements: self.walls.map(ElementId::Wall).to_vec(), rooms: Vec::new(), at: Some(self.at) }
+        Place {
+            elements: self.walls.iter().map(|wall| ElementId::Wall(wall.id)).collect(),
+            rooms: Vec::new(),
+            at: Some(self.at),
+        }
     }
 
     fn fix_title(&self) -> Option<&'static str> {
@@ -87,8 +93,12 @@ impl Check for WallsOverlap {
     }
 
     fn what(&self) -> String {
-        let [one, other] = self.walls;
-        format!("walls {one} and {other} share {:.2} m", self.overlap_m)
+        let [one, other] = self.walls.each_ref().map(WallName::to_string);
+        // Of two in one place both have the same name as a rule.
+        match one == other {
+            true => format!("{one} is drawn twice over {:.2} m", self.overlap_m),
+            false => format!("{one} and {other} share {:.2} m", self.overlap_m),
+        }
     }
 
     fn figures(&self) -> Vec<(&'static str, f64)> {

@@ -1,5 +1,4 @@
 use crate::classify::models::Models;
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -13,8 +12,8 @@ use super::progress::with_progress;
 use super::{CliError, Outcome, Subcommand, Terminal, numbers};
 use crate::base::units::parse_number;
 use crate::base::work::{Cancelled, Work};
-use crate::dataset::RoomNetwork;
 use crate::draw::line_map::LineMapDrawing;
+use crate::draw::scene::Scene;
 use crate::draw::sheet::{self, Furniture, PageSize};
 use crate::draw::{Drawing, Fill, Layers, Style, Theme, png, svg};
 use crate::features::{NeighbourLabels, RoomStatus, analyse};
@@ -22,11 +21,12 @@ use crate::formats;
 use crate::geometry::areas::{self, Shapes};
 use crate::geometry::{Point, Segment, trim_m};
 use crate::labels::{Label, Schemes};
-use crate::plan::{LabelOrigin, Meta, Plan, RoomLabel, Scale, ScaleOrigin};
+use crate::plan::Plan;
 use crate::predict::Predictor;
+use crate::predict::explored::{explored_meta, labelled};
 use crate::robot::doorways::DoorwayOptions;
 use crate::robot::explore::{Activity, Exploration, RobotOptions};
-use crate::robot::explored_plan::{ExploredPlan, Said, plan as plan_of};
+use crate::robot::explored_plan::ExploredPlan;
 use crate::robot::frontiers::Frontier;
 use crate::robot::odometry::OdometryNoise;
 use crate::robot::rooms::{FoundRooms, RoomOptions};
@@ -118,7 +118,10 @@ impl Subcommand for ExploreCommand {
             found: exploration.rooms(&options),
             poses: exploration.poses(),
         };
-        let explored = labelled(&map, exploration.world_from_map, truth)?;
+        let (predictor, models) = (Predictor::default(), Models::bundled());
+        let meta = explored_meta(truth.meta());
+        let made = labelled(&map.found, &map.frontiers, exploration.world_from_map, meta, &predictor, &models);
+        let explored = made.map_err(|error| CliError::new(error.to_string()))?.explored;
         let areas: Vec<Shapes> = map.found.rooms.iter().map(|room| moved(&room.shapes(), &exploration)).collect();
         let edges: Vec<(usize, usize)> =
             map.found.sides.iter().filter_map(|sides| Some((sides[0]?, sides[1]?))).collect();
@@ -237,19 +240,25 @@ impl ExploreCommand {
         let segments: Vec<Segment> = map.segments.iter().map(to_world).collect();
         let path: Vec<Point> = map.poses.iter().map(|pose| world_from_map.apply(pose.position())).collect();
         let free = moved(exploration.free.shapes(), exploration);
-        let scene = LineMapDrawing { segments: &segments, free: &free, path: &path }.scene(theme, PICTURE_SIDE_PX);
+        let scene =
+            LineMapDrawing { segments: &segments, free: &free, path: &path }.page(theme, PICTURE_SIDE_PX, &name);
         write(&format!("{name}.map.png"), &png::png(&scene)?)?;
         write(&format!("{name}.map.svg"), svg::svg(&scene).as_bytes())?;
 
-        let analysis = analyse(&explored.plan, &Schemes::bundled(), NeighbourLabels::True);
-        let said = explored.plan.rooms().filter_map(|(id, room)| Some((id, room.label?.label))).collect();
-        let drawing = Drawing::new(&explored.plan, &analysis).with_predictions(&said);
-        let layers = Layers { graph: true, ..Layers::default() };
-        let style = Style { theme, fill: Fill::Prediction, layers, ..Style::default() };
-        let scene = sheet::page(&drawing, &style, PageSize::Longest(PICTURE_SIDE_PX), Furniture::default());
+        let scene = rooms_scene(&explored.plan, theme, PICTURE_SIDE_PX);
         write(&format!("{name}.rooms.png"), &png::png(&scene)?)?;
         Ok(())
     }
+}
+
+/// The picture of a robot's plan: rooms coloured by their predicted labels, and the graph.
+pub(super) fn rooms_scene(plan: &Plan, theme: Theme, longest_px: f64) -> Scene {
+    let analysis = analyse(plan, &Schemes::bundled(), NeighbourLabels::True);
+    let said = plan.rooms().filter_map(|(id, room)| Some((id, room.label?.label))).collect();
+    let drawing = Drawing::new(plan, &analysis).with_predictions(&said);
+    let layers = Layers { graph: true, ..Layers::default() };
+    let style = Style { theme, fill: Fill::Prediction, layers, ..Style::default() };
+    sheet::page(&drawing, &style, PageSize::Longest(longest_px), Furniture::default())
 }
 
 /// Reads the four alphas of the motion model.
@@ -294,58 +303,6 @@ fn moved(shapes: &Shapes, exploration: &Exploration) -> Shapes {
         points.map(|point| [point.x, point.y]).collect()
     };
     shapes.iter().map(|shape| shape.iter().map(ring).collect()).collect()
-}
-
-/// The plan of the map with predicted labels: of each room, and of what lies behind each frontier.
-fn labelled(map: &Map, world_from_map: Pose, truth: &Plan) -> Result<ExploredPlan, CliError> {
-    let of = &truth.meta();
-    let meta = Meta {
-        name: of.name.clone(),
-        building: of.building.clone(),
-        storey: of.storey.clone(),
-        typology: of.typology.clone(),
-        scale: Scale {
-            origin: ScaleOrigin::Measured,
-            note: "explored by a simulated robot".to_owned(),
-            ..Scale::default()
-        },
-        source: "explored by a simulated robot".to_owned(),
-        licence: of.licence.clone(),
-        ..Meta::default()
-    };
-    let make = |said: &Said| {
-        plan_of(&map.found, &map.frontiers, world_from_map, meta.clone(), said).map_err(|violations| {
-            let first = violations.first().map(ToString::to_string).unwrap_or_default();
-            CliError::new(format!("the rooms found do not make a plan: {first}; please report this with the seed"))
-        })
-    };
-    let bare = make(&Said::default())?;
-    let analysis = analyse(&bare.plan, &Schemes::bundled(), NeighbourLabels::True);
-    let mut network = RoomNetwork::of(&bare.plan, &analysis);
-    // A robot's `a` is the mean of two quadrilaterals, not the polygon's area.
-    let measured: BTreeMap<_, _> = bare.rooms.iter().zip(&map.found.rooms).map(|(id, room)| (*id, room)).collect();
-    for room in &mut network.rooms {
-        if let Some(found) = measured.get(&room.id) {
-            room.area_m2 = found.area_m2;
-        }
-    }
-    let known = vec![None; network.rooms.len()];
-    let predictions = Predictor::default().predict(network, &known, None, &Models::bundled())?;
-    let said_of = predictions.labels();
-    let label = |id| said_of.get(id).map(|&label| RoomLabel { label, origin: LabelOrigin::Prediction });
-    let behind: BTreeMap<_, _> = predictions.unknown().into_iter().map(|(_, opening, said)| (opening, said)).collect();
-    let frontier = |opening: &Option<crate::plan::OpeningId>| {
-        let said = behind.get(opening.as_ref()?)?;
-        let likely = said.label();
-        let value = json!({
-            "behind": likely.name(),
-            "probability": (1e4 * said.probability(likely)).round() / 1e4,
-        });
-        Some(Arc::new(serde_json::Map::from_iter([("frontier".to_owned(), value)])))
-    };
-    let said =
-        Said { labels: bare.rooms.iter().map(label).collect(), behind: bare.frontiers.iter().map(frontier).collect() };
-    make(&said)
 }
 
 /// The number of found rooms whose true label is known that are labelled correctly, and their total.

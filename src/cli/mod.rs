@@ -31,6 +31,7 @@ mod render;
 mod repeats;
 #[cfg(feature = "gui")]
 mod replay;
+mod robot_study;
 mod scales;
 mod segment;
 mod suspects;
@@ -66,6 +67,7 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<explore::ExploreCommand>(),
     entry::<map::MapCommand>(),
     entry::<segment::SegmentCommand>(),
+    entry::<robot_study::RobotStudyCommand>(),
     #[cfg(feature = "gui")]
     entry::<replay::ReplayCommand>(),
     #[cfg(feature = "gui")]

@@ -77,21 +77,44 @@ pub fn group(id: DimensionId, line: &DimensionLine, ink: Rgba, style: &Style, vi
         let slash = (along + above) * px(SLASH_PX);
         items.push(stroke(vec![on_line + -slash, on_line + slash], 1.75));
     }
-    let size_px = (style.text_px * FIGURE_SIZE).max(SMALLEST_TEXT_PX.min(style.text_px));
-    let mut is_raised = false;
-    for (pair, length_m) in line.ticks.windows(2).zip(line.lengths_m()) {
-        let content = style.units.dimension(length_m);
-        let width_px = Font::of(Weight::Regular).width_px(&content, size_px);
-        let is_tight = width_px + 2.0 > length_m * view.px_per_m;
-        // Between slashes that are close the figure stands higher, and every other one higher still.
-        let level = if !is_tight { 0.0 } else { 1.0 + f64::from(u8::from(is_raised)) };
-        is_raised = is_tight && !is_raised;
-        items.push(figure(pair[0].1.midpoint(pair[1].1), along, level, content, size_px, ink, style));
-    }
+    items.extend(figures(line, ink, style, view.px_per_m).into_iter().map(Item::Text));
     let title =
         format!("Dimension: {}", line.lengths_m().map(|m| style.units.dimension(m)).collect::<Vec<_>>().join(" + "));
     Group { element: id.to_string(), title, ..Group::new(Layer::Dimensions, Frame::Plan, items) }
 }
+
+/// The figures of a chain, one a stretch.
+fn figures(line: &DimensionLine, ink: Rgba, style: &Style, px_per_m: f64) -> Vec<Text> {
+    let along = reading_direction(line.along);
+    let size_px = (style.text_px * FIGURE_SIZE).max(SMALLEST_TEXT_PX.min(style.text_px));
+    let mut is_raised = false;
+    let stretches = line.ticks.windows(2).zip(line.lengths_m());
+    let placed = stretches.map(|(pair, length_m)| {
+        let content = style.units.dimension(length_m);
+        let width_px = Font::of(Weight::Regular).width_px(&content, size_px);
+        let is_tight = width_px + 2.0 > length_m * px_per_m;
+        // Between slashes that are close the figure stands higher, and every other one higher still.
+        let level = if !is_tight { 0.0 } else { 1.0 + f64::from(u8::from(is_raised)) };
+        is_raised = is_tight && !is_raised;
+        figure(pair[0].1.midpoint(pair[1].1), along, level, content, size_px, ink, style)
+    });
+    placed.collect()
+}
+
+/// The stretch of a chain whose figure is at a point, in order along the line.
+pub fn figure_at(line: &DimensionLine, point: Point, style: &Style, px_per_m: f64) -> Option<usize> {
+    figures(line, style.palette().ink, style, px_per_m).iter().position(|text| {
+        // On the screen, y down, from the text's anchor: the middle of its baseline.
+        let way = (point - text.at) * px_per_m;
+        let off = Vector::new(way.x, -way.y) - text.offset_px;
+        let (across_px, up_px) = if text.upright { (off.y, -off.x) } else { (off.x, -off.y) };
+        let half_px = Font::of(text.weight).width_px(&text.content, text.size_px) / 2.0;
+        across_px.abs() <= half_px + NEAR_PX && (-NEAR_PX..=text.size_px + NEAR_PX).contains(&up_px)
+    })
+}
+
+/// A click so near to a figure is on it, in pixels.
+const NEAR_PX: f64 = 2.0;
 
 /// The direction in which figures on a line are read: to the right, or upwards.
 fn reading_direction(along: Vector) -> Vector {
@@ -99,7 +122,7 @@ fn reading_direction(along: Vector) -> Vector {
 }
 
 /// A figure above the middle of its stretch, `level` lines of text further away.
-fn figure(at: Point, along: Vector, level: f64, content: String, size_px: f64, ink: Rgba, style: &Style) -> Item {
+fn figure(at: Point, along: Vector, level: f64, content: String, size_px: f64, ink: Rgba, style: &Style) -> Text {
     let off_px = FIGURE_PX + level * size_px;
     let upright = along.x.abs() <= SQUARE;
     let is_level = along.y.abs() <= SQUARE;
@@ -114,7 +137,7 @@ fn figure(at: Point, along: Vector, level: f64, content: String, size_px: f64, i
         let centre = Vector::new(above.x, -above.y) * (off_px + size_px);
         Vector::new(centre.x, centre.y + size_px * 0.35)
     };
-    Item::Text(Text {
+    Text {
         at,
         offset_px,
         content,
@@ -125,7 +148,7 @@ fn figure(at: Point, along: Vector, level: f64, content: String, size_px: f64, i
         halo: (style.halo || level > 0.0 || !(upright || is_level)).then(|| style.palette().halo),
         anchor: Anchor::Middle,
         upright,
-    })
+    }
 }
 
 #[cfg(test)]

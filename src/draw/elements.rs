@@ -29,6 +29,8 @@ pub(super) struct RoomDrawing {
     pub bounds: Bounds,
     /// The middle of the room where it is widest: the place for its name and its graph node.
     pub centre: Point,
+    /// Where its texts are placed by hand.
+    pub text_at: Option<Point>,
     /// Indices of the rooms painted over it: smaller ones that overlap its bounding box.
     pub above: Vec<usize>,
     /// Indices of the openings that overlap its bounding box.

@@ -22,6 +22,7 @@ pub mod palette;
 pub mod paper;
 pub mod pdf;
 pub mod png;
+mod robot_colours;
 pub mod scene;
 pub mod sheet;
 mod style;
@@ -31,8 +32,9 @@ mod tiles;
 mod walls;
 
 pub use colour::Rgba;
-pub use drawing::Drawing;
+pub use drawing::{Drawing, FromAfar};
 pub use openings::PlacedOpening;
 pub use palette::{LabelColours, Palette, Theme};
+pub use robot_colours::RobotColours;
 pub use scene::{Anchor, Dash, Frame, Group, Item, Layer, Length, Scene, Text, View, Weight};
 pub use style::{Fill, Grid, Layers, SMALLEST_TEXT_PX, Style};

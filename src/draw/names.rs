@@ -8,7 +8,7 @@ use super::scene::{Anchor, Frame, Group, Item, Layer, Text, View, Weight};
 use super::walls::Faces;
 use super::{Rgba, SMALLEST_TEXT_PX, Style};
 use crate::geometry::raster::Raster;
-use crate::geometry::{Point, Segment, Vector, polygon};
+use crate::geometry::{Bounds, Point, Segment, Vector, polygon};
 use crate::labels::function_title;
 
 /// A summed-area table over a raster: the sum of any box takes four look-ups.
@@ -114,14 +114,22 @@ pub(super) fn group(around: &Around<'_>, room: usize, floor: Rgba, style: &Style
 
 /// Whether the smallest text could fit into the bounding box of a room.
 pub(super) fn may_fit(room: &RoomDrawing, view: &View) -> bool {
-    let (width_px, height_px) = (room.bounds.width() * view.px_per_m, room.bounds.height() * view.px_per_m);
-    width_px.max(height_px) >= 2.0 * SMALLEST_TEXT_PX && width_px.min(height_px) >= SMALLEST_TEXT_PX
+    view.px_per_m >= fits_from_px_per_m(room.bounds)
+}
+
+/// The zoom, in pixels a metre, from which on the smallest text could fit into a box.
+pub(super) fn fits_from_px_per_m(bounds: Bounds) -> f64 {
+    let (width_m, height_m) = (bounds.width(), bounds.height());
+    (2.0 * SMALLEST_TEXT_PX / width_m.max(height_m)).max(SMALLEST_TEXT_PX / width_m.min(height_m))
 }
 
 /// The text of a room where it fits best; `None` if it fits nowhere.
 fn place(around: &Around<'_>, index: usize, style: &Style, view: &View, floor: Rgba) -> Option<Vec<Item>> {
     let room = &around.rooms[index];
     let space = Space::new(around, index, style, view);
+    if let Some(at) = room.text_at {
+        return placed_by_hand(room, at, &space, style, floor);
+    }
     for blocks in blocks(room, style) {
         // Clear of door swings if possible; otherwise a halo keeps the letters clear of the arcs.
         for may_be_swept in [false, true] {
@@ -138,6 +146,21 @@ fn place(around: &Around<'_>, index: usize, style: &Style, view: &View, floor: R
         }
     }
     None
+}
+
+/// The text of a room at the place that a person gave it: as large as is free there or, where nothing is, as small as
+/// can be read.
+fn placed_by_hand(room: &RoomDrawing, at: Point, space: &Space, style: &Style, floor: Rgba) -> Option<Vec<Item>> {
+    let [all, ..] = blocks(room, style);
+    // No upright text: what is placed by hand is read where it is.
+    let level = || all.iter().filter(|block| !block.upright);
+    let fits = level().find(|block| space.is_free(block, at));
+    let block = fits.or_else(|| level().min_by(|p, q| p.width_px.total_cmp(&q.width_px)))?;
+    let is_inside =
+        room.rings().filter(|ring| polygon::locate_in_ring(ring, at) == polygon::Location::Inside).count() == 1;
+    let ground = if is_inside { floor } else { style.palette().paper };
+    let halo = if style.halo { style.palette().halo } else { ground };
+    Some(block.texts(at, Some(halo), style))
 }
 
 /// The texts to try in a room, best first: with everything, the name alone, part of the name.
@@ -331,6 +354,15 @@ impl Space {
         let offset = self.target - at;
         let within = offset.x.abs() <= self.raster.cell && offset.y.abs() <= self.raster.cell;
         Some(if within && self.fits_at(self.target, columns, rows, may_be_swept) { self.target } else { at })
+    }
+
+    /// Whether a label around a point covers nothing but door swings.
+    fn is_free(&self, block: &Block, at: Point) -> bool {
+        let (width_px, height_px) = block.extent_px();
+        let cell_px = self.raster.cell * self.px_per_m;
+        let cells = |length_px: f64| ((length_px + 2.0 * PADDING_PX) / cell_px).ceil() as usize;
+        let (columns, rows) = (cells(width_px), cells(height_px));
+        columns <= self.raster.width && rows <= self.raster.height && self.fits_at(at, columns, rows, true)
     }
 
     /// Whether a box of this many cells, plus one for being off the raster, is free around a point.

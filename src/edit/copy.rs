@@ -3,14 +3,18 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use crate::edit::dimensions::insert_chains;
 use crate::edit::moving::mirror_swing;
 use crate::edit::overlay::{Overlay, overlay_paths};
 use crate::edit::picked::Part;
 use crate::edit::refit::{Refitted, beside_each_other};
 use crate::edit::split::nearest_part;
 use crate::edit::{EditError, add_opening, add_room, add_wall, fail};
-use crate::geometry::{Point, Segment, TOUCH_M, Transform, Vector, trim_m};
-use crate::plan::{CornerId, ElementId, Joint, Opening, Place, Plan, Room, RoomId, ordered, ring_edges};
+use crate::geometry::{Bounds, Point, Segment, TOUCH_M, Transform, Vector, trim_m};
+use crate::plan::{
+    CornerId, Dimension, DimensionHost, DimensionId, ElementId, Joint, Opening, Place, Plan, Room, RoomId, ordered,
+    ring_edges,
+};
 
 /// Extracts elements of a plan as a plan of their own: for the clipboard, or to insert elsewhere. Rooms come with
 /// the walls along their boundaries and in them, and everything with its openings, shared ones included, see
@@ -49,10 +53,46 @@ pub fn fragment(plan: &Plan, elements: &BTreeSet<ElementId>) -> Result<Plan, Edi
         }
         copied.openings.insert(id, Arc::new(opening));
     }
-    if copied.is_empty() {
+    copied.dimensions.extend(chains_of(plan, &copied, elements));
+    if copied.is_empty() && copied.dimensions.is_empty() {
         return fail("choose what to copy");
     }
     Ok(copied)
+}
+
+/// The dimension chains that come with a fragment: those that measure nothing else, and the picked ones, which are fixed
+/// where they measure something else.
+fn chains_of(plan: &Plan, copied: &Plan, elements: &BTreeSet<ElementId>) -> Vec<(DimensionId, Arc<Dimension>)> {
+    let comes = |host: DimensionHost| match host {
+        DimensionHost::Corner(id) => copied.corner(id).is_some(),
+        DimensionHost::Wall { wall, .. } => copied.wall(wall).is_some(),
+        DimensionHost::Opening { opening, .. } => copied.opening(opening).is_some(),
+    };
+    let chain = |(id, dimension): (DimensionId, &Dimension)| {
+        let is_picked = elements.contains(&ElementId::Dimension(id));
+        if !is_picked && !dimension.points.iter().all(|point| point.on.is_some_and(comes)) {
+            return None;
+        }
+        let mut chain = dimension.clone();
+        for point in &mut chain.points {
+            point.last = plan.dimension_point(point).trimmed();
+            point.on = point.on.filter(|&host| comes(host));
+        }
+        Some((id, Arc::new(chain)))
+    };
+    plan.dimensions().filter_map(chain).collect()
+}
+
+/// The middle of a fragment: what the pointer carries it by.
+pub fn middle_of(fragment: &Plan) -> Point {
+    let bounds = fragment.bounds();
+    if !bounds.is_empty() {
+        return bounds.center();
+    }
+    // Nothing but chains.
+    let points = fragment.dimensions().flat_map(|(_, dimension)| &dimension.points);
+    let bounds = Bounds::of(points.map(|point| fragment.dimension_point(point)));
+    if bounds.is_empty() { Point::default() } else { bounds.center() }
 }
 
 /// Inserts a fragment of a plan, transformed, and returns what was added. Corners are shared with existing ones and
@@ -124,7 +164,9 @@ pub fn insert_fitted(
             }
             corners.into()
         };
-        let copy = Room { outer: ring(&room.outer), holes: room.holes.iter().map(ring).collect(), ..room.clone() };
+        let text_offset = room.text_offset.map(|offset| transform.vector(offset));
+        let holes = room.holes.iter().map(ring).collect();
+        let copy = Room { outer: ring(&room.outer), holes, text_offset, ..room.clone() };
         let new_id = if room.has_boundary() {
             let (with_room, new_id) = add_room(&next, copy)?;
             next = with_room;
@@ -166,6 +208,8 @@ pub fn insert_fitted(
     let openings = placed.iter().filter_map(|one| if let ElementId::Opening(id) = one { Some(*id) } else { None });
     let (next, refitted) = beside_each_other(next, openings.collect::<Vec<_>>());
     placed.retain(|&element| next.has(element));
+    let (next, chains) = insert_chains(next, fragment, transform)?;
+    placed.extend(chains.into_iter().map(ElementId::Dimension));
     Ok((next, placed, refitted))
 }
 

@@ -1,9 +1,9 @@
 //! Dimension chains: drawing them, moving their line, and keeping them on what they measure.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use super::{EditError, checked_position, fail};
+use super::{EditError, Part, checked_position, fail};
 use crate::geometry::{Bounds, Point, Segment, Transform, Vector, trim_m};
 use crate::plan::builder::new_dimension_id;
 use crate::plan::{
@@ -122,17 +122,110 @@ pub(super) fn transformed(
     else {
         return Ok(after.clone());
     };
-    let mut moved = dimension.clone();
+    // As it is there: its walls may have changed sides.
+    let mut moved = after.dimension(id).unwrap_or(dimension).clone();
     for point in moved.points.iter_mut().filter(|point| point.on.is_none()) {
         point.last = checked_position(transform.point(point.last))?;
     }
     moved.along = moved.along.turned(transform.vector(Vector::new(1.0, 0.0)));
+    // A shared corner stays with the neighbour: what moved has one of its own.
+    let left = |point: &DimensionPoint| {
+        let (Some(host @ DimensionHost::Corner(_)), Some(was)) = (point.on, point.on.and_then(|it| before.on_host(it)))
+        else {
+            return None;
+        };
+        let to = transform.point(was).trimmed();
+        after.on_host(host).is_none_or(|now| now.distance(to) > ON_IT_M).then_some(to)
+    };
+    let mut hosts: Option<Hosts> = None;
+    for point in &mut moved.points {
+        if let Some(to) = left(point)
+            && let Some(on) = hosts.get_or_insert_with(|| Hosts::new(after)).at(to, transform.vector(line.along))
+        {
+            *point = DimensionPoint { on: Some(on), last: to };
+        }
+    }
     let mut next = after.clone();
     next.dimensions.insert(id, Arc::new(moved));
     match line.ticks.first() {
         Some((_, on_line)) => move_dimension(&next, id, transform.point(*on_line)).or(Ok(next)),
         None => Ok(next),
     }
+}
+
+/// The plan in which the chains measure to the other faces of walls that were mirrored: what was left is right.
+pub(super) fn on_other_sides(mut plan: Plan, walls: &BTreeSet<WallId>) -> Plan {
+    let is_mirrored =
+        |point: &DimensionPoint| matches!(point.on, Some(DimensionHost::Wall { wall, .. }) if walls.contains(&wall));
+    let changed: Vec<(DimensionId, Dimension)> = plan
+        .dimensions()
+        .filter(|(_, dimension)| dimension.points.iter().any(is_mirrored))
+        .map(|(id, dimension)| (id, dimension.clone()))
+        .collect();
+    for (id, mut dimension) in changed {
+        for point in dimension.points.iter_mut().filter(|point| is_mirrored(point)) {
+            if let Some(DimensionHost::Wall { side, .. }) = &mut point.on {
+                *side = match *side {
+                    WallSide::Left => WallSide::Right,
+                    WallSide::Axis => WallSide::Axis,
+                    WallSide::Right => WallSide::Left,
+                };
+            }
+        }
+        plan.dimensions.insert(id, Arc::new(dimension));
+    }
+    plan
+}
+
+/// The chains that measure nothing but a part of a plan: they are turned and mirrored with it.
+pub(super) fn chains_on(plan: &Plan, part: &Part) -> Vec<DimensionId> {
+    let is_of = |point: &DimensionPoint| match point.on {
+        Some(DimensionHost::Corner(id)) => part.corners.contains(&id),
+        Some(DimensionHost::Wall { wall, .. }) => part.walls.contains(&wall),
+        Some(DimensionHost::Opening { opening, .. }) => part.openings.contains(&opening),
+        None => false,
+    };
+    plan.dimensions().filter(|(_, dimension)| dimension.points.iter().all(is_of)).map(|(id, _)| id).collect()
+}
+
+/// The chains of a fragment in the plan that now has all else of it, holding on to what lies there; and their ids.
+pub(super) fn insert_chains(
+    plan: Plan,
+    fragment: &Plan,
+    transform: Transform,
+) -> Result<(Plan, Vec<DimensionId>), EditError> {
+    let mut placed = Vec::new();
+    if fragment.dimensions.is_empty() {
+        return Ok((plan, placed));
+    }
+    let hosts = Hosts::new(&plan);
+    let mut next = plan.clone();
+    let right = transform.vector(Vector::new(1.0, 0.0));
+    for (id, dimension) in fragment.dimensions() {
+        let Some(line) = fragment.dimension_line(dimension) else { continue };
+        let Some((_, on_line)) = line.ticks.first() else { continue };
+        let along = match right.x.abs().min(right.y.abs()) < ON_IT_M {
+            true => dimension.along.turned(right),
+            // Neither level nor upright any more.
+            false => DimensionAlong::Aligned,
+        };
+        let mut ordered: Vec<(Point, bool)> =
+            dimension.points.iter().map(|point| (fragment.dimension_point(point), point.on.is_some())).collect();
+        if along == DimensionAlong::Aligned && dimension.along != along {
+            ordered.sort_by(|p, q| (p.0 - *on_line).dot(line.along).total_cmp(&(q.0 - *on_line).dot(line.along)));
+        }
+        let moved: Vec<Point> = ordered.iter().map(|(point, _)| transform.point(*point)).collect();
+        let mut chain = dimension_between(&moved, along, transform.point(*on_line))?;
+        let direction = next.dimension_line(&chain).map(|line| line.along);
+        for (point, (_, is_held)) in chain.points.iter_mut().zip(ordered) {
+            point.on = direction.filter(|_| is_held).and_then(|direction| hosts.at(point.last, direction));
+        }
+        chain.extra.clone_from(&dimension.extra);
+        let id = if next.dimensions.contains_key(&id) { new_dimension_id(&next, &chain) } else { id };
+        next.dimensions.insert(id, Arc::new(chain));
+        placed.push(id);
+    }
+    Ok((next, placed))
 }
 
 /// What became of the chains of a plan after an edit.

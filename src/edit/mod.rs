@@ -8,9 +8,11 @@ mod bridge;
 mod calibration;
 mod close;
 mod copy;
+mod dimension_length;
 mod dimensions;
 mod dragging;
 mod draw;
+mod facades;
 mod fill;
 mod free_space;
 pub mod guides;
@@ -35,7 +37,7 @@ mod weld;
 use std::fmt;
 use std::sync::Arc;
 
-use crate::geometry::{COORDINATE_LIMIT_M, Point, trim_m};
+use crate::geometry::{COORDINATE_LIMIT_M, Point, Vector, trim_m};
 use crate::plan::{
     Backdrop, Corner, CornerId, Joint, Meta, Opening, OpeningId, Place, Plan, Room, RoomId, RoomLabel, Wall, WallId,
     builder::{new_corner_id, new_opening_id, new_room_id, new_wall_id},
@@ -53,10 +55,12 @@ pub use calibration::{
     turn_picture,
 };
 pub use close::fill_closed;
-pub use copy::{Array, array, array_fitted, copy_elements, fragment, insert, insert_fitted};
+pub use copy::{Array, array, array_fitted, copy_elements, fragment, insert, insert_fitted, middle_of};
+pub use dimension_length::{StretchChange, dimension_stretch, set_dimension_length};
 pub use dimensions::{Settled, dimension_between, dimension_room, draw_dimension, move_dimension, settle_dimensions};
 pub use dragging::{Reach, WallDrag, drag_corners, move_corners};
 pub use draw::{Drawn, cut_out, cut_out_by, draw_room, draw_walls, split_room, split_room_by};
+pub use facades::dimension_outside;
 pub use fill::{Filled, fill_all, fill_at};
 pub use free_space::{DrawnInFreeSpace, GAP_BETWEEN_ROOMS_M, draw_room_in_free_space};
 pub use local::locally;
@@ -229,6 +233,22 @@ pub fn set_function(plan: &Plan, id: RoomId, function: &str) -> Result<Plan, Edi
 /// When the room does not exist.
 pub fn set_label(plan: &Plan, id: RoomId, label: Option<RoomLabel>) -> Result<Plan, EditError> {
     change_room(plan, id, |room| room.label = label)
+}
+
+/// Places what is written in a room, its name and area, so far from the middle of the room's bounding box, in metres;
+/// `None` leaves the place to the drawing code.
+///
+/// # Errors
+/// When the room does not exist, or the text would lie outside the drawing area.
+pub fn set_text_offset(plan: &Plan, id: RoomId, offset: Option<Vector>) -> Result<Plan, EditError> {
+    let offset = match offset {
+        Some(offset) => {
+            let place = checked_position(Point::default() + offset)?;
+            Some(place - Point::default())
+        }
+        None => None,
+    };
+    change_room(plan, id, |room| room.text_offset = offset)
 }
 
 /// Sets a room's name.

@@ -55,10 +55,21 @@ pub fn transform_elements(
         return Ok(Changed::plainly(with_dimensions(plan, plan.clone(), elements, transform)?));
     }
     part.check_takes_no_boundary(plan)?;
+    let mut carried = elements.clone();
+    carried.extend(super::dimensions::chains_on(plan, &part).into_iter().map(ElementId::Dimension));
     let (mut next, part, left) = part.detached(plan, own_walls)?;
     for &id in &part.corners {
         if let Some(corner) = next.corners.get_mut(&id) {
             corner.position = to(corner.position)?;
+        }
+    }
+    for id in &part.rooms {
+        if let Some(shared) = next.rooms.get_mut(id)
+            && let Some(offset) = shared.text_offset
+            && transform.vector(offset) != offset
+        {
+            let offset = (Point::default() + transform.vector(offset)).trimmed() - Point::default();
+            Arc::make_mut(shared).text_offset = Some(offset);
         }
     }
     let factor = transform.factor();
@@ -106,6 +117,9 @@ pub fn transform_elements(
             }
         }
     }
+    if transform.mirrors() {
+        next = super::dimensions::on_other_sides(next, &part.walls);
+    }
     check_keeps_edges(plan, &next, &part)?;
     let next = settle(&next, &part.corners).map_err(|_| EditError("a room would get too small".to_owned()))?;
     let mut next = healed(next, left);
@@ -115,7 +129,7 @@ pub fn transform_elements(
         }
     }
     let (next, refitted) = beside_each_other(next, part.openings.iter().copied());
-    Ok(Changed { plan: with_dimensions(plan, next, elements, transform)?, refitted })
+    Ok(Changed { plan: with_dimensions(plan, next, &carried, transform)?, refitted })
 }
 
 /// The plan with the dimension chains among the elements moved along.

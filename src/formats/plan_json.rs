@@ -19,7 +19,7 @@ use super::{
     Export, Exporter, Format, Head, Import, Importer, NamedBytes, NamedPlan, Note, NoteKind, Options, Place, ReadError,
     Recognition, Refused, Source,
 };
-use crate::geometry::{COORDINATE_LIMIT_M, Point, trim_m};
+use crate::geometry::{COORDINATE_LIMIT_M, Point, Vector, trim_m};
 use crate::labels::{Label, Schemes, Typology};
 use crate::plan::{
     Backdrop, Corner, CornerId, Dimension, DimensionAlong, DimensionHost, DimensionId, DimensionPoint, ElementId,
@@ -368,6 +368,9 @@ struct DiskRoom {
     holes: Vec<Vec<Text<CornerId>>>,
     #[serde(default, skip_serializing_if = "String::is_empty")]
     note: String,
+    /// Where its texts are, from the middle of its bounding box.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    text_offset: Option<[Metres; 2]>,
     #[serde(default, skip_serializing_if = "String::is_empty")]
     source_id: String,
     #[serde(flatten)]
@@ -639,6 +642,7 @@ impl DiskRoom {
             outer: ring(&room.outer),
             holes: room.holes.iter().map(ring).collect(),
             note: room.note.clone(),
+            text_offset: room.text_offset.map(|offset| [offset.x, offset.y].map(Metres)),
             source_id: room.source_id.clone(),
             extra: fields(&room.extra),
         }
@@ -867,6 +871,7 @@ impl DiskRoom {
             }),
             name: self.name,
             note: self.note,
+            text_offset: self.text_offset.map(|[x, y]| Vector::new(x.0, y.0)),
             source_id: self.source_id,
             extra: kept(self.extra),
         }

@@ -1,11 +1,12 @@
 //! The schedule of rooms: a table with the areas of each, for spreadsheets.
 
 use super::{Export, Exporter, Format, Holds, Lost, NamedBytes, NamedPlan, Options, Refused};
+use crate::base::natural_order::NaturalKey;
 use crate::dataset::csv::{Guard, cell};
 use crate::features::{NeighbourLabels, analyse};
 use crate::labels::{Label, Schemes};
-use crate::plan::titles::room_keys;
-use crate::plan::{Plan, RoomId};
+use crate::plan::titles::numbers_of_unnamed;
+use crate::plan::{Plan, Room, RoomId};
 
 /// The schedule of rooms.
 pub const FORMAT: Format = Format {
@@ -46,7 +47,6 @@ impl Exporter for RoomSchedule {
                 Ok(bytes) => export.files.push(NamedBytes { name: format!("{stem}.rooms.csv"), bytes }),
                 Err(error) => export.lost.push(Lost { stem: stem.to_owned(), what: error.to_string() }),
             }
-            export.lost.push(Lost { stem: stem.to_owned(), what: "the drawing".to_owned() });
         }
         Ok(export)
     }
@@ -72,7 +72,15 @@ fn table(plan: &Plan, schemes: &Schemes) -> Result<Vec<u8>, Box<dyn std::error::
         let note = Guard::On.cell(&room.note);
         Some(texts.into_iter().chain(numbers.map(Option::unwrap_or_default)).chain([note]).collect::<Vec<String>>())
     };
-    for cells in room_keys(plan).into_iter().filter_map(row) {
+    // As a person calls them: an id would say nothing there.
+    let numbers = numbers_of_unnamed(plan, &analysis.shapes.reading_order());
+    let name = |(id, room): (RoomId, &Room)| match numbers.get(&id) {
+        Some(number) => (id, format!("Room {number}")),
+        None => (id, room.name.clone()),
+    };
+    let mut names: Vec<(RoomId, String)> = plan.rooms().map(name).collect();
+    names.sort_by_cached_key(|(id, name)| (NaturalKey::of(name), *id));
+    for cells in names.into_iter().filter_map(row) {
         writer.write_record(cells)?;
     }
     Ok(writer.into_inner()?)

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use super::{CornerId, Extra, RoomId};
-use crate::geometry::{Homography, Point, trim_m};
+use crate::geometry::{Homography, Point, Vector, trim_m};
 use crate::labels::Label;
 
 /// A point shared by walls and room boundaries.
@@ -37,6 +37,9 @@ pub struct Room {
     /// What is written in the room ('1.23', 'Library'); empty when unnamed.
     pub name: String,
     pub note: String,
+    /// Where its name and its area are written, from the middle of its bounding box, in metres; `None` leaves the place
+    /// to the drawing code.
+    pub text_offset: Option<Vector>,
     /// The room's id in the file it was imported from (a UUID, 'R12'); empty when drawn here. Lets a row
     /// of a dataset be traced back to its source.
     pub source_id: String,

@@ -1,21 +1,19 @@
-//! The names of rooms and openings wherever they appear: a title for people ([`room_title`]), a name with
-//! its id for reports ([`RoomName`]), a unique key within a plan for datasets ([`room_keys`]).
+//! The names of rooms and openings wherever they appear: a title for people ([`room_title`]), a name
+//! for reports ([`RoomName`]), a unique key within a plan for datasets ([`room_keys`]).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use crate::base::natural_order::NaturalKey;
 use crate::base::wording::sentence;
 use crate::labels::function_title;
-use crate::plan::{ElementId, Opening, OpeningId, OpeningKind, Plan, Room, RoomId};
+use crate::plan::{ElementId, Opening, OpeningId, OpeningKind, Plan, Room, RoomId, WallId};
 
 /// Longer names are cut in reports, so that a line fits a terminal.
 const LONGEST_NAME: usize = 40;
 
-/// Longer source ids (UUIDs, not words) are cut to [`SHORT_ID`] characters: enough to find them.
+/// Longer source ids are UUIDs, not words.
 const LONGEST_ID: usize = 13;
-
-const SHORT_ID: usize = 8;
 
 /// The title of an element.
 pub fn title_of(plan: &Plan, picked: ElementId) -> String {
@@ -63,19 +61,33 @@ pub fn room_keys(plan: &Plan) -> Vec<(RoomId, String)> {
     keys
 }
 
-/// A room as named in reports: its function, its name, and the id to find it by (the source's, if it has
-/// one).
+/// The numbers of the rooms without a name, from 1 in an order of all rooms; those that the order lacks come last. A
+/// room whose name is 'Room 3' keeps the 3.
+pub fn numbers_of_unnamed(plan: &Plan, order: &[RoomId]) -> BTreeMap<RoomId, usize> {
+    let taken: BTreeSet<usize> =
+        plan.rooms().filter_map(|(_, room)| room.name.trim().strip_prefix("Room ")?.parse().ok()).collect();
+    let listed: BTreeSet<RoomId> = order.iter().copied().collect();
+    let all = order.iter().copied().chain(plan.rooms().map(|(id, _)| id).filter(|id| !listed.contains(id)));
+    let unnamed = all.filter(|&id| plan.room(id).is_some_and(|room| room.name.trim().is_empty()));
+    unnamed.zip((1..).filter(|number| !taken.contains(number))).collect()
+}
+
+/// A room as named in reports, without what only a file knows it by: its function, its name, the short id of its source
+/// or, without both, a number.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RoomName {
     pub id: RoomId,
     pub source_id: String,
     pub name: String,
     pub function: String,
+    /// Its number among the rooms without a name.
+    pub number: Option<usize>,
 }
 
 impl RoomName {
-    pub fn new(id: RoomId, room: &Room) -> Self {
-        Self { id, source_id: room.source_id.clone(), name: room.name.clone(), function: room.function.clone() }
+    pub fn new(id: RoomId, room: &Room, number: Option<usize>) -> Self {
+        let [source_id, name, function] = [&room.source_id, &room.name, &room.function].map(String::clone);
+        Self { id, source_id, name, function, number }
     }
 }
 
@@ -87,11 +99,33 @@ impl fmt::Display for RoomName {
         if !name.is_empty() {
             write!(f, " '{name}'")?;
         }
-        // Some sources have no id other than the name.
-        if self.source_id.is_empty() || self.source_id != self.name {
-            write!(f, " {}", short_id(&self.source_id, &self.id))?;
+        match (source_word(&self.source_id), self.number) {
+            // Some sources have no id other than the name.
+            (Some(word), _) if word != name => write!(f, " {word}"),
+            (None, Some(number)) if name.is_empty() => write!(f, " {number}"),
+            _ => Ok(()),
         }
-        Ok(())
+    }
+}
+
+/// A wall as named in reports: by the rooms that it bounds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct WallName {
+    pub id: WallId,
+    /// The rooms on its sides, one if it is the same on both; none where both are outside.
+    pub rooms: Vec<RoomName>,
+    /// Whether one side is outside.
+    pub is_outer: bool,
+}
+
+impl fmt::Display for WallName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match (self.rooms.as_slice(), self.is_outer) {
+            ([one, other, ..], _) => write!(f, "the wall between {one} and {other}"),
+            ([one], true) => write!(f, "the outer wall of {one}"),
+            ([one], false) => write!(f, "a wall in {one}"),
+            ([], _) => f.write_str("a wall outside all rooms"),
+        }
     }
 }
 
@@ -101,29 +135,33 @@ pub struct OpeningName {
     pub id: OpeningId,
     pub source_id: String,
     pub kind: OpeningKind,
+    /// The rooms on its sides, one if it is the same on both, or if the other side is outside.
+    pub rooms: Vec<RoomName>,
 }
 
 impl OpeningName {
-    pub fn new(id: OpeningId, opening: &Opening) -> Self {
-        Self { id, source_id: opening.source_id.clone(), kind: opening.kind }
+    pub fn new(id: OpeningId, opening: &Opening, rooms: Vec<RoomName>) -> Self {
+        Self { id, source_id: opening.source_id.clone(), kind: opening.kind, rooms }
     }
 }
 
 impl fmt::Display for OpeningName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", self.kind.name(), short_id(&self.source_id, &self.id))
+        let kind = self.kind.name();
+        match (source_word(&self.source_id), self.rooms.as_slice()) {
+            (Some(word), _) => write!(f, "{kind} {word}"),
+            (None, [one, other, ..]) => write!(f, "the {kind} between {one} and {other}"),
+            (None, [one]) => write!(f, "the {kind} of {one}"),
+            (None, []) => write!(f, "a {kind}"),
+        }
     }
 }
 
-fn short_id(source_id: &str, id: &dyn fmt::Display) -> String {
-    let source_id = printable(source_id);
-    if source_id.is_empty() {
-        id.to_string()
-    } else if source_id.chars().count() > LONGEST_ID && !source_id.contains(char::is_whitespace) {
-        source_id.chars().take(SHORT_ID).chain(['…']).collect()
-    } else {
-        source_id
-    }
+/// The id of a source that a person may know: a short word, no UUID.
+fn source_word(source_id: &str) -> Option<String> {
+    let word = printable(source_id);
+    let is_word = word.chars().count() <= LONGEST_ID || word.contains(char::is_whitespace);
+    (is_word && !word.is_empty()).then_some(word)
 }
 
 /// A text from a file as one short line, without characters that move a terminal's cursor or are

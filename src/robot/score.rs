@@ -66,6 +66,8 @@ pub struct Score {
     pub right_edges: BTreeSet<(RoomId, RoomId)>,
     /// The number of found edges between rooms that are not joined.
     pub wrong_edges: usize,
+    /// Those edges: pairs of found rooms by index, the lower first.
+    pub wrong_pairs: BTreeSet<(usize, usize)>,
 }
 
 impl Score {
@@ -167,17 +169,16 @@ pub fn score(world: &World, start: Point, radius_m: f64, rooms: &[Shapes], edges
             result.true_edges.insert(pair(p, q));
         }
     }
-    let mut wrong: BTreeSet<(usize, usize)> = BTreeSet::new();
     for &(i, j) in edges {
         match (true_of.get(&i), true_of.get(&j)) {
             (Some((_, p)), Some((_, q))) if p != q && result.true_edges.contains(&pair(*p, *q)) => {
                 result.right_edges.insert(pair(*p, *q));
             }
             _ => {
-                wrong.insert((i.min(j), i.max(j)));
+                result.wrong_pairs.insert((i.min(j), i.max(j)));
             }
         }
     }
-    result.wrong_edges = wrong.len();
+    result.wrong_edges = result.wrong_pairs.len();
     result
 }

@@ -25,16 +25,20 @@ const STEPS: usize = 60;
 /// # Errors
 /// When there is no such program; the text says what to do.
 pub fn show_in_viewer(path: &Path) -> Result<(), String> {
+    show_with(OPENER, path)
+}
+
+fn show_with(opener: &str, path: &Path) -> Result<(), String> {
     let quiet = || Stdio::null();
-    let started = Command::new(OPENER).arg(path).stdin(quiet()).stdout(quiet()).stderr(quiet()).spawn();
+    let started = Command::new(opener).arg(path).stdin(quiet()).stdout(quiet()).stderr(quiet()).spawn();
     let by_hand = "open the file yourself";
     match started {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
-            Err(format!("this system has no {OPENER}, which opens files with the desktop's programs; {by_hand}"))
+            Err(format!("this system has no {opener}, which opens files with the desktop's programs; {by_hand}"))
         }
-        Err(error) => Err(format!("{OPENER} could not be started ({error}); {by_hand}")),
+        Err(error) => Err(format!("{opener} could not be started ({error}); {by_hand}")),
         Ok(child) => match ended(child) {
-            Some(false) => Err(format!("{OPENER} found no program that shows PDF files; {by_hand}")),
+            Some(false) => Err(format!("{opener} found no program that shows PDF files; {by_hand}")),
             Some(true) | None => Ok(()),
         },
     }
@@ -52,4 +56,21 @@ fn ended(mut child: Child) -> Option<bool> {
     // Waited for elsewhere, so that it leaves nothing behind.
     std::thread::spawn(move || drop(child.wait()));
     None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_does_not_open_says_what_to_do() {
+        let file = Path::new("plan.pdf");
+        let why = show_with("enfilade-has-no-such-opener", file).unwrap_err();
+        assert!(why.contains("has no enfilade-has-no-such-opener") && why.ends_with("open the file yourself"), "{why}");
+        if cfg!(unix) {
+            let why = show_with("false", file).unwrap_err();
+            assert!(why.contains("found no program that shows PDF files"), "{why}");
+            assert_eq!(show_with("true", file), Ok(()));
+        }
+    }
 }

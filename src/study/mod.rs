@@ -8,6 +8,7 @@ mod measure;
 pub mod paper;
 pub mod predictions;
 pub mod report;
+pub mod robot;
 mod run;
 pub mod suspects;
 mod typologies;

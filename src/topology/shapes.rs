@@ -124,6 +124,32 @@ impl RoomShapes {
         &self.shapes
     }
 
+    /// The rooms with a boundary from the top left, line by line.
+    pub fn reading_order(&self) -> Vec<RoomId> {
+        self.in_lines(|bounds| (-bounds.max.y, bounds.height()), |bounds| bounds.min.x)
+    }
+
+    /// The rooms with a boundary from the top left, column by column.
+    pub fn column_order(&self) -> Vec<RoomId> {
+        self.in_lines(|bounds| (bounds.min.x, bounds.width()), |bounds| -bounds.max.y)
+    }
+
+    /// Rooms in lines, and in order within each. `across` returns where a room begins across the lines and how far it
+    /// extends: a line is as wide as half a typical room.
+    fn in_lines(&self, across: impl Fn(&Bounds) -> (f64, f64), along: impl Fn(&Bounds) -> f64) -> Vec<RoomId> {
+        let mut rooms: Vec<(RoomId, Bounds)> =
+            self.all().iter().filter(|shape| !shape.bounds.is_empty()).map(|shape| (shape.id, shape.bounds)).collect();
+        let mut extents: Vec<f64> = rooms.iter().map(|(_, bounds)| across(bounds).1).collect();
+        extents.sort_by(f64::total_cmp);
+        let line_m = extents.get(extents.len() / 2).map_or(1.0, |extent| (extent / 2.0).max(0.1));
+        let line = |bounds: &Bounds| (across(bounds).0 / line_m).ceil() as i64;
+        rooms.sort_by(|(p, a), (q, b)| {
+            let within = along(a).total_cmp(&along(b)).then(across(a).0.total_cmp(&across(b).0));
+            line(a).cmp(&line(b)).then(within).then(p.cmp(q))
+        });
+        rooms.into_iter().map(|(id, _)| id).collect()
+    }
+
     /// Index of a room in [`RoomShapes::all`].
     pub fn index_of(&self, id: RoomId) -> Option<usize> {
         self.shapes.binary_search_by_key(&id, |shape| shape.id).ok()

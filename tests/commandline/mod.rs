@@ -52,6 +52,7 @@ const CALLS: &[Call] = &[
     call("explore", "plan.plan.json --range 5 -o {out}", "plan.plan.json", Output::Folder),
     call("map", "robot.log -o {out}", "robot.log", Output::Folder),
     call("segment", "map.png --resolution 0.1 -o {out}", "map.png", Output::Folder),
+    call("robot-study", "plans --sensor-noise 1 --odometry-noise 1 --furniture 0 -o {out}", "plans", Output::Folder),
     #[cfg(feature = "gui")]
     call("replay", "s.replay -o {out}", "s.replay", Output::None),
     #[cfg(feature = "gui")]

@@ -186,3 +186,49 @@ fn all_rooms_of_a_real_floor_are_found_furnished_or_not() {
         assert!(code == 0 && said.contains(&format!(": {rooms} rooms")), "{said}{err}");
     }
 }
+
+/// Robots read YAML by other readers (yaml-cpp, PyYAML), some of which take an unquoted `no` for false and `12:30` for 750.
+#[test]
+fn names_that_other_readers_would_misread_are_quoted() {
+    let folder = tempfile::tempdir().unwrap();
+    two_rooms(folder.path(), 0);
+    assert_eq!(segment(folder.path(), &[]).0, 0);
+    let mut map = semantics(folder.path());
+    for name in [
+        "no",
+        "on",
+        "y",
+        "12:30",
+        "1_000",
+        "null",
+        "~",
+        "0x10",
+        "1e3",
+        "017",
+        "2026-01-01",
+        ".inf",
+        "true",
+        "# b",
+        "a: b",
+        " x",
+    ] {
+        map.rooms[0].name = name.to_owned();
+        let yaml = map.to_yaml().unwrap();
+        assert!(yaml.contains(&format!("name: \"{name}\"\n")), "{name}: {yaml:.400}");
+        assert_eq!(SemanticMap::from_yaml(&yaml).unwrap(), map);
+    }
+    // What map_server of ROS 2 asks for (nav2_map_server, map_io.cpp): these keys, the origin of three numbers.
+    let yaml = std::fs::read_to_string(folder.path().join("out/floor.yaml")).unwrap();
+    for key in [
+        "image: floor.pgm",
+        "resolution: 0.05",
+        "origin:\n- -2.0\n- 1.0\n- 0.0\n",
+        "negate: 0",
+        "occupied_thresh: 0.65",
+        "free_thresh: 0.196",
+        "mode: trinary",
+        "semantics: floor_semantics.yaml",
+    ] {
+        assert!(yaml.contains(key), "{key}: {yaml}");
+    }
+}

@@ -4,6 +4,7 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod repeats;
+mod robot;
 mod suspects;
 
 use std::path::{Path, PathBuf};

@@ -279,7 +279,24 @@ fn every_kind_of_thing_has_a_context_menu() {
     let seen = open(&mut window, place);
     assert_eq!(window.app().selection().len(), 2);
     assert!(has(&seen, "Merge rooms") == 1 && has(&seen, "Rename…") == 0, "{seen:?}");
-    // The list; free space is in the replay case.
+    // Free space, and what is selected stays so.
+    let place = super::beside(&window);
+    let seen = open(&mut window, place);
+    assert!(has(&seen, "Select all") == 1 && has(&seen, "Merge rooms") == 0, "{seen:?}");
+    let plan = window.app().plan().unwrap();
+    let bounds = plan.bounds();
+    let far = at(&window, bounds.max.x + 0.5, bounds.max.y + 0.5);
+    run(&mut window, "pick", &["Study"]);
+    window.hold_modifiers(Modifiers::SHIFT);
+    for name in ["Kitchen", "Gallery"] {
+        let place = middle_of(&window, name);
+        window.click(place);
+    }
+    window.hold_modifiers(Modifiers::NONE);
+    assert_eq!(window.app().selection().len(), 3);
+    let seen = open(&mut window, far);
+    assert!(has(&seen, "Select all") == 1 && has(&seen, "Merge rooms") == 0, "{seen:?}");
+    // The list.
     // The title of the window has the name, too.
     let row_of = |window: &Offscreen, name: &str| {
         let is_row = |control: &Control| control.role == Role::ListBoxOption && control.name == name;

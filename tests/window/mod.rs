@@ -9,6 +9,7 @@ mod hand;
 mod monkey;
 mod orders;
 mod pictures;
+mod robot;
 #[path = "use.rs"]
 mod use_;
 

@@ -179,3 +179,41 @@ fn a_job_a_frame_is_enough_where_there_are_no_threads() {
     assert_eq!(load_plan(&path).unwrap(), *window.app().plan().unwrap());
     assert!(!window.is_working());
 }
+
+#[test]
+fn a_dataset_that_is_given_up_is_not_written() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = folder.path().join("house.plan.json");
+    let mut window = changed();
+    save_as(&mut window, &plan);
+    assert!(window.end_job(SAVE));
+    window.settle().unwrap();
+    window.open(&plan);
+    window.settle().unwrap();
+    while let Some(job) = window.held_jobs().first().copied() {
+        window.end_job(job);
+        window.settle().unwrap();
+    }
+    let rooms = folder.path().join("rooms.csv");
+    // From the dialog, which then shows how far it is.
+    window.run_command_with("export-dataset", &[&rooms.to_string_lossy()]).unwrap();
+    window.run_command("export-dataset");
+    window.settle().unwrap();
+    assert!(window.click_control("Give up"), "{:?}", window.controls());
+    window.settle().unwrap();
+    // What was begun ends without a file, whenever it does.
+    while let Some(job) = window.held_jobs().first().copied() {
+        window.end_job(job);
+        window.settle().unwrap();
+    }
+    assert!(!rooms.exists());
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "only the plan");
+    assert!(window.app().messages().iter().all(|message| message.severity != Severity::Error));
+    // It can be made after all.
+    window.run_command_with("export-dataset", &[&rooms.to_string_lossy()]).unwrap();
+    while let Some(job) = window.held_jobs().first().copied() {
+        window.end_job(job);
+        window.settle().unwrap();
+    }
+    assert!(rooms.exists());
+}

@@ -32,6 +32,26 @@ pub(crate) fn places(session: &Session, drag: Option<Drag>, axis: GuideAxis) -> 
         .map(|guide| guide.at_m)
 }
 
+/// How close to a guide the pointer must be to mean it, in points.
+const REACH: f32 = 5.0;
+
+/// The guide line at a point of the plan, the nearest if there are several.
+pub(crate) fn guide_at(rect: Rect, view: &View, session: &Session, point: Point) -> Option<(GuideAxis, f64)> {
+    let at = on_screen(rect, view, point);
+    let guides = GuideAxis::ALL.into_iter().flat_map(|axis| {
+        places(session, None, axis).map(move |at_m| {
+            let place = on_canvas(rect, view, axis, at_m);
+            let distance = match axis {
+                GuideAxis::Horizontal => (place.y - at.y).abs(),
+                GuideAxis::Vertical => (place.x - at.x).abs(),
+            };
+            (distance, axis, at_m)
+        })
+    });
+    let near = guides.filter(|(distance, ..)| *distance <= REACH).min_by(|p, q| p.0.total_cmp(&q.0));
+    near.map(|(_, axis, at_m)| (axis, at_m))
+}
+
 /// A point on a guide, on the screen.
 pub(crate) fn on_canvas(rect: Rect, view: &View, axis: GuideAxis, at_m: f64) -> Pos2 {
     on_screen(

@@ -183,6 +183,9 @@ pub(super) fn more_to_snap_to(session: &Session, view: &View, pointer: Point) ->
 /// Snapping reach for the storey below, in points.
 const GHOST_REACH_PX: f64 = 16.0;
 
+/// The height of what is typed with four lines of what is said about it, in points.
+const REFUSAL_HEIGHT: f32 = 100.0;
+
 /// What has been typed for the tool, beside the pointer: what is understood of it, or why it is not taken.
 pub(super) fn paint_typed(
     painter: &Painter,
@@ -196,7 +199,11 @@ pub(super) fn paint_typed(
     if typed.is_empty() {
         return;
     }
-    let at = on_screen(rect, view, scope.at()) + vec2(14.0, 40.0);
+    let mut at = on_screen(rect, view, scope.at()) + vec2(14.0, 40.0);
+    if !refused.is_empty() {
+        // With room for what is said below it.
+        at.y = at.y.min(rect.bottom() - REFUSAL_HEIGHT);
+    }
     let ink = theme::colour(palette.ink);
     let understood = toolbox.understood(scope.units);
     let text = if understood.is_empty() { format!("{typed}|") } else { format!("{typed}|   = {understood}   Enter") };
@@ -204,8 +211,14 @@ pub(super) fn paint_typed(
     if !refused.is_empty() {
         let below = tag.left_bottom() + vec2(0.0, 4.0);
         let colour = theme::colour(palette.error);
-        // What is wrong, and below it what would be right.
-        let lines = refused.replacen("; ", "\n", 1);
+        // What is wrong, and below it what would be right, in as many lines as a narrow canvas needs.
+        let font = egui::FontId::proportional(theme::SMALL);
+        let most = (rect.width() - 32.0).max(120.0);
+        let parts = refused.splitn(2, "; ").map(|part| {
+            let galley = painter.layout(part.to_owned(), font.clone(), colour, most);
+            galley.rows.iter().map(|row| row.text().trim_end().to_owned()).collect::<Vec<_>>().join("\n")
+        });
+        let lines = parts.collect::<Vec<_>>().join("\n");
         tools::tag(painter, below, egui::Align2::LEFT_TOP, &lines, colour, palette);
     }
 }
@@ -235,15 +248,9 @@ pub(super) fn is_over_picture(session: &Session, plan: &Plan) -> bool {
 
 /// A scale bar of a round length in the lower left corner.
 pub(super) fn paint_scale_bar(painter: &Painter, rect: Rect, view: &View, palette: &Palette, units: Units) {
-    // The maximum length of the bar, in points.
-    const LONGEST: f64 = 120.0;
-    let length_m = units.round_length_at_most(LONGEST / view.px_per_m);
-    let width = (length_m * view.px_per_m) as f32;
-    let left = rect.left_bottom() + vec2(16.0, -18.0);
+    let ScaleBar { left, width, text, ground } = scale_bar(rect, view, units);
     let ink = theme::colour(palette.ink_muted);
-    let text = units.round_length(length_m);
     let galley = painter.layout_no_wrap(text, egui::FontId::proportional(theme::SMALL), ink);
-    let ground = Rect::from_min_max(left + vec2(-6.0, -8.0), left + vec2(width + 12.0 + galley.rect.width(), 8.0));
     painter.rect_filled(ground, 4.0, theme::colour(palette.paper).gamma_multiply(0.85));
     let stroke = Stroke::new(1.5, ink);
     painter.line_segment([left, left + vec2(width, 0.0)], stroke);
@@ -252,6 +259,30 @@ pub(super) fn paint_scale_bar(painter: &Painter, rect: Rect, view: &View, palett
     }
     let beside = left + vec2(width + 6.0, -galley.rect.height() / 2.0);
     painter.galley(beside, galley, ink);
+}
+
+/// The scale bar in the lower left of the canvas.
+pub(super) struct ScaleBar {
+    /// Its left end.
+    left: egui::Pos2,
+    /// In points.
+    width: f32,
+    text: String,
+    /// What it takes up.
+    pub ground: Rect,
+}
+
+pub(super) fn scale_bar(rect: Rect, view: &View, units: Units) -> ScaleBar {
+    // The maximum length of the bar, in points.
+    const LONGEST: f64 = 120.0;
+    let length_m = units.round_length_at_most(LONGEST / view.px_per_m);
+    let width = (length_m * view.px_per_m) as f32;
+    let left = rect.left_bottom() + vec2(16.0, -18.0);
+    let text = units.round_length(length_m);
+    let font = crate::draw::font::Font::of(crate::draw::Weight::Regular);
+    let text_width = font.width_px(&text, f64::from(theme::SMALL)).ceil() as f32;
+    let ground = Rect::from_min_max(left + vec2(-6.0, -8.0), left + vec2(width + 12.0 + text_width, 8.0));
+    ScaleBar { left, width, text, ground }
 }
 
 /// Hints on an empty plan: the tools to begin with, and their keys.

@@ -17,7 +17,7 @@ use self::accessibility::describe;
 use self::camera::{Camera, Wish, is_touch_pad};
 use self::marks::{
     MOST_MARKED, Mark, is_over_picture, more_to_snap_to, paint_beginning, paint_scale_bar, paint_typed,
-    preview_question,
+    preview_question, scale_bar,
 };
 use crate::app::look::theme;
 use crate::app::paint::backdrop::BackdropView;
@@ -25,6 +25,7 @@ use crate::app::paint::ghost::GhostPainter;
 use crate::app::paint::pending::Pending;
 use crate::app::paint::places::{canvas_id, plan_point};
 use crate::app::paint::preview::{Look, Preview};
+use crate::app::paint::robot::painter::RobotPainter;
 use crate::app::paint::scene_painter::{ScenePainter, paint_group};
 use crate::app::session::document::{Derived, Document};
 use crate::app::session::{Pointed, Session};
@@ -32,8 +33,8 @@ use crate::app::tools::{self, DrawOptions, Input, Scope, Toolbox};
 use crate::app::value::{Call, Direction};
 use crate::base::units::{METRES_PER_FOOT, Units};
 use crate::draw::{self, Layers, Style, View};
-use crate::geometry::Point;
-use crate::plan::{ElementId, Plan};
+use crate::geometry::{Bounds, Point};
+use crate::plan::{ElementId, GuideAxis, Plan};
 use crate::predict::Marks;
 
 /// The state of the canvas between frames.
@@ -48,12 +49,17 @@ pub(crate) struct Canvas {
     pub hovered_in_panel: Option<ElementId>,
     /// What the point of a reason is about that is hovered in a panel.
     pub evidence: Option<Marks>,
+    /// The box around the picture under the plan, where one is shown.
+    picture_bounds: Option<Bounds>,
     /// The place that a field of a panel is about.
     pub marked_in_panel: Option<Point>,
+    /// The end that moves when what is typed in the form beside a thing is taken.
+    pub marked_here: Option<Point>,
     /// What is under the pointer.
     pub pointed: Pointed,
     painter: ScenePainter,
     ghost: GhostPainter,
+    robot: RobotPainter,
     /// The edits not yet analysed.
     pending: Option<Pending>,
     /// The guide that is being dragged.
@@ -97,9 +103,20 @@ pub(crate) enum Act {
     Nudge(Direction, f64),
     /// Hang doors the next way.
     Flip,
-    /// Show what can be done with the thing under the pointer, or with the free space there.
-    Menu(Option<ElementId>, egui::Pos2),
+    /// Show what can be done with what is under the pointer.
+    Menu(Under, egui::Pos2),
     Rename,
+}
+
+/// What is under the pointer, for a menu of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Under {
+    Element(ElementId),
+    /// A guide line: its direction and its place in metres.
+    Guide(GuideAxis, f64),
+    /// The picture under the plan, where nothing is drawn.
+    Picture,
+    Nothing,
 }
 
 /// The keys of the tools to begin with, in readable form.
@@ -204,6 +221,8 @@ impl Canvas {
         }
         let mut act = None;
         let options = toolbox.options;
+        let placed = document.plan().backdrop().filter(|_| session.layers.backdrop);
+        self.picture_bounds = Some(backdrop.bounds(placed)).filter(|bounds| !bounds.is_empty());
         let scope = self.use_tool(ui, &response, document, shown, session, &options, toolbox, &view, &mut act);
         // With any other tool, the keyboard still goes from room to room.
         let by_keys = self.take_keys(ui, &response, session);
@@ -223,6 +242,9 @@ impl Canvas {
             paint_group(&painter, rect, &view, &group);
         }
         self.ghost.paint(&painter, rect, session.shown_ghost().map(|ghost| &ghost.derived), &style, &view);
+        if let Some(seen) = session.robot_seen() {
+            self.robot.paint(&painter, rect, &view, palette, session.units(), &seen, self.pointed.at);
+        }
         match fresh {
             // Never show a stale label as current.
             None => self.paint_pending(&painter, rect, &view, document, session, &style),
@@ -244,13 +266,25 @@ impl Canvas {
             if self.evidence.is_some() {
                 self.paint_evidence(&painter, rect, &view, document.plan(), derived, session.units(), palette);
             } else {
-                dimensions::paint(&painter, rect, &view, session, derived, || self.painter.text_boxes(rect, &view));
+                // Those of the selection would stand in the way of what another tool shows.
+                let is_in_the_way = toolbox.tool().is_busy() && !toolbox.is_selecting();
+                let taken = || {
+                    let scale_bar = scale_bar(rect, &view, session.units());
+                    let mut taken = self.painter.text_boxes(rect, &view);
+                    taken.push(scale_bar.ground);
+                    taken
+                };
+                if !is_in_the_way {
+                    dimensions::paint(&painter, rect, &view, session, derived, taken);
+                }
             }
         }
+        // Below all that a tool shows.
+        paint_scale_bar(&painter, rect, &view, palette, session.units());
         let tool = toolbox.tool();
         let mut preview = Preview::default();
         preview_question(session, document.plan(), &mut preview);
-        if let Some(place) = self.marked_in_panel {
+        for place in self.marked_in_panel.into_iter().chain(self.marked_here) {
             preview.handle(place, Look::Danger);
         }
         tool.preview(&scope, &mut preview);
@@ -259,12 +293,13 @@ impl Canvas {
             tools::paint_snap(&painter, rect, &view, palette, &scope.snap);
         }
         paint_typed(&painter, rect, &view, palette, &scope, toolbox);
-        let is_blank =
-            document.plan().is_empty() && document.plan().backdrop().is_none() && session.ghost_plan().is_none();
+        let is_blank = session.shown_run().is_none()
+            && document.plan().is_empty()
+            && document.plan().backdrop().is_none()
+            && session.ghost_plan().is_none();
         if is_blank && toolbox.is_selecting() {
             paint_beginning(&painter, rect, palette, beginning);
         }
-        paint_scale_bar(&painter, rect, &view, palette, session.units());
         if response.has_focus() && self.shows_focus {
             let colours = theme::colours(ui.visuals());
             painter.rect_stroke(rect.shrink(1.0), 0.0, Stroke::new(2.0, colours.accent), StrokeKind::Inside);
@@ -332,6 +367,11 @@ impl Canvas {
             snap,
             px_per_m: view.px_per_m,
             nudge_m,
+            is_nudging: session.nudged == Some(document.history.position()),
+            text: match session.picked() {
+                Some(ElementId::Room(id)) => self.painter.text_of(id, response.rect, view),
+                _ => None,
+            },
             modifiers,
         };
         let mut inputs = toolbox.take_pending();
@@ -365,7 +405,7 @@ impl Canvas {
                     let reach_m = scope.metres(tools::REACH_PX);
                     let handle = tools::handle_at(scope.plan, scope.selection, pointer, reach_m);
                     let corner = handle.map(|(corner, _)| ElementId::Corner(corner));
-                    *act = Some(Act::Menu(corner.or(self.pointed.element), at));
+                    *act = Some(Act::Menu(self.under(session, view, response.rect, corner, pointer), at));
                 }
             }
         }
@@ -386,6 +426,21 @@ impl Canvas {
             ui.ctx().set_cursor_icon(toolbox.tool().cursor(&scope));
         }
         scope
+    }
+
+    /// What a menu at the pointer is about. A guide lies over rooms, which are nearly everywhere, and below all else.
+    fn under(&self, session: &Session, view: &View, rect: Rect, corner: Option<ElementId>, pointer: Point) -> Under {
+        let element = corner.or(self.pointed.element);
+        if matches!(element, None | Some(ElementId::Room(_)))
+            && let Some((axis, at_m)) = guides::guide_at(rect, view, session, pointer)
+        {
+            return Under::Guide(axis, at_m);
+        }
+        match element {
+            Some(element) => Under::Element(element),
+            None if self.picture_bounds.is_some_and(|bounds| bounds.contains(pointer)) => Under::Picture,
+            None => Under::Nothing,
+        }
     }
 
     /// With the keyboard on the canvas: Tab goes from room to room, arrows move what is selected, with Ctrl they go
@@ -461,7 +516,7 @@ fn style(session: &Session, plan: &Plan, is_dark: bool) -> Style {
         // The backdrop must show through the rooms.
         fill_opacity: if is_over_picture { 0.55 } else { 1.0 },
         halo: is_over_picture,
-        text_px: 12.5,
+        text_px: theme::PLAN_TEXT,
         units: session.units(),
         grid_m: session.settings.grid_m(),
         layers: Layers {

@@ -73,6 +73,8 @@ pub enum ArgumentKind {
     NewFile,
     /// A file with a picture.
     PictureFile,
+    /// A file with a robot's laser log.
+    LogFile,
     /// A file that was opened or saved before.
     RecentFile,
     /// An open plan: its title.
@@ -144,6 +146,7 @@ impl ArgumentKind {
             Self::NewPlanFile => "a file to write the plan to".to_owned(),
             Self::NewFile => "a file to write".to_owned(),
             Self::PictureFile => "a file with a picture".to_owned(),
+            Self::LogFile => "a file with a laser log".to_owned(),
             Self::RecentFile => "a recent file".to_owned(),
             Self::OpenPlan => "an open plan".to_owned(),
             Self::Text => "a text".to_owned(),
@@ -189,6 +192,7 @@ impl ArgumentKind {
         match self {
             Self::PlanFile => Some(PathUse::Plan),
             Self::PictureFile => Some(PathUse::Picture),
+            Self::LogFile => Some(PathUse::Log),
             Self::NewPlanFile | Self::NewFile => Some(PathUse::New),
             _ => None,
         }
@@ -257,7 +261,12 @@ impl ArgumentKind {
             }
         };
         match self {
-            Self::PlanFile | Self::NewPlanFile | Self::NewFile | Self::PictureFile | Self::RecentFile
+            Self::PlanFile
+            | Self::NewPlanFile
+            | Self::NewFile
+            | Self::PictureFile
+            | Self::LogFile
+            | Self::RecentFile
                 if text.is_empty() =>
             {
                 Err(self.wrong(app))
@@ -267,9 +276,12 @@ impl ArgumentKind {
                 let found = plans.iter().find(|plan| plan.title == text.trim());
                 found.map(|plan| Value::OpenPlan(plan.number)).ok_or_else(|| with_choices(self.wrong(app)))
             }
-            Self::PlanFile | Self::NewPlanFile | Self::NewFile | Self::PictureFile | Self::RecentFile => {
-                Ok(Value::Path(PathBuf::from(text)))
-            }
+            Self::PlanFile
+            | Self::NewPlanFile
+            | Self::NewFile
+            | Self::PictureFile
+            | Self::LogFile
+            | Self::RecentFile => Ok(Value::Path(PathBuf::from(text))),
             Self::Text | Self::Function => Ok(Value::Text(text.trim().to_owned())),
             Self::Length { .. } => self.number(app, app.units().parse_length(text)),
             Self::Coordinate { .. } => {
@@ -360,7 +372,12 @@ impl ArgumentKind {
         };
         let is_taken = match (self, &value) {
             (
-                Self::PlanFile | Self::NewPlanFile | Self::NewFile | Self::PictureFile | Self::RecentFile,
+                Self::PlanFile
+                | Self::NewPlanFile
+                | Self::NewFile
+                | Self::PictureFile
+                | Self::LogFile
+                | Self::RecentFile,
                 Value::Path(path),
             ) => !path.as_os_str().is_empty(),
             (Self::OpenPlan, Value::OpenPlan(number)) => app.session.is_open(*number),
@@ -447,6 +464,7 @@ impl ArgumentKind {
             | Self::NewPlanFile
             | Self::NewFile
             | Self::PictureFile
+            | Self::LogFile
             | Self::Text
             | Self::Number { .. }
             | Self::Length { .. }

@@ -134,6 +134,7 @@ pub(super) const PLAN_FILE: Kind<PathBuf> = kind(ArgumentKind::PlanFile);
 pub(super) const NEW_PLAN_FILE: Kind<PathBuf> = kind(ArgumentKind::NewPlanFile);
 pub(super) const NEW_FILE: Kind<PathBuf> = kind(ArgumentKind::NewFile);
 pub(super) const PICTURE_FILE: Kind<PathBuf> = kind(ArgumentKind::PictureFile);
+pub(super) const LOG_FILE: Kind<PathBuf> = kind(ArgumentKind::LogFile);
 pub(super) const RECENT_FILE: Kind<PathBuf> = kind(ArgumentKind::RecentFile);
 pub(super) const OPEN_PLAN: Kind<OpenPlanNumber> = kind(ArgumentKind::OpenPlan);
 pub(super) const TEXT: Kind<String> = kind(ArgumentKind::Text);

@@ -105,6 +105,12 @@ pub enum On {
     Wall,
     Opening,
     Corner,
+    /// A dimension chain.
+    Dimension,
+    /// A guide line; commands get its direction and its place first.
+    Guide,
+    /// The picture under the plan, where nothing is drawn.
+    Picture,
     /// Several elements that are selected.
     Several,
     /// A place of the plan where nothing is.
@@ -114,8 +120,18 @@ pub enum On {
 }
 
 impl On {
-    pub const ALL: [Self; 7] =
-        [Self::Room, Self::Wall, Self::Opening, Self::Corner, Self::Several, Self::FreeSpace, Self::ListedPlan];
+    pub const ALL: [Self; 10] = [
+        Self::Room,
+        Self::Wall,
+        Self::Opening,
+        Self::Corner,
+        Self::Dimension,
+        Self::Guide,
+        Self::Picture,
+        Self::Several,
+        Self::FreeSpace,
+        Self::ListedPlan,
+    ];
 }
 
 /// A menu of the menu bar, in order.
@@ -128,12 +144,13 @@ pub enum Menu {
     Room,
     Picture,
     Predict,
+    Robot,
     View,
     Help,
 }
 
 impl Menu {
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::File,
         Self::Edit,
         Self::Draw,
@@ -141,6 +158,7 @@ impl Menu {
         Self::Room,
         Self::Picture,
         Self::Predict,
+        Self::Robot,
         Self::View,
         Self::Help,
     ];
@@ -154,6 +172,7 @@ impl Menu {
             Self::Room => "Room",
             Self::Picture => "Picture",
             Self::Predict => "Predict",
+            Self::Robot => "Robot",
             Self::View => "View",
             Self::Help => "Help",
         }

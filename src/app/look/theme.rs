@@ -9,6 +9,9 @@ use egui::{Color32, Context, FontDefinitions, FontFamily, FontId, Stroke, Style,
 
 use crate::draw::{self, LabelColours, Palette, Rgba, font};
 
+/// Size of room names on the canvas, in points.
+pub(crate) const PLAN_TEXT: f64 = 12.5;
+
 /// Which theme is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ThemeChoice {

@@ -31,7 +31,7 @@ fn line(ui: &Ui, text: &str, font: FontId, colour: Color32, width: f32) -> Arc<G
 }
 
 /// Places a galley on whole pixels, vertically centred at `middle`.
-fn put(ui: &Ui, galley: Arc<Galley>, left: f32, middle: f32) {
+pub(crate) fn put(ui: &Ui, galley: Arc<Galley>, left: f32, middle: f32) {
     let pixels_per_point = ui.pixels_per_point();
     let on_pixel = |value: f32| (value * pixels_per_point).round() / pixels_per_point;
     let at = pos2(on_pixel(left), on_pixel(middle - galley.rect.height() / 2.0));
@@ -414,6 +414,14 @@ pub(crate) fn text_button(ui: &mut Ui, text: &str, is_main: bool) -> Response {
     let around = if is_main { response.rect.expand(3.0) } else { response.rect };
     focus_ring(ui, around, &response);
     response
+}
+
+/// The main button of a dialog. True if it was clicked, or if Enter was pressed while nothing else had the keys: a
+/// field that Enter was typed into has let go of them by then, if it was drawn before.
+pub(crate) fn main_button(ui: &mut Ui, text: &str, is_enabled: bool) -> bool {
+    let is_clicked = ui.add_enabled_ui(is_enabled, |ui| text_button(ui, text, true)).inner.clicked();
+    let is_entered = ui.input(|input| input.key_pressed(egui::Key::Enter)) && ui.memory(|it| it.focused().is_none());
+    is_clicked || is_enabled && is_entered
 }
 
 /// The frame of a dialog.

@@ -5,4 +5,5 @@ pub(crate) mod ghost;
 pub(crate) mod pending;
 pub(crate) mod places;
 pub(crate) mod preview;
+pub(crate) mod robot;
 pub(crate) mod scene_painter;

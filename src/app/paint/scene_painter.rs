@@ -2,7 +2,7 @@
 
 mod meshes;
 
-use crate::app::paint::places::on_screen;
+use crate::app::paint::places::{on_screen, plan_point};
 use meshes::{Chunk, Writer};
 pub(crate) use meshes::{earcut, outline_mesh, polygon_mesh};
 use std::collections::{BTreeMap, HashMap};
@@ -15,8 +15,9 @@ use egui::{Color32, FontFamily, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2
 use crate::app::look::theme;
 use crate::app::session::document::Derived;
 use crate::draw::scene::arc_points;
-use crate::draw::{Anchor, Group, Item, Layer, Length, Rgba, Style, Text, View, Weight};
-use crate::geometry::Point;
+use crate::draw::{Anchor, FromAfar, Group, Item, Layer, Length, Rgba, Style, Text, View, Weight};
+use crate::geometry::{Bounds, Point};
+use crate::plan::RoomId;
 
 /// The layers that just move while panning, in order.
 const SHAPE_LAYERS: [Layer; 5] = [Layer::Rooms, Layer::Boundaries, Layer::Walls, Layer::Openings, Layer::Graph];
@@ -113,6 +114,18 @@ impl Names {
     }
 }
 
+/// The box of a text on the screen, from its baseline up.
+fn boxed(text: &Text, rect: Rect, view: &View) -> Rect {
+    let width = crate::draw::font::Font::of(text.weight).width_px(&text.content, text.size_px) as f32;
+    let height = text.size_px as f32;
+    let at = on_screen(rect, view, text.at) + vec2(text.offset_px.x as f32, text.offset_px.y as f32);
+    if text.upright {
+        Rect::from_min_max(at - vec2(height, width / 2.0), at + vec2(0.0, width / 2.0))
+    } else {
+        Rect::from_min_max(at - vec2(width / 2.0, height), at + vec2(width / 2.0, 0.0))
+    }
+}
+
 impl ScenePainter {
     /// Paints a plan in `rect` with the view `view`. Asks for another frame if it has deferred something.
     pub(crate) fn paint(&mut self, painter: &Painter, rect: Rect, derived: &Arc<Derived>, style: &Style, view: &View) {
@@ -140,18 +153,20 @@ impl ScenePainter {
 
     /// The boxes of the names on the screen.
     pub(crate) fn text_boxes(&self, rect: Rect, view: &View) -> Vec<Rect> {
-        let boxed = |text: &Text| {
-            let width = crate::draw::font::Font::of(text.weight).width_px(&text.content, text.size_px) as f32;
-            let height = text.size_px as f32;
-            let at = on_screen(rect, view, text.at) + vec2(text.offset_px.x as f32, text.offset_px.y as f32);
-            // From the baseline up.
-            if text.upright {
-                Rect::from_min_max(at - vec2(height, width / 2.0), at + vec2(0.0, width / 2.0))
-            } else {
-                Rect::from_min_max(at - vec2(width / 2.0, height), at + vec2(width / 2.0, 0.0))
-            }
-        };
-        self.names.iter().flat_map(Names::texts).map(boxed).collect()
+        self.names.iter().flat_map(Names::texts).map(|text| boxed(text, rect, view)).collect()
+    }
+
+    /// Where the name and area of a room are written, as in the last frame, and the box around them.
+    pub(crate) fn text_of(&self, room: RoomId, rect: Rect, view: &View) -> Option<(Point, Bounds)> {
+        let element = room.to_string();
+        let names = self.names.as_ref()?;
+        let mut groups = names.rooms.iter().filter_map(|room| names.placed.get(room)?.as_ref());
+        let group = groups.find(|group| group.element == element)?;
+        let texts = group.items.iter().filter_map(|item| if let Item::Text(text) = item { Some(text) } else { None });
+        let at = texts.clone().next()?.at;
+        let on_screen = texts.map(|text| boxed(text, rect, view)).reduce(Rect::union)?;
+        let corners = [on_screen.min, on_screen.max].map(|corner| plan_point(view, rect, corner));
+        Some((at, Bounds::of(corners)))
     }
 
     fn update_shapes(&mut self, derived: &Arc<Derived>, style: &Style, view: &View, is_moving: bool) {
@@ -242,8 +257,10 @@ impl ScenePainter {
                 placed: HashMap::new(),
             }),
         };
-        names.view = *view;
-        names.rooms = drawing.rooms_to_name(view);
+        if names.view != *view || names.placed.is_empty() {
+            names.view = *view;
+            names.rooms = drawing.rooms_to_name(view);
+        }
         let most = if drawing.is_in_tiles() { NAMES_A_FRAME } else { usize::MAX };
         let missing: Vec<usize> = names.rooms.iter().copied().filter(|room| !names.placed.contains_key(room)).collect();
         for &room in missing.iter().take(most) {
@@ -264,9 +281,8 @@ impl Shapes {
             for level in 0..levels {
                 let mut writer = Writer::new(&self.view);
                 if self.is_from_afar {
-                    for item in drawing.tile_from_afar(tile, layer, level, &self.fills, &self.style, &self.view) {
-                        writer.item_from_afar(&item);
-                    }
+                    let write = |piece: FromAfar<'_>| writer.piece_from_afar(piece);
+                    drawing.tile_from_afar(tile, layer, level, &self.fills, &self.style, &self.view, write);
                 } else {
                     let is_cut = |a: Point, b: Point| layer == Layer::Walls && drawing.is_cut(a, b);
                     for group in drawing.tile_layer(tile, layer, level, &self.fills, &self.style, &self.view) {

@@ -2,7 +2,7 @@
 
 use egui::Ui;
 
-use crate::app::canvas::{Act, Beginning, rulers};
+use crate::app::canvas::{Act, Beginning, Under, rulers};
 use crate::app::commands::{self, CommandError};
 use crate::app::paint::places::canvas_id;
 use crate::app::state::{App, Thing};
@@ -64,8 +64,14 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             app.run_command("flip", ui.ctx());
         }
         Some(Act::Flip) => {}
-        Some(Act::Menu(element, at)) => {
-            app.open_context_menu(element.map_or(Thing::Free, Thing::Element), at, ui.ctx());
+        Some(Act::Menu(under, at)) => {
+            let thing = match under {
+                Under::Element(element) => Thing::Element(element),
+                Under::Guide(axis, at_m) => Thing::Guide(axis, at_m),
+                Under::Picture => Thing::Picture,
+                Under::Nothing => Thing::Free,
+            };
+            app.open_context_menu(thing, at, ui.ctx());
         }
     }
 }

@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
-use egui::{Align2, Id, Key, Modal, ProgressBar, TextEdit, Ui};
+use egui::{Align2, Id, Modal, ProgressBar, TextEdit, Ui};
 
 use super::export::told;
 use crate::app::look::{
     theme,
-    widgets::{caption, dialog_frame, right, section, strong, text_button},
+    widgets::{caption, dialog_frame, main_button, right, section, strong, text_button},
 };
 use crate::app::state::{After, App, Dialog, Entry, dialogs};
 use crate::app::value::{Call, Value};
@@ -93,14 +93,12 @@ impl Dataset {
         ui.add_space(10.0);
         section(ui, "File");
         ui.add_space(2.0);
-        let mut enter = false;
         ui.horizontal(|ui| {
             let edit = TextEdit::singleline(&mut self.path)
                 .id(Id::unique("dataset path"))
                 .desired_width(ui.available_width() - 100.0)
                 .align(Align2::LEFT_CENTER);
-            let response = ui.add(edit).accessible_name("File");
-            enter = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            ui.add(edit).accessible_name("File");
             if text_button(ui, "Choose…", false).clicked() {
                 let path = self.target(app).unwrap_or_else(|| app.session.dataset_path());
                 app.session.ask_where_to_put_dataset(&path);
@@ -126,10 +124,9 @@ impl Dataset {
         let mut act = None;
         ui.horizontal(|ui| {
             right(ui, |ui| {
-                let can = said.is_ok();
                 let title = if exists { "Replace" } else { "Export" };
-                let clicked = ui.add_enabled_ui(can, |ui| text_button(ui, title, true)).inner.clicked();
-                if let Some(path) = target.filter(|_| can && (clicked || enter)) {
+                let is_done = main_button(ui, title, said.is_ok());
+                if let Some(path) = target.filter(|_| is_done) {
                     act = Some(End::Do(Call::new("export-dataset", [Value::Path(path)])));
                 }
                 if text_button(ui, "Cancel", false).clicked() {

@@ -6,14 +6,15 @@ use std::sync::Arc;
 
 use egui::epaint::StrokeKind;
 use egui::{
-    Align2, Color32, ColorImage, ComboBox, FontId, Id, Key, Modal, Rect, Role, ScrollArea, Sense, Stroke, TextEdit,
+    Align2, Color32, ColorImage, ComboBox, FontId, Id, Modal, Rect, Role, ScrollArea, Sense, Stroke, TextEdit,
     TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use crate::app::look::{
     theme,
     widgets::{
-        Segment, caption, colours, dialog_frame, focus_ring, right, section, segmented, strong, text_button, toggle,
+        Segment, caption, colours, dialog_frame, focus_ring, main_button, right, section, segmented, strong,
+        text_button, toggle,
     },
 };
 use crate::app::session::exporting::{DEFAULT_OPTIONS, Shown, Writable, is_sheet, writable};
@@ -290,7 +291,6 @@ impl Export {
         let mut act = None;
         section(ui, "File");
         ui.add_space(2.0);
-        let mut enter = false;
         ui.horizontal(|ui| {
             let edit = TextEdit::singleline(&mut self.path)
                 .id(Id::unique("export path"))
@@ -298,7 +298,6 @@ impl Export {
                 .align(Align2::LEFT_CENTER);
             let response = ui.add(edit).accessible_name("File");
             self.is_own_path |= response.changed();
-            enter = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             if text_button(ui, "Choose…", false).clicked() {
                 let path = self.target(app).unwrap_or_else(|| app.session.export_path(self.format.0));
                 app.session.ask_where_to_export(&path);
@@ -325,9 +324,8 @@ impl Export {
         ui.horizontal(|ui| {
             right(ui, |ui| {
                 let title = if exists { "Replace" } else { "Export" };
-                let can = said.is_ok();
-                let clicked = ui.add_enabled_ui(can, |ui| text_button(ui, title, true)).inner.clicked();
-                if let Some(path) = target.filter(|_| can && (clicked || enter)) {
+                let is_done = main_button(ui, title, said.is_ok());
+                if let Some(path) = target.filter(|_| is_done) {
                     let values = [Value::Path(path), Value::Text(self.words())];
                     act = Some(End::Do(Call::new("export", values)));
                 }
@@ -350,9 +348,7 @@ impl Export {
         told(ui, &said);
         ui.horizontal(|ui| {
             right(ui, |ui| {
-                let clicked =
-                    ui.add_enabled_ui(said.is_ok(), |ui| text_button(ui, "Open to print", true)).inner.clicked();
-                if clicked {
+                if main_button(ui, "Open to print", said.is_ok()) {
                     act = Some(End::Do(Call::new("print", [Value::Text(self.words())])));
                 }
                 if text_button(ui, "Cancel", false).clicked() {

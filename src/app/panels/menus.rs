@@ -11,7 +11,7 @@ use crate::app::paint::places::canvas_id;
 use crate::app::state::{App, Thing};
 use crate::app::value::{Call, Value};
 use crate::base::wording::sentence;
-use crate::plan::{ElementId, titles::title_of};
+use crate::plan::{ElementId, GuideAxis, Plan, titles::title_of};
 
 /// Width of a menu, in points.
 const WIDTH: f32 = 260.0;
@@ -27,11 +27,11 @@ const LEAST_HEIGHT: f32 = 100.0;
 pub(super) fn menu(app: &mut App, ui: &mut Ui, menu: Menu, top: f32) {
     let commands = COMMANDS.iter().filter(|command| command.menu.is_some_and(|(of, _)| of == menu));
     let height = ui.ctx().content_rect().bottom() - top - EDGE;
-    list(app, ui, commands, height);
+    list(app, ui, commands, height, &[]);
 }
 
-/// Shows commands as the rows of a menu.
-fn list<'a>(app: &mut App, ui: &mut Ui, commands: impl Iterator<Item = &'a Command>, height: f32) {
+/// Shows commands as the rows of a menu. `about` says what the menu is about, for those that take it first.
+fn list<'a>(app: &mut App, ui: &mut Ui, commands: impl Iterator<Item = &'a Command>, height: f32, about: &[Value]) {
     ui.set_width(WIDTH);
     let height = height.max(LEAST_HEIGHT);
     let area = ScrollArea::vertical().min_scrolled_height(height).max_height(height).auto_shrink([false, true]);
@@ -62,7 +62,7 @@ fn list<'a>(app: &mut App, ui: &mut Ui, commands: impl Iterator<Item = &'a Comma
                 }
                 continue;
             }
-            let response = row(app, ui, command);
+            let response = row(app, ui, command, about);
             if response.enabled() {
                 shown.push((response, command.title.to_owned()));
             }
@@ -79,7 +79,7 @@ fn list<'a>(app: &mut App, ui: &mut Ui, commands: impl Iterator<Item = &'a Comma
     });
 }
 
-fn row(app: &mut App, ui: &mut Ui, command: &Command) -> Response {
+fn row(app: &mut App, ui: &mut Ui, command: &Command, about: &[Value]) -> Response {
     let why_not = command.why_not(app);
     let shortcut = app.keys_text(command, ui.ctx());
     let is_on = command.is_on(app) == Some(true);
@@ -96,7 +96,13 @@ fn row(app: &mut App, ui: &mut Ui, command: &Command) -> Response {
     };
     if response.clicked() {
         let context = ui.ctx().clone();
-        app.run_command(command.id, &context);
+        match about {
+            // Those that take less, such as a switch, are not about this one thing.
+            [_, ..] if command.arguments.len() >= about.len() => {
+                app.act_on(Call { id: command.id, values: about.to_vec() }, &context);
+            }
+            _ => drop(app.run_command(command.id, &context)),
+        }
         ui.close();
     }
     response
@@ -140,13 +146,15 @@ impl App {
     fn kind_of(&self, thing: &Thing) -> On {
         match thing {
             Thing::Free => On::FreeSpace,
+            Thing::Guide(..) => On::Guide,
+            Thing::Picture => On::Picture,
             Thing::Listed(_) => On::ListedPlan,
             Thing::Element(_) if self.selection().len() > 1 => On::Several,
             Thing::Element(ElementId::Room(_)) => On::Room,
             Thing::Element(ElementId::Wall(_)) => On::Wall,
             Thing::Element(ElementId::Opening(_)) => On::Opening,
             Thing::Element(ElementId::Corner(_)) => On::Corner,
-            Thing::Element(ElementId::Dimension(_)) => On::Several,
+            Thing::Element(ElementId::Dimension(_)) => On::Dimension,
         }
     }
 }
@@ -156,7 +164,9 @@ impl App {
 fn of_thing(kind: On) -> Vec<&'static Command> {
     let own = match kind {
         On::Room | On::Several => Menu::Room,
-        On::Wall | On::Opening | On::Corner => Menu::Modify,
+        On::Wall | On::Opening | On::Corner | On::Dimension => Menu::Modify,
+        On::Guide => Menu::View,
+        On::Picture => Menu::Picture,
         On::FreeSpace => Menu::Edit,
         On::ListedPlan => Menu::File,
     };
@@ -198,6 +208,14 @@ pub(super) fn show_context_menu(app: &mut App, ui: &Ui) {
         }
         Thing::Element(_) => crate::base::wording::count(app.selection().len(), "element"),
         Thing::Free => app.session.document.as_ref().map(|document| document.title()).unwrap_or_default(),
+        Thing::Guide(axis, at_m) => {
+            let name = if *axis == GuideAxis::Vertical { "x" } else { "y" };
+            format!("{} guide, {name} {}", sentence(axis.name()), app.units().length(*at_m))
+        }
+        Thing::Picture => {
+            let path = app.plan().and_then(Plan::backdrop).map_or("", |backdrop| backdrop.path.as_str());
+            path.rsplit(['/', '\\']).next().unwrap_or_default().to_owned()
+        }
         Thing::Listed(origin) => origin.title(),
     };
     let is_current = match &thing {
@@ -234,7 +252,11 @@ pub(super) fn show_context_menu(app: &mut App, ui: &Ui) {
                 }
                 return;
             }
-            list(app, ui, of_thing(kind).into_iter(), below.max(above) - EDGE - 24.0);
+            let about = match thing {
+                Thing::Guide(axis, at_m) => vec![Value::word(axis), Value::Number(at_m)],
+                _ => Vec::new(),
+            };
+            list(app, ui, of_thing(kind).into_iter(), below.max(above) - EDGE - 24.0, &about);
         });
 }
 
@@ -256,6 +278,7 @@ pub(super) const fn letter(menu: Menu) -> (char, Key) {
         Menu::Room => ('R', Key::R),
         Menu::Picture => ('P', Key::P),
         Menu::Predict => ('t', Key::T),
+        Menu::Robot => ('b', Key::B),
         Menu::View => ('V', Key::V),
         Menu::Help => ('H', Key::H),
     }

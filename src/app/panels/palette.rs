@@ -18,7 +18,7 @@ use crate::app::look::{
     search::{Hit, Search},
     text::{select, select_all},
     theme,
-    widgets::{ICON, ROW, colours, hairline_in, put_line, swatch},
+    widgets::{ICON, ROW, colours, hairline_in, put, put_line, swatch},
 };
 use crate::app::session::paths::{PathUse, split_typed};
 use crate::app::state::App;
@@ -469,9 +469,12 @@ impl Palette {
                 }
                 Some(_) => format!("Nothing fits ‘{query}’"),
             };
-            let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 2.0 * ROW), Sense::hover());
             let font = FontId::proportional(theme::BODY);
-            put_line(ui, &text, font, colours(ui).text_weak, rect.shrink2(vec2(16.0, 0.0)));
+            let weak = colours(ui).text_weak;
+            let galley = ui.painter().layout(text.clone(), font, weak, (ui.available_width() - 32.0).max(80.0));
+            let height = (galley.rect.height() + 20.0).max(2.0 * ROW);
+            let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+            put(ui, galley, rect.left() + 16.0, rect.center().y);
             response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &text));
             return None;
         }
@@ -515,16 +518,19 @@ impl Palette {
             (None, _, Some(asking)) => (asking.command.help.to_owned(), colours.text_weak),
             (None, _, None) => (String::new(), colours.text_weak),
         };
-        let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 34.0), Sense::hover());
-        let inner = rect.shrink2(vec2(16.0, 0.0));
         let back =
             if self.asking.as_ref().is_some_and(|asking| asking.is_from_list) { "Esc goes back" } else { "Esc closes" };
         let small = FontId::proportional(theme::SMALL);
         let width = ui.painter().layout_no_wrap(back.to_owned(), small.clone(), colours.text_weak).rect.width();
+        // As many lines as it takes: what is wrong, and what would be right, is read to its end.
+        let most = (ui.available_width() - 48.0 - width).max(80.0);
+        let galley = ui.painter().layout(text.clone(), small.clone(), colour, most);
+        let height = (galley.rect.height() + 20.0).max(34.0);
+        let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+        let inner = rect.shrink2(vec2(16.0, 0.0));
         let right = Rect::from_min_max(pos2(inner.right() - width, inner.top()), inner.max);
         put_line(ui, back, small.clone(), colours.text_weak, right);
-        let left = Rect::from_min_max(inner.min, pos2(right.left() - 16.0, inner.bottom()));
-        put_line(ui, &text, small, colour, left);
+        put(ui, galley, inner.left(), inner.center().y);
         let role = if error.is_some() { Role::Alert } else { Role::Status };
         response.widget_info(|| WidgetInfo::labeled(role, true, &text));
     }

@@ -21,6 +21,9 @@ use crate::plan::{ChangeKind, Difference, ElementId, Plan};
 /// The most marks: more cannot be told apart in a thumbnail, and would take longer than a frame.
 const MOST_MARKS: usize = 4000;
 
+/// A picture shows at least so much around what is smaller, in metres.
+const LEAST_M: f64 = 1.0;
+
 /// Margin around the plan, in points.
 const MARGIN: f64 = 14.0;
 
@@ -125,6 +128,21 @@ impl PlanPicture {
             }
         }
         Self { derived, marks, bounds, painter: ScenePainter::default() }
+    }
+
+    /// The same with what was half drawn: a chain of lines, or the first point of one.
+    pub(crate) fn with_draft(mut self, points: &[Point]) -> Self {
+        let lines = points.windows(2).map(|pair| Segment::new(pair[0], pair[1]));
+        let first = points.first().filter(|_| points.len() == 1).map(|&point| Segment::new(point, point));
+        let lines = lines.chain(first).take(MOST_MARKS);
+        self.marks.extend(lines.map(|line| Mark { kind: MarkKind::Added, shape: MarkShape::Line(line) }));
+        let drawn = Bounds::of(points.iter().copied());
+        self.bounds = self.bounds.union(drawn);
+        // A point alone has no size to be fitted.
+        if self.bounds.width().max(self.bounds.height()) < LEAST_M {
+            self.bounds = self.bounds.inflated(LEAST_M);
+        }
+        self
     }
 
     /// Paints it at this size.

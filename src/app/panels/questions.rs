@@ -1,10 +1,10 @@
 //! Questions that must be answered before anything else. Escape, or a click outside, cancels.
 
-use egui::{Id, Key, Modal, Ui};
+use egui::{Id, Modal, Ui};
 
 use crate::app::look::{
     theme,
-    widgets::{dialog_frame, right, strong, text_button},
+    widgets::{dialog_frame, main_button, right, strong, text_button},
 };
 use crate::app::session::questions::CANCEL;
 use crate::app::state::App;
@@ -23,14 +23,15 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         ui.horizontal(|ui| {
             right(ui, |ui| {
                 for (index, (word, title)) in answers.iter().enumerate() {
-                    if text_button(ui, title, index == 0).clicked() {
+                    let is_given =
+                        if index == 0 { main_button(ui, title, true) } else { text_button(ui, title, false).clicked() };
+                    if is_given {
                         answer = Some(*word);
                     }
                 }
             });
         });
-        let enter = ui.input(|input| input.key_pressed(Key::Enter)) && ui.memory(|memory| memory.focused().is_none());
-        answer.or(answers.first().filter(|_| enter).map(|(word, _)| *word))
+        answer
     });
     if let Some(answer) = response.inner.or(response.should_close().then_some(CANCEL)) {
         app.act_on(Call::new("answer", [Value::Word(answer)]), ui.ctx());

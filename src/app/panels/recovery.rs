@@ -17,6 +17,7 @@ use crate::app::session::recovery::Offered;
 use crate::app::state::App;
 use crate::app::state::{After, Dialog, Entry};
 use crate::base::wording::count;
+use crate::geometry::Point;
 
 /// Size of a thumbnail, in points.
 const PICTURE: egui::Vec2 = vec2(300.0, 190.0);
@@ -56,7 +57,9 @@ impl Recovery {
                 && !self.pictures.contains_key(&leftover.path)
             {
                 let (base, plan) = (recovered.base(), recovered.history.plan());
-                let picture = PlanPicture::new(base, plan, derived.clone(), &BTreeSet::new());
+                let draft = recovered.draft.iter().flat_map(|draft| &draft.points);
+                let draft: Vec<Point> = draft.map(|&[x, y]| Point::new(x, y)).collect();
+                let picture = PlanPicture::new(base, plan, derived.clone(), &BTreeSet::new()).with_draft(&draft);
                 self.pictures.insert(leftover.path.clone(), picture);
             }
         }
@@ -157,7 +160,7 @@ fn one(
                     if let Some(step) = recovered.history.steps().get(position).filter(|_| position > 0) {
                         caption(ui, format!("Last change: {}", step.title));
                     }
-                    if recovered.draft.is_some() {
+                    if recovered.draft.is_some() && position > 0 {
                         caption(ui, "The unfinished drawing is there too.");
                     }
                     if recovered.unsound.is_some() {

@@ -29,11 +29,26 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         super::findings::badge(app, ui);
         ui.add_space(4.0);
         // Never over the right part.
-        let width = (ui.available_width() - RIGHT_WIDTH).max(0.0);
+        let is_narrow = ui.ctx().content_rect().width() < NARROW;
+        let right_width = if is_narrow { ZOOM_WIDTH } else { RIGHT_WIDTH };
+        let width = (ui.available_width() - right_width).max(0.0);
+        let text = left_text(app);
+        let said = app.session.status.clone();
+        let needed = |text: &str| {
+            let font = egui::FontId::proportional(theme::SMALL);
+            ui.painter().layout_no_wrap(text.to_owned(), font, weak).rect.width()
+        };
+        // What was said comes before what could be done; where not even that fits, it stands above in full.
+        let is_too_long = !said.is_empty() && needed(&said) > width;
+        let text =
+            if !said.is_empty() && text.starts_with(&said) && needed(&text) > width { said.clone() } else { text };
         ui.scope(|ui| {
             ui.set_max_width(width);
-            ui.add(egui::Label::new(small(left_text(app))).truncate());
+            ui.add(egui::Label::new(small(text)).truncate());
         });
+        if is_too_long {
+            in_full(ui, &said);
+        }
         right(ui, |ui| {
             ui.spacing_mut().item_spacing.x = 2.0;
             let Some(px_per_m) = app.canvas.px_per_m().filter(|_| app.session.document.is_some()) else { return };
@@ -47,7 +62,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             response.on_hover_text("Scale on a screen with 96 points per inch");
             zoom_button(app, ui, Icon::Minus, "zoom-out");
             ui.add_space(14.0);
-            if let Some(point) = app.session.pointed.at {
+            if let Some(point) = app.session.pointed.at.filter(|_| !is_narrow) {
                 let units = app.units();
                 ui.label(small(format!("x {}    y {}", units.length(point.x), units.length(point.y))));
             }
@@ -57,6 +72,29 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
 
 /// Width of the coordinates and the zoom, in points.
 const RIGHT_WIDTH: f32 = 290.0;
+
+/// Width of the zoom alone.
+const ZOOM_WIDTH: f32 = 140.0;
+
+/// A window narrower than this shows no coordinates, in points.
+const NARROW: f32 = 900.0;
+
+/// Shows a text that is too long for the line above it, over the canvas.
+fn in_full(ui: &Ui, text: &str) {
+    let line = ui.max_rect();
+    let most = (ui.ctx().content_rect().width() - 48.0).min(560.0);
+    egui::Area::new(egui::Id::unique("status in full"))
+        .order(egui::Order::Middle)
+        .interactable(false)
+        .pivot(egui::Align2::LEFT_BOTTOM)
+        .fixed_pos(line.left_top() - vec2(0.0, 8.0))
+        .show(ui.ctx(), |ui| {
+            egui::Frame::popup(ui.style()).inner_margin(egui::Margin::symmetric(12, 8)).show(ui, |ui| {
+                ui.set_max_width(most);
+                ui.add(egui::Label::new(RichText::new(text).size(theme::SMALL).color(colours(ui).text)).wrap());
+            });
+        });
+}
 
 fn zoom_button(app: &mut App, ui: &mut Ui, icon: Icon, id: &str) {
     let Some(command) = commands::find(id) else { return };
@@ -86,10 +124,10 @@ pub(crate) fn left_text(app: &App) -> String {
         return said.join("  ·  ");
     }
     let plan = document.plan();
-    let passable = plan.openings().filter(|(_, opening)| opening.kind.is_passable()).count();
-    let mut text = format!("{}  ·  {}", count(plan.rooms().len(), "room"), count(passable, "opening"));
-    if plan.openings().len() > passable {
-        text.push_str(&format!("  ·  {}", count(plan.openings().len() - passable, "window")));
+    let contents = app.session.contents();
+    let mut text = format!("{}  ·  {}", count(plan.rooms().len(), "room"), count(contents.passable, "opening"));
+    if contents.windows > 0 {
+        text.push_str(&format!("  ·  {}", count(contents.windows, "window")));
     }
     text
 }

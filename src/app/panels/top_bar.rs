@@ -31,11 +31,13 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
             right
         })
         .inner;
-    let right = bar.right() - tools_width();
+    // Where the window is narrow, groups of tools give way to the menus, which have all of them.
+    let groups = groups_within(bar.right() - left - SPARE);
+    let right = bar.right() - tools_width(&groups);
     let place = bar.with_min_x(right);
     let mut tools = ui.new_child(UiBuilder::new().max_rect(place).layout(Layout::left_to_right(Align::Center)));
     tools.spacing_mut().item_spacing.x = SPACE;
-    show_tools(app, &mut tools);
+    show_tools(app, &mut tools, &groups);
     title(app, ui, left + 16.0, right - 16.0);
 }
 
@@ -59,19 +61,44 @@ fn menu_title(ui: &Ui, menu: Menu) -> WidgetText {
 const SPACE: f32 = 2.0;
 const GROUP_SPACE: f32 = 6.0;
 
-/// The width of the tools.
-fn tools_width() -> f32 {
-    let groups: Vec<u8> = COMMANDS.iter().filter_map(|command| command.tool).map(|(_, group)| group).collect();
+/// What is kept free between the menus and the tools, in points.
+const SPARE: f32 = 8.0;
+
+/// The groups of tools in the order in which they give way: the views and layers, which have keys and a panel, before
+/// what is undone and the panels themselves.
+const GIVE_WAY: [u8; 4] = [1, 2, 0, 3];
+
+/// The groups of tools that fit within a width.
+fn groups_within(width: f32) -> Vec<u8> {
+    let mut groups: Vec<u8> = COMMANDS.iter().filter_map(|command| command.tool).map(|(_, group)| group).collect();
+    groups.dedup();
+    for group in GIVE_WAY {
+        if tools_width(&groups) <= width {
+            break;
+        }
+        groups.retain(|other| *other != group);
+    }
+    groups
+}
+
+/// The width of the tools of some groups.
+fn tools_width(shown: &[u8]) -> f32 {
+    let groups: Vec<u8> = COMMANDS
+        .iter()
+        .filter_map(|command| command.tool)
+        .map(|(_, group)| group)
+        .filter(|group| shown.contains(group))
+        .collect();
     let lines = groups.windows(2).filter(|pair| pair[0] != pair[1]).count();
     let things = groups.len() + lines;
     groups.len() as f32 * ROW + lines as f32 * (2.0 * GROUP_SPACE + 1.0) + things.saturating_sub(1) as f32 * SPACE
 }
 
-/// The tools, in groups.
-fn show_tools(app: &mut App, ui: &mut Ui) {
+/// The tools of some groups.
+fn show_tools(app: &mut App, ui: &mut Ui, groups: &[u8]) {
     let mut group = None;
     for command in COMMANDS.iter() {
-        let Some((icon, this)) = command.tool else { continue };
+        let Some((icon, this)) = command.tool.filter(|(_, group)| groups.contains(group)) else { continue };
         if group.is_some_and(|group| group != this) {
             ui.add_space(GROUP_SPACE);
             let (rect, _) = ui.allocate_exact_size(vec2(1.0, 18.0), Sense::hover());

@@ -46,8 +46,8 @@ pub(crate) struct Begun {
     /// The title of the step in the history.
     pub title: String,
     pub plan: Plan,
-    /// The storey it was copied from.
-    pub below: Plan,
+    /// The storey it was copied from, if it was.
+    pub below: Option<Plan>,
 }
 
 impl Opened {

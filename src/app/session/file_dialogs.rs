@@ -40,6 +40,8 @@ pub(crate) struct Given {
 /// The purpose of choosing a file.
 pub(crate) enum Purpose {
     Open,
+    /// To replay a robot's log.
+    Log,
     Picture(PictureUse),
     /// `answering`: the answer to a question that led to this.
     Save {
@@ -100,6 +102,13 @@ impl Dialogs {
                             .add_filter("Plans", &crate::formats::dialog_endings())
                             .add_filter("All files", &["*"]);
                         Box::pin(dialog.pick_file()) as Waiting
+                    }
+                    Purpose::Log => {
+                        let dialog = dialog
+                            .set_title("Replay a laser log")
+                            .add_filter("Laser logs", &["log", "log.gz", "gz"])
+                            .add_filter("All files", &["*"]);
+                        Box::pin(dialog.pick_file())
                     }
                     Purpose::Picture(_) => {
                         let dialog = dialog
@@ -178,6 +187,7 @@ impl Purpose {
     pub(crate) const fn command(&self) -> &'static str {
         match self {
             Self::Open => "open",
+            Self::Log => "replay-log",
             Self::Picture(PictureUse::Add) => "picture",
             Self::Picture(PictureUse::Relink) => "relink-picture",
             Self::Save { .. } => "save-as",

@@ -44,7 +44,8 @@ impl Session {
     pub(crate) fn copy_storey(&mut self, storey: &str, keep: Keep) {
         let Some(below) = self.plan().cloned() else { return };
         self.opening = None;
-        let begun = Begun { title: format!("Copy storey as {storey}"), plan: copied(&below, storey, keep), below };
+        let begun =
+            Begun { title: format!("Copy storey as {storey}"), plan: copied(&below, storey, keep), below: Some(below) };
         let opened = Opened { begun: Some(Box::new(begun)), ..Opened::untitled() };
         self.request(Intent::Show(Box::new(opened)));
     }
@@ -193,7 +194,7 @@ impl Session {
             let text = format!("Imported {}: {summary}", opened.origin.title());
             Message::new(Severity::Info, text, "").with(vec![Remedy::ShowNotes])
         });
-        let below = opened.begun.as_ref().map(|begun| begun.below.clone());
+        let below = opened.begun.as_ref().and_then(|begun| begun.below.clone());
         self.ghost = below.map(|below| Ghost::new(below, None, &self.schemes));
         self.documents += 1;
         self.document = Some(Document::new(self.documents, opened));
@@ -283,6 +284,7 @@ impl Session {
         let word = path.to_string_lossy().into_owned();
         match purpose {
             Purpose::Open => self.wishes.push(run("open")),
+            Purpose::Log => self.wishes.push(run("replay-log")),
             Purpose::Picture(PictureUse::Add) => self.wishes.push(run("picture")),
             Purpose::Picture(PictureUse::Relink) => self.wishes.push(run("relink-picture")),
             Purpose::Export | Purpose::Dataset => self.chosen_file = Some(path),

@@ -14,6 +14,7 @@ pub(crate) mod fresh;
 pub(crate) mod ghost;
 pub(crate) mod history;
 pub(crate) mod jobs;
+pub(crate) mod kept;
 pub(crate) mod labelling;
 pub(crate) mod layers;
 pub(crate) mod memory;
@@ -27,6 +28,7 @@ pub(crate) mod plan_list;
 pub(crate) mod predictions;
 pub(crate) mod questions;
 pub(crate) mod recovery;
+pub(crate) mod robot;
 pub(crate) mod safety;
 pub(crate) mod samples;
 pub(crate) mod selection;
@@ -87,6 +89,8 @@ pub(crate) struct Session {
     pub(crate) missing: std::collections::BTreeSet<PathBuf>,
     pub(crate) list: PlanList,
     pub(crate) selection: Selection,
+    /// What panels show of the plan and the selection.
+    pub(crate) figures: kept::Figures,
     /// The step of the history that nudged what is selected, if that was the last thing done.
     pub(crate) nudged: Option<usize>,
     /// What is being drawn and is in no plan yet.
@@ -143,6 +147,8 @@ pub(crate) struct Session {
     pub(crate) chosen_file: Option<PathBuf>,
     /// The dataset being made.
     pub(crate) dataset_job: Option<jobs::Wanted>,
+    /// The simulated robot, or the log being replayed.
+    pub(crate) robot: robot::Robot,
     /// Requests to the rest of the window.
     pub(crate) wishes: Vec<Wish>,
 }
@@ -171,6 +177,7 @@ impl Session {
             missing: std::collections::BTreeSet::new(),
             list: PlanList::default(),
             selection: Selection::default(),
+            figures: kept::Figures::default(),
             nudged: None,
             draft: None,
             fresh: None,
@@ -203,6 +210,7 @@ impl Session {
             preview: exporting::SheetPreview::default(),
             chosen_file: None,
             dataset_job: None,
+            robot: robot::Robot::default(),
             wishes: Vec::new(),
         }
     }

@@ -14,6 +14,8 @@ use crate::store::pictures;
 pub(crate) enum PathUse {
     /// A plan that is opened, or a folder of them.
     Plan,
+    /// A robot's laser log that is replayed.
+    Log,
     /// A picture that is opened.
     Picture,
     /// A file that is written.
@@ -27,6 +29,10 @@ impl PathUse {
             Self::Plan => {
                 let name = name.to_lowercase();
                 formats::dialog_endings().iter().any(|ending| name.ends_with(&format!(".{ending}")))
+            }
+            Self::Log => {
+                let name = name.to_lowercase();
+                [".log", ".log.gz"].iter().any(|ending| name.ends_with(ending))
             }
             Self::Picture => pictures::is_picture_name(Path::new(name)),
             Self::New => true,

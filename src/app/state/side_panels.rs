@@ -8,7 +8,7 @@ use super::App;
 use crate::app::session::fields::FieldKind;
 use crate::app::session::origin::Origin;
 use crate::geometry::Point;
-use crate::plan::ElementId;
+use crate::plan::{ElementId, GuideAxis};
 
 /// A side panel of the canvas.
 pub(crate) struct SidePanel {
@@ -68,6 +68,10 @@ pub(crate) enum Thing {
     Element(ElementId),
     /// A place of the plan where nothing is.
     Free,
+    /// A guide line: its direction and its place in metres.
+    Guide(GuideAxis, f64),
+    /// The picture under the plan.
+    Picture,
     /// A plan in the list.
     Listed(Origin),
 }
@@ -156,4 +160,5 @@ pub(crate) mod ids {
     pub(crate) const INSPECTOR: &str = "inspector";
     pub(crate) const HISTORY: &str = "history";
     pub(crate) const FINDINGS: &str = "findings";
+    pub(crate) const ROBOT: &str = "robot";
 }

@@ -122,6 +122,10 @@ pub(crate) struct Scope<'a> {
     pub px_per_m: f64,
     /// How far an arrow key moves what is selected, in metres.
     pub nudge_m: f64,
+    /// Whether an arrow key was the last thing that moved what is selected.
+    pub is_nudging: bool,
+    /// Where the name and area of the one selected room are written, and the box around them.
+    pub text: Option<(Point, Bounds)>,
     pub modifiers: Modifiers,
 }
 

@@ -47,6 +47,20 @@ pub(super) fn show(scope: &Scope<'_>, preview: &mut Preview) {
     for place in [segment.a, segment.midpoint(), segment.b] {
         preview.handle(place, Look::New);
     }
+    // While arrow keys move it, as while it is dragged.
+    if scope.is_nudging
+        && let Some(ElementId::Opening(id)) = scope.selection.one()
+    {
+        show_distances(scope.plan, id, scope, preview);
+    }
+}
+
+/// Shows how far an opening is from what lies beside it.
+fn show_distances(plan: &Plan, id: OpeningId, scope: &Scope<'_>, preview: &mut Preview) {
+    for beside in beside_opening(plan, id).into_iter().flatten().filter(|beside| beside.distance_m > 0.0) {
+        preview.line(vec![beside.way.a, beside.way.b], false, Look::Guide);
+        preview.dimension(beside.way, scope.units.length(beside.distance_m));
+    }
 }
 
 /// Lengths that are dragged are whole multiples of this, in metres: a centimetre, half an inch.
@@ -138,10 +152,7 @@ impl Grip {
         for place in [segment.a, segment.b] {
             preview.handle(place, Look::New);
         }
-        for beside in beside_opening(&next, id).into_iter().flatten().filter(|beside| beside.distance_m > 0.0) {
-            preview.line(vec![beside.way.a, beside.way.b], false, Look::Guide);
-            preview.dimension(beside.way, scope.units.length(beside.distance_m));
-        }
+        show_distances(&next, id, scope, preview);
         preview.label(scope.pointer, scope.units.length(segment.length()), Look::New);
     }
 }

@@ -3,6 +3,7 @@
 use super::ghost::ghost;
 use super::{Call, Entry, Input, Scope, Tool, Value};
 use crate::app::paint::preview::Preview;
+use crate::edit::middle_of;
 use crate::geometry::Transform;
 
 pub(crate) const ENTRY: Entry = Entry {
@@ -33,7 +34,7 @@ impl Tool for Paste {
 
     fn preview(&self, scope: &Scope<'_>, preview: &mut Preview) {
         let Some(copied) = scope.copied else { return };
-        let by = scope.at() - copied.bounds().center();
+        let by = scope.at() - middle_of(copied);
         ghost(copied, Transform::translation(by), preview);
     }
 }

@@ -10,15 +10,16 @@ use super::tool::Group;
 use super::{Anchor, Call, Entry, Input, NUDGES_MORE, Scope, Tool, Value};
 use crate::app::look::icons::Icon;
 use crate::app::look::icons::Part::Loop;
+use crate::app::look::theme::PLAN_TEXT;
 use crate::app::paint::preview::{Look, Preview};
 use crate::app::session::document::Derived;
 use crate::app::session::layers::LayerSettings;
 use crate::app::session::selection::{SelectMode, Selection};
 use crate::app::value::Boxed;
-use crate::draw::dimensions;
+use crate::draw::{Style, dimensions};
 use crate::edit::Reach;
-use crate::geometry::{Point, Vector};
-use crate::plan::{CornerId, ElementId, Place, Plan};
+use crate::geometry::{Bounds, Point, Vector};
+use crate::plan::{CornerId, DimensionLine, ElementId, Place, Plan, RoomId};
 
 pub(super) const ENTRY: Entry = Entry {
     id: "tool-select",
@@ -59,6 +60,8 @@ enum State {
     Moving { from: Point, what: Moving },
     /// Dragging a grip of an opening.
     Gripping(Grip),
+    /// Dragging the name and area of a room: where they are, and where they were grabbed.
+    MovingText { room: RoomId, at: Point, from: Point },
 }
 
 /// Repeated clicks at one position cycle through all elements there.
@@ -86,17 +89,21 @@ pub(crate) fn hit(
     point: Point,
     px_per_m: f64,
 ) -> Vec<ElementId> {
-    let mut found = dimensions_at(plan, layers, point, REACH_PX / px_per_m);
+    let mut found = dimensions_at(plan, layers, point, px_per_m);
     found.extend(derived.at(point, REACH_PX / px_per_m));
     found.retain(|&element| plan.has(element) && !layers.is_locked(element));
     found
 }
 
-/// The dimension chains at a position, where they are shown.
-fn dimensions_at(plan: &Plan, layers: &LayerSettings, point: Point, reach_m: f64) -> Vec<ElementId> {
+/// The dimension chains whose line or figures are at a position, where they are shown.
+fn dimensions_at(plan: &Plan, layers: &LayerSettings, point: Point, px_per_m: f64) -> Vec<ElementId> {
+    let style = Style { text_px: PLAN_TEXT, ..Style::default() };
     let lines = dimensions::lines(plan).into_iter().filter(|_| layers.dimensions);
-    let near = lines.filter(|(_, line)| dimensions::segment(line).is_some_and(|line| line.distance(point) <= reach_m));
-    near.map(|(id, _)| ElementId::Dimension(id)).collect()
+    let is_near = |line: &DimensionLine| {
+        let is_on_line = dimensions::segment(line).is_some_and(|line| line.distance(point) <= REACH_PX / px_per_m);
+        is_on_line || dimensions::figure_at(line, point, &style, px_per_m).is_some()
+    };
+    lines.filter(|(_, line)| is_near(line)).map(|(id, _)| ElementId::Dimension(id)).collect()
 }
 
 impl Select {
@@ -149,6 +156,7 @@ impl Select {
         self.state = match self.grabbed(pointer, scope) {
             Some(Grabbed::Corner(corner, from)) => State::MovingCorner { corner, from },
             Some(Grabbed::Opening(grip)) => State::Gripping(grip),
+            Some(Grabbed::Text(room, at)) => State::MovingText { room, at, from: pointer },
             Some(Grabbed::Selection) => State::Moving { from: at, what: Moving::of(scope) },
             None => State::Boxing { from: pointer },
         };
@@ -162,6 +170,11 @@ impl Select {
         let reach_m = scope.metres(REACH_PX);
         if let Some(grip) = opening_grips::grip_at(scope, pointer, reach_m) {
             return Some(Grabbed::Opening(grip));
+        }
+        if let Some((room, at, grip)) = text_grip(scope)
+            && grip.distance(pointer) <= reach_m
+        {
+            return Some(Grabbed::Text(room, at));
         }
         if let Some((corner, place)) = handle_at(scope.plan, scope.selection, pointer, reach_m) {
             return Some(Grabbed::Corner(corner, place));
@@ -203,6 +216,9 @@ impl Select {
                 vec![call]
             }
             State::Gripping(grip) => vec![grip.drop(scope)],
+            State::MovingText { room, at, from } => {
+                vec![Call::new("move-name", [Value::Room(room), Value::point(at + (scope.pointer - from))])]
+            }
             State::MovingCorner { .. } => Vec::new(),
         }
     }
@@ -211,8 +227,20 @@ impl Select {
 enum Grabbed {
     Corner(CornerId, Point),
     Opening(Grip),
+    /// The name and area of a room, by their grip; and where they are.
+    Text(RoomId, Point),
     /// Whatever is selected.
     Selection,
+}
+
+/// How far above the name of a room its grip is, in points.
+const TEXT_GRIP_PX: f64 = 9.0;
+
+/// The selected room whose name or area is written in it, where these are, and the grip that moves them.
+fn text_grip(scope: &Scope<'_>) -> Option<(RoomId, Point, Point)> {
+    let ElementId::Room(room) = scope.selection.one()? else { return None };
+    let (at, bounds) = scope.text?;
+    Some((room, at, Point::new(bounds.center().x, bounds.max.y + scope.metres(TEXT_GRIP_PX))))
 }
 
 /// How a click or a box changes the selection.
@@ -280,6 +308,9 @@ impl Tool for Select {
     fn hint(&self, scope: &Scope<'_>) -> String {
         match &self.state {
             State::Ready if scope.selection.is_empty() => String::new(),
+            State::Ready if matches!(self.grabbed(scope.pointer, scope), Some(Grabbed::Text(..))) => {
+                "Drag to move the room's name and area".to_owned()
+            }
             State::Ready => {
                 let [step, more, less] =
                     [1.0, NUDGES_MORE, 1.0 / NUDGES_MORE].map(|times| scope.units.length(scope.nudge_m * times));
@@ -296,6 +327,7 @@ impl Tool for Select {
             }
             State::Moving { what, .. } => what.hint(scope),
             State::Gripping(grip) => grip.hint(scope),
+            State::MovingText { .. } => "The name and area stay there while the plan changes · Esc cancels".to_owned(),
         }
     }
 
@@ -308,6 +340,9 @@ impl Tool for Select {
                     }
                 }
                 opening_grips::show(scope, preview);
+                if let Some((.., grip)) = text_grip(scope) {
+                    preview.handle(grip, Look::New);
+                }
             }
             &State::Boxing { from } => {
                 let to = scope.pointer;
@@ -336,12 +371,24 @@ impl Tool for Select {
                 preview.label(scope.at(), format!("moved {}", scope.units.length(by.length())), Look::New);
             }
             State::Gripping(grip) => grip.preview(scope, preview),
+            State::MovingText { at, from, .. } => {
+                let by = scope.pointer - *from;
+                if let Some((_, bounds)) = scope.text {
+                    let Bounds { min, max } = bounds;
+                    let corners = [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)].map(|it| it + by);
+                    preview.fill(corners.to_vec(), Vec::new(), Look::New);
+                    preview.line(corners.to_vec(), true, Look::New);
+                }
+                preview.dashed(vec![*at, *at + by], false, Look::Guide);
+            }
         }
     }
 
     fn cursor(&self, scope: &Scope<'_>) -> CursorIcon {
         match self.state {
-            State::Moving { .. } | State::MovingCorner { .. } | State::Gripping(_) => CursorIcon::Grabbing,
+            State::Moving { .. } | State::MovingCorner { .. } | State::Gripping(_) | State::MovingText { .. } => {
+                CursorIcon::Grabbing
+            }
             State::Boxing { .. } => CursorIcon::Crosshair,
             State::Ready => match self.grabbed(scope.pointer, scope) {
                 Some(Grabbed::Corner(..) | Grabbed::Opening(Grip::End(..))) => CursorIcon::Grab,

@@ -3,9 +3,12 @@
 mod charts;
 mod lead;
 mod page;
+mod robot;
 mod tables;
 
 use serde::Serialize;
+
+pub use robot::{robot_files, robot_text};
 
 use super::{Condition, HONEST, Study, set_title};
 use crate::classify::Algorithm;

@@ -276,6 +276,31 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .menu(Menu::Draw, 4),
     with(
+        "dimension-outside",
+        "Dimension the outside",
+        "Draw the usual chains along each side of the building: openings and offsets, and the whole length",
+        has_plan,
+        &given0(|app, _| {
+            let mut drawn = 0;
+            let ran = edited(app, "Dimension the outside", |plan| {
+                let (plan, number) = edit::dimension_outside(plan)?;
+                drawn = number;
+                Ok(plan)
+            });
+            if ran == Outcome::Done {
+                app.session.layers.dimensions = true;
+                app.session.status = match drawn {
+                    0 => "All sides have their chains already".to_owned(),
+                    drawn => format!("Drew {}", crate::base::wording::count(drawn, "dimension chain")),
+                };
+            }
+            ran
+        }),
+        None,
+    )
+    .menu(Menu::Draw, 4)
+    .on(&[On::FreeSpace]),
+    with(
         "draw-dimension",
         "Draw a dimension chain",
         "Draw a dimension chain from point to point that follows what it measures",

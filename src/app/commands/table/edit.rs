@@ -13,12 +13,12 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .keys(&[ctrl(Key::Z)])
     .menu(Menu::Edit, 0)
-    .on(&[On::FreeSpace])
+    .on(&[On::Picture, On::FreeSpace])
     .tool(Icon::Undo, 0),
     command("redo", "Redo", "Redo what was undone", can_redo, |app, _| app.session.redo())
         .keys(&[ctrl_shift(Key::Z), ctrl(Key::Y)])
         .menu(Menu::Edit, 0)
-        .on(&[On::FreeSpace])
+        .on(&[On::Picture, On::FreeSpace])
         .tool(Icon::Redo, 0),
     with(
         "jump-to-step",

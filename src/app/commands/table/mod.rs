@@ -7,6 +7,7 @@ mod help;
 mod modify;
 mod picture;
 mod predict;
+mod robot;
 mod room;
 mod script;
 mod view;
@@ -124,7 +125,7 @@ fn tools_of_the_strip() -> Vec<Command> {
                 Group::Measure => 2,
             };
             let on: &[On] = match group {
-                Group::Draw => &[On::FreeSpace],
+                Group::Draw => &[On::Picture, On::FreeSpace],
                 Group::Openings => &[On::Wall],
                 Group::Divide => &[On::Room],
                 Group::Select | Group::Measure => &[],
@@ -380,7 +381,7 @@ const ZOOM_STEP: f64 = 1.25;
 /// Every command, in menu order. Each menu is a file; the tools' commands come from the tools.
 pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| {
     let tools = tools_of_the_strip();
-    let parts: [&[Command]; 11] = [
+    let parts: [&[Command]; 12] = [
         file::COMMANDS,
         edit::COMMANDS,
         &tools,
@@ -389,6 +390,7 @@ pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| {
         room::COMMANDS,
         picture::COMMANDS,
         predict::COMMANDS,
+        robot::COMMANDS,
         view::COMMANDS,
         help::COMMANDS,
         script::COMMANDS,

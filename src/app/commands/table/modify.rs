@@ -5,8 +5,8 @@ mod acts;
 use std::collections::BTreeSet;
 
 use self::acts::{
-    Mirror, NO_GAPS, Wanted, Way, copied, has_copied, has_door, has_drawing, has_opening, has_wall, is_labelled,
-    is_selectable, select_found, transformed,
+    Mirror, NO_GAPS, Wanted, Way, copied, has_copied, has_dimension, has_door, has_drawing, has_opening, has_wall,
+    is_labelled, is_selectable, select_found, transformed,
 };
 use super::draw::{REACH_OF_WALLS_M, edited, edited_fitting, edited_fitting_near};
 use super::*;
@@ -77,7 +77,7 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .keys(&[key(Key::Delete)])
     .menu(Menu::Modify, 1)
-    .on(&[On::Room, On::Wall, On::Opening, On::Corner, On::Several]),
+    .on(&[On::Room, On::Wall, On::Opening, On::Corner, On::Dimension, On::Several]),
     // The clipboard.
     with(
         "copy",
@@ -89,7 +89,7 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .keys(&[ctrl(Key::C)])
     .menu(Menu::Modify, 2)
-    .on(&[On::Room, On::Wall, On::Opening, On::Several]),
+    .on(&[On::Room, On::Wall, On::Opening, On::Dimension, On::Several]),
     with(
         "cut",
         "Cut",
@@ -103,7 +103,7 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .keys(&[ctrl(Key::X)])
     .menu(Menu::Modify, 2)
-    .on(&[On::Room, On::Wall, On::Opening, On::Several]),
+    .on(&[On::Room, On::Wall, On::Opening, On::Dimension, On::Several]),
     command(tools::PASTE.id, tools::PASTE.title, tools::PASTE.help, has_copied, |app, _| {
         app.tools.take_up(tools::PASTE.id);
     })
@@ -126,7 +126,7 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .keys(&[ctrl(Key::D)])
     .menu(Menu::Modify, 2)
-    .on(&[On::Room, On::Wall, On::Opening, On::Several]),
+    .on(&[On::Room, On::Wall, On::Opening, On::Dimension, On::Several]),
     // Rotating and the like: the pointer shows where, what is typed says how much.
     with(
         tools::ROTATE.id,
@@ -486,6 +486,32 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .menu(Menu::Modify, 7)
     .on(&[On::Opening]),
+    with(
+        "set-dimension",
+        "Length of dimension…",
+        "Type the length of a stretch of the selected dimension chain: the door, the window or the wall at its end moves",
+        has_dimension,
+        &given3(
+            needed("STRETCH", COUNT, "which stretch of the chain, from 1, along its line"),
+            needed("LENGTH", length(0.0001, 1e5), "its new length"),
+            optional("END", one_of::<End>(), "which end moves, where both can: start or end"),
+            |app, stretch, length_m, end, _| {
+                let Some(ElementId::Dimension(id)) = app.picked() else {
+                    return Outcome::Refused("select one dimension chain first".to_owned());
+                };
+                edited_fitting(app, "Set length", |plan| {
+                    edit::set_dimension_length(plan, id, stretch - 1, length_m, end)
+                })
+            },
+        ),
+        Some(|app, _| {
+            if let Some(element) = app.picked() {
+                app.change_here(element);
+            }
+        }),
+    )
+    .menu(Menu::Modify, 7)
+    .on(&[On::Dimension]),
     with(
         "set-hinge",
         "Hinge…",

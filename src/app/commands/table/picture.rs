@@ -129,9 +129,10 @@ pub(super) const COMMANDS: &[Command] = &[
     command("remove-picture", "Remove picture", "Remove the picture under the plan", has_backdrop, |app, _| {
         app.session.remove_picture();
     })
-    .menu(Menu::Picture, 0),
-    tool(&tools::CALIBRATE_BY_LENGTH, has_backdrop).menu(Menu::Picture, 1),
-    tool(&tools::CALIBRATE_BY_DOOR, has_backdrop).menu(Menu::Picture, 1),
+    .menu(Menu::Picture, 0)
+    .on(&[On::Picture]),
+    tool(&tools::CALIBRATE_BY_LENGTH, has_backdrop).menu(Menu::Picture, 1).on(&[On::Picture]),
+    tool(&tools::CALIBRATE_BY_DOOR, has_backdrop).menu(Menu::Picture, 1).on(&[On::Picture]),
     with(
         "calibrate",
         "Set scale",
@@ -175,7 +176,7 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .menu(Menu::Picture, 1),
-    tool(&tools::STRAIGHTEN, has_backdrop).menu(Menu::Picture, 2),
+    tool(&tools::STRAIGHTEN, has_backdrop).menu(Menu::Picture, 2).on(&[On::Picture]),
     with(
         "straighten",
         "Straighten by a line",
@@ -194,7 +195,7 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     ),
-    tool(&tools::RECTIFY, has_backdrop).menu(Menu::Picture, 2),
+    tool(&tools::RECTIFY, has_backdrop).menu(Menu::Picture, 2).on(&[On::Picture]),
     with(
         "rectify-picture",
         "Make picture flat",
@@ -226,7 +227,8 @@ pub(super) const COMMANDS: &[Command] = &[
         &given0(|app, _| done(app.session.unrectify_picture())),
         None,
     )
-    .menu(Menu::Picture, 2),
+    .menu(Menu::Picture, 2)
+    .on(&[On::Picture]),
     with(
         "turn-picture",
         "Turn picture…",
@@ -242,7 +244,8 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         None,
     )
-    .menu(Menu::Picture, 2),
+    .menu(Menu::Picture, 2)
+    .on(&[On::Picture]),
     with(
         "move-picture",
         "Move picture…",
@@ -254,7 +257,8 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Picture, 2),
+    .menu(Menu::Picture, 2)
+    .on(&[On::Picture]),
     with(
         "picture-opacity",
         "Opacity…",
@@ -267,17 +271,20 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Picture, 3),
+    .menu(Menu::Picture, 3)
+    .on(&[On::Picture]),
     command("picture-fainter", "Fainter", "Make the picture fainter", has_backdrop, |app, _| {
         app.session.change_backdrop("Set opacity", |backdrop| backdrop.opacity = stepped(backdrop.opacity, -1.0));
     })
     .keys(&[key(Key::Comma)])
-    .menu(Menu::Picture, 3),
+    .menu(Menu::Picture, 3)
+    .on(&[On::Picture]),
     command("picture-stronger", "Stronger", "Make the picture stronger", has_backdrop, |app, _| {
         app.session.change_backdrop("Set opacity", |backdrop| backdrop.opacity = stepped(backdrop.opacity, 1.0));
     })
     .keys(&[key(Key::Period)])
-    .menu(Menu::Picture, 3),
+    .menu(Menu::Picture, 3)
+    .on(&[On::Picture]),
 ];
 
 /// An opacity some steps away, rounded to whole steps.

@@ -1,9 +1,11 @@
 //! The picked room: finding, naming, labelling.
 
+use super::draw::edited;
 use super::*;
 use crate::app::session::bulk::{Change, Order, Which};
 use crate::app::session::labelling::Target;
 use crate::app::value::room_word;
+use crate::edit;
 
 const TARGET: Arg<Option<RoomId>> = optional(
     "ROOM",
@@ -50,6 +52,15 @@ impl App {
         }
         self.ask_for_field(kind);
     }
+}
+
+fn has_moved_name(app: &App) -> Availability {
+    has_plan(app)?;
+    let has_moved = |plan: &crate::plan::Plan| {
+        let mut rooms = app.selection().rooms().filter_map(|id| plan.room(id));
+        rooms.any(|room| room.text_offset.is_some())
+    };
+    when(app.plan().is_some_and(has_moved), "select a room whose name was moved first")
 }
 
 /// Acts on the rooms a command applies to; a recording names a room that was just under the pointer.
@@ -268,6 +279,35 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .when_complete(has_rooms)
+    .menu(Menu::Room, 2)
+    .on(&[On::Room, On::Several]),
+    with(
+        "move-name",
+        "Move a name",
+        "Write the name and area of a room in another place; they keep it while the plan changes",
+        has_rooms,
+        &given2(ROOM, needed("PLACE", POINT, "their middle, in metres, such as '2,1.5'"), |app, room, place, _| {
+            let middle = app.session.document.as_ref().and_then(|it| it.bounds_of(ElementId::Room(room)));
+            let Some(middle) = middle.map(Bounds::center) else {
+                return Outcome::Refused("the room has no boundary".to_owned());
+            };
+            edited(app, "Move name", |plan| edit::set_text_offset(plan, room, Some(place - middle)))
+        }),
+        None,
+    ),
+    with(
+        "reset-name",
+        "Reset place of name",
+        "Write the names and areas of the selected rooms where they fit best again, after they were moved",
+        has_moved_name,
+        &given0(|app, _| {
+            let rooms: Vec<RoomId> = app.selection().rooms().collect();
+            edited(app, "Reset place of name", |plan| {
+                rooms.iter().try_fold(plan.clone(), |plan, &room| edit::set_text_offset(&plan, room, None))
+            })
+        }),
+        None,
+    )
     .menu(Menu::Room, 2)
     .on(&[On::Room, On::Several]),
     command("next-room", "Next room", "Select the next room, in reading order from the top left", has_rooms, |app, _| {

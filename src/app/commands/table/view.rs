@@ -52,7 +52,7 @@ pub(super) const COMMANDS: &[Command] = &[
     })
     .keys(&[shift(Key::F)])
     .menu(Menu::View, 0)
-    .on(&[On::Room, On::Wall, On::Opening, On::Corner, On::Several])
+    .on(&[On::Room, On::Wall, On::Opening, On::Corner, On::Dimension, On::Several])
     .tool(Icon::ZoomToSelection, 1),
     command("zoom-in", "Zoom in", "Zoom in", has_plan, |app, _| app.canvas.zoom_by(ZOOM_STEP))
         .keys(&[key(Key::Plus), key(Key::Equals)])
@@ -143,6 +143,7 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .keys(&[key(Key::P)])
     .menu(Menu::View, 2)
+    .on(&[On::Picture])
     .tool(Icon::Backdrop, 2),
     switch(
         "grid",
@@ -164,7 +165,8 @@ pub(super) const COMMANDS: &[Command] = &[
         |app| app.session.layers.guides,
         |app, is_on| app.session.layers.guides = is_on,
     )
-    .menu(Menu::View, 2),
+    .menu(Menu::View, 2)
+    .on(&[On::Guide]),
     switch(
         "dimensions",
         "Dimensions",
@@ -174,7 +176,7 @@ pub(super) const COMMANDS: &[Command] = &[
         |app, is_on| app.session.layers.dimensions = is_on,
     )
     .menu(Menu::View, 2)
-    .on(&[On::FreeSpace]),
+    .on(&[On::Dimension, On::FreeSpace]),
     switch(
         "ghost-layer",
         "Storey below",
@@ -235,28 +237,33 @@ pub(super) const COMMANDS: &[Command] = &[
     .on(&[On::FreeSpace]),
     with(
         "move-guide",
-        "Move a guide",
+        "Move a guide…",
         "Move a guide line; you can also drag its mark along the ruler",
         has_guides,
         &given3(AXIS, POSITION, needed("TO", length(-FAR_M, FAR_M), "its new place"), |app, axis, from_m, to_m, _| {
             app.change_guides("Move guide", |plan| move_guide(plan, axis, from_m, to_m))
         }),
         None,
-    ),
+    )
+    .menu(Menu::View, 3)
+    .on(&[On::Guide]),
     with(
         "remove-guide",
-        "Remove a guide",
+        "Remove a guide…",
         "Remove a guide line; you can also drag its mark off the ruler, or double-click the mark",
         has_guides,
         &given2(AXIS, POSITION, |app, axis, at_m, _| {
             app.change_guides("Remove guide", |plan| remove_guide(plan, axis, at_m))
         }),
         None,
-    ),
+    )
+    .menu(Menu::View, 3)
+    .on(&[On::Guide]),
     command("clear-guides", "Clear guides", "Remove all guide lines", has_guides, |app, _| {
         app.session.edit("Clear guides", |plan| Ok(clear_guides(plan)));
     })
-    .menu(Menu::View, 3),
+    .menu(Menu::View, 3)
+    .on(&[On::Guide]),
     with(
         "grid-spacing",
         "Grid spacing…",

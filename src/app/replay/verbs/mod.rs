@@ -60,9 +60,10 @@ pub(super) fn command(command: &'static Command, arguments: Vec<String>) -> Resu
             .zip(command.arguments)
             .map(|(word, argument)| {
                 let path = match argument.kind {
-                    ArgumentKind::PlanFile | ArgumentKind::PictureFile | ArgumentKind::RecentFile => {
-                        stage.folders.brought_in(word)?
-                    }
+                    ArgumentKind::PlanFile
+                    | ArgumentKind::PictureFile
+                    | ArgumentKind::LogFile
+                    | ArgumentKind::RecentFile => stage.folders.brought_in(word)?,
                     ArgumentKind::NewPlanFile | ArgumentKind::NewFile => stage.folders.to_write(word)?,
                     _ => return Ok(word.clone()),
                 };

@@ -102,6 +102,11 @@ pub(super) fn has_opening(app: &App) -> Availability {
     when(app.session.selection.openings().next().is_some(), "select a door or another opening first")
 }
 
+pub(super) fn has_dimension(app: &App) -> Availability {
+    has_plan(app)?;
+    when(matches!(app.picked(), Some(ElementId::Dimension(_))), "select one dimension chain first")
+}
+
 pub(super) fn has_wall(app: &App) -> Availability {
     has_plan(app)?;
     when(matches!(app.picked(), Some(ElementId::Wall(_))), "select one wall first")
@@ -217,7 +222,7 @@ impl App {
     /// Takes the contents of the system's clipboard, if that is part of a plan.
     pub(crate) fn take_pasted(&mut self, text: &str) {
         if let Ok(plan) = crate::formats::plan_json::from_bytes(text.as_bytes())
-            && !plan.is_empty()
+            && (!plan.is_empty() || plan.dimensions().len() > 0)
         {
             self.session.copied = Some(plan);
         }
@@ -225,7 +230,7 @@ impl App {
 
     pub(super) fn paste_at(&mut self, at: Point) -> Outcome {
         let Some(fragment) = self.session.copied.clone() else { return Outcome::Done };
-        let by = at - fragment.bounds().center();
+        let by = at - edit::middle_of(&fragment);
         let mut made = BTreeSet::new();
         let ran = edited_fitting(self, "Paste", |plan| {
             let (plan, elements, refitted) = edit::insert_fitted(plan, &fragment, Transform::translation(by))?;
