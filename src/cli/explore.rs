@@ -240,7 +240,8 @@ impl ExploreCommand {
         let segments: Vec<Segment> = map.segments.iter().map(to_world).collect();
         let path: Vec<Point> = map.poses.iter().map(|pose| world_from_map.apply(pose.position())).collect();
         let free = moved(exploration.free.shapes(), exploration);
-        let scene = LineMapDrawing { segments: &segments, free: &free, path: &path }.page(theme, PICTURE_SIDE_PX, &name);
+        let scene =
+            LineMapDrawing { segments: &segments, free: &free, path: &path }.page(theme, PICTURE_SIDE_PX, &name);
         write(&format!("{name}.map.png"), &png::png(&scene)?)?;
         write(&format!("{name}.map.svg"), svg::svg(&scene).as_bytes())?;
 

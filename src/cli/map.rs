@@ -81,9 +81,10 @@ impl Subcommand for MapCommand {
         write(&format!("{name}.map.png"), &png::png(&scene)?)?;
         write(&format!("{name}.map.svg"), svg::svg(&scene).as_bytes())?;
 
-        let explored = labelled(&seen.found, &seen.frontiers, Pose::IDENTITY, meta(&self.log, &name), &predictor, &models)
-            .map_err(|error| CliError::new(format!("{}: {error}", self.log.display())))?
-            .explored;
+        let explored =
+            labelled(&seen.found, &seen.frontiers, Pose::IDENTITY, meta(&self.log, &name), &predictor, &models)
+                .map_err(|error| CliError::new(format!("{}: {error}", self.log.display())))?
+                .explored;
         let plan_name = format!("{name}.plan.json");
         write(&plan_name, &checked_bytes(&self.output.join(&plan_name), &explored.plan)?)?;
         let scene = rooms_scene(&explored.plan, theme, PICTURE_SIDE_PX);

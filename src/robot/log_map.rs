@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::bridges::without_bridges;
 use super::calibration::OdometryOptions;
 use super::carmen::Log;
 use super::doorways::DoorwayOptions;
@@ -81,6 +82,7 @@ pub fn surroundings(log: &Log, mapped: &MappedLog) -> Surroundings {
     let segments: Vec<Segment> =
         mapped.map.lines().map(|line| line.line.segment()).filter(|segment| is_beside_free(segment)).collect();
     let free = FreeSpace::of_grid(&map);
+    let segments = without_bridges(&segments, &super::rooms::boundary(free.shapes()));
     let long: Vec<Segment> =
         segments.iter().copied().filter(|segment| segment.length() >= DoorwayOptions::PAPER.shortest_m).collect();
     let places: Vec<Point> = looks.map(|(pose, _)| pose.position()).collect();

@@ -3,6 +3,7 @@
 //! Scans become line segments ([`split_and_merge`]), segments a [`line_map`], a line map rooms.
 //! The frame of a map is that of the robot's first pose; metres and radians throughout.
 
+pub mod bridges;
 pub mod calibration;
 pub mod carmen;
 pub mod correlation;

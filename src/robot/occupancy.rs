@@ -208,3 +208,52 @@ impl Grid {
         GridMap::new(self.width, self.height, self.cell_m, map_from_grid, from_top).ok()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A scan from the middle of a square room of 4 m, all around.
+    fn scan() -> Scan {
+        let beams = 720;
+        let step_rad = std::f64::consts::TAU / f64::from(beams);
+        let range_m = |beam: i32| {
+            let (sin, cos) = (f64::from(beam) * step_rad).sin_cos();
+            2.0 / sin.abs().max(cos.abs())
+        };
+        Scan {
+            ranges_m: (0..beams).map(range_m).collect(),
+            start_rad: 0.0,
+            step_rad,
+            max_range_m: 20.0,
+            robot_from_scanner: Pose::IDENTITY,
+        }
+    }
+
+    #[test]
+    fn beams_pass_free_cells_and_end_in_occupied_ones() {
+        let scans = [scan()];
+        let at = Pose::new(10.0, -3.0, 0.4);
+        let map = grid_map([(at, &scans[..]), (at, &scans[..])].into_iter()).unwrap();
+        let cell = |x: f64, y: f64| {
+            let (x, y) = map.picture_from_map(at.apply(Point::new(x, y)));
+            map.cells()[y as usize * map.width() + x as usize]
+        };
+        assert_eq!((cell(0.0, 0.0), cell(1.8, -1.8), cell(-1.9, 0.7)), (Cell::Free, Cell::Free, Cell::Free));
+        assert_eq!((cell(2.0, 0.5), cell(-1.0, 2.0)), (Cell::Occupied, Cell::Occupied));
+        let free_m2 = map.cells().iter().filter(|&&cell| cell == Cell::Free).count() as f64 * CELL_M * CELL_M;
+        assert!((15.0..16.0).contains(&free_m2), "{free_m2} m²");
+        assert!(grid_map(std::iter::empty()).is_none());
+    }
+
+    #[test]
+    fn a_free_space_with_a_hole_keeps_its_area() {
+        let ring = |low: f64, high: f64, is_hole: bool| {
+            let corners = [(low, low), (high, low), (high, high), (low, high)].map(|(x, y)| Point::new(x, y));
+            areas::directed(&corners, !is_hole)
+        };
+        let map = of_free_space(&vec![vec![ring(0.0, 3.0, false), ring(1.0, 2.0, true)]]).unwrap();
+        let free = map.cells().iter().filter(|&&cell| cell == Cell::Free).count();
+        assert_eq!(free, 60 * 60 - 20 * 20);
+    }
+}

@@ -47,6 +47,11 @@ pub struct Routes {
 impl Routes {
     /// The raster of a free space around `start`, before any search.
     pub fn new(free: &Shapes, start: Point) -> Self {
+        Self::around(free, start, &[])
+    }
+
+    /// The same with places that are blocked whatever the free space says: where the robot touched something.
+    pub fn around(free: &Shapes, start: Point, blocked: &[Point]) -> Self {
         let bounds = Bounds::of(free.iter().flatten().flatten().map(|&[x, y]| Point::new(x, y))).with(start);
         let bounds = bounds.inflated(2.0 * CELL_M);
         let cell_m = CELL_M.max((bounds.width() * bounds.height() / CELLS_LIMIT).sqrt());
@@ -64,6 +69,11 @@ impl Routes {
             from: vec![u32::MAX; count],
         };
         routes.fill(free);
+        for &place in blocked {
+            if let Some(cell) = routes.cell(place) {
+                routes.free[cell] = false;
+            }
+        }
         routes.clearance_m = routes.clearances();
         routes
     }
