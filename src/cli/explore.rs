@@ -113,7 +113,7 @@ impl Subcommand for ExploreCommand {
 
         let options = RoomOptions { seed: self.seed, ..self.room_options() };
         let map = Map {
-            segments: exploration.segments(),
+            segments: exploration.walls(),
             frontiers: exploration.frontiers(),
             found: exploration.rooms(&options),
             poses: exploration.poses(),
@@ -240,7 +240,8 @@ impl ExploreCommand {
         let segments: Vec<Segment> = map.segments.iter().map(to_world).collect();
         let path: Vec<Point> = map.poses.iter().map(|pose| world_from_map.apply(pose.position())).collect();
         let free = moved(exploration.free.shapes(), exploration);
-        let scene = LineMapDrawing { segments: &segments, free: &free, path: &path }.page(theme, PICTURE_SIDE_PX, &name);
+        let scene =
+            LineMapDrawing { segments: &segments, free: &free, path: &path }.page(theme, PICTURE_SIDE_PX, &name);
         write(&format!("{name}.map.png"), &png::png(&scene)?)?;
         write(&format!("{name}.map.svg"), svg::svg(&scene).as_bytes())?;
 

@@ -325,14 +325,7 @@ pub(super) fn legend_rows(entries: &[Entry], free: f64, text: f64) -> Vec<Vec<us
 }
 
 /// The legend: right-aligned, or left-aligned if above the scale.
-pub(super) fn legend(
-    palette: &Palette,
-    entries: &[Entry],
-    band: &Band,
-    right: f64,
-    foot: f64,
-    text: f64,
-) -> Vec<Item> {
+pub(super) fn legend(palette: &Palette, entries: &[Entry], band: &Band, right: f64, foot: f64, text: f64) -> Vec<Item> {
     let rows = &band.rows;
     let shown: usize = rows.iter().map(Vec::len).sum();
     let widest = rows
