@@ -319,10 +319,8 @@ impl<'a> Around<'a> {
         for (end, along) in [(to, along), (from, -along)] {
             let mut at = end;
             let is_onward = |at: CornerId, next: CornerId| self.way(at, next).map_or(0.0, |way| way.dot(along));
-            while let Some((cos, next)) = self
-                .neighbours(at)
-                .map(|next| (is_onward(at, next), next))
-                .max_by(|p, q| p.0.total_cmp(&q.0))
+            while let Some((cos, next)) =
+                self.neighbours(at).map(|next| (is_onward(at, next), next)).max_by(|p, q| p.0.total_cmp(&q.0))
                 && cos >= IN_LINE_COS
                 && !run.contains(&next)
             {

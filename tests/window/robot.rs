@@ -116,7 +116,6 @@ fn plans_it_cannot_explore_are_said() {
     run(&mut window, "new-plan", &[]);
     assert!(window.run_command_with("explore-plan", &[]).is_err(), "without rooms");
     run(&mut window, "draw-walls", &["0,0 0.5,0 0.5,0.5 0,0.5 0,0"]);
-    run(&mut window, "fill-all", &[]);
     run(&mut window, "explore-plan", &[]);
     let said = texts(&window).join("\n");
     assert!(said.contains("cannot explore") && said.contains("0.5 m wide"), "{said}");

@@ -19,8 +19,8 @@ use crate::geometry::{
     runs::{Run, runs},
 };
 use crate::plan::{DEFAULT_WALL_THICKNESS_M, WallId};
-use crate::topology::wall_bodies::WallFaces;
 use crate::topology::NetRoom;
+use crate::topology::wall_bodies::WallFaces;
 
 /// With more rooms selected, only their totals are shown.
 const MOST_ROOMS: usize = 6;

@@ -279,6 +279,8 @@ impl Canvas {
                 }
             }
         }
+        // Below all that a tool shows.
+        paint_scale_bar(&painter, rect, &view, palette, session.units());
         let tool = toolbox.tool();
         let mut preview = Preview::default();
         preview_question(session, document.plan(), &mut preview);
@@ -298,7 +300,6 @@ impl Canvas {
         if is_blank && toolbox.is_selecting() {
             paint_beginning(&painter, rect, palette, beginning);
         }
-        paint_scale_bar(&painter, rect, &view, palette, session.units());
         if response.has_focus() && self.shows_focus {
             let colours = theme::colours(ui.visuals());
             painter.rect_stroke(rect.shrink(1.0), 0.0, Stroke::new(2.0, colours.accent), StrokeKind::Inside);

@@ -152,9 +152,8 @@ impl Session {
                 .filter_map(|wall| Some((plan.wall_segment(wall)?.length(), wall.thickness_m)))
                 .collect();
             let thicknesses_m = walls.iter().map(|&(_, thickness_m)| thickness_m);
-            let widths_m = selection
-                .openings()
-                .filter_map(|id| Some(trim_m(plan.opening_segment(plan.opening(id)?)?.length())));
+            let widths_m =
+                selection.openings().filter_map(|id| Some(trim_m(plan.opening_segment(plan.opening(id)?)?.length())));
             InCommon {
                 rooms: selection.rooms().count(),
                 walls: selection.walls().count(),

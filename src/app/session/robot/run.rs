@@ -246,3 +246,64 @@ fn between(from: Pose, to: Pose, share: f64) -> Pose {
     let at = from.position().lerp(to.position(), share);
     Pose::new(at.x, at.y, from.heading_rad + share * wrapped_rad(to.heading_rad - from.heading_rad))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    fn step(x_m: f64, secs: f64) -> Step {
+        let pose = Pose::new(x_m, 0.0, 0.0);
+        Step {
+            pose,
+            true_pose: None,
+            odometry: pose,
+            secs,
+            driven_m: x_m,
+            fans: Arc::default(),
+            way: Arc::default(),
+            map: None,
+            path: None,
+            closures: 0,
+        }
+    }
+
+    fn run_of(steps: impl IntoIterator<Item = Step>) -> Run {
+        let mut run = Run::new(Source::Log, String::new(), 1, 0.25);
+        run.ahead.extend(steps);
+        run
+    }
+
+    #[test]
+    fn between_two_headings_it_turns_the_short_way() {
+        let middle = between(Pose::new(0.0, 0.0, PI - 0.1), Pose::new(1.0, 0.0, 0.1 - PI), 0.5);
+        assert!((middle.heading_rad.abs() - PI).abs() < 1e-9 && (middle.x_m - 0.5).abs() < 1e-9);
+    }
+
+    #[test]
+    fn it_moves_evenly_between_steps_and_waits_for_the_drive() {
+        let mut run = run_of([step(0.0, 0.0), step(0.2, 0.5), step(0.2, 0.0), step(0.4, 0.5)]);
+        let x_m = |run: &Run| run.pose().map(|(pose, _)| pose.x_m).unwrap();
+        let mut places = Vec::new();
+        for _ in 0..12 {
+            run.play(0.1);
+            places.push((x_m(&run) * 1e6).round() / 1e6);
+        }
+        assert_eq!(places[..9], [0.04, 0.08, 0.12, 0.16, 0.2, 0.24, 0.28, 0.32, 0.36]);
+        // Nothing more is known: it stays, and does not leap when there is.
+        assert_eq!(places[9..], [0.4, 0.4, 0.4]);
+        run.ahead.push_back(step(0.6, 0.5));
+        run.play(0.1);
+        assert!((x_m(&run) - 0.44).abs() < 1e-9);
+        assert_eq!((run.steps, run.paths.estimate.len()), (4, 3));
+    }
+
+    #[test]
+    fn hurrying_ends_at_the_first_step_that_is_far_enough() {
+        let mut run = run_of((0..10).map(|i| step(f64::from(i) * 0.2, 0.5)));
+        assert!(run.hurry(Until::Metres(0.5)));
+        assert!((run.driven_m() - 0.6).abs() < 1e-9);
+        assert!(!run.hurry(Until::End) && run.ahead.is_empty());
+    }
+}
