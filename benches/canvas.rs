@@ -72,6 +72,32 @@ fn told(what: &str, window: &mut Offscreen, runs: usize, mut act: impl FnMut(&mu
     println!("  {what:32} {:7.2} ms, slowest {slowest:7.2} ms", sum / runs as f64);
 }
 
+/// What is done in one frame.
+type Frame<'a> = &'a dyn Fn(&mut Offscreen, usize);
+
+/// The mean of what takes several frames, and of the slowest of these; `before` each is not measured.
+#[expect(clippy::print_stdout, reason = "a bench prints what it measured")]
+fn told_frames(what: &str, window: &mut Offscreen, runs: usize, before: Frame<'_>, frames: &[Frame<'_>]) {
+    let mut sums = vec![0.0; frames.len()];
+    for run in 0..runs {
+        before(window, run);
+        window.tessellate();
+        for (frame, sum) in frames.iter().zip(&mut sums) {
+            let before = now_ms();
+            frame(window, run);
+            window.tessellate();
+            *sum += now_ms() - before;
+        }
+    }
+    let means = sums.iter().map(|sum| sum / runs as f64);
+    let (all, slowest) = (means.clone().sum::<f64>(), means.fold(0.0, f64::max));
+    println!("  {what:32} {all:7.2} ms in {} frames, of one at most {slowest:7.2} ms", frames.len());
+}
+
+const NOTHING: Frame<'static> = &|_, _| ();
+const PRESS: Frame<'static> = &|window, _| window.button(PointerButton::Primary, true);
+const RELEASE: Frame<'static> = &|window, _| window.button(PointerButton::Primary, false);
+
 #[expect(clippy::print_stdout, reason = "a bench prints what it measured")]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let walls = std::env::args().skip(1).find_map(|word| word.parse().ok()).unwrap_or(50_000);
@@ -96,11 +122,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         window.settle()?;
         println!("{name}");
         told("pointer moves", &mut window, 20, |window, run| still(window, along(run)));
-        told("click selects", &mut window, 10, |window, run| {
-            window.move_to(along(run * 3));
-            window.button(PointerButton::Primary, true);
-            window.button(PointerButton::Primary, false);
-        });
+        let moves: Frame<'_> = &|window, run| still(window, along(run * 3));
+        told_frames("click selects", &mut window, 10, NOTHING, &[moves, PRESS, RELEASE]);
         window.button(PointerButton::Middle, true);
         told("pans", &mut window, 20, |window, run| still(window, along(run)));
         window.button(PointerButton::Middle, false);
@@ -113,11 +136,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         told("door: pointer moves", &mut window, 20, |window, run| still(window, along(run)));
         window.run_command("tool-select");
     }
-    told("box selects", &mut window, 1, |window, _| {
+    told("the whole plan again", &mut window, 1, |window, _| {
         window.run_command("fit");
-        drop(window.run_command_with("select-box", &["200,150 380,300", "touching", "replace"]));
         window.event(egui::Event::PointerMoved(centre));
     });
+    let boxed: Frame<'_> =
+        &|window, _| drop(window.run_command_with("select-box", &["200,150 380,300", "touching", "replace"]));
+    let shown: Frame<'_> = &|window, _| still(window, centre);
+    let without: Frame<'_> = &|window, _| {
+        window.run_command("clear-selection");
+    };
+    told_frames("box selects", &mut window, 5, without, &[boxed, shown]);
     println!("    {} selected", window.app().selection().len());
     told("many selected: pointer moves", &mut window, 20, |window, run| still(window, along(run)));
     window.run_command("clear-selection");
@@ -141,27 +170,35 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("edits, worked out beside");
     window.run_command("tool-walls");
     window.click(centre);
-    told("wall drawn", &mut window, 1, |window, _| window.click(there));
+    let moves: Frame<'_> = &|window, run| still(window, there + egui::vec2(20.0, 35.0) * run as f32);
+    told_frames("wall drawn", &mut window, 6, NOTHING, &[moves, PRESS, RELEASE]);
     told("not worked out: pointer moves", &mut window, 20, |window, run| still(window, along(run)));
     window.key(egui::Modifiers::NONE, Key::Escape);
     window.key(egui::Modifiers::NONE, Key::Escape);
     window.run_command("tool-select");
-    told("undone", &mut window, 1, |window, _| {
+    told("undone", &mut window, 5, |window, _| {
         window.run_command("undo");
     });
-    told("redone", &mut window, 1, |window, _| {
+    told("redone", &mut window, 5, |window, _| {
         window.run_command("redo");
     });
     rest(&mut window);
     // A corner of rooms, with all that share it.
     let corner = window.app().screen_position(300.0, 231.0).unwrap_or(centre);
-    window.click(corner + egui::vec2(60.0, 40.0));
-    window.move_to(corner);
-    window.button(PointerButton::Primary, true);
+    let drags: Frame<'_> = &|window, _| {
+        window.run_command("undo");
+        window.click(corner + egui::vec2(60.0, 40.0));
+        window.move_to(corner);
+        window.button(PointerButton::Primary, true);
+        (0..4).for_each(|step| still(window, corner + egui::vec2(step as f32 * 2.0, 9.0)));
+    };
+    drags(&mut window, 0);
     told("a corner is dragged", &mut window, 20, |window, run| {
         still(window, corner + egui::vec2(run as f32 * 2.0, 9.0))
     });
-    told("and dropped", &mut window, 1, |window, _| window.button(PointerButton::Primary, false));
+    window.key(egui::Modifiers::NONE, Key::Escape);
+    window.button(PointerButton::Primary, false);
+    told_frames("and dropped", &mut window, 5, drags, &[RELEASE, shown]);
     told("edit after edit", &mut window, 6, |window, run| {
         window.run_command(if run % 2 == 0 { "undo" } else { "redo" });
         still(window, centre);

@@ -13,6 +13,7 @@ use super::{CliError, Outcome, Subcommand, Terminal, numbers};
 use crate::base::units::parse_number;
 use crate::base::work::{Cancelled, Work};
 use crate::draw::line_map::LineMapDrawing;
+use crate::draw::scene::Scene;
 use crate::draw::sheet::{self, Furniture, PageSize};
 use crate::draw::{Drawing, Fill, Layers, Style, Theme, png, svg};
 use crate::features::{NeighbourLabels, RoomStatus, analyse};
@@ -239,19 +240,25 @@ impl ExploreCommand {
         let segments: Vec<Segment> = map.segments.iter().map(to_world).collect();
         let path: Vec<Point> = map.poses.iter().map(|pose| world_from_map.apply(pose.position())).collect();
         let free = moved(exploration.free.shapes(), exploration);
-        let scene = LineMapDrawing { segments: &segments, free: &free, path: &path }.scene(theme, PICTURE_SIDE_PX);
+        let scene =
+            LineMapDrawing { segments: &segments, free: &free, path: &path }.page(theme, PICTURE_SIDE_PX, &name);
         write(&format!("{name}.map.png"), &png::png(&scene)?)?;
         write(&format!("{name}.map.svg"), svg::svg(&scene).as_bytes())?;
 
-        let analysis = analyse(&explored.plan, &Schemes::bundled(), NeighbourLabels::True);
-        let said = explored.plan.rooms().filter_map(|(id, room)| Some((id, room.label?.label))).collect();
-        let drawing = Drawing::new(&explored.plan, &analysis).with_predictions(&said);
-        let layers = Layers { graph: true, ..Layers::default() };
-        let style = Style { theme, fill: Fill::Prediction, layers, ..Style::default() };
-        let scene = sheet::page(&drawing, &style, PageSize::Longest(PICTURE_SIDE_PX), Furniture::default());
+        let scene = rooms_scene(&explored.plan, theme, PICTURE_SIDE_PX);
         write(&format!("{name}.rooms.png"), &png::png(&scene)?)?;
         Ok(())
     }
+}
+
+/// The picture of a robot's plan: rooms coloured by their predicted labels, and the graph.
+pub(super) fn rooms_scene(plan: &Plan, theme: Theme, longest_px: f64) -> Scene {
+    let analysis = analyse(plan, &Schemes::bundled(), NeighbourLabels::True);
+    let said = plan.rooms().filter_map(|(id, room)| Some((id, room.label?.label))).collect();
+    let drawing = Drawing::new(plan, &analysis).with_predictions(&said);
+    let layers = Layers { graph: true, ..Layers::default() };
+    let style = Style { theme, fill: Fill::Prediction, layers, ..Style::default() };
+    sheet::page(&drawing, &style, PageSize::Longest(longest_px), Furniture::default())
 }
 
 /// Reads the four alphas of the motion model.

@@ -3,19 +3,24 @@ use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
 
+use super::classify::PredictorOptions;
+use super::explore::rooms_scene;
 use super::inputs::from_stdin;
 use super::outputs::{Outputs, must_be_folder};
 use super::progress::with_progress;
 use super::{CliError, Outcome, Subcommand, Terminal};
+use crate::base::wording::count;
 use crate::draw::line_map::LineMapDrawing;
 use crate::draw::{Theme, png, svg};
-use crate::geometry::{Point, Segment, trim_m};
+use crate::geometry::{Point, trim_m};
+use crate::plan::{Meta, Scale, ScaleOrigin};
+use crate::predict::explored::labelled;
 use crate::robot::carmen::Log;
-use crate::robot::log_map::{MappedLog, map_log};
-use crate::robot::{LineMap, MapperOptions};
-use crate::store::load_log;
+use crate::robot::log_map::{MappedLog, map_log, surroundings};
+use crate::robot::{LineMap, MapperOptions, Pose};
+use crate::store::{checked_bytes, load_log};
 
-/// `enfilade map`: a robot's laser log to a line map.
+/// `enfilade map`: a robot's laser log to a line map and a plan.
 #[derive(clap::Args)]
 pub struct MapCommand {
     /// A CARMEN log, .log or .log.gz
@@ -27,6 +32,8 @@ pub struct MapCommand {
     /// Do not recognise places seen before; the path drifts
     #[arg(long)]
     no_loop_closing: bool,
+    #[command(flatten)]
+    predictor: PredictorOptions,
     /// Dark on light, or light on dark
     #[arg(long, value_name = "THEME", default_value = "light",
           value_parser = PossibleValuesParser::new(Theme::ALL.map(Theme::name)))]
@@ -35,8 +42,8 @@ pub struct MapCommand {
 
 impl Subcommand for MapCommand {
     const NAME: &'static str = "map";
-    const ABOUT: &'static str = "Build a line map from a robot's laser log";
-    const EXAMPLE: &'static str = "enfilade map intel.log.gz -o intel   # map, picture, poses.csv";
+    const ABOUT: &'static str = "Build a line map from a robot's laser log, and find its rooms";
+    const EXAMPLE: &'static str = "enfilade map intel.log.gz -o intel   # map, plan, pictures, poses.csv";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         must_be_folder(&self.output)?;
@@ -56,6 +63,7 @@ impl Subcommand for MapCommand {
             ))?;
         }
         let options = MapperOptions { closes_loops: !self.no_loop_closing, ..MapperOptions::default() };
+        let (predictor, models) = self.predictor.read(terminal)?;
         let mapped = with_progress("mapping", Some(1), terminal, |work| map_log(&log, &options, work))?;
 
         let name = log_name(&self.log);
@@ -63,23 +71,35 @@ impl Subcommand for MapCommand {
         let mut write = |name: &str, bytes: &[u8]| outputs.save_in(&self.output, name, bytes, terminal);
         write("poses.csv", poses_csv(&log, &mapped).as_bytes())?;
         write(&format!("{name}.lines.json"), lines_json(&mapped.map, &options).as_bytes())?;
-        let segments: Vec<Segment> = mapped.map.lines().map(|line| line.line.segment()).collect();
         let path: Vec<Point> = mapped.poses.iter().map(|pose| pose.position()).collect();
+        let seen = surroundings(&log, &mapped);
+        let segments = &seen.segments;
         // The parser only accepts names of the table.
         let theme = Theme::ALL.into_iter().find(|theme| theme.name() == self.theme).unwrap_or_default();
-        let drawing = LineMapDrawing { segments: &segments, free: &Vec::new(), path: &path };
-        let scene = drawing.scene(theme, PICTURE_SIDE_PX);
+        let drawing = LineMapDrawing { segments, free: seen.free.shapes(), path: &path };
+        let scene = drawing.page(theme, PICTURE_SIDE_PX, &name);
         write(&format!("{name}.map.png"), &png::png(&scene)?)?;
         write(&format!("{name}.map.svg"), svg::svg(&scene).as_bytes())?;
+
+        let explored =
+            labelled(&seen.found, &seen.frontiers, Pose::IDENTITY, meta(&self.log, &name), &predictor, &models)
+                .map_err(|error| CliError::new(format!("{}: {error}", self.log.display())))?
+                .explored;
+        let plan_name = format!("{name}.plan.json");
+        write(&plan_name, &checked_bytes(&self.output.join(&plan_name), &explored.plan)?)?;
+        let scene = rooms_scene(&explored.plan, theme, PICTURE_SIDE_PX);
+        write(&format!("{name}.rooms.png"), &png::png(&scene)?)?;
 
         let scans = log.readings.iter().filter(|reading| !reading.scans.is_empty()).count();
         let (closures, doubted) = mapped.closures;
         let metres: f64 = segments.iter().map(|segment| segment.length()).sum();
         let doubted = if doubted > 0 { format!(", {doubted} of them rejected") } else { String::new() };
         terminal.report(format!(
-            "{}: {scans} scans, {} lines of {metres:.0} m, {closures} places recognised{doubted}",
+            "{}: {scans} scans, {} lines of {metres:.0} m, {closures} places recognised{doubted}, {}, {}",
             self.output.display(),
-            segments.len()
+            segments.len(),
+            count(explored.rooms.len(), "room"),
+            count(seen.found.doorways.len(), "doorway"),
         ))?;
         Ok(Outcome::Done)
     }
@@ -87,6 +107,14 @@ impl Subcommand for MapCommand {
 
 /// The longer side of the picture, in pixels.
 const PICTURE_SIDE_PX: f64 = 2000.0;
+
+/// The metadata of a log's plan.
+fn meta(path: &Path, name: &str) -> Meta {
+    let source = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let note = "measured by a robot's laser scanner".to_owned();
+    let scale = Scale { origin: ScaleOrigin::Measured, note, ..Scale::default() };
+    Meta { name: name.to_owned(), scale, source, ..Meta::default() }
+}
 
 /// A log's name without its extensions.
 fn log_name(path: &Path) -> String {

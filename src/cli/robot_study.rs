@@ -140,7 +140,9 @@ impl Subcommand for RobotStudyCommand {
         for (name, bytes) in report::robot_files(&study)? {
             outputs.save_in(&self.output, &name, &bytes, terminal)?;
         }
-        terminal.out.write_all(report::robot_text(&study).as_bytes())?;
+        if !terminal.call.quiet {
+            terminal.out.write_all(report::robot_text(&study).as_bytes())?;
+        }
         terminal.report(format!("The report: {}", self.output.join("report.html").display()))?;
         Ok(if read.failed == 0 { Outcome::Done } else { Outcome::InputWrong })
     }

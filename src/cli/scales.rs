@@ -12,7 +12,7 @@ use crate::plan::Plan;
 /// The columns that identify a plan.
 const HEAD: [&str; 6] = ["file", "building", "typology", "storey", "plan", "scale_origin"];
 
-/// The columns of what is measured: numbers of doorways and rooms that tell, the doorways' median width, how many times
+/// The columns of what is measured: numbers of doors and rooms that tell, the doors' median width, how many times
 /// too long lengths seem by the rooms, and on all evidence with the range that holds it with 90 % probability.
 const MEASURES: [&str; 7] = ["doors", "door_width_m", "rooms", "rooms_factor", "factor", "factor_least", "factor_most"];
 

@@ -39,6 +39,19 @@ pub struct Drawing {
     built: Bounds,
     /// How a large plan is cut into tiles; `None` if in one piece.
     tiles: Option<Tiles>,
+    /// The zoom, in pixels a metre, from which on a room can hold a name.
+    named_from_px_per_m: f64,
+    counts: Counts,
+    predicted_counts: Counts,
+}
+
+/// The numbers of rooms with each label, without a label, and not classified.
+type Counts = ([usize; 5], usize, usize);
+
+/// A piece of a plan seen from afar.
+pub enum FromAfar<'a> {
+    Fill { outer: &'a [Point], holes: &'a [Vec<Point>], colour: Rgba },
+    Line { segment: Segment, colour: Rgba, width_px: f64 },
 }
 
 /// Width in metres of the rim inside a room whose known label differs from the predicted one: wide enough
@@ -106,7 +119,7 @@ impl Drawing {
         if are_piled {
             rooms.iter_mut().for_each(|room| room.above = Vec::new());
         }
-        let walls = Walls::new(plan, &rooms, grid.as_ref());
+        let walls = Walls::new(plan, analysis.wall_bodies(plan), &rooms, grid.as_ref());
         let faces = Faces::new(&walls.solid, grid.as_ref());
         let openings = OpeningDrawing::all(plan, analysis, &rooms, &faces);
         for (i, opening) in openings.iter().enumerate() {
@@ -154,8 +167,13 @@ impl Drawing {
             };
             Tiles::new(grid, contents)
         });
+        let bounds_of_rooms = rooms.iter().filter(|room| !room.outer.is_empty()).map(|room| room.bounds);
+        let named_from_px_per_m = bounds_of_rooms.map(names::fits_from_px_per_m).fold(f64::INFINITY, f64::min);
         Self {
             meta: plan.meta().clone(),
+            named_from_px_per_m,
+            counts: counts(rooms.iter().map(|room| room.status)),
+            predicted_counts: counts(rooms.iter().map(RoomDrawing::predicted_status)),
             rooms,
             walls: walls_drawn,
             wall_lines: walls.lines,
@@ -185,6 +203,7 @@ impl Drawing {
                 room.within_rim = areas::inset(&room.outer, &room.holes, RIM_M.min(narrow_m * RIM_SHARE));
             }
         }
+        self.predicted_counts = counts(self.rooms.iter().map(RoomDrawing::predicted_status));
         self
     }
 
@@ -359,7 +378,7 @@ impl Drawing {
         }
     }
 
-    /// A tile seen from afar, where doors are a few pixels wide: rooms as fills, walls as axes.
+    /// A tile seen from afar, where doors are a few pixels wide: rooms as fills, walls as axes, each handed to `paint`.
     pub fn tile_from_afar(
         &self,
         tile: usize,
@@ -368,47 +387,42 @@ impl Drawing {
         fills: &[Rgba],
         style: &Style,
         view: &View,
-    ) -> Vec<Item> {
-        let Some(tile) = self.tile(tile) else { return Vec::new() };
+        mut paint: impl FnMut(FromAfar<'_>),
+    ) {
+        let Some(tile) = self.tile(tile) else { return };
         let (layers, palette) = (&style.layers, style.palette());
-        let line = |segment: Segment, colour: Rgba, width_px: f64| Item::Line {
-            points: vec![segment.a, segment.b],
-            closed: false,
-            colour,
-            width: Length::Px(width_px),
-            dash: None,
+        let mut line = |segment: Segment, colour: Rgba, width_px: f64| {
+            paint(FromAfar::Line { segment, colour, width_px });
         };
         match layer {
             Layer::Rooms if layers.rooms => {
-                let rooms = tile.rooms.get(level).map(Vec::as_slice).unwrap_or_default();
-                let fill = |&room: &usize| {
+                for &room in tile.rooms.get(level).map(Vec::as_slice).unwrap_or_default() {
                     let RoomDrawing { outer, holes, .. } = &self.rooms[room];
-                    Item::Polygon { outer: outer.clone(), holes: holes.clone(), colour: fills[room] }
-                };
-                rooms.iter().map(fill).collect()
+                    paint(FromAfar::Fill { outer, holes, colour: fills[room] });
+                }
             }
             Layer::Boundaries if layers.walls => {
-                tile.boundaries.iter().map(|&index| line(self.boundaries[index], palette.boundary, 1.0)).collect()
+                tile.boundaries.iter().for_each(|&index| line(self.boundaries[index], palette.boundary, 1.0));
             }
             Layer::Walls if layers.walls => {
                 let width_px = |thickness_m: f64| (thickness_m * view.px_per_m).max(THINNEST_WALL_PX);
-                tile.axes.iter().map(|&(axis, thickness_m)| line(axis, palette.wall, width_px(thickness_m))).collect()
+                tile.axes.iter().for_each(|&(axis, thickness_m)| line(axis, palette.wall, width_px(thickness_m)));
             }
             Layer::Graph if layers.graph => {
-                let edges = tile.graph.iter().map(|&index| &self.graph[index]);
-                let halves = edges.flat_map(|edge| {
-                    let second = edge.to.ok().map(|to| Segment::new(edge.through, to));
-                    std::iter::once(Segment::new(edge.from, edge.through)).chain(second)
-                });
-                halves.map(|half| line(half, palette.graph_edge, 1.5)).collect()
+                for edge in tile.graph.iter().map(|&index| &self.graph[index]) {
+                    line(Segment::new(edge.from, edge.through), palette.graph_edge, 1.5);
+                    if let Ok(to) = edge.to {
+                        line(Segment::new(edge.through, to), palette.graph_edge, 1.5);
+                    }
+                }
             }
-            _ => Vec::new(),
+            _ => {}
         }
     }
 
     /// Indices of the rooms visible in a view that are large enough for the smallest text.
     pub fn rooms_to_name(&self, view: &View) -> Vec<usize> {
-        if self.are_piled {
+        if self.are_piled || view.px_per_m < self.named_from_px_per_m {
             return Vec::new();
         }
         let seen = view.bounds();
@@ -604,30 +618,30 @@ impl Drawing {
 
     /// The numbers of rooms with each label, without a label, and not classified.
     pub fn counts(&self) -> ([usize; 5], usize, usize) {
-        Self::count(self.rooms.iter().map(|room| room.status))
+        self.counts
     }
 
     /// The same by predicted label.
     pub fn predicted_counts(&self) -> ([usize; 5], usize, usize) {
-        Self::count(self.rooms.iter().map(RoomDrawing::predicted_status))
+        self.predicted_counts
     }
 
     /// The number of rooms whose known label differs from the predicted one.
     pub fn missed(&self) -> usize {
         self.rooms.iter().filter(|room| room.missed_label().is_some()).count()
     }
+}
 
-    fn count(statuses: impl Iterator<Item = RoomStatus>) -> ([usize; 5], usize, usize) {
-        let mut counts = ([0; 5], 0, 0);
-        for status in statuses {
-            match status {
-                RoomStatus::Labelled(label) => counts.0[label.index()] += 1,
-                RoomStatus::Unlabelled => counts.1 += 1,
-                RoomStatus::NotClassified => counts.2 += 1,
-            }
+fn counts(statuses: impl Iterator<Item = RoomStatus>) -> Counts {
+    let mut counts: Counts = ([0; 5], 0, 0);
+    for status in statuses {
+        match status {
+            RoomStatus::Labelled(label) => counts.0[label.index()] += 1,
+            RoomStatus::Unlabelled => counts.1 += 1,
+            RoomStatus::NotClassified => counts.2 += 1,
         }
-        counts
     }
+    counts
 }
 
 /// How far an edge to the outside extends past its opening, in metres: beyond the wall.

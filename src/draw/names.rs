@@ -8,7 +8,7 @@ use super::scene::{Anchor, Frame, Group, Item, Layer, Text, View, Weight};
 use super::walls::Faces;
 use super::{Rgba, SMALLEST_TEXT_PX, Style};
 use crate::geometry::raster::Raster;
-use crate::geometry::{Point, Segment, Vector, polygon};
+use crate::geometry::{Bounds, Point, Segment, Vector, polygon};
 use crate::labels::function_title;
 
 /// A summed-area table over a raster: the sum of any box takes four look-ups.
@@ -114,8 +114,13 @@ pub(super) fn group(around: &Around<'_>, room: usize, floor: Rgba, style: &Style
 
 /// Whether the smallest text could fit into the bounding box of a room.
 pub(super) fn may_fit(room: &RoomDrawing, view: &View) -> bool {
-    let (width_px, height_px) = (room.bounds.width() * view.px_per_m, room.bounds.height() * view.px_per_m);
-    width_px.max(height_px) >= 2.0 * SMALLEST_TEXT_PX && width_px.min(height_px) >= SMALLEST_TEXT_PX
+    view.px_per_m >= fits_from_px_per_m(room.bounds)
+}
+
+/// The zoom, in pixels a metre, from which on the smallest text could fit into a box.
+pub(super) fn fits_from_px_per_m(bounds: Bounds) -> f64 {
+    let (width_m, height_m) = (bounds.width(), bounds.height());
+    (2.0 * SMALLEST_TEXT_PX / width_m.max(height_m)).max(SMALLEST_TEXT_PX / width_m.min(height_m))
 }
 
 /// The text of a room where it fits best; `None` if it fits nowhere.

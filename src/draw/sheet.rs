@@ -41,7 +41,7 @@ const SMALLEST_NAMED_PAGE_PX: f64 = 200.0;
 
 /// The font size of title and legend in pixels: it grows with the page, so that a larger picture shows
 /// the same in more detail.
-fn sheet_text_px(longest_px: f64) -> f64 {
+pub(super) fn sheet_text_px(longest_px: f64) -> f64 {
     (longest_px / 130.0).clamp(11.0, 64.0)
 }
 
@@ -274,8 +274,8 @@ fn entry_width(entry: &str, text: f64) -> f64 {
 
 /// The layout of scale and legend below the plan: side by side, or on a narrow page the legend above the
 /// scale.
-struct Band {
-    height: f64,
+pub(super) struct Band {
+    pub height: f64,
     /// Left edge of the legend.
     left: f64,
     /// Height of the legend's last line above the foot of the page.
@@ -285,7 +285,7 @@ struct Band {
 }
 
 impl Band {
-    fn new(entries: &[Entry], width: f64, margin: f64, text: f64, has_scale: bool) -> Self {
+    pub fn new(entries: &[Entry], width: f64, margin: f64, text: f64, has_scale: bool) -> Self {
         let scale_width = if has_scale { (SCALE_WIDTH + 3.0) * text } else { 0.0 };
         let scale_height = if has_scale { SCALE_HEIGHT * text } else { 0.0 };
         // Whether there is room for an entry or two.
@@ -325,7 +325,7 @@ pub(super) fn legend_rows(entries: &[Entry], free: f64, text: f64) -> Vec<Vec<us
 }
 
 /// The legend: right-aligned, or left-aligned if above the scale.
-fn legend(palette: &Palette, entries: &[Entry], band: &Band, right: f64, foot: f64, text: f64) -> Vec<Item> {
+pub(super) fn legend(palette: &Palette, entries: &[Entry], band: &Band, right: f64, foot: f64, text: f64) -> Vec<Item> {
     let rows = &band.rows;
     let shown: usize = rows.iter().map(Vec::len).sum();
     let widest = rows

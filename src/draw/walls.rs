@@ -48,10 +48,9 @@ const OUTER_WALL_M: [f64; 2] = [0.10, 0.25];
 const USUAL_ROOM_M: f64 = 3.0;
 
 impl Walls {
-    /// The walls of a plan, cut at tile borders.
-    pub fn new(plan: &Plan, rooms: &[RoomDrawing], grid: Option<&TileGrid>) -> Self {
-        let bodies = WallBodies::new(plan);
-        let mut index = WallIndex::new(plan, &bodies);
+    /// The walls of a plan, which have these bodies, cut at tile borders.
+    pub fn new(plan: &Plan, bodies: &WallBodies, rooms: &[RoomDrawing], grid: Option<&TileGrid>) -> Self {
+        let mut index = WallIndex::new(plan, bodies);
         let mut boundaries = Vec::new();
         let mut unwalled = Vec::new();
         for (i, room) in rooms.iter().enumerate() {
@@ -67,7 +66,7 @@ impl Walls {
         let mut tangle = tangled_rooms(rooms, &mut unwalled);
         boundaries.append(&mut tangle);
         let tangled = unwalled_count - unwalled.len() + bodies.tangled.len();
-        let mut rings = bodies.rings;
+        let mut rings = bodies.rings.clone();
         let derived = (!unwalled.is_empty()).then(|| Derived::new(rooms, &unwalled)).map(|derived| {
             boundaries.extend(derived.railings);
             derived.solid

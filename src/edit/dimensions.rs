@@ -1,6 +1,6 @@
 //! Dimension chains: drawing them, moving their line, and keeping them on what they measure.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use super::{EditError, Part, checked_position, fail};
@@ -122,7 +122,8 @@ pub(super) fn transformed(
     else {
         return Ok(after.clone());
     };
-    let mut moved = dimension.clone();
+    // As it is there: its walls may have changed sides.
+    let mut moved = after.dimension(id).unwrap_or(dimension).clone();
     for point in moved.points.iter_mut().filter(|point| point.on.is_none()) {
         point.last = checked_position(transform.point(point.last))?;
     }
@@ -150,6 +151,30 @@ pub(super) fn transformed(
         Some((_, on_line)) => move_dimension(&next, id, transform.point(*on_line)).or(Ok(next)),
         None => Ok(next),
     }
+}
+
+/// The plan in which the chains measure to the other faces of walls that were mirrored: what was left is right.
+pub(super) fn on_other_sides(mut plan: Plan, walls: &BTreeSet<WallId>) -> Plan {
+    let is_mirrored =
+        |point: &DimensionPoint| matches!(point.on, Some(DimensionHost::Wall { wall, .. }) if walls.contains(&wall));
+    let changed: Vec<(DimensionId, Dimension)> = plan
+        .dimensions()
+        .filter(|(_, dimension)| dimension.points.iter().any(is_mirrored))
+        .map(|(id, dimension)| (id, dimension.clone()))
+        .collect();
+    for (id, mut dimension) in changed {
+        for point in dimension.points.iter_mut().filter(|point| is_mirrored(point)) {
+            if let Some(DimensionHost::Wall { side, .. }) = &mut point.on {
+                *side = match *side {
+                    WallSide::Left => WallSide::Right,
+                    WallSide::Axis => WallSide::Axis,
+                    WallSide::Right => WallSide::Left,
+                };
+            }
+        }
+        plan.dimensions.insert(id, Arc::new(dimension));
+    }
+    plan
 }
 
 /// The chains that measure nothing but a part of a plan: they are turned and mirrored with it.

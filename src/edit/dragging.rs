@@ -288,24 +288,28 @@ fn stands_towards(plan: &Plan, corner: CornerId, by: Vector) -> bool {
 }
 
 /// Which edges meet at each corner.
-struct Around {
-    neighbours: BTreeMap<CornerId, BTreeSet<CornerId>>,
-    positions: BTreeMap<CornerId, Point>,
+struct Around<'a> {
+    plan: &'a Plan,
+    /// Each edge from both of its ends, sorted.
+    edges: Vec<(CornerId, CornerId)>,
 }
 
-impl Around {
-    fn new(plan: &Plan) -> Self {
-        let mut neighbours: BTreeMap<CornerId, BTreeSet<CornerId>> = BTreeMap::new();
-        for (a, b) in plan_edges(plan) {
-            neighbours.entry(a).or_default().insert(b);
-            neighbours.entry(b).or_default().insert(a);
-        }
-        let positions = plan.corners().map(|(id, corner)| (id, corner.position)).collect();
-        Self { neighbours, positions }
+impl<'a> Around<'a> {
+    fn new(plan: &'a Plan) -> Self {
+        let mut edges: Vec<(CornerId, CornerId)> = plan_edges(plan).flat_map(|(a, b)| [(a, b), (b, a)]).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        Self { plan, edges }
+    }
+
+    /// The other ends of the edges at a corner.
+    fn neighbours(&self, corner: CornerId) -> impl Iterator<Item = CornerId> + '_ {
+        let first = self.edges.partition_point(|&(from, _)| from < corner);
+        self.edges[first..].iter().take_while(move |&&(from, _)| from == corner).map(|&(_, to)| to)
     }
 
     fn way(&self, from: CornerId, to: CornerId) -> Option<Vector> {
-        (*self.positions.get(&to)? - *self.positions.get(&from)?).unit()
+        (self.plan.position(to)? - self.plan.position(from)?).unit()
     }
 
     /// The corners along the straight run of edges that an edge is part of, in its direction.
@@ -315,13 +319,8 @@ impl Around {
         for (end, along) in [(to, along), (from, -along)] {
             let mut at = end;
             let is_onward = |at: CornerId, next: CornerId| self.way(at, next).map_or(0.0, |way| way.dot(along));
-            while let Some((cos, next)) = self
-                .neighbours
-                .get(&at)
-                .into_iter()
-                .flatten()
-                .map(|&next| (is_onward(at, next), next))
-                .max_by(|p, q| p.0.total_cmp(&q.0))
+            while let Some((cos, next)) =
+                self.neighbours(at).map(|next| (is_onward(at, next), next)).max_by(|p, q| p.0.total_cmp(&q.0))
                 && cos >= IN_LINE_COS
                 && !run.contains(&next)
             {
@@ -339,8 +338,8 @@ impl Around {
     /// The direction that a corner of a run can slide along so that what it stands on stays straight: that of
     /// the line through it, or of the only other edge.
     fn slides_along(&self, corner: CornerId, run: &BTreeSet<CornerId>, along: Vector) -> Option<Vector> {
-        let others = self.neighbours.get(&corner)?.iter().filter(|next| !run.contains(next));
-        let ways: Vec<Vector> = others.filter_map(|&next| self.way(corner, next)).collect();
+        let others = self.neighbours(corner).filter(|next| !run.contains(next));
+        let ways: Vec<Vector> = others.filter_map(|next| self.way(corner, next)).collect();
         let first = *ways.first()?;
         let is_parallel = |p: Vector, q: Vector| p.dot(q).abs() >= IN_LINE_COS;
         let is_opposite = |p: Vector, q: Vector| p.dot(q) <= -IN_LINE_COS;

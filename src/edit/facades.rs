@@ -10,10 +10,14 @@ use crate::geometry::{Bounds, Point, Segment, Vector};
 use crate::plan::{CornerId, DimensionAlong, Place, Plan, ordered, ring_edges};
 use crate::topology::wall_bodies::faces;
 
-/// From the building to the first chain, and from that to the next, in metres: 10 and 7 mm on paper at 1:100, as
-/// draughtsmen leave.
+/// From the building to the first chain, and from that to the next, in metres: 10 mm on paper at 1:100, where the
+/// figures of narrow stretches stand higher.
 const FIRST_M: f64 = 1.0;
-const NEXT_M: f64 = 0.7;
+const NEXT_M: f64 = 1.0;
+
+/// An offset of the facade nearer than this to an opening or to another offset is not measured, in metres: its figure
+/// could not be read, and the wall beside a door says as much.
+const LEAST_OFFSET_M: f64 = 0.2;
 
 /// Faces within eight degrees of a side's direction belong to it; what is more oblique has no length along it.
 const SQUARE_COS: f64 = 0.99;
@@ -156,7 +160,8 @@ fn measured(
             None => merged.push(stretch),
         }
     }
-    let mut points: Vec<Point> = merged.into_iter().flatten().collect();
+    let offsets: Vec<Point> = merged.into_iter().flatten().collect();
+    let mut points: Vec<Point> = Vec::new();
     let seen: BTreeMap<[CornerId; 2], &Face> =
         faces.iter().map(|face| (ordered(face.edge[0], face.edge[1]), *face)).collect();
     for (_, opening) in plan.openings() {
@@ -166,7 +171,16 @@ fn measured(
         let out_m = (face.line.a - a).dot(face.out);
         points.extend([a, b].map(|end| end + face.out * out_m));
     }
-    points.sort_by(|p, q| place_m(*p).total_cmp(&place_m(*q)).then(depth_m(*q).total_cmp(&depth_m(*p))));
+    let by_place = |p: &Point, q: &Point| place_m(*p).total_cmp(&place_m(*q)).then(depth_m(*q).total_cmp(&depth_m(*p)));
+    // The ends come first, then the openings, then what stands clear of both.
+    let [first, last] = [offsets.iter().copied().min_by(by_place), offsets.iter().copied().max_by(by_place)];
+    points.extend(first.into_iter().chain(last));
+    for offset in offsets {
+        if points.iter().all(|point| (place_m(*point) - place_m(offset)).abs() >= LEAST_OFFSET_M) {
+            points.push(offset);
+        }
+    }
+    points.sort_by(by_place);
     points.dedup_by(|next, kept| place_m(*next) - place_m(*kept) <= SAME_M);
     points
 }
@@ -194,7 +208,7 @@ mod tests {
             [(0.0, 0.0), (8.0, 0.0), (8.0, 3.0), (4.0, 3.0), (4.0, 6.0), (0.0, 6.0)].map(|(x, y)| Point::new(x, y));
         let plan = draw_room(&Plan::default(), &ring, Some(0.3)).unwrap().0;
         let window = |plan: &Plan, x: f64, y: f64| {
-            place_opening(plan, OpeningKind::Window, Point::new(x, y), 1.0, 0.5, Point::new(4.0, 1.5)).unwrap().0
+            place_opening(plan, OpeningKind::Window, Point::new(x, y), 1.0, 0.5, Some(Point::new(4.0, 1.5))).unwrap().0
         };
         // Below, at the step, and on the right.
         let plan = window(&window(&window(&plan, 2.0, 0.0), 6.0, 3.0), 8.0, 1.5);

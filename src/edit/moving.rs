@@ -117,6 +117,9 @@ pub fn transform_elements(
             }
         }
     }
+    if transform.mirrors() {
+        next = super::dimensions::on_other_sides(next, &part.walls);
+    }
     check_keeps_edges(plan, &next, &part)?;
     let next = settle(&next, &part.corners).map_err(|_| EditError("a room would get too small".to_owned()))?;
     let mut next = healed(next, left);

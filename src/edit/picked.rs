@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::edit::draw::{Inside, room_edges};
 use crate::edit::{EditError, add_wall, fail, require_corners};
 use crate::plan::{
-    Corner, CornerId, ElementId, Joint, OpeningId, Place, Plan, RoomId, WallId, builder::new_corner_id, ordered,
+    Corner, CornerId, ElementId, Joint, OpeningId, Place, Plan, Room, RoomId, WallId, builder::new_corner_id, ordered,
 };
 
 /// The part of a plan that is picked. A room comes with the walls along its boundary and in it, and every wall
@@ -107,7 +107,11 @@ impl Part {
         let Some(wall) = self.bounding.and_then(|id| plan.wall(id)) else { return Ok(()) };
         let edge = ordered(wall.from, wall.to);
         let bounded = plan.rooms().filter(|(id, room)| !self.rooms.contains(id) && room_edges(room).contains(&edge));
-        let names: Vec<String> = bounded.map(|(_, room)| crate::edit::draw::named(room)).collect();
+        let rooms: Vec<&Room> = bounded.map(|(_, room)| room).collect();
+        let names: Vec<String> = match rooms[..] {
+            [one, other] if one.name.is_empty() && other.name.is_empty() => vec!["two rooms".to_owned()],
+            _ => rooms.iter().map(|room| crate::edit::draw::named(room)).collect(),
+        };
         fail(format!(
             "the wall bounds {}, which would lose it; select the rooms too, or make a copy",
             names.join(" and ")

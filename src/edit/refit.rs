@@ -46,6 +46,10 @@ impl Changed {
 /// No opening is made narrower than this, in metres: a slit is no window.
 const NARROWEST_M: f64 = 0.3;
 
+/// An opening reaches beyond its edge where it does so by more than this, in metres: a wall that is divided beside an
+/// opening may leave it a hair too short.
+const OVER_M: f64 = 0.003;
+
 /// An opening is moved where its middle changes by more than this, in metres: less is rounding.
 const MOVED_M: f64 = 0.002;
 
@@ -82,7 +86,7 @@ pub(super) fn refit(
                 let stands = next.opening_segment(&opening).map(Segment::midpoint);
                 let by_m = stands.map_or(0.0, |stands| along_distance(&next, (host, end), stands, middle));
                 let kind = opening.kind;
-                if now_wide_m < width_m - 1.5 * GRID_M {
+                if now_wide_m < width_m - OVER_M {
                     let how = Refit::Narrowed { from_m: width_m, to_m: now_wide_m };
                     refitted.push(Refitted { opening: id, kind, how });
                 } else if by_m > MOVED_M {
@@ -107,7 +111,7 @@ fn reaches_over(plan: &Plan, id: OpeningId) -> bool {
         return false;
     };
     let length_m = plan.position(from).zip(plan.position(to)).map_or(0.0, |(a, b)| a.distance(b));
-    at_m - width_m / 2.0 < -1.5 * GRID_M || at_m + width_m / 2.0 > length_m + 1.5 * GRID_M
+    at_m - width_m / 2.0 < -OVER_M || at_m + width_m / 2.0 > length_m + OVER_M
 }
 
 /// The place of a hosted opening with its middle as near to a point as its walls allow.
@@ -122,11 +126,14 @@ fn place_near(plan: &Plan, opening: &Opening, middle: Point, reaches_over: bool)
     if reaches_over {
         let nearest = run.iter().filter_map(|&host| Some((edge(host)?.distance(middle), host)));
         let host = nearest.min_by(|p, q| p.0.total_cmp(&q.0)).map_or((from, to), |(_, host)| host);
-        return fitted(plan, host, middle, width_m);
+        return match over_run(plan, &run, host, middle, width_m) {
+            Some(place) => Ok(place),
+            None => fitted(plan, host, middle, width_m),
+        };
     }
     // By how far the middle would move, its own edge first where that is the same.
     let off = |host: (CornerId, CornerId)| -> Option<(f64, (CornerId, CornerId))> {
-        let edge = edge(host).filter(|edge| edge.length() + GRID_M >= width_m)?;
+        let edge = edge(host).filter(|edge| edge.length() + OVER_M >= width_m)?;
         let (along, half_m) = (edge.vector().unit()?, (width_m / 2.0).min(edge.length() / 2.0));
         let at_m = (middle - edge.a).dot(along);
         Some(((at_m - at_m.clamp(half_m, edge.length() - half_m)).abs(), host))
@@ -138,8 +145,9 @@ fn place_near(plan: &Plan, opening: &Opening, middle: Point, reaches_over: bool)
     });
     let (host, width_m) = match hosts {
         Some((_, host)) => {
+            // Rounded down: what is wider than its edge by a grid step would reach over the next.
             let length_m = edge(host).map_or(0.0, Segment::length);
-            (host, width_m.min(trim_m(length_m)))
+            (host, if width_m <= length_m { width_m } else { trim_m((length_m / GRID_M).floor() * GRID_M) })
         }
         None => {
             let length_m = edge((from, to)).map_or(0.0, Segment::length);
@@ -153,6 +161,24 @@ fn place_near(plan: &Plan, opening: &Opening, middle: Point, reaches_over: bool)
     };
     beside_others(plan, fitted(plan, host, middle, width_m)?)
         .map_err(|_| EditError(format!("a {name} would meet another opening: move or narrow one of them first")))
+}
+
+/// The place on an edge of a run with this middle, if the opening fits on the run as a whole.
+fn over_run(
+    plan: &Plan,
+    run: &[(CornerId, CornerId)],
+    host: (CornerId, CornerId),
+    middle: Point,
+    width_m: f64,
+) -> Option<Place> {
+    let edge = Segment::new(plan.position(host.0)?, plan.position(host.1)?);
+    let along = edge.vector().unit()?;
+    let at = |point: Point| (point - edge.a).dot(along);
+    let ends = run.iter().flat_map(|&(a, b)| [a, b]).filter_map(|corner| plan.position(corner)).map(at);
+    let (start_m, end_m) = ends.fold((0.0, edge.length()), |(start, end): (f64, f64), at| (start.min(at), end.max(at)));
+    let at_m = at(middle).clamp(0.0, edge.length());
+    let fits = at_m - width_m / 2.0 >= start_m - OVER_M && at_m + width_m / 2.0 <= end_m + OVER_M;
+    fits.then_some(Place::Hosted { from: host.0, to: host.1, at_m: trim_m(at_m), width_m })
 }
 
 /// Where the middles of openings belong once corners have moved: where they are, unless their wall itself

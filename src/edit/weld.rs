@@ -61,7 +61,7 @@ fn on_lines(plan: &Plan, moved: &BTreeSet<CornerId>) -> Plan {
     let (_, edges) = concerned(plan, TOUCH_M, Some(moved));
     let mut next = plan.clone();
     let mut shifted: BTreeSet<CornerId> = BTreeSet::new();
-    for (corner, ends) in near_edges(&edges, TOUCH_M, Some(moved)).1 {
+    for (corner, ends) in near_edges(&edges, TOUCH_M, Some(moved), &BTreeSet::new()).1 {
         if !moved.contains(&corner) || ends.iter().any(|end| moved.contains(end)) {
             continue;
         }
@@ -113,9 +113,20 @@ fn weld_some(plan: &Plan, tolerance_m: f64, only: Option<&BTreeSet<CornerId>>) -
         .collect();
     let mut next = with_openings_in_place(plan, with_joined(plan, &becomes, &moved), &becomes);
     if !becomes.is_empty() {
-        edges = concerned(&next, tolerance_m, only).1;
+        let around: Option<BTreeSet<CornerId>> =
+            only.map(|only| only.iter().chain(becomes.values()).copied().collect());
+        edges = concerned(&next, tolerance_m, around.as_ref()).1;
     }
-    let (splits, onto_edges) = near_edges(&edges, tolerance_m, only);
+    // Edges that moved, also those whose ends both became others.
+    let now = |id: CornerId| becomes.get(&id).copied().unwrap_or(id);
+    let laid: BTreeSet<[CornerId; 2]> = match only {
+        Some(only) if !becomes.is_empty() => plan_edges(plan)
+            .filter(|(a, b)| only.contains(a) || only.contains(b))
+            .map(|(a, b)| ordered(now(a), now(b)))
+            .collect(),
+        _ => BTreeSet::new(),
+    };
+    let (splits, onto_edges) = near_edges(&edges, tolerance_m, only, &laid);
     if !splits.is_empty() {
         let cut: BTreeSet<CornerId> =
             splits.iter().flat_map(|(ends, inner)| ends.iter().chain(inner)).copied().collect();
@@ -237,11 +248,12 @@ fn without_repeated_walls(plan: Plan, between: &BTreeSet<CornerId>, moved: &BTre
 }
 
 /// The corners that edges pass within a tolerance, as splits and as a list; with `only`, those where the
-/// corner or an end of the edge is one of these.
+/// corner or an end of the edge is one of these, and those on edges of `laid`.
 fn near_edges(
     edges: &[Edge],
     tolerance_m: f64,
     only: Option<&BTreeSet<CornerId>>,
+    laid: &BTreeSet<[CornerId; 2]>,
 ) -> (Splits, Vec<(CornerId, [CornerId; 2])>) {
     let known: Vec<([CornerId; 2], Segment)> = edges
         .iter()
@@ -259,8 +271,10 @@ fn near_edges(
         for i in near {
             let (ends, segment) = known[i];
             let apart = at.distance(segment.a) > tolerance_m && at.distance(segment.b) > tolerance_m;
-            let concerned =
-                only.is_none_or(|only| [corner, ends[0], ends[1]].iter().any(|corner| only.contains(corner)));
+            let is_moved = |only: &BTreeSet<CornerId>| {
+                [corner, ends[0], ends[1]].iter().any(|corner| only.contains(corner)) || laid.contains(&ends)
+            };
+            let concerned = only.is_none_or(is_moved);
             if concerned && !ends.contains(&corner) && apart && segment.distance(at) <= tolerance_m {
                 along.entry(ends).or_default().push((segment.nearest_fraction(at), corner));
                 list.push((corner, ends));

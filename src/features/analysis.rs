@@ -1,9 +1,12 @@
+use std::sync::OnceLock;
+
 use super::{Features, NeighbourLabels};
 use crate::features::temporary;
 use crate::geometry::runs::{self, Axes};
 use crate::labels::{Label, Meaning, Schemes};
 use crate::plan::{Joint, LabelOrigin, Plan, Room, RoomId};
-use crate::topology::{Graph, NetRoom, RoomShapes, net_rooms};
+use crate::topology::wall_bodies::WallBodies;
+use crate::topology::{Graph, NetRoom, RoomShapes, net_rooms_between};
 
 /// The status of a room's label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,12 +66,18 @@ pub struct Analysis {
     /// The clear part of each room, in the same order; `None` for a room that encloses no area. No feature and no
     /// label depends on it.
     pub net: Vec<Option<NetRoom>>,
+    bodies: OnceLock<WallBodies>,
 }
 
 impl Analysis {
     /// The analysis of one room.
     pub fn room(&self, id: RoomId) -> Option<&RoomAnalysis> {
         self.shapes.index_of(id).map(|index| &self.rooms[index])
+    }
+
+    /// The bodies of the walls of the plan, which must be the one analysed.
+    pub fn wall_bodies(&self, plan: &Plan) -> &WallBodies {
+        self.bodies.get_or_init(|| WallBodies::new(plan))
     }
 
     /// The clear part of one room.
@@ -131,6 +140,10 @@ pub fn analyse(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels) -> A
             }
         }
     }
-    let net = net_rooms(plan, &shapes);
-    Analysis { shapes, graph, rooms, net }
+    let bodies = OnceLock::new();
+    let net = match shapes.all() {
+        [] => Vec::new(),
+        _ => net_rooms_between(bodies.get_or_init(|| WallBodies::new(plan)), &shapes),
+    };
+    Analysis { shapes, graph, rooms, net, bodies }
 }

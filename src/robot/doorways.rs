@@ -146,9 +146,18 @@ struct End {
     onward: Vector,
 }
 
-/// The doorways between the long segments of a line map, narrowest first. `boundary` holds the edges of
-/// the free space, which is to their left.
-pub fn doorways(segments: &[Segment], boundary: &RayGrid, options: &DoorwayOptions) -> Vec<Doorway> {
+/// The gaps in the walls of a line map, narrowest first.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Gaps {
+    pub doorways: Vec<Doorway>,
+    /// Beyond the paper: gaps past which the floor widens on one side only. Such is the opening of a closet
+    /// or an alcove, but the mouth of a corridor too.
+    pub mouths: Vec<Doorway>,
+}
+
+/// The gaps between the long segments of a line map. `boundary` holds the edges of the free space, which is
+/// to their left.
+pub fn gaps(segments: &[Segment], boundary: &RayGrid, options: &DoorwayOptions) -> Gaps {
     let long: Vec<Segment> = segments.iter().copied().filter(|s| s.length() >= options.shortest_jamb_m).collect();
     let grid = RayGrid::new(long.clone());
     let mut gaps: Vec<Segment> = Vec::new();
@@ -162,10 +171,18 @@ pub fn doorways(segments: &[Segment], boundary: &RayGrid, options: &DoorwayOptio
     gaps.retain(|&gap| is_free(gap, boundary));
     gaps.sort_by(|p, q| p.length().total_cmp(&q.length()));
     let mut found: Vec<Vec<Segment>> = Vec::new();
+    let mut mouths: Vec<Segment> = Vec::new();
     for gap in gaps {
         // Narrow ones first: a door beside this gap does not widen it.
-        if options.must_widen && !widens(gap, boundary, &found) {
-            continue;
+        match if options.must_widen { widens(gap, boundary, &found) } else { [true; 2] } {
+            [true, true] => {}
+            [false, false] => continue,
+            _ => {
+                if gap.length() <= options.widest_m {
+                    mouths.push(gap);
+                }
+                continue;
+            }
         }
         match found.iter().position(|group| group.iter().all(|&other| is_same_doorway(gap, other))) {
             Some(group) => found[group].push(gap),
@@ -174,7 +191,12 @@ pub fn doorways(segments: &[Segment], boundary: &RayGrid, options: &DoorwayOptio
             None => found.push(vec![gap]),
         }
     }
-    found.iter().map(|gaps| merged(gaps)).collect()
+    let is_new = |mouth: &&Segment| {
+        !found.iter().flatten().any(|&other| is_same_doorway(**mouth, other) || crosses(**mouth, other))
+    };
+    let alone = |&mouth: &Segment| Doorway { segment: mouth, width_m: mouth.length(), depth_m: 0.0 };
+    let mouths = mouths.iter().filter(is_new).map(alone).collect();
+    Gaps { doorways: found.iter().map(|gaps| merged(gaps)).collect(), mouths }
 }
 
 /// Gaps from an end to the facing ends of collinear segments.
@@ -205,10 +227,18 @@ fn to_wall(end: End, long: &[Segment], grid: &RayGrid, options: &DoorwayOptions)
     let from = end.at + end.onward * 0.02;
     let hit = grid.cast(from, end.onward, options.widest_m)?;
     let to = from + end.onward * hit.distance_m;
-    let meets = !are_parallel(long[hit.segment], Segment::new(end.at, to), options.collinear_rad);
     let gap = Segment::new(end.at, to);
+    // Beyond the paper squarely, or else it is not where the passage is narrowest: a short segment, the reveal of
+    // a door say, points anywhere.
+    let least_rad = if options.must_widen { SQUARE_RAD } else { options.collinear_rad };
+    let meets = !are_parallel(long[hit.segment], gap, least_rad);
     (meets && (options.narrowest_m..=options.widest_m).contains(&gap.length())).then_some(gap)
 }
+
+
+
+/// A gap up to a wall meets it at this angle at least.
+const SQUARE_RAD: f64 = 45.0 * std::f64::consts::PI / 180.0;
 
 /// Number of sample points on a gap.
 const PLACES: usize = 9;
@@ -238,13 +268,16 @@ const DEEPEST_M: f64 = 0.65;
 const WIDER_M: f64 = 0.06;
 const WIDER_SHARE: f64 = 0.03;
 
+/// The same for gaps wider than a door, where two walls that happen to lie in line across a corridor are no passage.
+const WIDE_WIDER_SHARE: f64 = 0.2;
+
 /// Maximum length of rays along a gap, in metres.
 const WIDTH_LIMIT_M: f64 = 6.0;
 
-/// Whether the free floor is wider than the gap on both sides of it, within the depth of a wall. Doorways
-/// already found count as closed.
-fn widens(gap: Segment, boundary: &RayGrid, found: &[Vec<Segment>]) -> bool {
-    let Some(along) = gap.vector().unit() else { return false };
+/// Whether the free floor is wider than the gap to its left and to its right, within the depth of a wall.
+/// Doorways already found count as closed.
+pub(super) fn widens(gap: Segment, boundary: &RayGrid, found: &[Vec<Segment>]) -> [bool; 2] {
+    let Some(along) = gap.vector().unit() else { return [false; 2] };
     let middle = gap.midpoint();
     let around = gap.bounds().inflated(WIDTH_LIMIT_M);
     let closed: Vec<Segment> = found
@@ -260,8 +293,9 @@ fn widens(gap: Segment, boundary: &RayGrid, found: &[Vec<Segment>]) -> bool {
     };
     let width_m = |at: Point| reach_m(at, along) + reach_m(at, -along);
     let width_here_m = width_m(middle).min(gap.length() + 0.05);
-    let wider_m = width_here_m + WIDER_M.max(WIDER_SHARE * width_here_m);
-    [along.left(), -along.left()].into_iter().all(|across| {
+    let share = if gap.length() > DoorwayOptions::PAPER.widest_m { WIDE_WIDER_SHARE } else { WIDER_SHARE };
+    let wider_m = width_here_m + WIDER_M.max(share * width_here_m);
+    [along.left(), -along.left()].map(|across| {
         let ahead_m = boundary.cast(middle, across, DEEPEST_M).map_or(DEEPEST_M, |hit| hit.distance_m - 0.05);
         let steps = (ahead_m / 0.05).floor().max(0.0) as usize;
         (1..=steps).any(|step| width_m(middle + across * (step as f64 * 0.05)) >= wider_m)

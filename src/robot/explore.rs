@@ -181,6 +181,8 @@ pub struct Exploration {
     visited: Vec<Visited>,
     looked_at: Pose,
     collisions: usize,
+    /// Where the robot touched something, in the map's frame.
+    touched: Vec<Point>,
     has_new_look: bool,
 }
 
@@ -193,6 +195,20 @@ pub struct PathStep {
     pub estimate: Pose,
     /// In the map's frame.
     pub odometry: Pose,
+}
+
+/// The number of places on a frontier that are looked for.
+const PLACES: usize = 4;
+
+/// Points on the known floor just before a frontier: before the middles of its longest stretches, since its
+/// own middle may lie in a corner that is seen from nowhere.
+fn places_on(frontier: &Frontier) -> Vec<Point> {
+    let stretches = frontier.line.windows(2).map(|pair| Segment::new(pair[0], pair[1]));
+    let mut stretches: Vec<Segment> = stretches.collect();
+    // The sort is stable: of equal ones the first.
+    stretches.sort_by(|p, q| q.length().total_cmp(&p.length()));
+    let inward = |stretch: &Segment| Some(stretch.midpoint() + stretch.vector().left().unit()? * 0.05);
+    stretches.iter().take(PLACES).filter_map(inward).collect()
 }
 
 impl Exploration {
@@ -218,6 +234,7 @@ impl Exploration {
             visited: Vec::new(),
             looked_at: Pose::IDENTITY,
             collisions: 0,
+            touched: Vec::new(),
             has_new_look: false,
         };
         exploration.sense();
@@ -347,7 +364,7 @@ impl Exploration {
         if open.is_empty() {
             return None;
         }
-        let mut routes = Routes::new(self.free.shapes(), self.pose.position());
+        let mut routes = Routes::around(self.free.shapes(), self.pose.position(), &self.touched);
         let edges = self.free.shapes().iter().flatten().map(crate::geometry::areas::points);
         let edges: Vec<Segment> = edges.flat_map(|ring| polygon::edges(&ring).collect::<Vec<_>>()).collect();
         let grid = RayGrid::new(edges);
@@ -356,12 +373,13 @@ impl Exploration {
         let mut views: Vec<(usize, usize, f64)> = Vec::new();
         for (index, (frontier, visits)) in open.iter().enumerate() {
             let worth = PER_FRONTIER_METRE * frontier.length_m.min(LONGEST_WORTH_M);
-            let seen = frontier.middle - frontier.outward * 0.05;
-            for cell in routes.cells_near(frontier.middle, view_m, spacing_m, radius_m) {
-                let from = routes.centre(cell);
-                if !grid.blocks(from, seen) && (*visits == 0 || !self.was_seen_from(frontier, from)) {
-                    let extra = PER_METRE[(*visits).min(1)] * from.distance(frontier.middle) - worth;
-                    views.push((cell, index, extra));
+            for seen in places_on(frontier) {
+                for cell in routes.cells_near(seen, view_m, spacing_m, radius_m) {
+                    let from = routes.centre(cell);
+                    if !grid.blocks(from, seen) && (*visits == 0 || !self.was_seen_from(frontier, from)) {
+                        let extra = PER_METRE[(*visits).min(1)] * from.distance(seen) - worth;
+                        views.push((cell, index, extra));
+                    }
                 }
             }
         }
@@ -397,7 +415,7 @@ impl Exploration {
         self.activity = Activity::Driving;
         let [_, radius_m] = self.planned_radii_m();
         let Some(goal) = &mut self.goal else { return };
-        let mut routes = Routes::new(self.free.shapes(), self.pose.position());
+        let mut routes = Routes::around(self.free.shapes(), self.pose.position(), &self.touched);
         let place = goal.place;
         let to = routes.cells_near(place, 0.2, 0.01, 0.0);
         routes.spread(self.pose.position(), radius_m, |cell, _| to.contains(&cell));
@@ -471,6 +489,7 @@ impl Exploration {
     /// Handles a collision.
     fn bump(&mut self) {
         self.collisions += 1;
+        self.touched.extend(self.touch());
         self.look();
         let Some(goal) = &mut self.goal else { return };
         goal.bumps += 1;
@@ -478,6 +497,19 @@ impl Exploration {
             self.leave_goal(true);
         }
         self.activity = Activity::BackingOff;
+    }
+
+    /// Where the robot touches something, as a ring of bumpers around it reports it, in the map's frame. The free
+    /// space may be wrong there, and once seen as free it stays so: without this, the robot would try again and
+    /// again.
+    fn touch(&self) -> Option<Point> {
+        let at = self.true_pose.position();
+        let obstacles = self.world.obstacles();
+        let reach_m = self.options.radius_m + self.options.step_m;
+        let near = obstacles.near(crate::geometry::Bounds::of([at]).inflated(reach_m));
+        let points = near.into_iter().map(|index| obstacles.segments()[index].nearest_point(at));
+        let touched = points.min_by(|p, q| p.distance(at).total_cmp(&q.distance(at)))?;
+        Some(self.pose.apply(self.true_pose.inverse().apply(touched)))
     }
 
     /// Drops a goal whose frontier has disappeared: it was seen on the way.

@@ -8,6 +8,8 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::simplify::SimplifyShape as _;
 use i_overlay::float::single::SingleFloatOverlay as _;
 
+use super::grid_map::{Cell, GridMap};
+use super::segment::outlines;
 use super::{Pose, Scan};
 use crate::geometry::areas::{self, Ring, Shapes};
 use crate::geometry::{Bounds, Point, Segment, polygon};
@@ -25,6 +27,9 @@ const JUMP_M: f64 = 0.3;
 
 /// Side in metres of the cells that record hits.
 const HIT_CELL_M: f64 = 0.05;
+
+/// Tolerance in cells for the outlines of a grid map's free cells, which are staircases along oblique walls.
+const STAIRS_CELLS: f64 = 1.0;
 
 /// A smaller gap of unknown floor, in m², is a shadow between two beams.
 const SHADOW_M2: f64 = 0.02;
@@ -64,6 +69,32 @@ impl FreeSpace {
         free.shapes = parts.pop().unwrap_or_default();
         free.tidy();
         free
+    }
+
+    /// The free space of a grid map, with its occupied cells as hits.
+    pub fn of_grid(map: &GridMap) -> Self {
+        let (width, height) = (map.width() as i32, map.height() as i32);
+        let cell_at = |x: i32, y: i32| {
+            let inside = (0..width).contains(&x) && (0..height).contains(&y);
+            if inside { map.cells()[(y * width + x) as usize] } else { Cell::Unknown }
+        };
+        let window = [0, 0, map.width(), map.height()];
+        let rings: Vec<Ring> = outlines(window, |x, y| cell_at(x, y) == Cell::Free)
+            .iter()
+            .map(|outline| super::segment::simplified(outline, STAIRS_CELLS))
+            .filter(|ring| ring.len() >= 3)
+            .map(|ring| {
+                let at = |point: &Point| map.map_from_picture(point.x, point.y);
+                ring.iter().map(at).map(|point| [point.x, point.y]).collect()
+            })
+            .collect();
+        let shapes = if rings.is_empty() { Shapes::new() } else { rings.simplify_shape(FillRule::NonZero) };
+        let occupied = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let hits = occupied
+            .filter(|&(x, y)| cell_at(x, y) == Cell::Occupied)
+            .map(|(x, y)| swapped(hit_cell(map.map_from_picture(f64::from(x) + 0.5, f64::from(y) + 0.5))))
+            .collect();
+        Self { shapes, hits }
     }
 
     /// Adds what the scans from one place saw.

@@ -2,11 +2,19 @@
 
 use std::collections::BTreeMap;
 
+use super::bridges::without_bridges;
 use super::calibration::OdometryOptions;
 use super::carmen::Log;
+use super::doorways::DoorwayOptions;
+use super::frontiers::{Frontier, frontiers};
+use super::grid_map::Cell;
+use super::grid_rooms::log_rooms;
 use super::mapper::{Mapper, MapperOptions};
-use super::{LineMap, Pose};
+use super::occupancy::grid_map;
+use super::rooms::FoundRooms;
+use super::{FreeSpace, LineMap, Pose, Scan};
 use crate::base::work::{Cancelled, Work};
+use crate::geometry::{Point, Segment};
 
 /// The result of mapping a log.
 #[derive(Clone, Debug, Default)]
@@ -38,6 +46,53 @@ pub fn map_log(log: &Log, options: &MapperOptions, work: &Work<'_>) -> Result<Ma
     let reported: Vec<Pose> = log.readings.iter().map(|reading| reading.odometry).collect();
     Ok(MappedLog { map: mapper.map(), poses: poses_along(&reported, &at_looks), closures: mapper.closures() })
 }
+
+/// What is known of the robot's surroundings after a log, in the map's frame.
+#[derive(Clone, Debug, Default)]
+pub struct Surroundings {
+    pub free: FreeSpace,
+    pub frontiers: Vec<Frontier>,
+    /// By the second method: the segmentation of the grid map of all scans.
+    pub found: FoundRooms,
+    /// The segments of the line map beside free space: the others were seen behind glass, in mirrors, or
+    /// once by mistake.
+    pub segments: Vec<Segment>,
+}
+
+/// The free space, frontiers and rooms of a mapped log.
+pub fn surroundings(log: &Log, mapped: &MappedLog) -> Surroundings {
+    let looks = log.readings.iter().zip(&mapped.poses).filter(|(reading, _)| !reading.scans.is_empty());
+    let looks = looks.map(|(reading, pose)| (*pose, reading.scans.as_slice()) as (Pose, &[Scan]));
+    let Some(map) = grid_map(looks.clone()) else { return Surroundings::default() };
+    let reach = (BESIDE_FREE_M / map.resolution_m).ceil() as i64;
+    let is_free_near = |point: Point| {
+        let (x, y) = map.picture_from_map(point);
+        let (x, y) = (x.floor() as i64, y.floor() as i64);
+        let (width, height) = (map.width() as i64, map.height() as i64);
+        (y - reach..=y + reach).filter(|y| (0..height).contains(y)).any(|y| {
+            let row = (x - reach).clamp(0, width)..(x + reach + 1).clamp(0, width);
+            map.cells()[(y * width + row.start) as usize..(y * width + row.end) as usize].contains(&Cell::Free)
+        })
+    };
+    let is_beside_free = |segment: &Segment| {
+        let count = (segment.length() / BESIDE_FREE_M).ceil().clamp(1.0, 1_000.0) as usize;
+        let near = (0..count).filter(|&i| is_free_near(segment.a.lerp(segment.b, (i as f64 + 0.5) / count as f64)));
+        2 * near.count() >= count
+    };
+    let segments: Vec<Segment> =
+        mapped.map.lines().map(|line| line.line.segment()).filter(|segment| is_beside_free(segment)).collect();
+    let free = FreeSpace::of_grid(&map);
+    let segments = without_bridges(&segments, &super::rooms::boundary(free.shapes()));
+    let long: Vec<Segment> =
+        segments.iter().copied().filter(|segment| segment.length() >= DoorwayOptions::PAPER.shortest_m).collect();
+    let places: Vec<Point> = looks.map(|(pose, _)| pose.position()).collect();
+    let found = log_rooms(&map, &places, &long);
+    let frontiers = frontiers(&free);
+    Surroundings { free, frontiers, found, segments }
+}
+
+/// A segment is beside free space if half of it has some within this distance in metres.
+const BESIDE_FREE_M: f64 = 0.2;
 
 /// Poses of all odometry readings: between two scans they follow the odometry, with the residual spread
 /// in proportion to the distance. `scans` maps the index of each scan among the readings, ascending, to

@@ -3,6 +3,7 @@
 //! Scans become line segments ([`split_and_merge`]), segments a [`line_map`], a line map rooms.
 //! The frame of a map is that of the robot's first pose; metres and radians throughout.
 
+pub mod bridges;
 pub mod calibration;
 pub mod carmen;
 pub mod correlation;
@@ -14,6 +15,7 @@ pub mod frontiers;
 pub mod furniture;
 pub mod grid_map;
 pub mod grid_plan;
+pub mod grid_rooms;
 pub mod line_map;
 pub mod lines;
 pub mod log_map;
@@ -22,6 +24,7 @@ pub mod loop_closing;
 pub mod map_server;
 pub mod mapper;
 pub mod matching;
+pub mod occupancy;
 pub mod odometry;
 pub mod pose;
 pub mod pose_graph;

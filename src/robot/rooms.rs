@@ -6,7 +6,8 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay as _;
 
 use super::RayGrid;
-use super::doorways::{Doorway, DoorwayOptions, Groups, doorways, is_inside, walls};
+use super::bridges::without_bridges;
+use super::doorways::{Doorway, DoorwayOptions, Gaps, Groups, gaps, is_inside, walls};
 use super::furniture::rectangle;
 use super::quadrilaterals::mean_quadrilateral_m2;
 use crate::base::random::Random;
@@ -27,7 +28,7 @@ pub struct RoomOptions {
 
 impl Default for RoomOptions {
     fn default() -> Self {
-        Self { doorways: DoorwayOptions::default(), points_per_m2: 4.0, smallest_m2: 0.6, seed: 1 }
+        Self { doorways: DoorwayOptions::default(), points_per_m2: 4.0, smallest_m2: 0.35, seed: 1 }
     }
 }
 
@@ -69,13 +70,18 @@ pub struct FoundRooms {
 
 /// The rooms of the line map `segments` in the free space `free`; deterministic for a given seed.
 pub fn find_rooms(segments: &[Segment], free: &Shapes, options: &RoomOptions) -> FoundRooms {
-    let boundary = RayGrid::new(edges(free));
+    let boundary = boundary(free);
+    let clutter = if options.doorways.must_widen { clutter(free) } else { Vec::new() };
+    let mut structure: Vec<Segment> = segments.iter().copied().filter(|segment| !is_of(segment, &clutter)).collect();
+    if options.doorways.must_widen {
+        structure = without_bridges(&structure, &boundary);
+    }
     let long: Vec<Segment> =
-        segments.iter().copied().filter(|segment| segment.length() >= options.doorways.shortest_m).collect();
-    let mut found = doorways(segments, &boundary, &options.doorways);
+        structure.iter().copied().filter(|segment| segment.length() >= options.doorways.shortest_m).collect();
+    let Gaps { doorways: mut found, mouths } = gaps(&structure, &boundary, &options.doorways);
     let walled = without_strips(free, &wall_strips(&long, &options.doorways));
     // A doorway from a room to itself is spurious: without it the room may extend further, so repeat.
-    let (pieces, sides) = loop {
+    let (mut pieces, mut sides) = loop {
         let strips: Vec<Ring> = found.iter().map(doorway_strip).collect();
         let pieces: Vec<Vec<Ring>> = without_strips(&walled, &strips);
         let sides = sides_of(&found, &pieces);
@@ -91,13 +97,18 @@ pub fn find_rooms(segments: &[Segment], free: &Shapes, options: &RoomOptions) ->
             None => break (pieces, sides),
         };
     };
+    if close_mouths(&mouths, &mut found, &mut pieces, &boundary, options) {
+        sides = sides_of(&found, &pieces);
+    }
     let (points, sights, group_of) = scatter(&pieces, options);
     let mut room_of_piece: Vec<Option<usize>> = vec![None; pieces.len()];
     let mut rooms: Vec<FoundRoom> = Vec::new();
     for (index, piece) in pieces.iter().enumerate() {
         let within: Vec<usize> = (0..points.len()).filter(|&i| group_of[i] == index).collect();
         let leads_somewhere = sides.iter().flatten().any(|&side| side == Some(index));
-        if within.is_empty() || !(leads_somewhere || found.is_empty()) {
+        // Its doorway may have been missed; what is small leaked past a wall.
+        let is_large = area_m2(piece) > LONE_ROOM_M2 && options.doorways.must_widen;
+        if within.is_empty() || !(leads_somewhere || found.is_empty() || is_large) {
             continue;
         }
         if let Some(room) = room(piece, within, options) {
@@ -107,6 +118,99 @@ pub fn find_rooms(segments: &[Segment], free: &Shapes, options: &RoomOptions) ->
     }
     let sides = sides.into_iter().map(|pair| pair.map(|side| room_of_piece[side?])).collect();
     FoundRooms { walls: walls(segments, &options.doorways), doorways: found, sides, points, sights, rooms }
+}
+
+/// An obstacle that stands free and is smaller across, in metres, is a pillar or furniture, not a wall with
+/// passages beside it: walls between two doorways are longer.
+const LARGEST_CLUTTER_M: f64 = 0.9;
+
+/// Its shorter side is at least this share of its longer one: the end of a wall between two doorways is thin.
+const CLUTTER_SHARE: f64 = 0.4;
+
+/// The boxes of free-standing obstacles that are no walls, a little larger.
+fn clutter(free: &Shapes) -> Vec<Bounds> {
+    let holes = free.iter().flat_map(|shape| shape.iter().skip(1));
+    let boxes = holes.map(|hole| Bounds::of(hole.iter().map(|&[x, y]| Point::new(x, y))));
+    let is_clutter = |bounds: &Bounds| {
+        let (short_m, long_m) = (bounds.width().min(bounds.height()), bounds.width().max(bounds.height()));
+        long_m <= LARGEST_CLUTTER_M && short_m >= CLUTTER_SHARE * long_m
+    };
+    boxes.filter(is_clutter).map(|bounds| bounds.inflated(0.1)).collect()
+}
+
+fn is_of(segment: &Segment, clutter: &[Bounds]) -> bool {
+    clutter.iter().any(|bounds| bounds.contains(segment.a) && bounds.contains(segment.b))
+}
+
+/// A room behind a mouth, a closet or an alcove, has no other doorway and is at most this large in m².
+const LARGEST_ALCOVE_M2: f64 = 4.0;
+
+/// It is at least this deep as a share of its width: a bay is not.
+const LEAST_DEPTH_SHARE: f64 = 0.6;
+
+/// A corridor's mouth separates it from a room that has space for a disc of this many times the mouth's
+/// width in front of it; another corridor has not.
+const ROOMY_SHARE: f64 = 1.5;
+
+/// How far in front of a mouth that disc may be, in metres.
+const ROOMY_WITHIN_M: f64 = 2.5;
+
+/// Whether there is a room in this direction from a mouth.
+fn is_roomy(mouth: &Doorway, way: Vector, boundary: &RayGrid) -> bool {
+    let middle = mouth.segment.midpoint();
+    let ahead_m = boundary.cast(middle, way, ROOMY_WITHIN_M).map_or(ROOMY_WITHIN_M, |hit| hit.distance_m);
+    let radius_m = ROOMY_SHARE * mouth.width_m / 2.0;
+    let steps = (ahead_m / 0.1).floor() as usize;
+    (1..=steps).any(|step| boundary.distance_m(middle + way * (0.1 * step as f64), radius_m) >= radius_m)
+}
+
+/// Cuts alcoves off their rooms, and corridors off rooms that they open into; returns whether there were any.
+fn close_mouths(
+    mouths: &[Doorway],
+    found: &mut Vec<Doorway>,
+    pieces: &mut Vec<Vec<Ring>>,
+    boundary: &RayGrid,
+    options: &RoomOptions,
+) -> bool {
+    let before = found.len();
+    let doors: Vec<Doorway> = found.clone();
+    for mouth in mouths {
+        let Some(whole) = (0..pieces.len()).find(|&i| {
+            piece_bounds(&pieces[i]).contains(mouth.segment.midpoint()) && contains(&pieces[i], mouth.segment.midpoint())
+        }) else {
+            continue;
+        };
+        let parts: Vec<Vec<Ring>> = without_strips(&vec![pieces[whole].clone()], &[doorway_strip(mouth)]);
+        let Some(&[Some(one), Some(other)]) = sides_of(std::slice::from_ref(mouth), &parts).first() else { continue };
+        if one == other {
+            continue;
+        }
+        let (small, large) = if area_m2(&parts[one]) < area_m2(&parts[other]) { (one, other) } else { (other, one) };
+        let is_alcove = (options.smallest_m2..=LARGEST_ALCOVE_M2).contains(&area_m2(&parts[small]))
+            && area_m2(&parts[small]) >= LEAST_DEPTH_SHARE * mouth.width_m.powi(2)
+            && area_m2(&parts[large]) > 2.0 * area_m2(&parts[small]);
+        let doors_of = sides_of(&doors, &parts);
+        let has_door = doors_of.iter().flatten().any(|&side| side == Some(small));
+        let opens_into_room = || {
+            if mouth.width_m > DoorwayOptions::PAPER.widest_m {
+                return false;
+            }
+            // The part with the mouth's full width on its side is the corridor.
+            let has_door = |part: usize| doors_of.iter().flatten().any(|&side| side == Some(part));
+            (has_door(one) && is_roomy(mouth, -mouth.across(), boundary))
+                || (has_door(other) && is_roomy(mouth, mouth.across(), boundary))
+        };
+        if (is_alcove && !has_door) || opens_into_room() {
+            found.push(mouth.clone());
+            pieces.splice(whole..=whole, parts);
+        }
+    }
+    found.len() > before
+}
+
+/// The boundary of a free space, which is to the left of its edges.
+pub fn boundary(free: &Shapes) -> RayGrid {
+    RayGrid::new(edges(free))
 }
 
 /// The edges of areas, with the area to their left.
@@ -254,6 +358,9 @@ fn scatter(pieces: &[Vec<Ring>], options: &RoomOptions) -> (Vec<Point>, Vec<[usi
         .collect();
     (points, sights, group_of)
 }
+
+/// A piece of free space without a doorway that is larger, in m², is a room all the same.
+const LONE_ROOM_M2: f64 = 3.0;
 
 /// Smaller holes are furniture and columns, in m²; a courtyard is larger.
 const LARGEST_FURNITURE_M2: f64 = 4.0;

@@ -16,6 +16,13 @@ const CELLS_LIMIT: f64 = 1.5e6;
 /// Routes keep away from walls if that costs little: below this clearance in metres a step costs more.
 const COMFORT_M: f64 = 0.5;
 
+/// How far from a tight start clearance does not count, in metres: the estimate may be off by some
+/// centimetres, and what is beside the robot may not have been seen well.
+const ESCAPE_M: f64 = 0.6;
+
+/// The surcharge per metre where there is not enough clearance, in metres of route.
+const ESCAPE_SURCHARGE: f32 = 10.0;
+
 /// Routes are straightened by at most this many cells: only the steps of an oblique route.
 const STRAIGHT_CELLS: f64 = 0.7;
 
@@ -40,6 +47,11 @@ pub struct Routes {
 impl Routes {
     /// The raster of a free space around `start`, before any search.
     pub fn new(free: &Shapes, start: Point) -> Self {
+        Self::around(free, start, &[])
+    }
+
+    /// The same with places that are blocked whatever the free space says: where the robot touched something.
+    pub fn around(free: &Shapes, start: Point, blocked: &[Point]) -> Self {
         let bounds = Bounds::of(free.iter().flatten().flatten().map(|&[x, y]| Point::new(x, y))).with(start);
         let bounds = bounds.inflated(2.0 * CELL_M);
         let cell_m = CELL_M.max((bounds.width() * bounds.height() / CELLS_LIMIT).sqrt());
@@ -57,6 +69,11 @@ impl Routes {
             from: vec![u32::MAX; count],
         };
         routes.fill(free);
+        for &place in blocked {
+            if let Some(cell) = routes.cell(place) {
+                routes.free[cell] = false;
+            }
+        }
         routes.clearance_m = routes.clearances();
         routes
     }
@@ -159,8 +176,8 @@ impl Routes {
     }
 
     /// Finds the cheapest routes for a robot of this radius in metres from `start` (Dijkstra 1959) to all
-    /// cells, or until `is_enough` accepts a cell's index and cost. If the start itself is tight, the
-    /// robot may leave it.
+    /// cells, or until `is_enough` accepts a cell's index and cost. If the start itself is tight, after a
+    /// collision say, clearance does not count until the robot is [`ESCAPE_M`] away from it.
     pub fn spread(&mut self, start: Point, radius_m: f64, mut is_enough: impl FnMut(usize, f64) -> bool) {
         self.cost.fill(f32::INFINITY);
         self.from.fill(u32::MAX);
@@ -170,6 +187,8 @@ impl Routes {
         self.cost[start] = 0.0;
         queue.push((Reverse(Ordered(0.0)), Reverse(start as u32)));
         let escape_m = self.clearance_m[start];
+        let cell_m = self.cell_m;
+        let dx_m = |to: isize, from: usize| (to - from as isize) as f64 * cell_m;
         while let Some((Reverse(Ordered(cost)), Reverse(cell))) = queue.pop() {
             let cell = cell as usize;
             if cost > self.cost[cell] {
@@ -186,15 +205,15 @@ impl Routes {
                 }
                 let next = y as usize * self.columns + x as usize;
                 let clearance = self.clearance_m[next];
-                // From a tight place routes lead only towards more clearance.
-                let escapes =
-                    escape_m < radius && self.clearance_m[cell] < radius && clearance >= self.clearance_m[cell];
+                let is_near = dx_m(x, start % self.columns).hypot(dx_m(y, start / self.columns)) <= ESCAPE_M;
+                let escapes = escape_m < radius && is_near;
                 let leaves = cell == start && !self.free[cell];
                 if !leaves && (!self.free[next] || (clearance < radius && !escapes)) {
                     continue;
                 }
                 let tight = ((COMFORT_M as f32 - clearance) / COMFORT_M as f32).max(0.0);
-                let step = length * self.cell_m as f32 * (1.0 + 3.0 * tight);
+                let surcharge = 3.0 * tight + if clearance < radius { ESCAPE_SURCHARGE } else { 0.0 };
+                let step = length * self.cell_m as f32 * (1.0 + surcharge);
                 if cost + step < self.cost[next] {
                     self.cost[next] = cost + step;
                     self.from[next] = cell as u32;

@@ -5,6 +5,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::simplify::SimplifyShape as _;
 use i_overlay::float::single::SingleFloatOverlay as _;
 
+use super::doorways::{Groups, widens};
 use super::furniture::{Piece, bundled_furniture, furnish, rectangle};
 use super::ray_grid::RayGrid;
 use crate::base::random::{Random, seed_of_part};
@@ -148,6 +149,40 @@ impl World {
             areas::offset(&self.free, -radius_m).into_iter().map(|shape| vec![shape]).collect();
         pieces.sort_by(|p, q| areas::area_m2(q).total_cmp(&areas::area_m2(p)));
         pieces
+    }
+
+    /// The same world with rooms as one that an opening as wide as the narrower of them joins, which no laser
+    /// scanner can tell from a bend or a niche of one room. An opening is narrower if the floor widens on both
+    /// sides of it within the depth of a wall.
+    #[must_use]
+    pub fn with_open_rooms_joined(&self) -> Self {
+        let index_of = |joint: Joint| self.rooms.iter().position(|room| Some(room.id) == joint.room());
+        let mut groups = Groups::new(self.rooms.len());
+        for opening in self.openings.iter().filter(|opening| opening.state == DoorState::Open) {
+            if let [Some(p), Some(q)] = opening.sides.map(index_of)
+                && !widens(opening.segment, &self.obstacles, &[]).iter().all(|&widens| widens)
+            {
+                groups.join(p, q);
+            }
+        }
+        let roots: Vec<usize> = (0..self.rooms.len()).map(|i| groups.root(i)).collect();
+        let mut rooms = Vec::new();
+        let mut joined: Vec<RoomId> = self.rooms.iter().map(|room| room.id).collect();
+        for root in 0..self.rooms.len() {
+            let members: Vec<usize> = (0..self.rooms.len()).filter(|&i| roots[i] == root).collect();
+            let largest = members.iter().max_by(|&&p, &&q| self.rooms[p].area_m2.total_cmp(&self.rooms[q].area_m2));
+            let Some(&largest) = largest else { continue };
+            let id = self.rooms[largest].id;
+            let floor: Shapes = members.iter().flat_map(|&i| self.rooms[i].floor.clone()).collect();
+            let area_m2 = members.iter().map(|&i| self.rooms[i].area_m2).sum();
+            rooms.push(WorldRoom { id, floor, area_m2 });
+            members.iter().for_each(|&i| joined[i] = id);
+        }
+        rooms.sort_by_key(|room| room.id);
+        let side = |joint: Joint| index_of(joint).map_or(joint, |index| Joint::Room(joined[index]));
+        let openings =
+            self.openings.iter().map(|opening| WorldOpening { sides: opening.sides.map(side), ..*opening }).collect();
+        Self { rooms, openings, ..self.clone() }
     }
 
     /// A starting point: of several random ones in the largest part passable for a disc of this radius,

@@ -10,6 +10,6 @@ pub mod wall_bodies;
 
 pub use gaps::{DOORWAY_WIDTH_M, Gap, gaps};
 pub use graph::{Connection, Graph, sides_by_geometry};
-pub use net_areas::{NetRoom, net_of, net_rooms};
+pub use net_areas::{NetRoom, net_of, net_rooms, net_rooms_between};
 pub use plan_faces::{PlanFace, PlanFaces, SLIVER_WIDTH_M};
 pub use shapes::{RoomShape, RoomShapes};

@@ -45,7 +45,12 @@ const ROUNDING_M2: f64 = 1e-3;
 
 /// The clear parts of all rooms in the order of [`RoomShapes::all`]; `None` for a room that encloses no area.
 pub fn net_rooms(plan: &Plan, shapes: &RoomShapes) -> Vec<Option<NetRoom>> {
-    let rings = if shapes.all().is_empty() { Vec::new() } else { WallBodies::new(plan).rings };
+    if shapes.all().is_empty() { Vec::new() } else { net_rooms_between(&WallBodies::new(plan), shapes) }
+}
+
+/// As [`net_rooms`], between the bodies of the plan's walls.
+pub fn net_rooms_between(bodies: &WallBodies, shapes: &RoomShapes) -> Vec<Option<NetRoom>> {
+    let rings = &bodies.rings;
     let entry = |(index, ring): (usize, &Ring)| {
         let corners = ring.iter().fold(None, |corners: Option<([f64; 2], [f64; 2])>, &[x, y]| {
             let (low, high) = corners.unwrap_or(([x, y], [x, y]));

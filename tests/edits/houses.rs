@@ -259,3 +259,145 @@ fn rooms_of_the_bundled_office_are_changed_alone() {
     }
     assert!(walls.is_empty() || dragged > 0);
 }
+
+/// The bundled office traced anew over a picture of it, 25 pixels a metre: its rooms by their corners, one after the
+/// other where no room is yet, with walls; then its doors and windows.
+fn traced_office() -> Plan {
+    const PIXEL_M: f64 = 0.04;
+    let (_, office) =
+        enfilade::store::bundled_plans().unwrap().iter().find(|(name, _)| name.starts_with("office")).cloned().unwrap();
+    let pixel = |at: Point| Point::new((at.x / PIXEL_M).round() * PIXEL_M, (at.y / PIXEL_M).round() * PIXEL_M);
+    let mut plan = Plan::default();
+    // Small ones first: what lies within another is left out of that.
+    let mut rooms: Vec<_> = office.rooms().map(|(_, room)| (area_m2(&office, room), room)).collect();
+    rooms.sort_by(|p, q| p.0.total_cmp(&q.0));
+    for (_, room) in rooms {
+        let clicked: Vec<Point> = office.ring_points(&room.outer).into_iter().map(pixel).collect();
+        let drawn = edit::draw_room_in_free_space(&plan, &clicked, Some(0.12), edit::GAP_BETWEEN_ROOMS_M).unwrap();
+        plan = edit::set_name(&drawn.plan, drawn.rooms[0], &room.name).unwrap();
+        assert_eq!(drawn.rooms.len(), 1, "{}", room.name);
+    }
+    for (_, opening) in office.openings() {
+        let segment = office.opening_segment(opening).unwrap();
+        let at = pixel(segment.midpoint());
+        plan = edit::place_opening(&plan, opening.kind, at, segment.length(), 0.3, Some(at)).unwrap().0;
+    }
+    plan
+}
+
+/// The rooms that a drag of corners concerns.
+fn rooms_at(plan: &Plan, corners: &BTreeSet<enfilade::plan::CornerId>) -> Vec<RoomId> {
+    let has = |room: &enfilade::plan::Room| room.rings().any(|ring| ring.iter().any(|id| corners.contains(id)));
+    plan.rooms().filter(|(_, room)| has(room)).map(|(id, _)| id).collect()
+}
+
+#[test]
+fn a_traced_office_is_changed() {
+    let mut site = Site::new(traced_office());
+    assert!(site.plan().rooms().len() >= 39 && site.plan().openings().len() >= 78);
+    // Rectangular rooms, mirrored and turned by half where they are: nothing else notices.
+    let rooms: Vec<RoomId> = site.plan().rooms().map(|(id, _)| id).collect();
+    let mut turned = 0;
+    for &id in &rooms {
+        let room = site.plan().room(id).unwrap();
+        let bounds = enfilade::geometry::polygon::bounds(&site.plan().ring_points(&room.outer));
+        if area_m2(site.plan(), room) < bounds.width() * bounds.height() - 1e-6 || turned == 5 {
+            continue;
+        }
+        turned += 1;
+        let (name, about) = (room.name.clone(), bounds.center());
+        let upright = Transform::reflection(about, about + Vector::new(0.0, 1.0)).unwrap();
+        let half = Transform::rotation(about, std::f64::consts::PI);
+        for way in [upright, half] {
+            site.edit(&format!("turn {name}"), &[id], |plan| {
+                moved(edit::transform_elements(plan, &one(ElementId::Room(id)), way, true))
+            });
+        }
+    }
+    assert_eq!(turned, 5);
+    // Partitions, by a hand's breadth: as a run, and one piece of it, and back.
+    let (mut runs, mut pieces) = (0, 0);
+    let walls: Vec<WallId> = site.plan().walls().map(|(id, _)| id).collect();
+    for &id in walls.iter().step_by(11) {
+        for reach in [Reach::Run, Reach::Piece] {
+            let plan = site.plan();
+            let Some(segment) = plan.wall(id).and_then(|wall| plan.wall_segment(wall)) else { continue };
+            let by = segment.vector().left().unit().unwrap() * 0.1;
+            let drag = edit::WallDrag::new(plan, &[id].into(), &BTreeSet::new(), reach).unwrap();
+            let Ok(changed) = drag.apply(plan, by) else { continue };
+            // A jog beside a door may narrow a neighbour's; a drag that does is left.
+            if !wrong(&changed.plan).is_empty() {
+                continue;
+            }
+            let wall = plan.wall(id).unwrap();
+            let mut corners: BTreeSet<_> = drag.targets(by).into_iter().map(|(id, _)| id).collect();
+            corners.extend([wall.from, wall.to]);
+            let picked = rooms_at(plan, &corners);
+            if reach == Reach::Run {
+                runs += 1
+            } else {
+                pieces += 1
+            };
+            site.edit(&format!("drag {id}"), &picked, |_| changed.plan);
+            let before = site.plan().clone();
+            if let Ok(back) = edit::move_picked(&before, &one(ElementId::Wall(id)), -by, reach, true)
+                && wrong(&back.plan).is_empty()
+            {
+                site.edit(&format!("drag {id} back"), &picked, |_| back.plan);
+            }
+        }
+    }
+    assert!(runs >= 5 && pieces >= 4, "{runs} runs, {pieces} pieces");
+    // Doors, wider by a hand's breadth.
+    let doors: Vec<_> =
+        site.plan().openings().filter(|(_, it)| it.kind == OpeningKind::Door).map(|(id, _)| id).collect();
+    let mut widened = 0;
+    for &id in doors.iter().step_by(5) {
+        let Some([before, behind]) = edit::beside_opening(site.plan(), id) else { continue };
+        if before.distance_m < 0.1 || behind.distance_m < 0.1 {
+            continue;
+        }
+        widened += 1;
+        let width_m = site.plan().opening_segment(site.plan().opening(id).unwrap()).unwrap().length() + 0.1;
+        site.edit("widen a door", &[], |plan| edit::resize_opening(plan, id, width_m).unwrap());
+    }
+    assert!(widened >= 3, "{widened} doors");
+    // Walls between two rooms, deleted, and the rooms merged.
+    let mut merged = 0;
+    for id in walls.iter().step_by(9).copied() {
+        let before = site.plan().clone();
+        if before.wall(id).is_none() {
+            continue;
+        }
+        let without = edit::remove(&before, &[ElementId::Wall(id)]).unwrap();
+        let Some(rooms) = edit::rooms_joined_by(&before, &without, &[ElementId::Wall(id)]) else { continue };
+        let Ok(one) = edit::merge_rooms(&without, &rooms) else { continue };
+        merged += 1;
+        site.edit("delete a wall and merge", &rooms, |_| {
+            let stays = rooms.iter().copied().find(|&id| one.room(id).is_some()).unwrap();
+            edit::set_name(&one, stays, &format!("merged {merged}")).unwrap()
+        });
+        if merged == 3 {
+            break;
+        }
+    }
+    assert!(merged >= 3, "{merged} merged");
+    // A mirrored copy of all across the facade, and an array of two beside that.
+    let all: BTreeSet<ElementId> = site.plan().rooms().map(|(id, _)| ElementId::Room(id)).collect();
+    let bounds = site.plan().bounds();
+    let renamed = |plan: Plan, before: &Plan| {
+        let new: Vec<RoomId> = plan.rooms().map(|(id, _)| id).filter(|&id| before.room(id).is_none()).collect();
+        new.iter().enumerate().fold(plan, |plan, (i, &id)| edit::set_name(&plan, id, &format!("copy {i}")).unwrap())
+    };
+    let facade = Point::new(bounds.max.x, 0.0);
+    let across = Transform::reflection(facade, facade + Vector::new(0.0, 1.0)).unwrap();
+    site.edit("mirror a copy across the facade", &[], |plan| {
+        renamed(edit::copy_elements(plan, &all, across).unwrap().0, plan)
+    });
+    let (column_step, row_step) = (Vector::new(0.0, 0.0), Vector::new(0.0, bounds.height() + 5.0));
+    site.edit("an array", &[], |plan| {
+        let array = Array::Grid { columns: 1, rows: 2, column_step, row_step };
+        renamed(edit::array(plan, &all, array).unwrap().0, plan)
+    });
+    site.undo_all();
+}

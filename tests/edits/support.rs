@@ -5,6 +5,7 @@ use std::fmt::Debug;
 use enfilade::geometry::{Point, polygon};
 use enfilade::plan::{History, Plan, Room};
 use proptest::prelude::{ProptestConfig, TestCaseError, prop_assert, prop_assert_eq};
+use proptest::test_runner::RngSeed;
 
 pub fn points(coordinates: &[(f64, f64)]) -> Vec<Point> {
     coordinates.iter().map(|&(x, y)| Point::new(x, y)).collect()
@@ -27,12 +28,18 @@ pub fn areas(plan: &Plan) -> Vec<f64> {
     areas
 }
 
-/// So many cases, or as many as `PROPTEST_CASES` says.
+/// So many cases, or as many as `PROPTEST_CASES` says. The same cases each time, unless `PROPTEST_RNG_SEED` gives another
+/// seed; with `PROPTEST_CASES` alone, new ones each time.
 pub fn config(cases: u32) -> ProptestConfig {
+    // Both variables are read by proptest itself.
     let default = ProptestConfig { failure_persistence: None, ..ProptestConfig::default() };
-    // The same cases each time; with `PROPTEST_CASES` so many new ones.
-    let rng_seed = proptest::test_runner::RngSeed::Fixed(12);
-    if std::env::var_os("PROPTEST_CASES").is_some() { default } else { ProptestConfig { cases, rng_seed, ..default } }
+    let is_set = |name: &str| std::env::var_os(name).is_some();
+    let rng_seed = match default.rng_seed {
+        RngSeed::Random if !is_set("PROPTEST_CASES") => RngSeed::Fixed(12),
+        seed => seed,
+    };
+    let cases = if is_set("PROPTEST_CASES") { default.cases } else { cases };
+    ProptestConfig { cases, rng_seed, ..default }
 }
 
 /// The area of all rooms together.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use enfilade::geometry::Point;
+use enfilade::geometry::{Point, Vector};
 use enfilade::labels::{Label, Typology};
 use enfilade::plan::{
     Backdrop, Builder, CornerId, Extra, Joint, LabelOrigin, LeafSide, Measurement, Meta, Opening, OpeningKind, Place,
@@ -204,6 +204,7 @@ fn build(
             holes: rings.collect(),
             function,
             label: spec.label.map(|(label, origin)| RoomLabel { label, origin }),
+            text_offset: (note.len() % 2 == 1).then(|| Vector::new(0.5, -1.25)),
             name,
             note,
             source_id: String::new(),

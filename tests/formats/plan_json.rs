@@ -5,7 +5,7 @@ use super::golden::assert_golden;
 use enfilade::edit::draw_dimension;
 use enfilade::edit::guides::add_guide;
 use enfilade::formats::plan_json::{from_bytes, to_bytes};
-use enfilade::geometry::Point;
+use enfilade::geometry::{Point, Vector};
 use enfilade::labels::{Label, Typology};
 use enfilade::plan::{
     Backdrop, Builder, DimensionAlong, GuideAxis, Joint, LabelOrigin, LeafSide, Measurement, Meta, Opening,
@@ -55,6 +55,7 @@ pub fn full_plan() -> Plan {
             label: Some(RoomLabel { label: Label::Hall, origin: LabelOrigin::AcceptedPrediction }),
             name: "Salon\n1".to_owned(),
             note: "fireplace".to_owned(),
+            text_offset: Some(Vector::new(1.5, -0.5)),
             source_id: String::new(),
             extra: None,
         },

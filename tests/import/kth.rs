@@ -193,18 +193,20 @@ fn every_real_floor_is_read_whole() {
         openings += doors().count();
         hosted += doors().filter(|(_, opening)| matches!(opening.place, Place::Hosted { .. })).count();
         let windows = text.matches("type=\"Window\"").count();
-        let read_windows = plan.openings().len() - doors().count();
-        assert!(
-            read_windows <= windows && read_windows + 2 >= windows,
-            "{}: {read_windows} of {windows} windows",
-            path.display()
-        );
+        let narrow = import.notes.iter().filter(|note| note.what.starts_with("a window has no width")).count();
+        assert_eq!(plan.openings().len() - doors().count() + narrow, windows, "{}", path.display());
         let functions = plan.rooms().map(|(_, room)| &room.function).filter(|function| !function.is_empty());
         for function in functions {
             named += 1;
             known += usize::from(schemes.meaning(plan.meta().typology.as_ref(), function).is_some());
         }
     }
-    let found = (files.len(), buildings.len(), rooms, without, openings, hosted, named, known);
-    assert_eq!(found, (95, 19, 3732, 0, 0, 0, 0, 0));
+    assert_eq!((files.len(), buildings.len(), rooms), (95, 19, 3732));
+    assert!(without <= 62, "{without} rooms have no boundary; 59 have no contour");
+    assert!(
+        (4000..4400).contains(&openings),
+        "{openings} openings of 7,983 portals, of which nearly all stand in two rooms"
+    );
+    assert!(100 * hosted >= 99 * openings, "{hosted} of {openings} openings lie on a wall");
+    assert!(100 * known >= 93 * named, "the scheme knows {known} of {named} rooms with a function");
 }

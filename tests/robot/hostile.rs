@@ -110,10 +110,10 @@ fn every_key_counts_in_every_mode() {
     };
     assert_eq!(rooms(YAML), 2);
     assert_eq!(rooms(&YAML.replace("trinary", "scale")), 2);
-    // As percentages, 0 is free and all other shades of this picture are no percentages.
-    assert_eq!(rooms(&YAML.replace("trinary", "raw")), 0);
-    // The floor is taken for walls, and the walls, too thin for a room, for floor.
-    assert_eq!(rooms(&YAML.replace("negate: 0", "negate: true")), 0);
+    // As percentages, black is free and every other shade of this picture is none: the band of the walls is a floor.
+    assert_eq!(rooms(&YAML.replace("trinary", "raw")), 1);
+    // The same the other way round: dark is free.
+    assert_eq!(rooms(&YAML.replace("negate: 0", "negate: true")), 1);
     // Unknown space counts as free, too; walls still do not.
     assert!(rooms(&YAML.replace("free_thresh: 0.196", "free_thresh: 0.3")) >= 2);
     for (from, to, what) in [

@@ -11,15 +11,16 @@ use crate::app::look::theme::{self, Colours};
 use crate::app::paint::places::on_screen;
 use crate::app::session::Session;
 use crate::app::session::document::Derived;
+use crate::app::session::kept::Together;
 use crate::base::units::Units;
 use crate::draw::View;
 use crate::geometry::{
-    Bounds, Segment,
+    Segment,
     runs::{Run, runs},
 };
 use crate::plan::{DEFAULT_WALL_THICKNESS_M, WallId};
+use crate::topology::NetRoom;
 use crate::topology::wall_bodies::WallFaces;
-use crate::topology::{NetRoom, RoomShape};
 
 /// With more rooms selected, only their totals are shown.
 const MOST_ROOMS: usize = 6;
@@ -79,31 +80,25 @@ pub(crate) fn paint(
     rect: Rect,
     view: &View,
     session: &Session,
-    derived: &Derived,
+    derived: &Arc<Derived>,
     names: impl FnOnce() -> Vec<Rect>,
 ) {
     if !session.layers.dimensions {
         return;
     }
-    let rooms: Vec<Measured<'_>> = session
-        .selection()
-        .rooms()
-        .filter_map(|id| {
-            let shape = derived.analysis.shapes.get(id)?;
-            Some(Measured { shape, net: derived.analysis.net(id)? })
-        })
-        .collect();
+    let together = session.rooms_together(derived);
     let walls: Vec<WallId> = session.selection().walls().take(MOST_WALLS + 1).collect();
-    if rooms.is_empty() && walls.is_empty() {
+    if together.is_none() && walls.is_empty() {
         return;
     }
     let colours = theme::colours(&painter.ctx().global_style().visuals);
     let paper = theme::colour(paper(session.layers.colours, painter.ctx()));
     let sheet = Sheet { painter, rect, view, units: session.units(), colours, names: names() };
     let mut labels: Vec<Label> = Vec::new();
-    if rooms.len() <= MOST_ROOMS {
-        for room in &rooms {
-            sheet.clear_lengths(room.net, &mut labels);
+    let rooms = || session.selection().rooms().filter_map(|id| derived.analysis.net(id));
+    if together.is_some_and(|together| together.rooms <= MOST_ROOMS) {
+        for net in rooms() {
+            sheet.clear_lengths(net, &mut labels);
         }
     }
     if walls.len() <= MOST_WALLS
@@ -116,24 +111,11 @@ pub(crate) fn paint(
             }
         }
     }
-    sheet.whole(&rooms, &mut labels);
+    if let Some(together) = together {
+        sheet.whole(&together, rooms().next(), &mut labels);
+    }
     for label in &labels {
         label.paint(painter, paper.gamma_multiply(0.9));
-    }
-}
-
-/// A selected room.
-struct Measured<'a> {
-    shape: &'a RoomShape,
-    net: &'a NetRoom,
-}
-
-impl Measured<'_> {
-    /// The box around the room and its walls, which are about as thick outside as inside.
-    fn bounds_with_walls(&self) -> Bounds {
-        let (outer, clear) = (self.shape.bounds, Bounds::of(self.net.rings().flatten().copied()));
-        let half_m = if clear.is_empty() { 0.0 } else { (outer.width() - clear.width()) / 2.0 };
-        outer.inflated(half_m.max(0.0))
     }
 }
 
@@ -204,16 +186,15 @@ impl Sheet<'_> {
         }
     }
 
-    /// Clear area and perimeter, below the rooms, above them, or in the middle of the visible part.
-    fn whole(&self, rooms: &[Measured<'_>], labels: &mut Vec<Label>) {
-        let all = rooms.iter().map(Measured::bounds_with_walls).reduce(Bounds::union);
-        let Some(all) = all else { return };
-        let area_m2: f64 = rooms.iter().map(|room| room.net.area_m2).sum();
-        let clear = if rooms.iter().any(|room| room.net.has_walls) { " clear" } else { "" };
-        let mut text = format!("{}{clear}", self.units.area(area_m2));
-        match rooms {
-            [room] => text.push_str(&format!("  ·  {} around", self.units.length(room.net.perimeter_m()))),
-            several => text = format!("{} rooms  ·  {text}", several.len()),
+    /// Clear area, and the perimeter of the `first` and only room, below the rooms, above them, or in the middle of the
+    /// visible part.
+    fn whole(&self, together: &Together, first: Option<&NetRoom>, labels: &mut Vec<Label>) {
+        let all = together.bounds;
+        let clear = if together.has_walls { " clear" } else { "" };
+        let mut text = format!("{}{clear}", self.units.area(together.clear_m2));
+        match first.filter(|_| together.rooms == 1) {
+            Some(room) => text.push_str(&format!("  ·  {} around", self.units.length(room.perimeter_m()))),
+            None => text = format!("{} rooms  ·  {text}", together.rooms),
         }
         let galley = self.text(text);
         let corners = [all.min, all.max].map(|point| on_screen(self.rect, self.view, point));

@@ -183,6 +183,9 @@ pub(super) fn more_to_snap_to(session: &Session, view: &View, pointer: Point) ->
 /// Snapping reach for the storey below, in points.
 const GHOST_REACH_PX: f64 = 16.0;
 
+/// The height of what is typed with four lines of what is said about it, in points.
+const REFUSAL_HEIGHT: f32 = 100.0;
+
 /// What has been typed for the tool, beside the pointer: what is understood of it, or why it is not taken.
 pub(super) fn paint_typed(
     painter: &Painter,
@@ -196,7 +199,11 @@ pub(super) fn paint_typed(
     if typed.is_empty() {
         return;
     }
-    let at = on_screen(rect, view, scope.at()) + vec2(14.0, 40.0);
+    let mut at = on_screen(rect, view, scope.at()) + vec2(14.0, 40.0);
+    if !refused.is_empty() {
+        // With room for what is said below it.
+        at.y = at.y.min(rect.bottom() - REFUSAL_HEIGHT);
+    }
     let ink = theme::colour(palette.ink);
     let understood = toolbox.understood(scope.units);
     let text = if understood.is_empty() { format!("{typed}|") } else { format!("{typed}|   = {understood}   Enter") };

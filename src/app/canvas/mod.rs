@@ -53,6 +53,8 @@ pub(crate) struct Canvas {
     picture_bounds: Option<Bounds>,
     /// The place that a field of a panel is about.
     pub marked_in_panel: Option<Point>,
+    /// The end that moves when what is typed in the form beside a thing is taken.
+    pub marked_here: Option<Point>,
     /// What is under the pointer.
     pub pointed: Pointed,
     painter: ScenePainter,
@@ -277,10 +279,12 @@ impl Canvas {
                 }
             }
         }
+        // Below all that a tool shows.
+        paint_scale_bar(&painter, rect, &view, palette, session.units());
         let tool = toolbox.tool();
         let mut preview = Preview::default();
         preview_question(session, document.plan(), &mut preview);
-        if let Some(place) = self.marked_in_panel {
+        for place in self.marked_in_panel.into_iter().chain(self.marked_here) {
             preview.handle(place, Look::Danger);
         }
         tool.preview(&scope, &mut preview);
@@ -296,7 +300,6 @@ impl Canvas {
         if is_blank && toolbox.is_selecting() {
             paint_beginning(&painter, rect, palette, beginning);
         }
-        paint_scale_bar(&painter, rect, &view, palette, session.units());
         if response.has_focus() && self.shows_focus {
             let colours = theme::colours(ui.visuals());
             painter.rect_stroke(rect.shrink(1.0), 0.0, Stroke::new(2.0, colours.accent), StrokeKind::Inside);

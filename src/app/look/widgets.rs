@@ -31,7 +31,7 @@ fn line(ui: &Ui, text: &str, font: FontId, colour: Color32, width: f32) -> Arc<G
 }
 
 /// Places a galley on whole pixels, vertically centred at `middle`.
-fn put(ui: &Ui, galley: Arc<Galley>, left: f32, middle: f32) {
+pub(crate) fn put(ui: &Ui, galley: Arc<Galley>, left: f32, middle: f32) {
     let pixels_per_point = ui.pixels_per_point();
     let on_pixel = |value: f32| (value * pixels_per_point).round() / pixels_per_point;
     let at = pos2(on_pixel(left), on_pixel(middle - galley.rect.height() / 2.0));

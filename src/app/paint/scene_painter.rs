@@ -15,7 +15,7 @@ use egui::{Color32, FontFamily, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2
 use crate::app::look::theme;
 use crate::app::session::document::Derived;
 use crate::draw::scene::arc_points;
-use crate::draw::{Anchor, Group, Item, Layer, Length, Rgba, Style, Text, View, Weight};
+use crate::draw::{Anchor, FromAfar, Group, Item, Layer, Length, Rgba, Style, Text, View, Weight};
 use crate::geometry::{Bounds, Point};
 use crate::plan::RoomId;
 
@@ -257,8 +257,10 @@ impl ScenePainter {
                 placed: HashMap::new(),
             }),
         };
-        names.view = *view;
-        names.rooms = drawing.rooms_to_name(view);
+        if names.view != *view || names.placed.is_empty() {
+            names.view = *view;
+            names.rooms = drawing.rooms_to_name(view);
+        }
         let most = if drawing.is_in_tiles() { NAMES_A_FRAME } else { usize::MAX };
         let missing: Vec<usize> = names.rooms.iter().copied().filter(|room| !names.placed.contains_key(room)).collect();
         for &room in missing.iter().take(most) {
@@ -279,9 +281,8 @@ impl Shapes {
             for level in 0..levels {
                 let mut writer = Writer::new(&self.view);
                 if self.is_from_afar {
-                    for item in drawing.tile_from_afar(tile, layer, level, &self.fills, &self.style, &self.view) {
-                        writer.item_from_afar(&item);
-                    }
+                    let write = |piece: FromAfar<'_>| writer.piece_from_afar(piece);
+                    drawing.tile_from_afar(tile, layer, level, &self.fills, &self.style, &self.view, write);
                 } else {
                     let is_cut = |a: Point, b: Point| layer == Layer::Walls && drawing.is_cut(a, b);
                     for group in drawing.tile_layer(tile, layer, level, &self.fills, &self.style, &self.view) {

@@ -151,6 +151,7 @@ fn leftmost(line: Segment) -> Point {
 
 /// Shows the form, if one is open.
 pub(super) fn show(app: &mut App, ui: &mut Ui) {
+    let before_moves = app.canvas.marked_here.take();
     let Some(mut here) = app.panels.here.take() else { return };
     let is_there = app.plan().is_some_and(|plan| plan.has(here.element)) && app.picked() == Some(here.element);
     let Some(canvas) = app.canvas.seen_rect().filter(|_| is_there) else { return };
@@ -230,9 +231,10 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         calls.extend(changed.map(|((text, _), (_, command))| (command, vec![text.clone()])));
     }
     // Which end goes, while a length is typed.
-    if moves.is_some() {
-        app.canvas.marked_in_panel = moves;
+    if moves != before_moves {
+        ui.ctx().request_repaint();
     }
+    app.canvas.marked_here = moves.filter(|_| !ends);
     let context = ui.ctx().clone();
     for (command, words) in calls {
         app.act(command, &words.iter().map(String::as_str).collect::<Vec<_>>(), &context);

@@ -24,6 +24,7 @@ use crate::app::look::{
 };
 use crate::app::session::document::{Derived, Document};
 use crate::app::session::fields::{Field, FieldKind};
+use crate::app::session::kept::InCommon;
 use crate::app::state::{App, Height, Side, SidePanel, panels};
 use crate::base::{
     units::Units,
@@ -180,21 +181,21 @@ impl Inspected<'_> {
     // Several elements.
 
     fn several(&self, ui: &mut Ui) -> Option<Act> {
-        let selection = self.app.selection();
+        let common = self.app.session.in_common();
         let counts = [
-            (selection.rooms().count(), "room"),
-            (selection.walls().count(), "wall"),
-            (selection.openings().count(), "opening"),
-            (selection.corners().count(), "corner"),
-            (selection.dimensions().count(), "dimension"),
+            (common.rooms, "room"),
+            (common.walls, "wall"),
+            (common.openings, "opening"),
+            (common.corners, "corner"),
+            (common.dimensions, "dimension"),
         ];
         let said: Vec<String> =
             counts.iter().filter(|(number, _)| *number > 0).map(|(number, thing)| count(*number, thing)).collect();
         header(ui, None, None, &said.join(", "), "Selected");
         ui.add_space(6.0);
         let mut act = None;
-        if selection.rooms().next().is_some() {
-            act = self.label_segments(ui, self.app.session.selected_label()).map(|label| Act::Label(Some(label)));
+        if common.rooms > 0 {
+            act = self.label_segments(ui, common.label).map(|label| Act::Label(Some(label)));
             ui.horizontal(|ui| {
                 ui.spacing_mut().item_spacing.x = 12.0;
                 for (text, id) in [("Set function", "set-function"), ("Name", "name-rooms"), ("Change", "change-rooms")]
@@ -206,13 +207,11 @@ impl Inspected<'_> {
             });
             ui.add_space(4.0);
         }
-        act = act.or_else(|| self.walls(ui));
-        act = act.or_else(|| self.openings(ui));
-        let areas_m2: Vec<f64> = self.document.derived().map_or_else(Vec::new, |derived| {
-            selection.rooms().filter_map(|id| derived.analysis.net(id)).map(|net| net.area_m2).collect()
-        });
-        if !areas_m2.is_empty() {
-            value(ui, "Clear area together", &self.app.units().area(areas_m2.iter().sum()));
+        act = act.or_else(|| self.walls(ui, &common));
+        act = act.or_else(|| self.openings(ui, &common));
+        let together = self.document.derived().and_then(|derived| self.app.session.rooms_together(derived));
+        if let Some(together) = together {
+            value(ui, "Clear area together", &self.app.units().area(together.clear_m2));
         }
         act
     }
@@ -232,8 +231,7 @@ impl Inspected<'_> {
         let field =
             LengthField { name, now_m: trim_m(now_m), range_m, units: self.app.units(), width: 100.0, name_width };
         // Of another wall or door, what was begun is forgotten.
-        let selected: Vec<ElementId> = self.app.selection().iter().collect();
-        let entered = ui.push_id(selected, |ui| ui.horizontal(|ui| field.show(ui)).inner).inner;
+        let entered = ui.push_id(self.app.selection().elements(), |ui| ui.horizontal(|ui| field.show(ui)).inner).inner;
         if !entered.refused.is_empty() {
             ui.label(RichText::new(&entered.refused).size(theme::SMALL).color(colours(ui).error));
         }
@@ -303,18 +301,14 @@ impl Inspected<'_> {
         }
         hairline(ui);
         section(ui, "Contents");
-        let plan = self.plan;
-        let doors = plan.openings().filter(|(_, opening)| opening.kind.is_passable()).count();
-        value(ui, "Rooms", &plan.rooms().len().to_string());
-        value(ui, "Openings", &doors.to_string());
-        value(ui, "Windows", &(plan.openings().len() - doors).to_string());
+        let contents = self.app.session.contents();
+        value(ui, "Rooms", &self.plan.rooms().len().to_string());
+        value(ui, "Openings", &contents.passable.to_string());
+        value(ui, "Windows", &contents.windows.to_string());
         if let Some(derived) = self.document.derived() {
-            // An empty sum is minus zero.
-            let sum_m2 = |areas_m2: &mut dyn Iterator<Item = f64>| areas_m2.fold(0.0, |sum, area_m2| sum + area_m2);
-            let clear_m2 = sum_m2(&mut derived.analysis.net.iter().flatten().map(|net| net.area_m2));
-            let along_m2 = sum_m2(&mut derived.analysis.shapes.all().iter().map(RoomShape::area_m2));
-            value(ui, "Clear area", &self.app.units().area(clear_m2)).on_hover_text(CLEAR);
-            value(ui, "Along axes", &self.app.units().area(along_m2)).on_hover_text(ALONG);
+            let areas = self.app.session.areas(derived);
+            value(ui, "Clear area", &self.app.units().area(areas.clear_m2)).on_hover_text(CLEAR);
+            value(ui, "Along axes", &self.app.units().area(areas.along_m2)).on_hover_text(ALONG);
             self.gaps(ui, derived);
         }
         if let Some(predictions) = self.document.derived().and_then(|derived| derived.predictions.as_ref())

@@ -18,7 +18,7 @@ use crate::app::look::{
     search::{Hit, Search},
     text::{select, select_all},
     theme,
-    widgets::{ICON, ROW, colours, hairline_in, put_line, swatch},
+    widgets::{ICON, ROW, colours, hairline_in, put, put_line, swatch},
 };
 use crate::app::session::paths::{PathUse, split_typed};
 use crate::app::state::App;
@@ -474,8 +474,7 @@ impl Palette {
             let galley = ui.painter().layout(text.clone(), font, weak, (ui.available_width() - 32.0).max(80.0));
             let height = (galley.rect.height() + 20.0).max(2.0 * ROW);
             let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
-            let top = rect.center().y - galley.rect.height() / 2.0;
-            ui.painter().galley(pos2(rect.left() + 16.0, top), galley, weak);
+            put(ui, galley, rect.left() + 16.0, rect.center().y);
             response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &text));
             return None;
         }
@@ -531,7 +530,7 @@ impl Palette {
         let inner = rect.shrink2(vec2(16.0, 0.0));
         let right = Rect::from_min_max(pos2(inner.right() - width, inner.top()), inner.max);
         put_line(ui, back, small.clone(), colours.text_weak, right);
-        ui.painter().galley(pos2(inner.left(), inner.center().y - galley.rect.height() / 2.0), galley, colour);
+        put(ui, galley, inner.left(), inner.center().y);
         let role = if error.is_some() { Role::Alert } else { Role::Status };
         response.widget_info(|| WidgetInfo::labeled(role, true, &text));
     }

@@ -160,7 +160,7 @@ fn one(
                     if let Some(step) = recovered.history.steps().get(position).filter(|_| position > 0) {
                         caption(ui, format!("Last change: {}", step.title));
                     }
-                    if recovered.draft.is_some() {
+                    if recovered.draft.is_some() && position > 0 {
                         caption(ui, "The unfinished drawing is there too.");
                     }
                     if recovered.unsound.is_some() {

@@ -124,10 +124,10 @@ pub(crate) fn left_text(app: &App) -> String {
         return said.join("  ·  ");
     }
     let plan = document.plan();
-    let passable = plan.openings().filter(|(_, opening)| opening.kind.is_passable()).count();
-    let mut text = format!("{}  ·  {}", count(plan.rooms().len(), "room"), count(passable, "opening"));
-    if plan.openings().len() > passable {
-        text.push_str(&format!("  ·  {}", count(plan.openings().len() - passable, "window")));
+    let contents = app.session.contents();
+    let mut text = format!("{}  ·  {}", count(plan.rooms().len(), "room"), count(contents.passable, "opening"));
+    if contents.windows > 0 {
+        text.push_str(&format!("  ·  {}", count(contents.windows, "window")));
     }
     text
 }

@@ -15,10 +15,12 @@ impl Session {
         let Some(document) = &mut self.document else { return };
         document.predict_by(&self.predictor);
         let plan = document.plan().clone();
-        self.selection.keep_what_is_in(&plan);
-        if !document.needs_deriving() {
+        let is_needed = document.needs_deriving();
+        self.keep_selected_what_is_in(&plan);
+        if !is_needed {
             return;
         }
+        let Some(document) = &mut self.document else { return };
         let schemes = self.schemes.clone();
         let predictor = Some((self.predictor.clone(), self.models.clone()));
         if plan.rooms().len() + plan.openings().len() + plan.walls().len() <= LARGE_PLAN_ELEMENTS {

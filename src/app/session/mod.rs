@@ -14,6 +14,7 @@ pub(crate) mod fresh;
 pub(crate) mod ghost;
 pub(crate) mod history;
 pub(crate) mod jobs;
+pub(crate) mod kept;
 pub(crate) mod labelling;
 pub(crate) mod layers;
 pub(crate) mod memory;
@@ -88,6 +89,8 @@ pub(crate) struct Session {
     pub(crate) missing: std::collections::BTreeSet<PathBuf>,
     pub(crate) list: PlanList,
     pub(crate) selection: Selection,
+    /// What panels show of the plan and the selection.
+    pub(crate) figures: kept::Figures,
     /// The step of the history that nudged what is selected, if that was the last thing done.
     pub(crate) nudged: Option<usize>,
     /// What is being drawn and is in no plan yet.
@@ -174,6 +177,7 @@ impl Session {
             missing: std::collections::BTreeSet::new(),
             list: PlanList::default(),
             selection: Selection::default(),
+            figures: kept::Figures::default(),
             nudged: None,
             draft: None,
             fresh: None,

@@ -1,13 +1,14 @@
 //! The selection: elements of the plan that the next command applies to.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use crate::plan::{CornerId, DimensionId, ElementId, OpeningId, Plan, RoomId, WallId};
 
-/// A set of elements.
+/// A set of elements, cheap to clone and to compare with a clone.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Selection {
-    elements: BTreeSet<ElementId>,
+    elements: Arc<BTreeSet<ElementId>>,
 }
 
 /// What happens to the previous selection.
@@ -23,7 +24,7 @@ pub enum SelectMode {
 impl Selection {
     /// A selection of exactly these elements.
     pub fn of(elements: impl IntoIterator<Item = ElementId>) -> Self {
-        Self { elements: elements.into_iter().collect() }
+        Self { elements: Arc::new(elements.into_iter().collect()) }
     }
 
     pub fn is_empty(&self) -> bool {
@@ -76,11 +77,12 @@ impl Selection {
     pub fn select(&mut self, elements: impl IntoIterator<Item = ElementId>, mode: SelectMode) {
         match mode {
             SelectMode::Replace => *self = Self::of(elements),
-            SelectMode::Add => self.elements.extend(elements),
+            SelectMode::Add => Arc::make_mut(&mut self.elements).extend(elements),
             SelectMode::Toggle => {
+                let selected = Arc::make_mut(&mut self.elements);
                 for element in elements {
-                    if !self.elements.remove(&element) {
-                        self.elements.insert(element);
+                    if !selected.remove(&element) {
+                        selected.insert(element);
                     }
                 }
             }
@@ -90,7 +92,7 @@ impl Selection {
     /// Deselects elements that are not in a plan.
     pub fn keep_what_is_in(&mut self, plan: &Plan) {
         if self.elements.iter().any(|&element| !plan.has(element)) {
-            self.elements.retain(|&element| plan.has(element));
+            Arc::make_mut(&mut self.elements).retain(|&element| plan.has(element));
         }
     }
 }

@@ -220,11 +220,11 @@ impl<'a> Writer<'a> {
     }
 
     /// Part of a plan seen from afar: fills without soft edges, which walls cover, and lines.
-    pub(super) fn item_from_afar(&mut self, item: &Item) {
-        match item {
-            Item::Polygon { outer, holes, colour } => {
+    pub(super) fn piece_from_afar(&mut self, piece: FromAfar<'_>) {
+        match piece {
+            FromAfar::Fill { outer, holes, colour } => {
                 let first = self.mesh.vertices.len() as u32;
-                let color = theme::colour(*colour);
+                let color = theme::colour(colour);
                 for &point in outer.iter().chain(holes.iter().flatten()) {
                     self.mesh.vertices.push(Vertex { pos: self.place(point), uv: WHITE_UV, color });
                 }
@@ -235,13 +235,10 @@ impl<'a> Writer<'a> {
                     self.mesh.indices.extend(earcut(outer, holes).into_iter().map(|corner| first + corner));
                 }
             }
-            Item::Line { points, colour, width, .. } => {
-                let stroke = self.stroke(*width, *colour);
-                for ends in points.windows(2) {
-                    self.line_from_afar(self.place(ends[0]), self.place(ends[1]), stroke);
-                }
+            FromAfar::Line { segment, colour, width_px } => {
+                let stroke = self.stroke(Length::Px(width_px), colour);
+                self.line_from_afar(self.place(segment.a), self.place(segment.b), stroke);
             }
-            Item::Arc { .. } | Item::Disc { .. } | Item::Text(_) | Item::Picture(_) => {}
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::wall::names_of_ends;
 use super::*;
-use crate::edit::{beside_opening, change_swing};
+use crate::edit::change_swing;
 use crate::plan::LeafSide;
 use crate::topology::sides_by_geometry;
 
@@ -30,7 +30,7 @@ impl Inspected<'_> {
             act = act.or(self.length(ui, "Width", segment.length(), 0.01..=1000.0, "set-opening-width", &[]));
             let names = names_of_ends(segment);
             for ((beside, name), word) in
-                beside_opening(self.plan, id).into_iter().flatten().zip(names).zip(["start", "end"])
+                self.app.session.beside_opening(id).into_iter().flatten().zip(names).zip(["start", "end"])
             {
                 let to = if beside.is_opening { "next" } else { "wall" };
                 let name = format!("{} to {to}", sentence(name));
@@ -115,14 +115,7 @@ impl Inspected<'_> {
     }
 
     /// The openings among what is selected.
-    pub(super) fn openings(&self, ui: &mut Ui) -> Option<Act> {
-        let widths = self.app.selection().openings().filter_map(|id| {
-            let segment = self.plan.opening_segment(self.plan.opening(id)?)?;
-            Some(trim_m(segment.length()))
-        });
-        let widths: Vec<f64> = widths.collect();
-        let &width_m = widths.first()?;
-        let is_one = widths.iter().all(|other_m| *other_m == width_m);
-        if is_one { self.length(ui, "Width", width_m, 0.01..=1000.0, "set-opening-width", &[]) } else { None }
+    pub(super) fn openings(&self, ui: &mut Ui, common: &InCommon) -> Option<Act> {
+        self.length(ui, "Width", common.width_m?, 0.01..=1000.0, "set-opening-width", &[])
     }
 }

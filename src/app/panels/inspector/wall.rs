@@ -59,19 +59,12 @@ impl Inspected<'_> {
     }
 
     /// The walls among what is selected.
-    pub(super) fn walls(&self, ui: &mut Ui) -> Option<Act> {
-        let walls: Vec<(f64, f64)> = self
-            .app
-            .selection()
-            .walls()
-            .filter_map(|id| self.plan.wall(id))
-            .filter_map(|wall| Some((self.plan.wall_segment(wall)?.length(), wall.thickness_m)))
-            .collect();
-        let &(_, thickness_m) = walls.first()?;
-        let length_m: f64 = walls.iter().map(|(length_m, _)| length_m).sum();
-        value(ui, "Length together", &self.app.units().length(length_m));
-        let is_one = walls.iter().all(|(_, other_m)| *other_m == thickness_m);
-        if is_one { self.length(ui, "Thickness", thickness_m, 0.0..=10.0, "set-thickness", &[]) } else { None }
+    pub(super) fn walls(&self, ui: &mut Ui, common: &InCommon) -> Option<Act> {
+        if common.walls == 0 {
+            return None;
+        }
+        value(ui, "Length together", &self.app.units().length(common.walls_m));
+        self.length(ui, "Thickness", common.thickness_m?, 0.0..=10.0, "set-thickness", &[])
     }
 
     pub(super) fn corner(&self, ui: &mut Ui, id: CornerId) -> Option<Act> {
