@@ -139,8 +139,9 @@ fn recorded(steps: usize) -> Vec<u8> {
     for step in 0..steps {
         let scan = &exploration.scans[0];
         let _ = write!(text, "FLASER {beams}");
-        for range_m in scan.ranges_m.iter().step_by(2) {
-            let _ = write!(text, " {range_m:.2}");
+        for beam in (0..scan.ranges_m.len()).step_by(2) {
+            // Beyond what any scanner sees: no return.
+            let _ = write!(text, " {:.2}", scan.range_m(beam).unwrap_or(90.0));
         }
         let Pose { x_m, y_m, heading_rad } = exploration.odometry;
         let pose = format!("{x_m:.3} {y_m:.3} {heading_rad:.4}");
