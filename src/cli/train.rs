@@ -1,3 +1,5 @@
+//! `enfilade train`. Above 500 lines: one call validates, trains and blends, and each step reads what the one before found.
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
