@@ -100,7 +100,7 @@ fn measures(network: &RoomNetwork) -> Option<Measures> {
     Some(of_flats.iter().sum::<Measures>() / of_flats.len() as f64)
 }
 
-/// The measures of a plan that is no storey of flats.
+/// The measures of a plan as it is drawn: what is learned from, since an office may look as if it were cut into flats.
 fn measures_of(network: &RoomNetwork) -> Option<Measures> {
     if network.rooms.is_empty() {
         return None;
@@ -230,7 +230,7 @@ impl TypologyModel {
     fn fit(networks: &[&RoomNetwork], left_out: &BTreeSet<Measure>) -> Result<Self, NoTypologies> {
         let mut plans: BTreeMap<&Typology, Vec<(Measures, [f64; 5])>> = BTreeMap::new();
         for network in networks {
-            let (Some(typology), Some(measures)) = (&network.typology, measures(network)) else { continue };
+            let (Some(typology), Some(measures)) = (&network.typology, measures_of(network)) else { continue };
             let mut labels = [0.0; 5];
             for label in network.rooms.iter().filter_map(|room| room.label) {
                 labels[label.index()] += 1.0;
