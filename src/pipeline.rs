@@ -16,12 +16,13 @@ use crate::classify::model_file::ModelFileError;
 use crate::classify::models::{Models, StoredModel};
 use crate::classify::why::Why;
 use crate::dataset::RoomNetwork;
+use crate::dataset::sets::STANDARD;
 use crate::draw::Drawing;
 use crate::features::{Analysis, NeighbourLabels, analyse};
 use crate::geometry::{Bounds, Point, Segment};
-use crate::labels::{Schemes, normalised_function};
+use crate::labels::{Schemes, Typology, normalised_function};
 use crate::plan::{ElementId, OpeningId, Plan, RoomId};
-use crate::predict::{Predictions, Predictor};
+use crate::predict::{ModelSet, Predictions, Predictor, infer};
 use crate::snapping::PlanIndex;
 use crate::topology::{self, Gap};
 
@@ -61,10 +62,18 @@ impl<'a> Pipeline<'a> {
     /// # Errors
     /// When a bundled model cannot be read, which the tests rule out.
     pub fn predictions(&self, asked: &Asked) -> Result<Predictions, ModelFileError> {
-        let network = self.network().clone();
+        let (network, choice) = match (&asked.model, &asked.predictor.set) {
+            (None, ModelSet::Auto) => {
+                // What the plan states decides nothing: not the models, nor which rooms are classified.
+                let choice = infer(&RoomNetwork::without_typology(self.plan, self.schemes));
+                let typology = Typology::new(&choice.set).filter(|_| choice.set != STANDARD);
+                (RoomNetwork::taken_for(self.plan, typology.as_ref(), self.schemes), Some(choice))
+            }
+            _ => (self.network().clone(), None),
+        };
         let known = if asked.hides_labels { vec![None; network.rooms.len()] } else { network.known_labels() };
         match &asked.model {
-            None => asked.predictor.predict(network, &known, asked.neighbours, &asked.models),
+            None => asked.predictor.predict_as(network, choice, &known, asked.neighbours, &asked.models),
             Some(model) => Ok(Predictions::by(network, model.clone(), &known, asked.neighbours)),
         }
     }

@@ -9,6 +9,7 @@ use std::sync::{Arc, OnceLock};
 
 use crate::base::units::Units;
 use crate::base::wording::{count, sentence};
+use crate::classify::blend::Opinions;
 use crate::classify::in_plan::{self, InPlan};
 use crate::classify::joint::FirstRound;
 use crate::classify::learned::Acquaintance;
@@ -123,8 +124,8 @@ impl fmt::Display for UnknownSet {
 
 impl std::error::Error for UnknownSet {}
 
-/// The default method: the best on buildings never seen (`docs/joint.md`).
-pub const DEFAULT_METHOD: Method = Method::Joint;
+/// The default method: the best on buildings never seen (`docs/blend.md`).
+pub const DEFAULT_METHOD: Method = Method::Blend;
 
 /// Which of the available models are to predict.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -153,13 +154,29 @@ impl Predictor {
         neighbours: Option<NeighbourLabels>,
         models: &Models,
     ) -> Result<Predictions, ModelFileError> {
+        self.predict_as(network, None, known, neighbours, models)
+    }
+
+    /// The same by the models of a choice that was made before.
+    ///
+    /// # Errors
+    /// As [`Predictor::predict`].
+    pub fn predict_as(
+        &self,
+        network: RoomNetwork,
+        choice: Option<Choice>,
+        known: &[Option<Label>],
+        neighbours: Option<NeighbourLabels>,
+        models: &Models,
+    ) -> Result<Predictions, ModelFileError> {
         if let ModelSet::Model(name) = &self.set
             && let Some(model) = models.named(name)
         {
             return Ok(Predictions::by(network, model?, known, neighbours));
         }
-        let choice = self.choose(&network, models);
-        let model = models.find(&choice.set, self.method)?;
+        let choice = choice.unwrap_or_else(|| self.choose(&network, models));
+        let method = models.method_for(&choice.set, self.method).unwrap_or(self.method);
+        let model = models.find(&choice.set, method)?;
         Ok(Predictions::new(network, choice, model, known, neighbours))
     }
 
@@ -168,14 +185,14 @@ impl Predictor {
         let stated = network.typology.as_ref();
         match (&self.set, stated) {
             (ModelSet::Named(name) | ModelSet::Model(name), _) => Choice::stated(name, "as told"),
-            (ModelSet::OfPlan, Some(stated)) => match models.methods(stated.as_str()) {
-                methods if methods.contains(&self.method) => Choice::stated(stated.as_str(), "set for the plan"),
+            (ModelSet::OfPlan, Some(stated)) => match models.method_for(stated.as_str(), self.method) {
+                Some(_) => Choice::stated(stated.as_str(), "set for the plan"),
                 // Models of another typology would know it less well than those of all.
-                methods if methods.is_empty() => {
+                None if models.methods(stated.as_str()).is_empty() => {
                     let because = format!("there are no models of the typology '{}'", stated.as_str());
                     Choice::stated(STANDARD, &because)
                 }
-                _ => infer(network),
+                None => infer(network),
             },
             (ModelSet::OfPlan, None) | (ModelSet::Auto, _) => infer(network),
         }
@@ -207,20 +224,36 @@ impl Choice {
     }
 }
 
-/// Infers the typology from the plan itself.
-fn infer(network: &RoomNetwork) -> Choice {
+/// A typology that is less likely than this decides nothing: the models of all typologies are used.
+const SURE: f64 = 0.45;
+
+/// Infers the typology from the plan itself, as [`RoomNetwork::without_typology`] sees it.
+pub fn infer(network: &RoomNetwork) -> Choice {
     let Some(model) = bundled_typologies().filter(|_| !network.rooms.is_empty()) else {
         return Choice::stated(STANDARD, "the plan has no typology");
     };
-    // If the plan states a typology, its labels follow from functions by that typology's scheme: they
-    // would add no evidence.
-    let known = if network.typology.is_none() { network.known_labels() } else { Vec::new() };
+    // Labels that a person gave, not those that follow from functions: which follow depends on the typology.
+    let known: Vec<Option<Label>> =
+        network.rooms.iter().map(|room| room.label.filter(|_| room.label_origin.is_some())).collect();
     let posterior = model.posterior(network, &known);
     let Some((typology, probability)) = posterior.first().cloned() else {
         return Choice::stated(STANDARD, "the plan has no typology");
     };
-    let because = format!("inferred from the plan, {:.0} % sure", 100.0 * probability);
+    let percent = 100.0 * probability;
+    if probability < SURE {
+        let because = format!("unsure: {} is only {percent:.0} % likely", typology.as_str());
+        return Choice { posterior, ..Choice::stated(STANDARD, &because) };
+    }
+    let because = format!("inferred from the plan, {percent:.0} % sure");
     Choice { set: typology.as_str().to_owned(), because, posterior, reasons: model.reasons(network, &known) }
+}
+
+/// What explanations start from, besides the result: by the kind of classifier.
+#[derive(Clone, Debug)]
+enum Origin {
+    Each,
+    Joint(Box<FirstRound>),
+    Blend(Box<Opinions>),
 }
 
 /// A model's predictions for a plan's rooms.
@@ -234,8 +267,8 @@ pub struct Predictions {
     /// Which labels of neighbours counted.
     pub neighbours: NeighbourLabels,
     pub result: InPlan,
-    /// For explaining the joint classifier.
-    first_round: Option<FirstRound>,
+    /// Where explanations start.
+    origin: Origin,
     index_of: BTreeMap<RoomId, usize>,
     /// See [`Predictions::acquaintance`].
     acquaintance: OnceLock<Option<Acquaintance>>,
@@ -263,18 +296,25 @@ impl Predictions {
         neighbours: Option<NeighbourLabels>,
     ) -> Self {
         let neighbours = neighbours.unwrap_or(model.about.neighbours);
-        let (neighbours, result, first_round) = match &model.classifier {
+        // Two rounds of its own: neighbours' predicted labels, or known ones.
+        let of_plan = |distributions: Vec<Distribution>| {
+            let seen: Vec<Label> = distributions.iter().map(Distribution::label).collect();
+            let features = (0..network.rooms.len()).map(|room| network.features(room, &seen)).collect();
+            InPlan { distributions, features, rounds: 2, settled: true }
+        };
+        let (neighbours, result, origin) = match &model.classifier {
             PlanClassifier::Each(classifier) => {
-                (neighbours, in_plan::classify(classifier, &network, known, neighbours), None)
+                (neighbours, in_plan::classify(classifier, &network, known, neighbours), Origin::Each)
             }
             PlanClassifier::Joint(joint) => {
-                let first_round = joint.first_round(&network);
-                let distributions = joint.predict_from(&first_round, known);
-                // Its own two rounds: neighbours' predicted labels, or known ones.
-                let seen: Vec<Label> = distributions.iter().map(Distribution::label).collect();
-                let features = (0..network.rooms.len()).map(|room| network.features(room, &seen)).collect();
-                let result = InPlan { distributions, features, rounds: 2, settled: true };
-                (NeighbourLabels::Predicted, result, Some(first_round))
+                let round = joint.first_round(&network);
+                let distributions = joint.predict_from(&round, known);
+                (NeighbourLabels::Predicted, of_plan(distributions), Origin::Joint(Box::new(round)))
+            }
+            PlanClassifier::Blend(blend) => {
+                let opinions = blend.opinions(&network, known);
+                let distributions = opinions.distributions.clone();
+                (NeighbourLabels::Predicted, of_plan(distributions), Origin::Blend(Box::new(opinions)))
             }
         };
         let index_of = network.rooms.iter().enumerate().map(|(index, room)| (room.id, index)).collect();
@@ -285,7 +325,7 @@ impl Predictions {
             known: known.to_vec(),
             neighbours,
             result,
-            first_round,
+            origin,
             index_of,
             acquaintance: OnceLock::new(),
         }
@@ -304,14 +344,17 @@ impl Predictions {
     /// Why a room got its label, with areas in these units; `None` if it is not classified.
     pub fn why(&self, room: RoomId, units: Units) -> Option<Why> {
         let &index = self.index_of.get(&room)?;
-        match &self.model.classifier {
-            PlanClassifier::Each(classifier) => {
+        match (&self.model.classifier, &self.origin) {
+            (PlanClassifier::Each(classifier), _) => {
                 Some(classifier.explain(&self.result.features[index].values()).why(units))
             }
-            PlanClassifier::Joint(joint) => {
-                let round = self.first_round.as_ref()?;
+            (PlanClassifier::Joint(joint), Origin::Joint(round)) => {
                 Some(joint.explain_from(round, &self.network, &self.known, index)?.why(units))
             }
+            (PlanClassifier::Blend(blend), Origin::Blend(opinions)) => {
+                blend.why(opinions, &self.network, &self.known, index, units)
+            }
+            (PlanClassifier::Joint(_) | PlanClassifier::Blend(_), _) => None,
         }
     }
 

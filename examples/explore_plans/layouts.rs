@@ -108,8 +108,7 @@ fn house(seed: u64) -> Plan {
     let mut random = Random::new(100 + seed);
     let tenths = |value: f64| (value * 10.0).round() / 10.0;
     let mut rooms = Vec::new();
-    let mut open =
-        vec![Rectangle::new(0.0, 0.0, tenths(9.0 + 7.0 * random.unit()), tenths(8.0 + 5.0 * random.unit()))];
+    let mut open = vec![Rectangle::new(0.0, 0.0, tenths(9.0 + 7.0 * random.unit()), tenths(8.0 + 5.0 * random.unit()))];
     while let Some(whole) = open.pop() {
         let (wide, high) = (whole.high.x - whole.low.x, whole.high.y - whole.low.y);
         let longest = wide.max(high);

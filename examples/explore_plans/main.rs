@@ -5,6 +5,7 @@
 //! `generated` stands for the plans that `layouts.rs` makes.
 
 #![allow(clippy::print_stdout, reason = "an example talks to its user")]
+#![allow(clippy::disallowed_methods, reason = "it says how long each plan took")]
 
 mod layouts;
 
@@ -164,7 +165,10 @@ fn score_of(world: &World, start: Point, reach_m: f64, found: &FoundRooms, explo
             let point = exploration.world_from_map.apply(Point::new(x, y));
             [point.x, point.y]
         };
-        shapes.into_iter().map(|shape| shape.into_iter().map(|ring| ring.into_iter().map(point).collect()).collect()).collect()
+        shapes
+            .into_iter()
+            .map(|shape| shape.into_iter().map(|ring| ring.into_iter().map(point).collect()).collect())
+            .collect()
     };
     let rooms: Vec<Shapes> = found.rooms.iter().map(|room| moved(room.shapes())).collect();
     let edges: Vec<(usize, usize)> = found.sides.iter().filter_map(|sides| Some((sides[0]?, sides[1]?))).collect();

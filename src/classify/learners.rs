@@ -34,6 +34,9 @@ impl Algorithm {
         all
     };
 
+    /// The multilayer perceptron.
+    pub const PERCEPTRON: Self = Self(3);
+
     /// Position in [`LEARNERS`].
     pub const fn index(self) -> usize {
         self.0

@@ -1,6 +1,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use super::blend::Blend;
 use super::joint::Joint;
 use super::{Algorithm, Classifier};
 use crate::base::wording::or_words;
@@ -12,12 +13,15 @@ pub enum Method {
     Each(Algorithm),
     /// All rooms of the plan in relation to each other, see [`super::joint`].
     Joint,
+    /// The mean of several of the others, see [`super::blend`].
+    Blend,
 }
 
 impl Method {
-    /// All methods: the learners in their order, then the joint classifier.
-    pub const ALL: [Self; Algorithm::ALL.len() + 1] = {
-        let mut all = [Self::Joint; Algorithm::ALL.len() + 1];
+    /// All methods: the learners in their order, then the joint classifier, then the blend.
+    pub const ALL: [Self; Algorithm::ALL.len() + 2] = {
+        let mut all = [Self::Blend; Algorithm::ALL.len() + 2];
+        all[Algorithm::ALL.len()] = Self::Joint;
         let mut index = 0;
         while index < Algorithm::ALL.len() {
             all[index] = Self::Each(Algorithm::ALL[index]);
@@ -31,6 +35,7 @@ impl Method {
         match self {
             Self::Each(algorithm) => algorithm.name(),
             Self::Joint => "joint",
+            Self::Blend => "blend",
         }
     }
 
@@ -39,6 +44,7 @@ impl Method {
         match self {
             Self::Each(algorithm) => algorithm.title(),
             Self::Joint => "joint classifier",
+            Self::Blend => "blend",
         }
     }
 
@@ -47,6 +53,7 @@ impl Method {
         match self {
             Self::Each(algorithm) => algorithm.learner().short_title(),
             Self::Joint => "All rooms together",
+            Self::Blend => "Several together",
         }
     }
 
@@ -56,6 +63,10 @@ impl Method {
             Self::Each(algorithm) => algorithm.learner().help(),
             Self::Joint => {
                 "comparing all rooms of the plan: their sizes, shapes and openings, and which opens to which"
+            }
+            Self::Blend => {
+                "asking several models and taking the mean: those that compare all rooms of the plan and those that look at \
+                 each room, of this kind of building and of all kinds"
             }
         }
     }
@@ -77,11 +88,12 @@ impl FromStr for Method {
     }
 }
 
-/// A trained classifier of either kind.
+/// A trained classifier of any kind.
 #[derive(Clone, Debug)]
 pub enum PlanClassifier {
     Each(Box<Classifier>),
     Joint(Box<Joint>),
+    Blend(Box<Blend>),
 }
 
 impl PlanClassifier {
@@ -89,6 +101,7 @@ impl PlanClassifier {
         match self {
             Self::Each(classifier) => Method::Each(classifier.algorithm()),
             Self::Joint(_) => Method::Joint,
+            Self::Blend(_) => Method::Blend,
         }
     }
 }
@@ -96,6 +109,12 @@ impl PlanClassifier {
 impl From<Classifier> for PlanClassifier {
     fn from(classifier: Classifier) -> Self {
         Self::Each(Box::new(classifier))
+    }
+}
+
+impl From<Blend> for PlanClassifier {
+    fn from(blend: Blend) -> Self {
+        Self::Blend(Box::new(blend))
     }
 }
 

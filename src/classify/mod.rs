@@ -1,5 +1,6 @@
 //! Classifiers: from features to labels.
 
+pub mod blend;
 pub mod calibration;
 mod classifier;
 pub mod condition;

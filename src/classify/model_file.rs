@@ -7,12 +7,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+use super::blend::Blend;
 use super::joint::Joint;
 use super::learned::{DiskLearned, Learned};
+use super::models::StoredModel;
 use super::{Classifier, Method, PlanClassifier, Scores};
 use crate::base::hash;
 use crate::dataset::Row;
@@ -142,6 +145,7 @@ pub fn to_bytes(classifier: &PlanClassifier, about: &About) -> Vec<u8> {
         PlanClassifier::Each(classifier) => (classifier.temperature(), classifier.model().to_json()),
         // The joint classifier keeps its temperature itself.
         PlanClassifier::Joint(joint) => (1.0, joint.to_value()),
+        PlanClassifier::Blend(blend) => (blend.temperature(), blend.to_value()),
     };
     let disk = Disk {
         format: FORMAT.to_owned(),
@@ -195,11 +199,15 @@ fn checksum(value: &Value) -> String {
     format!("{:016x}", hash::fnv1a(hash::START, value.to_string().into_bytes()))
 }
 
-/// Reads a model.
+/// Where the parts of a blend are found, by name.
+pub type Parts<'a> = &'a dyn Fn(&str) -> Option<Arc<StoredModel>>;
+
+/// Reads a model: the classifier, what to know of it, and its checksum. `parts` finds the models that a blend is made of.
 ///
+/// # Errors
 /// When the bytes are not a model file of a known version, were changed or truncated, or are not a valid
 /// classifier; with the line if known.
-pub fn from_bytes(bytes: &[u8]) -> Result<(PlanClassifier, About), ModelFileError> {
+pub fn from_bytes(bytes: &[u8], parts: Parts<'_>) -> Result<(PlanClassifier, About, String), ModelFileError> {
     let body = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     if body.iter().all(u8::is_ascii_whitespace) {
         return Err(refuse(None, "is empty"));
@@ -233,11 +241,15 @@ pub fn from_bytes(bytes: &[u8]) -> Result<(PlanClassifier, About), ModelFileErro
         _ => return Err(refuse(None, "states no file version that exists")),
     }
     let stated = value.as_object_mut().and_then(|members| members.shift_remove("checksum"));
-    if stated.as_ref().and_then(Value::as_str) != Some(checksum(&value).as_str()) {
+    let checksum = checksum(&value);
+    if stated.as_ref().and_then(Value::as_str) != Some(checksum.as_str()) {
         return Err(refuse(None, "was changed after it was made: its content does not fit its checksum"));
     }
     let disk: Option<Disk> = serde_json::from_value(value).ok();
-    disk.and_then(Disk::live).ok_or_else(|| refuse(None, "its parts do not make a classifier"))
+    let (classifier, about) = disk
+        .map_or_else(|| Err("its parts do not make a classifier".to_owned()), |disk| disk.live(parts))
+        .map_err(|what| refuse(None, what))?;
+    Ok((classifier, about, checksum))
 }
 
 #[derive(Serialize, Deserialize)]
@@ -266,15 +278,17 @@ struct DiskAbout {
 }
 
 impl Disk {
-    fn live(self) -> Option<(PlanClassifier, About)> {
-        let classifier = match self.algorithm.parse::<Method>().ok()? {
-            Method::Joint => Joint::from_value(&self.model).ok()?.into(),
+    fn live(self, parts: Parts<'_>) -> Result<(PlanClassifier, About), String> {
+        let refused = || "its parts do not make a classifier".to_owned();
+        let classifier = match self.algorithm.parse::<Method>().map_err(|_| refused())? {
+            Method::Blend => Blend::from_value(&self.model, self.temperature, parts)?.into(),
+            Method::Joint => Joint::from_value(&self.model).map_err(|_| refused())?.into(),
             Method::Each(algorithm) => {
-                let model = algorithm.learner().from_json(self.model)?;
+                let model = algorithm.learner().from_json(self.model).ok_or_else(refused)?;
                 Classifier::from_parts(algorithm, model, self.temperature).into()
             }
         };
-        Some((classifier, self.about.live()?))
+        Ok((classifier, self.about.live().ok_or_else(refused)?))
     }
 }
 

@@ -23,6 +23,8 @@ pub struct StoredModel {
     pub path: Option<PathBuf>,
     pub classifier: PlanClassifier,
     pub about: About,
+    /// The checksum of its file, which tells it from another model of its name.
+    pub checksum: String,
 }
 
 impl StoredModel {
@@ -129,6 +131,19 @@ impl Models {
         Err(ModelFileError { line: None, what, hint: format!("use {there_are}, or train one with '{command}'") })
     }
 
+    /// The methods to fall back on, in turn, where a set has none of the one asked for.
+    fn instead_of(method: Method) -> &'static [Method] {
+        if method == Method::Blend { &[Method::Blend, Method::Joint] } else { &[] }
+    }
+
+    /// The method by which a set's rooms are predicted where this one is asked for: itself, or for a set whose models were
+    /// trained before there were blends, the joint classifier. `None` if the set has neither.
+    pub fn method_for(&self, set: &str, method: Method) -> Option<Method> {
+        let methods = self.methods(set);
+        let turn = std::iter::once(&method).chain(Self::instead_of(method));
+        turn.copied().find(|method| methods.contains(method))
+    }
+
     /// The model with a name, the user's own before a bundled one.
     ///
     /// # Errors
@@ -154,16 +169,17 @@ fn bundled(name: &str) -> Option<Result<Arc<StoredModel>, ModelFileError>> {
     static READ: Mutex<BTreeMap<&str, Arc<StoredModel>>> = Mutex::new(BTreeMap::new());
     let &(name, packed) = BUNDLED.iter().find(|(of, _)| *of == name)?;
     // A poisoned map at worst lacks an entry.
-    let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    let read = READ.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some(model) = read.get(name) {
         return Some(Ok(model.clone()));
     }
     // One that cannot be decompressed is rejected like any invalid model file.
     let text = decompress_to_vec_zlib(packed).unwrap_or_default();
-    let model = model_file::from_bytes(&text).map(|(classifier, about)| {
-        let model = Arc::new(StoredModel { name: name.to_owned(), path: None, classifier, about });
-        read.insert(name, model.clone());
-        model
+    // The lock is free while a blend's parts are read.
+    drop(read);
+    let model = model_file::from_bytes(&text, &|part| bundled(part)?.ok()).map(|(classifier, about, checksum)| {
+        let model = Arc::new(StoredModel { name: name.to_owned(), path: None, classifier, about, checksum });
+        READ.lock().unwrap_or_else(PoisonError::into_inner).entry(name).or_insert(model).clone()
     });
     Some(model)
 }

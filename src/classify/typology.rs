@@ -15,6 +15,7 @@ use serde_json::{Value, json};
 use crate::base::random::Random;
 use crate::base::units::Units;
 use crate::dataset::RoomNetwork;
+use crate::dataset::flats::Flats;
 use crate::labels::{Label, Typology};
 use crate::plan::OpeningKind;
 
@@ -90,8 +91,17 @@ impl Measure {
 /// Smaller areas and ratios are raised to this.
 const LEAST: f64 = 1e-6;
 
-/// The measures of a plan with at least one room; all finite.
+/// The measures of a plan with at least one room; all finite. Of a storey of flats the mean of its flats' measures: three
+/// dwellings beside each other have as many rooms as an office.
 fn measures(network: &RoomNetwork) -> Option<Measures> {
+    let Some(flats) = Flats::of(network) else { return measures_of(network) };
+    let of_flats: Option<Vec<Measures>> = flats.flats.iter().map(|flat| measures_of(&network.part(flat))).collect();
+    let of_flats = of_flats.filter(|of_flats| !of_flats.is_empty())?;
+    Some(of_flats.iter().sum::<Measures>() / of_flats.len() as f64)
+}
+
+/// The measures of a plan that is no storey of flats.
+fn measures_of(network: &RoomNetwork) -> Option<Measures> {
     if network.rooms.is_empty() {
         return None;
     }

@@ -77,7 +77,7 @@ pub struct PredictorOptions {
     #[arg(long, value_name = "NAME", default_value = "plan", hide_default_value = true)]
     typology: String,
     #[arg(long, value_name = "NAME", default_value = DEFAULT_METHOD.name(), value_parser = method,
-          help = format!("{} (each room by itself) or joint (all rooms of a plan together)", each_room()))]
+          help = format!("blend (the mean of several models), joint (all rooms of a plan together), or {} (each room by itself)", each_room()))]
     algorithm: Method,
     #[command(flatten)]
     models: ModelsOption,

@@ -113,7 +113,7 @@ impl Subcommand for ExploreCommand {
 
         let options = RoomOptions { seed: self.seed, ..self.room_options() };
         let map = Map {
-            segments: exploration.segments(),
+            segments: exploration.walls(),
             frontiers: exploration.frontiers(),
             found: exploration.rooms(&options),
             poses: exploration.poses(),

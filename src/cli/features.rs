@@ -5,6 +5,7 @@ use serde_json::json;
 use super::batch::{self, Input};
 use super::collect::content_of;
 use super::manifest;
+use super::numbers::rounded;
 use super::outputs::Outputs;
 use super::scales::PlanScale;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
@@ -200,10 +201,4 @@ impl RoomFeatures {
         let net = self.net_m2.map(|net_m2| net_m2.map(cell).unwrap_or_default());
         self.texts.into_iter().chain(cells).chain(net)
     }
-}
-
-/// A number as JSON: an integer without a decimal point, otherwise at most six decimals.
-pub(super) fn rounded(value: f64) -> serde_json::Value {
-    let value = (value * 1e6).round() / 1e6;
-    if value.fract() == 0.0 && value.abs() < 1e15 { (value as i64).into() } else { value.into() }
 }

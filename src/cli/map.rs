@@ -81,14 +81,17 @@ impl Subcommand for MapCommand {
         write(&format!("{name}.map.png"), &png::png(&scene)?)?;
         write(&format!("{name}.map.svg"), svg::svg(&scene).as_bytes())?;
 
-        let explored =
-            labelled(&seen.found, &seen.frontiers, Pose::IDENTITY, meta(&self.log, &name), &predictor, &models)
-                .map_err(|error| CliError::new(format!("{}: {error}", self.log.display())))?
-                .explored;
-        let plan_name = format!("{name}.plan.json");
-        write(&plan_name, &checked_bytes(&self.output.join(&plan_name), &explored.plan)?)?;
-        let scene = rooms_scene(&explored.plan, theme, PICTURE_SIDE_PX);
-        write(&format!("{name}.rooms.png"), &png::png(&scene)?)?;
+        // A log may be anything: where its rooms make no plan, the map is there all the same.
+        match labelled(&seen.found, &seen.frontiers, Pose::IDENTITY, meta(&name), &predictor, &models) {
+            Ok(made) => {
+                let plan = made.explored.plan;
+                let plan_name = format!("{name}.plan.json");
+                write(&plan_name, &checked_bytes(&self.output.join(&plan_name), &plan)?)?;
+                let scene = rooms_scene(&plan, theme, PICTURE_SIDE_PX);
+                write(&format!("{name}.rooms.png"), &png::png(&scene)?)?;
+            }
+            Err(error) => terminal.remark(format!("{}: no plan: {error}", self.log.display()))?,
+        }
 
         let scans = log.readings.iter().filter(|reading| !reading.scans.is_empty()).count();
         let (closures, doubted) = mapped.closures;
@@ -98,7 +101,7 @@ impl Subcommand for MapCommand {
             "{}: {scans} scans, {} lines of {metres:.0} m, {closures} places recognised{doubted}, {}, {}",
             self.output.display(),
             segments.len(),
-            count(explored.rooms.len(), "room"),
+            count(seen.found.rooms.len(), "room"),
             count(seen.found.doorways.len(), "doorway"),
         ))?;
         Ok(Outcome::Done)
@@ -109,11 +112,10 @@ impl Subcommand for MapCommand {
 const PICTURE_SIDE_PX: f64 = 2000.0;
 
 /// The metadata of a log's plan.
-fn meta(path: &Path, name: &str) -> Meta {
-    let source = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+fn meta(name: &str) -> Meta {
     let note = "measured by a robot's laser scanner".to_owned();
     let scale = Scale { origin: ScaleOrigin::Measured, note, ..Scale::default() };
-    Meta { name: name.to_owned(), scale, source, ..Meta::default() }
+    Meta { name: name.to_owned(), scale, source: format!("{name}.log"), ..Meta::default() }
 }
 
 /// A log's name without its extensions.

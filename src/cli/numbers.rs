@@ -1,4 +1,5 @@
-//! Lengths, angles and shares as options take them: read as everywhere else, a number without a unit in metres.
+//! Lengths, angles and shares as options take them: read as everywhere else, a number without a unit in metres. And
+//! numbers as JSON prints them.
 
 use crate::base::units::{NotUnderstood, Units, parse_angle_deg, parse_ratio};
 
@@ -28,6 +29,12 @@ pub fn degrees(text: &str) -> Result<f64, NotUnderstood> {
 /// What is not understood, and what would be.
 pub fn share(text: &str) -> Result<f64, NotUnderstood> {
     parse_ratio(text)
+}
+
+/// A number as JSON: an integer without a decimal point, otherwise at most six decimals.
+pub fn rounded(value: f64) -> serde_json::Value {
+    let value = (value * 1e6).round() / 1e6;
+    if value.fract() == 0.0 && value.abs() < 1e15 { (value as i64).into() } else { value.into() }
 }
 
 #[cfg(test)]

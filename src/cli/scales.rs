@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value};
 
+use super::numbers::rounded;
 use crate::check::Context;
 use crate::check::likely_scale::likely_scale;
 use crate::dataset::csv::cell;
@@ -61,7 +62,7 @@ impl PlanScale {
         let texts = HEAD.into_iter().zip(self.texts);
         let texts = texts.map(|(name, text)| (name, if text.is_empty() { Value::Null } else { text.into() }));
         let measures = MEASURES.into_iter().zip(self.measures);
-        let measures = measures.map(|(name, measure)| (name, measure.map(super::features::rounded).into()));
+        let measures = measures.map(|(name, measure)| (name, measure.map(rounded).into()));
         texts.chain(measures).map(|(name, value)| (name.to_owned(), value)).collect::<Map<_, _>>().into()
     }
 }

@@ -1,5 +1,8 @@
-use std::collections::BTreeSet;
+//! `enfilade train`. Above 500 lines: one call validates, trains and blends, and each step reads what the one before found.
+
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use super::call::quoted;
 use super::collect::{CollectOptions, Collected, FoldsFrom, collect, neighbour_labels};
@@ -10,8 +13,10 @@ use super::{CliError, Outcome, Subcommand, Terminal};
 use crate::base::file_name::component;
 use crate::base::wording::or_words;
 use crate::base::work::Work;
+use crate::classify::blend::{self, Blend, Part};
+use crate::classify::models::StoredModel;
 use crate::classify::{
-    Algorithm, Classifier, Method, PlanClassifier, Scores, in_plan,
+    Algorithm, Classifier, Distribution, Method, PlanClassifier, Scores, in_plan,
     joint::{self, Joint, JointValidationError},
     learned::Learned,
     model_file::{self, About, DataSummary, ScoreSummary},
@@ -26,7 +31,7 @@ use crate::dataset::{
     table::Table,
 };
 use crate::features::NeighbourLabels;
-use crate::labels::Typology;
+use crate::labels::{Label, Typology};
 use crate::store::MODEL_ENDING;
 use crate::study::predictions::Prediction;
 use crate::study::{Cell, Condition, Options, StudyError, validate};
@@ -95,6 +100,7 @@ impl Subcommand for TrainCommand {
         let given = collected.folds_of(&self.folds, None, terminal)?;
         let Collected { collection, blind, failed, read } = collected;
         let mut told_of_rooms: Vec<(Row, Prediction)> = Vec::new();
+        let mut trained = Trained::default();
         let parts = self.parts(&collection)?;
         let methods: Vec<Method> = match (self.algorithm, &collection) {
             (Some(Method::Joint), Collection::Rows(_)) => {
@@ -103,7 +109,7 @@ impl Subcommand for TrainCommand {
                 ));
             }
             (Some(method), _) => vec![method],
-            (None, Collection::Plans(_)) => Method::ALL.to_vec(),
+            (None, Collection::Plans(_)) => Method::ALL.into_iter().filter(|&method| method != Method::Blend).collect(),
             (None, Collection::Rows(_)) => Algorithm::ALL.map(Method::Each).to_vec(),
         };
         let is_file = is_stdout(&self.output) || self.output.to_string_lossy().ends_with(MODEL_ENDING);
@@ -140,6 +146,7 @@ impl Subcommand for TrainCommand {
                     outputs.path_in(&self.output, &format!("{set}-{}{MODEL_ENDING}", method.name()))?
                 };
                 write_model(&path, &bytes, &mut outputs, terminal)?;
+                trained.add(set, method, &bytes)?;
                 let told: Vec<String> = scores
                     .iter()
                     .map(|(by, scores)| format!("{:.1} % by {}", 100.0 * scores.accuracy, by.name()))
@@ -147,9 +154,19 @@ impl Subcommand for TrainCommand {
                 let told = if told.is_empty() { "not validated".to_owned() } else { told.join(", ") };
                 terminal.report(format!("{}: {set}, {method}: {told}", path.display()))?;
             }
+            trained.said.insert(set.to_owned(), predictions.clone());
             if self.predictions.is_some() {
                 let rows = part.rows(NeighbourLabels::True).unwrap_or_default();
                 told_of_rooms.extend(predictions.into_iter().filter_map(|it| Some((rows.get(it.row)?.clone(), it))));
+            }
+        }
+        if self.algorithm.is_none() && !collection.networks().is_empty() {
+            for (typology, part) in &parts {
+                let set = set_name(typology.as_ref());
+                let Some((bytes, told)) = self.blend(typology.as_ref(), part, &collection, &trained)? else { continue };
+                let path = outputs.path_in(&self.output, &format!("{set}-{}{MODEL_ENDING}", Method::Blend.name()))?;
+                write_model(&path, &bytes, &mut outputs, terminal)?;
+                terminal.report(format!("{}: {set}, {}: {told}", path.display(), Method::Blend))?;
             }
         }
         if let Some(path) = &self.predictions {
@@ -193,6 +210,11 @@ impl TrainCommand {
                  with --algorithm",
                 self.output.display()
             )));
+        }
+        if self.algorithm == Some(Method::Blend) {
+            return Err(CliError::call(
+                "a blend is made of other models, so they are trained together; leave out --algorithm",
+            ));
         }
         let is_table = |path: &PathBuf| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
         if self.algorithm == Some(Method::Joint) && self.collect.data.iter().all(is_table) {
@@ -307,6 +329,64 @@ impl TrainCommand {
         Ok((scores, predictions))
     }
 
+    /// The blend of a set's models and of the standard ones, and how it did, in words. `None` where there is nothing to blend.
+    fn blend(
+        &self,
+        typology: Option<&Typology>,
+        part: &Collection,
+        all: &Collection,
+        trained: &Trained,
+    ) -> Result<Option<(Vec<u8>, String)>, CliError> {
+        let set = set_name(typology);
+        let rows = part.rows(NeighbourLabels::Predicted).unwrap_or_default();
+        let labels: Vec<Label> = rows.iter().map(|row| row.label).collect();
+        // The set's rooms among all rooms, by which the standard models were validated.
+        let all_rows = all.rows(NeighbourLabels::Predicted).unwrap_or_default();
+        let among_all: Vec<usize> = (0..all_rows.len())
+            .filter(|&row| typology.is_none() || all_rows[row].typology.as_ref() == typology)
+            .collect();
+        let among_own: Vec<usize> = (0..rows.len()).collect();
+        let (mut parts, mut unseen, mut folds) = (Vec::new(), Vec::new(), Vec::new());
+        for (of, method, weight) in blend::recipe(set) {
+            let Some(model) = trained.models.get(&(of.to_owned(), method)) else { continue };
+            parts.push(Part { weight, model: model.clone() });
+            let (said, of_folds) = trained.by_building(of, method, if of == set { &among_own } else { &among_all });
+            unseen.push((weight, said));
+            if folds.is_empty() {
+                folds = of_folds;
+            }
+        }
+        let tested = blend::blend_unseen(&unseen, &labels, &folds);
+        let temperature = tested.as_ref().map_or(1.0, |tested| tested.temperature);
+        let Some(blend) = Blend::new(parts, temperature) else { return Ok(None) };
+        let scores = tested.map(|tested| {
+            let of_rooms = folds.iter().zip(&tested.said).zip(&labels);
+            (Scores::of(of_rooms.map(|((&fold, said), &label)| (fold, said, label))), tested.said)
+        });
+        let table = Table::from_rows(&rows)?;
+        let prints: Vec<&RoomPrint> =
+            part.places().iter().map(|place| &part.networks()[place.network].rooms[place.room].print).collect();
+        let right: Option<Vec<bool>> = scores
+            .as_ref()
+            .map(|(_, said)| said.iter().zip(&labels).map(|(said, label)| said.label() == *label).collect());
+        let right = right.as_ref().map(|right| (right.as_slice(), Grouping::Building.name()));
+        let about = About {
+            typology: typology.cloned(),
+            neighbours: NeighbourLabels::Predicted,
+            command: self.command_line(typology, Method::Blend, NeighbourLabels::Predicted),
+            program: format!("enfilade {}", env!("CARGO_PKG_VERSION")),
+            seed: self.seed,
+            licence: self.licence.clone(),
+            data: DataSummary::of(&rows, &table),
+            scores: scores.iter().map(|(scores, _)| ScoreSummary::of(scores, Grouping::Building, self.seed)).collect(),
+            learned: Some(Learned::new(prints, right)),
+        };
+        let told = scores.map_or("not validated".to_owned(), |(scores, _)| {
+            format!("{:.1} % by {}", 100.0 * scores.accuracy, Grouping::Building.name())
+        });
+        Ok(Some((model_file::to_bytes(&blend.into(), &about), told)))
+    }
+
     fn model(
         &self,
         typology: Option<&Typology>,
@@ -348,6 +428,7 @@ impl TrainCommand {
                 })?
                 .into()
             }
+            Method::Blend => return Err(CliError::call("a blend is made of other models")),
         };
         let about = About {
             typology: typology.cloned(),
@@ -367,13 +448,44 @@ impl TrainCommand {
     fn command_line(&self, typology: Option<&Typology>, method: Method, neighbours: NeighbourLabels) -> String {
         let mut words = vec!["enfilade train".to_owned()];
         words.extend(self.collect.words());
-        words.push(format!("--algorithm {} --typology {}", method.name(), set_name(typology)));
+        if method != Method::Blend {
+            words.push(format!("--algorithm {} --typology {}", method.name(), set_name(typology)));
+        }
         let folds = match &self.folds {
             FoldsFrom::Count(count) => count.to_string(),
             FoldsFrom::File(file) => quoted(&file.to_string_lossy()),
         };
         words.push(format!("--neighbours {} --folds {folds} --seed {}", neighbours.name(), self.seed));
         words.join(" ")
+    }
+}
+
+/// The models of this call, and what classifiers of their kind said out of fold: what blends are made of.
+#[derive(Default)]
+struct Trained {
+    models: BTreeMap<(String, Method), Arc<StoredModel>>,
+    said: BTreeMap<String, Vec<Prediction>>,
+}
+
+impl Trained {
+    fn add(&mut self, set: &str, method: Method, bytes: &[u8]) -> Result<(), CliError> {
+        if blend::RECIPE.iter().any(|of| of.method == method) {
+            let (classifier, about, checksum) =
+                model_file::from_bytes(bytes, &|_| None).map_err(|error| CliError::new(error.to_string()))?;
+            let name = format!("{set}-{}", method.name());
+            let model = StoredModel { name, path: None, classifier, about, checksum };
+            self.models.insert((set.to_owned(), method), Arc::new(model));
+        }
+        Ok(())
+    }
+
+    /// What was said of some rooms of a set by classifiers that had not seen their building, and the folds. Shorter than the
+    /// list of rooms where something is missing.
+    fn by_building(&self, set: &str, method: Method, rooms: &[usize]) -> (Vec<Distribution>, Vec<usize>) {
+        let told = self.said.get(set).into_iter().flatten();
+        let told = told.filter(|it| it.method == method && it.condition.by == Grouping::Building);
+        let of_row: BTreeMap<usize, (Distribution, usize)> = told.map(|it| (it.row, (it.said, it.fold))).collect();
+        rooms.iter().filter_map(|room| of_row.get(room).copied()).unzip()
     }
 }
 

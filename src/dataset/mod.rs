@@ -3,6 +3,7 @@
 mod collection;
 pub mod csv;
 pub mod fingerprint;
+pub mod flats;
 pub mod fold_table;
 pub mod folds;
 mod network;

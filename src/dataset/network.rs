@@ -183,9 +183,18 @@ impl RoomNetwork {
     /// The network of a plan as if its typology were unknown: no label scheme says which rooms are not
     /// classified, so all are included. Typology and labels are the true ones, to learn from.
     pub fn without_typology(plan: &Plan, schemes: &Schemes) -> Self {
-        let typology = plan.meta().typology.clone();
-        let unknown = edit::set_meta(plan, Meta { typology: None, ..plan.meta().clone() });
-        let mut network = Self { typology: typology.clone(), ..Self::new(&unknown, schemes) };
+        Self::taken_for(plan, None, schemes)
+    }
+
+    /// The network of a plan taken for one of a typology, or of none, whatever it states: that typology's label scheme says which
+    /// rooms are classified. Typology and labels are still those that the plan states.
+    pub fn taken_for(plan: &Plan, typology: Option<&Typology>, schemes: &Schemes) -> Self {
+        let stated = plan.meta().typology.clone();
+        if stated.as_ref() == typology {
+            return Self::new(plan, schemes);
+        }
+        let unknown = edit::set_meta(plan, Meta { typology: typology.cloned(), ..plan.meta().clone() });
+        let mut network = Self { typology: stated, ..Self::new(&unknown, schemes) };
         for it in &mut network.rooms {
             it.label_origin = plan.room(it.id).and_then(origin_of);
             it.label = plan.room(it.id).and_then(|room| RoomStatus::of(plan, schemes, room).label());

@@ -88,11 +88,11 @@ pub fn merge_rooms(plan: &Plan, rooms: &[RoomId]) -> Result<Plan, EditError> {
     let boundary: Vec<Segment> =
         room.rings().flat_map(|ring| polygon::edges(&next.ring_points(ring)).collect::<Vec<_>>()).collect();
     let is_along = |at: Point| boundary.iter().any(|edge| edge.distance(at) <= 2.0 * TOUCH_M);
+    // All of a wall, not just its middle: one that is partly inside a room stays.
     let is_between = |from: CornerId, to: CornerId| {
-        let middle = next.position(from).zip(next.position(to)).map(|(a, b)| a.midpoint(b));
-        middle.is_some_and(|middle| {
-            now.holds(middle) && !is_along(middle) && !was_inside.iter().any(|inside| inside.holds(middle))
-        })
+        let goes = |at: Point| now.holds(at) && !is_along(at) && !was_inside.iter().any(|inside| inside.holds(at));
+        let ends = next.position(from).zip(next.position(to));
+        ends.is_some_and(|(a, b)| [0.25, 0.5, 0.75].iter().all(|&share| goes(a.lerp(b, share))))
     };
     let walls: Vec<WallId> =
         next.walls().filter(|(_, wall)| is_between(wall.from, wall.to)).map(|(id, _)| id).collect();

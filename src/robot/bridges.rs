@@ -4,9 +4,7 @@
 
 use super::RayGrid;
 use super::doorways::is_inside;
-use crate::geometry::runs::ANGLE_TOLERANCE_RAD;
-use crate::geometry::segments::are_parallel;
-use crate::geometry::{Bounds, Point, Segment};
+use crate::geometry::{Point, Segment};
 
 /// A line is looked at in pieces of this length in metres.
 const PIECE_M: f64 = 0.05;
@@ -18,25 +16,9 @@ const BESIDE_M: f64 = 0.1;
 /// Shorter bridges are left, in metres: no robot passes there.
 const SHORTEST_M: f64 = 0.2;
 
-/// The other face of a wall is at most this far away, in metres.
-const OTHER_FACE_M: f64 = 0.65;
-
-/// Segments without the stretches that run through free space, unless the wall's other face is there: between
-/// the two, free space may be an error of poses. `boundary` holds the edges of the free space, which is to
-/// their left; segments were seen from their left.
-pub fn without_bridges(segments: &[Segment], boundary: &RayGrid) -> Vec<Segment> {
-    let all = RayGrid::new(segments.to_vec());
-    let has_other_face = |segment: &Segment, middle: Point| {
-        all.near(Bounds::of([middle]).inflated(OTHER_FACE_M)).into_iter().map(|i| segments[i]).any(|other| {
-            let Some(along) = other.vector().unit() else { return false };
-            let place_m = along.dot(middle - other.a);
-            let is_facing = segment.vector().dot(other.vector()) < 0.0;
-            is_facing
-                && are_parallel(*segment, other, ANGLE_TOLERANCE_RAD)
-                && (0.0..=other.length()).contains(&place_m)
-                && along.cross(middle - other.a).abs() <= OTHER_FACE_M
-        })
-    };
+/// Segments without the stretches that run through free space and where nothing was hit. `boundary` holds the
+/// edges of the free space, which is to their left; `is_hit` says whether something was hit near a point.
+pub fn without_bridges(segments: &[Segment], boundary: &RayGrid, is_hit: impl Fn(Point) -> bool) -> Vec<Segment> {
     let mut kept = Vec::with_capacity(segments.len());
     for segment in segments {
         let Some(along) = segment.vector().unit() else { continue };
@@ -45,7 +27,7 @@ pub fn without_bridges(segments: &[Segment], boundary: &RayGrid) -> Vec<Segment>
         let at_m = |i: usize| length_m * i as f64 / count as f64;
         let is_bridge = |i: usize| {
             let middle = segment.a + along * (length_m * (i as f64 + 0.5) / count as f64);
-            boundary.distance_m(middle, BESIDE_M) >= BESIDE_M && is_inside(boundary, middle)
+            boundary.distance_m(middle, BESIDE_M) >= BESIDE_M && is_inside(boundary, middle) && !is_hit(middle)
         };
         let mut from_m = 0.0;
         let mut i = 0;
@@ -61,7 +43,7 @@ pub fn without_bridges(segments: &[Segment], boundary: &RayGrid) -> Vec<Segment>
             let half_m = (at_m(end) - at_m(i)) / 2.0 + 2.0 * BESIDE_M;
             let jamb_m = |way| boundary.cast(middle, way, half_m).map_or(half_m - 2.0 * BESIDE_M, |hit| hit.distance_m);
             let (start_m, end_m) = (middle_m - jamb_m(-along), middle_m + jamb_m(along));
-            if end_m - start_m >= SHORTEST_M && !has_other_face(segment, middle) {
+            if end_m - start_m >= SHORTEST_M {
                 push(&mut kept, segment, from_m, start_m);
                 from_m = from_m.max(end_m);
             }
@@ -107,12 +89,11 @@ mod tests {
         let ring = ring.map(|(x, y)| Point::new(x, y));
         let boundary = RayGrid::new(crate::geometry::polygon::edges(&ring).collect());
         let line = |from: f64, to: f64, y: f64| Segment::new(Point::new(from, y), Point::new(to, y));
-        let kept = without_bridges(&[line(5.0, 0.0, 3.0)], &boundary);
+        let kept = without_bridges(&[line(5.0, 0.0, 3.0)], &boundary, |_| false);
         assert_eq!(kept.len(), 2, "{kept:?}");
         assert!(kept[0].b.distance(Point::new(2.88, 3.0)) < 1e-6 && kept[1].a.distance(Point::new(2.02, 3.0)) < 1e-6);
-        // A wall with both faces is one, whatever the free space says.
-        let both = [line(5.0, 0.0, 3.0), line(0.0, 5.0, 3.1)];
-        assert_eq!(without_bridges(&both, &boundary), both);
-        assert_eq!(without_bridges(&[line(0.0, 2.0, 3.0)], &boundary).len(), 1);
+        // Where something was hit is a wall, whatever the free space says.
+        assert_eq!(without_bridges(&[line(5.0, 0.0, 3.0)], &boundary, |_| true).len(), 1);
+        assert_eq!(without_bridges(&[line(0.0, 2.0, 3.0)], &boundary, |_| false).len(), 1);
     }
 }

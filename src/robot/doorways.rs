@@ -235,8 +235,6 @@ fn to_wall(end: End, long: &[Segment], grid: &RayGrid, options: &DoorwayOptions)
     (meets && (options.narrowest_m..=options.widest_m).contains(&gap.length())).then_some(gap)
 }
 
-
-
 /// A gap up to a wall meets it at this angle at least.
 const SQUARE_RAD: f64 = 45.0 * std::f64::consts::PI / 180.0;
 

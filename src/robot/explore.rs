@@ -3,10 +3,12 @@
 
 use std::sync::Arc;
 
+use super::bridges::without_bridges;
+use super::doorways::walls;
 use super::free_space::FreeSpace;
 use super::frontiers::{Frontier, frontiers};
 use super::odometry::OdometryNoise;
-use super::rooms::{FoundRooms, RoomOptions, find_rooms};
+use super::rooms::{FoundRooms, RoomOptions, boundary, find_rooms};
 use super::route::Routes;
 use super::scanner::{Scanner, back_to_back};
 use super::{Mapper, MapperOptions, Pose, RayGrid, Scan, World};
@@ -281,9 +283,19 @@ impl Exploration {
         self.mapper.map().lines().map(|line| line.line.segment()).collect()
     }
 
-    /// The rooms of the known part, in the map's frame.
+    /// The segments without the stretches that bridge doorways.
+    pub fn walls(&self) -> Vec<Segment> {
+        without_bridges(&self.segments(), &boundary(self.free.shapes()), |at| self.free.is_hit_near(at))
+    }
+
+    /// The rooms of the known part, in the map's frame. By the paper's rule alone, lines stay as they are.
     pub fn rooms(&self, options: &RoomOptions) -> FoundRooms {
-        find_rooms(&self.segments(), self.free.shapes(), options)
+        let segments = self.segments();
+        if !options.doorways.must_widen {
+            return find_rooms(&segments, self.free.shapes(), options);
+        }
+        let found = find_rooms(&self.walls(), self.free.shapes(), options);
+        FoundRooms { walls: walls(&segments, &options.doorways), ..found }
     }
 
     /// The current best estimates of the poses after each step, in the map's frame.

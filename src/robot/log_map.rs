@@ -82,7 +82,7 @@ pub fn surroundings(log: &Log, mapped: &MappedLog) -> Surroundings {
     let segments: Vec<Segment> =
         mapped.map.lines().map(|line| line.line.segment()).filter(|segment| is_beside_free(segment)).collect();
     let free = FreeSpace::of_grid(&map);
-    let segments = without_bridges(&segments, &super::rooms::boundary(free.shapes()));
+    let segments = without_bridges(&segments, &super::rooms::boundary(free.shapes()), |at| free.is_hit_near(at));
     let long: Vec<Segment> =
         segments.iter().copied().filter(|segment| segment.length() >= DoorwayOptions::PAPER.shortest_m).collect();
     let places: Vec<Point> = looks.map(|(pose, _)| pose.position()).collect();

@@ -6,7 +6,6 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay as _;
 
 use super::RayGrid;
-use super::bridges::without_bridges;
 use super::doorways::{Doorway, DoorwayOptions, Gaps, Groups, gaps, is_inside, walls};
 use super::furniture::rectangle;
 use super::quadrilaterals::mean_quadrilateral_m2;
@@ -72,10 +71,7 @@ pub struct FoundRooms {
 pub fn find_rooms(segments: &[Segment], free: &Shapes, options: &RoomOptions) -> FoundRooms {
     let boundary = boundary(free);
     let clutter = if options.doorways.must_widen { clutter(free) } else { Vec::new() };
-    let mut structure: Vec<Segment> = segments.iter().copied().filter(|segment| !is_of(segment, &clutter)).collect();
-    if options.doorways.must_widen {
-        structure = without_bridges(&structure, &boundary);
-    }
+    let structure: Vec<Segment> = segments.iter().copied().filter(|segment| !is_of(segment, &clutter)).collect();
     let long: Vec<Segment> =
         structure.iter().copied().filter(|segment| segment.length() >= options.doorways.shortest_m).collect();
     let Gaps { doorways: mut found, mouths } = gaps(&structure, &boundary, &options.doorways);
@@ -176,7 +172,8 @@ fn close_mouths(
     let doors: Vec<Doorway> = found.clone();
     for mouth in mouths {
         let Some(whole) = (0..pieces.len()).find(|&i| {
-            piece_bounds(&pieces[i]).contains(mouth.segment.midpoint()) && contains(&pieces[i], mouth.segment.midpoint())
+            piece_bounds(&pieces[i]).contains(mouth.segment.midpoint())
+                && contains(&pieces[i], mouth.segment.midpoint())
         }) else {
             continue;
         };

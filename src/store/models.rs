@@ -1,9 +1,12 @@
-use crate::classify::models::StoredModel;
+use std::sync::Arc;
+
+use crate::base::file_name::component;
+use crate::classify::models::{Models, StoredModel};
 use std::path::{Path, PathBuf};
 
 use etcetera::BaseStrategy as _;
 
-use crate::classify::model_file::{self};
+use crate::classify::model_file::{self, Parts};
 
 /// The extension of model files.
 pub const MODEL_ENDING: &str = ".model.json";
@@ -23,21 +26,37 @@ impl std::fmt::Display for ModelError {
 
 impl std::error::Error for ModelError {}
 
-/// Reads a model file. At most [`LARGEST_BYTES`] are read.
+/// Reads a model file; the parts of a blend are the models of their names beside it, or else bundled ones. At most
+/// [`LARGEST_BYTES`] are read.
 ///
 /// # Errors
 /// When the file cannot be read, is too large, or is not a usable model.
 pub fn load_model(path: &Path) -> Result<StoredModel, ModelError> {
+    load(path, &|part| part_of(path, part))
+}
+
+fn load(path: &Path, parts: Parts<'_>) -> Result<StoredModel, ModelError> {
     let fail = |what: String| ModelError { path: path.to_owned(), what };
     let size = std::fs::metadata(path).map_err(|error| fail(error.to_string()))?.len();
     if size > LARGEST_BYTES {
         return Err(fail(format!("{} MB are more than any model has; is it another file?", size / 1_000_000)));
     }
     let bytes = std::fs::read(path).map_err(|error| fail(error.to_string()))?;
-    let (classifier, about) = model_file::from_bytes(&bytes).map_err(|error| fail(error.to_string()))?;
+    let (classifier, about, checksum) =
+        model_file::from_bytes(&bytes, parts).map_err(|error| fail(error.to_string()))?;
     let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let name = name.strip_suffix(MODEL_ENDING).unwrap_or(&name).to_owned();
-    Ok(StoredModel { name, path: Some(path.to_owned()), classifier, about })
+    Ok(StoredModel { name, path: Some(path.to_owned()), classifier, about, checksum })
+}
+
+/// A part of the blend in a file: the model of that name beside it, or else the bundled one. Only a plain name is looked up,
+/// and a blend is no part of another.
+fn part_of(blend: &Path, part: &str) -> Option<Arc<StoredModel>> {
+    let beside = component(part).ok().and_then(|part| {
+        let path = blend.parent()?.join(format!("{part}{MODEL_ENDING}"));
+        if path == blend || !path.exists() { None } else { load(&path, &|_| None).ok().map(Arc::new) }
+    });
+    beside.or_else(|| Models::bundled().named(part)?.ok())
 }
 
 /// The maximum size: even a model that stores a million rooms is smaller.

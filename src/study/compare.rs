@@ -2,12 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::measure::{CURVE_SHARES, Experiment, Outcome, SHUFFLES, SetRows, Task};
+use super::measure::{CURVE_SHARES, Experiment, JOINT_SHARES, Outcome, SHUFFLES, SetRows, Task};
+use super::noise::Noise;
 use super::predictions::Prediction;
 use super::{
-    Average, Cell, Comparison, Condition, ConfusionTable, Curve, CurvePoint, HONEST, Importance, JointCell, LabelLine,
-    Rival, RoomsTable, Set, Study, UnknownCell,
+    Average, Cell, Comparison, Condition, ConfusionTable, Curve, CurvePoint, HONEST, Importance, JointCell, JointCurve,
+    LabelLine, Rival, RoomsTable, Set, Study, UnknownCell,
 };
+use crate::classify::blend::{blend_unseen, recipe};
 use crate::classify::{Algorithm, Confusion, Distribution, Method, Scores};
 use crate::dataset::folds::{Grouping, building_of, group_of};
 use crate::dataset::sets::STANDARD;
@@ -15,6 +17,13 @@ use crate::dataset::table::{FEATURES, Table};
 use crate::dataset::{Moments, Row, Statistics};
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology};
+
+/// What was said of a room out of fold: the fold, the row, the distribution.
+type Said = (usize, usize, Distribution);
+
+fn as_told(said: &[Said]) -> Vec<(usize, usize, &Distribution)> {
+    said.iter().map(|(fold, row, said)| (*fold, *row, said)).collect()
+}
 
 /// Tasks with their outcomes, sorted.
 pub(super) struct Results(Vec<(Task, Outcome)>);
@@ -41,6 +50,8 @@ impl Experiment<'_> {
             learning_curves: Vec::new(),
             importance: Vec::new(),
             joint: Vec::new(),
+            joint_curves: Vec::new(),
+            noise: Vec::new(),
             unknown: Vec::new(),
             typologies: Vec::new(),
             typology_ways: Vec::new(),
@@ -70,7 +81,28 @@ impl Experiment<'_> {
                 study.importance.extend(results.importance(set, at, algorithm, accuracy, &conditions, main));
             }
         }
-        study.joint = (0..self.sets.len()).filter_map(|set| self.compare_jointly(results, set, &study)).collect();
+        let blended: Vec<Vec<Said>> = (0..self.sets.len()).map(|set| self.blended(results, set)).collect();
+        for (method, of_sets) in [
+            (Method::Joint, (0..self.sets.len()).map(|set| results.jointly(set)).collect()),
+            (Method::Blend, blended.iter().map(|said| as_told(said)).collect::<Vec<_>>()),
+        ] {
+            let cells =
+                of_sets.iter().enumerate().map(|(set, said)| self.compare_jointly(results, set, method, said, &study));
+            let cells: Vec<JointCell> = cells.into_iter().flatten().collect();
+            study.joint.extend(cells);
+        }
+        study.joint_curves =
+            self.sets.iter().enumerate().filter_map(|(at, set)| results.joint_curve(self, set, at)).collect();
+        study.noise = blended
+            .iter()
+            .zip(&self.sets)
+            .filter(|(_, set)| set.typology.is_some())
+            .filter_map(|(said, set)| {
+                let rooms: Vec<(&Row, Distribution)> =
+                    said.iter().map(|(_, row, said)| (&self.rows[*row], *said)).collect();
+                Noise::of(&set.name, &rooms)
+            })
+            .collect();
         study.unknown = (0..self.sets.len()).filter_map(|set| self.compare_behind(results, set)).collect();
         study.honest = self.honest_condition(&study);
         self.compare(results, &self.right(results, main), main.by, &mut study);
@@ -122,21 +154,56 @@ impl Experiment<'_> {
                 }
                 if condition == HONEST {
                     tell(Method::Joint, results.jointly(at));
+                    let blended = self.blended(results, at);
+                    tell(Method::Blend, as_told(&blended));
                 }
             }
         }
         predictions
     }
 
-    /// The joint classifier beside the best of the learners where no building and no label is known.
-    fn compare_jointly(&self, results: &Results, set: usize, study: &Study) -> Option<JointCell> {
+    /// What the blend says of a set's rooms, where no building and no label is known: the mean of what its parts said, those
+    /// of the set and the standard ones.
+    fn blended(&self, results: &Results, set: usize) -> Vec<Said> {
+        let Some(at) = self.conditions().iter().position(|condition| *condition == HONEST) else { return Vec::new() };
+        let rows = &self.sets[set].rows;
+        let (mut parts, mut folds) = (Vec::new(), Vec::new());
+        for (of, method, weight) in recipe(&self.sets[set].name) {
+            let Some(of) = self.sets.iter().position(|other| other.name == of) else { continue };
+            let told = match method {
+                Method::Each(algorithm) => results.folds(at, of, algorithm),
+                Method::Joint => results.jointly(of),
+                Method::Blend => Vec::new(),
+            };
+            let of_row: BTreeMap<usize, (usize, &Distribution)> =
+                told.into_iter().map(|(fold, row, said)| (row, (fold, said))).collect();
+            let (of_folds, said): (Vec<usize>, Vec<Distribution>) =
+                rows.iter().filter_map(|row| of_row.get(row).map(|(fold, said)| (*fold, **said))).unzip();
+            if folds.is_empty() {
+                folds = of_folds;
+            }
+            parts.push((weight, said));
+        }
+        let labels: Vec<Label> = rows.iter().map(|&row| self.rows[row].label).collect();
+        let Some(unseen) = blend_unseen(&parts, &labels, &folds) else { return Vec::new() };
+        folds.iter().zip(rows).zip(unseen.said).map(|((&fold, &row), said)| (fold, row, said)).collect()
+    }
+
+    /// A classifier of whole plans beside the best of the learners where no building and no label is known.
+    fn compare_jointly(
+        &self,
+        results: &Results,
+        set: usize,
+        method: Method,
+        of_joint: &[(usize, usize, &Distribution)],
+        study: &Study,
+    ) -> Option<JointCell> {
         let condition = HONEST;
         let at = self.conditions().iter().position(|other| *other == condition)?;
         let name = &self.sets[set].name;
         let accuracy =
             |algorithm: Algorithm| study.scores(name, algorithm, condition).map_or(0.0, |scores| scores.accuracy);
         let best = Algorithm::ALL.into_iter().max_by(|&p, &q| accuracy(p).total_cmp(&accuracy(q)))?;
-        let of_joint = results.jointly(set);
         if of_joint.is_empty() {
             return None;
         }
@@ -149,7 +216,7 @@ impl Experiment<'_> {
         });
         let comparison = Comparison::of(pairs, self.options.seed)?;
         let scores = Scores::of(of_joint.iter().map(|(fold, row, said)| (*fold, *said, self.rows[*row].label)));
-        Some(JointCell { set: name.clone(), best, comparison, scores })
+        Some(JointCell { set: name.clone(), method, best, comparison, scores })
     }
 
     /// Compares predictions of what lies behind openings with the most frequent label.
@@ -330,6 +397,37 @@ impl Results {
             }
         }
         predictions
+    }
+
+    /// The joint classifier's curve on a set, over the folds that all its points were measured on.
+    fn joint_curve(&self, experiment: &Experiment<'_>, set: &SetRows, wanted: usize) -> Option<JointCurve> {
+        let mut points: Vec<Vec<(usize, usize, usize)>> = vec![Vec::new(); JOINT_SHARES.len() + 1];
+        let mut folds = BTreeSet::new();
+        for (task, outcome) in &self.0 {
+            if let (Task::JointPoint { set, fold, share }, Outcome::Point(learned, tested, right)) = (task, outcome)
+                && *set == wanted
+                && *tested > 0
+            {
+                folds.insert(*fold);
+                points[*share].push((*learned, *tested, *right));
+            }
+        }
+        for &fold in &folds {
+            let of_fold = self.jointly(wanted).into_iter().filter(|(of, ..)| *of == fold);
+            let right: Vec<bool> = of_fold.map(|(_, row, said)| said.label() == experiment.rows[row].label).collect();
+            let tested = right.len();
+            points[JOINT_SHARES.len()].push((
+                set.rows.len() - tested,
+                tested.max(1),
+                right.into_iter().filter(|&right| right).count(),
+            ));
+        }
+        let point = |of: &Vec<(usize, usize, usize)>| {
+            let accuracy = Moments::of(of.iter().map(|(_, tested, right)| *right as f64 / *tested as f64));
+            let learned = Moments::of(of.iter().map(|(learned, ..)| *learned as f64)).mean;
+            CurvePoint { training_rooms: learned, accuracy: accuracy.mean, deviation: accuracy.deviation }
+        };
+        (!folds.is_empty()).then(|| JointCurve { set: set.name.clone(), points: points.iter().map(point).collect() })
     }
 
     fn foreign(&self, model: usize, algorithm: Algorithm) -> &[(usize, Distribution)] {

@@ -20,6 +20,9 @@ use crate::labels::{Label, Typology};
 /// Shares of the training rooms at the points of a learning curve.
 pub(super) const CURVE_SHARES: [f64; 6] = [0.05, 0.1, 0.2, 0.4, 0.7, 1.0];
 
+/// Shares of the training buildings at the points of the joint classifier's curve; the last point, all of them, is [`Task::Joint`].
+pub(super) const JOINT_SHARES: [f64; 2] = [0.25, 0.5];
+
 /// Folds whose curves are averaged.
 const CURVE_FOLDS: usize = 5;
 
@@ -74,6 +77,7 @@ pub(super) enum Task {
     Foreign { model: usize, algorithm: Algorithm },
     Point { set: usize, algorithm: Algorithm, fold: usize, share: usize },
     Joint { set: usize, fold: usize },
+    JointPoint { set: usize, fold: usize, share: usize },
     Unknown { set: usize, fold: usize },
 }
 
@@ -228,6 +232,10 @@ impl<'a> Experiment<'a> {
             for (set, rows) in self.sets.iter().enumerate() {
                 let folds = rows.folds_by(Grouping::Building).map_or(0, |folds| folds.count);
                 tasks.extend((0..folds).map(|fold| Task::Joint { set, fold }));
+                if rows.typology.is_some() {
+                    let points = |fold| (0..JOINT_SHARES.len()).map(move |share| Task::JointPoint { set, fold, share });
+                    tasks.extend((0..folds.min(CURVE_FOLDS)).flat_map(points));
+                }
                 tasks.extend((0..folds).map(|fold| Task::Unknown { set, fold }));
             }
         }
@@ -283,6 +291,9 @@ impl<'a> Experiment<'a> {
                 )
             }
             Task::Unknown { set, fold } => self.look_behind(&self.sets[set], fold).unwrap_or(nothing),
+            Task::JointPoint { set, fold, share } => {
+                self.joint_point(&self.sets[set], fold, JOINT_SHARES[share], work).unwrap_or(Outcome::Point(0, 0, 0))
+            }
             Task::Joint { set, fold } => self.predict_jointly(&self.sets[set], fold, work).unwrap_or(nothing),
             Task::Point { set, algorithm, fold, share } => {
                 self.curve_point(&self.sets[set], algorithm, fold, CURVE_SHARES[share], work)
@@ -361,6 +372,29 @@ impl<'a> Experiment<'a> {
             self.networks_of(&tested).into_iter().map(|(at, network)| (at, joint.predict(network, &[]))).collect();
         let prediction = |row: usize| Some((row, *said.get(&self.places[row].network)?.get(self.places[row].room)?));
         Some(Outcome::Predicted(tested.into_iter().filter_map(prediction).collect(), None))
+    }
+
+    /// The joint classifier on the buildings of a fold, trained on a share of the other buildings.
+    fn joint_point(&self, set: &SetRows, fold: usize, share: f64, work: &Work<'_>) -> Option<Outcome> {
+        let (tested, learned) = Self::split(set, Grouping::Building, fold)?;
+        let mut buildings: Vec<&str> = learned.iter().map(|&row| group_of(&self.rows[row])).collect();
+        buildings.sort_unstable();
+        buildings.dedup();
+        Random::new(seed_of_part(self.options.seed, fold)).shuffle(&mut buildings);
+        buildings.truncate(((buildings.len() as f64 * share).round() as usize).max(1));
+        let learned: Vec<usize> =
+            learned.into_iter().filter(|&row| buildings.contains(&group_of(&self.rows[row]))).collect();
+        let taught: Vec<&RoomNetwork> = self.networks_of(&learned).into_values().collect();
+        let joint = Joint::train(&taught, seed_of_part(self.options.seed, fold), work).ok()?;
+        let said: BTreeMap<usize, Vec<Distribution>> =
+            self.networks_of(&tested).into_iter().map(|(at, network)| (at, joint.predict(network, &[]))).collect();
+        let is_right = |row: &&usize| {
+            let RoomPlace { network, room } = self.places[**row];
+            said.get(&network)
+                .and_then(|said| said.get(room))
+                .is_some_and(|said| said.label() == self.rows[**row].label)
+        };
+        Some(Outcome::Point(learned.len(), tested.len(), tested.iter().filter(is_right).count()))
     }
 
     /// What lies behind the openings of a fold's buildings, trained on the others of the set.

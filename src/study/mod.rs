@@ -5,6 +5,7 @@
 mod compare;
 mod comparison;
 mod measure;
+pub mod noise;
 pub mod paper;
 pub mod predictions;
 pub mod report;
@@ -21,7 +22,7 @@ pub use comparison::Comparison;
 pub use run::{Validation, study, study_with_predictions, validate};
 
 use crate::base::work::Cancelled;
-use crate::classify::{Algorithm, Confusion, Scores, TableRates};
+use crate::classify::{Algorithm, Confusion, Method, Scores, TableRates};
 use crate::dataset::LabelStatistics;
 use crate::dataset::folds::Grouping;
 use crate::features::NeighbourLabels;
@@ -95,8 +96,12 @@ pub struct Study {
     pub own_against_foreign: Vec<Rival>,
     pub learning_curves: Vec<Curve>,
     pub importance: Vec<Importance>,
-    /// The joint classifier on buildings never seen.
+    /// The joint classifier, then the blend, on buildings never seen.
     pub joint: Vec<JointCell>,
+    /// The joint classifier after learning from a part of the buildings.
+    pub joint_curves: Vec<JointCurve>,
+    /// How far the labels agree with each other, and what the blend makes of them.
+    pub noise: Vec<noise::Noise>,
     /// What lies behind openings into unexplored space, on buildings never seen.
     pub unknown: Vec<UnknownCell>,
     /// How well typologies are inferred from plans of buildings never seen, as the program does it.
@@ -233,6 +238,14 @@ pub struct Curve {
     pub points: Vec<CurvePoint>,
 }
 
+/// A learning curve of the joint classifier on buildings never seen.
+#[derive(Clone, Debug, Serialize)]
+pub struct JointCurve {
+    pub set: String,
+    /// In order of the training rooms; the last one learned from all buildings but those tested.
+    pub points: Vec<CurvePoint>,
+}
+
 /// Accuracy when trained on a part of the rooms.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct CurvePoint {
@@ -253,14 +266,17 @@ pub struct Importance {
     pub accuracy_lost: [f64; 8],
 }
 
-/// The joint classifier on a set, with folds by building and no known labels in the tested buildings.
+/// A classifier of whole plans (the joint one, or the blend) on a set, with folds by building and no known labels in the
+/// tested buildings.
 #[derive(Clone, Debug, Serialize)]
 pub struct JointCell {
     pub set: String,
+    #[serde(serialize_with = "method_name")]
+    pub method: Method,
     /// The best of the learners under the same condition.
     #[serde(serialize_with = "algorithm_name")]
     pub best: Algorithm,
-    /// First the joint classifier, second the best of the learners.
+    /// First this classifier, second the best of the learners.
     pub comparison: Comparison,
     pub scores: Scores,
 }
@@ -338,6 +354,17 @@ impl Study {
         self.accuracy.iter().find(wanted).map(|cell| &cell.scores)
     }
 
+    /// The methods that look at whole plans and were measured, in order.
+    pub fn plan_methods(&self) -> Vec<Method> {
+        let measured = |method: &Method| self.joint.iter().any(|cell| cell.method == *method);
+        [Method::Joint, Method::Blend].into_iter().filter(measured).collect()
+    }
+
+    /// The scores of such a method on a set.
+    pub fn plan_scores(&self, set: &str, method: Method) -> Option<&Scores> {
+        self.joint.iter().find(|cell| cell.set == set && cell.method == method).map(|cell| &cell.scores)
+    }
+
     /// The conditions that were measured, in order.
     pub fn conditions(&self) -> Vec<Condition> {
         let mut conditions: Vec<Condition> = Vec::new();
@@ -373,6 +400,11 @@ fn neighbours_name<S: Serializer>(neighbours: &NeighbourLabels, serializer: S) -
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it so")]
 fn algorithm_name<S: Serializer>(algorithm: &Algorithm, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(algorithm.name())
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it so")]
+fn method_name<S: Serializer>(method: &Method, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(method.name())
 }
 
 #[expect(clippy::ref_option, reason = "serde calls it so")]

@@ -70,7 +70,11 @@ pub fn validate(
         Task::Fold { condition, set: of, algorithm, .. } => {
             experiment.sets[of].name == set && algorithms.contains(&algorithm) && conditions.contains(&all[condition])
         }
-        Task::Foreign { .. } | Task::Point { .. } | Task::Joint { .. } | Task::Unknown { .. } => false,
+        Task::Foreign { .. }
+        | Task::Point { .. }
+        | Task::Joint { .. }
+        | Task::JointPoint { .. }
+        | Task::Unknown { .. } => false,
     };
     let tasks: Vec<Task> = experiment.tasks().into_iter().filter(is_wanted).collect();
     let results = perform(&experiment, tasks, work)?;

@@ -16,7 +16,7 @@ use enfilade::base::hash;
 use enfilade::base::units::Units;
 use enfilade::base::work::Work;
 use enfilade::classify::explain::Reason;
-use enfilade::classify::model_file::{About, DataSummary, ScoreSummary, from_bytes, to_bytes};
+use enfilade::classify::model_file::{self, About, DataSummary, ModelFileError, ScoreSummary, to_bytes};
 use enfilade::classify::{
     Algorithm, Classifier, Distribution, Method, PlanClassifier, Scores, Validation, evaluate, evaluate_all, test,
 };
@@ -102,6 +102,11 @@ fn assert_not_below_weka(set: &str, rows: &[Row], seeds: usize) {
             assert!(scores.calibration_error < 0.06, "{set}: {algorithm} off by {}", scores.calibration_error);
         }
     }
+}
+
+/// Reads a model that has no parts.
+fn from_bytes(bytes: &[u8]) -> Result<(PlanClassifier, About), ModelFileError> {
+    model_file::from_bytes(bytes, &|_| None).map(|(classifier, about, _)| (classifier, about))
 }
 
 #[test]

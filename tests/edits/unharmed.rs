@@ -437,6 +437,17 @@ fn holds(before: &Plan, done: &Done) -> Result<(), TestCaseError> {
                         let at = after.position(corner).unwrap();
                         (is_new || is_dragged(&[corner])) && was.distance(at) <= SAME_M
                     });
+                // Or its wall no longer reaches as far.
+                let edges = || {
+                    let hosts = after.elements().filter(|it| matches!(it, ElementId::Wall(_) | ElementId::Room(_)));
+                    hosts.flat_map(|element| lines(after, element)).collect::<Vec<_>>()
+                };
+                let is_divided = is_divided
+                    || !dragged.is_empty() && off_m > SAME_M && {
+                        let edges = edges();
+                        let stands = |at: Point| edges.iter().any(|edge| edge.distance(at) <= SAME_M);
+                        !SHARES.iter().all(|&share| stands(was.a.lerp(was.b, share)))
+                    };
                 // Or it makes way for a neighbour that is.
                 let makes_way = || {
                     before.openings().filter(|(other, _)| *other != id).any(|(other, old)| {

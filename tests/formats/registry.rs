@@ -178,7 +178,7 @@ fn the_command_line_says_what_is_there_and_what_is_lost() {
         (vec!["export", plan, "-o", &at("x.geojson"), "--option", "rooms-only=2"], "use yes or no"),
         (vec!["export", plan, "-o", &at("x.dwg")], "not a folder and not a file with a known ending"),
         (vec!["export", plan, "-o", &at("x"), "--format", "dwg"], "cannot write '.dwg'; known endings: .plan.json"),
-        (vec!["import", xml, "-o", &at("out"), "--from", "dwg"], "use one of enfilade, authors-xml, geojson"),
+        (vec!["import", xml, "-o", &at("out"), "--from", "dwg"], "use one of enfilade, authors-xml, kth-xml, geojson"),
         (vec!["import", xml, "-o", &at("out"), "--from", "geojson"], "is no JSON object: it starts with '<'"),
         (vec!["import", xml, "-o", &at("out"), "--option", "metres=1"], "'metres' cannot be '1'; use yes or no"),
     ] {

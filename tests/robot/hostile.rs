@@ -72,8 +72,7 @@ const YAML: &str = "image: floor.png\nresolution: 0.05\norigin: [-2.0, 1.0, 0.1]
 fn picture() -> Vec<u8> {
     let mut image = image::GrayImage::from_pixel(70, 50, image::Luma([205]));
     for (x, y, pixel) in image.enumerate_pixels_mut() {
-        let is_free =
-            (5..65).contains(&x) && (5..45).contains(&y) && !((33..35).contains(&x) && !(20..38).contains(&y));
+        let is_free = (5..65).contains(&x) && (5..45).contains(&y) && (!(33..35).contains(&x) || (20..38).contains(&y));
         let is_near = (3..67).contains(&x) && (3..47).contains(&y);
         pixel.0 = [if is_free {
             254

@@ -228,6 +228,10 @@ fn a_log_gives_the_same_files_every_time_packed_or_not() {
     let two = run(&packed, &folder.path().join("two"));
     assert_eq!(one, two);
     assert!(one.keys().any(|name| name == "house.map.png") && one.keys().any(|name| name == "house.lines.json"));
+    assert!(
+        enfilade::formats::plan_json::from_bytes(&one["house.plan.json"]).is_ok()
+            && one.contains_key("house.rooms.png")
+    );
     let csv = String::from_utf8(one["poses.csv"].clone()).unwrap();
     assert!(csv.starts_with("t,x,y,theta\n10,0,0,0\n10.5,"), "{csv:.60}");
     // Every reading has its pose: a scan a stop and an odometry reading between each two.

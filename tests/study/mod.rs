@@ -132,7 +132,7 @@ fn every_bundled_model_reads_and_says_where_it_comes_from() {
     assert_eq!(models.sets(), ["house", "office", "school", "standard"]);
     for set in models.sets() {
         let methods: Vec<&str> = models.methods(set).into_iter().map(Method::name).collect();
-        assert_eq!(methods, ["rules", "tree", "knn", "mlp", "joint"], "{set}");
+        assert_eq!(methods, ["rules", "tree", "knn", "mlp", "joint", "blend"], "{set}");
         for method in models.methods(set) {
             let model = models.find(set, method).unwrap_or_else(|error| panic!("{set}, {method}: {error}"));
             assert_eq!((model.method(), model.set()), (method, set));
@@ -196,12 +196,13 @@ const KNOWN_BY_ALL: [(&str, &str); 7] = [
 #[test]
 fn predictions_in_words() {
     let plan = format!("{PLANS}/office.plan.json");
-    let methods: [(&str, usize, &[&str]); 5] = [
+    let methods: [(&str, usize, &[&str]); 6] = [
         ("rules", 20, &["What was seen: ", "None of the "]),
         ("tree", 23, &["What was seen: "]),
         ("knn", 23, &["What was seen: "]),
         ("mlp", 24, &["Strong sign", "Clear sign", "Slight sign", "But ", "Nothing stands out: "]),
         ("joint", 28, &["Strong sign", "Clear sign", "Slight sign", "But ", "Nothing stands out: "]),
+        ("blend", 28, &["Strong sign", "Clear sign", "Slight sign", "But ", "Nothing stands out: "]),
     ];
     let bundled: Vec<&str> = Models::bundled().methods("office").iter().map(|method| method.name()).collect();
     assert_eq!(methods.map(|(name, ..)| name).as_slice(), bundled);
@@ -231,12 +232,17 @@ fn predictions_in_words() {
         let summary = format!("  {right} of 38 known labels predicted correctly ({percent} %); ");
         let last = out.lines().last().unwrap();
         assert!(last.starts_with(&summary) && last.contains("neighbours' labels: predicted, stable after "), "{last}");
+        if method == "blend" {
+            // Which part says what.
+            let lift = rooms.iter().find(|said| said.room == "Lift 1").unwrap().reason;
+            assert!(
+                lift.contains("The joint classifier of offices (") && lift.contains("of all buildings ("),
+                "{lift}"
+            );
+        }
         if method == "joint" {
             let lift = rooms.iter().find(|said| said.room == "Lift 1").unwrap().reason;
-            for part in [
-                "4.4 m² along axes, 0.3 times the plan's median; 33 of the 37 other rooms are larger",
-                "it opens to 1 corridor",
-            ] {
+            for part in ["1.1 times as long as wide, 4 walls", "it opens to 1 corridor"] {
                 assert!(lift.contains(part), "{lift}");
             }
         }

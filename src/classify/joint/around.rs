@@ -49,6 +49,8 @@ pub(super) struct Around<'a> {
     /// The known label, else the first round's prediction.
     believed: Vec<[f64; 5]>,
     all: Sums,
+    /// The same of each flat.
+    flats: Vec<Sums>,
 }
 
 impl<'a> Around<'a> {
@@ -63,10 +65,14 @@ impl<'a> Around<'a> {
             })
             .collect();
         let mut all = Sums::default();
+        let mut flats = vec![Sums::default(); view.flat.iter().flatten().max().map_or(0, |most| most + 1)];
         for (room, believed) in believed.iter().enumerate() {
             all.add(believed, view.log_area[room], 1.0);
+            if let Some(flat) = view.flat[room] {
+                flats[flat].add(believed, view.log_area[room], 1.0);
+            }
         }
-        Self { view, first, believed, all }
+        Self { view, first, believed, all, flats }
     }
 
     fn sum(&self, rooms: &[usize]) -> Sums {
@@ -83,7 +89,7 @@ impl<'a> Around<'a> {
         let area = self.view.log_area[room];
         let joined = self.sum(&self.view.joined[room]);
         let siblings = self.sum(&self.view.siblings[room]);
-        let mut others = self.all;
+        let mut others = self.view.flat[room].map_or(self.all, |flat| self.flats[flat]);
         others.add(&self.believed[room], area, -1.0);
         let against = |label: usize| {
             let weight = others.weights[label];

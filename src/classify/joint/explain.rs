@@ -5,6 +5,7 @@ use super::{FirstRound, Group, Joint, group_of, view};
 use crate::base::units::Units;
 use crate::base::wording::count;
 use crate::classify::Distribution;
+use crate::classify::blend::mean;
 use crate::classify::numbers::times;
 use crate::classify::why::{OnPlan, Point, Why, and_list, area, nothing_stands_out, sorted, speaks};
 use crate::dataset::{NetworkRoom, RoomNetwork};
@@ -74,6 +75,10 @@ struct Seen {
     joined_labels: Vec<(Label, usize)>,
     /// Other rooms of about its area.
     alike: Vec<usize>,
+    /// The rooms it is compared with.
+    compared: Vec<usize>,
+    /// Whether these are a flat's.
+    is_flat: bool,
 }
 
 impl Joint {
@@ -152,7 +157,8 @@ impl Seen {
     fn of(network: &RoomNetwork, round: &FirstRound, room: usize, neighbours: &[NeighbourEffect]) -> Self {
         let it = &network.rooms[room];
         let view = &round.looked.view;
-        let mut areas: Vec<f64> = network.rooms.iter().map(|room| room.area_m2).collect();
+        let compared = view.compared_with(room);
+        let mut areas: Vec<f64> = compared.iter().map(|&room| network.rooms[room].area_m2).collect();
         let larger = areas.iter().filter(|&&area_m2| area_m2 > it.area_m2).count();
         areas.sort_by(f64::total_cmp);
         let rooms = areas.len();
@@ -176,8 +182,10 @@ impl Seen {
             joined_m2: joined.iter().map(|&other| network.rooms[other].area_m2).collect(),
             most_joined: joined.iter().map(|&other| view.joined[other].len()).max().unwrap_or_default(),
             joined,
+            is_flat: view.flat[room].is_some(),
             joined_labels: Label::ALL.map(of_label).into_iter().filter(|(_, count)| *count > 0).collect(),
-            alike: (0..rooms).filter(is_alike).collect(),
+            alike: compared.iter().copied().filter(is_alike).collect(),
+            compared,
         }
     }
 
@@ -201,12 +209,13 @@ impl Seen {
                 (words, OnPlan::Rooms(self.alike.clone()))
             }
             Group::Plan => {
+                let kind = if self.is_flat { "flat" } else { "plan" };
                 let words = format!(
-                    "a plan of {}, half of them over {}",
+                    "a {kind} of {}, half of them over {}",
                     count(self.rooms, "room"),
                     area(self.median_m2, units)
                 );
-                (words, OnPlan::Rooms((0..self.rooms).collect()))
+                (words, OnPlan::Rooms(self.compared.clone()))
             }
             Group::Labels => {
                 let labels: Vec<String> =
@@ -231,9 +240,10 @@ impl Seen {
             0 => format!("{own}, the largest of {} rooms", self.rooms),
             larger if larger == others => format!("{own}, the smallest of {} rooms", self.rooms),
             larger => {
+                let kind = if self.is_flat { "flat" } else { "plan" };
                 let are = if larger == 1 { "is" } else { "are" };
                 format!(
-                    "{own}, {:.1} times the plan's median; {larger} of the {others} other rooms {are} larger",
+                    "{own}, {:.1} times the {kind}'s median; {larger} of the {others} other rooms {are} larger",
                     self.area_m2 / self.median_m2
                 )
             }
@@ -282,6 +292,33 @@ impl Seen {
 }
 
 impl JointExplanation {
+    /// One explanation from those of several joint classifiers of one room, each with its weight: of the label that was chosen
+    /// in the end. Every probability is their weighted mean. `None` if there is none.
+    pub fn pooled(of: Vec<(f64, Self)>, label: Label) -> Option<Self> {
+        let weights: Vec<f64> = of.iter().map(|(weight, _)| *weight).collect();
+        let pool = |pick: &dyn Fn(&Self) -> Distribution| {
+            let said: Vec<Distribution> = of.iter().map(|(_, it)| pick(it)).collect();
+            mean(&said, &weights)
+        };
+        let (_, one) = of.first()?;
+        let group = |effect: &GroupEffect| {
+            let find = |it: &Self| it.groups.iter().find(|other| other.group == effect.group).map(|it| it.if_typical);
+            GroupEffect { if_typical: pool(&|it| find(it).unwrap_or(it.distribution)), ..*effect }
+        };
+        let neighbour = |effect: &NeighbourEffect| {
+            let find = |it: &Self| it.neighbours.iter().find(|other| other.room == effect.room).map(|it| it.if_unknown);
+            NeighbourEffect { if_unknown: pool(&|it| find(it).unwrap_or(it.distribution)), ..effect.clone() }
+        };
+        Some(Self {
+            label,
+            distribution: pool(&|it| it.distribution),
+            first: pool(&|it| it.first),
+            groups: one.groups.iter().map(group).collect(),
+            neighbours: one.neighbours.iter().map(neighbour).collect(),
+            seen: one.seen.clone(),
+        })
+    }
+
     /// The probability of the predicted label, 0..=1.
     pub fn probability(&self) -> f64 {
         self.distribution.probability(self.label)

@@ -14,7 +14,7 @@ mod store;
 mod trees;
 mod view;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 pub use explain::{GroupEffect, JointExplanation, NeighbourEffect};
@@ -22,15 +22,16 @@ pub use store::JointModelError;
 pub use view::Group;
 
 use self::around::Around;
-use self::trees::{Forest, Job, Samples};
+use self::trees::{Forest, Job, KEPT, Samples};
 use self::view::View;
 use super::calibration::fitted_temperature;
 use super::{Distribution, Scores};
 use crate::base::random::{Random, seed_of_part};
 use crate::base::work::{Cancelled, Work};
+use crate::dataset::flats::Flats;
 use crate::dataset::folds::{Folds, FoldsError};
 use crate::dataset::{RoomNetwork, RoomPlace};
-use crate::labels::Label;
+use crate::labels::{Label, Typology};
 
 /// Folds for first-round predictions of training rooms by forests not trained on their building.
 const INNER_FOLDS: usize = 4;
@@ -107,16 +108,29 @@ pub struct JointValidated {
 struct Looked {
     view: View,
     features: Vec<Vec<f32>>,
+    /// Whether no group of features was left out.
+    is_whole: bool,
 }
 
 impl Looked {
+    /// A storey of flats is looked at flat by flat ([`Flats`]): a dwelling's rooms are compared with each other, not with the
+    /// neighbours'. What the flats share is compared with the whole storey.
     fn new(network: &RoomNetwork, left_out: &BTreeSet<Group>) -> Self {
-        let view = View::new(network);
+        let mut view = View::new(network);
         let mut features = view::features(network, &view);
+        let flats = Flats::of(network).map(|flats| flats.flats).unwrap_or_default();
+        for (index, flat) in flats.iter().enumerate() {
+            let part = network.part(flat);
+            let of_part = View::new(&part);
+            for (&room, of_room) in flat.iter().zip(view::features(&part, &of_part)) {
+                features[room] = of_room;
+            }
+            view.put(flat, index, &of_part);
+        }
         for room in &mut features {
             blank(room, view::FEATURES, left_out);
         }
-        Self { view, features }
+        Self { view, features, is_whole: left_out.is_empty() }
     }
 
     /// The features of the second round.
@@ -189,10 +203,14 @@ impl Joint {
         let folds = inner_folds(networks, &places, seed);
         let count = folds.as_ref().map_or(0, Folds::count);
 
+        let classes = Classes::new(networks, &places);
+        let class_of = |place: RoomPlace| classes.of(networks, place);
+
         // The first round: a forest for each fold that did not see it, and one trained on all rooms.
         let mut samples = Samples::default();
         for &place in &places {
-            samples.push(&looked[place.network].features[place.room], label(networks, place));
+            let values = &looked[place.network].features[place.room];
+            samples.push(values, label(networks, place), class_of(place));
         }
         let (of_folds, first) = grow(&samples, folds.as_ref(), 1, seed_of_part(seed, 1), work)?;
 
@@ -220,7 +238,7 @@ impl Joint {
             typical_of.push(looked.with_labels(&opinions[network], &nothing, left_out));
         }
         for &place in &places {
-            samples.push(&typical_of[place.network][place.room], label(networks, place));
+            samples.push(&typical_of[place.network][place.room], label(networks, place), class_of(place));
         }
         let typical = samples.columns.iter().map(|column| median(column)).collect();
         let mut random = Random::new(seed_of_part(seed, 2));
@@ -235,7 +253,7 @@ impl Joint {
             })
             .collect();
         for &place in &places {
-            samples.push(&partly[place.network][place.room], label(networks, place));
+            samples.push(&partly[place.network][place.room], label(networks, place), class_of(place));
         }
         let (of_folds, second) = grow(&samples, folds.as_ref(), 2, seed_of_part(seed, 3), work)?;
 
@@ -246,6 +264,10 @@ impl Joint {
             Some((forest.predict(&values), label(networks, place)))
         });
         let temperature = fitted_temperature(unseen);
+        let [first, second] = [first, second].map(|mut forest| {
+            forest.trees.truncate(KEPT);
+            forest
+        });
         Ok(Self { first, second, temperature, typical, left_out: left_out.clone() })
     }
 
@@ -259,6 +281,16 @@ impl Joint {
     /// The first round, which needs no labels.
     pub fn first_round(&self, network: &RoomNetwork) -> FirstRound {
         let looked = Looked::new(network, &self.left_out);
+        let opinions = self.first_opinions(&looked);
+        FirstRound { looked, opinions }
+    }
+
+    /// The same, after another classifier's first round over the same network: rooms are looked at once for both.
+    pub fn first_round_after(&self, network: &RoomNetwork, other: &FirstRound) -> FirstRound {
+        if !(self.left_out.is_empty() && other.looked.is_whole) {
+            return self.first_round(network);
+        }
+        let looked = other.looked.clone();
         let opinions = self.first_opinions(&looked);
         FirstRound { looked, opinions }
     }
@@ -292,6 +324,38 @@ fn labelled(networks: &[&RoomNetwork]) -> Vec<RoomPlace> {
 /// The label of a room returned by [`labelled`].
 fn label(networks: &[&RoomNetwork], place: RoomPlace) -> Label {
     networks[place.network].rooms[place.room].label.unwrap_or(Label::SmallRoom)
+}
+
+/// The classes that the forests' questions tell apart: functions rather than labels. What makes a classroom is more alike than
+/// what makes a medium room; a leaf still counts labels, so that nobody is told a function, and none is asked for.
+struct Classes<'a>(BTreeMap<(Option<&'a Typology>, &'a str, Label), u16>);
+
+/// Rarer functions are told apart by their labels only.
+const LEAST_OF_FUNCTION: usize = 5;
+
+impl<'a> Classes<'a> {
+    fn new(networks: &[&'a RoomNetwork], places: &[RoomPlace]) -> Self {
+        let mut counts: BTreeMap<(Option<&Typology>, &str, Label), usize> = BTreeMap::new();
+        for &place in places {
+            *counts.entry(Self::key(networks, place)).or_default() += 1;
+        }
+        let mut frequent: Vec<_> = counts.into_iter().filter(|(_, rooms)| *rooms >= LEAST_OF_FUNCTION).collect();
+        // The most frequent first, should there be too many.
+        frequent.sort_by_key(|(_, rooms)| std::cmp::Reverse(*rooms));
+        let numbers = Label::ALL.len() as u16..trees::MOST_CLASSES as u16;
+        Self(frequent.into_iter().map(|(key, _)| key).zip(numbers).collect())
+    }
+
+    fn key(networks: &[&'a RoomNetwork], place: RoomPlace) -> (Option<&'a Typology>, &'a str, Label) {
+        let network = networks[place.network];
+        (network.typology.as_ref(), &network.rooms[place.room].function, label(networks, place))
+    }
+
+    /// The class of a room: its function together with its label, or else its label alone.
+    fn of(&self, networks: &[&'a RoomNetwork], place: RoomPlace) -> u16 {
+        let key = Self::key(networks, place);
+        self.0.get(&key).copied().unwrap_or_else(|| key.2.index() as u16)
+    }
 }
 
 /// Folds by building; by room if there is only one building; `None` for a single room.

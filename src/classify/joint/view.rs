@@ -126,6 +126,8 @@ pub(super) struct View {
     pub joined: Vec<Vec<usize>>,
     /// The other rooms joined by its best connected neighbour.
     pub siblings: Vec<Vec<usize>>,
+    /// The flat that each room is in, from 0; `None` outside flats, in any plan that is no storey of flats.
+    pub flat: Vec<Option<usize>>,
 }
 
 impl View {
@@ -152,7 +154,24 @@ impl View {
                 hub.map_or_else(Vec::new, |hub| joined[hub].iter().copied().filter(|&other| other != room).collect())
             })
             .collect();
-        Self { log_area, joined, siblings }
+        let flat = vec![None; joined.len()];
+        Self { log_area, joined, siblings, flat }
+    }
+
+    /// Replaces what it holds of the rooms of a flat by what the flat alone shows.
+    pub fn put(&mut self, flat: &[usize], index: usize, alone: &Self) {
+        let named = |rooms: &[usize]| rooms.iter().map(|&room| flat[room]).collect();
+        for (place, &room) in flat.iter().enumerate() {
+            self.joined[room] = named(&alone.joined[place]);
+            self.siblings[room] = named(&alone.siblings[place]);
+            self.flat[room] = Some(index);
+        }
+    }
+
+    /// The rooms that a room is compared with, itself included: those of its flat, or of the whole plan.
+    pub fn compared_with(&self, room: usize) -> Vec<usize> {
+        let flat = self.flat[room];
+        (0..self.flat.len()).filter(|&other| flat.is_none() || self.flat[other] == flat).collect()
     }
 }
 
@@ -327,7 +346,7 @@ fn alike_in_both(first: &[f64], second: &[f64]) -> Vec<f64> {
 
 /// The features of every room of a network, each list as long as [`FEATURES`]; all finite.
 pub(super) fn features(network: &RoomNetwork, view: &View) -> Vec<Vec<f32>> {
-    let View { log_area, joined, siblings } = view;
+    let View { log_area, joined, siblings, .. } = view;
     let rooms = &network.rooms;
     let all = rooms.len() as f64;
     let areas = sorted(log_area);

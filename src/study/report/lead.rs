@@ -5,11 +5,11 @@ use maud::{Markup, html};
 
 use super::charts::{Bar, Group, bars};
 use super::percent;
-use crate::classify::{Algorithm, Scores};
+use crate::classify::{Algorithm, Method, Scores};
 use crate::dataset::folds::Grouping;
 use crate::features::NeighbourLabels;
 use crate::labels::Label;
-use crate::study::{Condition, HONEST, Set, Study, set_title};
+use crate::study::{Condition, HONEST, Study, set_title};
 
 /// The paper's condition.
 const OF_PAPER: Condition = Condition { by: Grouping::Room, neighbours: NeighbourLabels::True };
@@ -21,7 +21,7 @@ struct Line<'a> {
     scores: Vec<Option<&'a Scores>>,
 }
 
-/// The algorithms under a condition; under the honest one the joint classifier too.
+/// The algorithms under a condition; under the honest one those of whole plans too.
 fn lines(study: &Study, condition: Condition) -> Vec<Line<'_>> {
     let each = |algorithm: Algorithm| Line {
         name: algorithm.title(),
@@ -29,10 +29,11 @@ fn lines(study: &Study, condition: Condition) -> Vec<Line<'_>> {
         scores: study.sets.iter().map(|set| study.scores(&set.name, algorithm, condition)).collect(),
     };
     let mut lines: Vec<Line<'_>> = Algorithm::ALL.into_iter().map(each).collect();
-    if condition == HONEST && !study.joint.is_empty() {
-        let of_set = |set: &Set| study.joint.iter().find(|cell| cell.set == set.name).map(|cell| &cell.scores);
-        let scores = study.sets.iter().map(of_set).collect();
-        lines.push(Line { name: "joint classifier", colour: joint_colour(), scores });
+    if condition == HONEST {
+        for (index, method) in study.plan_methods().into_iter().enumerate() {
+            let scores = study.sets.iter().map(|set| study.plan_scores(&set.name, method)).collect();
+            lines.push(Line { name: method.title(), colour: joint_colour() + index, scores });
+        }
     }
     lines
 }
@@ -42,14 +43,16 @@ pub(super) fn joint_colour() -> usize {
     Algorithm::ALL.len()
 }
 
-/// The names of the algorithms with their colours, and of the joint classifier where it is shown.
-fn algorithms_legend(with_joint: bool) -> Markup {
+/// The names of the algorithms with their colours, and of the methods of whole plans.
+fn algorithms_legend(of_plans: &[Method]) -> Markup {
     html! {
         p.legend {
             @for (index, algorithm) in Algorithm::ALL.into_iter().enumerate() {
                 span { span class=(format!("swatch swatch{index}")) {} (algorithm.title()) }
             }
-            @if with_joint { span { span class=(format!("swatch swatch{}", joint_colour())) {} "joint classifier" } }
+            @for (index, method) in of_plans.iter().enumerate() {
+                span { span class=(format!("swatch swatch{}", joint_colour() + index)) {} (method.title()) }
+            }
         }
     }
 }
@@ -94,7 +97,7 @@ pub(super) fn lead(study: &Study) -> Markup {
         section {
             h2 { "A building never seen" }
             p.finding { (finding(study, &of_honest, &of_paper)) }
-            (algorithms_legend(honest == HONEST && !study.joint.is_empty()))
+            (algorithms_legend(&if honest == HONEST { study.plan_methods() } else { Vec::new() }))
             (bars(&groups, "Accuracy on buildings never seen"))
             table {
                 thead {

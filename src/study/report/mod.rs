@@ -75,10 +75,9 @@ fn accuracies(study: &Study, condition: Condition, text: &mut String) {
             study.scores(set, algorithm, condition).map(|scores| (scores.accuracy, scores.accuracy_deviation))
         });
     }
-    if condition == HONEST && !study.joint.is_empty() {
-        line("joint classifier", &|set| {
-            let cell = study.joint.iter().find(|cell| cell.set == set)?;
-            Some((cell.scores.accuracy, cell.scores.accuracy_deviation))
+    for method in study.plan_methods().into_iter().filter(|_| condition == HONEST) {
+        line(method.title(), &|set| {
+            study.plan_scores(set, method).map(|scores| (scores.accuracy, scores.accuracy_deviation))
         });
     }
     if condition == study.condition {

@@ -8,6 +8,7 @@ use super::percent;
 use crate::classify::{Algorithm, Scores};
 use crate::dataset::sets::STANDARD;
 use crate::features::Features;
+use crate::study::noise::{CONTRADICTED, WITHOUT_SIZE};
 use crate::study::{Comparison, ConfusionTable, Rival, Study, letters, paper::PaperFigures, set_title};
 
 /// The whole page: style, pictures and text in one file.
@@ -33,6 +34,7 @@ pub(super) fn page(study: &Study) -> String {
                     (foreign(study, paper))
                     (conditions(study))
                     (joint(study))
+                    (noise(study))
                     (typologies(study))
                     (unknown(study))
                     (confusion(study, paper))
@@ -102,7 +104,7 @@ fn further_colours() -> String {
              .line{index} {{ fill: none; stroke-width: 1.8; stroke: {colour} }}\n"
         )
     };
-    (COLOURS..=joint_colour()).map(style).collect()
+    (COLOURS..=joint_colour() + 1).map(style).collect()
 }
 
 /// The names of the algorithms with their colours.
@@ -395,18 +397,20 @@ fn joint(study: &Study) -> Markup {
             h2 { "All rooms of a plan together" }
             p {
                 "The joint classifier looks at each room in relation to the others of its plan, and at what is believed of \
-                 its neighbours. It knows no label and no room of the tested buildings; beside it stands the best of the \
-                 four under the same condition."
+                 its neighbours. The blend is the mean of what the joint classifier and the perceptron say, those of the \
+                 typology and those of all. Both know no label and no room of the tested buildings; beside them stands the \
+                 best of the four under the same condition."
             }
             table {
                 thead { tr {
-                    th.left { "Set" } th { "Joint, %" } th { "Best of the four, %" } th.left { "which is" }
+                    th.left { "Set" } th.left { "By" } th { "Right, %" } th { "Best of the four, %" } th.left { "which is" }
                     th { "Difference [95 %]" } th { "p" } th { "Log loss" } th { "Calibration error, %" }
                 } }
                 tbody {
                     @for cell in &study.joint {
                         tr {
                             th.left { (set_title(&cell.set)) }
+                            td.left { (cell.method.title()) }
                             td { (percent(cell.scores.accuracy)) small { " ± " (percent(cell.scores.accuracy_deviation)) } }
                             td { (percent(cell.comparison.second)) }
                             td.left { (cell.best.title()) }
@@ -417,6 +421,50 @@ fn joint(study: &Study) -> Markup {
                         }
                     }
                 }
+            }
+        }
+    }
+}
+
+fn noise(study: &Study) -> Markup {
+    if study.noise.is_empty() {
+        return html! {};
+    }
+    html! {
+        section {
+            h2 { "What the labels allow" }
+            p {
+                "Rooms of one building are alike if their areas and axes ratios are within 10 % and they have as many openings. \
+                 Where such rooms bear different labels, nobody can label all of them correctly from the drawing alone."
+            }
+            table {
+                thead { tr {
+                    th.left { "Set" } th { "Rooms" } th { "Contradicted by one alike, %" } th { "Ceiling among those alike, %" }
+                    th { "The blend, %" } th { "without contradicted functions, %" } th { "functions without a size, %" }
+                } }
+                tbody {
+                    @for of in &study.noise {
+                        tr {
+                            th.left { (set_title(&of.set)) }
+                            td { (of.rooms) }
+                            td { (percent(of.contradicted)) }
+                            td { (percent(of.ceiling)) }
+                            td { (percent(of.accuracy)) }
+                            td { (percent(of.accuracy_clear)) small { " of " (of.rooms_clear) } }
+                            td {
+                                @match of.accuracy_without_size {
+                                    Some(accuracy) => { (percent(accuracy)) small { " of " (of.rooms_without_size) } }
+                                    None => "–"
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+            p.caption {
+                "Contradicted functions: " (CONTRADICTED.join(", ")) ". The size that their names state is not the one drawn. \
+                 Functions without a size: " (WITHOUT_SIZE.join(", ")) ". The authors' own vocabularies give them none; their \
+                 labels are Enfilade's."
             }
         }
     }
@@ -635,6 +683,23 @@ fn curves(study: &Study) -> Markup {
                     figure {
                         figcaption { (set_title(&set.name)) }
                         (lines(&drawn, &axis, &percent_axis("accuracy, %", from, 1.0), false, &format!("{}: accuracy by number of training rooms, one line an algorithm; the figures are in learning_curves.csv", set_title(&set.name))))
+                    }
+                }
+            }
+            @if !study.joint_curves.is_empty() {
+                table {
+                    thead { tr {
+                        th.left { "Joint classifier, buildings never seen" } th { "from a quarter of the others" } th { "half" } th { "all" }
+                    } }
+                    tbody {
+                        @for curve in &study.joint_curves {
+                            tr {
+                                th.left { (set_title(&curve.set)) }
+                                @for point in &curve.points {
+                                    td { (percent(point.accuracy)) small { (format!(" {:.0} rooms", point.training_rooms)) } }
+                                }
+                            }
+                        }
                     }
                 }
             }

@@ -1,7 +1,7 @@
 //! The study's tables as rows of cells, for CSV.
 
 use super::percent;
-use crate::classify::Algorithm;
+use crate::classify::{Algorithm, Method};
 use crate::features::Features;
 use crate::labels::Label;
 use crate::study::paper::PaperFigures;
@@ -58,6 +58,7 @@ pub(super) fn tables(study: &Study) -> Vec<(&'static str, Table)> {
         ("importance", importance(study)),
         ("reliability", reliability(study)),
         ("joint", joint(study)),
+        ("noise", noise(study)),
         ("typologies", typologies(study)),
         ("typology_ways", typology_ways(study)),
         ("unknown", unknown(study)),
@@ -115,7 +116,7 @@ fn labels(study: &Study) -> Table {
     ]);
     let of_learners =
         study.accuracy.iter().map(|cell| (&cell.set, cell.algorithm.name(), cell.condition, &cell.scores));
-    let of_joint = study.joint.iter().map(|cell| (&cell.set, "joint", HONEST, &cell.scores));
+    let of_joint = study.joint.iter().map(|cell| (&cell.set, cell.method.name(), HONEST, &cell.scores));
     for (set, algorithm, condition, scores) in of_learners.chain(of_joint) {
         for label in Label::ALL {
             let rates = scores.confusion.label_rates(label);
@@ -260,6 +261,17 @@ fn learning_curves(study: &Study) -> Table {
             ]);
         }
     }
+    for curve in &study.joint_curves {
+        for point in &curve.points {
+            table.push([
+                curve.set.clone(),
+                Method::Joint.name().to_owned(),
+                format!("{:.1}", point.training_rooms),
+                number(point.accuracy),
+                number(point.deviation),
+            ]);
+        }
+    }
     table
 }
 
@@ -276,9 +288,10 @@ fn importance(study: &Study) -> Table {
 fn joint(study: &Study) -> Table {
     let mut table = Table::new(&[
         "set",
+        "algorithm",
         "rooms",
         "buildings",
-        "joint",
+        "right",
         "best_of_four",
         "which",
         "difference",
@@ -293,6 +306,7 @@ fn joint(study: &Study) -> Table {
         let comparison = &cell.comparison;
         table.push([
             cell.set.clone(),
+            cell.method.name().to_owned(),
             comparison.rooms.to_string(),
             comparison.buildings.to_string(),
             number(comparison.first),
@@ -305,6 +319,34 @@ fn joint(study: &Study) -> Table {
             number(cell.scores.log_loss),
             number(cell.scores.brier),
             number(cell.scores.calibration_error),
+        ]);
+    }
+    table
+}
+
+fn noise(study: &Study) -> Table {
+    let mut table = Table::new(&[
+        "set",
+        "rooms",
+        "contradicted",
+        "ceiling",
+        "accuracy",
+        "rooms_clear",
+        "accuracy_clear",
+        "rooms_without_size",
+        "accuracy_without_size",
+    ]);
+    for of in &study.noise {
+        table.push([
+            of.set.clone(),
+            of.rooms.to_string(),
+            number(of.contradicted),
+            number(of.ceiling),
+            number(of.accuracy),
+            of.rooms_clear.to_string(),
+            number(of.accuracy_clear),
+            of.rooms_without_size.to_string(),
+            of.accuracy_without_size.map(number).unwrap_or_default(),
         ]);
     }
     table

@@ -16,7 +16,15 @@ use crate::features::NeighbourLabels;
 use crate::labels::{Label, Schemes, Typology};
 
 /// The methods that are compared: the paper's four algorithms, then the joint classifier.
-pub const METHODS: [Method; Algorithm::ALL.len() + 1] = Method::ALL;
+pub const METHODS: [Method; Algorithm::ALL.len() + 1] = {
+    let mut methods = [Method::Joint; Algorithm::ALL.len() + 1];
+    let mut index = 0;
+    while index < methods.len() {
+        methods[index] = Method::ALL[index];
+        index += 1;
+    }
+    methods
+};
 
 /// A method's name for people; `None` is the average of the algorithms, without the joint classifier.
 pub fn method_title(method: Option<Method>) -> &'static str {
@@ -170,6 +178,8 @@ fn train(method: Method, taught: &[&RoomNetwork], seed: u64, work: &Work<'_>) ->
             };
             Some([each(NeighbourLabels::Temporary)?, each(NeighbourLabels::True)?])
         }
+        // A blend is made of models that were trained before.
+        Method::Blend => None,
         Method::Joint => {
             let joint: PlanClassifier = Joint::train(taught, seed, work).ok()?.into();
             Some([joint.clone(), joint])
@@ -183,6 +193,7 @@ fn predict(classifier: &PlanClassifier, network: &RoomNetwork, known: &[Option<L
     let said = match classifier {
         PlanClassifier::Each(classifier) => in_plan::classify(classifier, network, known, neighbours).distributions,
         PlanClassifier::Joint(joint) => joint.predict(network, known),
+        PlanClassifier::Blend(blend) => blend.opinions(network, known).distributions,
     };
     said.iter().map(|said| said.label()).collect()
 }

@@ -32,8 +32,8 @@ pub(super) const COMMANDS: &[Command] = &[
             needed(
                 "ALGORITHM",
                 METHOD,
-                "a method: 'joint' compares all rooms of the plan, the others look at each \
-                                         room by itself",
+                "a method: 'blend' takes the mean of several models, 'joint' compares all rooms of the plan, \
+                 the others look at each room by itself",
             ),
             |app, method, _| {
                 app.session.predictor.method = method;

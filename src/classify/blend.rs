@@ -1,0 +1,341 @@
+//! The sixth classifier: several classifiers asked about the same rooms, their answers averaged. Described
+//! for readers in `docs/blend.md`.
+//!
+//! Classifiers err in different ways on buildings unlike those they learned from. One that compares the
+//! rooms of a plan does not mind a wrong scale, but another custom of drawing (no closets, say) shifts all
+//! its comparisons; one that lives on square metres is the other way round; one that learned from all kinds
+//! of buildings knows more of them, and less of each. Their mean is seldom worse than the best of them, and
+//! nobody can know beforehand which that is.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use serde_json::{Value, json};
+
+use super::calibration::fitted_temperature;
+use super::in_plan;
+use super::joint::{FirstRound, JointExplanation};
+use super::models::StoredModel;
+use super::why::{Why, and_list};
+use super::{Algorithm, Distribution, Method, PlanClassifier};
+use crate::base::units::Units;
+use crate::dataset::RoomNetwork;
+use crate::dataset::sets::STANDARD;
+use crate::features::NeighbourLabels;
+use crate::labels::Label;
+
+/// What takes part in a blend: a typology's own classifiers, and those of all typologies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ingredient {
+    pub method: Method,
+    /// Whether it is the one of all typologies.
+    pub is_standard: bool,
+    pub weight: f64,
+}
+
+/// What takes part. The weights are a compromise between buildings like those learned from, where the own
+/// joint classifier is best, and those of another source, where it is worst (`docs/blend.md` has both).
+pub const RECIPE: [Ingredient; 3] = [
+    Ingredient { method: Method::Joint, is_standard: false, weight: 2.0 },
+    Ingredient { method: Method::Joint, is_standard: true, weight: 4.0 },
+    Ingredient { method: Method::Each(Algorithm::PERCEPTRON), is_standard: false, weight: 3.0 },
+];
+
+/// The recipe for a set: for each part the set that its model learned from, the method, and the weight. For [`STANDARD`] its own
+/// classifier and that of all typologies are one, which counts for both.
+pub fn recipe(set: &str) -> Vec<(&str, Method, f64)> {
+    let mut parts: Vec<(&str, Method, f64)> = Vec::new();
+    for of in RECIPE {
+        let from = if of.is_standard { STANDARD } else { set };
+        match parts.iter_mut().find(|(other, method, _)| (*other, *method) == (from, of.method)) {
+            Some((.., weight)) => *weight += of.weight,
+            None => parts.push((from, of.method, of.weight)),
+        }
+    }
+    parts
+}
+
+/// A classifier that takes part.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// Its share of the answer, above 0.
+    pub weight: f64,
+    pub model: Arc<StoredModel>,
+}
+
+/// The mean of several classifiers.
+#[derive(Clone, Debug)]
+pub struct Blend {
+    /// At least one; their weights sum to 1.
+    parts: Vec<Part>,
+    /// See [`Distribution::at_temperature`].
+    temperature: f64,
+}
+
+/// What the parts say of a plan's rooms.
+#[derive(Clone, Debug)]
+pub struct Opinions {
+    /// For each part, the distribution of each room.
+    of_parts: Vec<Vec<Distribution>>,
+    /// For each part that is a joint classifier, its first round: where explanations start.
+    rounds: Vec<Option<FirstRound>>,
+    /// The blend's distribution of each room.
+    pub distributions: Vec<Distribution>,
+}
+
+/// A name of a part, and what shows that it is the one meant: see [`StoredModel::checksum`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PartName {
+    pub name: String,
+    pub checksum: String,
+}
+
+impl Blend {
+    /// A blend of models with their weights. Weights are brought to the sum 1. `None` if there is no part, one is a blend
+    /// itself, or a weight is not above 0.
+    pub fn new(parts: Vec<Part>, temperature: f64) -> Option<Self> {
+        let sum: f64 = parts.iter().map(|part| part.weight).sum();
+        let is_usable = |part: &Part| part.weight > 0.0 && !matches!(part.model.classifier, PlanClassifier::Blend(_));
+        let is_sound = sum.is_finite() && temperature.is_finite() && temperature > 0.0;
+        if parts.is_empty() || !is_sound || !parts.iter().all(is_usable) {
+            return None;
+        }
+        let parts = parts.into_iter().map(|part| Part { weight: part.weight / sum, ..part }).collect();
+        Some(Self { parts, temperature })
+    }
+
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    pub fn temperature(&self) -> f64 {
+        self.temperature
+    }
+
+    /// What every part and all together say of a network's rooms. `known` as in [`super::joint::Joint::predict`].
+    pub fn opinions(&self, network: &RoomNetwork, known: &[Option<Label>]) -> Opinions {
+        let (mut of_parts, mut rounds): (Vec<Vec<Distribution>>, Vec<Option<FirstRound>>) = (Vec::new(), Vec::new());
+        for part in &self.parts {
+            match &part.model.classifier {
+                PlanClassifier::Joint(joint) => {
+                    let round = match rounds.iter().flatten().next() {
+                        Some(other) => joint.first_round_after(network, other),
+                        None => joint.first_round(network),
+                    };
+                    of_parts.push(joint.predict_from(&round, known));
+                    rounds.push(Some(round));
+                }
+                PlanClassifier::Each(classifier) => {
+                    let neighbours = NeighbourLabels::Predicted;
+                    of_parts.push(in_plan::classify(classifier, network, known, neighbours).distributions);
+                    rounds.push(None);
+                }
+                PlanClassifier::Blend(_) => {}
+            }
+        }
+        let weights: Vec<f64> = self.parts.iter().map(|part| part.weight).collect();
+        let distributions = (0..network.rooms.len())
+            .map(|room| {
+                let said: Vec<Distribution> = of_parts.iter().map(|said| said[room]).collect();
+                mean(&said, &weights).at_temperature(self.temperature)
+            })
+            .collect();
+        Opinions { of_parts, rounds, distributions }
+    }
+
+    /// Why a room got its label, with areas in these units; `None` for a room that is not in the network. The points are those
+    /// of the joint classifiers in the blend; which part said what stands behind them.
+    pub fn why(
+        &self,
+        opinions: &Opinions,
+        network: &RoomNetwork,
+        known: &[Option<Label>],
+        room: usize,
+        units: Units,
+    ) -> Option<Why> {
+        let label = opinions.distributions.get(room)?.label();
+        let mut told: Vec<(f64, JointExplanation)> = Vec::new();
+        for (part, round) in self.parts.iter().zip(&opinions.rounds) {
+            if let (PlanClassifier::Joint(joint), Some(round)) = (&part.model.classifier, round) {
+                told.push((part.weight, joint.explain_from(round, network, known, room)?));
+            }
+        }
+        let mut why = match JointExplanation::pooled(told, label) {
+            Some(explanation) => explanation.why(units),
+            None => Why { label, points: Vec::new(), conclusion: String::new() },
+        };
+        let said: Vec<(&Part, Distribution)> =
+            self.parts.iter().zip(&opinions.of_parts).map(|(part, said)| (part, said[room])).collect();
+        if !why.conclusion.is_empty() {
+            why.conclusion.push(' ');
+        }
+        why.conclusion.push_str(&who_said_what(&said, label));
+        Some(why)
+    }
+
+    /// The blend as data: the names of its parts, and their weights.
+    pub fn to_value(&self) -> Value {
+        let part =
+            |part: &Part| json!({ "model": part.model.name, "checksum": part.model.checksum, "weight": part.weight });
+        json!({ "parts": self.parts.iter().map(part).collect::<Vec<_>>() })
+    }
+
+    /// Reads such data, with its parts taken from where `find` finds them.
+    ///
+    /// # Errors
+    /// When a part is missing, is another one than was meant, or the data are no blend: what is wrong, in words.
+    pub fn from_value(
+        value: &Value,
+        temperature: f64,
+        find: &dyn Fn(&str) -> Option<Arc<StoredModel>>,
+    ) -> Result<Self, String> {
+        let parts = value.get("parts").and_then(Value::as_array).ok_or("its parts are missing")?;
+        let mut read = Vec::new();
+        for part in parts.iter().take(MOST_PARTS) {
+            let text = |key: &str| part.get(key).and_then(Value::as_str);
+            let (Some(name), Some(checksum), Some(weight)) =
+                (text("model"), text("checksum"), part.get("weight").and_then(Value::as_f64))
+            else {
+                return Err("one of its parts has no name, checksum or weight".to_owned());
+            };
+            let model = find(name).ok_or_else(|| format!("its part '{name}' is not beside it"))?;
+            if model.checksum != checksum {
+                return Err(format!("its part '{name}' is another model than the one it was made with"));
+            }
+            read.push(Part { weight, model });
+        }
+        Self::new(read, temperature).ok_or_else(|| "its parts do not make a classifier".to_owned())
+    }
+}
+
+/// More parts than anybody means.
+const MOST_PARTS: usize = 100;
+
+/// The weighted mean of distributions.
+pub fn mean(said: &[Distribution], weights: &[f64]) -> Distribution {
+    let mut sums = [0.0; 5];
+    for (said, weight) in said.iter().zip(weights) {
+        for (sum, probability) in sums.iter_mut().zip(said.probabilities()) {
+            *sum += weight * probability;
+        }
+    }
+    Distribution::from_weights(sums)
+}
+
+/// What a blend says of rooms that none of its parts learned from.
+pub struct Unseen {
+    /// For each room, at a temperature that was fitted on the rooms of the other folds.
+    pub said: Vec<Distribution>,
+    /// The temperature fitted on all of them.
+    pub temperature: f64,
+}
+
+/// Blends what each part (with its weight) said of the same rooms out of fold. `None` where a part did not say something of
+/// every room.
+pub fn blend_unseen(parts: &[(f64, Vec<Distribution>)], labels: &[Label], folds: &[usize]) -> Option<Unseen> {
+    let rooms = labels.len();
+    if parts.is_empty() || folds.len() != rooms || parts.iter().any(|(_, said)| said.len() != rooms) {
+        return None;
+    }
+    let weights: Vec<f64> = parts.iter().map(|(weight, _)| *weight).collect();
+    let plain: Vec<Distribution> =
+        (0..rooms).map(|room| mean(&parts.iter().map(|(_, said)| said[room]).collect::<Vec<_>>(), &weights)).collect();
+    let pairs = || plain.iter().copied().zip(labels.iter().copied());
+    let count = folds.iter().max().map_or(0, |most| most + 1);
+    let of_folds: Vec<f64> = (0..count)
+        .map(|fold| fitted(pairs().zip(folds).filter(|(_, of)| **of != fold).map(|(pair, _)| pair)))
+        .collect();
+    let said = plain.iter().zip(folds).map(|(said, &fold)| said.at_temperature(of_folds[fold])).collect();
+    Some(Unseen { said, temperature: fitted(pairs()) })
+}
+
+/// A mean is less sure than its parts, and on buildings of the kind they learned from rightly surer; on others it is not. So it is
+/// never made surer.
+fn fitted(unseen: impl Iterator<Item = (Distribution, Label)>) -> f64 {
+    fitted_temperature(unseen).max(1.0)
+}
+
+/// `All four parts say big room: ...` or which part says what.
+fn who_said_what(said: &[(&Part, Distribution)], label: Label) -> String {
+    let mut by_label: BTreeMap<Label, Vec<String>> = BTreeMap::new();
+    for (part, said) in said {
+        let of = match part.model.set() {
+            STANDARD => "all buildings".to_owned(),
+            set => format!("{set}s"),
+        };
+        let who =
+            format!("the {} of {of} ({:.0} %)", part.model.method().title(), 100.0 * said.probability(said.label()));
+        by_label.entry(said.label()).or_default().push(who);
+    }
+    let for_it = by_label.remove(&label).unwrap_or_default();
+    let mut sentence = match (for_it.is_empty(), by_label.is_empty()) {
+        (true, _) => format!("No part says {label} first, but together they make it most likely"),
+        (false, _) => {
+            format!("{} {} {label}", capital(&and_list(&for_it)), if for_it.len() == 1 { "says" } else { "say" })
+        }
+    };
+    for (other, who) in by_label {
+        let say = if who.len() == 1 { "says" } else { "say" };
+        sentence.push_str(&format!("; {} {say} {other}", and_list(&who)));
+    }
+    sentence + "."
+}
+
+fn capital(text: &str) -> String {
+    crate::base::wording::sentence(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::classify::models::Models;
+
+    fn part(name: &str, weight: f64) -> Part {
+        Part { weight, model: Models::bundled().named(name).unwrap().unwrap() }
+    }
+
+    #[test]
+    fn a_blend_is_the_mean_of_its_parts_and_says_which_part_said_what() {
+        let blend = Blend::new(vec![part("office-joint", 3.0), part("office-mlp", 1.0)], 1.0).unwrap();
+        let (_, plan) = crate::store::bundled_plans().unwrap().into_iter().next().unwrap();
+        let network = RoomNetwork::new(&plan, &crate::labels::Schemes::bundled());
+        let opinions = blend.opinions(&network, &[]);
+        for (room, said) in opinions.distributions.iter().enumerate() {
+            for label in Label::ALL {
+                let of = |part: usize| opinions.of_parts[part][room].probability(label);
+                assert!((said.probability(label) - 0.75 * of(0) - 0.25 * of(1)).abs() < 1e-9);
+            }
+            let why = blend.why(&opinions, &network, &[], room, Units::Metric).unwrap();
+            assert_eq!(why.label, said.label());
+            for who in ["joint classifier of offices (", "multilayer perceptron of offices ("] {
+                assert!(why.conclusion.contains(who), "{}", why.conclusion);
+            }
+        }
+    }
+
+    #[test]
+    fn a_blend_takes_no_other_part_than_it_was_made_with() {
+        let blend = Blend::new(vec![part("office-joint", 2.0), part("office-mlp", 1.0)], 1.25).unwrap();
+        let value = blend.to_value();
+        let read = Blend::from_value(&value, 1.25, &|name| Models::bundled().named(name)?.ok()).unwrap();
+        assert_eq!((read.to_value(), read.temperature()), (value.clone(), 1.25));
+        let missing = Blend::from_value(&value, 1.25, &|_| None).unwrap_err();
+        assert_eq!(missing, "its part 'office-joint' is not beside it");
+        let other = Blend::from_value(&value, 1.25, &|_| Models::bundled().named("house-joint")?.ok()).unwrap_err();
+        assert_eq!(other, "its part 'office-joint' is another model than the one it was made with");
+        assert!(Blend::new(Vec::new(), 1.0).is_none() && Blend::new(vec![part("office-mlp", 0.0)], 1.0).is_none());
+    }
+
+    #[test]
+    fn temperatures_come_from_the_other_folds() {
+        // One part is sure and right in three of four rooms, the other knows nothing.
+        let labels: Vec<Label> =
+            (0..400).map(|room| if room % 4 == 0 { Label::Hall } else { Label::SmallRoom }).collect();
+        let sure = vec![Distribution::from_weights([1.0, 0.0, 0.0, 0.0, 0.0]); 400];
+        let folds: Vec<usize> = (0..400).map(|room| room / 40).collect();
+        let parts = [(1.0, sure), (1.0, vec![Distribution::UNIFORM; 400])];
+        let unseen = blend_unseen(&parts, &labels, &folds).unwrap();
+        assert!((0.65..0.8).contains(&unseen.said[7].probability(Label::SmallRoom)), "{:?}", unseen.said[7]);
+        assert!(blend_unseen(&parts, &labels, &folds[1..]).is_none());
+    }
+}
