@@ -52,6 +52,7 @@ fn every_shortcut_does_its_command() {
                 }
                 "merge-rooms" => select_neighbours(&mut window),
                 "paste" => run(&mut window, "copy", &[]),
+                "robot-run" | "robot-step" => run(&mut window, "explore-plan", &[]),
                 // Nothing hangs on a window.
                 "delete" | "cut" => {
                     let plan = window.app().plan().unwrap();

@@ -309,23 +309,19 @@ impl Session {
         let is_shown = self.shown_run().is_some();
         let speed = self.robot.settings.speed;
         let Some(run) = &mut self.robot.run else { return };
-        match (&run.state, run.until) {
-            (State::Running, Some(until)) => {
-                if run.hurry(until) {
-                    run.until = None;
-                    run.state = State::Paused;
-                }
-            }
-            (State::Running, None) if is_shown => drop(run.play(frame_s * speed)),
-            (State::Paused, _) => {
-                while run.single_steps > 0 && !run.ahead.is_empty() {
-                    // Steps without any motion are not seen.
-                    run.single_steps -= usize::from(run.ahead.front().is_some_and(|step| step.secs > 0.0));
-                    run.since_s = 0.0;
-                    run.take();
-                }
-            }
-            _ => {}
+        let (is_running, is_paused) = (run.state == State::Running, run.state == State::Paused);
+        let hurries = run.until.filter(|_| is_running);
+        if hurries.is_some_and(|until| run.hurry(until)) {
+            run.until = None;
+            run.state = State::Paused;
+        } else if is_running && is_shown && hurries.is_none() {
+            run.play(frame_s * speed);
+        }
+        while is_paused && run.single_steps > 0 && !run.ahead.is_empty() {
+            // Steps without any motion are not seen.
+            run.single_steps -= usize::from(run.ahead.front().is_some_and(|step| step.secs > 0.0));
+            run.since_s = 0.0;
+            run.take();
         }
         if run.is_done() && matches!(run.state, State::Running | State::Paused) {
             run.until = None;

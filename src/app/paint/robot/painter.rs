@@ -311,7 +311,7 @@ fn paint_robot(ground: &Ground<'_>, seen: &RobotSeen<'_>) {
     let heading = vec2(seen.pose.heading_rad.cos() as f32, -seen.pose.heading_rad.sin() as f32);
     let across = heading.rot90();
     let point = |along: f32, aside: f32| at + heading * (along * radius) + across * (aside * radius);
-    let arrow = vec![point(0.72, 0.0), point(-0.42, 0.48), point(-0.2, 0.0), point(-0.42, -0.48)];
+    let arrow = [point(0.72, 0.0), point(-0.42, 0.48), point(-0.2, 0.0), point(-0.42, -0.48)];
     // Two triangles: an arrow with a notch is not convex.
     ground.painter.add(Shape::convex_polygon(vec![arrow[0], arrow[1], arrow[2]], rim, Stroke::NONE));
     ground.painter.add(Shape::convex_polygon(vec![arrow[0], arrow[2], arrow[3]], rim, Stroke::NONE));
