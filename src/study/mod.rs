@@ -402,7 +402,6 @@ fn algorithm_name<S: Serializer>(algorithm: &Algorithm, serializer: S) -> Result
     serializer.serialize_str(algorithm.name())
 }
 
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde calls it so")]
 fn method_name<S: Serializer>(method: &Method, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(method.name())
 }
