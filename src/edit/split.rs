@@ -1,6 +1,6 @@
 //! Splitting edges at corners, for everything that has those edges.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::edit::EditError;
@@ -24,9 +24,31 @@ fn split_chain(splits: &Splits, from: CornerId, to: CornerId) -> Option<Vec<Corn
     Some(chain)
 }
 
-/// Splits the walls and boundaries that have these edges, and moves their openings to the right part.
+/// Splits the walls and boundaries that have these edges, and moves their openings to the right part. Where walls lay so
+/// close together that parts of them have the same ends, one stays.
 pub(crate) fn split_edges(plan: &Plan, splits: &Splits) -> Result<Plan, EditError> {
-    split_walls_and_rooms(plan, splits).map(|(plan, _)| plan)
+    let (next, parents) = split_walls_and_rooms(plan, splits)?;
+    let cut: BTreeSet<CornerId> = splits.iter().flat_map(|(ends, inner)| ends.iter().chain(inner)).copied().collect();
+    Ok(without_repeated_walls(next, &cut, &parents.into_keys().collect()))
+}
+
+/// Of walls with the same ends, one of which is among the given corners, keeps only the first by id, of those that did not
+/// move if there are any.
+pub(crate) fn without_repeated_walls(plan: Plan, between: &BTreeSet<CornerId>, moved: &BTreeSet<WallId>) -> Plan {
+    let mut seen: BTreeSet<[CornerId; 2]> = BTreeSet::new();
+    let mut there: Vec<(bool, WallId, [CornerId; 2])> = plan
+        .walls()
+        .filter(|(_, wall)| between.contains(&wall.from) || between.contains(&wall.to))
+        .map(|(id, wall)| (moved.contains(&id), id, ordered(wall.from, wall.to)))
+        .collect();
+    there.sort_unstable();
+    let repeated: Vec<WallId> =
+        there.into_iter().filter(|&(_, _, edge)| !seen.insert(edge)).map(|(_, id, _)| id).collect();
+    let mut next = plan;
+    for id in repeated {
+        next.walls.remove(&id);
+    }
+    next
 }
 
 /// As [`split_edges`]; also gives the new walls, each with the one that it is a part of.

@@ -7,7 +7,7 @@ use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use crate::edit::overlay::plan_edges;
-use crate::edit::split::{Splits, nearest_part, split_walls_and_rooms};
+use crate::edit::split::{Splits, nearest_part, split_walls_and_rooms, without_repeated_walls};
 use crate::edit::{EditError, fail};
 use crate::geometry::segments::SegmentIndex;
 use crate::geometry::{Bounds, Point, Segment, TOUCH_M, polygon, trim_m};
@@ -226,25 +226,6 @@ fn with_joined(plan: &Plan, becomes: &BTreeMap<CornerId, CornerId>, moved: &BTre
         next.corners.remove(id);
     }
     if becomes.is_empty() { next } else { without_repeated_walls(next, &becomes.values().copied().collect(), moved) }
-}
-
-/// Of walls between the same two of the given corners, keeps only the first by id, of those that did not
-/// move if there are any.
-fn without_repeated_walls(plan: Plan, between: &BTreeSet<CornerId>, moved: &BTreeSet<WallId>) -> Plan {
-    let mut seen: BTreeSet<[CornerId; 2]> = BTreeSet::new();
-    let mut there: Vec<(bool, WallId, [CornerId; 2])> = plan
-        .walls()
-        .filter(|(_, wall)| between.contains(&wall.from) || between.contains(&wall.to))
-        .map(|(id, wall)| (moved.contains(&id), id, ordered(wall.from, wall.to)))
-        .collect();
-    there.sort_unstable();
-    let repeated: Vec<WallId> =
-        there.into_iter().filter(|&(_, _, edge)| !seen.insert(edge)).map(|(_, id, _)| id).collect();
-    let mut next = plan;
-    for id in repeated {
-        next.walls.remove(&id);
-    }
-    next
 }
 
 /// The corners that edges pass within a tolerance, as splits and as a list; with `only`, those where the
