@@ -8,16 +8,16 @@
 //! nobody can know beforehand which that is.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::sync::Arc;
 
 use serde_json::{Value, json};
 
 use super::calibration::fitted_temperature;
 use super::in_plan;
-use super::joint::{FirstRound, JointExplanation};
-use super::models::StoredModel;
+use super::joint::{FirstRound, Joint, JointExplanation};
 use super::why::{Why, and_list};
-use super::{Algorithm, Distribution, Method, PlanClassifier};
+use super::{Algorithm, Classifier, Distribution, Method};
 use crate::base::units::Units;
 use crate::dataset::RoomNetwork;
 use crate::dataset::sets::STANDARD;
@@ -55,12 +55,32 @@ pub fn recipe(set: &str) -> Vec<(&str, Method, f64)> {
     parts
 }
 
+/// What a blend must know of a model that takes part. A trait, since a model may be a blend, which must then know no models.
+pub trait Member: fmt::Debug + Send + Sync {
+    /// The model's name, such as `school-tree`.
+    fn name(&self) -> &str;
+    /// What tells it from another model of its name.
+    fn checksum(&self) -> &str;
+    /// The set it learned from: a typology, or [`STANDARD`].
+    fn set(&self) -> &str;
+    fn method(&self) -> Method;
+    /// `None` if it is a blend: no blend takes part in another.
+    fn kind(&self) -> Option<Kind<'_>>;
+}
+
+/// The classifier of a [`Member`].
+#[derive(Clone, Copy, Debug)]
+pub enum Kind<'a> {
+    Each(&'a Classifier),
+    Joint(&'a Joint),
+}
+
 /// A classifier that takes part.
 #[derive(Clone, Debug)]
 pub struct Part {
     /// Its share of the answer, above 0.
     pub weight: f64,
-    pub model: Arc<StoredModel>,
+    pub model: Arc<dyn Member>,
 }
 
 /// The mean of several classifiers.
@@ -83,7 +103,7 @@ pub struct Opinions {
     pub distributions: Vec<Distribution>,
 }
 
-/// A name of a part, and what shows that it is the one meant: see [`StoredModel::checksum`].
+/// A name of a part, and what shows that it is the one meant: see [`Member::checksum`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PartName {
     pub name: String,
@@ -95,7 +115,7 @@ impl Blend {
     /// itself, or a weight is not above 0.
     pub fn new(parts: Vec<Part>, temperature: f64) -> Option<Self> {
         let sum: f64 = parts.iter().map(|part| part.weight).sum();
-        let is_usable = |part: &Part| part.weight > 0.0 && !matches!(part.model.classifier, PlanClassifier::Blend(_));
+        let is_usable = |part: &Part| part.weight > 0.0 && part.model.kind().is_some();
         let is_sound = sum.is_finite() && temperature.is_finite() && temperature > 0.0;
         if parts.is_empty() || !is_sound || !parts.iter().all(is_usable) {
             return None;
@@ -116,8 +136,8 @@ impl Blend {
     pub fn opinions(&self, network: &RoomNetwork, known: &[Option<Label>]) -> Opinions {
         let (mut of_parts, mut rounds): (Vec<Vec<Distribution>>, Vec<Option<FirstRound>>) = (Vec::new(), Vec::new());
         for part in &self.parts {
-            match &part.model.classifier {
-                PlanClassifier::Joint(joint) => {
+            match part.model.kind() {
+                Some(Kind::Joint(joint)) => {
                     let round = match rounds.iter().flatten().next() {
                         Some(other) => joint.first_round_after(network, other),
                         None => joint.first_round(network),
@@ -125,19 +145,19 @@ impl Blend {
                     of_parts.push(joint.predict_from(&round, known));
                     rounds.push(Some(round));
                 }
-                PlanClassifier::Each(classifier) => {
+                Some(Kind::Each(classifier)) => {
                     let neighbours = NeighbourLabels::Predicted;
                     of_parts.push(in_plan::classify(classifier, network, known, neighbours).distributions);
                     rounds.push(None);
                 }
-                PlanClassifier::Blend(_) => {}
+                None => {}
             }
         }
         let weights: Vec<f64> = self.parts.iter().map(|part| part.weight).collect();
         let distributions = (0..network.rooms.len())
             .map(|room| {
                 let said: Vec<Distribution> = of_parts.iter().map(|said| said[room]).collect();
-                mean(&said, &weights).at_temperature(self.temperature)
+                Distribution::mean(&said, &weights).at_temperature(self.temperature)
             })
             .collect();
         Opinions { of_parts, rounds, distributions }
@@ -156,7 +176,7 @@ impl Blend {
         let label = opinions.distributions.get(room)?.label();
         let mut told: Vec<(f64, JointExplanation)> = Vec::new();
         for (part, round) in self.parts.iter().zip(&opinions.rounds) {
-            if let (PlanClassifier::Joint(joint), Some(round)) = (&part.model.classifier, round) {
+            if let (Some(Kind::Joint(joint)), Some(round)) = (part.model.kind(), round) {
                 told.push((part.weight, joint.explain_from(round, network, known, room)?));
             }
         }
@@ -175,8 +195,7 @@ impl Blend {
 
     /// The blend as data: the names of its parts, and their weights.
     pub fn to_value(&self) -> Value {
-        let part =
-            |part: &Part| json!({ "model": part.model.name, "checksum": part.model.checksum, "weight": part.weight });
+        let part = |part: &Part| json!({ "model": part.model.name(), "checksum": part.model.checksum(), "weight": part.weight });
         json!({ "parts": self.parts.iter().map(part).collect::<Vec<_>>() })
     }
 
@@ -187,7 +206,7 @@ impl Blend {
     pub fn from_value(
         value: &Value,
         temperature: f64,
-        find: &dyn Fn(&str) -> Option<Arc<StoredModel>>,
+        find: &dyn Fn(&str) -> Option<Arc<dyn Member>>,
     ) -> Result<Self, String> {
         let parts = value.get("parts").and_then(Value::as_array).ok_or("its parts are missing")?;
         let mut read = Vec::new();
@@ -199,7 +218,7 @@ impl Blend {
                 return Err("one of its parts has no name, checksum or weight".to_owned());
             };
             let model = find(name).ok_or_else(|| format!("its part '{name}' is not beside it"))?;
-            if model.checksum != checksum {
+            if model.checksum() != checksum {
                 return Err(format!("its part '{name}' is another model than the one it was made with"));
             }
             read.push(Part { weight, model });
@@ -210,17 +229,6 @@ impl Blend {
 
 /// More parts than anybody means.
 const MOST_PARTS: usize = 100;
-
-/// The weighted mean of distributions.
-pub fn mean(said: &[Distribution], weights: &[f64]) -> Distribution {
-    let mut sums = [0.0; 5];
-    for (said, weight) in said.iter().zip(weights) {
-        for (sum, probability) in sums.iter_mut().zip(said.probabilities()) {
-            *sum += weight * probability;
-        }
-    }
-    Distribution::from_weights(sums)
-}
 
 /// What a blend says of rooms that none of its parts learned from.
 pub struct Unseen {
@@ -238,8 +246,9 @@ pub fn blend_unseen(parts: &[(f64, Vec<Distribution>)], labels: &[Label], folds:
         return None;
     }
     let weights: Vec<f64> = parts.iter().map(|(weight, _)| *weight).collect();
-    let plain: Vec<Distribution> =
-        (0..rooms).map(|room| mean(&parts.iter().map(|(_, said)| said[room]).collect::<Vec<_>>(), &weights)).collect();
+    let plain: Vec<Distribution> = (0..rooms)
+        .map(|room| Distribution::mean(&parts.iter().map(|(_, said)| said[room]).collect::<Vec<_>>(), &weights))
+        .collect();
     let pairs = || plain.iter().copied().zip(labels.iter().copied());
     let count = folds.iter().max().map_or(0, |most| most + 1);
     let of_folds: Vec<f64> = (0..count)
@@ -317,11 +326,19 @@ mod tests {
     fn a_blend_takes_no_other_part_than_it_was_made_with() {
         let blend = Blend::new(vec![part("office-joint", 2.0), part("office-mlp", 1.0)], 1.25).unwrap();
         let value = blend.to_value();
-        let read = Blend::from_value(&value, 1.25, &|name| Models::bundled().named(name)?.ok()).unwrap();
+        let read =
+            Blend::from_value(&value, 1.25, &|name| Some(Models::bundled().named(name)?.ok()? as Arc<dyn Member>))
+                .unwrap();
         assert_eq!((read.to_value(), read.temperature()), (value.clone(), 1.25));
         let missing = Blend::from_value(&value, 1.25, &|_| None).unwrap_err();
         assert_eq!(missing, "its part 'office-joint' is not beside it");
-        let other = Blend::from_value(&value, 1.25, &|_| Models::bundled().named("house-joint")?.ok()).unwrap_err();
+        let other =
+            Blend::from_value(
+                &value,
+                1.25,
+                &|_| Some(Models::bundled().named("house-joint")?.ok()? as Arc<dyn Member>),
+            )
+            .unwrap_err();
         assert_eq!(other, "its part 'office-joint' is another model than the one it was made with");
         assert!(Blend::new(Vec::new(), 1.0).is_none() && Blend::new(vec![part("office-mlp", 0.0)], 1.0).is_none());
     }

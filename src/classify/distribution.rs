@@ -5,6 +5,17 @@ use crate::labels::Label;
 pub struct Distribution([f64; 5]);
 
 impl Distribution {
+    /// The weighted mean of distributions.
+    pub fn mean(said: &[Self], weights: &[f64]) -> Self {
+        let mut sums = [0.0; 5];
+        for (said, weight) in said.iter().zip(weights) {
+            for (sum, probability) in sums.iter_mut().zip(said.probabilities()) {
+                *sum += weight * probability;
+            }
+        }
+        Self::from_weights(sums)
+    }
+
     /// All labels equally likely.
     pub const UNIFORM: Self = Self([0.2; 5]);
 

@@ -1,9 +1,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use super::blend::Blend;
-use super::joint::Joint;
-use super::{Algorithm, Classifier};
+use super::Algorithm;
 use crate::base::wording::or_words;
 
 /// A way to label the rooms of a plan: one by one with one of the learners, or all together.
@@ -85,42 +83,6 @@ impl FromStr for Method {
         let wanted = text.trim();
         let found = Self::ALL.into_iter().find(|method| method.name().eq_ignore_ascii_case(wanted));
         found.ok_or_else(|| UnknownAlgorithm(text.to_owned()))
-    }
-}
-
-/// A trained classifier of any kind.
-#[derive(Clone, Debug)]
-pub enum PlanClassifier {
-    Each(Box<Classifier>),
-    Joint(Box<Joint>),
-    Blend(Box<Blend>),
-}
-
-impl PlanClassifier {
-    pub fn method(&self) -> Method {
-        match self {
-            Self::Each(classifier) => Method::Each(classifier.algorithm()),
-            Self::Joint(_) => Method::Joint,
-            Self::Blend(_) => Method::Blend,
-        }
-    }
-}
-
-impl From<Classifier> for PlanClassifier {
-    fn from(classifier: Classifier) -> Self {
-        Self::Each(Box::new(classifier))
-    }
-}
-
-impl From<Blend> for PlanClassifier {
-    fn from(blend: Blend) -> Self {
-        Self::Blend(Box::new(blend))
-    }
-}
-
-impl From<Joint> for PlanClassifier {
-    fn from(joint: Joint) -> Self {
-        Self::Joint(Box::new(joint))
     }
 }
 

@@ -12,10 +12,9 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::blend::Blend;
+use super::blend::{Blend, Member};
 use super::joint::Joint;
 use super::learned::{DiskLearned, Learned};
-use super::models::StoredModel;
 use super::{Classifier, Method, PlanClassifier, Scores};
 use crate::base::hash;
 use crate::dataset::Row;
@@ -200,7 +199,7 @@ fn checksum(value: &Value) -> String {
 }
 
 /// Where the parts of a blend are found, by name.
-pub type Parts<'a> = &'a dyn Fn(&str) -> Option<Arc<StoredModel>>;
+pub type Parts<'a> = &'a dyn Fn(&str) -> Option<Arc<dyn Member>>;
 
 /// Reads a model: the classifier, what to know of it, and its checksum. `parts` finds the models that a blend is made of.
 ///

@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use miniz_oxide::inflate::decompress_to_vec_zlib;
 use serde_json::Value;
 
+use super::blend::{Kind, Member};
 use super::model_file::{self, About, ModelFileError};
 use super::typology::TypologyModel;
 use super::unknown::Unknown;
@@ -35,6 +36,32 @@ impl StoredModel {
 
     pub fn method(&self) -> Method {
         self.classifier.method()
+    }
+}
+
+impl Member for StoredModel {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn checksum(&self) -> &str {
+        &self.checksum
+    }
+
+    fn set(&self) -> &str {
+        self.set()
+    }
+
+    fn method(&self) -> Method {
+        self.method()
+    }
+
+    fn kind(&self) -> Option<Kind<'_>> {
+        match &self.classifier {
+            PlanClassifier::Each(classifier) => Some(Kind::Each(classifier)),
+            PlanClassifier::Joint(joint) => Some(Kind::Joint(joint)),
+            PlanClassifier::Blend(_) => None,
+        }
     }
 }
 
@@ -177,10 +204,11 @@ fn bundled(name: &str) -> Option<Result<Arc<StoredModel>, ModelFileError>> {
     let text = decompress_to_vec_zlib(packed).unwrap_or_default();
     // The lock is free while a blend's parts are read.
     drop(read);
-    let model = model_file::from_bytes(&text, &|part| bundled(part)?.ok()).map(|(classifier, about, checksum)| {
-        let model = Arc::new(StoredModel { name: name.to_owned(), path: None, classifier, about, checksum });
-        READ.lock().unwrap_or_else(PoisonError::into_inner).entry(name).or_insert(model).clone()
-    });
+    let model =
+        model_file::from_bytes(&text, &|part| Some(bundled(part)?.ok()?)).map(|(classifier, about, checksum)| {
+            let model = Arc::new(StoredModel { name: name.to_owned(), path: None, classifier, about, checksum });
+            READ.lock().unwrap_or_else(PoisonError::into_inner).entry(name).or_insert(model).clone()
+        });
     Some(model)
 }
 

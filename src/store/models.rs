@@ -1,6 +1,7 @@
 use std::sync::Arc;
 
 use crate::base::file_name::component;
+use crate::classify::blend::Member;
 use crate::classify::models::{Models, StoredModel};
 use std::path::{Path, PathBuf};
 
@@ -51,12 +52,13 @@ fn load(path: &Path, parts: Parts<'_>) -> Result<StoredModel, ModelError> {
 
 /// A part of the blend in a file: the model of that name beside it, or else the bundled one. Only a plain name is looked up,
 /// and a blend is no part of another.
-fn part_of(blend: &Path, part: &str) -> Option<Arc<StoredModel>> {
+fn part_of(blend: &Path, part: &str) -> Option<Arc<dyn Member>> {
     let beside = component(part).ok().and_then(|part| {
         let path = blend.parent()?.join(format!("{part}{MODEL_ENDING}"));
         if path == blend || !path.exists() { None } else { load(&path, &|_| None).ok().map(Arc::new) }
     });
-    beside.or_else(|| Models::bundled().named(part)?.ok())
+    let model: Arc<StoredModel> = beside.or_else(|| Models::bundled().named(part)?.ok())?;
+    Some(model)
 }
 
 /// The maximum size: even a model that stores a million rooms is smaller.

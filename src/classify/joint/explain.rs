@@ -5,7 +5,6 @@ use super::{FirstRound, Group, Joint, group_of, view};
 use crate::base::units::Units;
 use crate::base::wording::count;
 use crate::classify::Distribution;
-use crate::classify::blend::mean;
 use crate::classify::numbers::times;
 use crate::classify::why::{OnPlan, Point, Why, and_list, area, nothing_stands_out, sorted, speaks};
 use crate::dataset::{NetworkRoom, RoomNetwork};
@@ -298,7 +297,7 @@ impl JointExplanation {
         let weights: Vec<f64> = of.iter().map(|(weight, _)| *weight).collect();
         let pool = |pick: &dyn Fn(&Self) -> Distribution| {
             let said: Vec<Distribution> = of.iter().map(|(_, it)| pick(it)).collect();
-            mean(&said, &weights)
+            Distribution::mean(&said, &weights)
         };
         let (_, one) = of.first()?;
         let group = |effect: &GroupEffect| {
