@@ -341,7 +341,9 @@ fn holds(before: &Plan, done: &Done) -> Result<(), TestCaseError> {
     let violations = after.violations();
     prop_assert!(violations.is_empty(), "{violations:?}");
     let doubled_now: Vec<[WallId; 2]> = doubled(after).difference(&doubled(before)).copied().collect();
-    prop_assert!(doubled_now.is_empty() || !doubled(before).is_empty(), "walls lie on each other: {doubled_now:?}");
+    let at = |ids: &[WallId; 2]| ids.map(|id| after.wall(id).and_then(|wall| after.wall_segment(wall)));
+    let places: Vec<_> = doubled_now.iter().map(at).collect();
+    prop_assert!(doubled_now.is_empty() || !doubled(before).is_empty(), "walls lie on each other: {places:?}");
     let is_dragged = |corners: &[CornerId]| corners.iter().any(|corner| dragged.contains(corner));
     let has_dragged = |element: ElementId| match element {
         ElementId::Corner(id) => is_dragged(&[id]),
