@@ -177,7 +177,7 @@ impl Routes {
 
     /// Finds the cheapest routes for a robot of this radius in metres from `start` (Dijkstra 1959) to all
     /// cells, or until `is_enough` accepts a cell's index and cost. If the start itself is tight, after a
-    /// collision say, clearance does not count until the robot is [`ESCAPE_M`] away from it.
+    /// collision say, clearance does not count until the robot is `ESCAPE_M` away from it.
     pub fn spread(&mut self, start: Point, radius_m: f64, mut is_enough: impl FnMut(usize, f64) -> bool) {
         self.cost.fill(f32::INFINITY);
         self.from.fill(u32::MAX);
