@@ -9,7 +9,7 @@ use crate::classify::{Algorithm, Method, Scores};
 use crate::dataset::folds::Grouping;
 use crate::features::NeighbourLabels;
 use crate::labels::Label;
-use crate::study::{Condition, HONEST, Study, set_title};
+use crate::study::{About, Condition, HONEST, Study, set_title};
 
 /// The paper's condition.
 const OF_PAPER: Condition = Condition { by: Grouping::Room, neighbours: NeighbourLabels::True };
@@ -194,11 +194,10 @@ pub(super) fn labels(study: &Study) -> Markup {
 }
 
 /// What the report was made from, and how.
-pub(super) fn provenance(study: &Study) -> Markup {
-    let about = &study.about;
+pub(super) fn provenance(program: &str, about: &About) -> Markup {
     html! {
         p.provenance {
-            (study.program)
+            (program)
             @if let Some(date) = &about.date { ", " (date) }
             @if !about.data.is_empty() {
                 ", on " (crate::base::wording::count(about.files, "file")) " of "

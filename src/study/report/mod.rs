@@ -18,8 +18,7 @@ use crate::classify::Algorithm;
 /// # Errors
 /// When a table cannot be written, which only lack of memory could cause.
 pub fn files(study: &Study) -> Result<Vec<(String, Vec<u8>)>, std::io::Error> {
-    let mut json = serde_json::to_vec_pretty(&Versioned { version: 1, study })?;
-    json.push(b'\n');
+    let json = for_machines(study)?;
     let mut files = vec![("report.html".to_owned(), page::page(study).into_bytes()), ("report.json".to_owned(), json)];
     for (name, table) in tables::tables(study) {
         files.push((format!("{name}.csv"), table.csv().map_err(std::io::Error::other)?));
@@ -27,13 +26,18 @@ pub fn files(study: &Study) -> Result<Vec<(String, Vec<u8>)>, std::io::Error> {
     Ok(files)
 }
 
-/// The report for machines.
-#[derive(Serialize)]
-struct Versioned<'a> {
-    /// Of the form of `report.json`.
-    version: u32,
-    #[serde(flatten)]
-    study: &'a Study,
+/// The report of a study for machines.
+fn for_machines<T: Serialize>(study: &T) -> Result<Vec<u8>, std::io::Error> {
+    #[derive(Serialize)]
+    struct Versioned<'a, T> {
+        /// Of the form of `report.json`.
+        version: u32,
+        #[serde(flatten)]
+        study: &'a T,
+    }
+    let mut json = serde_json::to_vec_pretty(&Versioned { version: 1, study })?;
+    json.push(b'\n');
+    Ok(json)
 }
 
 /// The accuracies under the main condition in a few lines of text, for a terminal.

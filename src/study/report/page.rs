@@ -47,7 +47,11 @@ pub(super) fn page(study: &Study) -> String {
             }
         }
     };
-    // Each table scrolls by itself where the page is narrow, by finger and by key.
+    with_scrolling_tables(page)
+}
+
+/// A page in which each table scrolls by itself where the page is narrow, by finger and by key.
+pub(super) fn with_scrolling_tables(page: Markup) -> String {
     let scrolled = "<div class=\"scroll\" role=\"region\" aria-label=\"Table\" tabindex=\"0\"><table";
     page.into_string().replace("<table", scrolled).replace("</table>", "</table></div>")
 }
@@ -63,7 +67,7 @@ fn head(study: &Study) -> Markup {
                  Luperto, Quattrini Li and Amigoni, and beyond. Grey figures in brackets and grey bands are the \
                  paper's, measured on its own buildings."
             }
-            (provenance(study))
+            (provenance(&study.program, &study.about))
             p {
                 "The page leads with what a new building meets: " em { "never seen" } ". All sections that do not say otherwise stand under "
                 strong { (study.condition) } ", " (study.folds) " folds, seed " (study.seed) "."

@@ -3,11 +3,12 @@
 use std::fmt::Write as _;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use serde::Serialize;
 
 use super::charts::{Axis, Line, lines};
+use super::lead::provenance;
+use super::page::with_scrolling_tables;
 use super::tables::Table;
-use super::{percent, set_title};
+use super::{for_machines, percent, set_title};
 use crate::study::robot::{Factor, Gap, RobotCondition, RobotStudy, View};
 
 /// The report's files: name and content.
@@ -15,26 +16,15 @@ use crate::study::robot::{Factor, Gap, RobotCondition, RobotStudy, View};
 /// # Errors
 /// When a table cannot be written, which only lack of memory could cause.
 pub fn robot_files(study: &RobotStudy) -> Result<Vec<(String, Vec<u8>)>, std::io::Error> {
-    let mut json = serde_json::to_vec_pretty(&Versioned { version: 1, study })?;
-    json.push(b'\n');
     let mut files = vec![
         ("report.html".to_owned(), page(study).into_bytes()),
         ("report.md".to_owned(), robot_text(study).into_bytes()),
-        ("report.json".to_owned(), json),
+        ("report.json".to_owned(), for_machines(study)?),
     ];
     for (name, table) in [("conditions", conditions(study)), ("labels", labels(study)), ("runs", runs(study))] {
         files.push((format!("{name}.csv"), table.csv().map_err(std::io::Error::other)?));
     }
     Ok(files)
-}
-
-/// The report for machines.
-#[derive(Serialize)]
-struct Versioned<'a> {
-    /// Of the form of `report.json`.
-    version: u32,
-    #[serde(flatten)]
-    study: &'a RobotStudy,
 }
 
 /// The name of a set for people.
@@ -156,7 +146,7 @@ fn page(study: &RobotStudy) -> String {
                              not learn from the building. What sensor noise, odometry noise and furniture cost, beside the true plan: \
                              the paper's ideal conditions (section 4.1)."
                         }
-                        (provenance(study))
+                        (provenance(&study.program, &study.about))
                         p {
                             (crate::base::wording::count(study.explored_plans, "plan")) " of "
                             (crate::base::wording::count(study.explored_buildings, "building")) " explored, " (study.plans)
@@ -172,24 +162,7 @@ fn page(study: &RobotStudy) -> String {
             }
         }
     };
-    let scrolled = "<div class=\"scroll\" role=\"region\" aria-label=\"Table\" tabindex=\"0\"><table";
-    page.into_string().replace("<table", scrolled).replace("</table>", "</table></div>")
-}
-
-fn provenance(study: &RobotStudy) -> Markup {
-    let about = &study.about;
-    html! {
-        p.provenance {
-            (study.program)
-            @if let Some(date) = &about.date { ", " (date) }
-            @if !about.data.is_empty() {
-                ", on " (crate::base::wording::count(about.files, "file")) " of "
-                @for (index, path) in about.data.iter().enumerate() { @if index > 0 { ", " } code { (path) } }
-            }
-            @if !about.command.is_empty() { ". Made by " code { (about.command) } }
-            "."
-        }
-    }
+    with_scrolling_tables(page)
 }
 
 /// Charts of what changes along a factor.
