@@ -9,10 +9,7 @@
 use super::Context;
 use super::sizes::ROOM_SPREAD;
 use crate::base::numbers::lower_median;
-use crate::plan::{DEFAULT_DOOR_WIDTH_M, OpeningKind};
-
-/// The median width of doorways in metres (167 floors of the KTH campus, 15,566 portals).
-pub const MEDIAN_DOOR_M: f64 = 0.85;
+use crate::plan::{DEFAULT_DOOR_WIDTH_M, MEDIAN_DOOR_M, OpeningKind};
 
 /// Fewer doors than this say nothing: a small flat may have double doors only.
 const DOORS_FOR_SCALE: usize = 6;

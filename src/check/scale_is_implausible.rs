@@ -1,9 +1,9 @@
 use super::{Check, Context, Kind, Place, Severity};
 use crate::base::numbers::lower_median;
 use crate::base::wording::thousands;
-use crate::check::likely_scale::{LikelyScale, MEDIAN_DOOR_M, likely_scale};
+use crate::check::likely_scale::{LikelyScale, likely_scale};
 use crate::edit::{EditError, rescale};
-use crate::plan::{Plan, ScaleOrigin};
+use crate::plan::{MEDIAN_DOOR_M, Plan, ScaleOrigin};
 
 /// Doors or rooms are so much larger or smaller than usual that the plan's scale is probably wrong.
 #[derive(Clone, Debug, PartialEq)]

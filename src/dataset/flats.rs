@@ -40,16 +40,7 @@ impl Flats {
         if !(2 * LEAST_ROOMS..=MOST_OF_STOREY).contains(&rooms) {
             return None;
         }
-        let joined: Vec<Vec<usize>> = network
-            .rooms
-            .iter()
-            .map(|room| {
-                let mut joined: Vec<usize> = room.doors.iter().filter_map(|door| door.to).collect();
-                joined.sort_unstable();
-                joined.dedup();
-                joined
-            })
-            .collect();
+        let joined: Vec<Vec<usize>> = network.joined();
         let all: Vec<usize> = (0..rooms).collect();
         let mut waiting = large_parts(&joined, &all, None);
         let mut flats: Vec<Vec<usize>> = Vec::new();

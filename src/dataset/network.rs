@@ -116,6 +116,17 @@ fn origin_of(room: &Room) -> Option<LabelOrigin> {
 }
 
 impl RoomNetwork {
+    /// For each room the rooms its openings lead to, without repeats, ascending.
+    pub fn joined(&self) -> Vec<Vec<usize>> {
+        let of_room = |room: &NetworkRoom| {
+            let mut joined: Vec<usize> = room.doors.iter().filter_map(|door| door.to).collect();
+            joined.sort_unstable();
+            joined.dedup();
+            joined
+        };
+        self.rooms.iter().map(of_room).collect()
+    }
+
     /// The network of a plan.
     pub fn new(plan: &Plan, schemes: &Schemes) -> Self {
         Self::of(plan, &analyse(plan, schemes, NeighbourLabels::True))

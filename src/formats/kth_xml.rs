@@ -18,8 +18,8 @@ use crate::geometry::polygon::{self, Location};
 use crate::geometry::{COORDINATE_LIMIT_M, Point, Segment, trim_m};
 use crate::labels::Typology;
 use crate::plan::{
-    Builder, CornerId, Joint, Meta, Opening, OpeningKind, Place as OpeningPlace, Room, RoomId, Scale, ScaleOrigin,
-    THICKEST_WALL_M,
+    Builder, CornerId, Joint, MEDIAN_DOOR_M, Meta, Opening, OpeningKind, Place as OpeningPlace, Room, RoomId, Scale,
+    ScaleOrigin, THICKEST_WALL_M,
 };
 
 /// The most comparisons to find openings' partners and edges. The largest real file needs 12,000.
@@ -46,9 +46,6 @@ const DOUBLE_DOOR_M: f64 = 1.3;
 
 /// From this width on, in metres, a portal is taken as a passage without a door: double doors are made up to 2.4 m.
 const PASSAGE_M: f64 = 2.5;
-
-/// The median width of a door in 167 floors of the data set, in metres: gives the scale where a file states none.
-const MEDIAN_DOOR_M: f64 = 0.85;
 
 /// The median scale of 95 floors, in metres per pixel: for files with neither a scale nor a door.
 const MEDIAN_SCALE_M: f64 = 0.00635;

@@ -45,6 +45,9 @@ pub type Extra = Option<Arc<serde_json::Map<String, serde_json::Value>>>;
 /// Default width of a door in metres: the paper's authors scale their plans by a door of 90 cm.
 pub const DEFAULT_DOOR_WIDTH_M: f64 = 0.9;
 
+/// The median width of doorways in metres (167 floors of the KTH campus, 15,566 portals).
+pub const MEDIAN_DOOR_M: f64 = 0.85;
+
 /// Default thickness of a wall in metres: a masonry partition with plaster.
 pub const DEFAULT_WALL_THICKNESS_M: f64 = 0.12;
 

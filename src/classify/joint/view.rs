@@ -133,16 +133,7 @@ pub(super) struct View {
 impl View {
     pub fn new(network: &RoomNetwork) -> Self {
         let log_area: Vec<f64> = network.rooms.iter().map(|room| log(room.area_m2)).collect();
-        let joined: Vec<Vec<usize>> = network
-            .rooms
-            .iter()
-            .map(|room| {
-                let mut joined: Vec<usize> = room.doors.iter().filter_map(|door| door.to).collect();
-                joined.sort_unstable();
-                joined.dedup();
-                joined
-            })
-            .collect();
+        let joined: Vec<Vec<usize>> = network.joined();
         let siblings = (0..joined.len())
             .map(|room| {
                 // Equally connected neighbours of equal area lead to as many siblings: which is taken
