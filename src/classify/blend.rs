@@ -14,10 +14,10 @@ use std::sync::Arc;
 use serde_json::{Value, json};
 
 use super::calibration::fitted_temperature;
-use super::in_plan;
 use super::joint::{FirstRound, Joint, JointExplanation};
-use super::why::{Why, and_list};
+use super::why::{OnPlan, Point, Why, and_list, speaks};
 use super::{Algorithm, Classifier, Distribution, Method};
+use super::{given, in_plan};
 use crate::base::units::Units;
 use crate::dataset::RoomNetwork;
 use crate::dataset::sets::STANDARD;
@@ -99,7 +99,9 @@ pub struct Opinions {
     of_parts: Vec<Vec<Distribution>>,
     /// For each part that is a joint classifier, its first round: where explanations start.
     rounds: Vec<Option<FirstRound>>,
-    /// The blend's distribution of each room.
+    /// The mean of the parts.
+    means: Vec<Distribution>,
+    /// The blend's distribution of each room: the mean, corrected by the labels that were given ([`given::corrected`]).
     pub distributions: Vec<Distribution>,
 }
 
@@ -154,13 +156,14 @@ impl Blend {
             }
         }
         let weights: Vec<f64> = self.parts.iter().map(|part| part.weight).collect();
-        let distributions = (0..network.rooms.len())
+        let means: Vec<Distribution> = (0..network.rooms.len())
             .map(|room| {
                 let said: Vec<Distribution> = of_parts.iter().map(|said| said[room]).collect();
                 Distribution::mean(&said, &weights).at_temperature(self.temperature)
             })
             .collect();
-        Opinions { of_parts, rounds, distributions }
+        let distributions = given::corrected(network, known, &means);
+        Opinions { of_parts, rounds, means, distributions }
     }
 
     /// Why a room got its label, with areas in these units; `None` for a room that is not in the network. The points are those
@@ -186,10 +189,17 @@ impl Blend {
         };
         let said: Vec<(&Part, Distribution)> =
             self.parts.iter().zip(&opinions.of_parts).map(|(part, said)| (part, said[room])).collect();
+        let (mean, corrected) = (opinions.means[room], opinions.distributions[room]);
+        if let Some((speaks, _)) = speaks(label, |of| corrected.probability(of) - mean.probability(of)) {
+            let like = given::like(network, known, room);
+            let seen = given::words(&like);
+            let on_plan = OnPlan::Rooms(like.into_iter().map(|(other, _)| other).collect());
+            why.add(Point { seen, speaks: Some(speaks), on_plan });
+        }
         if !why.conclusion.is_empty() {
             why.conclusion.push(' ');
         }
-        why.conclusion.push_str(&who_said_what(&said, label));
+        why.conclusion.push_str(&who_said_what(&said, label, mean.label()));
         Some(why)
     }
 
@@ -265,7 +275,7 @@ fn fitted(unseen: impl Iterator<Item = (Distribution, Label)>) -> f64 {
 }
 
 /// `All four parts say big room: ...` or which part says what.
-fn who_said_what(said: &[(&Part, Distribution)], label: Label) -> String {
+fn who_said_what(said: &[(&Part, Distribution)], label: Label, mean: Label) -> String {
     let mut by_label: BTreeMap<Label, Vec<String>> = BTreeMap::new();
     for (part, said) in said {
         let of = match part.model.set() {
@@ -278,7 +288,8 @@ fn who_said_what(said: &[(&Part, Distribution)], label: Label) -> String {
     }
     let for_it = by_label.remove(&label).unwrap_or_default();
     let mut sentence = match (for_it.is_empty(), by_label.is_empty()) {
-        (true, _) => format!("No part says {label} first, but together they make it most likely"),
+        (true, _) if mean == label => format!("No part says {label} first, but together they make it most likely"),
+        (true, _) => format!("No part says {label} first, but the labels given to rooms like it do"),
         (false, _) => {
             format!("{} {} {label}", capital(&and_list(&for_it)), if for_it.len() == 1 { "says" } else { "say" })
         }
