@@ -134,7 +134,8 @@ impl Blend {
         self.temperature
     }
 
-    /// What every part and all together say of a network's rooms. `known` as in [`super::joint::Joint::predict`].
+    /// What every part and all together say of a network's rooms. `known` as in [`super::joint::Joint::predict`]: the parts are
+    /// asked as if nothing were known, since what they make of given labels is worth less than what shows where they are wrong.
     pub fn opinions(&self, network: &RoomNetwork, known: &[Option<Label>]) -> Opinions {
         let (mut of_parts, mut rounds): (Vec<Vec<Distribution>>, Vec<Option<FirstRound>>) = (Vec::new(), Vec::new());
         for part in &self.parts {
@@ -144,12 +145,12 @@ impl Blend {
                         Some(other) => joint.first_round_after(network, other),
                         None => joint.first_round(network),
                     };
-                    of_parts.push(joint.predict_from(&round, known));
+                    of_parts.push(joint.predict_from(&round, &[]));
                     rounds.push(Some(round));
                 }
                 Some(Kind::Each(classifier)) => {
                     let neighbours = NeighbourLabels::Predicted;
-                    of_parts.push(in_plan::classify(classifier, network, known, neighbours).distributions);
+                    of_parts.push(in_plan::classify(classifier, network, &[], neighbours).distributions);
                     rounds.push(None);
                 }
                 None => {}
