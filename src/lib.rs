@@ -44,5 +44,6 @@ pub mod snapping;
 pub mod store;
 pub mod study;
 pub mod topology;
+pub mod workspace;
 
 pub use facade::{Error, OpenPlan, open, open_all};

@@ -21,3 +21,4 @@ mod pipeline;
 mod robot;
 mod study;
 mod support;
+mod workspace;

@@ -53,6 +53,8 @@ impl App {
         self.write_executed();
         self.session.take_outcomes(&context);
         self.grant_wishes(&context);
+        self.session.show_awaited_room();
+        self.session.show_awaited_ghost();
         self.session.take_waiting();
         if let Some(path) = self.session.recovering.take() {
             self.session.show_recovered(&path, &context);
@@ -139,6 +141,7 @@ impl App {
                 Wish::CloseRecovery => self.set_dialog(panels::recovery::ID, false),
                 Wish::CloseDifferences => self.set_dialog(panels::differences::ID, false),
                 Wish::Run(call) => self.act_on(call, context),
+                Wish::OpenListed(origin) => self.open_listed(&origin, context),
                 Wish::Resume(draft) => {
                     self.session.draft = Some(draft.clone());
                     self.tools.resume(draft);

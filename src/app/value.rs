@@ -7,6 +7,7 @@ use crate::app::look::keys::Keys;
 pub(crate) use crate::app::session::words::{
     UNKNOWN, element, elements_word, is_own_word, point_in, points_word, room, room_word, sample_word, switch_word,
 };
+use crate::app::session::workspace::view::Shows;
 use crate::app::session::{bulk::Order, selection::SelectMode};
 use crate::classify::Method;
 use crate::edit::{Alignment, DrawingMoves, End, Lies, Reach, storey::Keep};
@@ -232,4 +233,9 @@ impl Worded for Direction {
     const WORDS: &'static [(&'static str, &'static str)] =
         &[("left", "Left"), ("right", "Right"), ("up", "Up"), ("down", "Down")];
     const ALL: &'static [Self] = &[Self::Left, Self::Right, Self::Up, Self::Down];
+}
+
+impl Worded for Shows {
+    const WORDS: &'static [(&'static str, &'static str)] = Shows::WORDS;
+    const ALL: &'static [Self] = &[Self::Plans, Self::Grid, Self::Rooms];
 }

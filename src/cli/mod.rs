@@ -36,6 +36,7 @@ mod scales;
 mod segment;
 mod suspects;
 mod train;
+mod workspace;
 
 use std::ffi::OsString;
 use std::fmt::Display;
@@ -57,6 +58,7 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<dataset::DatasetCommand>(),
     entry::<export::ExportCommand>(),
     entry::<check::CheckCommand>(),
+    entry::<workspace::WorkspaceCommand>(),
     entry::<render::RenderCommand>(),
     entry::<classify::ClassifyCommand>(),
     entry::<evaluate::EvaluateCommand>(),

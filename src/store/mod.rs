@@ -2,10 +2,12 @@
 //! journal of unsaved changes.
 
 mod bundled;
+mod file_state;
 #[cfg(feature = "pictures")]
 mod grid_maps;
 mod journal;
 mod logs;
+mod index_file;
 mod made;
 mod models;
 #[cfg(feature = "pictures")]
@@ -20,6 +22,8 @@ mod viewer;
 pub use bundled::{BUNDLED, bundled_plans};
 #[cfg(feature = "pictures")]
 pub use grid_maps::{MapFileError, is_map_yaml, load_map, load_picture_as_map};
+pub use file_state::FileState;
+pub use index_file::{CACHE_VARIABLE, IndexError, IndexFile, cache_folder};
 pub use journal::{
     Draft, Journal, JournalFailure, JournalStart, Leftover, Predecessor, Recovered, STATE_VARIABLE, journal_folder,
     leftovers, read_journal,

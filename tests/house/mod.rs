@@ -22,6 +22,7 @@ const FLOORS: &[&[&str]] = &[
     &["robot"],
     &["predict", "store", "study"],
     &["pipeline", "gather"],
+    &["workspace"],
     &["facade"],
     &["app/look"],
     &["app/paint"],
@@ -40,7 +41,7 @@ const FLOORS: &[&[&str]] = &[
 /// The core: pure functions of their input.
 const CORE: &[&str] = &[
     "base", "geometry", "picture", "labels", "plan", "topology", "snapping", "edit", "features", "check", "draw",
-    "dataset", "formats", "classify", "predict", "study", "pipeline", "gather", "robot",
+    "dataset", "formats", "classify", "predict", "study", "pipeline", "gather", "robot", "workspace",
 ];
 
 /// What the core does not touch, and why.

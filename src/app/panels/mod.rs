@@ -30,6 +30,7 @@ mod tool_options;
 mod tool_strip;
 mod top_bar;
 pub(super) mod welcome;
+mod workspace;
 
 use egui::{CentralPanel, Frame, Margin, Panel, Ui, UiBuilder};
 
@@ -38,6 +39,7 @@ use crate::app::state::{App, Entry, Side, SidePanel};
 
 /// All dialogs; later ones are above earlier ones.
 pub(crate) const DIALOGS: &[Entry] = &[
+    workspace::ENTRY,
     notes::ENTRY,
     differences::ENTRY,
     recovery::ENTRY,

@@ -40,6 +40,8 @@ pub(crate) struct Given {
 /// The purpose of choosing a file.
 pub(crate) enum Purpose {
     Open,
+    /// To open a folder of plans.
+    Workspace,
     /// To replay a robot's log.
     Log,
     Picture(PictureUse),
@@ -103,6 +105,7 @@ impl Dialogs {
                             .add_filter("All files", &["*"]);
                         Box::pin(dialog.pick_file()) as Waiting
                     }
+                    Purpose::Workspace => Box::pin(dialog.set_title("Open a folder of plans").pick_folder()),
                     Purpose::Log => {
                         let dialog = dialog
                             .set_title("Replay a laser log")
@@ -187,6 +190,7 @@ impl Purpose {
     pub(crate) const fn command(&self) -> &'static str {
         match self {
             Self::Open => "open",
+            Self::Workspace => "open-workspace",
             Self::Log => "replay-log",
             Self::Picture(PictureUse::Add) => "picture",
             Self::Picture(PictureUse::Relink) => "relink-picture",

@@ -37,6 +37,7 @@ pub(crate) mod tracing;
 pub(crate) mod watch;
 pub(crate) mod wishes;
 pub(crate) mod words;
+pub(crate) mod workspace;
 
 use crate::app::paint::backdrop::BackdropView;
 use crate::app::session::document::Document;
@@ -145,6 +146,14 @@ pub(crate) struct Session {
     pub(crate) preview: exporting::SheetPreview,
     /// The file that a dialog was told to write to, for the dialog that asked.
     pub(crate) chosen_file: Option<PathBuf>,
+    /// The open folder of plans.
+    pub(crate) workspace: Option<workspace::OpenWorkspace>,
+    /// Where what was found out about plans is kept; `None` to keep nothing.
+    pub(crate) cache_folder: Option<PathBuf>,
+    /// A room to select once the plan of this origin is shown.
+    pub(crate) awaited_room: Option<(Origin, crate::plan::RoomId)>,
+    /// The storey to show below once the plan of the first origin is shown.
+    pub(crate) awaited_ghost: Option<(Origin, Origin)>,
     /// The dataset being made.
     pub(crate) dataset_job: Option<jobs::Wanted>,
     /// The simulated robot, or the log being replayed.
@@ -209,6 +218,10 @@ impl Session {
             findings: findings::Findings::default(),
             preview: exporting::SheetPreview::default(),
             chosen_file: None,
+            workspace: None,
+            cache_folder: None,
+            awaited_room: None,
+            awaited_ghost: None,
             dataset_job: None,
             robot: robot::Robot::default(),
             wishes: Vec::new(),

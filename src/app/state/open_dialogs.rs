@@ -170,5 +170,6 @@ pub(crate) mod dialogs {
     pub(crate) const ABOUT: &str = "about";
     pub(crate) const BULK: &str = "many-rooms";
     pub(crate) const EXPORT: &str = "export";
+    pub(crate) const WORKSPACE: &str = "workspace";
     pub(crate) const DATASET: &str = "export-dataset";
 }
