@@ -17,11 +17,11 @@ const FLOORS: &[&[&str]] = &[
     &["plan"],
     &["topology", "snapping"],
     &["edit", "features"],
-    &["check", "draw", "dataset", "formats"],
+    &["check", "draw", "chart", "dataset", "formats"],
     &["classify"],
     &["robot"],
     &["predict", "store", "study"],
-    &["pipeline", "gather"],
+    &["pipeline", "gather", "training"],
     &["facade"],
     &["app/look"],
     &["app/paint"],
@@ -40,7 +40,7 @@ const FLOORS: &[&[&str]] = &[
 /// The core: pure functions of their input.
 const CORE: &[&str] = &[
     "base", "geometry", "picture", "labels", "plan", "topology", "snapping", "edit", "features", "check", "draw",
-    "dataset", "formats", "classify", "predict", "study", "pipeline", "gather", "robot",
+    "chart", "dataset", "formats", "classify", "predict", "study", "pipeline", "gather", "training", "robot",
 ];
 
 /// What the core does not touch, and why.
