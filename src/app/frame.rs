@@ -54,6 +54,7 @@ impl App {
         self.session.take_outcomes(&context);
         self.grant_wishes(&context);
         self.session.take_waiting();
+        self.session.take_wanted_room();
         if let Some(path) = self.session.recovering.take() {
             self.session.show_recovered(&path, &context);
         }

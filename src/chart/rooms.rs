@@ -93,11 +93,14 @@ pub fn histogram(of: &str, rows: &[&Row], feature: usize) -> Chart {
         let up = [below as f64, (below + rooms) as f64];
         (rooms > 0).then_some(Bar { across: [edges[at], edges[at + 1]], up, said })
     };
-    let series = Label::ALL.into_iter().map(|label| Series {
-        name: titled(label),
-        ink: Ink::Label(label),
-        marks: Marks::Bars((0..bins.len()).filter_map(|at| bar(label, at)).collect()),
-    });
+    let series: Vec<Series> = Label::ALL
+        .into_iter()
+        .map(|label| Series {
+            name: titled(label),
+            ink: Ink::Label(label),
+            marks: Marks::Bars((0..bins.len()).filter_map(|at| bar(label, at)).collect()),
+        })
+        .collect();
     let most = bins.iter().map(|bin| bin.iter().sum::<usize>()).max().unwrap_or_default();
     let ends = edges.first().zip(edges.last()).map(|(&from, &to)| [from, to]);
     Chart {
@@ -105,7 +108,7 @@ pub fn histogram(of: &str, rows: &[&Row], feature: usize) -> Chart {
         note: count(values.len(), "room"),
         across: Axis { range: ends, ..axis },
         up: Axis::new("Rooms", Scale::Linear).from_to(0.0, (most.max(1) as f64) * 1.05),
-        series: series.collect(),
+        series,
         has_legend: true,
     }
 }

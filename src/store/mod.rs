@@ -26,7 +26,10 @@ pub use journal::{
 };
 pub use logs::{LoadedLog, load_log, read_log};
 pub use made::MadeFiles;
-pub use models::{LARGEST_BYTES, MODEL_ENDING, MODELS_VARIABLE, ModelError, load_model, models_folder, models_in};
+pub use models::{
+    LARGEST_BYTES, MODEL_ENDING, MODELS_VARIABLE, ModelError, default_models, load_model, models_folder, models_in,
+    set_default_model,
+};
 pub use plan_file::{checked_bytes, load_plan, save_plan};
 pub use plan_folder::{FoundPlan, plans_below};
 pub use save::{SaveError, save_bytes, save_bytes_fast};
