@@ -3,10 +3,13 @@
 pub(super) mod about;
 pub(super) mod bulk;
 mod canvas;
+mod chart_view;
+mod dashboard;
 mod dataset;
 pub(super) mod differences;
 mod export;
 mod findings;
+mod forms;
 mod here;
 mod history;
 mod inspector;
@@ -24,11 +27,13 @@ mod reasons;
 pub(super) mod recovery;
 mod robot;
 pub(super) mod shortcuts;
+mod schemes;
 mod sides;
 pub(super) mod status;
 mod tool_options;
 mod tool_strip;
 mod top_bar;
+mod training;
 pub(super) mod welcome;
 
 use egui::{CentralPanel, Frame, Margin, Panel, Ui, UiBuilder};
@@ -46,6 +51,9 @@ pub(crate) const DIALOGS: &[Entry] = &[
     bulk::ENTRY,
     export::ENTRY,
     dataset::ENTRY,
+    dashboard::ENTRY,
+    training::ENTRY,
+    schemes::ENTRY,
     palette::ENTRY,
 ];
 

@@ -9,6 +9,7 @@ use egui::Context;
 
 use super::Session;
 use crate::app::session::document::Document;
+use crate::app::session::file_dialogs::Purpose;
 use crate::app::session::jobs::{Kind, Wanted};
 use crate::app::session::origin::Origin;
 use crate::app::session::plan_list::{Depth, plans_in};
@@ -193,10 +194,29 @@ impl Session {
                     Err(error) => (session.at_hand.read, session.at_hand.error) = (None, Some(error)),
                 }
                 session.measures.forget();
+                session.train_what_waits();
             }
         });
         self.at_hand.asked = Some(asked);
         self.at_hand.job = Some(job);
+    }
+
+    /// Reads the rooms at hand again, as they or the schemes are now.
+    pub(crate) fn read_rooms_again(&mut self) {
+        if let Some(source) = self.at_hand.asked.clone() {
+            self.read_rooms(source, true);
+        }
+    }
+
+    /// Asks for a folder with plans, or for a dataset.
+    pub(crate) fn ask_for_data(&mut self, is_folder: bool) {
+        let folder = self.first_folder();
+        self.ask_for_file(Purpose::Data { is_folder }, Some(folder), String::new());
+    }
+
+    /// Asks for a folder to write in.
+    pub(crate) fn ask_for_folder(&mut self) {
+        self.ask_for_file(Purpose::Folder, None, String::new());
     }
 
     /// How many of how many files have been read.

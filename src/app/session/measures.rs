@@ -7,6 +7,7 @@ use egui::Context;
 
 use super::Session;
 use crate::app::session::at_hand::AtHand;
+use crate::app::session::file_dialogs::Purpose;
 use crate::app::session::jobs::{Kind, Wanted};
 use crate::app::session::messages::Severity;
 use crate::app::session::origin::file_name;
@@ -154,6 +155,12 @@ impl Session {
             }
             ChartKind::ByBuilding => rooms::by_building(&measured?.last()?.buildings),
         })
+    }
+
+    /// Asks where a chart goes.
+    pub(crate) fn ask_where_to_put_chart(&mut self, path: &Path) {
+        let folder = path.parent().map(Path::to_owned).filter(|folder| folder.is_dir());
+        self.ask_for_file(Purpose::Chart, folder, file_name(path));
     }
 
     /// Measures how well an algorithm tells the rooms of a set, in the background.

@@ -33,6 +33,7 @@ pub(crate) mod recovery;
 pub(crate) mod robot;
 pub(crate) mod safety;
 pub(crate) mod samples;
+pub(crate) mod scheme_edit;
 pub(crate) mod selection;
 pub(crate) mod settings;
 pub(crate) mod tracing;

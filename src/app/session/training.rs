@@ -145,6 +145,8 @@ pub(crate) struct Before {
 pub(crate) struct Training {
     job: Option<Wanted>,
     live: Arc<Mutex<Live>>,
+    /// What is to be trained once its rooms are read.
+    waiting: Option<(Source, Wish)>,
     pub reports: Vec<Report>,
     /// The reports of earlier trainings, by set and method: the latest.
     earlier: BTreeMap<(String, String), Report>,
@@ -270,6 +272,26 @@ impl Session {
         });
         self.training.job = Some(job);
         Ok(())
+    }
+
+    /// Trains as soon as the rooms of the source are read.
+    ///
+    /// # Errors
+    /// As [`Self::train`].
+    pub(crate) fn train_when_read(&mut self, source: Source, wish: Wish) -> Result<(), String> {
+        if self.at_hand.is_reading() && !self.training.is_running() {
+            self.training.waiting = Some((source, wish));
+            return Ok(());
+        }
+        self.train(source, wish)
+    }
+
+    /// Goes on with a training that waited for its rooms.
+    pub(super) fn train_what_waits(&mut self) {
+        let Some((source, wish)) = self.training.waiting.take() else { return };
+        if let Err(error) = self.train(source, wish) {
+            self.training.error = Some(self.at_hand.error.clone().unwrap_or(error));
+        }
     }
 
     /// Gives up the training; nothing of it is kept.

@@ -1,5 +1,6 @@
 //! The table itself: one file per menu, and helpers for the entries.
 
+mod curate;
 mod draw;
 mod edit;
 mod file;
@@ -381,7 +382,7 @@ const ZOOM_STEP: f64 = 1.25;
 /// Every command, in menu order. Each menu is a file; the tools' commands come from the tools.
 pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| {
     let tools = tools_of_the_strip();
-    let parts: [&[Command]; 12] = [
+    let parts: [&[Command]; 13] = [
         file::COMMANDS,
         edit::COMMANDS,
         &tools,
@@ -390,6 +391,7 @@ pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| {
         room::COMMANDS,
         picture::COMMANDS,
         predict::COMMANDS,
+        curate::COMMANDS,
         robot::COMMANDS,
         view::COMMANDS,
         help::COMMANDS,
