@@ -3,10 +3,13 @@
 pub(super) mod about;
 pub(super) mod bulk;
 mod canvas;
+mod chart_view;
+mod dashboard;
 mod dataset;
 pub(super) mod differences;
 mod export;
 mod findings;
+mod forms;
 mod here;
 mod history;
 mod inspector;
@@ -23,12 +26,14 @@ mod questions;
 mod reasons;
 pub(super) mod recovery;
 mod robot;
+mod schemes;
 pub(super) mod shortcuts;
 mod sides;
 pub(super) mod status;
 mod tool_options;
 mod tool_strip;
 mod top_bar;
+mod training;
 pub(super) mod welcome;
 mod workspace;
 
@@ -48,6 +53,9 @@ pub(crate) const DIALOGS: &[Entry] = &[
     bulk::ENTRY,
     export::ENTRY,
     dataset::ENTRY,
+    dashboard::ENTRY,
+    training::ENTRY,
+    schemes::ENTRY,
     palette::ENTRY,
 ];
 

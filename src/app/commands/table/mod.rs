@@ -1,5 +1,6 @@
 //! The table itself: one file per menu, and helpers for the entries.
 
+mod curate;
 mod dataset;
 mod draw;
 mod edit;
@@ -392,6 +393,7 @@ pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| {
         picture::COMMANDS,
         predict::COMMANDS,
         dataset::COMMANDS,
+        curate::COMMANDS,
         robot::COMMANDS,
         view::COMMANDS,
         help::COMMANDS,
