@@ -21,7 +21,7 @@ const FLOORS: &[&[&str]] = &[
     &["classify"],
     &["robot"],
     &["predict", "store", "study"],
-    &["pipeline", "gather"],
+    &["pipeline", "gather", "review"],
     &["facade"],
     &["app/look"],
     &["app/paint"],
@@ -40,7 +40,7 @@ const FLOORS: &[&[&str]] = &[
 /// The core: pure functions of their input.
 const CORE: &[&str] = &[
     "base", "geometry", "picture", "labels", "plan", "topology", "snapping", "edit", "features", "check", "draw",
-    "dataset", "formats", "classify", "predict", "study", "pipeline", "gather", "robot",
+    "dataset", "formats", "classify", "predict", "study", "pipeline", "gather", "review", "robot",
 ];
 
 /// What the core does not touch, and why.

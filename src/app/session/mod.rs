@@ -28,6 +28,7 @@ pub(crate) mod plan_list;
 pub(crate) mod predictions;
 pub(crate) mod questions;
 pub(crate) mod recovery;
+pub(crate) mod review;
 pub(crate) mod robot;
 pub(crate) mod safety;
 pub(crate) mod samples;
@@ -147,6 +148,8 @@ pub(crate) struct Session {
     pub(crate) chosen_file: Option<PathBuf>,
     /// The dataset being made.
     pub(crate) dataset_job: Option<jobs::Wanted>,
+    /// The review of the open folder's labels.
+    pub(crate) review: review::Review,
     /// The simulated robot, or the log being replayed.
     pub(crate) robot: robot::Robot,
     /// Requests to the rest of the window.
@@ -210,6 +213,7 @@ impl Session {
             preview: exporting::SheetPreview::default(),
             chosen_file: None,
             dataset_job: None,
+            review: review::Review::default(),
             robot: robot::Robot::default(),
             wishes: Vec::new(),
         }

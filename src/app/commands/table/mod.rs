@@ -7,6 +7,7 @@ mod help;
 mod modify;
 mod picture;
 mod predict;
+mod review;
 mod robot;
 mod room;
 mod script;
@@ -381,7 +382,7 @@ const ZOOM_STEP: f64 = 1.25;
 /// Every command, in menu order. Each menu is a file; the tools' commands come from the tools.
 pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| {
     let tools = tools_of_the_strip();
-    let parts: [&[Command]; 12] = [
+    let parts: [&[Command]; 13] = [
         file::COMMANDS,
         edit::COMMANDS,
         &tools,
@@ -390,6 +391,7 @@ pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| {
         room::COMMANDS,
         picture::COMMANDS,
         predict::COMMANDS,
+        review::COMMANDS,
         robot::COMMANDS,
         view::COMMANDS,
         help::COMMANDS,
