@@ -40,6 +40,7 @@ pub mod picture;
 pub mod pipeline;
 pub mod plan;
 pub mod predict;
+pub mod review;
 pub mod robot;
 pub mod snapping;
 pub mod store;

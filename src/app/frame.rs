@@ -68,6 +68,7 @@ impl App {
         self.take_tool_keys(&context);
         self.take_shortcuts(&context);
         self.refresh();
+        self.session.go_on_reviewing();
         self.session.check_findings(&context);
         self.session.compare_with_theirs();
         self.session.drop_stale_messages();

@@ -21,7 +21,7 @@ const FLOORS: &[&[&str]] = &[
     &["classify"],
     &["robot"],
     &["predict", "store", "study"],
-    &["pipeline", "gather", "training"],
+    &["pipeline", "gather", "training", "review"],
     &["workspace"],
     &["facade"],
     &["app/look"],
@@ -62,6 +62,7 @@ const CORE: &[&str] = &[
     "training",
     "robot",
     "workspace",
+    "review",
 ];
 
 /// What the core does not touch, and why.

@@ -25,6 +25,7 @@ mod prediction;
 mod questions;
 mod reasons;
 pub(super) mod recovery;
+mod review;
 mod robot;
 mod schemes;
 pub(super) mod shortcuts;
@@ -61,7 +62,7 @@ pub(crate) const DIALOGS: &[Entry] = &[
 
 /// All side panels, from the top.
 pub(crate) const SIDE_PANELS: &[SidePanel] =
-    &[plans::PANEL, layers::PANEL, inspector::PANEL, robot::PANEL, findings::PANEL, history::PANEL];
+    &[plans::PANEL, layers::PANEL, review::PANEL, inspector::PANEL, robot::PANEL, findings::PANEL, history::PANEL];
 
 /// Shows the window.
 pub(crate) fn show(app: &mut App, ui: &mut Ui) {

@@ -30,6 +30,7 @@ pub(crate) mod plan_list;
 pub(crate) mod predictions;
 pub(crate) mod questions;
 pub(crate) mod recovery;
+pub(crate) mod review;
 pub(crate) mod robot;
 pub(crate) mod safety;
 pub(crate) mod samples;
@@ -166,6 +167,8 @@ pub(crate) struct Session {
     pub(crate) measures: measures::Measures,
     /// Models being trained, and those trained last.
     pub(crate) training: training::Training,
+    /// The review of the open folder's labels.
+    pub(crate) review: review::Review,
     /// The simulated robot, or the log being replayed.
     pub(crate) robot: robot::Robot,
     /// Requests to the rest of the window.
@@ -236,6 +239,7 @@ impl Session {
             at_hand: at_hand::RoomsAtHand::default(),
             measures: measures::Measures::default(),
             training: training::Training::default(),
+            review: review::Review::default(),
             robot: robot::Robot::default(),
             wishes: Vec::new(),
         }

@@ -9,6 +9,7 @@ mod help;
 mod modify;
 mod picture;
 mod predict;
+mod review;
 mod robot;
 mod room;
 mod script;
@@ -394,6 +395,7 @@ pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| {
         predict::COMMANDS,
         dataset::COMMANDS,
         curate::COMMANDS,
+        review::COMMANDS,
         robot::COMMANDS,
         view::COMMANDS,
         help::COMMANDS,
