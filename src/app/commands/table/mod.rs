@@ -384,7 +384,7 @@ const ZOOM_STEP: f64 = 1.25;
 /// Every command, in menu order. Each menu is a file; the tools' commands come from the tools.
 pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| {
     let tools = tools_of_the_strip();
-    let parts: [&[Command]; 13] = [
+    let parts: [&[Command]; 15] = [
         file::COMMANDS,
         edit::COMMANDS,
         &tools,
