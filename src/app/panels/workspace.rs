@@ -7,6 +7,8 @@ mod grid;
 mod table;
 mod thumbnails;
 
+use std::collections::BTreeMap;
+
 use egui::{Align2, ComboBox, Id, Key, Modal, Modifiers, ProgressBar, TextEdit, Ui, vec2};
 
 use crate::app::commands;
@@ -38,9 +40,19 @@ struct Table {
     change: change::Form,
     /// The row that has to be scrolled to.
     follows_cursor: bool,
+    /// Counts over the folder, for a revision of it.
+    summary: Summary,
     /// The columns of the grid and the rows on the screen, in the last frame.
     columns: usize,
     rows_seen: usize,
+}
+
+/// Counts over a folder: made once a revision.
+#[derive(Default)]
+struct Summary {
+    of: Option<u64>,
+    totals: Totals,
+    typologies: BTreeMap<Option<Typology>, usize>,
 }
 
 /// What a person asked for.
@@ -105,9 +117,13 @@ impl Table {
         if app.session.workspace.is_none() {
             return empty(ui);
         }
+        if let Some(workspace) = app.session.workspace.as_ref().filter(|it| self.summary.of != Some(it.revision)) {
+            let (totals, typologies) = (workspace.now.totals(), workspace.now.typologies());
+            self.summary = Summary { of: Some(workspace.revision), totals, typologies };
+        }
         let keys = self.take_keys(app, ui);
         act = keys.or(act);
-        act = heading(app, ui).or(act);
+        act = heading(app, ui, &self.summary.totals).or(act);
         self.search(app, ui);
         hairline_in(ui);
         let foot = 78.0;
@@ -173,7 +189,7 @@ impl Table {
 
     /// The field to search in, and what is left out.
     fn search(&mut self, app: &mut App, ui: &mut Ui) {
-        let Some(OpenWorkspace { now, view, .. }) = app.session.workspace.as_mut() else { return };
+        let Some(OpenWorkspace { view, .. }) = app.session.workspace.as_mut() else { return };
         ui.horizontal(|ui| {
             let width = (ui.available_width() - 560.0).clamp(150.0, 420.0);
             let hint = "Search by function, name or label";
@@ -186,7 +202,7 @@ impl Table {
             if !self.is_shown {
                 response.request_focus();
             }
-            let typologies = now.typologies();
+            let typologies = &self.summary.typologies;
             let all: usize = typologies.values().sum();
             let title = |typology: &Option<Typology>, number: usize| {
                 let name = typology.as_ref().map_or_else(|| "No typology".to_owned(), Typology::title);
@@ -201,7 +217,7 @@ impl Table {
                 if ui.selectable_label(view.query.typology.is_none(), format!("All typologies ({all})")).clicked() {
                     view.query.typology = None;
                 }
-                for (typology, number) in &typologies {
+                for (typology, number) in typologies {
                     let is_on = view.query.typology.as_ref() == Some(typology);
                     if ui.selectable_label(is_on, title(typology, *number)).clicked() {
                         view.query.typology = Some(typology.clone());
@@ -279,12 +295,12 @@ fn counted(number: usize, thing: &str) -> String {
 }
 
 /// The folder, what is in it, and how it is shown.
-fn heading(app: &mut App, ui: &mut Ui) -> Option<Act> {
+fn heading(app: &mut App, ui: &mut Ui, totals: &Totals) -> Option<Act> {
     let mut act = None;
     let folder = app.session.workspace.as_ref().map(|workspace| workspace.now.folder().to_owned())?;
     let shown = app.session.shown_path(&folder);
     let name = folder.file_name().map_or_else(|| shown.clone(), |name| name.to_string_lossy().into_owned());
-    let OpenWorkspace { now, view, indexing, .. } = app.session.workspace.as_mut()?;
+    let OpenWorkspace { view, indexing, .. } = app.session.workspace.as_mut()?;
     ui.horizontal(|ui| {
         ui.label(strong(name, theme::TITLE)).on_hover_text(shown);
         right(ui, |ui| {
@@ -321,7 +337,7 @@ fn heading(app: &mut App, ui: &mut Ui) -> Option<Act> {
         });
     });
     ui.horizontal(|ui| {
-        caption(ui, said_of(&now.totals()));
+        caption(ui, said_of(totals));
         if let Some(indexing) = indexing {
             right(ui, |ui| {
                 let share = if indexing.count == 0 { 0.0 } else { indexing.done as f32 / indexing.count as f32 };

@@ -9,7 +9,7 @@ use crate::app::session::workspace::view::Shows;
 use crate::app::state::App;
 use crate::base::wording::{count, sentence};
 use crate::labels::{Label, Typology};
-use crate::workspace::change::{Change, Planned, Selected, planned};
+use crate::workspace::change::{Change, Planned, planned};
 
 /// What is changed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -43,7 +43,7 @@ pub(super) struct Form {
     label: Option<Label>,
     typology: Option<Typology>,
     /// What was counted last, and for what.
-    counted: Option<(u64, Selected, Change, Planned)>,
+    counted: Option<(u64, u64, Change, Planned)>,
 }
 
 impl Form {
@@ -59,14 +59,12 @@ impl Form {
     /// What would change; counted again only where something is another.
     fn planned(&mut self, workspace: &OpenWorkspace) -> Planned {
         let change = self.change();
-        let selected = &workspace.view.selected;
+        let (revision, selection) = (workspace.revision, workspace.view.selection);
         match &self.counted {
-            Some((revision, of, by, planned)) if *revision == workspace.revision && of == selected && *by == change => {
-                planned.clone()
-            }
+            Some((at, of, by, planned)) if (*at, *of) == (revision, selection) && *by == change => planned.clone(),
             _ => {
-                let planned = planned(&workspace.now, selected, &change);
-                self.counted = Some((workspace.revision, selected.clone(), change, planned.clone()));
+                let planned = planned(&workspace.now, &workspace.view.selected, &change);
+                self.counted = Some((revision, selection, change, planned.clone()));
                 planned
             }
         }

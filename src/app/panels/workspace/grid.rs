@@ -49,7 +49,7 @@ pub(super) fn show(table: &mut Table, app: &mut App, ui: &mut Ui) -> Option<Act>
                 let Some(found) = found else { break };
                 let left = whole.left() + column as f32 * (wide + GAP);
                 let rect = Rect::from_min_size(pos2(left, whole.top()), vec2(wide, HIGH));
-                let response = ui.interact(rect, ui.id().with(("picture", row)), Sense::click());
+                let response = ui.interact(rect, ui.scope_id().with(("picture", row)), Sense::click());
                 let is_selected = app.session.workspace.as_ref().is_some_and(|it| it.view.is_selected(row));
                 card(table, app, ui, rect, found, revision);
                 ground_over(ui, rect, &response, is_selected, row == cursor);
@@ -60,7 +60,7 @@ pub(super) fn show(table: &mut Table, app: &mut App, ui: &mut Ui) -> Option<Act>
             }
         }
     });
-    ui.data_mut(|data| data.insert_temp(egui::Id::unique("pictures scrolled"), output.state.offset.y));
+    ui.data_mut(|data| data.insert_temp(egui::Id::unique("pictures scrolled"), output.state.offset().y));
     act
 }
 

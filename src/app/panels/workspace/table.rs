@@ -75,7 +75,7 @@ pub(super) fn show(table: &mut Table, app: &mut App, ui: &mut Ui) -> Option<Act>
             act = clicked(app, ui, &response, row).or(act.take());
         }
     });
-    remember(ui, is_rooms, output.state.offset.y);
+    remember(ui, is_rooms, output.state.offset().y);
     act
 }
 
@@ -135,7 +135,7 @@ fn header<C: Copy + PartialEq>(
     for (column, is_figure, start, end) in placed {
         let (title, help) = told(*column);
         let cell = Rect::from_min_max(pos2(*start - 4.0, rect.top()), pos2(*end - GAP + 4.0, rect.bottom()));
-        let response = ui.interact(cell, ui.id().with(("heading", title)), Sense::click());
+        let response = ui.interact(cell, ui.scope_id().with(("heading", title)), Sense::click());
         let is_on = order.by == *column;
         if response.hovered() {
             ui.painter().rect_filled(cell, theme::RADIUS, colours.hover);
@@ -212,7 +212,7 @@ fn plan_row(
     }
     let (name, said) = plan_in_words(app, row);
     describe(response, is_selected, &name, &said);
-    hover(ui, response, &name, &said);
+    hover(response, &name, &said);
 }
 
 fn room_row(
@@ -268,11 +268,10 @@ pub(super) fn describe(response: &Response, is_selected: bool, name: &str, said:
     response.ctx.accesskit_node_builder(response.id, |node| node.set_description(said));
 }
 
-fn hover(ui: &Ui, response: &Response, name: &str, said: &str) {
+fn hover(response: &Response, name: &str, said: &str) {
     // Only what is not in the row anyway: why a file cannot be read.
     if said.starts_with("cannot be read") && response.hovered() {
         let text = format!("{name} {said}");
         response.clone().on_hover_text(text);
-        ui.ctx().request_repaint_after(std::time::Duration::from_millis(300));
     }
 }

@@ -56,6 +56,8 @@ pub(crate) struct View {
     /// What was last found; replaced as a whole.
     pub rows: Rows,
     pub selected: Selected,
+    /// Another whenever something else is selected.
+    pub selection: u64,
     /// The row with the cursor, and the one where a selection over several began.
     pub cursor: usize,
     pub anchor: usize,
@@ -72,6 +74,7 @@ impl Default for View {
             room_order: Order::by(RoomColumn::Plan),
             rows: Rows::default(),
             selected: Selected::default(),
+            selection: 0,
             cursor: 0,
             anchor: 0,
             answered: None,
@@ -105,6 +108,7 @@ impl View {
     pub(crate) fn choose(&mut self, row: usize, adds: bool, extends: bool) {
         let was_selected = self.is_selected(row);
         self.cursor = row;
+        self.selection += 1;
         if !adds {
             self.selected = Selected::default();
         }
@@ -118,6 +122,7 @@ impl View {
 
     /// Selects everything that is shown.
     pub(crate) fn choose_all(&mut self) {
+        self.selection += 1;
         self.selected = Selected::default();
         self.mark(0..self.len());
     }
@@ -149,6 +154,7 @@ impl View {
         let is_other_kind = (self.shows == Shows::Rooms) != (shows == Shows::Rooms);
         self.shows = shows;
         if is_other_kind {
+            self.selection += 1;
             self.selected = Selected::default();
             (self.cursor, self.anchor) = (0, 0);
         }
@@ -189,6 +195,7 @@ impl View {
         });
         self.rows = rows;
         if is_other {
+            self.selection += 1;
             (self.cursor, self.anchor) = (0, 0);
             self.selected = Selected::default();
         }
