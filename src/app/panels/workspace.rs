@@ -77,7 +77,8 @@ impl Dialog for Table {
                 ui.spacing_mut().item_spacing.y = 6.0;
                 self.contents(app, ui)
             });
-        let act = response.inner.or(response.should_close().then_some(Act::Close));
+        let is_closed = response.should_close();
+        let act = response.inner.or(is_closed.then_some(Act::Close));
         match act {
             None => After::Stay,
             Some(Act::Close) => After::Close,
