@@ -90,8 +90,10 @@ fn main() {
         let quiet = Work::quiet();
         let stairs = Query { text: "function:stairs".to_owned(), ..Query::default() };
         let school = Query { typology: Some(Typology::new("school")), ..Query::default() };
-        timed("search rooms by function", || query::rooms(&workspace, &stairs, Order::by(RoomColumn::Plan), &quiet)).unwrap();
-        timed("filter plans by typology", || query::plans(&workspace, &school, Order::by(PlanColumn::Name), &quiet)).unwrap();
+        timed("search rooms by function", || query::rooms(&workspace, &stairs, Order::by(RoomColumn::Plan), &quiet))
+            .unwrap();
+        timed("filter plans by typology", || query::plans(&workspace, &school, Order::by(PlanColumn::Name), &quiet))
+            .unwrap();
         for &by in PlanColumn::ALL {
             timed(&format!("sort plans by {}", by.word()), || {
                 query::plans(&workspace, &Query::default(), Order::by(by), &quiet).unwrap()

@@ -56,6 +56,7 @@ impl App {
         self.session.show_awaited_room();
         self.session.show_awaited_ghost();
         self.session.take_waiting();
+        self.session.take_wanted_room();
         if let Some(path) = self.session.recovering.take() {
             self.session.show_recovered(&path, &context);
         }
@@ -67,6 +68,7 @@ impl App {
         self.take_tool_keys(&context);
         self.take_shortcuts(&context);
         self.refresh();
+        self.session.go_on_reviewing();
         self.session.check_findings(&context);
         self.session.compare_with_theirs();
         self.session.drop_stale_messages();

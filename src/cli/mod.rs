@@ -7,6 +7,7 @@ mod classify;
 mod collect;
 #[cfg(feature = "gui")]
 mod commands;
+mod compare;
 mod completions;
 mod dataset;
 mod door;
@@ -31,6 +32,7 @@ mod render;
 mod repeats;
 #[cfg(feature = "gui")]
 mod replay;
+mod review;
 mod robot_study;
 mod scales;
 mod segment;
@@ -63,6 +65,8 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<classify::ClassifyCommand>(),
     entry::<evaluate::EvaluateCommand>(),
     entry::<suspects::SuspectsCommand>(),
+    entry::<review::ReviewCommand>(),
+    entry::<compare::CompareCommand>(),
     entry::<label::LabelCommand>(),
     entry::<train::TrainCommand>(),
     entry::<models::ModelsCommand>(),

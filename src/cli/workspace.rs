@@ -98,11 +98,19 @@ impl Subcommand for WorkspaceCommand {
             _ if self.buildings => self.print_buildings(&workspace, &query, terminal)?,
             Sorted::Plans(order) => {
                 let rows = query::plans(&workspace, &query, order, &work)?;
-                if self.json { self.json_plans(&workspace, &rows, terminal)? } else { print_plans(&workspace, &rows, terminal)? }
+                if self.json {
+                    self.json_plans(&workspace, &rows, terminal)?
+                } else {
+                    print_plans(&workspace, &rows, terminal)?
+                }
             }
             Sorted::Rooms(order) => {
                 let rows = query::rooms(&workspace, &query, order, &work)?;
-                if self.json { self.json_rooms(&workspace, &rows, terminal)? } else { print_rooms(&workspace, &rows, terminal)? }
+                if self.json {
+                    self.json_rooms(&workspace, &rows, terminal)?
+                } else {
+                    print_rooms(&workspace, &rows, terminal)?
+                }
             }
         }
         for file in workspace.files() {
@@ -177,7 +185,8 @@ impl WorkspaceCommand {
         const AT_ONCE: usize = 256;
         let all = paths.len();
         for (round, chunk) in paths.chunks(AT_ONCE).enumerate() {
-            let title = if all > AT_ONCE { format!("reading {} of {all}", round * AT_ONCE) } else { "reading".to_owned() };
+            let title =
+                if all > AT_ONCE { format!("reading {} of {all}", round * AT_ONCE) } else { "reading".to_owned() };
             let read = with_progress(&title, Some(chunk.len()), terminal, |work| {
                 work.map(chunk.len(), |at| {
                     let known = workspace.find(&chunk[at]).map(|file| &*workspace.files()[file]);
@@ -206,7 +215,13 @@ impl WorkspaceCommand {
         self.write(workspace, "rooms", rooms, terminal)
     }
 
-    fn write(&self, workspace: &Workspace, name: &str, rows: Vec<Value>, terminal: &mut Terminal) -> Result<(), CliError> {
+    fn write(
+        &self,
+        workspace: &Workspace,
+        name: &str,
+        rows: Vec<Value>,
+        terminal: &mut Terminal,
+    ) -> Result<(), CliError> {
         let totals = workspace.totals();
         let report = json!({
             "version": 1,

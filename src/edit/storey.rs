@@ -127,7 +127,8 @@ mod tests {
             assert!(next.violations().is_empty());
             let moved = |at: usize| next.corners().nth(at).unwrap().1.position;
             assert!(moved(0).distance(p) < 1e-3 && moved(plan.corners().len() - 1).distance(q) < 1e-3);
-            let area = |plan: &Plan| crate::topology::RoomShapes::new(plan).all().iter().map(|it| it.area_m2()).sum::<f64>();
+            let area =
+                |plan: &Plan| crate::topology::RoomShapes::new(plan).all().iter().map(|it| it.area_m2()).sum::<f64>();
             assert!((area(plan) - area(&next)).abs() < 0.01 * area(plan));
             assert!(laid_over(plan, [a, a], [p, q]).is_err());
         }

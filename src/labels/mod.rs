@@ -5,6 +5,7 @@ mod expectations;
 mod label;
 mod names;
 mod scheme;
+pub mod scheme_file;
 mod typology;
 
 pub use expectations::{TemporaryRule, UsualArea};

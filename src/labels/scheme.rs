@@ -98,6 +98,12 @@ const BUNDLED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/schemes.rs"
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SchemeError(String);
 
+impl SchemeError {
+    pub(super) fn new(what: String) -> Self {
+        Self(what)
+    }
+}
+
 impl fmt::Display for SchemeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)

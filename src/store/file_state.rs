@@ -34,7 +34,8 @@ impl FileState {
         }
         let since = latest.and_then(|latest| latest.duration_since(SystemTime::UNIX_EPOCH).ok());
         let modified_ns = since.map_or(0, |since| u64::try_from(since.as_nanos()).unwrap_or(u64::MAX));
-        let is_settled = latest.is_some_and(|latest| now().duration_since(latest).is_ok_and(|age| age > COARSEST_CLOCK));
+        let is_settled =
+            latest.is_some_and(|latest| now().duration_since(latest).is_ok_and(|age| age > COARSEST_CLOCK));
         Some(Self { modified_ns, size, is_settled })
     }
 

@@ -105,10 +105,11 @@ impl IndexFile {
     fn open_at(path: &Path) -> Result<(Self, Vec<(String, Vec<u8>)>), IndexError> {
         // A damaged file may trip an assertion of the database.
         let opened = catch_unwind(AssertUnwindSafe(|| {
-            let database = Database::builder().set_cache_size(CACHE_BYTES).create(path).map_err(|error| match error {
-                redb::DatabaseError::DatabaseAlreadyOpen => IndexError::InUse,
-                error => other(error),
-            })?;
+            let database =
+                Database::builder().set_cache_size(CACHE_BYTES).create(path).map_err(|error| match error {
+                    redb::DatabaseError::DatabaseAlreadyOpen => IndexError::InUse,
+                    error => other(error),
+                })?;
             let index = Self { database, path: path.to_owned() };
             let files = index.read()?;
             Ok((index, files))

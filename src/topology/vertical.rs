@@ -113,7 +113,8 @@ impl CommonPoints {
     pub fn transform(&self) -> Transform {
         let ([a, b], [p, q]) = (self.here, self.below);
         let angle = |v: Vector| v.y.atan2(v.x);
-        let turn_rad = if (b - a).length() < 1e-9 || (q - p).length() < 1e-9 { 0.0 } else { angle(q - p) - angle(b - a) };
+        let turn_rad =
+            if (b - a).length() < 1e-9 || (q - p).length() < 1e-9 { 0.0 } else { angle(q - p) - angle(b - a) };
         Transform::rotation(a, turn_rad).then(Transform::translation(p - a))
     }
 

@@ -141,7 +141,9 @@ pub fn planned(workspace: &Workspace, selected: &Selected, change: &Change) -> P
     let keys: BTreeSet<RoomKey> =
         whole.filter_map(|row| workspace.room_key(row)).chain(selected.rooms.iter().cloned()).collect();
     for key in keys {
-        let Some((file, Some(plan))) = workspace.row_of(&key.plan).and_then(|row| workspace.plan(row)) else { continue };
+        let Some((file, Some(plan))) = workspace.row_of(&key.plan).and_then(|row| workspace.plan(row)) else {
+            continue;
+        };
         let Ok(at) = plan.rooms.binary_search_by_key(&key.room, |room| room.id) else { continue };
         let room = &plan.rooms[at];
         let is_same = match change {
@@ -175,7 +177,9 @@ impl Planned {
 /// When the edit is refused.
 pub fn changed(plan: &Plan, rooms: &BTreeSet<RoomId>, change: &Change) -> Result<Plan, EditError> {
     match change {
-        Change::Building(name) => Ok(edit::set_meta(plan, Meta { building: name.trim().to_owned(), ..plan.meta().clone() })),
+        Change::Building(name) => {
+            Ok(edit::set_meta(plan, Meta { building: name.trim().to_owned(), ..plan.meta().clone() }))
+        }
         Change::Typology(typology) => {
             Ok(edit::set_meta(plan, Meta { typology: typology.clone(), ..plan.meta().clone() }))
         }

@@ -50,12 +50,7 @@ pub struct Listed {
 ///
 /// # Errors
 /// When cancelled.
-pub fn list(
-    folder: &Path,
-    known: &[(String, Vec<u8>)],
-    recipe: &Recipe,
-    work: &Work<'_>,
-) -> Result<Listed, Cancelled> {
+pub fn list(folder: &Path, known: &[(String, Vec<u8>)], recipe: &Recipe, work: &Work<'_>) -> Result<Listed, Cancelled> {
     let decoded = work.alone().on_threads(work.threads()).map(known.len(), |at| {
         let (path, bytes) = &known[at];
         record::from_bytes(path, bytes, recipe.number)
@@ -73,9 +68,12 @@ pub fn list(
         let known = before.remove(path.as_str()).flatten();
         let state = FileState::of(&found.path).unwrap_or_default();
         let file = match (found.problem, known) {
-            (Some(problem), _) => {
-                PlanFile { path: path.into(), state, hash: 0, content: Content::Broken(format!("{problem}; check the path")) }
-            }
+            (Some(problem), _) => PlanFile {
+                path: path.into(),
+                state,
+                hash: 0,
+                content: Content::Broken(format!("{problem}; check the path")),
+            },
             (None, Some(known)) if state.is_surely(&known.state) => known,
             // Shown as it was until it is read.
             (None, Some(known)) => {
@@ -107,12 +105,7 @@ pub fn read(folder: &Path, path: &Arc<str>, known: Option<&PlanFile>, recipe: &R
     PlanFile { path: path.clone(), state, hash, content }
 }
 
-fn content(
-    at: &Path,
-    known: Option<&PlanFile>,
-    recipe: &Recipe,
-    predicts: bool,
-) -> Result<(u64, Content), FileError> {
+fn content(at: &Path, known: Option<&PlanFile>, recipe: &Recipe, predicts: bool) -> Result<(u64, Content), FileError> {
     let (hash, import) = if at.is_dir() {
         (0, formats::read_file(at)?)
     } else {

@@ -86,7 +86,8 @@ mod tests {
             assert_eq!(rooms.len(), plan.rooms().len());
             assert!(rooms.iter().all(|room| !room.rings.is_empty()));
             let corners = || rooms.iter().flat_map(|room| room.rings.iter().flatten());
-            let wide = |of: usize| (corners().map(|it| it[of]).min().unwrap(), corners().map(|it| it[of]).max().unwrap());
+            let wide =
+                |of: usize| (corners().map(|it| it[of]).min().unwrap(), corners().map(|it| it[of]).max().unwrap());
             assert!(wide(0) == (0, 255) || wide(1) == (0, 255), "{:?} {:?}", wide(0), wide(1));
             assert_eq!(Outlines::of_bytes(outlines.bytes().to_vec()), outlines);
         }

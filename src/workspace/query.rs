@@ -308,9 +308,7 @@ fn number(value: Option<f64>) -> i64 {
 
 fn sort_plans(workspace: &Workspace, rows: &mut [PlanRow], order: Order<PlanColumn>) {
     let text = |rows: &mut [PlanRow], order, of: &dyn Fn(&PlanFile, Option<&PlanEntry>) -> String| {
-        sort_by_key(rows, order, |row| {
-            workspace.plan(row).map(|(file, plan)| NaturalKey::of(&of(file, plan)))
-        });
+        sort_by_key(rows, order, |row| workspace.plan(row).map(|(file, plan)| NaturalKey::of(&of(file, plan))));
     };
     let figure = |rows: &mut [PlanRow], of: &dyn Fn(&PlanFile, &PlanEntry) -> i64| {
         sort_by_key(rows, order, |row| match workspace.plan(row) {
@@ -377,9 +375,9 @@ fn sort_rooms(workspace: &Workspace, rows: &mut [RoomRow], order: Order<RoomColu
         }
         RoomColumn::Plan => text(rows, &|file, plan, _| file.title_of(plan).to_owned()),
         RoomColumn::Building => text(rows, &|_, plan, _| plan.building.to_string()),
-        RoomColumn::Typology => text(rows, &|_, plan, _| {
-            plan.typology.as_ref().map(ToString::to_string).unwrap_or_default()
-        }),
+        RoomColumn::Typology => {
+            text(rows, &|_, plan, _| plan.typology.as_ref().map(ToString::to_string).unwrap_or_default())
+        }
     }
 }
 

@@ -165,17 +165,12 @@ mod tests {
     fn what_is_kept_of_a_file_reads_back_the_same() {
         let plans = crate::store::bundled_plans().unwrap();
         let (schemes, models) = (Schemes::bundled(), Models::bundled());
-        let entries = vec![
-            PlanEntry::of(&plans[0].1, &schemes, Some(&models)),
-            PlanEntry::of(&plans[1].1, &schemes, None),
-        ];
+        let entries =
+            vec![PlanEntry::of(&plans[0].1, &schemes, Some(&models)), PlanEntry::of(&plans[1].1, &schemes, None)];
         assert!(entries[0].rooms.iter().any(|room| room.prediction.is_some()));
         let state = FileState { modified_ns: 17, size: 4, is_settled: true };
-        let contents = [
-            Content::Plans(entries),
-            Content::Broken("not closed".to_owned()),
-            Content::Foreign("SVG".to_owned()),
-        ];
+        let contents =
+            [Content::Plans(entries), Content::Broken("not closed".to_owned()), Content::Foreign("SVG".to_owned())];
         for content in contents {
             let file = PlanFile { path: "a/b.plan.json".into(), state, hash: u64::MAX, content };
             let bytes = to_bytes(&file, 3);

@@ -48,6 +48,8 @@ const CALLS: &[Call] = &[
     call("evaluate", "rooms.csv --folds 2 -o {out}", "rooms.csv", Output::Folder),
     call("train", "rooms.csv --algorithm tree --folds 0 --typology standard -o {out}", "rooms.csv", Output::File("x.model.json")),
     call("suspects", "labelled --folds 2 -o {out}", "labelled", Output::File("suspects.csv")),
+    call("review", "labelled --folds 2", "labelled", Output::None),
+    call("compare", "labelled labelled -o {out}", "labelled", Output::File("differences.csv")),
     call("label", "plans --from {fixes} --dry-run", "plans", Output::None),
     call("models", "", "", Output::None),
     call("explore", "plan.plan.json --range 5 -o {out}", "plan.plan.json", Output::Folder),

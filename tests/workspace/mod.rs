@@ -44,7 +44,8 @@ fn folder() -> tempfile::TempDir {
         save_plan(&folder.path().join(name), &plan).unwrap();
     }
     let school = bundled("school");
-    save_plan(&folder.path().join("more/school first floor.plan.json"), &copied(&school, "first floor", Keep::All)).unwrap();
+    save_plan(&folder.path().join("more/school first floor.plan.json"), &copied(&school, "first floor", Keep::All))
+        .unwrap();
     std::fs::write(folder.path().join("broken.plan.json"), "{ \"format\": ").unwrap();
     std::fs::write(folder.path().join("picture.xml"), "<svg xmlns=\"http://www.w3.org/2000/svg\"/>").unwrap();
     folder
@@ -96,10 +97,14 @@ fn an_index_is_used_where_files_are_as_they_were_and_nowhere_else() {
     let (settled, _, _) = go(false);
     let (known, to_read, _) = go(false);
     assert_eq!((to_read, known.files()), (0, settled.files()));
-    let contents = |workspace: &Workspace| workspace.files().iter().map(|file| file.content.clone()).collect::<Vec<_>>();
+    let contents =
+        |workspace: &Workspace| workspace.files().iter().map(|file| file.content.clone()).collect::<Vec<_>>();
     assert_eq!(contents(&known), contents(&first));
     // Touched, and the same: nothing is found out anew.
-    std::fs::File::open(&school).unwrap().set_modified(SystemTime::UNIX_EPOCH + Duration::from_secs(2_000_000)).unwrap();
+    std::fs::File::open(&school)
+        .unwrap()
+        .set_modified(SystemTime::UNIX_EPOCH + Duration::from_secs(2_000_000))
+        .unwrap();
     let (touched, to_read, _) = go(false);
     assert_eq!((to_read, contents(&touched)), (1, contents(&first)));
     // Changed and removed.
@@ -120,9 +125,14 @@ fn an_index_is_used_where_files_are_as_they_were_and_nowhere_else() {
     let listed = index::list(folder.path(), &known.files, &other, &Work::quiet()).unwrap();
     assert_eq!(listed.to_read.len(), listed.workspace.files().len());
     // Beside the plans nothing is written.
-    let names: BTreeSet<String> =
-        std::fs::read_dir(folder.path()).unwrap().map(|it| it.unwrap().file_name().to_string_lossy().into_owned()).collect();
-    assert!(names.iter().all(|name| name.ends_with(".plan.json") || name == "more" || name == "picture.xml"), "{names:?}");
+    let names: BTreeSet<String> = std::fs::read_dir(folder.path())
+        .unwrap()
+        .map(|it| it.unwrap().file_name().to_string_lossy().into_owned())
+        .collect();
+    assert!(
+        names.iter().all(|name| name.ends_with(".plan.json") || name == "more" || name == "picture.xml"),
+        "{names:?}"
+    );
 }
 
 #[test]
@@ -221,8 +231,13 @@ fn plans_and_rooms_are_searched_filtered_and_sorted() {
 fn a_change_of_many_is_counted_first_and_then_made() {
     let folder = folder();
     let workspace = read(folder.path(), false);
-    let rows = query::rooms(&workspace, &Query { text: "function:stairs".to_owned(), ..Query::default() },
-        Order::by(RoomColumn::Plan), &Work::quiet()).unwrap();
+    let rows = query::rooms(
+        &workspace,
+        &Query { text: "function:stairs".to_owned(), ..Query::default() },
+        Order::by(RoomColumn::Plan),
+        &Work::quiet(),
+    )
+    .unwrap();
     let selected = Selected::rooms_in(&workspace, &rows);
     let change = Change::Label(Some(Label::Corridor));
     let plan = planned(&workspace, &selected, &change);
@@ -277,7 +292,11 @@ fn stairs_and_lifts_over_each_other_are_joined_once_storeys_have_one_origin() {
         let joined: Vec<_> = links.iter().map(|link| (link.lower, link.upper)).collect();
         assert_eq!(joined, shafts.iter().map(|id| (*id, *id)).collect::<Vec<_>>(), "turned by {turn_rad}");
         let function = |id| &below.room(id).unwrap().function;
-        assert!(links.iter().all(|link| link.overlap > 0.95 && Shaft::of_function(function(link.lower)) == Some(link.shaft)));
+        assert!(
+            links
+                .iter()
+                .all(|link| link.overlap > 0.95 && Shaft::of_function(function(link.lower)) == Some(link.shaft))
+        );
     }
     // Nothing in common, nothing proposed.
     let dwelling = bundled("dwelling");
@@ -314,7 +333,14 @@ fn a_building_is_the_plans_that_name_it_from_the_lowest_storey_up() {
     assert_eq!(storeys(at("South")), ["f"]);
     assert_eq!(found.len(), 3);
     assert_eq!(level("2nd floor"), Some(2.0));
-    let (code, out, _) = enfilade(["workspace", "--no-index", "--no-predictions", "--buildings", "--json", folder.path().to_str().unwrap()]);
+    let (code, out, _) = enfilade([
+        "workspace",
+        "--no-index",
+        "--no-predictions",
+        "--buildings",
+        "--json",
+        folder.path().to_str().unwrap(),
+    ]);
     assert_eq!(code, 0);
     let told: Value = serde_json::from_str(&out).unwrap();
     let north = told["buildings"].as_array().unwrap().iter().find(|it| it["building"] == "North School").unwrap();

@@ -3,10 +3,13 @@
 pub(super) mod about;
 pub(super) mod bulk;
 mod canvas;
+mod chart_view;
+mod dashboard;
 mod dataset;
 pub(super) mod differences;
 mod export;
 mod findings;
+mod forms;
 mod here;
 mod history;
 mod inspector;
@@ -22,13 +25,16 @@ mod prediction;
 mod questions;
 mod reasons;
 pub(super) mod recovery;
+mod review;
 mod robot;
+mod schemes;
 pub(super) mod shortcuts;
 mod sides;
 pub(super) mod status;
 mod tool_options;
 mod tool_strip;
 mod top_bar;
+mod training;
 pub(super) mod welcome;
 mod workspace;
 
@@ -48,12 +54,15 @@ pub(crate) const DIALOGS: &[Entry] = &[
     bulk::ENTRY,
     export::ENTRY,
     dataset::ENTRY,
+    dashboard::ENTRY,
+    training::ENTRY,
+    schemes::ENTRY,
     palette::ENTRY,
 ];
 
 /// All side panels, from the top.
 pub(crate) const SIDE_PANELS: &[SidePanel] =
-    &[plans::PANEL, layers::PANEL, inspector::PANEL, robot::PANEL, findings::PANEL, history::PANEL];
+    &[plans::PANEL, layers::PANEL, review::PANEL, inspector::PANEL, robot::PANEL, findings::PANEL, history::PANEL];
 
 /// Shows the window.
 pub(crate) fn show(app: &mut App, ui: &mut Ui) {

@@ -15,8 +15,8 @@ use crate::app::commands;
 use crate::app::look::icons::Icon;
 use crate::app::look::theme;
 use crate::app::look::widgets::{
-    Segment, caption, colours, dialog_frame, focus_ring, hairline_in, icon_button, right, segmented, strong, text_button,
-    toggle,
+    Segment, caption, colours, dialog_frame, focus_ring, hairline_in, icon_button, right, segmented, strong,
+    text_button, toggle,
 };
 use crate::app::session::workspace::OpenWorkspace;
 use crate::app::session::workspace::view::Shows;
@@ -69,13 +69,14 @@ impl Dialog for Table {
         }
         app.session.find_workspace_rows();
         let screen = ui.ctx().content_rect();
-        let response = Modal::new(Id::unique("workspace")).frame(dialog_frame(ui).inner_margin(16)).show(ui.ctx(), |ui| {
-            let size = vec2(screen.width() - 2.0 * AROUND - 32.0, screen.height() - 2.0 * AROUND - 32.0);
-            ui.set_width(size.x.max(0.0));
-            ui.set_height(size.y.max(0.0));
-            ui.spacing_mut().item_spacing.y = 6.0;
-            self.contents(app, ui)
-        });
+        let response =
+            Modal::new(Id::unique("workspace")).frame(dialog_frame(ui).inner_margin(16)).show(ui.ctx(), |ui| {
+                let size = vec2(screen.width() - 2.0 * AROUND - 32.0, screen.height() - 2.0 * AROUND - 32.0);
+                ui.set_width(size.x.max(0.0));
+                ui.set_height(size.y.max(0.0));
+                ui.spacing_mut().item_spacing.y = 6.0;
+                self.contents(app, ui)
+            });
         let is_closed = response.should_close();
         let act = response.inner.or(is_closed.then_some(Act::Close));
         match act {
@@ -86,7 +87,11 @@ impl Dialog for Table {
                 After::Stay
             }
             Some(Act::Open(row)) => {
-                if open(app, row) { After::Close } else { After::Stay }
+                if open(app, row) {
+                    After::Close
+                } else {
+                    After::Stay
+                }
             }
         }
     }
@@ -157,12 +162,8 @@ impl Table {
         let is_grid = view.shows == Shows::Grid;
         let line = if is_grid { self.columns.max(1) as isize } else { 1 };
         let page = (self.rows_seen.max(2) as isize - 1) * line;
-        let mut steps = vec![
-            (Key::ArrowUp, -line),
-            (Key::ArrowDown, line),
-            (Key::PageUp, -page),
-            (Key::PageDown, page),
-        ];
+        let mut steps =
+            vec![(Key::ArrowUp, -line), (Key::ArrowDown, line), (Key::PageUp, -page), (Key::PageDown, page)];
         if !is_searching || view.query.text.is_empty() {
             steps.extend([(Key::Home, -length), (Key::End, length)]);
             if is_grid {

@@ -288,7 +288,9 @@ impl Session {
             Purpose::Log => self.wishes.push(run("replay-log")),
             Purpose::Picture(PictureUse::Add) => self.wishes.push(run("picture")),
             Purpose::Picture(PictureUse::Relink) => self.wishes.push(run("relink-picture")),
-            Purpose::Export | Purpose::Dataset => self.chosen_file = Some(path),
+            Purpose::Export | Purpose::Dataset | Purpose::Data { .. } | Purpose::Folder | Purpose::Chart => {
+                self.chosen_file = Some(path);
+            }
             Purpose::Recording(save) => self.wishes.push(Wish::Recording(save(path))),
             Purpose::Save { then: None, answering: None } => self.wishes.push(run("save-as")),
             Purpose::Save { then, answering } => {

@@ -1,5 +1,6 @@
 //! The session: the open plan and all that is done with it. It knows no canvas, tool, panel or command.
 
+pub(crate) mod at_hand;
 pub(crate) mod bulk;
 pub(crate) mod dataset;
 pub(crate) mod deriving;
@@ -17,6 +18,7 @@ pub(crate) mod jobs;
 pub(crate) mod kept;
 pub(crate) mod labelling;
 pub(crate) mod layers;
+pub(crate) mod measures;
 pub(crate) mod memory;
 pub(crate) mod messages;
 pub(crate) mod open_plans;
@@ -28,12 +30,15 @@ pub(crate) mod plan_list;
 pub(crate) mod predictions;
 pub(crate) mod questions;
 pub(crate) mod recovery;
+pub(crate) mod review;
 pub(crate) mod robot;
 pub(crate) mod safety;
 pub(crate) mod samples;
+pub(crate) mod scheme_edit;
 pub(crate) mod selection;
 pub(crate) mod settings;
 pub(crate) mod tracing;
+pub(crate) mod training;
 pub(crate) mod watch;
 pub(crate) mod wishes;
 pub(crate) mod words;
@@ -156,6 +161,14 @@ pub(crate) struct Session {
     pub(crate) awaited_ghost: Option<(Origin, Origin)>,
     /// The dataset being made.
     pub(crate) dataset_job: Option<jobs::Wanted>,
+    /// The labelled rooms at hand, for the dashboard and for training.
+    pub(crate) at_hand: at_hand::RoomsAtHand,
+    /// How well classifiers tell them.
+    pub(crate) measures: measures::Measures,
+    /// Models being trained, and those trained last.
+    pub(crate) training: training::Training,
+    /// The review of the open folder's labels.
+    pub(crate) review: review::Review,
     /// The simulated robot, or the log being replayed.
     pub(crate) robot: robot::Robot,
     /// Requests to the rest of the window.
@@ -223,6 +236,10 @@ impl Session {
             awaited_room: None,
             awaited_ghost: None,
             dataset_job: None,
+            at_hand: at_hand::RoomsAtHand::default(),
+            measures: measures::Measures::default(),
+            training: training::Training::default(),
+            review: review::Review::default(),
             robot: robot::Robot::default(),
             wishes: Vec::new(),
         }

@@ -127,8 +127,16 @@ impl Session {
             None => (Arc::new(Workspace::new(&folder, Vec::new())), 0, view::View::default(), None, None),
         };
         let indexing = Some(Indexing::default());
-        self.workspace =
-            Some(OpenWorkspace { now, revision, indexing, view, changed, recipe: recipe.clone(), index: None, job: None });
+        self.workspace = Some(OpenWorkspace {
+            now,
+            revision,
+            indexing,
+            view,
+            changed,
+            recipe: recipe.clone(),
+            index: None,
+            job: None,
+        });
         // Its file may be opened once at a time.
         drop(index);
         let cache = self.cache_folder.clone();
@@ -153,7 +161,8 @@ impl Session {
         let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         let folder = Workspace::new(&absolute(workspace.now.folder()), Vec::new());
         let below = paths.iter().filter_map(|path| folder.path_below(&absolute(path)));
-        let below: Vec<Arc<str>> = below.filter(|path| crate::formats::is_plan_file_name(path)).map(Into::into).collect();
+        let below: Vec<Arc<str>> =
+            below.filter(|path| crate::formats::is_plan_file_name(path)).map(Into::into).collect();
         if below.is_empty() {
             return;
         }

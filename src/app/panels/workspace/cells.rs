@@ -116,9 +116,7 @@ pub(super) fn of_room(
         RoomColumn::Area if room.area_m2 <= 0.0 => "–".to_owned(),
         RoomColumn::Area => session.units().area(f64::from(room.area_m2)),
         RoomColumn::Prediction => room.prediction.map(|(label, _)| label.name().to_owned()).unwrap_or_default(),
-        RoomColumn::Probability => {
-            room.prediction.map(|(_, it)| format!("{:.0} %", 100.0 * it)).unwrap_or_default()
-        }
+        RoomColumn::Probability => room.prediction.map(|(_, it)| format!("{:.0} %", 100.0 * it)).unwrap_or_default(),
         RoomColumn::Plan => file.title_of(plan).to_owned(),
         RoomColumn::Building => plan.building.to_string(),
         RoomColumn::Typology => plan.typology.as_ref().map(ToString::to_string).unwrap_or_default(),

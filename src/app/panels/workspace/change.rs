@@ -82,20 +82,22 @@ impl Form {
         let mut wanted = None;
         ui.horizontal(|ui| {
             caption(ui, "Change");
-            let shown = ComboBox::from_id_salt("property").width(96.0).selected_text(self.property.title()).show_ui(ui, |ui| {
-                for property in properties {
-                    if ui.selectable_label(self.property == *property, property.title()).clicked() {
-                        self.property = *property;
-                        self.text.clear();
+            let shown =
+                ComboBox::from_id_salt("property").width(96.0).selected_text(self.property.title()).show_ui(ui, |ui| {
+                    for property in properties {
+                        if ui.selectable_label(self.property == *property, property.title()).clicked() {
+                            self.property = *property;
+                            self.text.clear();
+                        }
                     }
-                }
-            });
+                });
             focus_ring(ui, shown.response.rect, &shown.response);
             let title = self.property.title();
             shown.response.widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, format!("Change: {title}")));
             match self.property {
                 Property::Building | Property::Function => {
-                    let hint = if self.property == Property::Building { "Name of the building" } else { "New function" };
+                    let hint =
+                        if self.property == Property::Building { "Name of the building" } else { "New function" };
                     let field = TextEdit::singleline(&mut self.text)
                         .id(Id::unique("workspace change"))
                         .hint_text(hint)
@@ -118,13 +120,14 @@ impl Form {
                     });
                     focus_ring(ui, shown.response.rect, &shown.response);
                     let current = title(&self.typology);
-                    shown
-                        .response
-                        .widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, format!("New typology: {current}")));
+                    shown.response.widget_info(|| {
+                        WidgetInfo::labeled(egui::Role::ComboBox, true, format!("New typology: {current}"))
+                    });
                 }
                 Property::Label => {
                     let title = |label: Option<Label>| label.map_or("By function", Label::name);
-                    let list = ComboBox::from_id_salt("new label").width(150.0).selected_text(sentence(title(self.label)));
+                    let list =
+                        ComboBox::from_id_salt("new label").width(150.0).selected_text(sentence(title(self.label)));
                     let shown = list.show_ui(ui, |ui| {
                         for label in Label::ALL.into_iter().map(Some).chain([None]) {
                             if ui.selectable_label(self.label == label, sentence(title(label))).clicked() {
@@ -134,9 +137,9 @@ impl Form {
                     });
                     focus_ring(ui, shown.response.rect, &shown.response);
                     let current = title(self.label);
-                    shown
-                        .response
-                        .widget_info(|| WidgetInfo::labeled(egui::Role::ComboBox, true, format!("New label: {current}")));
+                    shown.response.widget_info(|| {
+                        WidgetInfo::labeled(egui::Role::ComboBox, true, format!("New label: {current}"))
+                    });
                 }
             }
             let Some(workspace) = &app.session.workspace else { return };

@@ -59,8 +59,7 @@ pub(super) fn show(table: &mut Table, app: &mut App, ui: &mut Ui) -> Option<Act>
         for row in range {
             let (rect, response) =
                 ui.allocate_exact_size(vec2(ui.available_width().min(right - head.left()), ROW), Sense::click());
-            let is_selected =
-                app.session.workspace.as_ref().is_some_and(|workspace| workspace.view.is_selected(row));
+            let is_selected = app.session.workspace.as_ref().is_some_and(|workspace| workspace.view.is_selected(row));
             ground(ui, rect, &response, is_selected, row == cursor);
             if is_rooms {
                 let found = app.session.workspace.as_ref().and_then(|it| it.view.rows.rooms.get(row).copied());
@@ -86,8 +85,7 @@ fn remember(ui: &Ui, is_rooms: bool, offset: f32) {
 }
 
 fn followed(area: ScrollArea, ui: &Ui, is_rooms: bool, cursor: usize, height: f32) -> ScrollArea {
-    let offset: f32 =
-        ui.data(|data| data.get_temp(egui::Id::unique(("rows scrolled", is_rooms)))).unwrap_or_default();
+    let offset: f32 = ui.data(|data| data.get_temp(egui::Id::unique(("rows scrolled", is_rooms)))).unwrap_or_default();
     let top = cursor as f32 * ROW;
     area.vertical_scroll_offset(offset.clamp((top + ROW - height).max(0.0), top))
 }
@@ -152,7 +150,13 @@ fn header<C: Copy + PartialEq>(
         let colour = if is_on { colours.text } else { colours.text_weak };
         put(ui, &text, font, colour, cell.shrink2(vec2(4.0, 0.0)), *is_figure);
         focus_ring(ui, cell, &response);
-        let way = if is_on && !order.is_descending { ", ascending" } else if is_on { ", descending" } else { "" };
+        let way = if is_on && !order.is_descending {
+            ", ascending"
+        } else if is_on {
+            ", descending"
+        } else {
+            ""
+        };
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, is_on, format!("Sort by {title}{way}")));
         if response.on_hover_text(help).clicked() {
             chosen = Some(*column);

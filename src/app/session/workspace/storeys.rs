@@ -85,7 +85,8 @@ impl Session {
         let Some(at) = storeys.iter().position(|storey| storey.is_shown) else { return false };
         let Some(next) = at.checked_add_signed(up).filter(|next| *next < storeys.len()) else {
             let end = if up > 0 { "highest" } else { "lowest" };
-            self.status = format!("This is the {end} storey of {}", crate::base::wording::count(storeys.len(), "storey"));
+            self.status =
+                format!("This is the {end} storey of {}", crate::base::wording::count(storeys.len(), "storey"));
             return true;
         };
         let origin = storeys[next].origin.clone();
@@ -137,7 +138,8 @@ impl Session {
         let mismatch_m = (here[0].distance(here[1]) - below[0].distance(below[1])).abs();
         self.try_edit("Lay over the storey below", |plan| storey::laid_over(plan, here, below))
             .map_err(|error| error.to_string())?;
-        let off = if mismatch_m < 0.005 { String::new() } else { format!(", {mismatch_m:.2} m apart at the second point") };
+        let off =
+            if mismatch_m < 0.005 { String::new() } else { format!(", {mismatch_m:.2} m apart at the second point") };
         self.status = format!("Laid over the storey below by {said}{off}");
         Ok(())
     }

@@ -140,7 +140,9 @@ impl View {
 
     fn unmark(&mut self, row: usize) {
         let of = &self.rows.of;
-        if let Some(key) = self.rows.rooms.get(row).filter(|_| self.shows == Shows::Rooms).and_then(|row| of.room_key(*row)) {
+        if let Some(key) =
+            self.rows.rooms.get(row).filter(|_| self.shows == Shows::Rooms).and_then(|row| of.room_key(*row))
+        {
             self.selected.rooms.remove(&key);
         } else if let Some(key) = self.rows.plans.get(row).and_then(|row| of.plan_key(*row)) {
             self.selected.plans.remove(&key);
@@ -188,7 +190,8 @@ impl View {
     fn answer(&mut self, question: Question, rows: Rows) {
         // What a person selected is what was seen: of other rows nothing.
         let is_other = self.answered.as_ref().is_none_or(|before| {
-            (before.query.clone(), before.shows == Shows::Rooms) != (question.query.clone(), question.shows == Shows::Rooms)
+            (before.query.clone(), before.shows == Shows::Rooms)
+                != (question.query.clone(), question.shows == Shows::Rooms)
         });
         self.rows = rows;
         if is_other {
@@ -226,7 +229,9 @@ impl Session {
             let Question { shows, query, plans, rooms, .. } = &question;
             let found = match shows {
                 Shows::Rooms => query::rooms(&rows.of, query, *rooms, work).map(|found| rows.rooms = found),
-                Shows::Plans | Shows::Grid => query::plans(&rows.of, query, *plans, work).map(|found| rows.plans = found),
+                Shows::Plans | Shows::Grid => {
+                    query::plans(&rows.of, query, *plans, work).map(|found| rows.plans = found)
+                }
             };
             move |session: &mut Session, _: &Context| {
                 let Some(workspace) = &mut session.workspace else { return };
