@@ -235,3 +235,32 @@ impl Raster {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::Pose;
+
+    /// A room of 4 m by 4 m with a bay of 1.6 m by 1.6 m behind an opening of 1 m in a wall of 0.2 m.
+    fn room_with_bay() -> GridMap {
+        let (width, height) = (130, 90);
+        let is_free = |x: usize, y: usize| {
+            let within = |left, top, right, bottom| (left..right).contains(&x) && (top..bottom).contains(&y);
+            within(5, 5, 85, 85) || within(85, 35, 89, 55) || within(89, 29, 121, 61)
+        };
+        let cells = (0..width * height).map(|cell| match is_free(cell % width, cell / width) {
+            true => Cell::Free,
+            false => Cell::Occupied,
+        });
+        GridMap::new(width, height, 0.05, Pose::IDENTITY, cells.collect()).unwrap()
+    }
+
+    #[test]
+    fn a_bay_is_a_room_only_if_the_robot_was_in_it() {
+        let map = room_with_bay();
+        let rooms = |visited: &[usize]| segment_with(&map, &SegmentOptions::LOG, visited).rooms;
+        let (room, bay) = (45 * 130 + 40, 45 * 130 + 100);
+        assert_eq!((rooms(&[room]), rooms(&[room, bay])), (1, 2));
+        assert_eq!(segment(&map).rooms, 2);
+    }
+}
