@@ -1,9 +1,10 @@
+use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use super::{Features, NeighbourLabels};
 use crate::features::temporary;
 use crate::geometry::runs::{self, Axes};
-use crate::labels::{Label, Meaning, Schemes};
+use crate::labels::{Colour, Label, Meaning, Schemes};
 use crate::plan::{Joint, LabelOrigin, Plan, Room, RoomId};
 use crate::topology::wall_bodies::WallBodies;
 use crate::topology::{Graph, NetRoom, RoomShapes, net_rooms_between};
@@ -66,6 +67,8 @@ pub struct Analysis {
     /// The clear part of each room, in the same order; `None` for a room that encloses no area. No feature and no
     /// label depends on it.
     pub net: Vec<Option<NetRoom>>,
+    /// The colours that the scheme gives functions; nothing that is computed depends on them.
+    pub colours: BTreeMap<String, Colour>,
     bodies: OnceLock<WallBodies>,
 }
 
@@ -145,5 +148,5 @@ pub fn analyse(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels) -> A
         [] => Vec::new(),
         _ => net_rooms_between(bodies.get_or_init(|| WallBodies::new(plan)), &shapes),
     };
-    Analysis { shapes, graph, rooms, net, bodies }
+    Analysis { shapes, graph, rooms, net, colours: schemes.colours(plan.meta().typology.as_ref()), bodies }
 }
