@@ -11,7 +11,7 @@ use crate::app::session::{bulk::Order, selection::SelectMode};
 use crate::classify::Method;
 use crate::edit::{Alignment, DrawingMoves, End, Lies, Reach, storey::Keep};
 use crate::geometry::{Point, Vector};
-use crate::labels::Typology;
+use crate::labels::{Label, Typology};
 use crate::plan::{DimensionAlong, ElementId, GuideAxis, LeafSide, OpeningId, OpeningKind, RoomId};
 use crate::predict::ModelSet;
 
@@ -95,6 +95,17 @@ impl Worded for OpeningKind {
     const WORDS: &'static [(&'static str, &'static str)] =
         &[("door", "Door"), ("double-door", "Double door"), ("passage", "Passage"), ("window", "Window")];
     const ALL: &'static [Self] = &[Self::Door, Self::DoubleDoor, Self::Passage, Self::Window];
+}
+
+impl Worded for Label {
+    const WORDS: &'static [(&'static str, &'static str)] = &[
+        ("small", "Small room"),
+        ("medium", "Medium room"),
+        ("big", "Big room"),
+        ("corridor", "Corridor"),
+        ("hall", "Hall"),
+    ];
+    const ALL: &'static [Self] = &Self::ALL;
 }
 
 impl Worded for End {
