@@ -99,6 +99,8 @@ pub struct Opinions {
     of_parts: Vec<Vec<Distribution>>,
     /// For each part that is a joint classifier, its first round: where explanations start.
     rounds: Vec<Option<FirstRound>>,
+    /// For each part that looks at each room by itself, what it said, for the next plan.
+    said: Vec<Option<in_plan::Said>>,
     /// The mean of the parts.
     means: Vec<Distribution>,
     /// The blend's distribution of each room: the mean, corrected by the labels that were given ([`given::corrected`]).
@@ -156,6 +158,50 @@ impl Blend {
                 None => {}
             }
         }
+        self.together(of_parts, rounds, Vec::new(), network, known)
+    }
+
+    /// The same of the plan after an edit, to the last bit; `before` is what this blend said of the plan before it, by this
+    /// function too.
+    pub fn opinions_after(
+        &self,
+        network: &RoomNetwork,
+        known: &[Option<Label>],
+        before: Option<&Opinions>,
+    ) -> Opinions {
+        let (mut of_parts, mut rounds, mut said) = (Vec::new(), Vec::<Option<FirstRound>>::new(), Vec::new());
+        for (index, part) in self.parts.iter().enumerate() {
+            match part.model.kind() {
+                Some(Kind::Joint(joint)) => {
+                    let other = rounds.iter().flatten().next();
+                    let before = before.and_then(|before| before.rounds.get(index)?.as_ref());
+                    let (round, distributions) = joint.predict_after(network, &[], other, before);
+                    of_parts.push(distributions);
+                    rounds.push(Some(round));
+                    said.push(None);
+                }
+                Some(Kind::Each(classifier)) => {
+                    let before = before.and_then(|before| before.said.get(index)?.as_ref());
+                    let neighbours = NeighbourLabels::Predicted;
+                    let (result, kept) = in_plan::classify_after(classifier, network, &[], neighbours, before);
+                    of_parts.push(result.distributions);
+                    rounds.push(None);
+                    said.push(Some(kept));
+                }
+                None => {}
+            }
+        }
+        self.together(of_parts, rounds, said, network, known)
+    }
+
+    fn together(
+        &self,
+        of_parts: Vec<Vec<Distribution>>,
+        rounds: Vec<Option<FirstRound>>,
+        said: Vec<Option<in_plan::Said>>,
+        network: &RoomNetwork,
+        known: &[Option<Label>],
+    ) -> Opinions {
         let weights: Vec<f64> = self.parts.iter().map(|part| part.weight).collect();
         let means: Vec<Distribution> = (0..network.rooms.len())
             .map(|room| {
@@ -164,7 +210,7 @@ impl Blend {
             })
             .collect();
         let distributions = given::corrected(network, known, &means);
-        Opinions { of_parts, rounds, means, distributions }
+        Opinions { of_parts, rounds, said, means, distributions }
     }
 
     /// Why a room got its label, with areas in these units; `None` for a room that is not in the network. The points are those
