@@ -25,6 +25,13 @@ pub fn cache_folder() -> Option<PathBuf> {
 /// By path, what is known of a file. The number is the version of what is in it: another one starts afresh.
 const FILES: TableDefinition<'static, &str, &[u8]> = TableDefinition::new("files 1");
 
+/// Before each entry stands its checksum.
+const SUM_BYTES: usize = 8;
+
+fn checksum(path: &str, value: &[u8]) -> [u8; SUM_BYTES] {
+    hash::fnv1a(hash::fnv1a(hash::START, path.bytes()), value.iter().copied()).to_le_bytes()
+}
+
 /// Memory of the database itself: all of it is read once, and written seldom.
 const CACHE_BYTES: usize = 4 << 20;
 
@@ -127,7 +134,13 @@ impl IndexFile {
         let mut files = Vec::new();
         for entry in table.iter().map_err(other)? {
             let (path, value) = entry.map_err(other)?;
-            files.push((path.value().to_owned(), value.value().to_vec()));
+            let (path, value) = (path.value(), value.value());
+            // The database looks at what it wrote only after a crash.
+            let (sum, value) = value.split_at_checked(SUM_BYTES).ok_or_else(|| other("an entry is cut short"))?;
+            if sum != checksum(path, value) {
+                return Err(other("an entry is damaged"));
+            }
+            files.push((path.to_owned(), value.to_vec()));
         }
         Ok(files)
     }
@@ -142,7 +155,9 @@ impl IndexFile {
             {
                 let mut table = writing.open_table(FILES).map_err(other)?;
                 for (path, value) in found {
-                    table.insert(path.as_str(), value.as_slice()).map_err(other)?;
+                    let mut summed = checksum(path, value).to_vec();
+                    summed.extend(value);
+                    table.insert(path.as_str(), summed.as_slice()).map_err(other)?;
                 }
                 for path in gone {
                     table.remove(path.as_str()).map_err(other)?;

@@ -263,7 +263,9 @@ impl Session {
     /// Selects the room that was asked for, once its plan is shown.
     pub(crate) fn show_awaited_room(&mut self) {
         let Some((origin, room)) = &self.awaited_room else { return };
-        let Some(document) = self.document.as_ref().filter(|document| document.origin == *origin) else { return };
+        // It may have been opened by another path.
+        let wanted = self.open_of(origin);
+        let Some(document) = self.document.as_ref().filter(|document| wanted == Some(document.number)) else { return };
         let element = ElementId::Room(*room);
         if document.plan().room(*room).is_some() {
             self.pick(Some(element));
