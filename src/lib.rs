@@ -22,6 +22,7 @@
 #[cfg(feature = "gui")]
 pub mod app;
 pub mod base;
+pub mod chart;
 pub mod check;
 pub mod classify;
 #[cfg(feature = "cli")]
@@ -45,5 +46,7 @@ pub mod snapping;
 pub mod store;
 pub mod study;
 pub mod topology;
+pub mod training;
+pub mod workspace;
 
 pub use facade::{Error, OpenPlan, open, open_all};

@@ -22,3 +22,4 @@ mod review;
 mod robot;
 mod study;
 mod support;
+mod workspace;

@@ -42,6 +42,7 @@ const CALLS: &[Call] = &[
     call("dataset", "plans -o {out}", "plans", Output::File("rooms.csv")),
     call("export", "plan.plan.json -o {out}", "plan.plan.json", Output::File("x.geojson")),
     call("check", "plans", "plans", Output::None),
+    call("workspace", "plans --no-index", "plans", Output::None),
     call("render", "plan.plan.json -o {out} --size 200", "plan.plan.json", Output::File("x.png")),
     call("classify", "plan.plan.json --algorithm tree --write -o {out}", "plan.plan.json", Output::File("x.plan.json")),
     call("evaluate", "rooms.csv --folds 2 -o {out}", "rooms.csv", Output::Folder),

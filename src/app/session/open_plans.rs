@@ -42,7 +42,18 @@ pub(crate) struct OpenPlan {
     pub is_shown: bool,
 }
 
+impl Waiting {
+    pub(super) fn document(&self) -> &Document {
+        &self.document
+    }
+}
+
 impl Session {
+    /// All open plans, to change what is known of them.
+    pub(super) fn documents_mut(&mut self) -> impl Iterator<Item = &mut Document> {
+        self.waiting_plans.iter_mut().map(|waiting| &mut waiting.document).chain(&mut self.document)
+    }
+
     pub(super) fn documents(&self) -> impl Iterator<Item = &Document> {
         self.waiting_plans.iter().map(|waiting| &waiting.document).chain(&self.document)
     }

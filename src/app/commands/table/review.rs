@@ -33,7 +33,7 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Predict, 3),
+    .menu(Menu::Dataset, 2),
     with(
         "review-differences",
         "Compare with another person's labels…",
@@ -45,7 +45,7 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Predict, 3),
+    .menu(Menu::Dataset, 2),
     with(
         "review-accept",
         "Keep the label",
@@ -55,7 +55,7 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[key(Key::Y)])
-    .menu(Menu::Predict, 3),
+    .menu(Menu::Dataset, 2),
     with(
         "review-correct",
         "Correct the label",
@@ -67,7 +67,7 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[shift(Key::Y)])
-    .menu(Menu::Predict, 3),
+    .menu(Menu::Dataset, 2),
     with(
         "review-skip",
         "Skip the room",
@@ -77,7 +77,7 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[key(Key::U)])
-    .menu(Menu::Predict, 3),
+    .menu(Menu::Dataset, 2),
     with(
         "review-back",
         "Back in the review",
@@ -87,7 +87,7 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[shift(Key::U)])
-    .menu(Menu::Predict, 3),
+    .menu(Menu::Dataset, 2),
     with(
         "review-note",
         "Note about the room…",
@@ -99,7 +99,7 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[key(Key::I)])
-    .menu(Menu::Predict, 3),
+    .menu(Menu::Dataset, 2),
     with(
         "review-stop",
         "End the review",
@@ -111,5 +111,5 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Predict, 3),
+    .menu(Menu::Dataset, 2),
 ];
