@@ -179,6 +179,11 @@ impl Predictor {
             return Ok(Predictions::after(network, choice, model, known, neighbours, after));
         }
         let choice = choice.unwrap_or_else(|| self.choose(&network, models));
+        if self.method == DEFAULT_METHOD
+            && let Some(model) = models.default_of(&choice.set)
+        {
+            return Ok(Predictions::new(network, choice, model, known, neighbours));
+        }
         let method = models.method_for(&choice.set, self.method).unwrap_or(self.method);
         let model = models.find(&choice.set, method)?;
         Ok(Predictions::after(network, choice, model, known, neighbours, after))
@@ -189,6 +194,11 @@ impl Predictor {
         let stated = network.typology.as_ref();
         match (&self.set, stated) {
             (ModelSet::Named(name) | ModelSet::Model(name), _) => Choice::stated(name, "as told"),
+            (ModelSet::OfPlan, Some(stated))
+                if self.method == DEFAULT_METHOD && models.default_of(stated.as_str()).is_some() =>
+            {
+                Choice::stated(stated.as_str(), "set for the plan")
+            }
             (ModelSet::OfPlan, Some(stated)) => match models.method_for(stated.as_str(), self.method) {
                 Some(_) => Choice::stated(stated.as_str(), "set for the plan"),
                 // Models of another typology would know it less well than those of all.

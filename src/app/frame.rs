@@ -53,7 +53,10 @@ impl App {
         self.write_executed();
         self.session.take_outcomes(&context);
         self.grant_wishes(&context);
+        self.session.show_awaited_room();
+        self.session.show_awaited_ghost();
         self.session.take_waiting();
+        self.session.take_wanted_room();
         if let Some(path) = self.session.recovering.take() {
             self.session.show_recovered(&path, &context);
         }
@@ -67,6 +70,7 @@ impl App {
         self.take_shortcuts(&context);
         self.session.play_demo(&context);
         self.refresh();
+        self.session.go_on_reviewing();
         self.session.check_findings(&context);
         self.session.compare_with_theirs();
         self.session.drop_stale_messages();
@@ -141,6 +145,7 @@ impl App {
                 Wish::CloseRecovery => self.set_dialog(panels::recovery::ID, false),
                 Wish::CloseDifferences => self.set_dialog(panels::differences::ID, false),
                 Wish::Run(call) => self.act_on(call, context),
+                Wish::OpenListed(origin) => self.open_listed(&origin, context),
                 Wish::Resume(draft) => {
                     self.session.draft = Some(draft.clone());
                     self.tools.resume(draft);

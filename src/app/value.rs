@@ -7,7 +7,8 @@ use crate::app::look::keys::Keys;
 pub(crate) use crate::app::session::words::{
     UNKNOWN, element, elements_word, is_own_word, point_in, points_word, room, room_word, sample_word, switch_word,
 };
-use crate::app::session::{bulk::Order, selection::SelectMode};
+use crate::app::session::workspace::view::Shows;
+use crate::app::session::{bulk::Order, measures::ChartKind, selection::SelectMode};
 use crate::classify::Method;
 use crate::edit::{Alignment, DrawingMoves, End, Lies, Reach, storey::Keep};
 use crate::geometry::{Point, Vector};
@@ -152,6 +153,18 @@ impl Worded for DimensionAlong {
     const ALL: &'static [Self] = &Self::ALL;
 }
 
+impl Worded for ChartKind {
+    const WORDS: &'static [(&'static str, &'static str)] = &[
+        ("labels", "Labels and their shares"),
+        ("histogram", "How often a feature's values occur"),
+        ("scatter", "Rooms by two features"),
+        ("learning-curve", "Learning curve"),
+        ("buildings", "Accuracy by building"),
+    ];
+    const ALL: &'static [Self] =
+        &[Self::Balance, Self::Histogram, Self::Scatter, Self::LearningCurve, Self::ByBuilding];
+}
+
 impl Worded for Order {
     const WORDS: &'static [(&'static str, &'static str)] = Order::WORDS;
     const ALL: &'static [Self] = &[Self::Rows, Self::Columns];
@@ -243,4 +256,9 @@ impl Worded for Direction {
     const WORDS: &'static [(&'static str, &'static str)] =
         &[("left", "Left"), ("right", "Right"), ("up", "Up"), ("down", "Down")];
     const ALL: &'static [Self] = &[Self::Left, Self::Right, Self::Up, Self::Down];
+}
+
+impl Worded for Shows {
+    const WORDS: &'static [(&'static str, &'static str)] = Shows::WORDS;
+    const ALL: &'static [Self] = &[Self::Plans, Self::Grid, Self::Rooms];
 }

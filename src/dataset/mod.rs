@@ -1,5 +1,6 @@
 //! Rows of labelled rooms, collected from many plans.
 
+pub mod changes;
 mod collection;
 pub mod csv;
 pub mod fingerprint;

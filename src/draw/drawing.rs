@@ -13,7 +13,7 @@ use crate::base::{units::Units, wording::thousands};
 use crate::features::{Analysis, RoomStatus};
 use crate::geometry::tangle::one_line_in;
 use crate::geometry::{Bounds, Point, Segment, areas, polygon, raster};
-use crate::labels::{Label, function_title, normalised_function};
+use crate::labels::{Colour, Label, function_title, normalised_function};
 use crate::picture::PictureLevels;
 use crate::plan::{Backdrop, DimensionId, DimensionLine, Joint, Meta, OpeningId, Plan, RoomId, Swing, Wall};
 
@@ -34,6 +34,8 @@ pub struct Drawing {
     are_piled: bool,
     /// What to know before believing what is shown, below the title; empty for most.
     pub(super) caveat: String,
+    /// The colours that the scheme gives functions.
+    colours: BTreeMap<String, Colour>,
     bounds: Bounds,
     /// The same without dimension chains.
     built: Bounds,
@@ -189,6 +191,7 @@ impl Drawing {
             tangled: walls.tangled,
             are_piled,
             caveat: String::new(),
+            colours: analysis.colours.clone(),
             bounds,
             built,
             tiles,
@@ -453,11 +456,22 @@ impl Drawing {
         names::group(&around, room, fill, style, view)
     }
 
+    /// The fills by function: the scheme's own, or else the palette's.
+    pub fn function_colours(&self, palette: &Palette) -> BTreeMap<String, Rgba> {
+        let mut colours = palette.functions(self.rooms.iter().map(|room| room.function.as_str()));
+        for (function, colour) in &mut colours {
+            if let Some(&chosen) = self.colours.get(function) {
+                *colour = palette.legible(chosen);
+            }
+        }
+        colours
+    }
+
     /// The fill colours of the rooms.
     pub fn fills(&self, style: &Style) -> Vec<Rgba> {
         let palette = style.palette();
         let functions = match style.fill {
-            Fill::Function => palette.functions(self.rooms.iter().map(|room| room.function.as_str())),
+            Fill::Function => self.function_colours(palette),
             Fill::Label | Fill::Prediction | Fill::None => BTreeMap::new(),
         };
         let fill = |room: &RoomDrawing| match style.fill {

@@ -1,9 +1,10 @@
+use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
 use super::{Features, NeighbourLabels};
 use crate::features::temporary;
 use crate::geometry::runs::{self, Axes};
-use crate::labels::{Label, Meaning, Schemes};
+use crate::labels::{Colour, Label, Meaning, Schemes};
 use crate::plan::{Joint, LabelOrigin, Plan, Room, RoomId};
 use crate::topology::wall_bodies::WallBodies;
 use crate::topology::{Graph, NetRoom, RoomShape, RoomShapes, net_rooms_between};
@@ -63,6 +64,8 @@ pub struct Analysis {
     pub graph: Arc<Graph>,
     /// In the order of [`RoomShapes::all`], that is by room id.
     pub rooms: Vec<RoomAnalysis>,
+    /// The colours that the scheme gives functions; nothing that is computed depends on them.
+    pub colours: BTreeMap<String, Colour>,
     /// The plan analysed: clones share all structure.
     plan: Plan,
     net: OnceLock<Vec<Option<NetRoom>>>,
@@ -182,5 +185,6 @@ pub fn analyse_after(
             }
         }
     }
-    Analysis { shapes, graph, rooms, plan: plan.clone(), net: OnceLock::new(), bodies: OnceLock::new() }
+    let colours = schemes.colours(plan.meta().typology.as_ref());
+    Analysis { shapes, graph, rooms, colours, plan: plan.clone(), net: OnceLock::new(), bodies: OnceLock::new() }
 }

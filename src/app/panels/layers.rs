@@ -112,7 +112,7 @@ fn legend(ui: &mut Ui, app: &App, document: &Document) {
         }
         Fill::Function => {
             let number = |function: &str| derived.functions.get(function).copied().unwrap_or_default();
-            for (function, colour) in palette.functions(derived.functions.keys().map(String::as_str)) {
+            for (function, colour) in derived.drawing.function_colours(palette) {
                 rows.push((colour, crate::base::wording::sentence(&function), number(&function), String::new()));
             }
             if number("") > 0 {

@@ -3,11 +3,14 @@
 pub(super) mod about;
 pub(super) mod bulk;
 mod canvas;
+mod chart_view;
+mod dashboard;
 mod dataset;
 pub(super) mod demo;
 pub(super) mod differences;
 mod export;
 mod findings;
+mod forms;
 mod here;
 mod history;
 mod inspector;
@@ -24,15 +27,19 @@ mod prediction;
 mod questions;
 mod reasons;
 pub(super) mod recovery;
+mod review;
 mod robot;
+mod schemes;
 pub(super) mod shortcuts;
 mod sides;
 pub(super) mod status;
 mod tool_options;
 mod tool_strip;
 mod top_bar;
+mod training;
 pub(super) mod welcome;
 mod what_if;
+mod workspace;
 
 use egui::{CentralPanel, Frame, Margin, Panel, Ui, UiBuilder};
 
@@ -41,6 +48,7 @@ use crate::app::state::{App, Entry, Side, SidePanel, panels};
 
 /// All dialogs; later ones are above earlier ones.
 pub(crate) const DIALOGS: &[Entry] = &[
+    workspace::ENTRY,
     notes::ENTRY,
     differences::ENTRY,
     recovery::ENTRY,
@@ -49,12 +57,25 @@ pub(crate) const DIALOGS: &[Entry] = &[
     bulk::ENTRY,
     export::ENTRY,
     dataset::ENTRY,
+    dashboard::ENTRY,
+    training::ENTRY,
+    schemes::ENTRY,
     palette::ENTRY,
 ];
 
 /// All side panels, from the top.
 pub(crate) const SIDE_PANELS: &[SidePanel] =
-    &[plans::PANEL, layers::PANEL, inspector::PANEL, live::PANEL, what_if::PANEL, robot::PANEL, findings::PANEL, history::PANEL];
+    &[
+        plans::PANEL,
+        layers::PANEL,
+        review::PANEL,
+        inspector::PANEL,
+        live::PANEL,
+        what_if::PANEL,
+        robot::PANEL,
+        findings::PANEL,
+        history::PANEL,
+    ];
 
 /// Shows the window.
 pub(crate) fn show(app: &mut App, ui: &mut Ui) {

@@ -170,10 +170,8 @@ impl Session {
         self.predictor = Predictor::default();
         let bounds = school.bounds();
         // What is said stands below. Zooming to something leaves a third around it, which is too much here.
-        let (width_m, height_m) = (bounds.width(), bounds.height());
-        let lower = Vector::new(0.0, 0.3 * height_m);
-        let seen = Bounds::of([bounds.min - lower, bounds.max]);
-        self.wishes.push(Wish::ZoomTo(seen.inflated(-0.1 * width_m.min(height_m))));
+        let seen = Bounds::of([bounds.min - Vector::new(0.0, 0.3 * bounds.height()), bounds.max]);
+        self.wishes.push(Wish::ZoomTo(seen.inflated(-0.17 * seen.width().max(seen.height()))));
         let (schemes, models, plan) = (self.schemes.clone(), self.models.clone(), school.clone());
         let kind = Kind::new("look for a label that flips").newest_of("demonstration").if_broken(|session| {
             if let Some(demo) = &mut session.demo {

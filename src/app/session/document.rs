@@ -281,6 +281,11 @@ impl Document {
         }
     }
 
+    /// Models or label schemes have changed: the plan is to be analysed anew.
+    pub(crate) fn forget_derived(&mut self) {
+        (self.derived, self.awaited) = (None, None);
+    }
+
     /// The plan is out of sight: it is not analysed any more.
     pub(crate) fn rests(&mut self) {
         self.awaited = None;

@@ -93,7 +93,7 @@ impl Session {
         }
         if let Some(folder) = store::models_folder() {
             let (own, errors) = store::models_in(&folder);
-            self.models = Models::bundled().with(own);
+            self.models = Models::bundled().with(own).with_defaults(store::default_models(&folder));
             for error in errors {
                 self.say_of_program(Severity::Warning, "A model cannot be used", error.to_string());
             }

@@ -163,4 +163,5 @@ pub(crate) mod ids {
     pub(crate) const ROBOT: &str = "robot";
     pub(crate) const LIVE: &str = "live";
     pub(crate) const WHAT_IF: &str = "what-if";
+    pub(crate) const REVIEW: &str = "review";
 }

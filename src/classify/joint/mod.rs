@@ -28,7 +28,7 @@ use self::asked::Held;
 use self::trees::{Forest, Job, KEPT, Samples};
 use self::view::{Search, View};
 use super::calibration::fitted_temperature;
-use super::{Distribution, Scores};
+use super::{Distribution, FoldScore, Scores};
 use crate::base::random::{Random, seed_of_part};
 use crate::base::work::{Cancelled, Work};
 use crate::dataset::flats::Flats;
@@ -493,11 +493,18 @@ pub fn cross_validate_without(
     seed: u64,
     work: &Work<'_>,
 ) -> Result<JointValidated, JointValidationError> {
+    validate(networks, left_out, &folds_of(networks, folds, seed)?, known, seed, &|_| {}, work)
+}
+
+/// The folds of [`cross_validate`]: one for each labelled room.
+///
+/// # Errors
+/// When there are fewer buildings with labelled rooms than folds.
+pub fn folds_of(networks: &[&RoomNetwork], folds: usize, seed: u64) -> Result<Folds, JointValidationError> {
     let places = labelled(networks);
     let labels: Vec<Label> = places.iter().map(|&place| label(networks, place)).collect();
     let buildings: Vec<&str> = places.iter().map(|place| networks[place.network].group.as_str()).collect();
-    let folds = Folds::grouped(&labels, &buildings, folds, seed).map_err(JointValidationError::Folds)?;
-    validate(networks, left_out, &folds, known, seed, work)
+    Folds::grouped(&labels, &buildings, folds, seed).map_err(JointValidationError::Folds)
 }
 
 /// The same on folds that are given: one for each labelled room, such that no plan is split.
@@ -510,7 +517,21 @@ pub fn cross_validate_on(
     seed: u64,
     work: &Work<'_>,
 ) -> Result<JointValidated, JointValidationError> {
-    validate(networks, &BTreeSet::new(), folds, 0.0, seed, work)
+    cross_validate_telling(networks, folds, seed, &|_| {}, work)
+}
+
+/// The same; `told` hears of each fold when it is done, from any thread.
+///
+/// # Errors
+/// As [`cross_validate_on`].
+pub fn cross_validate_telling(
+    networks: &[&RoomNetwork],
+    folds: &Folds,
+    seed: u64,
+    told: &(dyn Fn(FoldScore) + Sync),
+    work: &Work<'_>,
+) -> Result<JointValidated, JointValidationError> {
+    validate(networks, &BTreeSet::new(), folds, 0.0, seed, told, work)
 }
 
 fn validate(
@@ -519,6 +540,7 @@ fn validate(
     folds: &Folds,
     known: f64,
     seed: u64,
+    told: &(dyn Fn(FoldScore) + Sync),
     work: &Work<'_>,
 ) -> Result<JointValidated, JointValidationError> {
     let places = labelled(networks);
@@ -538,7 +560,16 @@ fn validate(
                 let said = joint.as_ref().map(|joint| joint.predict(networks[network], &known));
                 (network, said.unwrap_or_else(|| vec![Distribution::UNIFORM; rooms.len()]))
             };
-            tested.into_iter().map(&mut predict).collect::<Vec<_>>()
+            let said: Vec<(usize, Vec<Distribution>)> = tested.into_iter().map(&mut predict).collect();
+            let mut score = FoldScore { rooms: 0, right: 0 };
+            for (network, said) in &said {
+                for room in networks[*network].labelled() {
+                    score.rooms += 1;
+                    score.right += usize::from(networks[*network].rooms[room].label == Some(said[room].label()));
+                }
+            }
+            told(score);
+            said
         })
         .map_err(|Cancelled| JointValidationError::Cancelled)?;
     let mut of_network: Vec<Vec<Distribution>> = vec![Vec::new(); networks.len()];
