@@ -12,12 +12,12 @@ use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
 use crate::base::units::Units;
 use crate::base::work::{Cancelled, Work};
-use crate::classify::model_file::ModelFileError;
 use crate::classify::Method;
+use crate::classify::model_file::ModelFileError;
 use crate::classify::models::{Models, StoredModel};
 use crate::classify::why::Why;
-use crate::dataset::{Measured, RoomNetwork};
 use crate::dataset::sets::STANDARD;
+use crate::dataset::{Measured, RoomNetwork};
 use crate::draw::Drawing;
 use crate::features::{Analysis, NeighbourLabels, analyse_after};
 use crate::geometry::{Bounds, Point, Segment};
@@ -76,8 +76,7 @@ impl<'a> Pipeline<'a> {
     }
 
     fn shared_network(&self) -> &Arc<RoomNetwork> {
-        self.network
-            .get_or_init(|| Arc::new(RoomNetwork::of_measured(self.plan, self.analysis(), self.measured())))
+        self.network.get_or_init(|| Arc::new(RoomNetwork::of_measured(self.plan, self.analysis(), self.measured())))
     }
 
     /// The rooms as classifiers see them.
@@ -119,9 +118,7 @@ impl<'a> Pipeline<'a> {
         let drawing = Drawing::new(self.plan, self.analysis());
         match predictions {
             None => drawing,
-            Some(predictions) => {
-                drawing.with_predictions(&predictions.labels()).with_sureness(&predictions.sureness())
-            }
+            Some(predictions) => drawing.with_predictions(&predictions.labels()).with_sureness(&predictions.sureness()),
         }
     }
 

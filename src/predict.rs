@@ -357,7 +357,8 @@ impl Predictions {
                 (neighbours, result, Origin::Each(if is_kept { said } else { in_plan::Said::default() }))
             }
             PlanClassifier::Joint(joint) => {
-                let before = before.and_then(|it| if let Origin::Joint(round) = it { Some(round.as_ref()) } else { None });
+                let before =
+                    before.and_then(|it| if let Origin::Joint(round) = it { Some(round.as_ref()) } else { None });
                 let (round, distributions) = if is_kept {
                     joint.predict_after(&network, known, None, before)
                 } else {
@@ -368,7 +369,8 @@ impl Predictions {
                 (NeighbourLabels::Predicted, of_plan(distributions), Origin::Joint(Box::new(round)))
             }
             PlanClassifier::Blend(blend) => {
-                let before = before.and_then(|it| if let Origin::Blend(said) = it { Some(said.as_ref()) } else { None });
+                let before =
+                    before.and_then(|it| if let Origin::Blend(said) = it { Some(said.as_ref()) } else { None });
                 let opinions = if is_kept {
                     blend.opinions_after(&network, known, before)
                 } else {

@@ -46,7 +46,8 @@ impl Said {
         if self.rooms == rooms {
             return (0..rooms.len()).map(Some).collect();
         }
-        let places: BTreeMap<RoomId, usize> = self.rooms.iter().enumerate().map(|(place, &room)| (room, place)).collect();
+        let places: BTreeMap<RoomId, usize> =
+            self.rooms.iter().enumerate().map(|(place, &room)| (room, place)).collect();
         rooms.iter().map(|room| places.get(room).copied()).collect()
     }
 }
@@ -85,8 +86,7 @@ pub fn classify_after(
             if let Some((_, distribution)) = kept.iter().find(|(of, _)| of == features) {
                 return *distribution;
             }
-            let distribution =
-                said_before(room, features).unwrap_or_else(|| classifier.predict(&features.values()));
+            let distribution = said_before(room, features).unwrap_or_else(|| classifier.predict(&features.values()));
             if kept.len() < MOST_KEPT {
                 kept.push((*features, distribution));
             }

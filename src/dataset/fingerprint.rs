@@ -98,10 +98,12 @@ impl Prints {
     pub fn new(shapes: &RoomShapes) -> Self {
         let mut prints = Self(shapes.all().iter().map(of_shape).collect());
         let centres = prints.0.iter().enumerate().filter_map(|(index, room)| Some((index, room.as_ref()?.centre)));
-        let tree = RTree::bulk_load(centres.map(|(index, centre)| GeomWithData::new([centre.x, centre.y], index)).collect());
+        let tree =
+            RTree::bulk_load(centres.map(|(index, centre)| GeomWithData::new([centre.x, centre.y], index)).collect());
         for (index, room) in prints.0.iter_mut().enumerate() {
             let Some(room) = room else { continue };
-            let nearest = tree.nearest_neighbor_iter([room.centre.x, room.centre.y]).filter(|other| other.data != index);
+            let nearest =
+                tree.nearest_neighbor_iter([room.centre.x, room.centre.y]).filter(|other| other.data != index);
             for (slot, other) in room.measures[MEASURES - NEAREST..].iter_mut().zip(nearest) {
                 let [x, y] = *other.geom();
                 *slot = room.centre.distance(Point::new(x, y));

@@ -133,7 +133,8 @@ impl Measured {
 
     /// The same after an edit, from what was measured before it: only what has changed is measured again.
     pub fn after(plan: &Plan, analysis: &Analysis, before: &Analysis, measured: &Self) -> Self {
-        let keys = if plan.rooms.ptr_eq(&before.plan().rooms) { measured.keys.clone() } else { Arc::new(room_keys(plan)) };
+        let keys =
+            if plan.rooms.ptr_eq(&before.plan().rooms) { measured.keys.clone() } else { Arc::new(room_keys(plan)) };
         if Arc::ptr_eq(&analysis.shapes, &before.shapes) {
             return Self { keys, ..measured.clone() };
         }

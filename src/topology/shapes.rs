@@ -121,8 +121,11 @@ impl RoomShapes {
                 // Both are sorted by id.
                 while known.next_if(|shape| shape.id < id).is_some() {}
                 let shape = known.next_if(|shape| shape.id == id).zip(before.rooms.get(&id)).filter(|(_, earlier)| {
-                    let is_ring = Arc::ptr_eq(earlier, room) || (earlier.outer == room.outer && earlier.holes == room.holes);
-                    is_ring && (changed.is_empty() || !room.rings().flat_map(|ring| ring.iter()).any(|it| changed.contains(it)))
+                    let is_ring =
+                        Arc::ptr_eq(earlier, room) || (earlier.outer == room.outer && earlier.holes == room.holes);
+                    is_ring
+                        && (changed.is_empty()
+                            || !room.rings().flat_map(|ring| ring.iter()).any(|it| changed.contains(it)))
                 });
                 match shape {
                     Some((shape, _)) => shape.clone(),

@@ -5,9 +5,7 @@ use std::collections::BTreeMap;
 
 use enfilade::geometry::{Point, Vector};
 use enfilade::labels::Typology;
-use enfilade::plan::{
-    Builder, CornerId, Joint, Meta, Opening, OpeningKind, Place, Plan, Room, RoomId,
-};
+use enfilade::plan::{Builder, CornerId, Joint, Meta, Opening, OpeningKind, Place, Plan, Room, RoomId};
 
 /// The bundled school, without its labels and its typology if `is_bare`.
 pub fn bundled_school(is_bare: bool) -> Plan {
@@ -24,8 +22,7 @@ pub fn large_school(rooms: usize) -> Plan {
 
 fn copies(one: &Plan, copies: usize, is_bare: bool) -> Plan {
     let typology = if is_bare { None } else { Typology::new("school") };
-    let mut builder =
-        Builder::new(Meta { name: "Large school".to_owned(), typology, ..one.meta().clone() });
+    let mut builder = Builder::new(Meta { name: "Large school".to_owned(), typology, ..one.meta().clone() });
     let bounds = one.bounds();
     let (width_m, height_m) = (bounds.max.x - bounds.min.x + 1.0, bounds.max.y - bounds.min.y + 1.0);
     let side = (copies as f64).sqrt().ceil() as usize;

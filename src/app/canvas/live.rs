@@ -36,7 +36,9 @@ impl Canvas {
         let Some(now) = session.document.as_ref().and_then(|document| document.labelled()) else { return };
         let Some(then) = session.labels_if(next) else { return };
         for changed in changes(now, &then).into_iter().take(MOST) {
-            let Some(shape) = then.analysis.shapes.get(changed.room).filter(|shape| shape.outer.len() > 2) else { continue };
+            let Some(shape) = then.analysis.shapes.get(changed.room).filter(|shape| shape.outer.len() > 2) else {
+                continue;
+            };
             let ((before, was), (after, is)) = (changed.before, changed.after);
             if changed.is_flip() {
                 let triangles = earcut(&shape.outer, &shape.holes);

@@ -1,8 +1,8 @@
 //! What is said while the demonstration runs: a card below the plan, the hand that drags, and the label that flips.
 
 use egui::{
-    Align2, Color32, Context, Event, FontId, Frame, Id, Key, Label, LayerId, Margin, Order, Pos2, Rect, RichText, Role, Sense, Shape,
-    Stroke, Ui, WidgetInfo, pos2, vec2,
+    Align2, Color32, Context, Event, FontId, Frame, Id, Key, Label, LayerId, Margin, Order, Pos2, Rect, RichText, Role,
+    Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::live::kind_bar;
@@ -28,7 +28,9 @@ pub(crate) fn take_input(app: &mut App, context: &Context) {
         input.events.iter().any(|event| {
             matches!(
                 event,
-                Event::PointerButton { pressed: true, .. } | Event::MouseWheel { .. } | Event::Key { pressed: true, .. }
+                Event::PointerButton { pressed: true, .. }
+                    | Event::MouseWheel { .. }
+                    | Event::Key { pressed: true, .. }
             )
         })
     });
@@ -43,12 +45,14 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
     let Some(caption) = app.session.demo_caption() else { return };
     let Some(canvas) = app.canvas.seen_rect() else { return };
     let palette = app.session.palette(ui);
-    let painter = ui.ctx().layer_painter(LayerId::new(Order::Middle, Id::unique("demonstration"))).with_clip_rect(canvas);
+    let painter =
+        ui.ctx().layer_painter(LayerId::new(Order::Middle, Id::unique("demonstration"))).with_clip_rect(canvas);
     // The label that flips.
     if let Some((room, before, now)) = app.session.demo_flip() {
-        let middle = app.session.document.as_ref().and_then(|document| {
-            document.bounds_of(crate::plan::ElementId::Room(room)).map(|bounds| bounds.center())
-        });
+        let middle =
+            app.session.document.as_ref().and_then(|document| {
+                document.bounds_of(crate::plan::ElementId::Room(room)).map(|bounds| bounds.center())
+            });
         if let Some(at) = middle.and_then(|middle| app.screen_position(middle.x, middle.y)) {
             let text = if before == now { before.to_string() } else { format!("{before} → {now}") };
             let ink = theme::colour(if before == now { palette.ink } else { palette.selection });
@@ -97,7 +101,10 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         });
         // How far it has come, along the lower edge, and how to end it.
         let rect = ui.min_rect();
-        let line = Rect::from_min_max(pos2(rect.left() + 20.0, rect.bottom() - 24.0), pos2(rect.right() - 20.0, rect.bottom() - 22.0));
+        let line = Rect::from_min_max(
+            pos2(rect.left() + 20.0, rect.bottom() - 24.0),
+            pos2(rect.right() - 20.0, rect.bottom() - 22.0),
+        );
         let own = colours(ui);
         ui.painter().rect_filled(line, 1.0, own.field);
         let come = line.with_max_x(line.left() + line.width() * caption.share as f32);

@@ -2,7 +2,9 @@
 //! once, and a second opinion beside the first.
 
 use egui::epaint::StrokeKind;
-use egui::{Align2, FontId, Rect, Response, Role, ScrollArea, Sense, Slider, Stroke, Ui, UiBuilder, WidgetInfo, pos2, vec2};
+use egui::{
+    Align2, FontId, Rect, Response, Role, ScrollArea, Sense, Slider, Stroke, Ui, UiBuilder, WidgetInfo, pos2, vec2,
+};
 
 use crate::app::look::theme;
 use crate::app::look::widgets::{
@@ -160,9 +162,13 @@ fn second(app: &App, ui: &mut Ui, palette: &Palette, hovered: &mut Option<Elemen
             word => format!("{} labels", sentence(word)),
         };
         let choices: Vec<(String, &str)> = NEIGHBOURS.iter().map(|(word, _)| (named(word), *word)).collect();
-        let word = NEIGHBOURS.iter().find(|(_, neighbours)| *neighbours == second.neighbours).map_or("trained", |it| it.0);
+        let word =
+            NEIGHBOURS.iter().find(|(_, neighbours)| *neighbours == second.neighbours).map_or("trained", |it| it.0);
         if let Some(word) = list(ui, "Neighbours", &named(word), &choices) {
-            call = Some(Call::new("second-opinion", [Value::Text(second.method.name().to_owned()), Value::Text(word.to_owned())]));
+            call = Some(Call::new(
+                "second-opinion",
+                [Value::Text(second.method.name().to_owned()), Value::Text(word.to_owned())],
+            ));
         }
     }
     let Some(other) = app.session.second_opinion() else {
@@ -171,11 +177,14 @@ fn second(app: &App, ui: &mut Ui, palette: &Palette, hovered: &mut Option<Elemen
     };
     let differ = app.session.disagreements();
     let rooms = other.network.rooms.len();
-    caption(ui, match differ.len() {
-        0 => format!("Both say the same of all {}.", count(rooms, "room")),
-        1 => format!("They differ about 1 of {}.", count(rooms, "room")),
-        several => format!("They differ about {several} of {}.", count(rooms, "room")),
-    });
+    caption(
+        ui,
+        match differ.len() {
+            0 => format!("Both say the same of all {}.", count(rooms, "room")),
+            1 => format!("They differ about 1 of {}.", count(rooms, "room")),
+            several => format!("They differ about {several} of {}.", count(rooms, "room")),
+        },
+    );
     let plan = app.session.document.as_ref().map(Document::plan)?;
     ui.spacing_mut().item_spacing.y = 0.0;
     for (id, one, other) in differ.into_iter().take(MOST_LISTED) {
@@ -215,7 +224,13 @@ fn two_labels(ui: &mut Ui, palette: &Palette, name: &str, one: (Label, f64), oth
     focus_ring(ui, around, &response);
     let said = format!("{name}: {} or {}", one.0, other.0);
     response.widget_info(|| WidgetInfo::labeled(Role::Link, true, said.clone()));
-    response.on_hover_text(format!("{}, {:.0} % sure, or {}, {:.0} % sure", sentence(one.0.name()), 100.0 * one.1, other.0, 100.0 * other.1))
+    response.on_hover_text(format!(
+        "{}, {:.0} % sure, or {}, {:.0} % sure",
+        sentence(one.0.name()),
+        100.0 * one.1,
+        other.0,
+        100.0 * other.1
+    ))
 }
 
 /// A bar that shares its length among the kinds of building, with the likeliest named below.
@@ -279,7 +294,8 @@ pub(super) fn list<'a>(ui: &mut Ui, name: &str, current: &str, choices: &[(Strin
     ui.horizontal(|ui| {
         let (rect, _) = ui.allocate_exact_size(vec2(78.0, ROW), Sense::hover());
         put_line(ui, name, FontId::proportional(theme::BODY), colours(ui).text_weak, rect);
-        let list = egui::ComboBox::from_id_salt(("list", name)).width(ui.available_width() - 8.0).selected_text(current);
+        let list =
+            egui::ComboBox::from_id_salt(("list", name)).width(ui.available_width() - 8.0).selected_text(current);
         let shown = list.show_ui(ui, |ui| {
             for (title, word) in choices {
                 if ui.selectable_label(title == current, title).clicked() {
@@ -308,7 +324,8 @@ pub(super) fn slider(
     let name_width = (rect.width() * 0.42).min(126.0);
     let weak = colours(ui).text_weak;
     put_line(ui, name, FontId::proportional(theme::BODY), weak, rect.with_max_x(rect.left() + name_width));
-    let slot = Rect::from_min_max(pos2(rect.left() + name_width + 8.0, rect.top()), pos2(rect.right() - 62.0, rect.bottom()));
+    let slot =
+        Rect::from_min_max(pos2(rect.left() + name_width + 8.0, rect.top()), pos2(rect.right() - 62.0, rect.bottom()));
     let mut child = ui.new_child(UiBuilder::new().max_rect(slot).id_salt(("slider", name)));
     child.spacing_mut().slider_width = slot.width();
     let mut set = value;

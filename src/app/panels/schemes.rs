@@ -288,8 +288,9 @@ fn function_row(
     ui.horizontal(|ui| {
         let picker =
             ui.color_edit_button_srgb(&mut colour).on_hover_text("Its colour where rooms are filled by function");
-        let picker = picker.accessible_name(&format!("{function}: colour"));
-        if picker.changed() {
+        let is_picked = picker.changed();
+        picker.accessible_name(&format!("{function}: colour"));
+        if is_picked {
             chosen = Some(Chosen::Colour(colour));
         }
         let width = (ui.available_width() - choices - 8.0).max(60.0);

@@ -54,7 +54,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         ui.add(Label::new(RichText::new(text).color(colours(ui).text_weak)).wrap());
         ui.add_space(10.0);
         ui.horizontal(|ui| {
-            let buttons = [("new-plan", "New plan"), ("open", "Open a plan…"), ("demonstration", "Watch a demonstration")];
+            let buttons =
+                [("new-plan", "New plan"), ("open", "Open a plan…"), ("demonstration", "Watch a demonstration")];
             for (id, title) in buttons {
                 let Some(command) = commands::find(id) else { continue };
                 let keys = app.keys_text(command, ui.ctx());

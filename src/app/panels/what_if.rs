@@ -41,16 +41,8 @@ pub(super) const PANEL: SidePanel = SidePanel {
 };
 
 /// What a feature is called.
-const NAMES: [&str; 8] = [
-    "Area",
-    "Axes ratio",
-    "Openings",
-    "To small rooms",
-    "To medium rooms",
-    "To big rooms",
-    "To corridors",
-    "To halls",
-];
+const NAMES: [&str; 8] =
+    ["Area", "Axes ratio", "Openings", "To small rooms", "To medium rooms", "To big rooms", "To corridors", "To halls"];
 
 fn show(app: &mut App, ui: &mut Ui) {
     let mut calls = Vec::new();
@@ -114,7 +106,10 @@ fn contents(app: &App, ui: &mut Ui, tried: &Tried, calls: &mut Vec<Call>, hovere
         };
         let shown = in_words(feature, value, app.units());
         if let Some(value) = slider(ui, NAMES[feature], value.clamp(least, most), least..=most, step, &shown) {
-            calls.push(Call::new("what-if", [Value::Text(Features::NAMES[feature].to_owned()), Value::Text(value.to_string())]));
+            calls.push(Call::new(
+                "what-if",
+                [Value::Text(Features::NAMES[feature].to_owned()), Value::Text(value.to_string())],
+            ));
         }
     }
     ui.spacing_mut().item_spacing.y = 4.0;
@@ -178,7 +173,10 @@ fn answer(ui: &mut Ui, palette: &Palette, tried: &Tried) {
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
         let font = FontId::proportional(theme::BODY);
         ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, title, font.clone(), own.text_weak);
-        let bar = Rect::from_min_max(pos2(rect.left() + 44.0, rect.top() + 3.0), pos2(rect.right() - 130.0, rect.bottom() - 3.0));
+        let bar = Rect::from_min_max(
+            pos2(rect.left() + 44.0, rect.top() + 3.0),
+            pos2(rect.right() - 130.0, rect.bottom() - 3.0),
+        );
         let mut left = bar.left();
         for label in Label::ALL {
             let right = left + bar.width() * said.probability(label) as f32;
@@ -186,7 +184,13 @@ fn answer(ui: &mut Ui, palette: &Palette, tried: &Tried) {
             ui.painter().rect_filled(part, 0.0, theme::colour(palette.label(label)));
             if part.width() > 14.0 {
                 let small = FontId::proportional(theme::SMALL);
-                ui.painter().text(part.center(), Align2::CENTER_CENTER, label.letter(), small, theme::colour(palette.ink));
+                ui.painter().text(
+                    part.center(),
+                    Align2::CENTER_CENTER,
+                    label.letter(),
+                    small,
+                    theme::colour(palette.ink),
+                );
             }
             left = right;
         }
@@ -243,7 +247,12 @@ fn picture(
     let mut nearest: Option<(f32, crate::plan::RoomId)> = None;
     for (room, values, label) in &regions.rooms {
         let point = at(*values);
-        painter.circle(point, POINT, theme::colour(palette.label_strong(*label)), Stroke::new(1.0, theme::colour(palette.paper)));
+        painter.circle(
+            point,
+            POINT,
+            theme::colour(palette.label_strong(*label)),
+            Stroke::new(1.0, theme::colour(palette.paper)),
+        );
         if let Some(pointer) = pointer {
             let distance = pointer.distance(point);
             if distance < 8.0 && nearest.is_none_or(|(than, _)| distance < than) {

@@ -17,8 +17,8 @@ use crate::app::session::origin::bundled;
 use crate::app::session::questions::Intent;
 use crate::app::session::selection::Selection;
 use crate::app::session::wishes::Wish;
-use crate::base::work::Work;
 use crate::base::wording::{count, sentence};
+use crate::base::work::Work;
 use crate::classify::models::Models;
 use crate::classify::why::Why;
 use crate::draw::Fill;
@@ -422,7 +422,8 @@ impl Session {
 impl Demo {
     /// The rooms that are there, as a plan.
     fn part(&self) -> Plan {
-        let rooms: BTreeSet<ElementId> = self.order.iter().take(self.revealed).map(|&room| ElementId::Room(room)).collect();
+        let rooms: BTreeSet<ElementId> =
+            self.order.iter().take(self.revealed).map(|&room| ElementId::Room(room)).collect();
         let part = edit::fragment(&self.school, &rooms).unwrap_or_default();
         edit::set_meta(&part, self.school.meta().clone())
     }
@@ -565,9 +566,9 @@ pub(crate) fn find_flip(plan: &Plan, schemes: &Schemes, models: &Models, work: &
         Some((id, segment.midpoint(), segment.vector().left().unit()?))
     };
     let walls: Vec<(WallId, Point, Vector)> = plan.walls().filter_map(|(id, _)| across(id)).collect();
-    let mut walls = walls.into_iter().flat_map(|(id, from, across)| {
-        WALL_STEPS_M.map(|step_m| Dragged::Wall { id, from, by: across * step_m })
-    });
+    let mut walls = walls
+        .into_iter()
+        .flat_map(|(id, from, across)| WALL_STEPS_M.map(|step_m| Dragged::Wall { id, from, by: across * step_m }));
     let wall = best(&mut walls);
     let all = [door, wall].into_iter().flatten();
     all.max_by(|p, q| p.0.total_cmp(&q.0)).map(|(_, flip)| flip)

@@ -82,9 +82,7 @@ pub(crate) fn changes(before: &Labelled, after: &Labelled) -> Vec<Changed> {
         })
         .collect();
     let size = |changed: &Changed| (changed.before.1 - changed.after.1).abs();
-    changes.sort_by(|p, q| {
-        q.is_flip().cmp(&p.is_flip()).then(size(q).total_cmp(&size(p))).then(p.room.cmp(&q.room))
-    });
+    changes.sort_by(|p, q| q.is_flip().cmp(&p.is_flip()).then(size(q).total_cmp(&size(p))).then(p.room.cmp(&q.room)));
     changes
 }
 
@@ -214,7 +212,8 @@ pub(crate) struct Scale {
 impl Scale {
     /// An axis over values: areas and ratios by their logarithms, numbers of openings evenly.
     fn over(feature: usize, values: impl Iterator<Item = f64>) -> Self {
-        let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+        let (low, high) =
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
         let (low, high) = if low <= high { (low, high) } else { (0.0, 1.0) };
         match feature {
             0 => Self { feature, low: (low * 0.7).max(0.5), high: (high * 1.4).max(4.0) },
@@ -284,7 +283,9 @@ impl Session {
         let method = self.live.what_if.method.unwrap_or(tree);
         let model = match own {
             Some(model) => model,
-            None => self.models.find(&predictions.choice.set, method).map_err(|_| "There is no model of this method.")?,
+            None => {
+                self.models.find(&predictions.choice.set, method).map_err(|_| "There is no model of this method.")?
+            }
         };
         let Some(classifier) = classifier_of(&model) else { return Err("This model looks at all rooms together.") };
         let (said_now, said_then) = (classifier.predict(&now.values()), classifier.predict(&then.values()));
@@ -353,7 +354,8 @@ fn regions(labelled: &Labelled, tried: &Tried, axes: [usize; 2]) -> Option<Regio
         }
     }
     let rooms = predictions.network.rooms.iter().zip(&of_rooms);
-    let rooms = rooms.map(|(room, values)| (room.id, axes.map(|axis| values[axis]), classifier.predict(values).label()));
+    let rooms =
+        rooms.map(|(room, values)| (room.id, axes.map(|axis| values[axis]), classifier.predict(values).label()));
     Some(Regions { scales, cells, rooms: rooms.collect(), tried: axes.map(|axis| then[axis]) })
 }
 

@@ -76,7 +76,6 @@ impl Asked {
         asked
     }
 
-
     /// The leaf of a tree; `hear` is told each question on the way: the feature, the number, and whether it is at most that.
     fn leaf(&self, root: u32, values: &[f32], mut hear: impl FnMut(usize, f32, bool)) -> &[f64; 5] {
         let mut at = root as usize;

@@ -192,7 +192,8 @@ impl HeldRooms {
         if self.rooms == rooms {
             return (0..rooms.len()).map(Some).collect();
         }
-        let places: BTreeMap<RoomId, usize> = self.rooms.iter().enumerate().map(|(place, &room)| (room, place)).collect();
+        let places: BTreeMap<RoomId, usize> =
+            self.rooms.iter().enumerate().map(|(place, &room)| (room, place)).collect();
         rooms.iter().map(|room| places.get(room).copied()).collect()
     }
 }
