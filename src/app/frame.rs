@@ -53,8 +53,9 @@ impl App {
         self.write_executed();
         self.session.take_outcomes(&context);
         self.grant_wishes(&context);
+        self.session.show_awaited_room();
+        self.session.show_awaited_ghost();
         self.session.take_waiting();
-        self.session.take_wanted_room();
         if let Some(path) = self.session.recovering.take() {
             self.session.show_recovered(&path, &context);
         }
@@ -66,6 +67,7 @@ impl App {
         self.take_tool_keys(&context);
         self.take_shortcuts(&context);
         self.refresh();
+        self.session.go_on_reviewing();
         self.session.check_findings(&context);
         self.session.compare_with_theirs();
         self.session.drop_stale_messages();
@@ -140,6 +142,7 @@ impl App {
                 Wish::CloseRecovery => self.set_dialog(panels::recovery::ID, false),
                 Wish::CloseDifferences => self.set_dialog(panels::differences::ID, false),
                 Wish::Run(call) => self.act_on(call, context),
+                Wish::OpenListed(origin) => self.open_listed(&origin, context),
                 Wish::Resume(draft) => {
                     self.session.draft = Some(draft.clone());
                     self.tools.resume(draft);

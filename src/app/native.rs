@@ -62,6 +62,7 @@ pub fn run_window(options: WindowOptions) -> Result<(), WindowError> {
         }
         app.session.use_own_schemes_and_models();
         app.session.use_clock(now);
+        app.session.cache_folder = store::cache_folder();
         if let Some(folder) = store::journal_folder() {
             app.use_journal(folder);
         }

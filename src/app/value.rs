@@ -7,11 +7,12 @@ use crate::app::look::keys::Keys;
 pub(crate) use crate::app::session::words::{
     UNKNOWN, element, elements_word, is_own_word, point_in, points_word, room, room_word, sample_word, switch_word,
 };
+use crate::app::session::workspace::view::Shows;
 use crate::app::session::{bulk::Order, measures::ChartKind, selection::SelectMode};
 use crate::classify::Method;
 use crate::edit::{Alignment, DrawingMoves, End, Lies, Reach, storey::Keep};
 use crate::geometry::{Point, Vector};
-use crate::labels::Typology;
+use crate::labels::{Label, Typology};
 use crate::plan::{DimensionAlong, ElementId, GuideAxis, LeafSide, OpeningId, OpeningKind, RoomId};
 use crate::predict::ModelSet;
 
@@ -95,6 +96,17 @@ impl Worded for OpeningKind {
     const WORDS: &'static [(&'static str, &'static str)] =
         &[("door", "Door"), ("double-door", "Double door"), ("passage", "Passage"), ("window", "Window")];
     const ALL: &'static [Self] = &[Self::Door, Self::DoubleDoor, Self::Passage, Self::Window];
+}
+
+impl Worded for Label {
+    const WORDS: &'static [(&'static str, &'static str)] = &[
+        ("small", "Small room"),
+        ("medium", "Medium room"),
+        ("big", "Big room"),
+        ("corridor", "Corridor"),
+        ("hall", "Hall"),
+    ];
+    const ALL: &'static [Self] = &Self::ALL;
 }
 
 impl Worded for End {
@@ -244,4 +256,9 @@ impl Worded for Direction {
     const WORDS: &'static [(&'static str, &'static str)] =
         &[("left", "Left"), ("right", "Right"), ("up", "Up"), ("down", "Down")];
     const ALL: &'static [Self] = &[Self::Left, Self::Right, Self::Up, Self::Down];
+}
+
+impl Worded for Shows {
+    const WORDS: &'static [(&'static str, &'static str)] = Shows::WORDS;
+    const ALL: &'static [Self] = &[Self::Plans, Self::Grid, Self::Rooms];
 }

@@ -48,9 +48,9 @@ impl Ends {
     fn of(axis: &Axis, values: impl Iterator<Item = f64>) -> Self {
         let is_log = axis.scale == Scale::Log;
         let usable = |value: &f64| value.is_finite() && (!is_log || *value > 0.0);
-        let (mut from, mut to) = values.filter(usable).fold((f64::INFINITY, f64::NEG_INFINITY), |(from, to), value| {
-            (from.min(value), to.max(value))
-        });
+        let (mut from, mut to) = values
+            .filter(usable)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(from, to), value| (from.min(value), to.max(value)));
         match (&axis.scale, axis.range) {
             (_, Some([first, last])) => (from, to) = (first, last),
             (Scale::Named(names), None) => (from, to) = (-0.5, names.len().max(1) as f64 - 0.5),
@@ -80,7 +80,11 @@ impl Ends {
     }
 
     fn value(&self, share: f64) -> f64 {
-        if self.is_log { self.from * (self.to / self.from).powf(share) } else { self.from + share * (self.to - self.from) }
+        if self.is_log {
+            self.from * (self.to / self.from).powf(share)
+        } else {
+            self.from + share * (self.to - self.from)
+        }
     }
 }
 
@@ -124,10 +128,7 @@ impl Chart {
             // Level above the axis, where it is read without turning the head.
             top += TEXT_PX + 6.0;
         }
-        let bottom = height_px
-            - GAP
-            - (TEXT_PX + 7.0)
-            - if self.across.title.is_empty() { 0.0 } else { TEXT_PX + 6.0 };
+        let bottom = height_px - GAP - (TEXT_PX + 7.0) - if self.across.title.is_empty() { 0.0 } else { TEXT_PX + 6.0 };
         let mut up_ticks = ticks(&self.up.scale, up.from, up.to, ((bottom - top) / 36.0).max(2.0) as usize);
         for tick in &mut up_ticks {
             tick.text = elided(&tick.text, WIDEST_NAME_PX.min(0.4 * width_px), font);
@@ -208,7 +209,11 @@ impl Chart {
                     let mut items = Vec::new();
                     for point in points.iter().filter(|point| point.deviation > 0.0) {
                         let ends = [point.up - point.deviation, point.up + point.deviation];
-                        items.push(line(ends.map(|up| layout.at(point.across, up)).to_vec(), colour.with_alpha(0x90), 1.0));
+                        items.push(line(
+                            ends.map(|up| layout.at(point.across, up)).to_vec(),
+                            colour.with_alpha(0x90),
+                            1.0,
+                        ));
                     }
                     if at.len() > 1 {
                         items.push(line(at.clone(), colour, 2.0));
@@ -385,7 +390,8 @@ mod tests {
         let chart = dots(Scale::Log, &[(f64::NAN, 1.0), (0.0, f64::INFINITY), (-4.0, 2.0)]);
         for (width, height) in [(400.0, 300.0), (0.0, 0.0)] {
             let layout = chart.layout(width, height);
-            let scene = chart.scene(Palette::of(Default::default(), Default::default()), &layout, 1.0, &BTreeSet::new());
+            let scene =
+                chart.scene(Palette::of(Default::default(), Default::default()), &layout, 1.0, &BTreeSet::new());
             for item in scene.groups.iter().flat_map(|group| &group.items) {
                 if let Item::Disc { centre, .. } = item {
                     assert!(centre.x.is_finite() && centre.y.is_finite());

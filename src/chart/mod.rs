@@ -156,7 +156,8 @@ impl Chart {
             Marks::Dots(_) | Marks::Line(_) | Marks::Levels(_) => None,
         });
         // A long list is no description: the table has it.
-        let told: Vec<&str> = bars.flatten().map(|bar| bar.said.as_str()).filter(|said| !said.is_empty()).take(12).collect();
+        let told: Vec<&str> =
+            bars.flatten().map(|bar| bar.said.as_str()).filter(|said| !said.is_empty()).take(12).collect();
         let told = if told.is_empty() { self.note.clone() } else { told.join("; ") };
         if told.is_empty() { self.title.clone() } else { format!("{}. {told}", self.title) }
     }

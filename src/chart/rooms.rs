@@ -185,7 +185,8 @@ pub fn by_building(buildings: &[(String, usize, usize)]) -> Chart {
     let bars: Vec<Bar> = sorted.iter().enumerate().map(bar).collect();
     Chart {
         title: "Accuracy by building".to_owned(),
-        note: "Each building's rooms were labelled by a classifier that had not seen it. The worst stand on top.".to_owned(),
+        note: "Each building's rooms were labelled by a classifier that had not seen it. The worst stand on top."
+            .to_owned(),
         across: Axis::new("Share of the rooms that are right", Scale::Share).from_to(0.0, 1.0),
         up: Axis::new("", Scale::Named(names)),
         series: vec![Series { name: "Right".to_owned(), ink: Ink::Accent, marks: Marks::Bars(bars) }],

@@ -10,7 +10,8 @@ impl Chart {
     /// When the table cannot be written, which lack of memory alone could bring about.
     pub fn csv(&self, names: &[&str], keys: &dyn Fn(usize) -> Vec<String>) -> Result<Vec<u8>, csv::Error> {
         let mut writer = csv::Writer::from_writer(Vec::new());
-        let title = |title: &str, otherwise: &str| if title.is_empty() { otherwise.to_owned() } else { title.to_owned() };
+        let title =
+            |title: &str, otherwise: &str| if title.is_empty() { otherwise.to_owned() } else { title.to_owned() };
         let (across, up) = (title(&self.across.title, "x"), title(&self.up.title, "y"));
         let has = |is: fn(&Marks) -> bool| self.series.iter().any(|series| is(&series.marks));
         let is_bars = has(|marks| matches!(marks, Marks::Bars(_) | Marks::Levels(_)));
@@ -54,11 +55,8 @@ impl Chart {
                 Marks::Line(points) => {
                     for point in points {
                         let deviation = number(&Scale::Linear, point.deviation);
-                        let values = [
-                            number(&self.across.scale, point.across),
-                            number(&self.up.scale, point.up),
-                            deviation,
-                        ];
+                        let values =
+                            [number(&self.across.scale, point.across), number(&self.up.scale, point.up), deviation];
                         writer.write_record(start(values))?;
                     }
                 }

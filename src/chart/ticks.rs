@@ -60,7 +60,11 @@ fn log(from: f64, to: f64, most: usize) -> Vec<Tick> {
     let decades = from.log10().floor() as i32..=to.log10().ceil() as i32;
     let at = |rounds: &[f64]| -> Vec<f64> {
         let of_decade = |decade: i32| rounds.iter().map(move |round| round * 10f64.powi(decade)).collect::<Vec<_>>();
-        decades.clone().flat_map(of_decade).filter(|at| (from * (1.0 - 1e-9)..=to * (1.0 + 1e-9)).contains(at)).collect()
+        decades
+            .clone()
+            .flat_map(of_decade)
+            .filter(|at| (from * (1.0 - 1e-9)..=to * (1.0 + 1e-9)).contains(at))
+            .collect()
     };
     let choices = [at(&[1.0, 2.0, 5.0]), at(&[1.0, 3.0]), at(&[1.0])];
     let chosen = choices.iter().find(|choice| choice.len() <= most.max(2)).unwrap_or(&choices[2]);

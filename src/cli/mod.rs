@@ -7,6 +7,7 @@ mod classify;
 mod collect;
 #[cfg(feature = "gui")]
 mod commands;
+mod compare;
 mod completions;
 mod dataset;
 mod door;
@@ -31,11 +32,13 @@ mod render;
 mod repeats;
 #[cfg(feature = "gui")]
 mod replay;
+mod review;
 mod robot_study;
 mod scales;
 mod segment;
 mod suspects;
 mod train;
+mod workspace;
 
 use std::ffi::OsString;
 use std::fmt::Display;
@@ -57,10 +60,13 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<dataset::DatasetCommand>(),
     entry::<export::ExportCommand>(),
     entry::<check::CheckCommand>(),
+    entry::<workspace::WorkspaceCommand>(),
     entry::<render::RenderCommand>(),
     entry::<classify::ClassifyCommand>(),
     entry::<evaluate::EvaluateCommand>(),
     entry::<suspects::SuspectsCommand>(),
+    entry::<review::ReviewCommand>(),
+    entry::<compare::CompareCommand>(),
     entry::<label::LabelCommand>(),
     entry::<train::TrainCommand>(),
     entry::<models::ModelsCommand>(),

@@ -2,8 +2,10 @@
 //! journal of unsaved changes.
 
 mod bundled;
+mod file_state;
 #[cfg(feature = "pictures")]
 mod grid_maps;
+mod index_file;
 mod journal;
 mod logs;
 mod made;
@@ -18,8 +20,10 @@ mod stamp;
 mod viewer;
 
 pub use bundled::{BUNDLED, bundled_plans};
+pub use file_state::FileState;
 #[cfg(feature = "pictures")]
 pub use grid_maps::{MapFileError, is_map_yaml, load_map, load_picture_as_map};
+pub use index_file::{CACHE_VARIABLE, IndexError, IndexFile, cache_folder};
 pub use journal::{
     Draft, Journal, JournalFailure, JournalStart, Leftover, Predecessor, Recovered, STATE_VARIABLE, journal_folder,
     leftovers, read_journal,

@@ -128,9 +128,8 @@ pub fn learning_curve(
 ) -> Result<Option<Curve>, StudyError> {
     let experiment = Experiment::new(collection, options)?;
     let Some(at) = experiment.sets.iter().position(|of| of.name == set) else { return Ok(None) };
-    let is_wanted = |task: &Task| {
-        matches!(*task, Task::Point { set: of, algorithm: by, .. } if of == at && by == algorithm)
-    };
+    let is_wanted =
+        |task: &Task| matches!(*task, Task::Point { set: of, algorithm: by, .. } if of == at && by == algorithm);
     let tasks: Vec<Task> = experiment.tasks().into_iter().filter(is_wanted).collect();
     let results = perform(&experiment, tasks, work)?;
     Ok(results.curve(&experiment.sets[at], at, algorithm))

@@ -169,9 +169,7 @@ pub fn methods(collection: &Collection, method: Option<Method>) -> Result<Vec<Me
             "a blend is made of other models, so they are trained together; train all of them".to_owned(),
         )),
         (Some(method), _) => Ok(vec![method]),
-        (None, Collection::Plans(_)) => {
-            Ok(Method::ALL.into_iter().filter(|&method| method != Method::Blend).collect())
-        }
+        (None, Collection::Plans(_)) => Ok(Method::ALL.into_iter().filter(|&method| method != Method::Blend).collect()),
         (None, Collection::Rows(_)) => Ok(Algorithm::ALL.map(Method::Each).to_vec()),
     }
 }

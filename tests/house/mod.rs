@@ -21,7 +21,8 @@ const FLOORS: &[&[&str]] = &[
     &["classify"],
     &["robot"],
     &["predict", "store", "study"],
-    &["pipeline", "gather", "training"],
+    &["pipeline", "gather", "training", "review"],
+    &["workspace"],
     &["facade"],
     &["app/look"],
     &["app/paint"],
@@ -39,8 +40,29 @@ const FLOORS: &[&[&str]] = &[
 
 /// The core: pure functions of their input.
 const CORE: &[&str] = &[
-    "base", "geometry", "picture", "labels", "plan", "topology", "snapping", "edit", "features", "check", "draw",
-    "chart", "dataset", "formats", "classify", "predict", "study", "pipeline", "gather", "training", "robot",
+    "base",
+    "geometry",
+    "picture",
+    "labels",
+    "plan",
+    "topology",
+    "snapping",
+    "edit",
+    "features",
+    "check",
+    "draw",
+    "chart",
+    "dataset",
+    "formats",
+    "classify",
+    "predict",
+    "study",
+    "pipeline",
+    "gather",
+    "training",
+    "robot",
+    "workspace",
+    "review",
 ];
 
 /// What the core does not touch, and why.

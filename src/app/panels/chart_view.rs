@@ -94,8 +94,11 @@ fn under(
             Marks::Line(points) => {
                 let near = points.iter().find(|it| layout.at(it.across, it.up).distance(at) <= f64::from(NEAR));
                 if let Some(point) = near {
-                    let spread =
-                        if point.deviation > 0.0 { format!(" ± {:.1}", 100.0 * point.deviation) } else { String::new() };
+                    let spread = if point.deviation > 0.0 {
+                        format!(" ± {:.1}", 100.0 * point.deviation)
+                    } else {
+                        String::new()
+                    };
                     let text = format!("{}: {:.1}{spread} % at {:.0}", series.name, 100.0 * point.up, point.across);
                     return Some((text, None));
                 }

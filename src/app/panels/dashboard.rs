@@ -115,8 +115,7 @@ impl Dialog for Dashboard {
             Some(Act::GoTo(row)) => {
                 let room = app.session.at_hand.read.clone();
                 if let Some((origin, id)) = room.as_ref().and_then(|at_hand| at_hand.room_of(row)) {
-                    let call = app.session.go_to_room(origin, id);
-                    app.act_on(call, ui.ctx());
+                    app.session.go_to_room(origin, id);
                     return After::Close;
                 }
                 After::Stay
@@ -156,7 +155,8 @@ impl Dashboard {
                 if text_button(ui, "Close", false).clicked() {
                     act = Some(Act::Close);
                 }
-                if text_button(ui, "Read again", false).on_hover_text("Read the plans as they are saved now").clicked() {
+                if text_button(ui, "Read again", false).on_hover_text("Read the plans as they are saved now").clicked()
+                {
                     let source = app.session.usual_source();
                     app.session.read_rooms(source, true);
                 }
@@ -404,7 +404,10 @@ fn listed(
     if brushed.is_empty() {
         section(ui, "Rooms");
         ui.add_space(2.0);
-        caption(ui, "Drag over dots to pick their rooms. Those in the plan that is open are selected there. Or pick by label:");
+        caption(
+            ui,
+            "Drag over dots to pick their rooms. Those in the plan that is open are selected there. Or pick by label:",
+        );
         ui.add_space(2.0);
         for label in Label::ALL {
             let of_label: Vec<usize> =
@@ -575,7 +578,10 @@ fn table_2(ui: &mut Ui, palette: &Palette, statistics: &Statistics, set: &str) {
     if of_set.is_none() {
         ui.add_space(4.0);
         let of = if set == STANDARD { "all rooms together".to_owned() } else { format!("the typology '{set}'") };
-        caption(ui, format!("The paper has no figures for {of}: choose houses, schools or offices to see them beside."));
+        caption(
+            ui,
+            format!("The paper has no figures for {of}: choose houses, schools or offices to see them beside."),
+        );
     }
 }
 

@@ -41,7 +41,12 @@ pub(super) fn pick<T: Clone + PartialEq>(
 }
 
 /// A choice of one of several, side by side.
-pub(super) fn choose<T: Clone + PartialEq>(ui: &mut Ui, name: &str, value: &mut T, options: &[(T, &str, &str)]) -> bool {
+pub(super) fn choose<T: Clone + PartialEq>(
+    ui: &mut Ui,
+    name: &str,
+    value: &mut T,
+    options: &[(T, &str, &str)],
+) -> bool {
     let segments: Vec<Segment<'_>> = options
         .iter()
         .map(|(option, text, help)| Segment { text, name: text, help, is_on: value == option, colour: None })

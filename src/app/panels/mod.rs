@@ -25,9 +25,10 @@ mod prediction;
 mod questions;
 mod reasons;
 pub(super) mod recovery;
+mod review;
 mod robot;
-pub(super) mod shortcuts;
 mod schemes;
+pub(super) mod shortcuts;
 mod sides;
 pub(super) mod status;
 mod tool_options;
@@ -35,6 +36,7 @@ mod tool_strip;
 mod top_bar;
 mod training;
 pub(super) mod welcome;
+mod workspace;
 
 use egui::{CentralPanel, Frame, Margin, Panel, Ui, UiBuilder};
 
@@ -43,6 +45,7 @@ use crate::app::state::{App, Entry, Side, SidePanel};
 
 /// All dialogs; later ones are above earlier ones.
 pub(crate) const DIALOGS: &[Entry] = &[
+    workspace::ENTRY,
     notes::ENTRY,
     differences::ENTRY,
     recovery::ENTRY,
@@ -59,7 +62,7 @@ pub(crate) const DIALOGS: &[Entry] = &[
 
 /// All side panels, from the top.
 pub(crate) const SIDE_PANELS: &[SidePanel] =
-    &[plans::PANEL, layers::PANEL, inspector::PANEL, robot::PANEL, findings::PANEL, history::PANEL];
+    &[plans::PANEL, layers::PANEL, review::PANEL, inspector::PANEL, robot::PANEL, findings::PANEL, history::PANEL];
 
 /// Shows the window.
 pub(crate) fn show(app: &mut App, ui: &mut Ui) {

@@ -139,7 +139,7 @@ fn choice(ui: &mut Ui, app: &App, name: &str, id: &'static str) -> Option<Asked>
 }
 
 /// A label with its probability as a bar.
-fn bar(ui: &mut Ui, palette: &Palette, label: Label, probability: f64, is_said: bool) {
+pub(super) fn bar(ui: &mut Ui, palette: &Palette, label: Label, probability: f64, is_said: bool) {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 22.0), Sense::hover());
     let colours = colours(ui);
     let text = if is_said { colours.text } else { colours.text_weak };

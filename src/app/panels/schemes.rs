@@ -25,7 +25,7 @@ pub(super) const ENTRY: Entry =
 const LARGEST: [f32; 2] = [860.0, 680.0];
 
 /// Width of the list of typologies.
-const LIST: f32 = 190.0;
+const LIST: f32 = 216.0;
 
 struct Schemes {
     typology: Option<Typology>,
@@ -121,23 +121,30 @@ impl Schemes {
         section(ui, "Typologies");
         let known: BTreeSet<Typology> = app.session.schemes.typologies().chain(&self.added).cloned().collect();
         ui.spacing_mut().item_spacing.y = 2.0;
-        ScrollArea::vertical().id_salt("typologies").max_height(height - 96.0).auto_shrink([false, true]).show(ui, |ui| {
-            for typology in known {
-                let is_changed = self.changes.contains_key(&typology);
-                let title = typology.title();
-                let trail = if is_changed { "changed" } else { "" };
-                let row = Row::new(Lead::None, &title).trail(trail).selected(self.typology.as_ref() == Some(&typology));
-                if row.button(ui, Role::ListBoxOption).clicked() {
-                    self.typology = Some(typology);
-                    self.search.clear();
+        ScrollArea::vertical().id_salt("typologies").max_height(height - 96.0).auto_shrink([false, true]).show(
+            ui,
+            |ui| {
+                for typology in known {
+                    let is_changed = self.changes.contains_key(&typology);
+                    let title = typology.title();
+                    let trail = if is_changed { "changed" } else { "" };
+                    let row =
+                        Row::new(Lead::None, &title).trail(trail).selected(self.typology.as_ref() == Some(&typology));
+                    if row.button(ui, Role::ListBoxOption).clicked() {
+                        self.typology = Some(typology);
+                        self.search.clear();
+                    }
                 }
-            }
-        });
+            },
+        );
         ui.add_space(6.0);
-        let response = text(ui, "New typology", &mut self.new_typology, LIST - 16.0, "New typology");
-        let is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         let new = Typology::new(&self.new_typology);
-        let is_clicked = ui.add_enabled_ui(new.is_some(), |ui| text_button(ui, "Add", false)).inner.clicked();
+        let (mut is_entered, mut is_clicked) = (false, false);
+        ui.horizontal(|ui| {
+            let response = text(ui, "New typology", &mut self.new_typology, LIST - 82.0, "New typology");
+            is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+            is_clicked = ui.add_enabled_ui(new.is_some(), |ui| text_button(ui, "Add", false)).inner.clicked();
+        });
         if let Some(new) = new.filter(|_| is_clicked || is_entered) {
             self.new_typology.clear();
             self.added.insert(new.clone());
@@ -283,8 +290,9 @@ fn function_row(
     let choices = 268.0f32.min(ui.available_width() * 0.55);
     ui.horizontal(|ui| {
         let picker = ui.color_edit_button_srgb(&mut colour).on_hover_text("Its colour where rooms are filled by function");
+        let is_picked = picker.changed();
         picker.accessible_name(&format!("{function}: colour"));
-        if picker.changed() {
+        if is_picked {
             chosen = Some(Chosen::Colour(colour));
         }
         let width = (ui.available_width() - choices - 8.0).max(60.0);

@@ -238,7 +238,11 @@ impl Training {
         line(ui, NAMES, "Test on", |ui| {
             let options = [
                 (By::Building, "New buildings", "Folds never split a building: as the model meets new plans"),
-                (By::Room, "New rooms", "Folds deal rooms, as in the paper: other rooms of the same building are known"),
+                (
+                    By::Room,
+                    "New rooms",
+                    "Folds deal rooms, as in the paper: other rooms of the same building are known",
+                ),
                 (By::Both, "Both", "One test of each kind"),
                 (By::None, "Not at all", "Train without testing"),
             ];
@@ -307,7 +311,8 @@ impl Training {
             self.since = (live.step_number, now);
         }
         let step = sentence(&live.step);
-        let steps = if live.steps > 1 { format!(" (step {} of {})", live.step_number, live.steps) } else { String::new() };
+        let steps =
+            if live.steps > 1 { format!(" (step {} of {})", live.step_number, live.steps) } else { String::new() };
         ui.label(if step.is_empty() { "Getting ready".to_owned() } else { format!("{step}{steps}") });
         ui.add(ProgressBar::new(live.share() as f32).show_percentage());
         let elapsed = now - self.since.1;
@@ -419,7 +424,12 @@ impl Training {
                 let names = app.session.names_of_trained(&self.name);
                 let first = names.first().cloned().unwrap_or_default();
                 let several = if names.len() > 1 { format!(" and {} more", names.len() - 1) } else { String::new() };
-                caption(ui, format!("Until you close Enfilade, {first}{several} can be chosen under Predict > Models. Kept, it stays."));
+                caption(
+                    ui,
+                    format!(
+                        "Until you close Enfilade, {first}{several} can be chosen under Predict > Models. Kept, it stays."
+                    ),
+                );
             }
         }
         ui.add_space(4.0);
@@ -527,7 +537,10 @@ fn labels(ui: &mut Ui, palette: &Palette, scores: &Scores, before: Option<&Score
         let cells = [sentence(label.name()), found, percent(rates.precision), format!("{:.2}", rates.f1)];
         table_line(ui, Some(theme::colour(palette.label(label))), &cells, Look::Ours);
     }
-    caption(ui, "Found: of the rooms with the label, those that got it. Right: of the rooms that got it, those that have it.");
+    caption(
+        ui,
+        "Found: of the rooms with the label, those that got it. Right: of the rooms that got it, those that have it.",
+    );
 }
 
 /// What rooms of each label were taken for.
@@ -558,10 +571,8 @@ fn confusion(ui: &mut Ui, palette: &Palette, scores: &Scores) {
         let at = pos2(rect.left(), rect.center().y);
         ui.painter().text(at, egui::Align2::LEFT_CENTER, sentence(label.name()), font.clone(), colours.text);
         for (column, (count, share)) in counts.into_iter().zip(shares[row]).enumerate() {
-            let cell = Rect::from_min_size(
-                pos2(rect.left() + name + each * column as f32, rect.top()),
-                vec2(each, height),
-            );
+            let cell =
+                Rect::from_min_size(pos2(rect.left() + name + each * column as f32, rect.top()), vec2(each, height));
             let ink = if row == column { palette.label(label) } else { palette.label(Label::BigRoom) };
             let strength = if count == 0 { 0.0 } else { (0.12 + 0.88 * share) as f32 };
             ui.painter().rect_filled(cell.shrink(1.0), 3.0, theme::colour(ink).gamma_multiply(strength));

@@ -13,8 +13,8 @@ use crate::app::session::origin::file_name;
 use crate::base::wording::count;
 use crate::base::work::{Cancelled, Work};
 use crate::formats::FileError;
-use crate::gather::dataset::{Made, made};
 use crate::gather::beside;
+use crate::gather::dataset::{Made, made};
 use crate::labels::Schemes;
 use crate::store;
 

@@ -40,6 +40,8 @@ pub(crate) struct Given {
 /// The purpose of choosing a file.
 pub(crate) enum Purpose {
     Open,
+    /// To open a folder of plans.
+    Workspace,
     /// To replay a robot's log.
     Log,
     Picture(PictureUse),
@@ -53,7 +55,9 @@ pub(crate) enum Purpose {
     /// To write a dataset; the answer is for the dialog that asked.
     Dataset,
     /// Labelled rooms: a folder of plans, or a dataset; the answer is for the dialog that asked.
-    Data { is_folder: bool },
+    Data {
+        is_folder: bool,
+    },
     /// A folder to write in; the answer is for the dialog that asked.
     Folder,
     /// To write a chart; the answer is for the dialog that asked.
@@ -109,6 +113,7 @@ impl Dialogs {
                             .add_filter("All files", &["*"]);
                         Box::pin(dialog.pick_file()) as Waiting
                     }
+                    Purpose::Workspace => Box::pin(dialog.set_title("Open a folder of plans").pick_folder()),
                     Purpose::Log => {
                         let dialog = dialog
                             .set_title("Replay a laser log")
@@ -209,16 +214,14 @@ impl Purpose {
     pub(crate) const fn command(&self) -> &'static str {
         match self {
             Self::Open => "open",
+            Self::Workspace => "open-workspace",
             Self::Log => "replay-log",
             Self::Picture(PictureUse::Add) => "picture",
             Self::Picture(PictureUse::Relink) => "relink-picture",
             Self::Save { .. } => "save-as",
-            Self::Recording(_)
-            | Self::Export
-            | Self::Dataset
-            | Self::Data { .. }
-            | Self::Folder
-            | Self::Chart => "choose-file",
+            Self::Recording(_) | Self::Export | Self::Dataset | Self::Data { .. } | Self::Folder | Self::Chart => {
+                "choose-file"
+            }
         }
     }
 }

@@ -222,9 +222,9 @@ impl Session {
         let bytes = match ending.as_str() {
             "png" => png::png(&scene(pixel_ratio)).map_err(|error| error.to_string())?,
             "svg" => svg::svg(&scene(1.0)).into_bytes(),
-            "csv" => chart
-                .csv(&["file", "id", "building", "room", "function"], &told)
-                .map_err(|error| error.to_string())?,
+            "csv" => {
+                chart.csv(&["file", "id", "building", "room", "function"], &told).map_err(|error| error.to_string())?
+            }
             _ => return Err(format!("{}: the ending must be .png, .svg or .csv", file_name(path))),
         };
         let path = path.to_owned();

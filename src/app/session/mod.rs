@@ -30,6 +30,7 @@ pub(crate) mod plan_list;
 pub(crate) mod predictions;
 pub(crate) mod questions;
 pub(crate) mod recovery;
+pub(crate) mod review;
 pub(crate) mod robot;
 pub(crate) mod safety;
 pub(crate) mod samples;
@@ -41,6 +42,7 @@ pub(crate) mod training;
 pub(crate) mod watch;
 pub(crate) mod wishes;
 pub(crate) mod words;
+pub(crate) mod workspace;
 
 use crate::app::paint::backdrop::BackdropView;
 use crate::app::session::document::Document;
@@ -149,6 +151,14 @@ pub(crate) struct Session {
     pub(crate) preview: exporting::SheetPreview,
     /// The file that a dialog was told to write to, for the dialog that asked.
     pub(crate) chosen_file: Option<PathBuf>,
+    /// The open folder of plans.
+    pub(crate) workspace: Option<workspace::OpenWorkspace>,
+    /// Where what was found out about plans is kept; `None` to keep nothing.
+    pub(crate) cache_folder: Option<PathBuf>,
+    /// A room to select once the plan of this origin is shown.
+    pub(crate) awaited_room: Option<(Origin, crate::plan::RoomId)>,
+    /// The storey to show below once the plan of the first origin is shown.
+    pub(crate) awaited_ghost: Option<(Origin, Origin)>,
     /// The dataset being made.
     pub(crate) dataset_job: Option<jobs::Wanted>,
     /// The labelled rooms at hand, for the dashboard and for training.
@@ -157,6 +167,8 @@ pub(crate) struct Session {
     pub(crate) measures: measures::Measures,
     /// Models being trained, and those trained last.
     pub(crate) training: training::Training,
+    /// The review of the open folder's labels.
+    pub(crate) review: review::Review,
     /// The simulated robot, or the log being replayed.
     pub(crate) robot: robot::Robot,
     /// Requests to the rest of the window.
@@ -219,10 +231,15 @@ impl Session {
             findings: findings::Findings::default(),
             preview: exporting::SheetPreview::default(),
             chosen_file: None,
+            workspace: None,
+            cache_folder: None,
+            awaited_room: None,
+            awaited_ghost: None,
             dataset_job: None,
             at_hand: at_hand::RoomsAtHand::default(),
             measures: measures::Measures::default(),
             training: training::Training::default(),
+            review: review::Review::default(),
             robot: robot::Robot::default(),
             wishes: Vec::new(),
         }

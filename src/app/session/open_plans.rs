@@ -54,7 +54,7 @@ impl Session {
         self.waiting_plans.iter_mut().map(|waiting| &mut waiting.document).chain(&mut self.document)
     }
 
-    fn documents(&self) -> impl Iterator<Item = &Document> {
+    pub(super) fn documents(&self) -> impl Iterator<Item = &Document> {
         self.waiting_plans.iter().map(|waiting| &waiting.document).chain(&self.document)
     }
 
@@ -277,6 +277,18 @@ impl Session {
             waiting.own.end();
         }
         self.keep_settings();
+    }
+
+    /// Closes a plan that waits and was never changed; says nothing of it.
+    pub(super) fn close_untouched(&mut self, number: u64) {
+        let is_untouched = |waiting: &Waiting| {
+            waiting.document.number == number
+                && waiting.document.history.steps().len() == 1
+                && !waiting.document.is_changed()
+        };
+        if let Some(index) = self.waiting_plans.iter().position(is_untouched) {
+            self.waiting_plans.remove(index).own.end();
+        }
     }
 
     /// Closes a plan that was only looked at, now that another is shown.

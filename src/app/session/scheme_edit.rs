@@ -71,7 +71,11 @@ impl Session {
                     } else {
                         String::new()
                     };
-                    session.say(Severity::Info, text, format!("{detail}\n{}", session.shown_path(&path)).trim().to_owned());
+                    session.say(
+                        Severity::Info,
+                        text,
+                        format!("{detail}\n{}", session.shown_path(&path)).trim().to_owned(),
+                    );
                     session.read_rooms_again();
                 }
             }

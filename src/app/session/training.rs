@@ -67,7 +67,8 @@ impl Wish {
             match word.split_once('=') {
                 Some(("algorithm", "all")) => wish.method = None,
                 Some(("algorithm", name)) => {
-                    wish.method = Some(name.parse().map_err(|error: crate::classify::UnknownAlgorithm| error.to_string())?);
+                    wish.method =
+                        Some(name.parse().map_err(|error: crate::classify::UnknownAlgorithm| error.to_string())?);
                 }
                 Some(("typology", name)) => wish.set = Some(name.replace('_', " ")),
                 Some(("by", "both")) => wish.groupings = Grouping::ALL.to_vec(),
@@ -192,7 +193,9 @@ impl Watcher for Teller<'_> {
         });
         let live = &self.live;
         let progress = |done: usize, count: usize| {
-            with(live, |live| (live.done, live.count) = (if live.count == count { live.done.max(done) } else { done }, count));
+            with(live, |live| {
+                (live.done, live.count) = (if live.count == count { live.done.max(done) } else { done }, count)
+            });
         };
         step(&self.work.telling(&progress))
     }
@@ -290,6 +293,8 @@ impl Session {
     pub(super) fn train_what_waits(&mut self) {
         let Some((source, wish)) = self.training.waiting.take() else { return };
         if let Err(error) = self.train(source, wish) {
+            // The form says it, not the report of an earlier training.
+            self.train_again();
             self.training.error = Some(self.at_hand.error.clone().unwrap_or(error));
         }
     }
@@ -335,7 +340,11 @@ impl Session {
         let model = self.models.find(&made.set, made.method).ok()?;
         let figures: Vec<(String, f64, f64)> =
             model.about.scores.iter().map(|of| (of.folds_by.clone(), of.accuracy, of.log_loss)).collect();
-        let whose = if model.path.is_some() { format!("your model {}", model.name) } else { format!("the bundled {}", model.name) };
+        let whose = if model.path.is_some() {
+            format!("your model {}", model.name)
+        } else {
+            format!("the bundled {}", model.name)
+        };
         Some(Before { name: whose, figures, scores: Vec::new() })
     }
 
@@ -433,7 +442,8 @@ impl Session {
                         store::set_default_model(&folder, set, Some(name)).map_err(|error| error.to_string())?;
                     }
                 }
-                let load = |(path, _): &(PathBuf, Arc<Vec<u8>>)| store::load_model(path).map_err(|error| error.to_string());
+                let load =
+                    |(path, _): &(PathBuf, Arc<Vec<u8>>)| store::load_model(path).map_err(|error| error.to_string());
                 parts.iter().chain(&files).map(load).collect()
             };
             let kept = keep();

@@ -161,4 +161,5 @@ pub(crate) mod ids {
     pub(crate) const HISTORY: &str = "history";
     pub(crate) const FINDINGS: &str = "findings";
     pub(crate) const ROBOT: &str = "robot";
+    pub(crate) const REVIEW: &str = "review";
 }
