@@ -222,8 +222,7 @@ impl Schemes {
             }
             let mut colours = BTreeMap::new();
             for (function, text) in disk.colours {
-                let read = colour(&text)
-                    .ok_or_else(|| wrong(format!("'{text}' is no colour; write it as #ffd27f")))?;
+                let read = colour(&text).ok_or_else(|| wrong(format!("'{text}' is no colour; write it as #ffd27f")))?;
                 colours.insert(normalised_function(&function), read);
             }
             let scheme = self.by_typology.entry(typology).or_default();

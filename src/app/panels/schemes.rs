@@ -289,7 +289,8 @@ fn function_row(
     let mut chosen = None;
     let choices = 268.0f32.min(ui.available_width() * 0.55);
     ui.horizontal(|ui| {
-        let picker = ui.color_edit_button_srgb(&mut colour).on_hover_text("Its colour where rooms are filled by function");
+        let picker =
+            ui.color_edit_button_srgb(&mut colour).on_hover_text("Its colour where rooms are filled by function");
         let is_picked = picker.changed();
         picker.accessible_name(&format!("{function}: colour"));
         if is_picked {

@@ -378,9 +378,10 @@ impl Training {
             match report.scores.last() {
                 None => drop(caption(ui, "This model was not tested.")),
                 Some((by, scores)) => {
-                    let before = report.before.as_ref().and_then(|before| {
-                        before.scores.iter().find(|(of, _)| of == by).map(|(_, scores)| scores)
-                    });
+                    let before = report
+                        .before
+                        .as_ref()
+                        .and_then(|before| before.scores.iter().find(|(of, _)| of == by).map(|(_, scores)| scores));
                     ui.spacing_mut().item_spacing.x = 28.0;
                     ui.columns(2, |columns| {
                         labels(&mut columns[0], palette, scores, before);

@@ -528,3 +528,25 @@ fn run(at_hand: &AtHand, wish: &Wish, path: &str, teller: &mut Teller<'_>) -> Re
     };
     training::train(collection, &parts, &methods, &order, teller).map(drop)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_wished_can_be_said_and_read() {
+        let wish = Wish {
+            method: Some(Method::Joint),
+            set: Some("fire station".to_owned()),
+            folds: 5,
+            groupings: Grouping::ALL.to_vec(),
+            neighbours: Some(NeighbourLabels::True),
+        };
+        for wish in [wish, Wish::default(), Wish { method: None, folds: 0, ..Wish::default() }] {
+            assert_eq!(Wish::read(&wish.words()), Ok(wish));
+        }
+        for wrong in ["algorithm=magic", "folds=1", "folds=many", "by=street", "neighbours=nice", "tree"] {
+            assert!(Wish::read(wrong).is_err(), "{wrong}");
+        }
+    }
+}
