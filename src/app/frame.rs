@@ -66,6 +66,7 @@ impl App {
         self.take_menu_keys(&context);
         self.take_tool_keys(&context);
         self.take_shortcuts(&context);
+        self.session.play_demo(&context);
         self.refresh();
         self.session.go_on_reviewing();
         self.session.check_findings(&context);

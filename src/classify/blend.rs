@@ -99,6 +99,8 @@ pub struct Opinions {
     of_parts: Vec<Vec<Distribution>>,
     /// For each part that is a joint classifier, its first round: where explanations start.
     rounds: Vec<Option<FirstRound>>,
+    /// For each part that looks at each room by itself, what it said, for the next plan.
+    said: Vec<Option<in_plan::Said>>,
     /// The blend's distribution of each room.
     pub distributions: Vec<Distribution>,
 }
@@ -153,14 +155,57 @@ impl Blend {
                 None => {}
             }
         }
+        self.together(of_parts, rounds, Vec::new(), network.rooms.len())
+    }
+
+    /// The same of the plan after an edit, to the last bit; `before` is what this blend said of the plan before it, by this
+    /// function too.
+    pub fn opinions_after(
+        &self,
+        network: &RoomNetwork,
+        known: &[Option<Label>],
+        before: Option<&Opinions>,
+    ) -> Opinions {
+        let (mut of_parts, mut rounds, mut said) = (Vec::new(), Vec::<Option<FirstRound>>::new(), Vec::new());
+        for (index, part) in self.parts.iter().enumerate() {
+            match part.model.kind() {
+                Some(Kind::Joint(joint)) => {
+                    let other = rounds.iter().flatten().next();
+                    let before = before.and_then(|before| before.rounds.get(index)?.as_ref());
+                    let (round, distributions) = joint.predict_after(network, known, other, before);
+                    of_parts.push(distributions);
+                    rounds.push(Some(round));
+                    said.push(None);
+                }
+                Some(Kind::Each(classifier)) => {
+                    let before = before.and_then(|before| before.said.get(index)?.as_ref());
+                    let neighbours = NeighbourLabels::Predicted;
+                    let (result, kept) = in_plan::classify_after(classifier, network, known, neighbours, before);
+                    of_parts.push(result.distributions);
+                    rounds.push(None);
+                    said.push(Some(kept));
+                }
+                None => {}
+            }
+        }
+        self.together(of_parts, rounds, said, network.rooms.len())
+    }
+
+    fn together(
+        &self,
+        of_parts: Vec<Vec<Distribution>>,
+        rounds: Vec<Option<FirstRound>>,
+        said: Vec<Option<in_plan::Said>>,
+        rooms: usize,
+    ) -> Opinions {
         let weights: Vec<f64> = self.parts.iter().map(|part| part.weight).collect();
-        let distributions = (0..network.rooms.len())
+        let distributions = (0..rooms)
             .map(|room| {
                 let said: Vec<Distribution> = of_parts.iter().map(|said| said[room]).collect();
                 Distribution::mean(&said, &weights).at_temperature(self.temperature)
             })
             .collect();
-        Opinions { of_parts, rounds, distributions }
+        Opinions { of_parts, rounds, said, distributions }
     }
 
     /// Why a room got its label, with areas in these units; `None` for a room that is not in the network. The points are those

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::calibration::OdometryOptions;
 use super::carmen::{Log, Reading};
 use super::frontiers::{Frontier, frontiers};
+use super::log_map::{Surroundings, surroundings_of};
 use super::{FreeSpace, Mapper, MapperOptions, Pose, Scan};
 use crate::geometry::Segment;
 
@@ -179,6 +180,19 @@ impl LogReplay {
         self.mapper.map().lines().map(|line| line.line.segment()).collect()
     }
 
+    /// The rooms, and what else is known of the surroundings: at the end from every scan, as
+    /// [`surroundings`](super::log_map::surroundings) finds them, and before from those in the free space.
+    pub fn surroundings(&self) -> Surroundings {
+        if self.is_over() {
+            let poses = self.mapper.poses();
+            let readings = self.log.readings.iter().filter(|reading| !reading.scans.is_empty());
+            let looks = readings.zip(&poses).map(|(reading, pose)| (*pose, reading.scans.as_slice()));
+            return surroundings_of(looks, self.segments().into_iter());
+        }
+        let looks = self.looks.iter().map(|look| (look.pose, self.log.readings[look.reading].scans.as_slice()));
+        surroundings_of(looks, self.segments().into_iter())
+    }
+
     /// The current best estimates of the poses of all scans.
     pub fn poses(&self) -> Vec<Pose> {
         self.mapper.poses()
@@ -192,7 +206,7 @@ impl LogReplay {
 
 #[cfg(test)]
 mod tests {
-    use super::super::log_map::map_log;
+    use super::super::log_map::{map_log, surroundings};
     use super::super::scanner::back_to_back;
     use super::super::{Exploration, RobotOptions, Scanner, World, WorldOptions};
     use super::*;
@@ -220,7 +234,7 @@ mod tests {
     fn step_by_step_it_is_the_map_of_the_whole_log() {
         let (_, log) = log();
         let mapped = map_log(&log, &MapperOptions::default(), &Work::quiet()).unwrap();
-        let mut replay = LogReplay::new(Arc::new(log), &MapperOptions::default());
+        let mut replay = LogReplay::new(Arc::new(log.clone()), &MapperOptions::default());
         let mut known_m2 = 0.0;
         while replay.step() {
             assert!(areas::area_m2(replay.free().shapes()) >= known_m2 - 0.1);
@@ -230,6 +244,8 @@ mod tests {
         assert_eq!(replay.poses(), mapped.poses);
         let lines: Vec<Segment> = mapped.map.lines().map(|line| line.line.segment()).collect();
         assert_eq!(replay.segments(), lines);
+        assert_eq!(replay.surroundings().found, surroundings(&log, &mapped).found);
+        assert!(!replay.surroundings().found.rooms.is_empty());
         assert!(known_m2 > 10.0, "{known_m2} m² are known");
     }
 

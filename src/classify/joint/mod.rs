@@ -9,6 +9,7 @@
 //! much to trust known labels.
 
 mod around;
+mod asked;
 mod explain;
 mod store;
 mod trees;
@@ -16,14 +17,16 @@ mod view;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
+use std::sync::Arc;
 
 pub use explain::{GroupEffect, JointExplanation, NeighbourEffect};
 pub use store::JointModelError;
 pub use view::Group;
 
 use self::around::Around;
+use self::asked::Held;
 use self::trees::{Forest, Job, KEPT, Samples};
-use self::view::View;
+use self::view::{Search, View};
 use super::calibration::fitted_temperature;
 use super::{Distribution, FoldScore, Scores};
 use crate::base::random::{Random, seed_of_part};
@@ -32,6 +35,7 @@ use crate::dataset::flats::Flats;
 use crate::dataset::folds::{Folds, FoldsError};
 use crate::dataset::{RoomNetwork, RoomPlace};
 use crate::labels::{Label, Typology};
+use crate::plan::RoomId;
 
 /// Folds for first-round predictions of training rooms by forests not trained on their building.
 const INNER_FOLDS: usize = 4;
@@ -110,19 +114,32 @@ struct Looked {
     features: Vec<Vec<f32>>,
     /// Whether no group of features was left out.
     is_whole: bool,
+    /// Which rooms of the whole plan are joined, and what searching them found.
+    searched: Arc<(Vec<Vec<usize>>, Vec<Search>)>,
 }
 
 impl Looked {
     /// A storey of flats is looked at flat by flat ([`Flats`]): a dwelling's rooms are compared with each other, not with the
     /// neighbours'. What the flats share is compared with the whole storey.
     fn new(network: &RoomNetwork, left_out: &BTreeSet<Group>) -> Self {
+        Self::after(network, left_out, None)
+    }
+
+    /// The same, after an edit: what was found by searching is found again where the same rooms are joined.
+    fn after(network: &RoomNetwork, left_out: &BTreeSet<Group>, before: Option<&Self>) -> Self {
         let mut view = View::new(network);
-        let mut features = view::features(network, &view);
+        let known = before.map(|before| &before.searched).filter(|searched| searched.0 == view.joined);
+        let searched = known.cloned().unwrap_or_else(|| {
+            let found = view::search(&view.joined);
+            Arc::new((view.joined.clone(), found))
+        });
+        let mut features = view::features(network, &view, &searched.1);
         let flats = Flats::of(network).map(|flats| flats.flats).unwrap_or_default();
         for (index, flat) in flats.iter().enumerate() {
             let part = network.part(flat);
             let of_part = View::new(&part);
-            for (&room, of_room) in flat.iter().zip(view::features(&part, &of_part)) {
+            let found = view::search(&of_part.joined);
+            for (&room, of_room) in flat.iter().zip(view::features(&part, &of_part, &found)) {
                 features[room] = of_room;
             }
             view.put(flat, index, &of_part);
@@ -130,7 +147,7 @@ impl Looked {
         for room in &mut features {
             blank(room, view::FEATURES, left_out);
         }
-        Self { view, features, is_whole: left_out.is_empty() }
+        Self { view, features, is_whole: left_out.is_empty(), searched }
     }
 
     /// The features of the second round.
@@ -155,8 +172,30 @@ impl Looked {
 /// The first round over a plan: the starting point of both predictions and their explanations.
 #[derive(Clone, Debug)]
 pub struct FirstRound {
-    looked: Looked,
+    looked: Arc<Looked>,
     opinions: Vec<Distribution>,
+    /// For the next plan, the rooms and what both forests said of them; empty where nothing is to be kept.
+    held: HeldRooms,
+}
+
+/// What the forests said of a plan's rooms.
+#[derive(Clone, Debug, Default)]
+struct HeldRooms {
+    rooms: Vec<RoomId>,
+    first: Vec<Arc<Held>>,
+    second: Vec<Arc<Held>>,
+}
+
+impl HeldRooms {
+    /// For each of these rooms its place here; `None` for one that is new.
+    fn places(&self, rooms: &[RoomId]) -> Vec<Option<usize>> {
+        if self.rooms == rooms {
+            return (0..rooms.len()).map(Some).collect();
+        }
+        let places: BTreeMap<RoomId, usize> =
+            self.rooms.iter().enumerate().map(|(place, &room)| (room, place)).collect();
+        rooms.iter().map(|room| places.get(room).copied()).collect()
+    }
 }
 
 /// Sets the features of some groups to 0, so that no tree can split on them.
@@ -264,10 +303,7 @@ impl Joint {
             Some((forest.predict(&values), label(networks, place)))
         });
         let temperature = fitted_temperature(unseen);
-        let [first, second] = [first, second].map(|mut forest| {
-            forest.trees.truncate(KEPT);
-            forest
-        });
+        let [first, second] = [first, second].map(|forest| forest.shortened(KEPT));
         Ok(Self { first, second, temperature, typical, left_out: left_out.clone() })
     }
 
@@ -280,9 +316,7 @@ impl Joint {
 
     /// The first round, which needs no labels.
     pub fn first_round(&self, network: &RoomNetwork) -> FirstRound {
-        let looked = Looked::new(network, &self.left_out);
-        let opinions = self.first_opinions(&looked);
-        FirstRound { looked, opinions }
+        self.first_round_from(Arc::new(Looked::new(network, &self.left_out)))
     }
 
     /// The same, after another classifier's first round over the same network: rooms are looked at once for both.
@@ -290,18 +324,49 @@ impl Joint {
         if !(self.left_out.is_empty() && other.looked.is_whole) {
             return self.first_round(network);
         }
-        let looked = other.looked.clone();
-        let opinions = self.first_opinions(&looked);
-        FirstRound { looked, opinions }
+        self.first_round_from(other.looked.clone())
+    }
+
+    fn first_round_from(&self, looked: Arc<Looked>) -> FirstRound {
+        let opinions = looked.features.iter().map(|values| self.first.predict(values)).collect();
+        FirstRound { looked, opinions, held: HeldRooms::default() }
+    }
+
+    /// Both rounds over the plan after an edit: `before` is this classifier's first round over the plan before it, if there
+    /// was one, and `other` another classifier's over the same network. The result is that of [`Joint::first_round`] and
+    /// [`Joint::predict_from`], to the last bit.
+    pub fn predict_after(
+        &self,
+        network: &RoomNetwork,
+        known: &[Option<Label>],
+        other: Option<&FirstRound>,
+        before: Option<&FirstRound>,
+    ) -> (FirstRound, Vec<Distribution>) {
+        let looked = match other.filter(|other| self.left_out.is_empty() && other.looked.is_whole) {
+            Some(other) => other.looked.clone(),
+            None => {
+                let looked = before.map(|before| before.looked.as_ref());
+                Arc::new(Looked::after(network, &self.left_out, looked))
+            }
+        };
+        let rooms: Vec<RoomId> = network.rooms.iter().map(|room| room.id).collect();
+        let places = before.map_or_else(Vec::new, |before| before.held.places(&rooms));
+        let held_before = |of: fn(&HeldRooms) -> &Vec<Arc<Held>>| -> Vec<Option<&Arc<Held>>> {
+            let Some(before) = before else { return Vec::new() };
+            places.iter().map(|place| of(&before.held).get((*place)?)).collect()
+        };
+        let first = self.first.asked().predict_held(&looked.features, &held_before(|held| &held.first), |said| said);
+        let opinions: Vec<Distribution> = first.iter().map(|held| held.said).collect();
+        let features = looked.with_labels(&opinions, known, &self.left_out);
+        let finish = |said: Distribution| said.at_temperature(self.temperature);
+        let second = self.second.asked().predict_held(&features, &held_before(|held| &held.second), finish);
+        let distributions = second.iter().map(|held| held.said).collect();
+        (FirstRound { looked, opinions, held: HeldRooms { rooms, first, second } }, distributions)
     }
 
     /// Like [`Joint::predict`], from a first round over the same network.
     pub fn predict_from(&self, round: &FirstRound, known: &[Option<Label>]) -> Vec<Distribution> {
         self.second_opinions(&round.looked, &round.opinions, known)
-    }
-
-    fn first_opinions(&self, looked: &Looked) -> Vec<Distribution> {
-        looked.features.iter().map(|values| self.first.predict(values)).collect()
     }
 
     fn second_opinions(&self, looked: &Looked, first: &[Distribution], known: &[Option<Label>]) -> Vec<Distribution> {

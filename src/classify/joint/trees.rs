@@ -2,6 +2,9 @@
 //! each of its questions is the best of a few drawn at random, and the trees' answers are averaged. With
 //! a few hundred rooms and many features this overfits less than choosing the best of all questions.
 
+use std::sync::OnceLock;
+
+use super::asked::Asked;
 use crate::base::random::{Random, seed_of_part};
 use crate::base::work::{Cancelled, Work};
 use crate::classify::Distribution;
@@ -79,9 +82,17 @@ pub(super) struct Tree {
     pub nodes: Vec<Node>,
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Forest {
-    pub trees: Vec<Tree>,
+    trees: Vec<Tree>,
+    /// The same to be asked; laid out when first needed.
+    asked: OnceLock<Asked>,
+}
+
+impl PartialEq for Forest {
+    fn eq(&self, other: &Self) -> bool {
+        self.trees == other.trees
+    }
 }
 
 /// A forest to grow, from these samples with this seed. `rows` must not be empty.
@@ -99,21 +110,31 @@ pub(super) fn grow(jobs: &[Job<'_>], work: &Work<'_>) -> Result<Vec<Forest>, Can
             Tree::grow(job.samples, job.rows.clone(), seed_of_part(job.seed, part % TREES))
         })?
         .into_iter();
-    Ok(jobs.iter().map(|_| Forest { trees: trees.by_ref().take(TREES).collect() }).collect())
+    Ok(jobs.iter().map(|_| Forest::new(trees.by_ref().take(TREES).collect())).collect())
 }
 
 impl Forest {
+    pub fn new(trees: Vec<Tree>) -> Self {
+        Self { trees, asked: OnceLock::new() }
+    }
+
+    pub fn trees(&self) -> &[Tree] {
+        &self.trees
+    }
+
+    /// The first trees only.
+    pub fn shortened(self, trees: usize) -> Self {
+        Self::new(self.trees.into_iter().take(trees).collect())
+    }
+
+    /// The forest laid out to be asked.
+    pub fn asked(&self) -> &Asked {
+        self.asked.get_or_init(|| Asked::new(&self.trees))
+    }
+
     /// The mean of the trees' answers.
     pub fn predict(&self, values: &[f32]) -> Distribution {
-        let mut sums = [0.0; 5];
-        for tree in &self.trees {
-            let counts = tree.leaf(values).map(f64::from);
-            let all: f64 = counts.iter().sum();
-            for (sum, count) in sums.iter_mut().zip(counts) {
-                *sum += count / all;
-            }
-        }
-        Distribution::from_weights(sums)
+        self.asked().predict(values)
     }
 }
 
@@ -127,18 +148,6 @@ impl Tree {
         };
         grower.grow(&mut rows, 0);
         Self { nodes: grower.nodes }
-    }
-
-    fn leaf(&self, values: &[f32]) -> [u32; 5] {
-        let mut index = 0;
-        loop {
-            match self.nodes[index] {
-                Node::Leaf(counts) => return counts,
-                Node::Question { feature, at_most, no } => {
-                    index = if values[feature] <= at_most { index + 1 } else { no };
-                }
-            }
-        }
     }
 }
 
@@ -267,7 +276,7 @@ mod tests {
         }
         let job = Job { samples: &samples, rows: (0..20).collect(), seed: 0 };
         let forest = grow(&[job], &Work::quiet()).unwrap().pop().unwrap();
-        assert!(forest.trees.iter().all(|tree| tree.nodes == [Node::Leaf([0, 0, 5, 0, 15])]));
+        assert!(forest.trees().iter().all(|tree| tree.nodes == [Node::Leaf([0, 0, 5, 0, 15])]));
         assert!((forest.predict(&[1.0]).probability(Label::Hall) - 0.75).abs() < 1e-12);
     }
 }

@@ -60,7 +60,7 @@ pub(super) fn show(table: &mut Table, app: &mut App, ui: &mut Ui) -> Option<Act>
             }
         }
     });
-    ui.data_mut(|data| data.insert_temp(egui::Id::unique("pictures scrolled"), output.state.offset().y));
+    ui.data_mut(|data| data.insert_temp(egui::Id::unique("pictures scrolled"), output.state.clamped_offset().y));
     act
 }
 

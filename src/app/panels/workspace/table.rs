@@ -75,7 +75,7 @@ pub(super) fn show(table: &mut Table, app: &mut App, ui: &mut Ui) -> Option<Act>
             act = clicked(app, ui, &response, row).or(act.take());
         }
     });
-    remember(ui, is_rooms, output.state.offset().y);
+    remember(ui, is_rooms, output.state.clamped_offset().y);
     act
 }
 

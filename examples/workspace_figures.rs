@@ -1,22 +1,27 @@
-//! What large workspaces cost: `ENFILADE_WHOLE=1 cargo test --release --test library workspace::measured -- --nocapture`.
+//! What large workspaces cost, on folders of generated plans: storeys of buildings, each a bundled plan under another name.
+//! `cargo run --release --no-default-features --features cli --example workspace_figures -- 2000 20000` makes them in the
+//! system's folder for temporary files and takes them away again.
+
+#![allow(clippy::print_stdout, clippy::unwrap_used, reason = "it prints what it measures, and fails by panicking")]
+#![allow(clippy::disallowed_methods, reason = "measures time, and writes no user's files")]
 
 use std::path::Path;
+use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 
 use enfilade::base::work::Work;
+use enfilade::classify::models::Models;
 use enfilade::edit;
 use enfilade::edit::storey::{Keep, copied};
+use enfilade::labels::{Schemes, Typology};
 use enfilade::plan::Meta;
 use enfilade::store::{IndexFile, bundled_plans};
 use enfilade::workspace::Workspace;
-use enfilade::workspace::index;
+use enfilade::workspace::index::{self, Recipe};
 use enfilade::workspace::query::{self, Order, PlanColumn, Query, RoomColumn};
 
-use super::recipe;
-use crate::support::is_whole;
-
 /// Makes a folder with so many plans: storeys of buildings, each a bundled plan under another name.
-pub fn make(folder: &Path, plans: usize) {
+fn make(folder: &Path, plans: usize) {
     let bundled = bundled_plans().unwrap();
     for at in 0..plans {
         let (_, plan) = &bundled[at / 4 % bundled.len()];
@@ -47,13 +52,12 @@ fn timed<T>(what: &str, act: impl FnOnce() -> T) -> T {
     done
 }
 
-#[test]
-fn opening_searching_and_sorting_thousands_of_plans() {
-    let sizes: &[usize] = if is_whole() { &[2_000, 20_000] } else { &[40] };
-    for &plans in sizes {
+fn main() {
+    let sizes: Vec<usize> = std::env::args().skip(1).filter_map(|word| word.parse().ok()).collect();
+    for plans in if sizes.is_empty() { vec![2_000] } else { sizes } {
         let (folder, cache) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
         timed(&format!("{plans} plans: write them"), || make(folder.path(), plans));
-        let recipe = recipe();
+        let recipe = Recipe::new(Arc::new(Schemes::bundled()), &Models::bundled());
         let before_mb = resident_mb();
         let known = IndexFile::open(cache.path(), folder.path()).unwrap();
         let mut workspace = timed("list the folder, no index", || {
@@ -85,7 +89,7 @@ fn opening_searching_and_sorting_thousands_of_plans() {
         assert_eq!(totals.plans, plans);
         let quiet = Work::quiet();
         let stairs = Query { text: "function:stairs".to_owned(), ..Query::default() };
-        let school = Query { typology: Some(enfilade::labels::Typology::new("school")), ..Query::default() };
+        let school = Query { typology: Some(Typology::new("school")), ..Query::default() };
         timed("search rooms by function", || query::rooms(&workspace, &stairs, Order::by(RoomColumn::Plan), &quiet))
             .unwrap();
         timed("filter plans by typology", || query::plans(&workspace, &school, Order::by(PlanColumn::Name), &quiet))
@@ -100,16 +104,12 @@ fn opening_searching_and_sorting_thousands_of_plans() {
                 query::rooms(&workspace, &Query::default(), Order::by(by), &quiet).unwrap()
             });
         }
-        if is_whole() {
-            let shell = |what: &str, command: &str| {
-                timed(what, || {
-                    let mut shell = std::process::Command::new("sh");
-                    shell.arg("-c").arg(command).current_dir(folder.path()).stdout(std::process::Stdio::null());
-                    shell.status().unwrap()
-                });
-            };
-            shell("ls -lR", "ls -lR .");
-            shell("grep -r stairs", "grep -r stairs .");
+        for command in ["ls -lR .", "grep -r stairs ."] {
+            timed(command, || {
+                let mut shell = std::process::Command::new("sh");
+                shell.arg("-c").arg(command).current_dir(folder.path()).stdout(std::process::Stdio::null());
+                shell.status().unwrap()
+            });
         }
     }
 }
