@@ -115,8 +115,7 @@ impl Dialog for Dashboard {
             Some(Act::GoTo(row)) => {
                 let room = app.session.at_hand.read.clone();
                 if let Some((origin, id)) = room.as_ref().and_then(|at_hand| at_hand.room_of(row)) {
-                    let call = app.session.go_to_room(origin, id);
-                    app.act_on(call, ui.ctx());
+                    app.session.go_to_room(origin, id);
                     return After::Close;
                 }
                 After::Stay
