@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Axis, Chart, Marks, Scale, Tick, ticks};
+use super::{Axis, Chart, Marks, Scale, Series, Tick, ticks};
 use crate::draw::font::{CAP_HEIGHT, Font};
 use crate::draw::{Anchor, Dash, Frame, Group, Item, Layer, Length, Palette, Rgba, Scene, Text, View, Weight};
 use crate::geometry::{Point, Vector};
@@ -150,7 +150,10 @@ impl Chart {
     fn legend(&self, width_px: f64) -> Vec<(Point, usize)> {
         let font = Font::of(Weight::Regular);
         let (mut at, mut placed) = (Point::new(GAP, 0.0), Vec::new());
-        for (index, series) in self.series.iter().enumerate() {
+        // Bars at named places are named there.
+        let is_named = [&self.across, &self.up].iter().any(|axis| matches!(axis.scale, Scale::Named(_)));
+        let is_told = |series: &Series| !(is_named && matches!(series.marks, Marks::Bars(_)));
+        for (index, series) in self.series.iter().enumerate().filter(|(_, series)| is_told(series)) {
             let width = 16.0 + font.width_px(&series.name, TEXT_PX) + 16.0;
             if at.x > GAP && at.x + width > width_px {
                 at = Point::new(GAP, at.y + TEXT_PX + 6.0);
@@ -177,7 +180,7 @@ impl Chart {
                 Marks::Bars(bars) => groups.extend(bars.iter().map(|bar| {
                     let [p, q] = [layout.at(bar.across[0], bar.up[0]), layout.at(bar.across[1], bar.up[1])];
                     let outer = vec![p, Point::new(q.x, p.y), q, Point::new(p.x, q.y)];
-                    let item = Item::Polygon { outer, holes: Vec::new(), colour: colour.with_alpha(0xd8) };
+                    let item = Item::Polygon { outer, holes: Vec::new(), colour };
                     Group { title: bar.said.clone(), ..group(vec![item]) }
                 })),
                 Marks::Levels(bars) => groups.extend(bars.iter().map(|bar| {
@@ -357,7 +360,7 @@ fn elided(text: &str, width_px: f64, font: &Font) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Dot, Ink, Series};
+    use super::super::{Dot, Ink};
     use super::*;
 
     fn dots(scale: Scale, values: &[(f64, f64)]) -> Chart {

@@ -54,7 +54,7 @@ pub fn balance(of: &str, statistics: &Statistics, beside: Option<(&str, [f64; 5]
             Bar { across: place(label), up: [0.0, share], said }
         };
         let marks = Marks::Levels(Label::ALL.map(level).to_vec());
-        series.push(Series { name: name.to_owned(), ink: Ink::Muted, marks });
+        series.push(Series { name: sentence(name), ink: Ink::Muted, marks });
     }
     Chart {
         title: format!("Labels of {of}"),
@@ -62,7 +62,7 @@ pub fn balance(of: &str, statistics: &Statistics, beside: Option<(&str, [f64; 5]
         across: Axis::new("", Scale::Named(Label::ALL.map(titled).to_vec())),
         up: Axis::new("Share of the rooms", Scale::Share),
         series,
-        has_legend: false,
+        has_legend: beside.is_some(),
     }
 }
 

@@ -10,5 +10,5 @@ mod typology;
 
 pub use expectations::{TemporaryRule, UsualArea};
 pub use label::Label;
-pub use scheme::{Meaning, SchemeError, Schemes, function_title, normalised_function};
+pub use scheme::{Colour, Meaning, SchemeError, Schemes, function_title, normalised_function};
 pub use typology::Typology;

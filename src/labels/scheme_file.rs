@@ -4,11 +4,28 @@ use std::collections::BTreeMap;
 
 use toml::{Table, Value};
 
-use super::scheme::SchemeError;
-use super::{Label, Meaning, Schemes, Typology, normalised_function};
+use super::scheme::{SchemeError, colour};
+use super::{Colour, Label, Meaning, Schemes, Typology, normalised_function};
 
-/// What a function is to mean; `None` takes it out of the file.
-pub type MeaningChanges = BTreeMap<String, Option<Meaning>>;
+/// What is to change in a typology's scheme, by function.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Changes {
+    /// What functions are to mean; `None` takes one out of the file.
+    pub meanings: BTreeMap<String, Option<Meaning>>,
+    /// What colours they are to have; `None` for that of the palette.
+    pub colours: BTreeMap<String, Option<Colour>>,
+}
+
+impl Changes {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.meanings.len() + self.colours.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
 
 /// The key of a meaning in a scheme file.
 fn key(meaning: Meaning) -> &'static str {
@@ -23,11 +40,7 @@ fn key(meaning: Meaning) -> &'static str {
 ///
 /// # Errors
 /// When the text is no scheme file, before or after.
-pub fn with_changes(
-    before: Option<&str>,
-    typology: &Typology,
-    changes: &MeaningChanges,
-) -> Result<String, SchemeError> {
+pub fn with_changes(before: Option<&str>, typology: &Typology, changes: &Changes) -> Result<String, SchemeError> {
     let wrong = |what: String| SchemeError::new(what);
     let mut table: Table = match before {
         Some(text) => {
@@ -47,14 +60,23 @@ pub fn with_changes(
     for key in keys.clone() {
         if let Some(Value::Array(functions)) = of_typology.get_mut(key) {
             functions.retain(|function| {
-                function.as_str().is_none_or(|function| !changes.contains_key(&normalised_function(function)))
+                function.as_str().is_none_or(|function| !changes.meanings.contains_key(&normalised_function(function)))
             });
         }
     }
-    for (function, meaning) in changes.iter().filter_map(|(function, meaning)| Some((function, (*meaning)?))) {
+    for (function, meaning) in changes.meanings.iter().filter_map(|(function, meaning)| Some((function, (*meaning)?))) {
         let functions = of_typology.entry(key(meaning)).or_insert_with(|| Value::Array(Vec::new()));
         if let Value::Array(functions) = functions {
             functions.push(Value::String(normalised_function(function)));
+        }
+    }
+    if !changes.colours.is_empty() {
+        let colours = of_typology.entry("colours").or_insert_with(|| Value::Table(Table::new()));
+        if let Value::Table(colours) = colours {
+            colours.retain(|function, _| !changes.colours.contains_key(&normalised_function(function)));
+            for (function, [r, g, b]) in changes.colours.iter().filter_map(|(of, colour)| Some((of, (*colour)?))) {
+                colours.insert(normalised_function(function), Value::String(format!("#{r:02x}{g:02x}{b:02x}")));
+            }
         }
     }
     for key in keys {
@@ -67,18 +89,23 @@ pub fn with_changes(
     Ok(text)
 }
 
-/// Reads changes as a command takes them: 'ward=M; linen store=S; shaft=-; hallway=?'.
+/// Reads changes as a command takes them: 'ward=M; linen store=S; shaft=-; hallway=?; ward=#ffd27f'; '=#' for the palette's colour.
 ///
 /// # Errors
 /// When one is not understood.
-pub fn read_changes(words: &str) -> Result<MeaningChanges, SchemeError> {
-    let mut changes = MeaningChanges::new();
+pub fn read_changes(words: &str) -> Result<Changes, SchemeError> {
+    let mut changes = Changes::default();
     for word in words.split(';').map(str::trim).filter(|word| !word.is_empty()) {
         let wrong = || SchemeError::new(format!("'{word}' is not understood: expected FUNCTION=LABEL, such as ward=M"));
         let (function, meaning) = word.rsplit_once('=').ok_or_else(wrong)?;
         let function = normalised_function(function);
         if function.is_empty() {
             return Err(wrong());
+        }
+        if let Some(digits) = meaning.trim().strip_prefix('#') {
+            let read = if digits.is_empty() { None } else { Some(colour(meaning.trim()).ok_or_else(wrong)?) };
+            changes.colours.insert(function, read);
+            continue;
         }
         let meaning = match meaning.trim() {
             "-" => Some(Meaning::NotClassified),
@@ -88,13 +115,13 @@ pub fn read_changes(words: &str) -> Result<MeaningChanges, SchemeError> {
                 Some(Meaning::Labelled(label.ok_or_else(wrong)?))
             }
         };
-        changes.insert(function, meaning);
+        changes.meanings.insert(function, meaning);
     }
     Ok(changes)
 }
 
 /// The same as words.
-pub fn changes_words(changes: &MeaningChanges) -> String {
+pub fn changes_words(changes: &Changes) -> String {
     let word = |(function, meaning): (&String, &Option<Meaning>)| {
         let meaning = match meaning {
             Some(Meaning::Labelled(label)) => label.letter(),
@@ -103,7 +130,12 @@ pub fn changes_words(changes: &MeaningChanges) -> String {
         };
         format!("{function}={meaning}")
     };
-    changes.iter().map(word).collect::<Vec<_>>().join("; ")
+    let colour = |(function, colour): (&String, &Option<Colour>)| {
+        let digits = colour.map(|[r, g, b]| format!("{r:02x}{g:02x}{b:02x}")).unwrap_or_default();
+        format!("{function}=#{digits}")
+    };
+    let words = changes.meanings.iter().map(word).chain(changes.colours.iter().map(colour));
+    words.collect::<Vec<_>>().join("; ")
 }
 
 #[cfg(test)]
@@ -115,13 +147,14 @@ mod tests {
         let before = "version = 1\n[Hospital]\nM = ['ward', 'office']\nusual_area_m2 = { M = [18.0, 30.0] }\n\
                       temporary = [{ label = 'M' }]\n[house]\nS = ['kitchen']\n";
         let hospital = Typology::new("hospital").unwrap();
-        let changes = read_changes("WARD=B; office=?; linen store=S; shaft=-").unwrap();
+        let changes = read_changes("WARD=B; office=?; linen store=S; shaft=-; ward=#FFD27f; shaft=#").unwrap();
         let text = with_changes(Some(before), &hospital, &changes).unwrap();
         let schemes = Schemes::default().extended_by(&text).unwrap();
         let meaning = |function: &str| schemes.meaning(Some(&hospital), function);
         assert_eq!(meaning("ward"), Some(Meaning::Labelled(Label::BigRoom)));
         assert_eq!(meaning("linen store"), Some(Meaning::Labelled(Label::SmallRoom)));
         assert_eq!((meaning("shaft"), meaning("office")), (Some(Meaning::NotClassified), None));
+        assert_eq!(schemes.colours(Some(&hospital)).get("ward"), Some(&[0xff, 0xd2, 0x7f]));
         assert!(schemes.usual_area(Some(&hospital), Label::MediumRoom).is_some());
         let house = Typology::new("house");
         assert_eq!(schemes.meaning(house.as_ref(), "kitchen"), Some(Meaning::Labelled(Label::SmallRoom)));
@@ -136,7 +169,7 @@ mod tests {
         let schemes = Schemes::default().extended_by(&text).unwrap();
         assert_eq!(schemes.meaning(Some(&museum), "Gallery"), Some(Meaning::Labelled(Label::Hall)));
         assert!(with_changes(Some("version = 2"), &museum, &changes).is_err());
-        for wrong in ["gallery", "=M", "gallery=X"] {
+        for wrong in ["gallery", "=M", "gallery=X", "gallery=#12"] {
             assert!(read_changes(wrong).is_err(), "{wrong}");
         }
     }

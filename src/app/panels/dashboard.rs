@@ -115,8 +115,7 @@ impl Dialog for Dashboard {
             Some(Act::GoTo(row)) => {
                 let room = app.session.at_hand.read.clone();
                 if let Some((origin, id)) = room.as_ref().and_then(|at_hand| at_hand.room_of(row)) {
-                    let call = app.session.go_to_room(origin, id);
-                    app.act_on(call, ui.ctx());
+                    app.session.go_to_room(origin, id);
                     return After::Close;
                 }
                 After::Stay
@@ -221,8 +220,8 @@ impl Dashboard {
     ) -> Option<Act> {
         let wanted = self.wanted(kind);
         let chart = app.session.chart(at_hand, &wanted).filter(|chart| !chart.is_empty())?;
-        chart_view::show(ui, palette, &chart, height, &BTreeSet::new(), None);
-        export_button(ui, wanted)
+        let seen = chart_view::show(ui, palette, &chart, height, &BTreeSet::new(), None);
+        export_button(ui, seen.response.rect, wanted)
     }
 
     // Labels.
@@ -232,8 +231,9 @@ impl Dashboard {
         ScrollArea::vertical().id_salt("labels").auto_shrink(false).show(ui, |ui| {
             let rows = at_hand.rows_of(&self.set);
             let statistics = Statistics::of(rows.iter().map(|(_, row)| *row));
-            let height = (ui.available_height() - 300.0).clamp(220.0, 330.0);
+            let height = 290.0;
             act = self.chart(app, ui, palette, at_hand, ChartKind::Balance, height);
+            ui.add_space(4.0);
             section(ui, "Rooms by label, with the paper's figures below (Table 2)");
             ui.add_space(2.0);
             table_2(ui, palette, &statistics, &self.set);
@@ -259,7 +259,7 @@ impl Dashboard {
         ui.horizontal_top(|ui| {
             ui.allocate_ui(vec2(ui.available_width() - list - 16.0, height), |ui| {
                 ui.vertical(|ui| {
-                    let part = ((height - 2.0 * (ROW + 14.0)) / 2.0).max(150.0);
+                    let part = ((height - 10.0) / 2.0).max(150.0);
                     let wanted = self.wanted(ChartKind::Scatter);
                     if let Some(chart) = app.session.chart(at_hand, &wanted) {
                         let told = |row: usize| at_hand.rows.get(row).map(told_of_row).unwrap_or_default();
@@ -270,8 +270,9 @@ impl Dashboard {
                             act = select_in_plan(app, at_hand, &picked);
                             self.brushed = picked;
                         }
+                        let below = export_button(ui, seen.response.rect, wanted);
+                        act = act.take().or(below);
                     }
-                    act = act.take().or(export_button(ui, wanted));
                     ui.push_id("histogram", |ui| {
                         let below = self.chart(app, ui, palette, at_hand, ChartKind::Histogram, part * 0.85);
                         act = act.take().or(below);
@@ -323,7 +324,6 @@ impl Dashboard {
         ScrollArea::vertical().id_salt("accuracy").auto_shrink(false).show(ui, |ui| {
             caption(ui, told_of_measured(measured));
             ui.add_space(2.0);
-            let width = ui.available_width();
             ui.columns(2, |columns| {
                 let below = self.chart(app, &mut columns[0], palette, at_hand, ChartKind::LearningCurve, 340.0);
                 act = act.take().or(below);
@@ -334,7 +334,6 @@ impl Dashboard {
                     act = act.take().or(below);
                 });
             });
-            let _ = width;
         });
         act
     }
@@ -454,12 +453,13 @@ fn listed(
     act
 }
 
-/// A button to export a chart, at the right below it.
-fn export_button(ui: &mut Ui, wanted: ChartWanted) -> Option<Act> {
+/// A button to export a chart, in its upper right corner.
+fn export_button(ui: &mut Ui, chart: Rect, wanted: ChartWanted) -> Option<Act> {
+    let corner = Rect::from_min_max(egui::pos2(chart.right() - 90.0, chart.top() + 6.0), chart.max - vec2(8.0, 0.0));
+    let help = "As a picture (PNG), a drawing (SVG) or a table (CSV), by the file's ending";
     let mut is_clicked = false;
-    ui.horizontal(|ui| {
-        right(ui, |ui| {
-            let help = "As a picture (PNG), a drawing (SVG) or a table (CSV), by the file's ending";
+    ui.scope_builder(egui::UiBuilder::new().max_rect(corner).id_salt("export chart"), |ui| {
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::TOP), |ui| {
             is_clicked = text_button(ui, "Export…", false).on_hover_text(help).clicked();
         });
     });
@@ -519,27 +519,25 @@ fn changes(app: &App, ui: &mut Ui, palette: &Palette, at_hand: &AtHand) -> Optio
         return None;
     }
     ui.add_space(8.0);
-    let lines: Vec<(usize, String, String)> = changes
-        .relabelled
-        .iter()
-        .map(|&(row, before)| (row, format!("was {}", before.name())))
-        .chain(changes.added.iter().map(|&row| (row, "new".to_owned())))
-        .chain(changes.reshaped.iter().map(|&row| (row, "shape or openings".to_owned())))
-        .filter_map(|(row, what)| {
-            let of = at_hand.rows.get(row)?;
-            Some((row, format!("{} in {}", of.room, of.plan), what))
-        })
-        .collect();
+    let is_here = |row: usize, what: String| Some((Some(row), at_hand.rows.get(row)?, what));
+    let relabelled = changes.relabelled.iter().map(|&(row, before)| is_here(row, format!("was {}", before.name())));
+    let added = changes.added.iter().map(|&row| is_here(row, "new".to_owned()));
+    let reshaped = changes.reshaped.iter().map(|&row| is_here(row, "shape or openings".to_owned()));
+    let removed = changes.removed.iter().map(|&row| Some((None, since.before.get(row)?, "removed".to_owned())));
+    let lines: Vec<(Option<usize>, &RoomRow, String)> =
+        relabelled.chain(added).chain(reshaped).chain(removed).flatten().collect();
     let mut act = None;
     section(ui, "Rooms");
     ui.spacing_mut().item_spacing.y = 0.0;
     ScrollArea::vertical().id_salt("changes").auto_shrink(false).show_rows(ui, ROW, lines.len(), |ui, range| {
-        for (row, text, what) in lines.get(range).unwrap_or_default() {
-            let label = at_hand.rows.get(*row).map(|row| theme::colour(palette.label(row.label)));
-            let lead = label.map_or(Lead::None, Lead::Swatch);
-            let shown = ui.push_id(row, |ui| Row::new(lead, text).trail(what).button(ui, Role::Button)).inner;
-            if shown.clicked() {
-                act = Some(Act::GoTo(*row));
+        for (index, (at, row, what)) in lines.iter().enumerate().take(range.end).skip(range.start) {
+            let lead = Lead::Swatch(theme::colour(palette.label(row.label)));
+            let text = format!("{} in {}", row.room, row.plan);
+            let line = Row::new(lead, &text).trail(what);
+            let line = if at.is_none() { line.muted() } else { line };
+            let shown = ui.push_id(index, |ui| line.button(ui, Role::Button)).inner;
+            if let Some(at) = at.filter(|_| shown.clicked()) {
+                act = Some(Act::GoTo(at));
             }
         }
     });
@@ -550,6 +548,7 @@ fn changes(app: &App, ui: &mut Ui, palette: &Palette, at_hand: &AtHand) -> Optio
 fn table_2(ui: &mut Ui, palette: &Palette, statistics: &Statistics, set: &str) {
     let paper = PaperFigures::bundled();
     let of_set = paper.as_ref().and_then(|paper| paper.rooms.get(set));
+    ui.spacing_mut().item_spacing.y = 0.0;
     let heads = ["Label", "Rooms", "Share", "Area, m²", "Openings", "Length over width"];
     table_line(ui, None, &heads.map(str::to_owned), Look::Head);
     hairline_in(ui);
@@ -605,7 +604,7 @@ pub(super) fn table_line(ui: &mut Ui, swatch: Option<egui::Color32>, cells: &[St
         Look::Ours => (FontId::proportional(theme::BODY), colours.text),
         Look::Theirs => (FontId::proportional(theme::SMALL), colours.text_weak),
     };
-    let first = (rect.width() * 0.24).clamp(90.0, 220.0);
+    let first = (rect.width() * 0.3).clamp(124.0, 240.0);
     let each = (rect.width() - first) / cells.len().saturating_sub(1).max(1) as f32;
     for (index, cell) in cells.iter().enumerate() {
         if index == 0 {

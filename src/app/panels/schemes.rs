@@ -15,8 +15,8 @@ use crate::app::state::{After, App, Dialog, Entry, dialogs};
 use crate::app::value::{Call, Value};
 use crate::base::wording::{count, sentence};
 use crate::draw::Palette;
-use crate::labels::scheme_file::{MeaningChanges, changes_words};
-use crate::labels::{Label, Meaning, Typology, normalised_function};
+use crate::labels::scheme_file::{Changes, changes_words};
+use crate::labels::{Colour, Label, Meaning, Typology, normalised_function};
 
 pub(super) const ENTRY: Entry =
     Entry { id: dialogs::SCHEMES, make: |app, _| Box::new(Schemes::new(app)), is_of_plan: false };
@@ -25,14 +25,14 @@ pub(super) const ENTRY: Entry =
 const LARGEST: [f32; 2] = [860.0, 680.0];
 
 /// Width of the list of typologies.
-const LIST: f32 = 190.0;
+const LIST: f32 = 216.0;
 
 struct Schemes {
     typology: Option<Typology>,
     /// Typologies that were added here.
     added: BTreeSet<Typology>,
     /// Changes that are not saved yet, by typology.
-    changes: BTreeMap<Typology, MeaningChanges>,
+    changes: BTreeMap<Typology, Changes>,
     search: String,
     new_typology: String,
     is_shown: bool,
@@ -138,10 +138,13 @@ impl Schemes {
             },
         );
         ui.add_space(6.0);
-        let response = text(ui, "New typology", &mut self.new_typology, LIST - 16.0, "New typology");
-        let is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         let new = Typology::new(&self.new_typology);
-        let is_clicked = ui.add_enabled_ui(new.is_some(), |ui| text_button(ui, "Add", false)).inner.clicked();
+        let (mut is_entered, mut is_clicked) = (false, false);
+        ui.horizontal(|ui| {
+            let response = text(ui, "New typology", &mut self.new_typology, LIST - 82.0, "New typology");
+            is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+            is_clicked = ui.add_enabled_ui(new.is_some(), |ui| text_button(ui, "Add", false)).inner.clicked();
+        });
         if let Some(new) = new.filter(|_| is_clicked || is_entered) {
             self.new_typology.clear();
             self.added.insert(new.clone());
@@ -166,10 +169,10 @@ impl Schemes {
             meanings.insert(function.to_owned(), Some(meaning));
         }
         if let Some(changes) = self.changes.get(typology) {
-            meanings.extend(changes.iter().map(|(function, meaning)| (function.clone(), *meaning)));
+            meanings.extend(changes.meanings.iter().map(|(function, meaning)| (function.clone(), *meaning)));
         }
         ui.horizontal(|ui| {
-            let width = (ui.available_width() - 110.0).max(80.0);
+            let width = (ui.available_width() - 81.0).max(80.0);
             let response = text(ui, "Function", &mut self.search, width, "Find a function, or type a new one");
             let typed = normalised_function(&self.search);
             let is_new = !typed.is_empty() && !meanings.contains_key(&typed) && !typed.contains([';', '=']);
@@ -177,7 +180,7 @@ impl Schemes {
             let is_clicked = ui.add_enabled_ui(is_new, |ui| text_button(ui, "Add", false)).inner.clicked();
             if is_new && (is_clicked || is_entered) {
                 let meaning = Some(Meaning::Labelled(Label::MediumRoom));
-                self.changes.entry(typology.clone()).or_default().insert(typed, meaning);
+                self.changes.entry(typology.clone()).or_default().meanings.insert(typed, meaning);
             }
         });
         ui.add_space(4.0);
@@ -190,7 +193,13 @@ impl Schemes {
         shown.sort_by_key(|(function, meaning)| {
             (meaning.is_some(), if meaning.is_none() { usize::MAX - rooms.get(function).unwrap_or(&0) } else { 0 })
         });
-        let mut set: Vec<(String, Option<Meaning>)> = Vec::new();
+        let mut set: Vec<(String, Chosen)> = Vec::new();
+        let mut colours: BTreeMap<String, Option<Colour>> =
+            app.session.schemes.colours(Some(typology)).into_iter().map(|(of, colour)| (of, Some(colour))).collect();
+        if let Some(changes) = self.changes.get(typology) {
+            colours.extend(changes.colours.clone());
+        }
+        let usual = palette.functions(shown.iter().map(|(function, _)| function.as_str()));
         ui.spacing_mut().item_spacing.y = 3.0;
         let area = ScrollArea::vertical().id_salt("functions").auto_shrink(false);
         area.show_rows(ui, ROW, shown.len().max(1), |ui, range| {
@@ -199,13 +208,20 @@ impl Schemes {
             }
             for (function, meaning) in shown.get(range).unwrap_or_default() {
                 let number = rooms.get(function).copied().unwrap_or_default();
-                if let Some(chosen) = function_row(ui, palette, function, *meaning, number) {
-                    set.push((function.clone(), Some(chosen)));
+                let own = colours.get(function).copied().flatten();
+                let colour = own.unwrap_or_else(|| usual.get(function).map_or([128; 3], |it| [it.r, it.g, it.b]));
+                if let Some(chosen) = function_row(ui, palette, function, *meaning, number, colour) {
+                    set.push((function.clone(), chosen));
                 }
             }
         });
-        for (function, meaning) in set {
-            self.change(app, typology, function, meaning);
+        for (function, chosen) in set {
+            match chosen {
+                Chosen::Meaning(meaning) => self.change(app, typology, function, Some(meaning)),
+                Chosen::Colour(colour) => {
+                    self.changes.entry(typology.clone()).or_default().colours.insert(function, Some(colour));
+                }
+            }
         }
     }
 
@@ -214,9 +230,9 @@ impl Schemes {
         let known = app.session.schemes.functions(typology).find(|(of, _)| *of == function).map(|(_, meaning)| meaning);
         let of_typology = self.changes.entry(typology.clone()).or_default();
         if known == meaning {
-            of_typology.remove(&function);
+            of_typology.meanings.remove(&function);
         } else {
-            of_typology.insert(function, meaning);
+            of_typology.meanings.insert(function, meaning);
         }
         self.changes.retain(|_, changes| !changes.is_empty());
     }
@@ -230,7 +246,7 @@ impl Schemes {
                 plans += affected.plans;
             }
         }
-        let changes: usize = self.changes.values().map(BTreeMap::len).sum();
+        let changes: usize = self.changes.values().map(Changes::len).sum();
         let told = if changes == 0 {
             let of = app.session.source_title(&app.session.usual_source());
             format!("Functions with a number occur in {of}.")
@@ -255,17 +271,31 @@ impl Schemes {
     }
 }
 
-/// A function with the choice of its label. Gives one that was chosen.
+/// What was chosen for a function.
+enum Chosen {
+    Meaning(Meaning),
+    Colour(Colour),
+}
+
+/// A function with the choice of its colour and its label. Gives one that was chosen.
 fn function_row(
     ui: &mut Ui,
     palette: &Palette,
     function: &str,
     meaning: Option<Meaning>,
     rooms: usize,
-) -> Option<Meaning> {
+    mut colour: Colour,
+) -> Option<Chosen> {
     let mut chosen = None;
     let choices = 268.0f32.min(ui.available_width() * 0.55);
     ui.horizontal(|ui| {
+        let picker =
+            ui.color_edit_button_srgb(&mut colour).on_hover_text("Its colour where rooms are filled by function");
+        let is_picked = picker.changed();
+        picker.accessible_name(&format!("{function}: colour"));
+        if is_picked {
+            chosen = Some(Chosen::Colour(colour));
+        }
         let width = (ui.available_width() - choices - 8.0).max(60.0);
         let (rect, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::hover());
         let number = if rooms > 0 { count(rooms, "room") } else { String::new() };
@@ -297,7 +327,10 @@ fn function_row(
             colour: None,
         });
         let clicked = ui.allocate_ui(vec2(choices, ROW), |ui| segmented(ui, &segments)).inner;
-        chosen = clicked.map(|index| Label::ALL.get(index).map_or(Meaning::NotClassified, |&it| Meaning::Labelled(it)));
+        if let Some(index) = clicked {
+            let meaning = Label::ALL.get(index).map_or(Meaning::NotClassified, |&it| Meaning::Labelled(it));
+            chosen = Some(Chosen::Meaning(meaning));
+        }
     });
     chosen
 }

@@ -160,10 +160,11 @@ impl Training {
         );
         ui.add_space(8.0);
         let mut act = None;
+        let mut is_typing = false;
         line(ui, NAMES, "Learn from", |ui| {
             ui.horizontal(|ui| {
-                let width = (ui.available_width() - 182.0).max(80.0);
-                text(ui, "Learn from", &mut self.data, width, "The open plans");
+                let width = (ui.available_width() - 160.0).max(80.0);
+                is_typing = text(ui, "Learn from", &mut self.data, width, "The open plans").has_focus();
                 if text_button(ui, "Folder…", false).clicked() {
                     self.choosing = Some(Choosing::Data);
                     app.session.ask_for_data(true);
@@ -174,8 +175,8 @@ impl Training {
                 }
             });
         });
-        let is_typing = ui.memory(|memory| memory.focused().is_some()) && self.read_for.is_some();
-        if self.read_for.as_ref() != Some(&self.data) && !is_typing {
+        // Not letter by letter while a path is typed.
+        if self.read_for.as_ref() != Some(&self.data) && !(is_typing && self.read_for.is_some()) {
             self.read_for = Some(self.data.clone());
             let source = app.session.source_of(&self.data);
             app.session.read_rooms(source, true);
@@ -368,8 +369,12 @@ impl Training {
             caption(ui, format!("Learned from {}. Choose a line to see how each label does.", app.session.training.of));
             ui.add_space(4.0);
             models(ui, &reports, &mut self.picked);
-            ui.add_space(8.0);
             let report = &reports[self.picked];
+            if let Some(before) = &report.before {
+                let on = if before.scores.is_empty() { ", tested on the rooms that it was made from" } else { "" };
+                caption(ui, format!("Before: {}{on}.", before.name));
+            }
+            ui.add_space(8.0);
             match report.scores.last() {
                 None => drop(caption(ui, "This model was not tested.")),
                 Some((by, scores)) => {
@@ -377,6 +382,7 @@ impl Training {
                         .before
                         .as_ref()
                         .and_then(|before| before.scores.iter().find(|(of, _)| of == by).map(|(_, scores)| scores));
+                    ui.spacing_mut().item_spacing.x = 28.0;
                     ui.columns(2, |columns| {
                         labels(&mut columns[0], palette, scores, before);
                         confusion(&mut columns[1], palette, scores);
@@ -399,7 +405,7 @@ impl Training {
         });
         line(ui, NAMES, "Keep in", |ui| {
             ui.horizontal(|ui| {
-                text(ui, "Keep in", &mut self.folder, (ui.available_width() - 100.0).max(80.0), "A folder");
+                text(ui, "Keep in", &mut self.folder, (ui.available_width() - 87.0).max(80.0), "A folder");
                 if text_button(ui, "Choose…", false).clicked() {
                     self.choosing = Some(Choosing::Folder);
                     app.session.ask_for_folder();

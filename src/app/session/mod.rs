@@ -3,6 +3,7 @@
 pub(crate) mod at_hand;
 pub(crate) mod bulk;
 pub(crate) mod dataset;
+pub(crate) mod demo;
 pub(crate) mod deriving;
 pub(crate) mod document;
 pub(crate) mod executed;
@@ -18,6 +19,7 @@ pub(crate) mod jobs;
 pub(crate) mod kept;
 pub(crate) mod labelling;
 pub(crate) mod layers;
+pub(crate) mod live;
 pub(crate) mod measures;
 pub(crate) mod memory;
 pub(crate) mod messages;
@@ -108,6 +110,10 @@ pub(crate) struct Session {
     pub(crate) layers: LayerSettings,
     /// The storey drawn faintly under the plan.
     pub(crate) ghost: Option<ghost::Ghost>,
+    /// Second opinions, what-if and labels while something is dragged.
+    pub(crate) live: live::Live,
+    /// The demonstration, while it runs.
+    pub(crate) demo: Option<demo::Demo>,
     /// Which models predict.
     pub(crate) predictor: Predictor,
     /// The available models: bundled, and the user's own.
@@ -206,6 +212,8 @@ impl Session {
             copied: None,
             layers: LayerSettings::default(),
             ghost: None,
+            live: live::Live::default(),
+            demo: None,
             predictor: Predictor::default(),
             models: Models::bundled(),
             settings: Settings::default(),

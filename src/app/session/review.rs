@@ -69,6 +69,8 @@ pub(crate) struct Review {
     arrived: Option<(u64, usize)>,
     /// The document that the review opened, and closes if nothing was done to it.
     opened: Option<u64>,
+    /// Whether it is opening one.
+    is_opening: bool,
 }
 
 /// A decision that can be taken back.
@@ -319,6 +321,7 @@ impl Session {
         match self.open_of(&origin) {
             Some(number) => self.show_open(number),
             None => {
+                self.review.is_opening = true;
                 self.open(origin);
             }
         }
@@ -334,14 +337,14 @@ impl Session {
         if !origin.is_some_and(|origin| Self::is_of(document, &origin)) {
             return;
         }
-        let (number, is_new) = (document.number, document.history.steps().len() == 1);
+        let number = document.number;
         let Some((_, undo)) = self.review.awaited.take() else { return };
         // A plan that was opened for one room is closed again if nothing was done to it.
-        if let Some(before) = self.review.opened.replace(number).filter(|&before| before != number) {
+        if let Some(before) = self.review.opened.take_if(|before| *before != number) {
             self.close_untouched(before);
         }
-        if !is_new {
-            self.review.opened = None;
+        if std::mem::take(&mut self.review.is_opening) {
+            self.review.opened = Some(number);
         }
         if let Some(step) = undo {
             self.take_back(&step, room);

@@ -25,7 +25,7 @@ impl Session {
     pub(crate) fn scheme_preview(
         &self,
         typology: &Typology,
-        changes: &scheme_file::MeaningChanges,
+        changes: &scheme_file::Changes,
     ) -> Option<(Schemes, Affected)> {
         let text = scheme_file::with_changes(None, typology, changes).ok()?;
         let after = (*self.schemes).clone().extended_by(&text).ok()?;

@@ -119,7 +119,7 @@ pub(super) const COMMANDS: &[Command] = &[
                 "CHANGES",
                 TEXT,
                 "FUNCTION=LABEL, separated by semicolons; a label is S, M, B, C or H, '-' leaves rooms unclassified, \
-                 '?' takes the function out",
+                 '?' takes the function out, '#ffd27f' gives it a colour",
             ),
             |app, typology, changes, _| {
                 let Some(typology) = Typology::new(&typology) else {
