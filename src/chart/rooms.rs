@@ -144,7 +144,7 @@ pub fn scatter(of: &str, rows: &[(usize, &Row)], across: usize, up: usize) -> Ch
         Series { name: titled(label), ink: Ink::Label(label), marks: Marks::Dots(of_label.map(dot).collect()) }
     });
     Chart {
-        title: format!("Rooms of {of}"),
+        title: sentence(of),
         note: count(rows.len(), "room"),
         across: axis(across),
         up: axis(up),
