@@ -63,6 +63,7 @@ impl App {
         self.session.watch_file(&context);
         self.take_dropped_files(&context);
         self.take_close_request(&context);
+        panels::demo::take_input(self, &context);
         self.take_menu_keys(&context);
         self.take_tool_keys(&context);
         self.take_shortcuts(&context);

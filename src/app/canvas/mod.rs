@@ -302,6 +302,7 @@ impl Canvas {
         }
         paint_typed(&painter, rect, &view, palette, &scope, toolbox);
         let is_blank = session.shown_run().is_none()
+            && session.demo.is_none()
             && document.plan().is_empty()
             && document.plan().backdrop().is_none()
             && session.ghost_plan().is_none();

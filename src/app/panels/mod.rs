@@ -6,7 +6,7 @@ mod canvas;
 mod chart_view;
 mod dashboard;
 mod dataset;
-mod demo;
+pub(super) mod demo;
 pub(super) mod differences;
 mod export;
 mod findings;

@@ -105,7 +105,7 @@ fn models(ui: &mut Ui, app: &App, predictions: &Predictions) -> Option<Asked> {
 }
 
 /// A set of models, in words.
-fn kind(set: &str) -> &str {
+pub(super) fn kind(set: &str) -> &str {
     if set == STANDARD { "any kind of building" } else { set }
 }
 

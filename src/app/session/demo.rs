@@ -43,7 +43,7 @@ const END_S: f64 = 5.0;
 const REASONS: usize = 3;
 
 /// The time between two frames where nobody looks, in seconds.
-const STILL_FRAME_S: f64 = 0.2;
+const STILL_FRAME_S: f64 = 0.5;
 
 /// Places along a wall where a door is tried are so far apart, and at most so far from where it is, in metres.
 const DOOR_STEP_M: f64 = 1.0;
@@ -169,9 +169,9 @@ impl Session {
         self.layers.fill = Fill::Prediction;
         self.predictor = Predictor::default();
         let bounds = school.bounds();
-        // What is said stands below.
-        let room_below = 0.3 * (bounds.max.y - bounds.min.y);
-        self.wishes.push(Wish::ZoomTo(bounds.union(Bounds::of([bounds.min - Vector::new(0.0, room_below)]))));
+        // What is said stands below. Zooming to something leaves a third around it, which is too much here.
+        let seen = Bounds::of([bounds.min - Vector::new(0.0, 0.3 * bounds.height()), bounds.max]);
+        self.wishes.push(Wish::ZoomTo(seen.inflated(-0.17 * seen.width().max(seen.height()))));
         let (schemes, models, plan) = (self.schemes.clone(), self.models.clone(), school.clone());
         let kind = Kind::new("look for a label that flips").newest_of("demonstration").if_broken(|session| {
             if let Some(demo) = &mut session.demo {
@@ -206,6 +206,7 @@ impl Session {
     /// Ends the demonstration; the plan stays as it is.
     pub(crate) fn stop_demo(&mut self) {
         if let Some(demo) = self.demo.take() {
+            self.selection = Selection::of(None);
             self.status = match demo.revealed {
                 0 => "The demonstration has ended".to_owned(),
                 _ => "The demonstration has ended; the plan is yours to try things on".to_owned(),
@@ -225,7 +226,6 @@ impl Session {
         demo.time_s = now_s - began_s;
         let act = demo.act();
         if act == Act::Over {
-            self.selection = Selection::of(None);
             self.demo = Some(demo);
             self.stop_demo();
             return;
@@ -336,8 +336,8 @@ impl Session {
         let (title, text) = match demo.act() {
             Act::Beginning => (
                 "A school that nobody has labelled".to_owned(),
-                "Enfilade reads a floor plan room by room: its area, its shape, its doors and where they lead. What the \
-                 rooms are for it is not told."
+                "Enfilade looks at a floor plan room by room: its area, its shape, its doors and where they lead. Nobody \
+                 tells it what the rooms are for."
                     .to_owned(),
             ),
             Act::Revealing if demo.revealed * 2 < demo.order.len() => (
@@ -347,9 +347,9 @@ impl Session {
                     .to_owned(),
             ),
             Act::Revealing => (
-                "What kind of building this is shows as well".to_owned(),
-                "The bar weighs the kinds of building after every change: a few rooms could belong to any of them, many \
-                 alike along a corridor hardly."
+                "The kind of building is found as well".to_owned(),
+                "The bar weighs what this could be after every change, by the number of rooms, their areas and their doors. \
+                 It decides which models label the rooms."
                     .to_owned(),
             ),
             Act::Whole => {
