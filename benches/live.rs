@@ -19,9 +19,8 @@ use enfilade::classify::models::Models;
 use enfilade::edit;
 use enfilade::geometry::{Point, Vector};
 use enfilade::labels::{Label, Schemes};
-use enfilade::pipeline::{Asked, Derived, Pipeline};
+use enfilade::pipeline::{Derived, Labelled, LabelledBy};
 use enfilade::plan::{CornerId, LabelOrigin, OpeningId, Plan, RoomId, RoomLabel};
-use enfilade::predict::Predictor;
 
 /// What a person does to a plan.
 const KINDS: [&str; 6] = ["slide a door", "widen a door", "move a corner", "remove a door", "label a room", "undo"];
@@ -61,52 +60,47 @@ fn percentile(times_ms: &mut [f64], share: f64) -> f64 {
 fn main() {
     let edits = std::env::args().skip(1).find_map(|word| word.parse().ok()).unwrap_or(120);
     let only: Option<usize> = std::env::args().skip(2).find_map(|word| word.parse().ok());
-    let (schemes, asked) = (Schemes::bundled(), Asked::by(&Predictor::default(), &Models::bundled()));
+    let (schemes, models, by) = (Schemes::bundled(), Models::bundled(), LabelledBy::default());
     for rooms in [500, 5000].into_iter().filter(|rooms| only.is_none_or(|only| only == *rooms)) {
         let mut plan = large_school::large_school(rooms);
         println!("{} rooms, {} openings, {} walls", plan.rooms().len(), plan.openings().len(), plan.walls().len());
         let mut random = Random::new(7);
         let mut times: Vec<Vec<f64>> = vec![Vec::new(); KINDS.len()];
-        let (mut analyses, mut networks, mut all) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut scratch, mut all) = (Vec::new(), Vec::new());
         let mut before = plan.clone();
-        let warm = Pipeline::new(&plan, &schemes);
-        warm.predictions(&asked).unwrap();
+        let by = Some((&by, &models));
+        let mut labelled = Labelled::new(&plan, &schemes, by, None);
         for turn in 0..edits {
             let kind = turn % KINDS.len();
             let after = if kind == 5 { Some(before.clone()) } else { edited(&plan, kind, &mut random) };
             let Some(after) = after else { continue };
             before = std::mem::replace(&mut plan, after);
             let start = Instant::now();
-            let pipeline = Pipeline::new(&plan, &schemes);
-            pipeline.analysis();
-            let analysed = start.elapsed();
-            pipeline.network();
-            let networked = start.elapsed();
-            let predictions = pipeline.predictions(&asked).unwrap();
-            let labels = predictions.labels();
-            let done = start.elapsed();
-            std::hint::black_box(labels);
-            times[kind].push(done.as_secs_f64() * 1e3);
-            all.push(done.as_secs_f64() * 1e3);
-            analyses.push(analysed.as_secs_f64() * 1e3);
-            networks.push((networked - analysed).as_secs_f64() * 1e3);
+            labelled = Labelled::new(&plan, &schemes, by, Some(&labelled));
+            let took_ms = start.elapsed().as_secs_f64() * 1e3;
+            times[kind].push(took_ms);
+            all.push(took_ms);
+            if turn % 10 == 0 {
+                // The same as if nothing had been known before.
+                let start = Instant::now();
+                let anew = Labelled::new(&plan, &schemes, by, None);
+                scratch.push(start.elapsed().as_secs_f64() * 1e3);
+                let said =
+                    |labelled: &Labelled| labelled.predictions.as_ref().map(|it| it.result.distributions.clone());
+                assert_eq!(said(&labelled), said(&anew), "after '{}'", KINDS[kind]);
+            }
         }
         for (kind, times) in KINDS.iter().zip(&mut times) {
             println!("  {kind:16} median {:8.2} ms, 99th {:8.2} ms", percentile(times, 0.5), percentile(times, 0.99));
         }
-        println!(
-            "  of it analysis {:.2} ms, network {:.2} ms (medians)",
-            percentile(&mut analyses, 0.5),
-            percentile(&mut networks, 0.5)
-        );
         println!(
             "  edit to labels   median {:8.2} ms, 99th {:8.2} ms",
             percentile(&mut all, 0.5),
             percentile(&mut all, 0.99)
         );
         let start = Instant::now();
-        let derived = Derived::new(&plan, &schemes, Some((Predictor::default(), Models::bundled())));
-        println!("  all that the window derives {:.2} ms", start.elapsed().as_secs_f64() * 1e3);
+        let derived = Derived::from_labelled(std::sync::Arc::new(labelled));
+        println!("  the rest of what the window derives {:.2} ms", start.elapsed().as_secs_f64() * 1e3);
         drop(derived);
     }
 }

@@ -10,6 +10,7 @@ use std::sync::{Arc, OnceLock};
 use crate::base::units::Units;
 use crate::base::wording::{count, sentence};
 use crate::classify::blend::Opinions;
+use crate::classify::explain::{NearRoom, Reason};
 use crate::classify::in_plan::{self, InPlan};
 use crate::classify::joint::FirstRound;
 use crate::classify::learned::Acquaintance;
@@ -20,7 +21,7 @@ use crate::classify::why::{OnPlan, Why};
 use crate::classify::{Distribution, Method, PlanClassifier};
 use crate::dataset::sets::STANDARD;
 use crate::dataset::{NetworkDoor, RoomNetwork};
-use crate::features::NeighbourLabels;
+use crate::features::{Features, NeighbourLabels};
 use crate::labels::{Label, Typology};
 use crate::plan::{OpeningId, RoomId};
 
@@ -421,6 +422,17 @@ impl Predictions {
         }
     }
 
+    /// The rooms that the model learned from that are most like a room, nearest first, if its label follows from these; with
+    /// the room's own features.
+    pub fn nearest(&self, room: RoomId) -> Option<(Features, Vec<NearRoom>)> {
+        let PlanClassifier::Each(classifier) = &self.model.classifier else { return None };
+        let features = self.result.features[*self.index_of.get(&room)?];
+        match classifier.explain(&features.values()).reason {
+            Reason::Neighbours(reason) => Some((features, reason.neighbours)),
+            Reason::Rule(_) | Reason::Path(_) | Reason::Features(_) => None,
+        }
+    }
+
     /// What is to be marked on the plan where a point of a room's reason is seen; nothing for a room that is not
     /// classified.
     pub fn marks(&self, room: RoomId, on_plan: &OnPlan) -> Marks {
@@ -563,5 +575,30 @@ impl fmt::Display for Agreement {
                 write!(f, "{right} of {known} known labels predicted correctly ({:.0} %)", 100.0 * share)
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::labels::Schemes;
+
+    #[test]
+    fn a_default_predicts_where_nobody_asks_for_a_method() {
+        let plans = crate::store::bundled_plans().expect("the bundled plans read");
+        let house = &plans.iter().find(|(name, _)| name.starts_with("dwelling")).expect("a house").1;
+        let network = RoomNetwork::new(house, &Schemes::bundled());
+        let defaults = BTreeMap::from([("house".to_owned(), "house-knn".to_owned())]);
+        let models = Models::bundled().with_defaults(defaults);
+        let by = |method: Method, models: &Models| {
+            let predictor = Predictor { method, ..Predictor::default() };
+            predictor.predict(network.clone(), &[], None, models).expect("there is a model").model.name.clone()
+        };
+        assert_eq!(by(DEFAULT_METHOD, &models), "house-knn");
+        assert_eq!(by(Method::Joint, &models), "house-joint");
+        assert_eq!(by(DEFAULT_METHOD, &Models::bundled()), "house-blend");
+        // One that is not there any more is none.
+        let gone = Models::bundled().with_defaults(BTreeMap::from([("house".to_owned(), "gone".to_owned())]));
+        assert_eq!(by(DEFAULT_METHOD, &gone), "house-blend");
     }
 }

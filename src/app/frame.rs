@@ -56,7 +56,6 @@ impl App {
         self.session.show_awaited_room();
         self.session.show_awaited_ghost();
         self.session.take_waiting();
-        self.session.take_wanted_room();
         if let Some(path) = self.session.recovering.take() {
             self.session.show_recovered(&path, &context);
         }
@@ -64,6 +63,7 @@ impl App {
         self.session.watch_file(&context);
         self.take_dropped_files(&context);
         self.take_close_request(&context);
+        panels::demo::take_input(self, &context);
         self.take_menu_keys(&context);
         self.take_tool_keys(&context);
         self.take_shortcuts(&context);

@@ -250,7 +250,8 @@ impl Canvas {
             // Never show a stale label as current.
             None => self.paint_pending(&painter, rect, &view, document, session, &style),
             Some(derived) => {
-                let under_pointer = self.pointed.element.filter(|_| toolbox.is_selecting());
+                let is_watched = session.demo.is_some();
+                let under_pointer = self.pointed.element.filter(|_| toolbox.is_selecting() && !is_watched);
                 let hovered = under_pointer.or(self.hovered_in_panel);
                 let hovered = hovered.filter(|hovered| !session.selection.contains(*hovered));
                 if let Some(hovered) = hovered {
@@ -302,6 +303,7 @@ impl Canvas {
         }
         paint_typed(&painter, rect, &view, palette, &scope, toolbox);
         let is_blank = session.shown_run().is_none()
+            && session.demo.is_none()
             && document.plan().is_empty()
             && document.plan().backdrop().is_none()
             && session.ghost_plan().is_none();

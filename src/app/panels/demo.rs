@@ -1,9 +1,8 @@
 //! What is said while the demonstration runs: a card below the plan, the hand that drags, and the label that flips.
 
-use egui::epaint::StrokeKind;
 use egui::{
-    Align2, Color32, Event, FontId, Frame, Id, Key, Label, LayerId, Margin, Order, Pos2, Rect, RichText, Role, Sense,
-    Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
+    Align2, Color32, Context, Event, FontId, Frame, Id, Key, Label, LayerId, Margin, Order, Pos2, Rect, RichText, Role,
+    Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::live::kind_bar;
@@ -21,11 +20,11 @@ const BELOW: f32 = 28.0;
 const KINDS: f32 = 210.0;
 
 /// Ends the demonstration at the first click or key; a key that ends it does nothing else.
-pub(super) fn take_input(app: &mut App, ui: &Ui) {
+pub(crate) fn take_input(app: &mut App, context: &Context) {
     if app.session.demo.is_none() {
         return;
     }
-    let is_taken_over = ui.input(|input| {
+    let is_taken_over = context.input(|input| {
         input.events.iter().any(|event| {
             matches!(
                 event,
@@ -36,7 +35,7 @@ pub(super) fn take_input(app: &mut App, ui: &Ui) {
         })
     });
     if is_taken_over {
-        ui.ctx().input_mut(|input| input.events.retain(|event| !matches!(event, Event::Key { key: Key::Escape, .. })));
+        context.input_mut(|input| input.events.retain(|event| !matches!(event, Event::Key { key: Key::Escape, .. })));
         app.session.stop_demo();
     }
 }
@@ -57,7 +56,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         if let Some(at) = middle.and_then(|middle| app.screen_position(middle.x, middle.y)) {
             let text = if before == now { before.to_string() } else { format!("{before} → {now}") };
             let ink = theme::colour(if before == now { palette.ink } else { palette.selection });
-            tag(&painter, at - vec2(0.0, 26.0), Align2::CENTER_CENTER, &text, ink, palette);
+            tag(&painter, at + vec2(0.0, 30.0), Align2::CENTER_CENTER, &text, ink, palette);
         }
     }
     if let Some((at, presses)) = app.session.demo_hand()
@@ -130,5 +129,4 @@ fn hand(painter: &egui::Painter, at: Pos2, presses: bool, colour: Color32) {
     painter.add(Shape::convex_polygon(vec![points[0], points[1], points[2], points[6]], fill, Stroke::NONE));
     painter.add(Shape::convex_polygon(vec![points[2], points[3], points[4], points[5]], fill, Stroke::NONE));
     painter.add(Shape::closed_line(points, Stroke::new(1.25, Color32::from_gray(30))));
-    let _ = StrokeKind::Inside;
 }

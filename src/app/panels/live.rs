@@ -269,7 +269,7 @@ pub(super) fn kind_bar(ui: &mut Ui, palette: &Palette, posterior: &[(Typology, f
 
 /// Steps of one colour: the kinds of building must not look like labels.
 fn kind_colour(palette: &Palette, index: usize) -> egui::Color32 {
-    let share = [0.85, 0.55, 0.32, 0.18][index % 4];
+    let share = [0.3, 0.55, 0.85, 0.42, 0.7][index % 5];
     theme::colour(palette.paper.mixed(palette.selection, share))
 }
 
@@ -337,5 +337,6 @@ pub(super) fn slider(
     response.widget_info(|| WidgetInfo::slider(true, set, name));
     let font = FontId::proportional(theme::BODY);
     ui.painter().text(rect.right_center(), Align2::RIGHT_CENTER, shown, font, colours(ui).text);
-    (set != value).then_some(set)
+    // The value shown may be between two steps, which is nobody's doing.
+    (response.changed() && (set - value).abs() > step / 2.0).then_some(set)
 }

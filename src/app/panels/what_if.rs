@@ -5,6 +5,7 @@ use egui::epaint::{Mesh, StrokeKind};
 use egui::{Align2, FontId, Rect, Role, ScrollArea, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use super::live::{list, slider};
+use super::prediction::kind;
 use crate::app::look::theme;
 use crate::app::look::widgets::{caption, colours, hairline, link, section, strong};
 use crate::app::session::document::Document;
@@ -142,7 +143,7 @@ fn contents(app: &App, ui: &mut Ui, tried: &Tried, calls: &mut Vec<Call>, hovere
     }
     ui.add_space(4.0);
     if let Some(regions) = app.session.regions(tried) {
-        picture(app, ui, palette, tried, &regions, hovered, calls);
+        picture(app, ui, palette, &regions, hovered, calls);
     }
     let shown = app.session.predictions().map(|predictions| predictions.model.method());
     let why = match shown {
@@ -157,11 +158,10 @@ fn contents(app: &App, ui: &mut Ui, tried: &Tried, calls: &mut Vec<Call>, hovere
     caption(
         ui,
         format!(
-            "By the {} for {}, all other features as on the sliders. Points are the plan's rooms in their labels' colours; the \
-             ring is {}.{why}",
+            "By the {} (models for {}), all other features as on the sliders. Points are the plan's rooms in their labels' \
+             colours; the ring is this room.{why}",
             method.title(),
-            tried.model.set(),
-            "this room"
+            kind(tried.model.set())
         ),
     );
 }
@@ -175,7 +175,7 @@ fn answer(ui: &mut Ui, palette: &Palette, tried: &Tried) {
         ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, title, font.clone(), own.text_weak);
         let bar = Rect::from_min_max(
             pos2(rect.left() + 44.0, rect.top() + 3.0),
-            pos2(rect.right() - 118.0, rect.bottom() - 3.0),
+            pos2(rect.right() - 130.0, rect.bottom() - 3.0),
         );
         let mut left = bar.left();
         for label in Label::ALL {
@@ -207,7 +207,6 @@ fn picture(
     app: &App,
     ui: &mut Ui,
     palette: &Palette,
-    tried: &Tried,
     regions: &Regions,
     hovered: &mut Option<ElementId>,
     calls: &mut Vec<Call>,
@@ -262,13 +261,7 @@ fn picture(
         }
     }
     let point = at(regions.tried);
-    painter.circle(
-        point,
-        6.5,
-        theme::colour(palette.paper).gamma_multiply(0.7),
-        Stroke::new(2.5, theme::colour(palette.ink)),
-    );
-    let _ = tried;
+    painter.circle_stroke(point, 6.5, Stroke::new(2.5, theme::colour(palette.ink)));
     let mut said = format!("Regions of the labels over {} and {}", NAMES[across.feature], NAMES[up.feature]);
     if let Some((_, room)) = nearest {
         *hovered = Some(ElementId::Room(room));
