@@ -86,14 +86,13 @@ const MENTIONED: f64 = 0.3;
 /// What is said of the rooms of a plan, once the labels that were given for some have been compared with what was `said` of these
 /// while none was known. A room's own label is never used for it. `known` as in [`super::joint::Joint::predict`].
 pub fn corrected(network: &RoomNetwork, known: &[Option<Label>], said: &[Distribution]) -> Vec<Distribution> {
-    let given: Vec<(usize, Label)> =
+    let mut given: Vec<(usize, Label)> =
         known.iter().take(said.len()).enumerate().filter_map(|(room, label)| Some((room, (*label)?))).collect();
     if given.is_empty() {
         return said.to_vec();
     }
     let traits: Vec<Traits> =
         network.rooms.iter().zip(network.joined()).map(|(room, joined)| Traits::of(room, joined.len())).collect();
-    let mut given = given;
     given.sort_by(|(p, _), (q, _)| traits[*p].0[0].total_cmp(&traits[*q].0[0]));
     let of_room = |(room, said_of_room): (usize, &Distribution)| {
         let own = &traits[room];
