@@ -577,3 +577,28 @@ impl fmt::Display for Agreement {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::labels::Schemes;
+
+    #[test]
+    fn a_default_predicts_where_nobody_asks_for_a_method() {
+        let plans = crate::store::bundled_plans().expect("the bundled plans read");
+        let house = &plans.iter().find(|(name, _)| name.starts_with("dwelling")).expect("a house").1;
+        let network = RoomNetwork::new(house, &Schemes::bundled());
+        let defaults = BTreeMap::from([("house".to_owned(), "house-knn".to_owned())]);
+        let models = Models::bundled().with_defaults(defaults);
+        let by = |method: Method, models: &Models| {
+            let predictor = Predictor { method, ..Predictor::default() };
+            predictor.predict(network.clone(), &[], None, models).expect("there is a model").model.name.clone()
+        };
+        assert_eq!(by(DEFAULT_METHOD, &models), "house-knn");
+        assert_eq!(by(Method::Joint, &models), "house-joint");
+        assert_eq!(by(DEFAULT_METHOD, &Models::bundled()), "house-blend");
+        // One that is not there any more is none.
+        let gone = Models::bundled().with_defaults(BTreeMap::from([("house".to_owned(), "gone".to_owned())]));
+        assert_eq!(by(DEFAULT_METHOD, &gone), "house-blend");
+    }
+}

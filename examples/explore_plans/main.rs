@@ -1,27 +1,31 @@
-//! How well a simulated robot finds the rooms of plans: explores each, and prints a line for each and the sum.
+//! How well a simulated robot finds the rooms of plans: explores each, and prints a table and the sums.
 //!
-//!     cargo run --release --example explore_plans -- [--noise 1] [--furniture 0] [--seed 1] [--paper] PLAN... [generated]
+//!     CARGO_PROFILE_DEV_OPT_LEVEL=2 cargo run --no-default-features --features cli --example explore_plans -- \
+//!         [--noise 1] [--furniture 0] [--seed 1] [--paper] [--pictures DIR] [own] [real=DIR | next=DIR] [PLAN...]
 //!
-//! `generated` stands for the plans that `layouts.rs` makes.
+//! `own` stands for the three bundled plans and 17 that `layouts.rs` makes, `generated` for the latter alone; `real=DIR`
+//! for 20 real plans below a folder, chosen by the rule in `sets.rs`, `next=DIR` for those that come after them.
 
-#![allow(clippy::print_stdout, reason = "an example talks to its user")]
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "an example talks to its user")]
 #![allow(clippy::disallowed_methods, reason = "it says how long each plan took")]
 
 mod layouts;
+mod sets;
+mod sketch;
 
 use std::error::Error;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use enfilade::geometry::Point;
 use enfilade::geometry::areas::Shapes;
-use enfilade::plan::Plan;
+use enfilade::geometry::{Point, Segment};
 use enfilade::robot::doorways::DoorwayOptions;
 use enfilade::robot::explore::Activity;
-use enfilade::robot::rooms::{FoundRooms, RoomOptions};
+use enfilade::robot::rooms::RoomOptions;
 use enfilade::robot::score::{Fate, Score, score};
 use enfilade::robot::{Exploration, Pose, RobotOptions, Scanner, World, WorldOptions};
+use sets::{Case, Set};
 
 /// What is asked for.
 struct Options {
@@ -29,51 +33,82 @@ struct Options {
     furniture: usize,
     seed: u64,
     is_papers: bool,
+    pictures: Option<PathBuf>,
 }
 
-/// What came of all plans: by the plans' rooms, and with rooms as one that no wall parts.
-#[derive(Default)]
-struct Sum {
-    as_drawn: Counts,
-    joined: Counts,
-}
-
-#[derive(Default)]
+/// What came of one or more plans.
+#[derive(Clone, Debug, Default)]
 struct Counts {
     rooms: usize,
     found: usize,
+    invented: usize,
+    out_of_reach: usize,
     edges: usize,
     right: usize,
     wrong: usize,
+    seconds: f64,
 }
 
 impl Counts {
-    fn add(&mut self, score: &Score) {
-        self.rooms += score.rooms.len();
-        self.found += score.count(Fate::Found);
-        self.edges += score.true_edges.len();
-        self.right += score.right_edges.len();
-        self.wrong += score.wrong_edges;
+    fn of(score: &Score, seconds: f64) -> Self {
+        Self {
+            rooms: score.rooms.len(),
+            found: score.count(Fate::Found),
+            invented: score.invented.len(),
+            out_of_reach: score.unreachable.len(),
+            edges: score.true_edges.len(),
+            right: score.right_edges.len(),
+            wrong: score.wrong_edges,
+            seconds,
+        }
     }
 
-    fn line(&self) -> String {
+    fn sum<'a>(all: impl IntoIterator<Item = &'a Self>) -> Self {
+        all.into_iter().fold(Self::default(), |sum, one| Self {
+            rooms: sum.rooms + one.rooms,
+            found: sum.found + one.found,
+            invented: sum.invented + one.invented,
+            out_of_reach: sum.out_of_reach + one.out_of_reach,
+            edges: sum.edges + one.edges,
+            right: sum.right + one.right,
+            wrong: sum.wrong + one.wrong,
+            seconds: sum.seconds + one.seconds,
+        })
+    }
+
+    fn row(&self, name: &str) -> String {
         let percent = |part: usize, of: usize| 100.0 * part as f64 / of.max(1) as f64;
         format!(
-            "{} of {} rooms ({:.1} %), {} of {} edges ({:.1} %), {} wrong",
-            self.found,
+            "| {name} | {} | {} | {:.1} | {} | {} | {} | {} | {:.1} | {} | {:.1} |",
             self.rooms,
+            self.found,
             percent(self.found, self.rooms),
-            self.right,
+            self.invented,
+            self.out_of_reach,
             self.edges,
+            self.right,
             percent(self.right, self.edges),
-            self.wrong
+            self.wrong,
+            self.seconds
         )
     }
 }
 
+const HEAD: &str = "| plan | rooms | found | % | invented | out of reach | edges | right | % | wrong | seconds |\n\
+                    | --- | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: |";
+
+/// What came of a plan: by its rooms as drawn, and with rooms as one that no wall parts.
+struct Outcome {
+    as_drawn: Counts,
+    joined: Counts,
+    has_given_up: bool,
+    /// What was not found, a line each.
+    remarks: Vec<String>,
+}
+
 fn main() -> Result<(), Box<dyn Error>> {
-    let mut options = Options { noise: 1.0, furniture: 0, seed: 1, is_papers: false };
-    let mut plans: Vec<(String, Plan)> = Vec::new();
+    let mut options = Options { noise: 1.0, furniture: 0, seed: 1, is_papers: false, pictures: None };
+    let mut cases: Vec<Case> = Vec::new();
     let mut words = std::env::args().skip(1);
     while let Some(word) = words.next() {
         let mut value = || words.next().ok_or(format!("{word} needs a value"));
@@ -82,36 +117,94 @@ fn main() -> Result<(), Box<dyn Error>> {
             "--furniture" => options.furniture = value()?.parse()?,
             "--seed" => options.seed = value()?.parse()?,
             "--paper" => options.is_papers = true,
-            "generated" => plans.extend(layouts::plans()),
-            path => {
-                let plan = enfilade::open(path)?.plan().clone();
-                let name = Path::new(path).file_name().unwrap_or_default().to_string_lossy().into_owned();
-                plans.push((name, plan));
-            }
+            "--pictures" => options.pictures = Some(PathBuf::from(value()?)),
+            "own" => cases.extend(sets::own()?),
+            "generated" => cases.extend(sets::generated()),
+            path => match (path.strip_prefix("real="), path.strip_prefix("next=")) {
+                (Some(folder), _) => cases.extend(sets::real(Path::new(folder), false)?),
+                (_, Some(folder)) => cases.extend(sets::real(Path::new(folder), true)?),
+                _ => {
+                    let name = Path::new(path).file_name().unwrap_or_default().to_string_lossy().into_owned();
+                    let plan = enfilade::open(path)?.plan().clone();
+                    cases.push(Case { name, set: Set::Other, plan });
+                }
+            },
         }
     }
+    if let Some(folder) = &options.pictures {
+        std::fs::create_dir_all(folder)?;
+    }
     let next = AtomicUsize::new(0);
-    let sum = Mutex::new(Sum::default());
+    let outcomes: Mutex<Vec<(usize, Result<Outcome, String>)>> = Mutex::default();
     let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     std::thread::scope(|scope| {
-        for _ in 0..threads {
+        for _ in 0..threads.min(cases.len()) {
             scope.spawn(|| {
-                while let Some((name, plan)) = plans.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    explore(name, plan, &options, &sum);
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(case) = cases.get(index) else { break };
+                    let outcome = explore(case, &options).map_err(|error| error.to_string());
+                    eprintln!("{}", case.name);
+                    outcomes.lock().unwrap_or_else(PoisonError::into_inner).push((index, outcome));
                 }
             });
         }
     });
-    let sum = sum.into_inner().unwrap_or_else(PoisonError::into_inner);
-    println!("all plans, rooms as drawn: {}", sum.as_drawn.line());
-    println!("all plans, rooms without a wall between them as one: {}", sum.joined.line());
+    let mut outcomes = outcomes.into_inner().unwrap_or_else(PoisonError::into_inner);
+    outcomes.sort_by_key(|(index, _)| *index);
+    println!("{HEAD}");
+    let mut done: Vec<(Set, Outcome)> = Vec::new();
+    let mut remarks: Vec<String> = Vec::new();
+    for (index, outcome) in outcomes {
+        let case = &cases[index];
+        match outcome {
+            Ok(outcome) => {
+                println!("{}", outcome.as_drawn.row(&case.name));
+                if outcome.has_given_up {
+                    remarks.push(format!("{}: gave up", case.name));
+                }
+                remarks.extend(outcome.remarks.iter().map(|remark| format!("{}: {remark}", case.name)));
+                done.push((case.set, outcome));
+            }
+            Err(error) => remarks.push(format!("{}: {error}", case.name)),
+        }
+    }
+    let sums: [(&str, &[Set]); 5] = [
+        ("own", &[Set::Own]),
+        ("real", &[Set::RealOdd, Set::RealEven]),
+        ("real, first, third, ...", &[Set::RealOdd]),
+        ("real, second, fourth, ...", &[Set::RealEven]),
+        ("all", &[Set::Own, Set::RealOdd, Set::RealEven, Set::Other]),
+    ];
+    for (title, counts) in [
+        ("Sums", (|outcome| &outcome.as_drawn) as fn(&Outcome) -> &Counts),
+        ("Sums, rooms without a wall between them as one", |outcome| &outcome.joined),
+    ] {
+        println!("\n{title}\n\n{HEAD}");
+        for (name, sets) in sums {
+            let of = done.iter().filter(|(set, _)| sets.contains(set)).map(|(_, outcome)| counts(outcome));
+            let sum = Counts::sum(of);
+            if sum.rooms > 0 {
+                println!("{}", sum.row(name));
+            }
+        }
+    }
+    println!("\n{}", remarks.join("\n"));
     Ok(())
 }
 
-fn explore(name: &str, plan: &Plan, options: &Options, sum: &Mutex<Sum>) {
-    let began = std::time::Instant::now();
+/// Seconds that this thread has worked: the processor's account where the system keeps one (Linux), else the clock.
+fn now_s(start: std::time::Instant) -> f64 {
+    let account = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = account.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
+    nanoseconds.map_or_else(|| start.elapsed().as_secs_f64(), |nanoseconds| nanoseconds / 1e9)
+}
+
+fn explore(case: &Case, options: &Options) -> Result<Outcome, Box<dyn Error>> {
+    let clock = std::time::Instant::now();
+    let began_s = now_s(clock);
     let &Options { noise, furniture, seed, .. } = options;
-    let world = Arc::new(World::new(plan, &WorldOptions { furniture, seed, ..WorldOptions::default() }));
+    let world = Arc::new(World::new(&case.plan, &WorldOptions { furniture, seed, ..WorldOptions::default() }));
     let mut robot = RobotOptions { seed, ..RobotOptions::default() };
     if noise == 0.0 {
         robot = robot.exact();
@@ -124,53 +217,50 @@ fn explore(name: &str, plan: &Plan, options: &Options, sum: &Mutex<Sum>) {
     robot.scanners = robot.scanners.iter().map(tuned).collect();
     robot.odometry = robot.odometry.times(noise);
     let reach_m = robot.radius_m + robot.margin_m;
-    let Some(start) = world.start(reach_m, seed) else {
-        println!("{name}: no space for the robot");
-        return;
-    };
+    let start = world.start(reach_m, seed).ok_or("no space for the robot")?;
     let mut exploration = Exploration::new(world.clone(), Pose::new(start.x, start.y, 0.0), robot);
-    let ended = if exploration.run() == Activity::Finished { "" } else { ", gave up" };
+    let has_given_up = exploration.run() != Activity::Finished;
     let doorways = if options.is_papers { DoorwayOptions::PAPER } else { DoorwayOptions::default() };
     let found = exploration.rooms(&RoomOptions { doorways, seed, ..RoomOptions::default() });
-    let as_drawn = score_of(&world, start, reach_m, &found, &exploration);
-    let joined = score_of(&world.with_open_rooms_joined(), start, reach_m, &found, &exploration);
-    let mut sum = sum.lock().unwrap_or_else(PoisonError::into_inner);
-    let mut counts = Counts::default();
-    counts.add(&as_drawn);
-    sum.as_drawn.add(&as_drawn);
-    sum.joined.add(&joined);
-    println!(
-        "{name}: {}; {} split, {} merged, {} missed, {} invented, {} out of reach; {} frontiers left, {} steps, {} \
-         collisions, {:.1} s{ended}",
-        counts.line(),
-        as_drawn.count(Fate::Split),
-        as_drawn.count(Fate::Merged),
-        as_drawn.count(Fate::Missed),
-        as_drawn.invented.len(),
-        as_drawn.unreachable.len(),
-        exploration.frontiers().len(),
-        exploration.path.len(),
-        exploration.collisions(),
-        began.elapsed().as_secs_f64()
-    );
-    for room in as_drawn.rooms.iter().filter(|room| room.fate != Fate::Found) {
-        let name = plan.room(room.id).map(|room| room.name.clone()).unwrap_or_default();
-        println!("    {} {name}: {}, IoU {:.2}", room.id, room.fate.name(), room.iou);
+    let seconds = now_s(clock) - began_s;
+    let rooms: Vec<Shapes> = found.rooms.iter().map(|room| moved(&room.shapes(), &exploration)).collect();
+    let edges: Vec<(usize, usize)> = found.sides.iter().filter_map(|sides| Some((sides[0]?, sides[1]?))).collect();
+    let as_drawn = score(&world, start, reach_m, &rooms, &edges);
+    let joined = score(&world.with_open_rooms_joined(), start, reach_m, &rooms, &edges);
+    if let Some(folder) = &options.pictures {
+        let to_world = |segment: &Segment| {
+            Segment::new(exploration.world_from_map.apply(segment.a), exploration.world_from_map.apply(segment.b))
+        };
+        let picture = sketch::Outcome {
+            world: &world,
+            score: &as_drawn,
+            walls: exploration.walls().iter().map(to_world).collect(),
+            free: moved(exploration.free.shapes(), &exploration),
+            rooms,
+            found: &found,
+            doorways: found.doorways.iter().map(|doorway| to_world(&doorway.segment)).collect(),
+        };
+        let name = case.name.replace(['/', ' '], "_");
+        std::fs::write(folder.join(format!("{name}.png")), picture.png()?)?;
     }
+    let mut remarks: Vec<String> = Vec::new();
+    for room in as_drawn.rooms.iter().filter(|room| room.fate != Fate::Found) {
+        let name = case.plan.room(room.id).map(|room| room.name.clone()).unwrap_or_default();
+        remarks.push(format!("{} {name}: {}, IoU {:.2}", room.id, room.fate.name(), room.iou));
+    }
+    Ok(Outcome {
+        as_drawn: Counts::of(&as_drawn, seconds),
+        joined: Counts::of(&joined, seconds),
+        has_given_up,
+        remarks,
+    })
 }
 
-fn score_of(world: &World, start: Point, reach_m: f64, found: &FoundRooms, exploration: &Exploration) -> Score {
-    let moved = |shapes: Shapes| -> Shapes {
-        let point = |[x, y]: [f64; 2]| {
-            let point = exploration.world_from_map.apply(Point::new(x, y));
-            [point.x, point.y]
-        };
-        shapes
-            .into_iter()
-            .map(|shape| shape.into_iter().map(|ring| ring.into_iter().map(point).collect()).collect())
-            .collect()
+/// Areas of the map in the world's frame.
+fn moved(shapes: &Shapes, exploration: &Exploration) -> Shapes {
+    let point = |&[x, y]: &[f64; 2]| {
+        let point = exploration.world_from_map.apply(Point::new(x, y));
+        [point.x, point.y]
     };
-    let rooms: Vec<Shapes> = found.rooms.iter().map(|room| moved(room.shapes())).collect();
-    let edges: Vec<(usize, usize)> = found.sides.iter().filter_map(|sides| Some((sides[0]?, sides[1]?))).collect();
-    score(world, start, reach_m, &rooms, &edges)
+    shapes.iter().map(|shape| shape.iter().map(|ring| ring.iter().map(point).collect()).collect()).collect()
 }

@@ -56,7 +56,6 @@ impl App {
         self.session.show_awaited_room();
         self.session.show_awaited_ghost();
         self.session.take_waiting();
-        self.session.take_wanted_room();
         if let Some(path) = self.session.recovering.take() {
             self.session.show_recovered(&path, &context);
         }

@@ -14,10 +14,10 @@ use std::sync::Arc;
 use serde_json::{Value, json};
 
 use super::calibration::fitted_temperature;
-use super::in_plan;
 use super::joint::{FirstRound, Joint, JointExplanation};
-use super::why::{Why, and_list};
+use super::why::{OnPlan, Point, Why, and_list, speaks};
 use super::{Algorithm, Classifier, Distribution, Method};
+use super::{given, in_plan};
 use crate::base::units::Units;
 use crate::dataset::RoomNetwork;
 use crate::dataset::sets::STANDARD;
@@ -101,7 +101,9 @@ pub struct Opinions {
     rounds: Vec<Option<FirstRound>>,
     /// For each part that looks at each room by itself, what it said, for the next plan.
     said: Vec<Option<in_plan::Said>>,
-    /// The blend's distribution of each room.
+    /// The mean of the parts.
+    means: Vec<Distribution>,
+    /// The blend's distribution of each room: the mean, corrected by the labels that were given ([`given::corrected`]).
     pub distributions: Vec<Distribution>,
 }
 
@@ -155,7 +157,7 @@ impl Blend {
                 None => {}
             }
         }
-        self.together(of_parts, rounds, Vec::new(), network.rooms.len())
+        self.together(of_parts, rounds, Vec::new(), network, known)
     }
 
     /// The same of the plan after an edit, to the last bit; `before` is what this blend said of the plan before it, by this
@@ -188,7 +190,7 @@ impl Blend {
                 None => {}
             }
         }
-        self.together(of_parts, rounds, said, network.rooms.len())
+        self.together(of_parts, rounds, said, network, known)
     }
 
     fn together(
@@ -196,16 +198,18 @@ impl Blend {
         of_parts: Vec<Vec<Distribution>>,
         rounds: Vec<Option<FirstRound>>,
         said: Vec<Option<in_plan::Said>>,
-        rooms: usize,
+        network: &RoomNetwork,
+        known: &[Option<Label>],
     ) -> Opinions {
         let weights: Vec<f64> = self.parts.iter().map(|part| part.weight).collect();
-        let distributions = (0..rooms)
+        let means: Vec<Distribution> = (0..network.rooms.len())
             .map(|room| {
                 let said: Vec<Distribution> = of_parts.iter().map(|said| said[room]).collect();
                 Distribution::mean(&said, &weights).at_temperature(self.temperature)
             })
             .collect();
-        Opinions { of_parts, rounds, said, distributions }
+        let distributions = given::corrected(network, known, &means);
+        Opinions { of_parts, rounds, said, means, distributions }
     }
 
     /// Why a room got its label, with areas in these units; `None` for a room that is not in the network. The points are those
@@ -231,10 +235,17 @@ impl Blend {
         };
         let said: Vec<(&Part, Distribution)> =
             self.parts.iter().zip(&opinions.of_parts).map(|(part, said)| (part, said[room])).collect();
+        let (mean, corrected) = (opinions.means[room], opinions.distributions[room]);
+        if let Some((speaks, _)) = speaks(label, |of| corrected.probability(of) - mean.probability(of)) {
+            let like = given::like(network, known, room);
+            let seen = given::words(&like);
+            let on_plan = OnPlan::Rooms(like.into_iter().map(|(other, _)| other).collect());
+            why.add(Point { seen, speaks: Some(speaks), on_plan });
+        }
         if !why.conclusion.is_empty() {
             why.conclusion.push(' ');
         }
-        why.conclusion.push_str(&who_said_what(&said, label));
+        why.conclusion.push_str(&who_said_what(&said, label, mean.label()));
         Some(why)
     }
 
@@ -310,7 +321,7 @@ fn fitted(unseen: impl Iterator<Item = (Distribution, Label)>) -> f64 {
 }
 
 /// `All four parts say big room: ...` or which part says what.
-fn who_said_what(said: &[(&Part, Distribution)], label: Label) -> String {
+fn who_said_what(said: &[(&Part, Distribution)], label: Label, mean: Label) -> String {
     let mut by_label: BTreeMap<Label, Vec<String>> = BTreeMap::new();
     for (part, said) in said {
         let of = match part.model.set() {
@@ -323,7 +334,8 @@ fn who_said_what(said: &[(&Part, Distribution)], label: Label) -> String {
     }
     let for_it = by_label.remove(&label).unwrap_or_default();
     let mut sentence = match (for_it.is_empty(), by_label.is_empty()) {
-        (true, _) => format!("No part says {label} first, but together they make it most likely"),
+        (true, _) if mean == label => format!("No part says {label} first, but together they make it most likely"),
+        (true, _) => format!("No part says {label} first, but the labels given to rooms like it do"),
         (false, _) => {
             format!("{} {} {label}", capital(&and_list(&for_it)), if for_it.len() == 1 { "says" } else { "say" })
         }

@@ -1,6 +1,7 @@
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::fingerprint::{Prints, RoomPrint};
+use super::flats::Flats;
 use super::{BY_SCHEME, LeftOut, Row};
 use crate::edit;
 use crate::features::{Analysis, Features, NeighbourLabels, RoomAnalysis, RoomStatus, analyse, analyse_after};
@@ -31,6 +32,8 @@ pub struct RoomNetwork {
     pub rooms: Vec<NetworkRoom>,
     /// Why other rooms are missing here, and which of the rooms here have no label.
     pub left_out: LeftOut,
+    /// See [`RoomNetwork::flats`]; empty until somebody asks. Whoever changes areas or doors of the rooms empties it.
+    pub flats: OnceLock<Option<Flats>>,
 }
 
 /// A room of a [`RoomNetwork`].
@@ -242,7 +245,8 @@ impl RoomNetwork {
         let building = meta.building_or_name().to_owned();
         let (group, storey) = (building.clone(), meta.storey.clone());
         let (file, plan) = (String::new(), meta.name.clone());
-        Self { file, plan, building, group, storey, typology: typology.cloned(), rooms, left_out }
+        let flats = OnceLock::new();
+        Self { file, plan, building, group, storey, typology: typology.cloned(), rooms, left_out, flats }
     }
 
     /// The network of a plan as if its typology were unknown: no label scheme says which rooms are not

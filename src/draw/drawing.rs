@@ -457,7 +457,7 @@ impl Drawing {
     }
 
     /// The fills by function: the scheme's own, or else the palette's.
-    pub fn function_colours(&self, palette: &Palette) -> BTreeMap<String, Rgba> {
+    pub fn function_colours(&self, palette: &super::Palette) -> BTreeMap<String, Rgba> {
         let mut colours = palette.functions(self.rooms.iter().map(|room| room.function.as_str()));
         for (function, colour) in &mut colours {
             if let Some(&chosen) = self.colours.get(function) {

@@ -61,6 +61,8 @@ pub struct Doorway {
     /// Thickness of the wall there, in metres: from one face's gap to the other's; 0 if only one was
     /// seen.
     pub depth_m: f64,
+    /// Of a mouth, whether the floor is wider at both ends of it.
+    pub is_framed: bool,
 }
 
 impl Doorway {
@@ -163,12 +165,19 @@ pub fn gaps(segments: &[Segment], boundary: &RayGrid, options: &DoorwayOptions) 
     let mut gaps: Vec<Segment> = Vec::new();
     for (i, segment) in long.iter().enumerate() {
         let Some(along) = segment.vector().unit() else { continue };
+        if options.must_widen && segment.length() < options.shortest_m && !is_aligned(i, &long, &grid, options) {
+            continue;
+        }
         for end in [End { at: segment.b, onward: along }, End { at: segment.a, onward: -along }] {
             gaps.extend(between_ends(end, i, &long, &grid, options));
             gaps.extend(to_wall(end, &long, &grid, options));
         }
     }
-    gaps.retain(|&gap| is_free(gap, boundary));
+    if options.must_widen {
+        gaps = gaps.into_iter().filter_map(|gap| clipped(gap, boundary, options)).collect();
+    } else {
+        gaps.retain(|&gap| is_free(gap, boundary));
+    }
     gaps.sort_by(|p, q| p.length().total_cmp(&q.length()));
     let mut found: Vec<Vec<Segment>> = Vec::new();
     let mut mouths: Vec<Segment> = Vec::new();
@@ -194,9 +203,31 @@ pub fn gaps(segments: &[Segment], boundary: &RayGrid, options: &DoorwayOptions) 
     let is_new = |mouth: &&Segment| {
         !found.iter().flatten().any(|&other| is_same_doorway(**mouth, other) || crosses(**mouth, other))
     };
-    let alone = |&mouth: &Segment| Doorway { segment: mouth, width_m: mouth.length(), depth_m: 0.0 };
+    let alone = |&mouth: &Segment| {
+        let is_framed = jogs(mouth, boundary).iter().any(|side| side[0] && side[1]);
+        Doorway { segment: mouth, width_m: mouth.length(), depth_m: 0.0, is_framed }
+    };
     let mouths = mouths.iter().filter(is_new).map(alone).collect();
-    Gaps { doorways: found.iter().map(|gaps| merged(gaps)).collect(), mouths }
+    let doorways = found.iter().map(|gaps| {
+        let doorway = merged(gaps);
+        if options.must_widen { deepened(doorway, boundary) } else { doorway }
+    });
+    Gaps { doorways: doorways.collect(), mouths }
+}
+
+/// Whether a segment is parallel or square to a longer wall near it: noise at corners is neither.
+fn is_aligned(i: usize, long: &[Segment], grid: &RayGrid, options: &DoorwayOptions) -> bool {
+    let segment = long[i];
+    grid.near(segment.bounds().inflated(1.0)).into_iter().any(|j| {
+        let other = long[j];
+        let Some(square) = other.vector().unit().map(|along| Segment::new(other.a, other.a + along.left())) else {
+            return false;
+        };
+        j != i
+            && other.length() >= 2.0 * options.shortest_m
+            && (are_parallel(other, segment, options.collinear_rad)
+                || are_parallel(square, segment, options.collinear_rad))
+    })
 }
 
 /// Gaps from an end to the facing ends of collinear segments.
@@ -249,6 +280,30 @@ fn is_free(gap: Segment, boundary: &RayGrid) -> bool {
     (0..PLACES).all(|i| is_inside(boundary, from.lerp(to, i as f64 / (PLACES - 1) as f64)))
 }
 
+/// A stub of wall at the end of a gap up to a wall is at most this long, in metres: too short for a segment.
+const STUB_M: f64 = 0.2;
+
+/// The gap without the stubs of wall that stand in it at its ends; `None` if more stands in it.
+fn clipped(gap: Segment, boundary: &RayGrid, options: &DoorwayOptions) -> Option<Segment> {
+    if is_free(gap, boundary) {
+        return Some(gap);
+    }
+    let along = gap.vector().unit()?;
+    let middle = gap.midpoint();
+    let half_m = gap.length() / 2.0;
+    if !is_inside(boundary, middle) {
+        return None;
+    }
+    let reach_m = |way: Vector| boundary.cast(middle, way, half_m).map_or(half_m, |hit| hit.distance_m + FREE_ENDS_M);
+    let (back_m, on_m) = (reach_m(-along).min(half_m), reach_m(along).min(half_m));
+    let clipped = Segment::new(middle - along * back_m, middle + along * on_m);
+    let is_stub = half_m - back_m <= STUB_M && half_m - on_m <= STUB_M;
+    (is_stub && clipped.length() >= options.narrowest_m && is_free(clipped, boundary)).then_some(clipped)
+}
+
+/// The free space ends about this far before a wall, in metres.
+const FREE_ENDS_M: f64 = 0.02;
+
 /// Whether a point is in the free space: it is left of the first boundary that a ray from it meets.
 pub(super) fn is_inside(boundary: &RayGrid, point: Point) -> bool {
     // In a direction that no wall has, so that no ray runs along one.
@@ -264,7 +319,7 @@ const DEEPEST_M: f64 = 0.65;
 
 /// How much wider than a doorway the floor beside it must be, in metres and as a share of its width.
 const WIDER_M: f64 = 0.06;
-const WIDER_SHARE: f64 = 0.03;
+const WIDER_SHARE: f64 = 0.1;
 
 /// The same for gaps wider than a door, where two walls that happen to lie in line across a corridor are no passage.
 const WIDE_WIDER_SHARE: f64 = 0.2;
@@ -300,6 +355,27 @@ pub(super) fn widens(gap: Segment, boundary: &RayGrid, found: &[Vec<Segment>]) -
     })
 }
 
+/// A wall ends beside a gap if the floor reaches this much further than the gap's end, in metres.
+const JOG_M: f64 = 0.05;
+
+/// Whether the floor reaches further than the gap's end within the depth of a wall: on its left and right, at its
+/// start and end.
+fn jogs(gap: Segment, boundary: &RayGrid) -> [[bool; 2]; 2] {
+    let Some(along) = gap.vector().unit() else { return [[false; 2]; 2] };
+    let middle = gap.midpoint();
+    let half_m = gap.length() / 2.0;
+    let reach_m =
+        |at: Point, way: Vector| boundary.cast(at, way, half_m + 1.0).map_or(half_m + 1.0, |hit| hit.distance_m);
+    [along.left(), -along.left()].map(|across| {
+        let ahead_m = boundary.cast(middle, across, DEEPEST_M).map_or(DEEPEST_M, |hit| hit.distance_m - 0.05);
+        let steps = (ahead_m / 0.05).floor().max(0.0) as usize;
+        [-along, along].map(|way| {
+            let end_m = reach_m(middle, way).min(half_m + 0.025);
+            (1..=steps).any(|step| reach_m(middle + across * (step as f64 * 0.05), way) >= end_m + JOG_M)
+        })
+    })
+}
+
 /// Whether two gaps belong to the two faces of one wall, or to the same face.
 fn is_same_doorway(p: Segment, q: Segment) -> bool {
     let Some(along) = q.vector().unit() else { return false };
@@ -322,7 +398,45 @@ fn merged(gaps: &[Segment]) -> Doorway {
     let (low_m, high_m) = depths.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), d| (low.min(d), high.max(d)));
     let shift = along.left() * ((low_m + high_m) / 2.0);
     let segment = Segment::new(narrowest.a + shift, narrowest.b + shift);
-    Doorway { segment, width_m: narrowest.length(), depth_m: high_m - low_m }
+    Doorway { segment, width_m: narrowest.length(), depth_m: high_m - low_m, is_framed: false }
+}
+
+/// A doorway's place leaves this much floor behind it, in metres: a closet is not all doorway.
+const LEAST_BEHIND_M: f64 = 0.5;
+
+/// The maximum length of rays across a doorway, in metres.
+const FLOOR_LIMIT_M: f64 = 1.5;
+
+/// The doorway with all of its passage between the faces of the wall as its place, where only one face's gap was seen.
+fn deepened(doorway: Doorway, boundary: &RayGrid) -> Doorway {
+    let Some(along) = doorway.segment.vector().unit() else { return doorway };
+    let middle = doorway.segment.midpoint();
+    let half_m = doorway.width_m / 2.0;
+    let limit_m = half_m + 1.0;
+    let width_m = |at: Point| -> f64 {
+        [along, -along]
+            .into_iter()
+            .map(|way| boundary.cast(at, way, limit_m).map_or(limit_m, |hit| hit.distance_m))
+            .sum()
+    };
+    let here_m = width_m(middle).min(doorway.width_m + 0.05);
+    // As far as the passage is no wider than the doorway.
+    let reach_m = |across: Vector| {
+        let most_m = DEEPEST_M - doorway.depth_m / 2.0;
+        let ahead_m = boundary.cast(middle, across, most_m).map_or(most_m, |hit| hit.distance_m);
+        let steps = (ahead_m / 0.05).floor().max(0.0) as usize;
+        let floor_m = boundary.cast(middle, across, FLOOR_LIMIT_M).map_or(FLOOR_LIMIT_M, |hit| hit.distance_m);
+        let steps = steps.min(((floor_m - LEAST_BEHIND_M) / 0.05).floor().max(0.0) as usize);
+        let wide = (1..=steps).find(|&step| width_m(middle + across * (0.05 * step as f64)) >= here_m + WIDER_M);
+        wide.map_or(doorway.depth_m / 2.0, |step| (0.05 * (step as f64 - 0.5)).max(doorway.depth_m / 2.0))
+    };
+    let (left_m, right_m) = (reach_m(along.left()), reach_m(-along.left()));
+    if left_m + right_m > DEEPEST_M {
+        return doorway;
+    }
+    let shift = along.left() * ((left_m - right_m) / 2.0);
+    let segment = Segment::new(doorway.segment.a + shift, doorway.segment.b + shift);
+    Doorway { segment, depth_m: left_m + right_m, ..doorway }
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ use super::odometry::OdometryNoise;
 use super::rooms::{FoundRooms, RoomOptions, boundary, find_rooms};
 use super::route::Routes;
 use super::scanner::{Scanner, back_to_back};
+use super::split_and_merge::SplitOptions;
 use super::{Mapper, MapperOptions, Pose, RayGrid, Scan, World};
 use crate::base::random::{Random, seed_of_part};
 use crate::geometry::{Point, Segment, polygon};
@@ -217,6 +218,9 @@ impl Exploration {
     /// A robot at its start that has looked around once.
     pub fn new(world: Arc<World>, start: Pose, options: RobotOptions) -> Self {
         let random = Random::new(seed_of_part(options.seed, 7));
+        // As its data sheet says.
+        let noise_m = options.scanners.iter().map(|scanner| scanner.noise_m).fold(0.0, f64::max);
+        let mapper = MapperOptions { split: SplitOptions::for_noise(noise_m), ..MapperOptions::default() };
         let mut exploration = Self {
             world,
             options,
@@ -226,10 +230,10 @@ impl Exploration {
             odometry: Pose::IDENTITY,
             pose: Pose::IDENTITY,
             scans: Vec::new(),
-            mapper: Mapper::new(MapperOptions::default()),
+            mapper: Mapper::new(mapper),
             looks: Vec::new(),
             closures: 0,
-            free: FreeSpace::default(),
+            free: FreeSpace::for_noise(noise_m),
             goal: None,
             activity: Activity::Choosing,
             path: Vec::new(),
@@ -567,7 +571,7 @@ impl Exploration {
         for look in &mut self.looks {
             look.pose = poses[look.step];
         }
-        self.free = FreeSpace::of(self.looks.iter().map(|look| (look.pose, look.scans.as_slice())));
+        self.free = self.free.again(self.looks.iter().map(|look| (look.pose, look.scans.as_slice())));
         if self.goal.is_some() {
             self.replan();
         }

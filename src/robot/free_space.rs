@@ -10,13 +10,17 @@ use i_overlay::float::single::SingleFloatOverlay as _;
 
 use super::grid_map::{Cell, GridMap};
 use super::segment::outlines;
+use super::split_and_merge::USUAL_NOISE_M;
 use super::{Pose, Scan};
 use crate::geometry::areas::{self, Ring, Shapes};
 use crate::geometry::{Bounds, Point, Segment, polygon};
 
-/// How far the free space seen by a scan ends before each hit, in metres: three standard deviations of a
+/// How far the free space seen by a scan ends before each hit, in metres: three standard deviations of a usual
 /// reading, plus the error of simplifying its outline.
 const BEFORE_HIT_M: f64 = 0.02;
+
+/// How much further before it at most, in metres, with scanners of more noise.
+const MOST_BEFORE_HIT_M: f64 = 0.05;
 
 /// Outlines are simplified to this tolerance in metres: the resolution of the readings, 1 cm, and a
 /// little.
@@ -48,12 +52,25 @@ pub enum EdgeKind {
 pub struct FreeSpace {
     shapes: Shapes,
     hits: BTreeSet<(i32, i32)>,
+    /// The standard deviation of a reading beyond the usual, in metres.
+    more_noise_m: f64,
 }
 
 impl FreeSpace {
+    /// Nothing seen yet, by scanners whose readings have this standard deviation in metres.
+    pub fn for_noise(noise_m: f64) -> Self {
+        Self { more_noise_m: (noise_m - USUAL_NOISE_M).max(0.0), ..Self::default() }
+    }
+
     /// The union of the free space seen by scans, each with the robot's pose at the time.
     pub fn of<'a>(seen: impl IntoIterator<Item = (Pose, &'a [Scan])>) -> Self {
-        let mut free = Self::default();
+        Self::default().again(seen)
+    }
+
+    /// The same from other scans of the same scanners, or from other poses.
+    #[must_use]
+    pub fn again<'a>(&self, seen: impl IntoIterator<Item = (Pose, &'a [Scan])>) -> Self {
+        let mut free = Self { more_noise_m: self.more_noise_m, ..Self::default() };
         let mut parts: Vec<Shapes> = Vec::new();
         for (map_from_robot, scans) in seen {
             parts.push(free.outlines(map_from_robot, scans));
@@ -94,7 +111,7 @@ impl FreeSpace {
             .filter(|&(x, y)| cell_at(x, y) == Cell::Occupied)
             .map(|(x, y)| swapped(hit_cell(map.map_from_picture(f64::from(x) + 0.5, f64::from(y) + 0.5))))
             .collect();
-        Self { shapes, hits }
+        Self { shapes, hits, more_noise_m: 0.0 }
     }
 
     /// Adds what the scans from one place saw.
@@ -146,7 +163,10 @@ impl FreeSpace {
         for scan in scans {
             let map_from_scanner = map_from_robot.compose(scan.robot_from_scanner);
             self.remember_hits(scan, map_from_scanner);
-            let outline: Vec<Point> = outline(scan).into_iter().map(|point| map_from_scanner.apply(point)).collect();
+            // Not so far that the hit is no longer near.
+            let before_hit_m = BEFORE_HIT_M + (3.0 * self.more_noise_m).min(MOST_BEFORE_HIT_M);
+            let outline: Vec<Point> =
+                outline(scan, before_hit_m).into_iter().map(|point| map_from_scanner.apply(point)).collect();
             if outline.len() >= 3 {
                 rings.push(areas::ring(&outline));
             }
@@ -215,14 +235,14 @@ fn swapped((x, y): (i32, i32)) -> (i32, i32) {
 }
 
 /// The outline of the free space seen by one sweep, in the scanner's frame, starting and ending at the
-/// scanner.
-fn outline(scan: &Scan) -> Vec<Point> {
+/// scanner. It ends `before_hit_m` metres before each hit.
+fn outline(scan: &Scan, before_hit_m: f64) -> Vec<Point> {
     let ray = |beam: usize, range_m: f64| {
         let (sin, cos) = scan.angle_rad(beam).sin_cos();
         Point::new(range_m * cos, range_m * sin)
     };
     let seen: Vec<(usize, f64)> = (0..scan.ranges_m.len())
-        .filter_map(|beam| Some((beam, (scan.range_m(beam)? - BEFORE_HIT_M).max(0.0))))
+        .filter_map(|beam| Some((beam, (scan.range_m(beam)? - before_hit_m).max(0.0))))
         .collect();
     let scanner = Point::default();
     let mut outline: Vec<Point> = vec![scanner];

@@ -83,6 +83,7 @@ pub fn of_segmentation(map: &GridMap, segmentation: &Segmentation, segments: &[S
         segment: Segment::new(doorway.ends[0], doorway.ends[1]),
         width_m: doorway.width_m(),
         depth_m: 0.0,
+        is_framed: false,
     });
     let rooms = grid_rooms.into_iter().map(|room| FoundRoom {
         area_m2: mean_quadrilateral_m2(&room.outer),

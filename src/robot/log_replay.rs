@@ -20,6 +20,10 @@ const LOOK_RAD: f64 = 0.8;
 const MOVED_M: f64 = 0.05;
 const LEVER_M: f64 = 3.0;
 
+/// Until the end rooms are found in no more scans than this, evenly spaced: each time takes as long as all
+/// their beams.
+const MOST_LOOKS: usize = 1_000;
+
 /// What was seen from one place.
 #[derive(Clone, Debug)]
 struct Look {
@@ -180,16 +184,13 @@ impl LogReplay {
         self.mapper.map().lines().map(|line| line.line.segment()).collect()
     }
 
-    /// The rooms, and what else is known of the surroundings: at the end from every scan, as
-    /// [`surroundings`](super::log_map::surroundings) finds them, and before from those in the free space.
+    /// The rooms, and what else is known of the surroundings: at the end as
+    /// [`surroundings`](super::log_map::surroundings) finds them, before from a thousand scans at most.
     pub fn surroundings(&self) -> Surroundings {
-        if self.is_over() {
-            let poses = self.mapper.poses();
-            let readings = self.log.readings.iter().filter(|reading| !reading.scans.is_empty());
-            let looks = readings.zip(&poses).map(|(reading, pose)| (*pose, reading.scans.as_slice()));
-            return surroundings_of(looks, self.segments().into_iter());
-        }
-        let looks = self.looks.iter().map(|look| (look.pose, self.log.readings[look.reading].scans.as_slice()));
+        let every = if self.is_over() { 1 } else { self.scans.div_ceil(MOST_LOOKS).max(1) };
+        let poses = self.mapper.poses();
+        let readings = self.log.readings[..self.next].iter().filter(|reading| !reading.scans.is_empty());
+        let looks = readings.zip(&poses).step_by(every).map(|(reading, pose)| (*pose, reading.scans.as_slice()));
         surroundings_of(looks, self.segments().into_iter())
     }
 

@@ -141,7 +141,8 @@ fn is_of(segment: &Segment, clutter: &[Bounds]) -> bool {
 /// A room behind a mouth, a closet or an alcove, has no other doorway and is at most this large in m².
 const LARGEST_ALCOVE_M2: f64 = 4.0;
 
-/// It is at least this deep as a share of its width: a bay is not.
+/// It is at least this deep as a share of its width: a bay is not. Both ends of its mouth are wall, or else it is the
+/// room's own corner.
 const LEAST_DEPTH_SHARE: f64 = 0.6;
 
 /// A corridor's mouth separates it from a room that has space for a disc of this many times the mouth's
@@ -183,7 +184,8 @@ fn close_mouths(
             continue;
         }
         let (small, large) = if area_m2(&parts[one]) < area_m2(&parts[other]) { (one, other) } else { (other, one) };
-        let is_alcove = (options.smallest_m2..=LARGEST_ALCOVE_M2).contains(&area_m2(&parts[small]))
+        let is_alcove = mouth.is_framed
+            && (options.smallest_m2..=LARGEST_ALCOVE_M2).contains(&area_m2(&parts[small]))
             && area_m2(&parts[small]) >= LEAST_DEPTH_SHARE * mouth.width_m.powi(2)
             && area_m2(&parts[large]) > 2.0 * area_m2(&parts[small]);
         let doors_of = sides_of(&doors, &parts);
@@ -192,10 +194,13 @@ fn close_mouths(
             if mouth.width_m > DoorwayOptions::PAPER.widest_m {
                 return false;
             }
-            // The part with the mouth's full width on its side is the corridor.
-            let has_door = |part: usize| doors_of.iter().flatten().any(|&side| side == Some(part));
-            (has_door(one) && is_roomy(mouth, -mouth.across(), boundary))
-                || (has_door(other) && is_roomy(mouth, mouth.across(), boundary))
+            // The part with the mouth's full width on its side is the corridor, if it is longer than wide.
+            let is_corridor = |part: usize| {
+                doors_of.iter().flatten().any(|&side| side == Some(part))
+                    && area_m2(&parts[part]) >= mouth.width_m.powi(2)
+            };
+            (is_corridor(one) && is_roomy(mouth, -mouth.across(), boundary))
+                || (is_corridor(other) && is_roomy(mouth, mouth.across(), boundary))
         };
         if (is_alcove && !has_door) || opens_into_room() {
             found.push(mouth.clone());

@@ -58,7 +58,7 @@ pub struct Score {
     pub rooms: Vec<RoomScore>,
     /// Rooms of the plan the robot could not reach.
     pub unreachable: Vec<RoomId>,
-    /// Found rooms that are not the best match of any true room.
+    /// Found rooms that are not the best match of any true room within reach, nor lie mostly in one out of reach.
     pub invented: Vec<usize>,
     /// Pairs of reachable rooms joined by a passable opening.
     pub true_edges: BTreeSet<(RoomId, RoomId)>,
@@ -132,10 +132,15 @@ pub fn score(world: &World, start: Point, radius_m: f64, rooms: &[Shapes], edges
         reachable.push(room);
         common.push(with);
     }
-    // The true room of each found one: the one it shares the most area with.
+    // The true room of each found one, within reach or not: the one it shares the most area with.
     let mut true_of: BTreeMap<usize, (f64, RoomId)> = BTreeMap::new();
-    for (room, with) in reachable.iter().zip(&common) {
-        for &(i, m2) in with {
+    for room in world.rooms() {
+        let around = bounds(&room.floor);
+        for i in (0..rooms.len()).filter(|&i| boxes[i].intersects(around)) {
+            let m2 = common_m2(&room.floor, &rooms[i]);
+            if m2 <= 0.0 {
+                continue;
+            }
             let best = true_of.entry(i).or_insert((m2, room.id));
             if m2 > best.0 {
                 *best = (m2, room.id);
@@ -157,16 +162,20 @@ pub fn score(world: &World, start: Point, radius_m: f64, rooms: &[Shapes], edges
         matched.extend(best.map(|(i, _)| i));
         result.rooms.push(RoomScore { id: room.id, best: best.map(|(i, _)| i), iou, fate });
     }
-    result.invented = (0..rooms.len()).filter(|i| !matched.contains(i)).collect();
+    // Rooms out of reach that were seen through their doors are not asked for, but there they are.
+    let is_seen_only = |i: &usize| true_of.get(i).is_some_and(|(_, room)| result.unreachable.contains(room));
+    result.invented = (0..rooms.len()).filter(|i| !matched.contains(i) && !is_seen_only(i)).collect();
     let pair = |p: RoomId, q: RoomId| if p < q { (p, q) } else { (q, p) };
     let is_reachable = |id: RoomId| reachable.iter().any(|room| room.id == id);
-    for opening in world.openings().iter().filter(|opening| opening.state == DoorState::Open) {
+    let mut joined: BTreeSet<(RoomId, RoomId)> = BTreeSet::new();
+    for opening in world.openings().iter().filter(|opening| opening.state != DoorState::Closed) {
         if let [Joint::Room(p), Joint::Room(q)] = opening.sides
             && p != q
-            && is_reachable(p)
-            && is_reachable(q)
         {
-            result.true_edges.insert(pair(p, q));
+            joined.insert(pair(p, q));
+            if opening.state == DoorState::Open && is_reachable(p) && is_reachable(q) {
+                result.true_edges.insert(pair(p, q));
+            }
         }
     }
     for &(i, j) in edges {
@@ -174,6 +183,8 @@ pub fn score(world: &World, start: Point, radius_m: f64, rooms: &[Shapes], edges
             (Some((_, p)), Some((_, q))) if p != q && result.true_edges.contains(&pair(*p, *q)) => {
                 result.right_edges.insert(pair(*p, *q));
             }
+            // An edge to a room out of reach, or by a door that is ajar, is not asked for, but is there.
+            (Some((_, p)), Some((_, q))) if p != q && joined.contains(&pair(*p, *q)) => {}
             _ => {
                 result.wrong_pairs.insert((i.min(j), i.max(j)));
             }

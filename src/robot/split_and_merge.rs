@@ -40,7 +40,18 @@ impl Default for SplitOptions {
     }
 }
 
+/// The standard deviation of a reading, in metres, that the defaults are for: that of a SICK LMS 200.
+pub(super) const USUAL_NOISE_M: f64 = 0.005;
+
 impl SplitOptions {
+    /// For readings with this standard deviation, in metres: wider by three times of what exceeds the usual, so that
+    /// a wall's points stay together.
+    pub fn for_noise(noise_m: f64) -> Self {
+        let more_m = 3.0 * (noise_m - USUAL_NOISE_M).max(0.0);
+        let usual = Self::default();
+        Self { tolerance_m: usual.tolerance_m + more_m, gap_m: usual.gap_m + more_m, ..usual }
+    }
+
     /// Whether a segment of a scan is reliable enough for a map.
     pub fn is_firm(&self, segment: &LineSegment) -> bool {
         let count = segment.moments.weight;

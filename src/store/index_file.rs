@@ -25,8 +25,18 @@ pub fn cache_folder() -> Option<PathBuf> {
 /// By path, what is known of a file. The number is the version of what is in it: another one starts afresh.
 const FILES: TableDefinition<'static, &str, &[u8]> = TableDefinition::new("files 1");
 
+/// Before each entry stands its checksum.
+const SUM_BYTES: usize = 8;
+
+fn checksum(path: &str, value: &[u8]) -> [u8; SUM_BYTES] {
+    hash::fnv1a(hash::fnv1a(hash::START, path.bytes()), value.iter().copied()).to_le_bytes()
+}
+
 /// Memory of the database itself: all of it is read once, and written seldom.
 const CACHE_BYTES: usize = 4 << 20;
+
+/// Each file's path within the folder, with what is known of it.
+type KeptFiles = Vec<(String, Vec<u8>)>;
 
 /// Why an index cannot be used; everything still works without.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -68,7 +78,7 @@ impl fmt::Debug for IndexFile {
 pub struct Known {
     pub index: IndexFile,
     /// By path, what is known of each file, sorted.
-    pub files: Vec<(String, Vec<u8>)>,
+    pub files: KeptFiles,
     /// Why the index had to be made anew, if it was broken.
     pub broken: Option<String>,
 }
@@ -102,7 +112,7 @@ impl IndexFile {
         }
     }
 
-    fn open_at(path: &Path) -> Result<(Self, Vec<(String, Vec<u8>)>), IndexError> {
+    fn open_at(path: &Path) -> Result<(Self, KeptFiles), IndexError> {
         // A damaged file may trip an assertion of the database.
         let opened = catch_unwind(AssertUnwindSafe(|| {
             let database =
@@ -117,7 +127,7 @@ impl IndexFile {
         opened.unwrap_or_else(|_| Err(other("the file is damaged")))
     }
 
-    fn read(&self) -> Result<Vec<(String, Vec<u8>)>, IndexError> {
+    fn read(&self) -> Result<KeptFiles, IndexError> {
         let reading = self.database.begin_read().map_err(other)?;
         let table = match reading.open_table(FILES) {
             Ok(table) => table,
@@ -127,7 +137,13 @@ impl IndexFile {
         let mut files = Vec::new();
         for entry in table.iter().map_err(other)? {
             let (path, value) = entry.map_err(other)?;
-            files.push((path.value().to_owned(), value.value().to_vec()));
+            let (path, value) = (path.value(), value.value());
+            // The database looks at what it wrote only after a crash.
+            let (sum, value) = value.split_at_checked(SUM_BYTES).ok_or_else(|| other("an entry is cut short"))?;
+            if sum != checksum(path, value) {
+                return Err(other("an entry is damaged"));
+            }
+            files.push((path.to_owned(), value.to_vec()));
         }
         Ok(files)
     }
@@ -142,7 +158,9 @@ impl IndexFile {
             {
                 let mut table = writing.open_table(FILES).map_err(other)?;
                 for (path, value) in found {
-                    table.insert(path.as_str(), value.as_slice()).map_err(other)?;
+                    let mut summed = checksum(path, value).to_vec();
+                    summed.extend(value);
+                    table.insert(path.as_str(), summed.as_slice()).map_err(other)?;
                 }
                 for path in gone {
                     table.remove(path.as_str()).map_err(other)?;
@@ -164,7 +182,7 @@ mod tests {
         let open = || IndexFile::open(cache.path(), plans.path());
         let known = open().unwrap();
         assert_eq!((known.files.len(), known.broken), (0, None));
-        let found: Vec<(String, Vec<u8>)> = (0..200u8).map(|i| (format!("{i:03}"), vec![i; 3000])).collect();
+        let found: KeptFiles = (0..200u8).map(|i| (format!("{i:03}"), vec![i; 3000])).collect();
         known.index.keep(&found, &[]).unwrap();
         assert_eq!(open().unwrap_err(), IndexError::InUse);
         known.index.keep(&[], &["007".to_owned()]).unwrap();

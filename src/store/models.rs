@@ -122,3 +122,20 @@ pub fn set_default_model(folder: &Path, set: &str, model: Option<&str>) -> Resul
     bytes.push(b'\n');
     save_bytes(&folder.join(DEFAULTS), &bytes)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn defaults_are_kept_beside_the_models() {
+        let folder = tempfile::tempdir().expect("a folder");
+        assert_eq!(default_models(folder.path()), BTreeMap::new());
+        for (set, model) in [("house", Some("mine")), ("school", Some("other")), ("house", None)] {
+            set_default_model(folder.path(), set, model).expect("written");
+        }
+        assert_eq!(default_models(folder.path()), BTreeMap::from([("school".to_owned(), "other".to_owned())]));
+        crate::store::save_bytes(&folder.path().join(DEFAULTS), b"{").expect("written");
+        assert_eq!(default_models(folder.path()), BTreeMap::new());
+    }
+}

@@ -92,14 +92,23 @@ pub struct Planned {
 }
 
 impl Planned {
+    /// What was done, in a sentence without its full stop: '12 rooms in 3 plans got the label hall'.
+    pub fn done(&self, change: &Change) -> String {
+        format!("{} got {}", self.counted(change), change.words())
+    }
+
+    fn counted(&self, change: &Change) -> String {
+        if change.is_of_plans() {
+            return count(self.changed, "plan");
+        }
+        let plans: usize = self.files.values().map(BTreeMap::len).sum();
+        let within = if self.changed > 0 { format!(" in {}", count(plans, "plan")) } else { String::new() };
+        format!("{}{within}", count(self.changed, "room"))
+    }
+
     /// In a sentence without its full stop: '12 rooms in 3 plans get the label hall, 2 have it already'.
     pub fn said(&self, change: &Change) -> String {
-        let thing = if change.is_of_plans() { "plan" } else { "room" };
-        let mut said = count(self.changed, thing);
-        if !change.is_of_plans() && self.changed > 0 {
-            let plans: usize = self.files.values().map(BTreeMap::len).sum();
-            said.push_str(&format!(" in {}", count(plans, "plan")));
-        }
+        let mut said = self.counted(change);
         said.push_str(&format!(" {} {}", if self.changed == 1 { "gets" } else { "get" }, change.words()));
         if self.same > 0 {
             said.push_str(&format!(", {} {} it already", self.same, if self.same == 1 { "has" } else { "have" }));

@@ -25,7 +25,7 @@ pub(super) const ENTRY: Entry =
 const LARGEST: [f32; 2] = [860.0, 680.0];
 
 /// Width of the list of typologies.
-const LIST: f32 = 190.0;
+const LIST: f32 = 216.0;
 
 struct Schemes {
     typology: Option<Typology>,
@@ -138,10 +138,13 @@ impl Schemes {
             },
         );
         ui.add_space(6.0);
-        let response = text(ui, "New typology", &mut self.new_typology, LIST - 16.0, "New typology");
-        let is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         let new = Typology::new(&self.new_typology);
-        let is_clicked = ui.add_enabled_ui(new.is_some(), |ui| text_button(ui, "Add", false)).inner.clicked();
+        let (mut is_entered, mut is_clicked) = (false, false);
+        ui.horizontal(|ui| {
+            let response = text(ui, "New typology", &mut self.new_typology, LIST - 82.0, "New typology");
+            is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+            is_clicked = ui.add_enabled_ui(new.is_some(), |ui| text_button(ui, "Add", false)).inner.clicked();
+        });
         if let Some(new) = new.filter(|_| is_clicked || is_entered) {
             self.new_typology.clear();
             self.added.insert(new.clone());
@@ -289,7 +292,7 @@ fn function_row(
         let picker =
             ui.color_edit_button_srgb(&mut colour).on_hover_text("Its colour where rooms are filled by function");
         let is_picked = picker.changed();
-        picker.accessible_name(&format!("{function}: colour"));
+        picker.accessible_name(format!("{function}: colour"));
         if is_picked {
             chosen = Some(Chosen::Colour(colour));
         }

@@ -254,7 +254,7 @@ impl Table {
     /// What is selected, and what can be done with it.
     fn foot(&mut self, app: &mut App, ui: &mut Ui) -> Option<Act> {
         let mut act = None;
-        let Some(workspace) = app.session.workspace.as_mut() else { return None };
+        let workspace = app.session.workspace.as_mut()?;
         let thing = if workspace.view.shows == Shows::Rooms { "room" } else { "plan" };
         ui.horizontal(|ui| {
             let (length, selected) = (workspace.view.len(), &workspace.view.selected);

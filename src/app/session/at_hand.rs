@@ -13,6 +13,7 @@ use crate::app::session::file_dialogs::Purpose;
 use crate::app::session::jobs::{Kind, Wanted};
 use crate::app::session::origin::Origin;
 use crate::app::session::plan_list::{Depth, plans_in};
+use crate::app::session::wishes::Wish;
 use crate::app::value::{Call, Value};
 use crate::base::work::Work;
 use crate::dataset::changes::Changes;
@@ -73,8 +74,6 @@ pub(crate) struct RoomsAtHand {
     pub error: Option<String>,
     asked: Option<Source>,
     job: Option<Wanted>,
-    /// A room to be shown once its plan is.
-    wanted: Option<(Origin, RoomId)>,
 }
 
 impl RoomsAtHand {
@@ -149,8 +148,12 @@ enum Input {
 }
 
 impl Session {
-    /// What the dashboard and training are about unless told otherwise: the folder that is listed, or the open plans.
+    /// What the dashboard and training are about unless told otherwise: the folder of plans that is open, the one that is
+    /// listed, or the open plans.
     pub(crate) fn usual_source(&self) -> Source {
+        if let Some(workspace) = &self.workspace {
+            return Source::Folder(workspace.now.folder().to_owned());
+        }
         match self.dataset_source() {
             Some((folder, _)) => Source::Folder(folder.to_owned()),
             None => Source::OpenPlans,
@@ -248,29 +251,14 @@ impl Session {
     }
 
     /// Shows a room in its plan, which is opened where it is not.
-    pub(crate) fn go_to_room(&mut self, origin: &Origin, room: RoomId) -> Call {
-        self.at_hand.wanted = Some((origin.clone(), room));
-        match origin {
-            Origin::Bundled(index) => Call::new("open-sample", [Value::Sample(*index)]),
-            Origin::Untitled => Call::new("select", [Value::Elements(vec![ElementId::Room(room)])]),
-            Origin::File { path, storey: 0 } => Call::new("open", [Value::Path(path.clone())]),
-            Origin::File { path, storey } => Call::new("open", [Value::Path(path.clone()), Value::Count(storey + 1)]),
+    pub(crate) fn go_to_room(&mut self, origin: &Origin, room: RoomId) {
+        if *origin == Origin::Untitled {
+            let select = Call::new("select", [Value::Elements(vec![ElementId::Room(room)])]);
+            self.wishes.push(Wish::Run(select));
+            return;
         }
-    }
-
-    /// Picks the room that is wanted, once its plan is shown.
-    pub(crate) fn take_wanted_room(&mut self) {
-        let Some((origin, room)) = &self.at_hand.wanted else { return };
-        if self.document.as_ref().is_some_and(|document| document.origin == *origin) {
-            let element = ElementId::Room(*room);
-            self.at_hand.wanted = None;
-            self.wishes
-                .push(crate::app::session::wishes::Wish::Run(Call::new("select", [Value::Elements(vec![element])])));
-            self.wishes.push(crate::app::session::wishes::Wish::Reveal(element));
-        } else if self.opening.is_none() {
-            // It could not be opened, or something else is shown.
-            self.at_hand.wanted = None;
-        }
+        self.awaited_room = Some((origin.clone(), room));
+        self.wishes.push(Wish::OpenListed(origin.clone()));
     }
 }
 

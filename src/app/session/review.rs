@@ -69,6 +69,8 @@ pub(crate) struct Review {
     arrived: Option<(u64, usize)>,
     /// The document that the review opened, and closes if nothing was done to it.
     opened: Option<u64>,
+    /// Whether it is opening one.
+    is_opening: bool,
 }
 
 /// A decision that can be taken back.
@@ -178,10 +180,9 @@ impl Session {
     }
 
     fn begin_review(&mut self, other: Option<PathBuf>) -> Result<(), String> {
-        let Some((folder, files)) = self.dataset_source() else {
-            return Err("open a folder with plans first".to_owned());
+        let Some((folder, files)) = self.review_source() else {
+            return Err("open a folder of plans first".to_owned());
         };
-        let (folder, files) = (folder.to_owned(), files.to_vec());
         let open = self.open_versions();
         let schemes = self.schemes.clone();
         let is_comparison = other.is_some();
@@ -197,6 +198,23 @@ impl Session {
         });
         self.review.job = Some(job);
         Ok(())
+    }
+
+    /// The folder to review, and its plans: those of the workspace, or without one those in the list.
+    fn review_source(&self) -> Option<(PathBuf, Vec<PathBuf>)> {
+        match &self.workspace {
+            Some(workspace) if !workspace.now.files().is_empty() => {
+                let now = &workspace.now;
+                Some((now.folder().to_owned(), now.files().iter().map(|file| now.path_of(file)).collect()))
+            }
+            _ => self.dataset_source().map(|(folder, files)| (folder.to_owned(), files.to_vec())),
+        }
+    }
+
+    /// Whether there is a folder to review.
+    pub(crate) fn can_review(&self) -> bool {
+        let has_workspace = self.workspace.as_ref().is_some_and(|workspace| !workspace.now.files().is_empty());
+        has_workspace || self.dataset_source().is_some()
     }
 
     /// Gives up making the queue.
@@ -319,6 +337,7 @@ impl Session {
         match self.open_of(&origin) {
             Some(number) => self.show_open(number),
             None => {
+                self.review.is_opening = true;
                 self.open(origin);
             }
         }
@@ -334,14 +353,14 @@ impl Session {
         if !origin.is_some_and(|origin| Self::is_of(document, &origin)) {
             return;
         }
-        let (number, is_new) = (document.number, document.history.steps().len() == 1);
+        let number = document.number;
         let Some((_, undo)) = self.review.awaited.take() else { return };
         // A plan that was opened for one room is closed again if nothing was done to it.
-        if let Some(before) = self.review.opened.replace(number).filter(|&before| before != number) {
+        if let Some(before) = self.review.opened.take_if(|before| *before != number) {
             self.close_untouched(before);
         }
-        if !is_new {
-            self.review.opened = None;
+        if std::mem::take(&mut self.review.is_opening) {
+            self.review.opened = Some(number);
         }
         if let Some(step) = undo {
             self.take_back(&step, room);

@@ -293,6 +293,8 @@ impl Session {
     pub(super) fn train_what_waits(&mut self) {
         let Some((source, wish)) = self.training.waiting.take() else { return };
         if let Err(error) = self.train(source, wish) {
+            // The form says it, not the report of an earlier training.
+            self.train_again();
             self.training.error = Some(self.at_hand.error.clone().unwrap_or(error));
         }
     }
@@ -525,4 +527,26 @@ fn run(at_hand: &AtHand, wish: &Wish, path: &str, teller: &mut Teller<'_>) -> Re
         folds_word: wish.folds.to_string(),
     };
     training::train(collection, &parts, &methods, &order, teller).map(drop)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_wished_can_be_said_and_read() {
+        let wish = Wish {
+            method: Some(Method::Joint),
+            set: Some("fire station".to_owned()),
+            folds: 5,
+            groupings: Grouping::ALL.to_vec(),
+            neighbours: Some(NeighbourLabels::True),
+        };
+        for wish in [wish, Wish::default(), Wish { method: None, folds: 0, ..Wish::default() }] {
+            assert_eq!(Wish::read(&wish.words()), Ok(wish));
+        }
+        for wrong in ["algorithm=magic", "folds=1", "folds=many", "by=street", "neighbours=nice", "tree"] {
+            assert!(Wish::read(wrong).is_err(), "{wrong}");
+        }
+    }
 }

@@ -263,7 +263,9 @@ impl Session {
     /// Selects the room that was asked for, once its plan is shown.
     pub(crate) fn show_awaited_room(&mut self) {
         let Some((origin, room)) = &self.awaited_room else { return };
-        let Some(document) = self.document.as_ref().filter(|document| document.origin == *origin) else { return };
+        // It may have been opened by another path.
+        let wanted = self.open_of(origin);
+        let Some(document) = self.document.as_ref().filter(|document| wanted == Some(document.number)) else { return };
         let element = ElementId::Room(*room);
         if document.plan().room(*room).is_some() {
             self.pick(Some(element));
@@ -273,13 +275,11 @@ impl Session {
     }
 }
 
+/// What is listed, the index to keep the rest in, and what was wrong with the index before.
+type ListedAndIndex = (Listed, Option<Arc<IndexFile>>, Option<String>);
+
 /// Lists a folder with what an index knows of it, and gives the index to keep the rest in.
-fn listed(
-    folder: &Path,
-    cache: Option<&Path>,
-    recipe: &Recipe,
-    work: &Work<'_>,
-) -> Result<(Listed, Option<Arc<IndexFile>>, Option<String>), Cancelled> {
+fn listed(folder: &Path, cache: Option<&Path>, recipe: &Recipe, work: &Work<'_>) -> Result<ListedAndIndex, Cancelled> {
     // Without an index everything is found out anew, and nothing else is different.
     let known = cache.and_then(|cache| IndexFile::open(cache, folder).ok());
     let (index, files, broken) = match known {

@@ -8,6 +8,7 @@
 //! seen the building, as in use; and in half of its examples some rooms are known, so that it learns how
 //! much to trust known labels.
 
+mod altered;
 mod around;
 mod asked;
 mod explain;
@@ -19,19 +20,20 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::sync::Arc;
 
+pub use altered::Alterations;
 pub use explain::{GroupEffect, JointExplanation, NeighbourEffect};
 pub use store::JointModelError;
 pub use view::Group;
 
+use self::altered::Version;
 use self::around::Around;
 use self::asked::Held;
-use self::trees::{Forest, Job, KEPT, Samples};
+use self::trees::{Forest, Job, KEPT, Samples, VersionChoice};
 use self::view::{Search, View};
 use super::calibration::fitted_temperature;
 use super::{Distribution, FoldScore, Scores};
 use crate::base::random::{Random, seed_of_part};
 use crate::base::work::{Cancelled, Work};
-use crate::dataset::flats::Flats;
 use crate::dataset::folds::{Folds, FoldsError};
 use crate::dataset::{RoomNetwork, RoomPlace};
 use crate::labels::{Label, Typology};
@@ -39,6 +41,9 @@ use crate::plan::RoomId;
 
 /// Folds for first-round predictions of training rooms by forests not trained on their building.
 const INNER_FOLDS: usize = 4;
+
+/// How plans are altered while learning (`docs/joint.md` has what that is worth).
+const ALTERATIONS: Alterations = Alterations { copies: 3, as_drawn: 0.5, scale: 0.15, left_out: 0.4 };
 
 /// The trained fifth classifier.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,7 +124,7 @@ struct Looked {
 }
 
 impl Looked {
-    /// A storey of flats is looked at flat by flat ([`Flats`]): a dwelling's rooms are compared with each other, not with the
+    /// A storey of flats is looked at flat by flat ([`RoomNetwork::flats`]): a dwelling's rooms are compared with each other, not with the
     /// neighbours'. What the flats share is compared with the whole storey.
     fn new(network: &RoomNetwork, left_out: &BTreeSet<Group>) -> Self {
         Self::after(network, left_out, None)
@@ -134,7 +139,7 @@ impl Looked {
             Arc::new((view.joined.clone(), found))
         });
         let mut features = view::features(network, &view, &searched.1);
-        let flats = Flats::of(network).map(|flats| flats.flats).unwrap_or_default();
+        let flats = network.flats().map(|of| of.flats.as_slice()).unwrap_or_default();
         for (index, flat) in flats.iter().enumerate() {
             let part = network.part(flat);
             let of_part = View::new(&part);
@@ -224,6 +229,19 @@ impl Joint {
         Self::train_without(networks, &BTreeSet::new(), seed, work)
     }
 
+    /// The same with plans altered in another way, to measure what that is worth.
+    ///
+    /// # Errors
+    /// As [`Joint::train`].
+    pub fn train_altered(
+        networks: &[&RoomNetwork],
+        alterations: &Alterations,
+        seed: u64,
+        work: &Work<'_>,
+    ) -> Result<Self, JointTrainError> {
+        Self::learn(networks, alterations, &BTreeSet::new(), seed, work)
+    }
+
     /// The same without some groups of features, to measure their worth.
     ///
     /// # Errors
@@ -234,27 +252,23 @@ impl Joint {
         seed: u64,
         work: &Work<'_>,
     ) -> Result<Self, JointTrainError> {
+        Self::learn(networks, &ALTERATIONS, left_out, seed, work)
+    }
+
+    fn learn(
+        networks: &[&RoomNetwork],
+        alterations: &Alterations,
+        left_out: &BTreeSet<Group>,
+        seed: u64,
+        work: &Work<'_>,
+    ) -> Result<Self, JointTrainError> {
         let places = labelled(networks);
         if places.is_empty() {
             return Err(JointTrainError::NoLabelledRooms);
         }
-        let looked: Vec<Looked> = networks.iter().map(|network| Looked::new(network, left_out)).collect();
         let folds = inner_folds(networks, &places, seed);
         let count = folds.as_ref().map_or(0, Folds::count);
-
-        let classes = Classes::new(networks, &places);
-        let class_of = |place: RoomPlace| classes.of(networks, place);
-
-        // The first round: a forest for each fold that did not see it, and one trained on all rooms.
-        let mut samples = Samples::default();
-        for &place in &places {
-            let values = &looked[place.network].features[place.room];
-            samples.push(values, label(networks, place), class_of(place));
-        }
-        let (of_folds, first) = grow(&samples, folds.as_ref(), 1, seed_of_part(seed, 1), work)?;
-
-        // Predictions for every room, by the forest not trained on it. A room without a label is in the
-        // fold of the first labelled room of its plan.
+        // The fold that tests each room. A room without a label is in the fold of the first labelled room of its plan.
         let mut fold_of: Vec<Vec<usize>> = networks.iter().map(|network| vec![count; network.rooms.len()]).collect();
         if let Some(folds) = &folds {
             for (place, &fold) in places.iter().zip(folds.of_rows()).rev() {
@@ -264,37 +278,70 @@ impl Joint {
                 fold_of[place.network][place.room] = fold;
             }
         }
-        let opinions = work.map(networks.len(), |network| {
-            let rooms = looked[network].features.iter().zip(&fold_of[network]);
-            rooms.map(|(values, &fold)| of_folds.get(fold).unwrap_or(&first).predict(values)).collect::<Vec<_>>()
-        })?;
+        let classes = Classes::new(networks, &places);
 
-        // The second round: every plan twice, with no rooms known and with some known.
-        let mut samples = Samples::default();
-        let mut typical_of = Vec::new();
-        for (network, looked) in looked.iter().enumerate() {
-            let nothing = vec![None; networks[network].rooms.len()];
-            typical_of.push(looked.with_labels(&opinions[network], &nothing, left_out));
-        }
-        for &place in &places {
-            samples.push(&typical_of[place.network][place.room], label(networks, place), class_of(place));
-        }
-        let typical = samples.columns.iter().map(|column| median(column)).collect();
-        let mut random = Random::new(seed_of_part(seed, 2));
-        let partly: Vec<Vec<Vec<f32>>> = networks
+        // Every plan as it is drawn, and as another source might have drawn it. The samples are the labelled rooms of all
+        // versions, those of the plans as drawn first, in the order of `places`.
+        let versions = Version::all(networks, alterations, seed_of_part(seed, 4));
+        let looked = work.map(versions.len(), |version| Looked::new(&versions[version].network, left_out))?;
+        let samples_of: Vec<(usize, usize)> = versions
             .iter()
             .enumerate()
-            .map(|(network, rooms)| {
+            .flat_map(|(index, version)| version.network.labelled().map(move |room| (index, room)))
+            .collect();
+        let origin = |(version, room): (usize, usize)| {
+            let version: &Version = &versions[version];
+            RoomPlace { network: version.of, room: version.rooms[room] }
+        };
+        let sample = |samples: &mut Samples, at: (usize, usize), values: &[f32]| {
+            let place = origin(at);
+            samples.push(values, label(networks, place), classes.of(networks, place));
+            samples.versions.push((place.network, versions[at.0].copy));
+        };
+        let folds_of: Vec<usize> =
+            samples_of.iter().map(|&at| origin(at)).map(|place| fold_of[place.network][place.room]).collect();
+        let choice = VersionChoice { copies: alterations.copies, as_drawn: alterations.as_drawn };
+
+        // The first round: a forest for each fold that did not see it, and one trained on all rooms.
+        let mut samples = Samples::default();
+        for &at in &samples_of {
+            sample(&mut samples, at, &looked[at.0].features[at.1]);
+        }
+        let (of_folds, first) = grow(&samples, &folds_of, count, choice, seed_of_part(seed, 1), work)?;
+
+        // Predictions for every room, by the forest not trained on it.
+        let opinions = work.map(versions.len(), |index| {
+            let version = &versions[index];
+            let rooms = looked[index].features.iter().zip(&version.rooms);
+            rooms
+                .map(|(values, &room)| of_folds.get(fold_of[version.of][room]).unwrap_or(&first).predict(values))
+                .collect::<Vec<_>>()
+        })?;
+
+        // The second round: every version with no rooms known, and with some known.
+        let mut random = Random::new(seed_of_part(seed, 2));
+        let told: Vec<[Vec<Vec<f32>>; 2]> = versions
+            .iter()
+            .zip(&looked)
+            .zip(&opinions)
+            .map(|((version, looked), opinions)| {
+                let rooms = &version.network.rooms;
                 let share = random.unit();
                 let known: Vec<Option<Label>> =
-                    rooms.rooms.iter().map(|room| room.label.filter(|_| random.unit() < share)).collect();
-                looked[network].with_labels(&opinions[network], &known, left_out)
+                    rooms.iter().map(|room| room.label.filter(|_| random.unit() < share)).collect();
+                let nothing = vec![None; rooms.len()];
+                [nothing, known].map(|known| looked.with_labels(opinions, &known, left_out))
             })
             .collect();
-        for &place in &places {
-            samples.push(&partly[place.network][place.room], label(networks, place), class_of(place));
+        let mut samples = Samples::default();
+        // All places with nothing known, then all of them with some rooms known.
+        let knowing_some = samples_of.iter().map(|&at| (at, 1));
+        for (at, knowing) in samples_of.iter().map(|&at| (at, 0)).chain(knowing_some) {
+            sample(&mut samples, at, &told[at.0][knowing][at.1]);
         }
-        let (of_folds, second) = grow(&samples, folds.as_ref(), 2, seed_of_part(seed, 3), work)?;
+        let folds_of = folds_of.repeat(2);
+        let (of_folds, second) = grow(&samples, &folds_of, count, choice, seed_of_part(seed, 3), work)?;
+        let typical = samples.columns.iter().map(|column| median(&column[..places.len()])).collect();
 
         // Temperature from rooms whose building the forest had not seen.
         let unseen = places.iter().enumerate().filter_map(|(index, &place)| {
@@ -433,28 +480,24 @@ fn inner_folds(networks: &[&RoomNetwork], places: &[RoomPlace], seed: u64) -> Op
         .ok()
 }
 
-/// A forest for each fold, trained on the samples of the others, and one trained on all. `times` is how
-/// many copies of the rooms the samples contain, one after the other.
+/// A forest for each of `count` folds, trained on the samples of the others, and one trained on all.
 fn grow(
     samples: &Samples,
-    folds: Option<&Folds>,
-    times: usize,
+    fold_of: &[usize],
+    count: usize,
+    choice: VersionChoice,
     seed: u64,
     work: &Work<'_>,
 ) -> Result<(Vec<Forest>, Forest), Cancelled> {
-    let rooms = samples.labels.len() / times;
-    let rows = |chosen: &[usize]| -> Vec<u32> {
-        (0..times).flat_map(|copy| chosen.iter().map(move |&row| (copy * rooms + row) as u32)).collect()
+    let rows = |keep: &dyn Fn(usize) -> bool| -> Vec<u32> {
+        (0..fold_of.len()).filter(|&row| keep(fold_of[row])).map(|row| row as u32).collect()
     };
-    let all: Vec<usize> = (0..rooms).collect();
-    let mut chosen: Vec<Vec<u32>> = vec![rows(&all)];
-    if let Some(folds) = folds {
-        chosen.extend((0..folds.count()).map(|fold| rows(&folds.training_rows(fold))));
-    }
+    let mut chosen: Vec<Vec<u32>> = vec![rows(&|_| true)];
+    chosen.extend((0..count).map(|fold| rows(&|of| of != fold)));
     let jobs: Vec<Job<'_>> = chosen
         .into_iter()
         .enumerate()
-        .map(|(index, rows)| Job { samples, rows, seed: seed_of_part(seed, index) })
+        .map(|(index, rows)| Job { samples, rows, choice, seed: seed_of_part(seed, index) })
         .collect();
     let mut forests = trees::grow(&jobs, work)?.into_iter();
     let of_all = forests.next().ok_or(Cancelled)?;

@@ -6,7 +6,7 @@ use crate::app::session::Session;
 use crate::base::wording::count;
 use crate::features::RoomStatus;
 use crate::workspace::query::{PlanColumn, RoomColumn};
-use crate::workspace::{Content, PlanEntry, PlanFile, Problems, RoomEntry};
+use crate::workspace::{PlanEntry, PlanFile, Problems, RoomEntry};
 
 /// A column as it is shown: its share of the width, whether its figures stand at the right, and the least width of the
 /// table in points at which it is shown.
@@ -38,12 +38,12 @@ pub(super) const ROOMS: &[Shape<RoomColumn>] = &[
     shape(RoomColumn::Name, 1.6, false, 0.0),
     shape(RoomColumn::Function, 1.6, false, 0.0),
     shape(RoomColumn::Label, 1.2, false, 0.0),
-    shape(RoomColumn::Area, 0.8, true, 560.0),
-    shape(RoomColumn::Prediction, 1.2, false, 480.0),
+    shape(RoomColumn::Area, 0.95, true, 560.0),
+    shape(RoomColumn::Prediction, 1.4, false, 480.0),
     shape(RoomColumn::Probability, 0.6, true, 480.0),
     shape(RoomColumn::Plan, 2.0, false, 0.0),
-    shape(RoomColumn::Building, 1.6, false, 760.0),
-    shape(RoomColumn::Typology, 1.0, false, 680.0),
+    shape(RoomColumn::Building, 1.6, false, 1000.0),
+    shape(RoomColumn::Typology, 1.0, false, 760.0),
 ];
 
 /// The columns that are shown in a table of some width, each with its left and right end.
@@ -76,10 +76,6 @@ pub(super) fn of_plan(session: &Session, file: &PlanFile, plan: Option<&PlanEntr
             PlanColumn::Name => file.name().to_owned(),
             PlanColumn::File => file.path.to_string(),
             PlanColumn::Changed => changed(session, file),
-            PlanColumn::Problems => match file.content {
-                Content::Broken(_) => "cannot be read".to_owned(),
-                _ => String::new(),
-            },
             _ => String::new(),
         };
     };

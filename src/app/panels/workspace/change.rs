@@ -39,6 +39,8 @@ impl Property {
 #[derive(Default)]
 pub(super) struct Form {
     property: Property,
+    /// Whether the table of rooms was shown.
+    is_of_rooms: bool,
     text: String,
     label: Option<Label>,
     typology: Option<Typology>,
@@ -74,8 +76,9 @@ impl Form {
         let Some(workspace) = &app.session.workspace else { return };
         let is_rooms = workspace.view.shows == Shows::Rooms;
         let properties: &[Property] = if is_rooms { &Property::OF_ROOMS } else { &Property::OF_PLANS };
-        if !properties.contains(&self.property) {
-            self.property = properties[0];
+        if self.is_of_rooms != is_rooms {
+            (self.is_of_rooms, self.property) = (is_rooms, properties[0]);
+            self.text.clear();
         }
         let schemes = app.session.schemes.clone();
         let is_empty = workspace.view.selected.is_empty();
@@ -144,12 +147,15 @@ impl Form {
             }
             let Some(workspace) = &app.session.workspace else { return };
             let change = self.change();
-            let needs_text = self.property == Property::Function && self.text.trim().is_empty();
+            let needs_text = matches!(self.property, Property::Building | Property::Function);
+            let needs_text = needs_text && self.text.trim().is_empty();
             let (said, number) = if is_empty {
                 let thing = if is_rooms { "rooms" } else { "plans" };
                 (format!("Select {thing} to change them together."), 0)
             } else if needs_text {
-                ("Type what the rooms are for.".to_owned(), 0)
+                let what =
+                    if change.is_of_plans() { "Type the building's name." } else { "Type what the rooms are for." };
+                (what.to_owned(), 0)
             } else {
                 let planned = self.planned(workspace);
                 (format!("{}.", planned.said(&change)), planned.changed)

@@ -94,13 +94,10 @@ fn card(table: &mut Table, app: &App, ui: &Ui, rect: Rect, row: PlanRow, revisio
             table.thumbnails.paint(ui, picture, &key, plan, app.session.palette(ui), revision);
             put_line(ui, file.title_of(plan), body, colours.text, upper);
             let problems = plan.problems.total();
-            let mut said = format!(
-                "{}, {} labelled",
-                count(plan.rooms.len(), "room"),
-                cells::percent(plan.labelled, plan.to_label)
-            );
+            let share = cells::percent(plan.labelled, plan.to_label);
+            let mut said = format!("{} · {share}", count(plan.rooms.len(), "room"));
             if !plan.storey.is_empty() {
-                said = format!("{}, {said}", plan.storey);
+                said = format!("{} · {said}", plan.storey);
             }
             let mut line = lower;
             if problems > 0 {

@@ -24,7 +24,7 @@ const GAP: f32 = 12.0;
 const BAR: f32 = 12.0;
 
 pub(super) fn show(table: &mut Table, app: &mut App, ui: &mut Ui) -> Option<Act> {
-    let Some(OpenWorkspace { view, .. }) = app.session.workspace.as_mut() else { return None };
+    let OpenWorkspace { view, .. } = app.session.workspace.as_mut()?;
     let (shows, length, cursor) = (view.shows, view.len(), view.cursor);
     let is_rooms = shows == Shows::Rooms;
     let (head, _) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
@@ -199,9 +199,7 @@ fn plan_row(
     for (column, is_figure, start, end) in columns(cells::PLANS, left, right) {
         let text = cells::of_plan(&app.session, file, plan, column);
         let cell = Rect::from_min_max(pos2(start, rect.top()), pos2(end - GAP, rect.bottom()));
-        let is_broken = matches!(file.content, Content::Broken(_));
         let colour = match column {
-            PlanColumn::Problems if is_broken => colours.error,
             PlanColumn::Problems if plan.is_some_and(|plan| plan.problems.errors > 0) => colours.error,
             PlanColumn::Problems if plan.is_some_and(|plan| plan.problems.warnings > 0) => colours.warning,
             PlanColumn::Name if plan.is_some() => colours.text,
@@ -209,6 +207,14 @@ fn plan_row(
             _ => colours.text_weak,
         };
         put(ui, &text, FontId::proportional(theme::BODY), colour, cell, is_figure);
+    }
+    if let Content::Broken(what) = &file.content {
+        // Across the columns that only a plan has.
+        let from = columns(cells::PLANS, left, right).iter().find(|it| it.0 == PlanColumn::Typology).map(|it| it.2);
+        let place =
+            Rect::from_min_max(pos2(from.unwrap_or(left + 160.0), rect.top()), pos2(right - 90.0, rect.bottom()));
+        let text = format!("Cannot be read: {what}");
+        put_line(ui, &text, FontId::proportional(theme::BODY), colours.error, place);
     }
     let (name, said) = plan_in_words(app, row);
     describe(response, is_selected, &name, &said);

@@ -20,8 +20,8 @@ use crate::workspace::change::{self, Change};
 /// Files that were changed together.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Changed {
-    /// What they got, in words.
-    pub what: String,
+    /// What was said of it.
+    pub said: String,
     /// By path, what stood there before, and what stands there since.
     pub files: BTreeMap<PathBuf, (Vec<u8>, Stamp)>,
 }
@@ -50,6 +50,7 @@ impl Session {
             return Err("nothing would change".to_owned());
         }
         let folder = workspace.now.folder().to_owned();
+        let said = planned.done(change);
         let mut files: BTreeMap<PathBuf, BTreeMap<u32, BTreeSet<RoomId>>> = BTreeMap::new();
         let (mut opened, mut refused) = (Vec::new(), Vec::new());
         for (path, plans) in planned.files {
@@ -70,11 +71,11 @@ impl Session {
                 }
             }
         }
-        let (change, what) = (change.clone(), change.words());
+        let change = change.clone();
         let kind = Kind::new("change plans").must_end();
         self.jobs.start(kind, move |work| {
             let mut written = write(&files, &change, work);
-            written.changed.what = what;
+            written.changed.said = said;
             written.failed.extend(refused);
             move |session: &mut Session, _: &Context| session.workspace_was_changed(written, &opened)
         });
@@ -87,9 +88,7 @@ impl Session {
         lines.extend(named("Written", &names));
         lines.extend(named("Open, and not saved yet", opened));
         lines.extend(named("Not changed", &failed));
-        let plans = count(changed.files.len() + opened.len(), "file");
-        let verb = if changed.files.len() + opened.len() == 1 { "has" } else { "have" };
-        let text = format!("{plans} {verb} rooms or plans with {} now", changed.what);
+        let text = if failed.is_empty() { changed.said.clone() } else { "Not all could be changed".to_owned() };
         self.status.clone_from(&text);
         let severity = if failed.is_empty() { Severity::Info } else { Severity::Warning };
         self.say_of_program(severity, text, lines.join("\n"));
@@ -113,6 +112,7 @@ impl Session {
         }
         let changed = self.workspace.as_mut().and_then(|workspace| workspace.changed.take());
         let Some(changed) = changed else { return Err("no files were changed".to_owned()) };
+        self.messages.retain(|message| message.text != changed.said);
         self.jobs.start(Kind::new("put plans back").must_end(), move |work| {
             let files: Vec<(PathBuf, (Vec<u8>, Stamp))> = changed.files.into_iter().collect();
             let put_back = |at: usize| -> Result<(), String> {

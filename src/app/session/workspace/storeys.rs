@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crate::app::session::Session;
 use crate::app::session::document::Document;
 use crate::app::session::origin::{Origin, file_name};
+use crate::app::session::wishes::Wish;
 use crate::base::natural_order::NaturalKey;
 use crate::edit::storey;
 use crate::formats::{self, building_name};
@@ -100,7 +101,8 @@ impl Session {
     /// Shows the storey below, once its plan is there.
     pub(crate) fn show_awaited_ghost(&mut self) {
         let Some((origin, below)) = &self.awaited_ghost else { return };
-        if self.document.as_ref().is_none_or(|document| document.origin != *origin) {
+        let wanted = self.open_of(origin);
+        if self.document.as_ref().is_none_or(|document| wanted != Some(document.number)) {
             return;
         }
         let is_there = self.ghost.as_ref().is_some_and(|ghost| ghost.origin.as_ref() == Some(below));
@@ -141,6 +143,8 @@ impl Session {
         let off =
             if mismatch_m < 0.005 { String::new() } else { format!(", {mismatch_m:.2} m apart at the second point") };
         self.status = format!("Laid over the storey below by {said}{off}");
+        // It may have come from far away.
+        self.wishes.push(Wish::Fit);
         Ok(())
     }
 }
