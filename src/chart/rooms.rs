@@ -6,6 +6,16 @@ use crate::dataset::{Row, Statistics};
 use crate::features::Features;
 use crate::labels::Label;
 
+/// Which of these charts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChartKind {
+    Balance,
+    Histogram,
+    Scatter,
+    LearningCurve,
+    ByBuilding,
+}
+
 /// Bins of a histogram of a measure.
 const BINS: usize = 24;
 

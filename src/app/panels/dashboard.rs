@@ -13,11 +13,11 @@ use crate::app::look::widgets::{
     Lead, ROW, Row, caption, colours, dialog_frame, hairline_in, put_line, right, section, strong, text_button,
 };
 use crate::app::session::at_hand::AtHand;
-use crate::app::session::measures::{ChartKind, ChartWanted, Measured, set_words};
+use crate::app::session::measures::{ChartWanted, Measured, set_words};
 use crate::app::state::{After, App, Dialog, Entry, dialogs};
 use crate::app::value::{Call, Value};
 use crate::base::wording::{count, sentence, thousands};
-use crate::chart::rooms::FEATURES;
+use crate::chart::rooms::{ChartKind, FEATURES};
 use crate::classify::Algorithm;
 use crate::dataset::sets::STANDARD;
 use crate::dataset::{Row as RoomRow, Statistics};
