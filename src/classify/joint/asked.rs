@@ -6,8 +6,21 @@
 
 use std::sync::Arc;
 
-use super::trees::{Node, Tree};
 use crate::classify::Distribution;
+
+/// A node of a tree; the children of a question come after it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Node {
+    /// Is the feature at most this? Yes leads to the next node, no to the one with the index `no`.
+    Question { feature: usize, at_most: f32, no: usize },
+    /// How many samples of each label ended here.
+    Leaf([u32; 5]),
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Tree {
+    pub nodes: Vec<Node>,
+}
 
 /// The nodes of all trees of a forest.
 #[derive(Clone, Debug, Default)]

@@ -4,6 +4,8 @@
 
 use std::sync::OnceLock;
 
+pub(super) use super::asked::{Node, Tree};
+
 use super::asked::Asked;
 use crate::base::random::{Random, seed_of_part};
 use crate::base::work::{Cancelled, Work};
@@ -68,20 +70,6 @@ impl Samples {
         }
         counts
     }
-}
-
-/// A node of a tree; the children of a question come after it.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Node {
-    /// Is the feature at most this? Yes leads to the next node, no to the one with the index `no`.
-    Question { feature: usize, at_most: f32, no: usize },
-    /// How many samples of each label ended here.
-    Leaf([u32; 5]),
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Tree {
-    pub nodes: Vec<Node>,
 }
 
 #[derive(Clone, Debug, Default)]

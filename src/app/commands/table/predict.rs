@@ -4,6 +4,7 @@ use super::*;
 
 use crate::app::session::live::NEIGHBOURS;
 use crate::app::session::live::WhatIf;
+use crate::base::units::parse_number;
 use crate::classify::Method;
 use crate::features::Features;
 use crate::pipeline::SecondOpinion;
@@ -50,7 +51,7 @@ impl App {
             Ok(index) => index,
             Err(refused) => return refused,
         };
-        match value.parse::<f64>().ok().filter(|value| value.is_finite()) {
+        match parse_number(value).ok().filter(|value| value.is_finite()) {
             Some(value) => {
                 self.panels.set_shown(panels::WHAT_IF, true);
                 self.session.try_feature(index, value);
