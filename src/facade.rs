@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::path::Path;
+use std::sync::Arc;
 
 use crate::classify::model_file::ModelFileError;
 use crate::classify::models::Models;
@@ -97,7 +98,7 @@ impl OpenPlan {
     }
 
     /// Areas, graph, and the features `F_r` of each room.
-    pub fn analyse(&self) -> Analysis {
+    pub fn analyse(&self) -> Arc<Analysis> {
         Pipeline::new(&self.plan, &self.schemes).into_analysis()
     }
 

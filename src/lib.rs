@@ -22,6 +22,7 @@
 #[cfg(feature = "gui")]
 pub mod app;
 pub mod base;
+pub mod chart;
 pub mod check;
 pub mod classify;
 #[cfg(feature = "cli")]
@@ -39,10 +40,13 @@ pub mod picture;
 pub mod pipeline;
 pub mod plan;
 pub mod predict;
+pub mod review;
 pub mod robot;
 pub mod snapping;
 pub mod store;
 pub mod study;
 pub mod topology;
+pub mod training;
+pub mod workspace;
 
 pub use facade::{Error, OpenPlan, open, open_all};

@@ -12,17 +12,18 @@ use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
 use crate::base::units::Units;
 use crate::base::work::{Cancelled, Work};
+use crate::classify::Method;
 use crate::classify::model_file::ModelFileError;
 use crate::classify::models::{Models, StoredModel};
 use crate::classify::why::Why;
-use crate::dataset::RoomNetwork;
 use crate::dataset::sets::STANDARD;
+use crate::dataset::{Measured, RoomNetwork};
 use crate::draw::Drawing;
-use crate::features::{Analysis, NeighbourLabels, analyse};
+use crate::features::{Analysis, NeighbourLabels, analyse_after};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::labels::{Schemes, Typology, normalised_function};
 use crate::plan::{ElementId, OpeningId, Plan, RoomId};
-use crate::predict::{ModelSet, Predictions, Predictor, infer};
+use crate::predict::{After, ModelSet, Predictions, Predictor, infer};
 use crate::snapping::PlanIndex;
 use crate::topology::{self, Gap};
 
@@ -31,8 +32,10 @@ pub struct Pipeline<'a> {
     plan: &'a Plan,
     schemes: &'a Schemes,
     neighbours: NeighbourLabels,
-    analysis: OnceCell<Analysis>,
-    network: OnceCell<RoomNetwork>,
+    before: Option<&'a Labelled>,
+    analysis: OnceCell<Arc<Analysis>>,
+    measured: OnceCell<Measured>,
+    network: OnceCell<Arc<RoomNetwork>>,
 }
 
 impl<'a> Pipeline<'a> {
@@ -44,17 +47,41 @@ impl<'a> Pipeline<'a> {
     /// The same, with features that count these labels of neighbours. The network and the predictions do
     /// not depend on it: they count labels themselves.
     pub fn counting(plan: &'a Plan, schemes: &'a Schemes, neighbours: NeighbourLabels) -> Self {
-        Self { plan, schemes, neighbours, analysis: OnceCell::new(), network: OnceCell::new() }
+        let (analysis, measured, network) = (OnceCell::new(), OnceCell::new(), OnceCell::new());
+        Self { plan, schemes, neighbours, before: None, analysis, measured, network }
+    }
+
+    /// After an edit of the plan that this was derived from. It is only faster: the results are the same.
+    fn after(self, before: Option<&'a Labelled>) -> Self {
+        Self { before, ..self }
+    }
+
+    fn shared_analysis(&self) -> &Arc<Analysis> {
+        self.analysis.get_or_init(|| {
+            let before = self.before.map(|before| before.analysis.as_ref());
+            Arc::new(analyse_after(self.plan, self.schemes, self.neighbours, before))
+        })
     }
 
     /// Shapes, graph, and the features and status of each room.
     pub fn analysis(&self) -> &Analysis {
-        self.analysis.get_or_init(|| analyse(self.plan, self.schemes, self.neighbours))
+        self.shared_analysis()
+    }
+
+    fn measured(&self) -> &Measured {
+        self.measured.get_or_init(|| match self.before {
+            None => Measured::new(self.plan, self.analysis()),
+            Some(before) => Measured::after(self.plan, self.analysis(), &before.analysis, &before.measured),
+        })
+    }
+
+    fn shared_network(&self) -> &Arc<RoomNetwork> {
+        self.network.get_or_init(|| Arc::new(RoomNetwork::of_measured(self.plan, self.analysis(), self.measured())))
     }
 
     /// The rooms as classifiers see them.
     pub fn network(&self) -> &RoomNetwork {
-        self.network.get_or_init(|| RoomNetwork::of(self.plan, self.analysis()))
+        self.shared_network()
     }
 
     /// A model's predictions for the rooms.
@@ -62,18 +89,26 @@ impl<'a> Pipeline<'a> {
     /// # Errors
     /// When a bundled model cannot be read, which the tests rule out.
     pub fn predictions(&self, asked: &Asked) -> Result<Predictions, ModelFileError> {
+        self.predictions_after(asked, After::Nothing)
+    }
+
+    fn predictions_after(&self, asked: &Asked, after: After<'_>) -> Result<Predictions, ModelFileError> {
         let (network, choice) = match (&asked.model, &asked.predictor.set) {
             (None, ModelSet::Auto) => {
                 // What the plan states decides nothing: not the models, nor which rooms are classified.
-                let choice = infer(&RoomNetwork::without_typology(self.plan, self.schemes));
+                let taken_for = |typology: Option<&Typology>| {
+                    let (analysis, measured) = (self.analysis(), self.measured());
+                    RoomNetwork::of_analysed_taken_for(self.plan, analysis, measured, typology, self.schemes)
+                };
+                let choice = infer(&taken_for(None));
                 let typology = Typology::new(&choice.set).filter(|_| choice.set != STANDARD);
-                (RoomNetwork::taken_for(self.plan, typology.as_ref(), self.schemes), Some(choice))
+                (Arc::new(taken_for(typology.as_ref())), Some(choice))
             }
-            _ => (self.network().clone(), None),
+            _ => (self.shared_network().clone(), None),
         };
         let known = if asked.hides_labels { vec![None; network.rooms.len()] } else { network.known_labels() };
         match &asked.model {
-            None => asked.predictor.predict_as(network, choice, &known, asked.neighbours, &asked.models),
+            None => asked.predictor.predict_as(network, choice, &known, asked.neighbours, &asked.models, after),
             Some(model) => Ok(Predictions::by(network, model.clone(), &known, asked.neighbours)),
         }
     }
@@ -83,14 +118,77 @@ impl<'a> Pipeline<'a> {
         let drawing = Drawing::new(self.plan, self.analysis());
         match predictions {
             None => drawing,
-            Some(predictions) => drawing.with_predictions(&predictions.labels()),
+            Some(predictions) => drawing.with_predictions(&predictions.labels()).with_sureness(&predictions.sureness()),
         }
     }
 
     /// Takes the analysis out.
-    pub fn into_analysis(self) -> Analysis {
-        self.analysis();
-        self.analysis.into_inner().unwrap_or_else(|| analyse(self.plan, self.schemes, self.neighbours))
+    pub fn into_analysis(self) -> Arc<Analysis> {
+        self.shared_analysis().clone()
+    }
+}
+
+/// Which models label a plan, and which others are asked beside them.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LabelledBy {
+    pub predictor: Predictor,
+    /// A second opinion, to compare.
+    pub second: Option<SecondOpinion>,
+}
+
+/// Another method, or other labels of neighbours, with models of the same set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SecondOpinion {
+    pub method: Method,
+    /// `None`: as in the model's training.
+    pub neighbours: Option<NeighbourLabels>,
+}
+
+/// A plan with the labels predicted for its rooms: what must follow an edit at once. From one the next is worked out, with the
+/// same result as if there had been none before.
+pub struct Labelled {
+    pub analysis: Arc<Analysis>,
+    measured: Measured,
+    /// The predictions for the rooms; `None` if none were requested, or there is no model of the
+    /// requested method.
+    pub predictions: Option<Arc<Predictions>>,
+    /// The second opinion, if one was asked for and there is a model for it.
+    pub second: Option<Arc<Predictions>>,
+    /// Which models were to predict.
+    pub by: Option<LabelledBy>,
+}
+
+impl Labelled {
+    /// Labels the rooms of a plan; without models, all but the predictions. `before` are the labels before an edit, under
+    /// the same schemes or others.
+    pub fn new(plan: &Plan, schemes: &Schemes, by: Option<(&LabelledBy, &Models)>, before: Option<&Self>) -> Self {
+        let pipeline = Pipeline::new(plan, schemes).after(before);
+        let of_before = before.and_then(|before| before.predictions.as_deref()).map_or(After::Start, After::Edit);
+        let second_before = before.and_then(|before| before.second.as_deref()).map_or(After::Start, After::Edit);
+        let predictions: Option<Arc<Predictions>> = by.and_then(|(by, models)| {
+            let predicted = pipeline.predictions_after(&Asked::by(&by.predictor, models), of_before);
+            predicted.ok().map(Arc::new)
+        });
+        let second = by.zip(predictions.as_ref()).and_then(|((by, models), first)| {
+            let SecondOpinion { method, neighbours } = by.second?;
+            // By models of the set that the first were chosen from.
+            let predictor = Predictor { set: ModelSet::Named(first.choice.set.clone()), method };
+            let known = first.network.known_labels();
+            let network = first.network.clone();
+            predictor.predict_as(network, None, &known, neighbours, models, second_before).ok().map(Arc::new)
+        });
+        Self {
+            measured: pipeline.measured().clone(),
+            analysis: pipeline.into_analysis(),
+            predictions,
+            second,
+            by: by.map(|(by, _)| by.clone()),
+        }
+    }
+
+    /// The plan.
+    pub fn plan(&self) -> &Plan {
+        self.analysis.plan()
     }
 }
 
@@ -121,13 +219,13 @@ type Reason = ((RoomId, Units), Option<Arc<Why>>);
 
 /// What is derived from a plan.
 pub struct Derived {
-    pub analysis: Analysis,
+    /// The plan and its labels.
+    pub labelled: Arc<Labelled>,
+    /// That of [`Derived::labelled`].
+    pub analysis: Arc<Analysis>,
     pub drawing: Drawing,
-    /// The predictions for the rooms; `None` if none were requested, or there is no model of the
-    /// requested method.
-    pub predictions: Option<Predictions>,
-    /// Which models were to predict.
-    pub predictor: Option<Predictor>,
+    /// Those of [`Derived::labelled`].
+    pub predictions: Option<Arc<Predictions>>,
     reason: Mutex<Option<Reason>>,
     /// A spatial index of corners, walls and boundaries: for snapping and selecting.
     pub index: PlanIndex,
@@ -198,48 +296,42 @@ impl PointDistance for LeafPlace {
 impl Derived {
     /// Computes everything derived from a plan; without a predictor, all but predictions.
     pub fn new(plan: &Plan, schemes: &Schemes, predictor: Option<(Predictor, Models)>) -> Self {
-        let pipeline = Pipeline::new(plan, schemes);
-        let predictions = predictor.as_ref().and_then(|(by, models)| pipeline.predictions(&Asked::by(by, models)).ok());
-        let drawing = Drawing::in_tiles(plan, pipeline.analysis());
-        Self::of(plan, pipeline.into_analysis(), predictions, predictor.map(|(by, _)| by), drawing)
+        let by = predictor.map(|(predictor, models)| (LabelledBy { predictor, second: None }, models));
+        let by = by.as_ref().map(|(by, models)| (by, models));
+        Self::from_labelled(Arc::new(Labelled::new(plan, schemes, by, None)))
+    }
+
+    /// Computes the rest of what is derived from a plan whose rooms are labelled.
+    pub fn from_labelled(labelled: Arc<Labelled>) -> Self {
+        let drawing = Drawing::in_tiles(labelled.plan(), &labelled.analysis);
+        Self::of(labelled, drawing)
     }
 
     /// The same, stopping between steps when the work is cancelled.
     ///
     /// # Errors
     /// When cancelled.
-    pub fn by_steps(
-        plan: &Plan,
-        schemes: &Schemes,
-        predictor: Option<(Predictor, Models)>,
-        work: &Work<'_>,
-    ) -> Result<Self, Cancelled> {
-        let pipeline = Pipeline::new(plan, schemes);
+    pub fn by_steps(labelled: Arc<Labelled>, work: &Work<'_>) -> Result<Self, Cancelled> {
         work.goes_on()?;
-        pipeline.analysis();
+        labelled.analysis.net_rooms();
         work.goes_on()?;
-        let predictions = predictor.as_ref().and_then(|(by, models)| pipeline.predictions(&Asked::by(by, models)).ok());
+        let drawing = Drawing::in_tiles(labelled.plan(), &labelled.analysis);
         work.goes_on()?;
-        let drawing = Drawing::in_tiles(plan, pipeline.analysis());
-        work.goes_on()?;
-        Ok(Self::of(plan, pipeline.into_analysis(), predictions, predictor.map(|(by, _)| by), drawing))
+        Ok(Self::of(labelled, drawing))
     }
 
-    fn of(
-        plan: &Plan,
-        analysis: Analysis,
-        predictions: Option<Predictions>,
-        predictor: Option<Predictor>,
-        drawing: Drawing,
-    ) -> Self {
+    fn of(labelled: Arc<Labelled>, drawing: Drawing) -> Self {
+        let (analysis, predictions) = (labelled.analysis.clone(), labelled.predictions.clone());
+        let plan = labelled.plan();
         let openings = plan
             .openings()
             .filter_map(|(id, opening)| Some(OpeningPlace { id, segment: plan.opening_segment(opening)? }))
             .collect();
-        let labels = predictions.as_ref().map(Predictions::labels).unwrap_or_default();
+        let labels = predictions.as_deref().map(Predictions::labels).unwrap_or_default();
         // Compared here, beside the frames, for the panel that shows it.
-        predictions.as_ref().map(Predictions::acquaintance);
-        let drawing = drawing.with_predictions(&labels);
+        predictions.as_deref().map(Predictions::acquaintance);
+        let sureness = predictions.as_deref().map(Predictions::sureness).unwrap_or_default();
+        let drawing = drawing.with_predictions(&labels).with_sureness(&sureness);
         let reading_order = analysis.shapes.reading_order();
         let openings = RTree::bulk_load(openings);
         let leaf = |(id, [hinge, shut, tip]): (OpeningId, [Point; 3])| LeafPlace { id, hinge, shut, tip };
@@ -252,10 +344,10 @@ impl Derived {
         let gaps = topology::gaps(plan);
         let reason = Mutex::default();
         Self {
+            labelled,
             analysis,
             drawing,
             predictions,
-            predictor,
             reason,
             index,
             gaps,

@@ -10,6 +10,7 @@ use std::sync::{Arc, OnceLock};
 use crate::base::units::Units;
 use crate::base::wording::{count, sentence};
 use crate::classify::blend::Opinions;
+use crate::classify::explain::{NearRoom, Reason};
 use crate::classify::in_plan::{self, InPlan};
 use crate::classify::joint::FirstRound;
 use crate::classify::learned::Acquaintance;
@@ -20,7 +21,7 @@ use crate::classify::why::{OnPlan, Why};
 use crate::classify::{Distribution, Method, PlanClassifier};
 use crate::dataset::sets::STANDARD;
 use crate::dataset::{NetworkDoor, RoomNetwork};
-use crate::features::NeighbourLabels;
+use crate::features::{Features, NeighbourLabels};
 use crate::labels::{Label, Typology};
 use crate::plan::{OpeningId, RoomId};
 
@@ -149,35 +150,44 @@ impl Predictor {
     /// When there is no model for the set and the method.
     pub fn predict(
         &self,
-        network: RoomNetwork,
+        network: impl Into<Arc<RoomNetwork>>,
         known: &[Option<Label>],
         neighbours: Option<NeighbourLabels>,
         models: &Models,
     ) -> Result<Predictions, ModelFileError> {
-        self.predict_as(network, None, known, neighbours, models)
+        self.predict_as(network, None, known, neighbours, models, After::Nothing)
     }
 
-    /// The same by the models of a choice that was made before.
+    /// The same by the models of a choice that was made before, and after what was predicted before.
     ///
     /// # Errors
     /// As [`Predictor::predict`].
     pub fn predict_as(
         &self,
-        network: RoomNetwork,
+        network: impl Into<Arc<RoomNetwork>>,
         choice: Option<Choice>,
         known: &[Option<Label>],
         neighbours: Option<NeighbourLabels>,
         models: &Models,
+        after: After<'_>,
     ) -> Result<Predictions, ModelFileError> {
+        let network = network.into();
         if let ModelSet::Model(name) = &self.set
             && let Some(model) = models.named(name)
         {
-            return Ok(Predictions::by(network, model?, known, neighbours));
+            let model = model?;
+            let choice = Choice::of_model(&model);
+            return Ok(Predictions::after(network, choice, model, known, neighbours, after));
         }
         let choice = choice.unwrap_or_else(|| self.choose(&network, models));
+        if self.method == DEFAULT_METHOD
+            && let Some(model) = models.default_of(&choice.set)
+        {
+            return Ok(Predictions::new(network, choice, model, known, neighbours));
+        }
         let method = models.method_for(&choice.set, self.method).unwrap_or(self.method);
         let model = models.find(&choice.set, method)?;
-        Ok(Predictions::new(network, choice, model, known, neighbours))
+        Ok(Predictions::after(network, choice, model, known, neighbours, after))
     }
 
     /// Chooses the set of models for a plan.
@@ -185,6 +195,11 @@ impl Predictor {
         let stated = network.typology.as_ref();
         match (&self.set, stated) {
             (ModelSet::Named(name) | ModelSet::Model(name), _) => Choice::stated(name, "as told"),
+            (ModelSet::OfPlan, Some(stated))
+                if self.method == DEFAULT_METHOD && models.default_of(stated.as_str()).is_some() =>
+            {
+                Choice::stated(stated.as_str(), "set for the plan")
+            }
             (ModelSet::OfPlan, Some(stated)) => match models.method_for(stated.as_str(), self.method) {
                 Some(_) => Choice::stated(stated.as_str(), "set for the plan"),
                 // Models of another typology would know it less well than those of all.
@@ -218,6 +233,11 @@ impl Choice {
         self.reasons.iter().map(|reason| reason.words(units)).collect::<Vec<_>>().join("; ")
     }
 
+    /// The choice of one model, whatever the plan.
+    fn of_model(model: &StoredModel) -> Self {
+        Self::stated(model.set(), "of the model")
+    }
+
     /// A choice that needs no inference.
     pub fn stated(set: &str, because: &str) -> Self {
         Self { set: set.to_owned(), because: because.to_owned(), posterior: Vec::new(), reasons: Vec::new() }
@@ -248,10 +268,22 @@ pub fn infer(network: &RoomNetwork) -> Choice {
     Choice { set: typology.as_str().to_owned(), because, posterior, reasons: model.reasons(network, &known) }
 }
 
+/// What was predicted before, from which the next predictions are worked out faster, with the same result.
+#[derive(Clone, Copy, Debug, Default)]
+pub enum After<'a> {
+    /// Nothing, nor will anything follow.
+    #[default]
+    Nothing,
+    /// Nothing, but edits of the plan will follow.
+    Start,
+    /// The predictions before an edit of the plan, made for edits to follow.
+    Edit(&'a Predictions),
+}
+
 /// What explanations start from, besides the result: by the kind of classifier.
 #[derive(Clone, Debug)]
 enum Origin {
-    Each,
+    Each(in_plan::Said),
     Joint(Box<FirstRound>),
     Blend(Box<Opinions>),
 }
@@ -261,7 +293,7 @@ enum Origin {
 pub struct Predictions {
     pub choice: Choice,
     pub model: Arc<StoredModel>,
-    pub network: RoomNetwork,
+    pub network: Arc<RoomNetwork>,
     /// The labels that could be used, one per room.
     known: Vec<Option<Label>>,
     /// Which labels of neighbours counted.
@@ -277,24 +309,41 @@ pub struct Predictions {
 impl Predictions {
     /// Classifies the rooms of a network with one model, whatever the plan's typology.
     pub fn by(
-        network: RoomNetwork,
+        network: impl Into<Arc<RoomNetwork>>,
         model: Arc<StoredModel>,
         known: &[Option<Label>],
         neighbours: Option<NeighbourLabels>,
     ) -> Self {
-        let choice = Choice::stated(model.set(), "of the model");
+        let choice = Choice::of_model(&model);
         Self::new(network, choice, model, known, neighbours)
     }
 
     /// Classifies the rooms of a network. `known` holds, for each room, the label that may be used when
     /// it is a neighbour; without `neighbours`, they are taken as in the model's training.
     pub fn new(
-        network: RoomNetwork,
+        network: impl Into<Arc<RoomNetwork>>,
         choice: Choice,
         model: Arc<StoredModel>,
         known: &[Option<Label>],
         neighbours: Option<NeighbourLabels>,
     ) -> Self {
+        Self::after(network.into(), choice, model, known, neighbours, After::Nothing)
+    }
+
+    /// The same, after what was predicted before: the result does not depend on it.
+    pub fn after(
+        network: Arc<RoomNetwork>,
+        choice: Choice,
+        model: Arc<StoredModel>,
+        known: &[Option<Label>],
+        neighbours: Option<NeighbourLabels>,
+        after: After<'_>,
+    ) -> Self {
+        let is_kept = !matches!(after, After::Nothing);
+        let before = match after {
+            After::Edit(before) if Arc::ptr_eq(&before.model, &model) => Some(&before.origin),
+            _ => None,
+        };
         let neighbours = neighbours.unwrap_or(model.about.neighbours);
         // Two rounds of its own: neighbours' predicted labels, or known ones.
         let of_plan = |distributions: Vec<Distribution>| {
@@ -304,15 +353,30 @@ impl Predictions {
         };
         let (neighbours, result, origin) = match &model.classifier {
             PlanClassifier::Each(classifier) => {
-                (neighbours, in_plan::classify(classifier, &network, known, neighbours), Origin::Each)
+                let before = before.and_then(|before| if let Origin::Each(said) = before { Some(said) } else { None });
+                let (result, said) = in_plan::classify_after(classifier, &network, known, neighbours, before);
+                (neighbours, result, Origin::Each(if is_kept { said } else { in_plan::Said::default() }))
             }
             PlanClassifier::Joint(joint) => {
-                let round = joint.first_round(&network);
-                let distributions = joint.predict_from(&round, known);
+                let before =
+                    before.and_then(|it| if let Origin::Joint(round) = it { Some(round.as_ref()) } else { None });
+                let (round, distributions) = if is_kept {
+                    joint.predict_after(&network, known, None, before)
+                } else {
+                    let round = joint.first_round(&network);
+                    let distributions = joint.predict_from(&round, known);
+                    (round, distributions)
+                };
                 (NeighbourLabels::Predicted, of_plan(distributions), Origin::Joint(Box::new(round)))
             }
             PlanClassifier::Blend(blend) => {
-                let opinions = blend.opinions(&network, known);
+                let before =
+                    before.and_then(|it| if let Origin::Blend(said) = it { Some(said.as_ref()) } else { None });
+                let opinions = if is_kept {
+                    blend.opinions_after(&network, known, before)
+                } else {
+                    blend.opinions(&network, known)
+                };
                 let distributions = opinions.distributions.clone();
                 (NeighbourLabels::Predicted, of_plan(distributions), Origin::Blend(Box::new(opinions)))
             }
@@ -358,6 +422,17 @@ impl Predictions {
         }
     }
 
+    /// The rooms that the model learned from that are most like a room, nearest first, if its label follows from these; with
+    /// the room's own features.
+    pub fn nearest(&self, room: RoomId) -> Option<(Features, Vec<NearRoom>)> {
+        let PlanClassifier::Each(classifier) = &self.model.classifier else { return None };
+        let features = self.result.features[*self.index_of.get(&room)?];
+        match classifier.explain(&features.values()).reason {
+            Reason::Neighbours(reason) => Some((features, reason.neighbours)),
+            Reason::Rule(_) | Reason::Path(_) | Reason::Features(_) => None,
+        }
+    }
+
     /// What is to be marked on the plan where a point of a room's reason is seen; nothing for a room that is not
     /// classified.
     pub fn marks(&self, room: RoomId, on_plan: &OnPlan) -> Marks {
@@ -396,6 +471,12 @@ impl Predictions {
     /// The predicted labels of all classified rooms.
     pub fn labels(&self) -> BTreeMap<RoomId, Label> {
         self.index_of.iter().map(|(&room, &index)| (room, self.result.distributions[index].label())).collect()
+    }
+
+    /// How sure the predictions of all classified rooms are: the probability of each label, 0..=1.
+    pub fn sureness(&self) -> BTreeMap<RoomId, f64> {
+        let sure = |said: &Distribution| said.probability(said.label());
+        self.index_of.iter().map(|(&room, &index)| (room, sure(&self.result.distributions[index]))).collect()
     }
 
     /// What lies behind each opening that leads into unexplored space (or outside), should there be a
@@ -494,5 +575,30 @@ impl fmt::Display for Agreement {
                 write!(f, "{right} of {known} known labels predicted correctly ({:.0} %)", 100.0 * share)
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::labels::Schemes;
+
+    #[test]
+    fn a_default_predicts_where_nobody_asks_for_a_method() {
+        let plans = crate::store::bundled_plans().expect("the bundled plans read");
+        let house = &plans.iter().find(|(name, _)| name.starts_with("dwelling")).expect("a house").1;
+        let network = RoomNetwork::new(house, &Schemes::bundled());
+        let defaults = BTreeMap::from([("house".to_owned(), "house-knn".to_owned())]);
+        let models = Models::bundled().with_defaults(defaults);
+        let by = |method: Method, models: &Models| {
+            let predictor = Predictor { method, ..Predictor::default() };
+            predictor.predict(network.clone(), &[], None, models).expect("there is a model").model.name.clone()
+        };
+        assert_eq!(by(DEFAULT_METHOD, &models), "house-knn");
+        assert_eq!(by(Method::Joint, &models), "house-joint");
+        assert_eq!(by(DEFAULT_METHOD, &Models::bundled()), "house-blend");
+        // One that is not there any more is none.
+        let gone = Models::bundled().with_defaults(BTreeMap::from([("house".to_owned(), "gone".to_owned())]));
+        assert_eq!(by(DEFAULT_METHOD, &gone), "house-blend");
     }
 }

@@ -18,6 +18,8 @@ mod import;
 mod joint;
 mod pictures;
 mod pipeline;
+mod review;
 mod robot;
 mod study;
 mod support;
+mod workspace;

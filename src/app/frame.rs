@@ -53,6 +53,8 @@ impl App {
         self.write_executed();
         self.session.take_outcomes(&context);
         self.grant_wishes(&context);
+        self.session.show_awaited_room();
+        self.session.show_awaited_ghost();
         self.session.take_waiting();
         if let Some(path) = self.session.recovering.take() {
             self.session.show_recovered(&path, &context);
@@ -61,10 +63,13 @@ impl App {
         self.session.watch_file(&context);
         self.take_dropped_files(&context);
         self.take_close_request(&context);
+        panels::demo::take_input(self, &context);
         self.take_menu_keys(&context);
         self.take_tool_keys(&context);
         self.take_shortcuts(&context);
+        self.session.play_demo(&context);
         self.refresh();
+        self.session.go_on_reviewing();
         self.session.check_findings(&context);
         self.session.compare_with_theirs();
         self.session.drop_stale_messages();
@@ -139,6 +144,7 @@ impl App {
                 Wish::CloseRecovery => self.set_dialog(panels::recovery::ID, false),
                 Wish::CloseDifferences => self.set_dialog(panels::differences::ID, false),
                 Wish::Run(call) => self.act_on(call, context),
+                Wish::OpenListed(origin) => self.open_listed(&origin, context),
                 Wish::Resume(draft) => {
                     self.session.draft = Some(draft.clone());
                     self.tools.resume(draft);

@@ -15,6 +15,8 @@ use crate::store;
 pub struct WindowOptions {
     /// The plan to show: a file of any known format, or a folder of them; `None` for the welcome page.
     pub plan: Option<PathBuf>,
+    /// Whether to start with the demonstration.
+    pub demo: bool,
 }
 
 /// Why no window opened.
@@ -62,10 +64,13 @@ pub fn run_window(options: WindowOptions) -> Result<(), WindowError> {
         }
         app.session.use_own_schemes_and_models();
         app.session.use_clock(now);
+        app.session.cache_folder = store::cache_folder();
         if let Some(folder) = store::journal_folder() {
             app.use_journal(folder);
         }
-        if let Some(path) = options.plan {
+        if options.demo {
+            app.session.start_demo();
+        } else if let Some(path) = options.plan {
             // Nothing else is open yet.
             let _ = app.session.open(Origin::File { path, storey: 0 });
         }

@@ -7,11 +7,13 @@ use crate::app::look::keys::Keys;
 pub(crate) use crate::app::session::words::{
     UNKNOWN, element, elements_word, is_own_word, point_in, points_word, room, room_word, sample_word, switch_word,
 };
+use crate::app::session::workspace::shows::Shows;
 use crate::app::session::{bulk::Order, selection::SelectMode};
+use crate::chart::rooms::ChartKind;
 use crate::classify::Method;
 use crate::edit::{Alignment, DrawingMoves, End, Lies, Reach, storey::Keep};
 use crate::geometry::{Point, Vector};
-use crate::labels::Typology;
+use crate::labels::{Label, Typology};
 use crate::plan::{DimensionAlong, ElementId, GuideAxis, LeafSide, OpeningId, OpeningKind, RoomId};
 use crate::predict::ModelSet;
 
@@ -97,6 +99,17 @@ impl Worded for OpeningKind {
     const ALL: &'static [Self] = &[Self::Door, Self::DoubleDoor, Self::Passage, Self::Window];
 }
 
+impl Worded for Label {
+    const WORDS: &'static [(&'static str, &'static str)] = &[
+        ("small", "Small room"),
+        ("medium", "Medium room"),
+        ("big", "Big room"),
+        ("corridor", "Corridor"),
+        ("hall", "Hall"),
+    ];
+    const ALL: &'static [Self] = &Self::ALL;
+}
+
 impl Worded for End {
     const WORDS: &'static [(&'static str, &'static str)] = &[("start", "At its start"), ("end", "At its end")];
     const ALL: &'static [Self] = &Self::BOTH;
@@ -139,6 +152,18 @@ impl Worded for DimensionAlong {
     const WORDS: &'static [(&'static str, &'static str)] =
         &[("horizontal", "Level"), ("vertical", "Upright"), ("aligned", "From the first point to the last")];
     const ALL: &'static [Self] = &Self::ALL;
+}
+
+impl Worded for ChartKind {
+    const WORDS: &'static [(&'static str, &'static str)] = &[
+        ("labels", "Labels and their shares"),
+        ("histogram", "How often a feature's values occur"),
+        ("scatter", "Rooms by two features"),
+        ("learning-curve", "Learning curve"),
+        ("buildings", "Accuracy by building"),
+    ];
+    const ALL: &'static [Self] =
+        &[Self::Balance, Self::Histogram, Self::Scatter, Self::LearningCurve, Self::ByBuilding];
 }
 
 impl Worded for Order {
@@ -232,4 +257,9 @@ impl Worded for Direction {
     const WORDS: &'static [(&'static str, &'static str)] =
         &[("left", "Left"), ("right", "Right"), ("up", "Up"), ("down", "Down")];
     const ALL: &'static [Self] = &[Self::Left, Self::Right, Self::Up, Self::Down];
+}
+
+impl Worded for Shows {
+    const WORDS: &'static [(&'static str, &'static str)] = Shows::WORDS;
+    const ALL: &'static [Self] = &[Self::Plans, Self::Grid, Self::Rooms];
 }

@@ -54,6 +54,12 @@ impl<'a> Work<'a> {
         Self { progress, cancelled, ..self }
     }
 
+    /// With another watcher of the progress; cancelled as before.
+    #[must_use]
+    pub fn telling(self, progress: &'a (dyn Fn(usize, usize) + Sync)) -> Self {
+        Self { progress, ..self }
+    }
+
     /// For a part of other work: single-threaded, cancelled with the whole, without progress of its own.
     #[must_use]
     pub fn alone(self) -> Self {

@@ -14,10 +14,10 @@ use std::sync::Arc;
 use serde_json::{Value, json};
 
 use super::calibration::fitted_temperature;
-use super::in_plan;
 use super::joint::{FirstRound, Joint, JointExplanation};
-use super::why::{Why, and_list};
+use super::why::{OnPlan, Point, Why, and_list, speaks};
 use super::{Algorithm, Classifier, Distribution, Method};
+use super::{given, in_plan};
 use crate::base::units::Units;
 use crate::dataset::RoomNetwork;
 use crate::dataset::sets::STANDARD;
@@ -99,7 +99,11 @@ pub struct Opinions {
     of_parts: Vec<Vec<Distribution>>,
     /// For each part that is a joint classifier, its first round: where explanations start.
     rounds: Vec<Option<FirstRound>>,
-    /// The blend's distribution of each room.
+    /// For each part that looks at each room by itself, what it said, for the next plan.
+    said: Vec<Option<in_plan::Said>>,
+    /// The mean of the parts.
+    means: Vec<Distribution>,
+    /// The blend's distribution of each room: the mean, corrected by the labels that were given ([`given::corrected`]).
     pub distributions: Vec<Distribution>,
 }
 
@@ -132,7 +136,8 @@ impl Blend {
         self.temperature
     }
 
-    /// What every part and all together say of a network's rooms. `known` as in [`super::joint::Joint::predict`].
+    /// What every part and all together say of a network's rooms. `known` as in [`super::joint::Joint::predict`]: the parts are
+    /// asked as if nothing were known, since what they make of given labels is worth less than what shows where they are wrong.
     pub fn opinions(&self, network: &RoomNetwork, known: &[Option<Label>]) -> Opinions {
         let (mut of_parts, mut rounds): (Vec<Vec<Distribution>>, Vec<Option<FirstRound>>) = (Vec::new(), Vec::new());
         for part in &self.parts {
@@ -142,25 +147,70 @@ impl Blend {
                         Some(other) => joint.first_round_after(network, other),
                         None => joint.first_round(network),
                     };
-                    of_parts.push(joint.predict_from(&round, known));
+                    of_parts.push(joint.predict_from(&round, &[]));
                     rounds.push(Some(round));
                 }
                 Some(Kind::Each(classifier)) => {
                     let neighbours = NeighbourLabels::Predicted;
-                    of_parts.push(in_plan::classify(classifier, network, known, neighbours).distributions);
+                    of_parts.push(in_plan::classify(classifier, network, &[], neighbours).distributions);
                     rounds.push(None);
                 }
                 None => {}
             }
         }
+        self.together(of_parts, rounds, Vec::new(), network, known)
+    }
+
+    /// The same of the plan after an edit, to the last bit; `before` is what this blend said of the plan before it, by this
+    /// function too.
+    pub fn opinions_after(
+        &self,
+        network: &RoomNetwork,
+        known: &[Option<Label>],
+        before: Option<&Opinions>,
+    ) -> Opinions {
+        let (mut of_parts, mut rounds, mut said) = (Vec::new(), Vec::<Option<FirstRound>>::new(), Vec::new());
+        for (index, part) in self.parts.iter().enumerate() {
+            match part.model.kind() {
+                Some(Kind::Joint(joint)) => {
+                    let other = rounds.iter().flatten().next();
+                    let before = before.and_then(|before| before.rounds.get(index)?.as_ref());
+                    let (round, distributions) = joint.predict_after(network, &[], other, before);
+                    of_parts.push(distributions);
+                    rounds.push(Some(round));
+                    said.push(None);
+                }
+                Some(Kind::Each(classifier)) => {
+                    let before = before.and_then(|before| before.said.get(index)?.as_ref());
+                    let neighbours = NeighbourLabels::Predicted;
+                    let (result, kept) = in_plan::classify_after(classifier, network, &[], neighbours, before);
+                    of_parts.push(result.distributions);
+                    rounds.push(None);
+                    said.push(Some(kept));
+                }
+                None => {}
+            }
+        }
+        self.together(of_parts, rounds, said, network, known)
+    }
+
+    fn together(
+        &self,
+        of_parts: Vec<Vec<Distribution>>,
+        rounds: Vec<Option<FirstRound>>,
+        said: Vec<Option<in_plan::Said>>,
+        network: &RoomNetwork,
+        known: &[Option<Label>],
+    ) -> Opinions {
         let weights: Vec<f64> = self.parts.iter().map(|part| part.weight).collect();
-        let distributions = (0..network.rooms.len())
+        let means: Vec<Distribution> = (0..network.rooms.len())
             .map(|room| {
                 let said: Vec<Distribution> = of_parts.iter().map(|said| said[room]).collect();
                 Distribution::mean(&said, &weights).at_temperature(self.temperature)
             })
             .collect();
-        Opinions { of_parts, rounds, distributions }
+        let distributions = given::corrected(network, known, &means);
+        Opinions { of_parts, rounds, said, means, distributions }
     }
 
     /// Why a room got its label, with areas in these units; `None` for a room that is not in the network. The points are those
@@ -186,10 +236,17 @@ impl Blend {
         };
         let said: Vec<(&Part, Distribution)> =
             self.parts.iter().zip(&opinions.of_parts).map(|(part, said)| (part, said[room])).collect();
+        let (mean, corrected) = (opinions.means[room], opinions.distributions[room]);
+        if let Some((speaks, _)) = speaks(label, |of| corrected.probability(of) - mean.probability(of)) {
+            let like = given::like(network, known, room);
+            let seen = given::words(&like);
+            let on_plan = OnPlan::Rooms(like.into_iter().map(|(other, _)| other).collect());
+            why.add(Point { seen, speaks: Some(speaks), on_plan });
+        }
         if !why.conclusion.is_empty() {
             why.conclusion.push(' ');
         }
-        why.conclusion.push_str(&who_said_what(&said, label));
+        why.conclusion.push_str(&who_said_what(&said, label, mean.label()));
         Some(why)
     }
 
@@ -265,7 +322,7 @@ fn fitted(unseen: impl Iterator<Item = (Distribution, Label)>) -> f64 {
 }
 
 /// `All four parts say big room: ...` or which part says what.
-fn who_said_what(said: &[(&Part, Distribution)], label: Label) -> String {
+fn who_said_what(said: &[(&Part, Distribution)], label: Label, mean: Label) -> String {
     let mut by_label: BTreeMap<Label, Vec<String>> = BTreeMap::new();
     for (part, said) in said {
         let of = match part.model.set() {
@@ -278,7 +335,8 @@ fn who_said_what(said: &[(&Part, Distribution)], label: Label) -> String {
     }
     let for_it = by_label.remove(&label).unwrap_or_default();
     let mut sentence = match (for_it.is_empty(), by_label.is_empty()) {
-        (true, _) => format!("No part says {label} first, but together they make it most likely"),
+        (true, _) if mean == label => format!("No part says {label} first, but together they make it most likely"),
+        (true, _) => format!("No part says {label} first, but the labels given to rooms like it do"),
         (false, _) => {
             format!("{} {} {label}", capital(&and_list(&for_it)), if for_it.len() == 1 { "says" } else { "say" })
         }

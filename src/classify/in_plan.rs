@@ -1,6 +1,8 @@
 //! Classifying all rooms of a plan at once: unknown labels of neighbours are predicted too, and
 //! predictions repeated until none changes.
 
+use std::collections::BTreeMap;
+
 use super::{Algorithm, Classifier, Distribution};
 use crate::base::random::seed_of_part;
 use crate::base::work::{Cancelled, Work};
@@ -9,6 +11,7 @@ use crate::dataset::table::Table;
 use crate::dataset::{RoomNetwork, RoomPlace, Row};
 use crate::features::{Features, NeighbourLabels};
 use crate::labels::Label;
+use crate::plan::RoomId;
 
 /// The most rounds of prediction. Real plans settle after two to five; the few that do not alternate
 /// between two states, which no number of rounds would end.
@@ -26,6 +29,29 @@ pub struct InPlan {
     pub settled: bool,
 }
 
+/// What a classifier said of rooms, by their features: kept for the plan after an edit.
+#[derive(Clone, Debug, Default)]
+pub struct Said {
+    rooms: Vec<RoomId>,
+    /// For each room its features in each round that they changed, with what was said.
+    of_rooms: Vec<Vec<(Features, Distribution)>>,
+}
+
+/// More rounds than these are not kept of a room.
+const MOST_KEPT: usize = 4;
+
+impl Said {
+    /// For each of these rooms its place here; `None` for one that is new.
+    fn places(&self, rooms: &[RoomId]) -> Vec<Option<usize>> {
+        if self.rooms == rooms {
+            return (0..rooms.len()).map(Some).collect();
+        }
+        let places: BTreeMap<RoomId, usize> =
+            self.rooms.iter().enumerate().map(|(place, &room)| (room, place)).collect();
+        rooms.iter().map(|room| places.get(room).copied()).collect()
+    }
+}
+
 /// Classifies the rooms of a plan. `known` holds, for each room of the network, the label that may be
 /// used when it is a neighbour (never for its own prediction), if known.
 pub fn classify(
@@ -34,10 +60,45 @@ pub fn classify(
     known: &[Option<Label>],
     neighbours: NeighbourLabels,
 ) -> InPlan {
+    classify_after(classifier, network, known, neighbours, None).0
+}
+
+/// The same of the plan after an edit, with what is to be kept for the next one: of rooms with the features that they had
+/// before, the classifier is not asked again. `before` is what the same classifier said of the plan before.
+pub fn classify_after(
+    classifier: &Classifier,
+    network: &RoomNetwork,
+    known: &[Option<Label>],
+    neighbours: NeighbourLabels,
+    before: Option<&Said>,
+) -> (InPlan, Said) {
+    let rooms: Vec<RoomId> = network.rooms.iter().map(|room| room.id).collect();
+    let places = before.map_or_else(Vec::new, |before| before.places(&rooms));
+    let mut said = Said { of_rooms: vec![Vec::new(); rooms.len()], rooms };
+    let said_before = |room: usize, features: &Features| {
+        let kept = before?.of_rooms.get((*places.get(room)?)?)?;
+        kept.iter().find(|(of, _)| of == features).map(|(_, distribution)| *distribution)
+    };
+    let mut round = |seen: &[Label]| {
+        let features: Vec<Features> = (0..network.rooms.len()).map(|room| network.features(room, seen)).collect();
+        let ask = |(room, features): (usize, &Features)| {
+            let kept = &mut said.of_rooms[room];
+            if let Some((_, distribution)) = kept.iter().find(|(of, _)| of == features) {
+                return *distribution;
+            }
+            let distribution = said_before(room, features).unwrap_or_else(|| classifier.predict(&features.values()));
+            if kept.len() < MOST_KEPT {
+                kept.push((*features, distribution));
+            }
+            distribution
+        };
+        let distributions = features.iter().enumerate().map(ask).collect();
+        InPlan { distributions, features, rounds: 1, settled: false }
+    };
     let mut seen = network.seen_labels(known, neighbours);
-    let mut result = predict(classifier, network, &seen);
+    let mut result = round(&seen);
     if neighbours != NeighbourLabels::Predicted {
-        return InPlan { settled: true, ..result };
+        return (InPlan { settled: true, ..result }, said);
     }
     while result.rounds < MOST_ROUNDS {
         let known = |room: usize| known.get(room).copied().flatten();
@@ -45,19 +106,12 @@ pub fn classify(
             .map(|room| known(room).unwrap_or_else(|| result.distributions[room].label()))
             .collect();
         if next == seen {
-            return InPlan { settled: true, ..result };
+            return (InPlan { settled: true, ..result }, said);
         }
         seen = next;
-        result = InPlan { rounds: result.rounds + 1, ..predict(classifier, network, &seen) };
+        result = InPlan { rounds: result.rounds + 1, ..round(&seen) };
     }
-    result
-}
-
-/// One round.
-fn predict(classifier: &Classifier, network: &RoomNetwork, seen: &[Label]) -> InPlan {
-    let features: Vec<Features> = (0..network.rooms.len()).map(|room| network.features(room, seen)).collect();
-    let distributions = features.iter().map(|features| classifier.predict(&features.values())).collect();
-    InPlan { distributions, features, rounds: 1, settled: false }
+    (result, said)
 }
 
 /// Folds for giving training rooms the predicted labels of their neighbours.

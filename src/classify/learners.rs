@@ -37,6 +37,9 @@ impl Algorithm {
     /// The multilayer perceptron.
     pub const PERCEPTRON: Self = Self(3);
 
+    /// The decision tree.
+    pub const TREE: Self = Self(1);
+
     /// Position in [`LEARNERS`].
     pub const fn index(self) -> usize {
         self.0

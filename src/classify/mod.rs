@@ -7,6 +7,7 @@ pub mod condition;
 mod distribution;
 mod evaluate;
 pub mod explain;
+pub mod given;
 pub mod in_plan;
 pub mod joint;
 pub mod learned;

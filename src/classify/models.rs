@@ -85,6 +85,8 @@ fn name_of(set: &str, method: Method) -> String {
 pub struct Models {
     /// Sorted by name.
     own: Arc<[Arc<StoredModel>]>,
+    /// The names of the models that predict where nobody asks for a method, by set.
+    defaults: Arc<BTreeMap<String, String>>,
 }
 
 impl Models {
@@ -99,7 +101,23 @@ impl Models {
         let before = self.own.iter().map(|model| (model.name.clone(), model.clone()));
         let added = own.into_iter().map(|model| (model.name.clone(), Arc::new(model)));
         let by_name: BTreeMap<String, Arc<StoredModel>> = before.chain(added).collect();
-        Self { own: by_name.into_values().collect() }
+        Self { own: by_name.into_values().collect(), ..self.clone() }
+    }
+
+    /// With models, by name, that predict for a set (a typology, or [`STANDARD`]) where nobody asks for a method.
+    #[must_use]
+    pub fn with_defaults(&self, defaults: BTreeMap<String, String>) -> Self {
+        Self { defaults: Arc::new(defaults), ..self.clone() }
+    }
+
+    /// The names of the models chosen as defaults, by set.
+    pub fn defaults(&self) -> &BTreeMap<String, String> {
+        &self.defaults
+    }
+
+    /// The model chosen as the default of a set; `None` where none is, or it is not there.
+    pub fn default_of(&self, set: &str) -> Option<Arc<StoredModel>> {
+        self.named(self.defaults.get(set)?)?.ok()
     }
 
     /// The user's own models, by name.

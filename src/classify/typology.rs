@@ -15,7 +15,6 @@ use serde_json::{Value, json};
 use crate::base::random::Random;
 use crate::base::units::Units;
 use crate::dataset::RoomNetwork;
-use crate::dataset::flats::Flats;
 use crate::labels::{Label, Typology};
 use crate::plan::OpeningKind;
 
@@ -94,13 +93,13 @@ const LEAST: f64 = 1e-6;
 /// The measures of a plan with at least one room; all finite. Of a storey of flats the mean of its flats' measures: three
 /// dwellings beside each other have as many rooms as an office.
 fn measures(network: &RoomNetwork) -> Option<Measures> {
-    let Some(flats) = Flats::of(network) else { return measures_of(network) };
+    let Some(flats) = network.flats() else { return measures_of(network) };
     let of_flats: Option<Vec<Measures>> = flats.flats.iter().map(|flat| measures_of(&network.part(flat))).collect();
     let of_flats = of_flats.filter(|of_flats| !of_flats.is_empty())?;
     Some(of_flats.iter().sum::<Measures>() / of_flats.len() as f64)
 }
 
-/// The measures of a plan as it is drawn: what is learned from, since an office may look as if it were cut into flats.
+/// The measures of a plan as it is drawn: what is learned from.
 fn measures_of(network: &RoomNetwork) -> Option<Measures> {
     if network.rooms.is_empty() {
         return None;

@@ -99,6 +99,17 @@ impl Why {
         alike.map(|points| Group { title: self.title(points[0].speaks, points.len()), points }).collect()
     }
 
+    /// Adds a point behind those that speak for the same label as strongly.
+    pub(super) fn add(&mut self, point: Point) {
+        let label = self.label;
+        let rank = |point: &Point| {
+            let speaks = point.speaks.map(|speaks| (speaks.label != label, speaks.label, speaks.strength));
+            speaks.map(|(is_other, other, strength)| (is_other, is_other.then_some(other), strength))
+        };
+        let place = self.points.iter().position(|other| rank(other) > rank(&point)).unwrap_or(self.points.len());
+        self.points.insert(place, point);
+    }
+
     fn title(&self, speaks: Option<Speaks>, points: usize) -> String {
         let Some(Speaks { label, strength }) = speaks else { return "What was seen".to_owned() };
         let (strength, is_for_it) = (strength.name(), label == self.label);

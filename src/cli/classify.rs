@@ -23,7 +23,7 @@ use crate::labels::Label;
 use crate::pipeline::{Asked, Pipeline};
 use crate::plan::{LabelOrigin, OpeningId, Plan, RoomLabel};
 use crate::predict::{Agreement, DEFAULT_METHOD, ModelSet, Predictions, Predictor};
-use crate::store::{MODEL_ENDING, checked_bytes, load_model, models_folder, models_in, save_plan};
+use crate::store::{MODEL_ENDING, checked_bytes, default_models, load_model, models_folder, models_in, save_plan};
 
 /// How plan files end.
 const PLAN_ENDING: &str = "plan.json";
@@ -106,11 +106,13 @@ impl ModelsOption {
         if let Some(folder) = self.folder.as_ref().filter(|folder| !folder.is_dir()) {
             return Err(CliError::call(format!("{}: no such folder of models; check the path", folder.display())));
         }
-        let (own, errors) = self.folder().as_deref().map(models_in).unwrap_or_default();
+        let folder = self.folder();
+        let (own, errors) = folder.as_deref().map(models_in).unwrap_or_default();
+        let defaults = folder.as_deref().map(default_models).unwrap_or_default();
         for error in &errors {
             terminal.error(error)?;
         }
-        Ok((Models::bundled().with(own), errors.len()))
+        Ok((Models::bundled().with(own).with_defaults(defaults), errors.len()))
     }
 }
 

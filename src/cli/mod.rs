@@ -7,6 +7,7 @@ mod classify;
 mod collect;
 #[cfg(feature = "gui")]
 mod commands;
+mod compare;
 mod completions;
 mod dataset;
 mod door;
@@ -31,11 +32,13 @@ mod render;
 mod repeats;
 #[cfg(feature = "gui")]
 mod replay;
+mod review;
 mod robot_study;
 mod scales;
 mod segment;
 mod suspects;
 mod train;
+mod workspace;
 
 use std::ffi::OsString;
 use std::fmt::Display;
@@ -57,10 +60,13 @@ const SUBCOMMANDS: &[Entry] = &[
     entry::<dataset::DatasetCommand>(),
     entry::<export::ExportCommand>(),
     entry::<check::CheckCommand>(),
+    entry::<workspace::WorkspaceCommand>(),
     entry::<render::RenderCommand>(),
     entry::<classify::ClassifyCommand>(),
     entry::<evaluate::EvaluateCommand>(),
     entry::<suspects::SuspectsCommand>(),
+    entry::<review::ReviewCommand>(),
+    entry::<compare::CompareCommand>(),
     entry::<label::LabelCommand>(),
     entry::<train::TrainCommand>(),
     entry::<models::ModelsCommand>(),
@@ -317,6 +323,13 @@ pub fn command() -> Command {
                 .value_parser(clap::value_parser!(PathBuf))
                 .help("Plan to open in the window"),
         )
+        .arg(
+            Arg::new("demo")
+                .long("demo")
+                .action(ArgAction::SetTrue)
+                .conflicts_with("plan")
+                .help("Start with the demonstration: a school is drawn and labelled in less than a minute"),
+        )
         .args_conflicts_with_subcommands(true);
     SUBCOMMANDS.iter().fold(command, |command, entry| command.subcommand((entry.command)()))
 }
@@ -351,7 +364,10 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, terminal: &mut Termina
             Some(entry) => (entry.run)(matches, terminal),
             None => Err(CliError::call(format!("unknown subcommand {name}"))),
         },
-        None => open::open(matches.get_one::<PathBuf>("plan").map(PathBuf::as_path), terminal),
+        None => {
+            let plan = matches.get_one::<PathBuf>("plan").map(PathBuf::as_path);
+            open::open(plan, matches.get_flag("demo"), terminal)
+        }
     };
     let flushed = terminal.out.flush().map_err(CliError::from);
     match result.and_then(|outcome| flushed.map(|()| outcome)) {

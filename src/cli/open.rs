@@ -22,28 +22,31 @@ const OUTPUT: &str = "enfilade-out";
 const PICTURE_PX: f64 = 1600.0;
 
 /// Opens the window on a plan, or on a bundled one; without a display, runs the headless job.
-pub fn open(plan: Option<&Path>, terminal: &mut Terminal) -> Result<Outcome, CliError> {
+pub fn open(plan: Option<&Path>, demo: bool, terminal: &mut Terminal) -> Result<Outcome, CliError> {
     if let Some(plan) = plan
         && !plan.exists()
     {
         return Err(CliError::new(format!("{}: no such file or folder; check the path", plan.display())));
     }
-    let why = match window(plan) {
+    let why = match window(plan, demo) {
         None => return Ok(Outcome::Done),
         Some(why) => why,
     };
+    if demo {
+        return Err(CliError::new(format!("{why}: the demonstration needs a window")));
+    }
     writeln!(terminal.err, "{why}: doing the same work without a window, in ./{OUTPUT}")?;
     headless(plan, terminal)
 }
 
 #[cfg(feature = "gui")]
-fn window(plan: Option<&Path>) -> Option<String> {
-    let options = crate::app::WindowOptions { plan: plan.map(Path::to_owned) };
+fn window(plan: Option<&Path>, demo: bool) -> Option<String> {
+    let options = crate::app::WindowOptions { plan: plan.map(Path::to_owned), demo };
     crate::app::run_window(options).err().map(|error| error.to_string())
 }
 
 #[cfg(not(feature = "gui"))]
-fn window(_plan: Option<&Path>) -> Option<String> {
+fn window(_plan: Option<&Path>, _demo: bool) -> Option<String> {
     Some("this build has no window (cargo feature 'gui')".to_owned())
 }
 

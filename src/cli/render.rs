@@ -32,7 +32,7 @@ pub struct RenderCommand {
     /// Pixels of the longer side, or WIDTHxHEIGHT
     #[arg(long, value_name = "PIXELS", default_value = "1600", value_parser = page_size)]
     size: PageSize,
-    /// What the colours of the rooms show; with 'prediction', a known label that differs shows as a rim
+    /// What the colours of the rooms show; with 'prediction', a room with another known label is hatched
     #[arg(long, alias = "color", value_name = "BY", default_value = "label",
           value_parser = PossibleValuesParser::new(Fill::ALL.map(Fill::name)))]
     colour: String,

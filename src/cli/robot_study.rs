@@ -31,16 +31,16 @@ pub struct RobotStudyCommand {
     #[arg(long, value_name = "DIR")]
     learn: Vec<PathBuf>,
     /// Explore at most N plans of each typology, drawn by the seed; the others only teach
-    #[arg(long, value_name = "N")]
-    most_plans: Option<usize>,
+    #[arg(long, value_name = "N", default_value_t = 10)]
+    most_plans: usize,
     /// Explore no plan with more than N rooms: they take long, and teach all the same
-    #[arg(long, value_name = "N")]
-    most_rooms: Option<usize>,
+    #[arg(long, value_name = "N", default_value_t = 30)]
+    most_rooms: usize,
     /// Levels of sensor noise, as multiples of the usual
-    #[arg(long, value_name = "LEVELS", default_value = "0,1,4,10", value_parser = Levels::read)]
+    #[arg(long, value_name = "LEVELS", default_value = "1,4,10", value_parser = Levels::read)]
     sensor_noise: Levels,
     /// Levels of odometry noise, as multiples of the usual
-    #[arg(long, value_name = "LEVELS", default_value = "0,1,2,4", value_parser = Levels::read)]
+    #[arg(long, value_name = "LEVELS", default_value = "1,2,4", value_parser = Levels::read)]
     odometry_noise: Levels,
     /// Levels of furniture, in pieces a room
     #[arg(long, value_name = "LEVELS", default_value = "0,3,6", value_parser = Levels::read_whole)]
@@ -110,7 +110,7 @@ impl Subcommand for RobotStudyCommand {
     const NAME: &'static str = "robot-study";
     const ABOUT: &'static str = "Measure what noise and furniture cost a simulated robot that finds and labels rooms";
     const EXAMPLE: &'static str =
-        "enfilade robot-study schools offices --learn houses --most-plans 10 -o study   # go on: call it again";
+        "enfilade robot-study schools offices --learn houses -o study   # go on: call it again";
 
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         must_be_folder(&self.output)?;
@@ -167,8 +167,7 @@ impl RobotStudyCommand {
         let mut words = vec!["enfilade robot-study".to_owned()];
         words.extend(self.plans.iter().map(path));
         words.extend(self.learn.iter().map(|it| format!("--learn {}", path(it))));
-        words.extend(self.most_plans.map(|most| format!("--most-plans {most}")));
-        words.extend(self.most_rooms.map(|most| format!("--most-rooms {most}")));
+        words.push(format!("--most-plans {} --most-rooms {}", self.most_plans, self.most_rooms));
         words.extend(self.scheme.iter().map(|it| format!("--scheme {}", path(it))));
         words.push(format!("--sensor-noise {}", self.sensor_noise.words()));
         words.push(format!("--odometry-noise {}", self.odometry_noise.words()));
@@ -217,14 +216,10 @@ impl RobotStudyCommand {
             .filter(|(network, _)| network.rooms.iter().any(|room| !room.is_repeat))
             .map(|(network, (plan, is_explored))| StudyPlan { plan, network, is_explored })
             .collect();
-        if let Some(most) = self.most_rooms {
-            for plan in &mut plans {
-                plan.is_explored &= plan.plan.rooms().len() <= most;
-            }
+        for plan in &mut plans {
+            plan.is_explored &= plan.plan.rooms().len() <= self.most_rooms;
         }
-        if let Some(most) = self.most_plans {
-            draw(&mut plans, most, self.seed);
-        }
+        draw(&mut plans, self.most_plans, self.seed);
         Ok((plans, read))
     }
 

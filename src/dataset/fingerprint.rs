@@ -2,14 +2,11 @@
 //! same when the plan is moved, turned or mirrored, when corners are listed from another start or the other way round, and
 //! when points are added along an edge; they do not depend on names, labels or the file's format.
 
-use std::collections::BTreeMap;
-
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use crate::base::hash;
 use crate::geometry::{Point, polygon};
-use crate::plan::RoomId;
 use crate::topology::{RoomShape, RoomShapes};
 
 /// Nearest rooms that count. With three, rooms of one size tell apart by where they are along a corridor, and a room changed
@@ -89,23 +86,95 @@ fn hashes(measures: &[f64], step: f64, noise: f64) -> Vec<u32> {
     all.into_iter().map(folded).collect()
 }
 
-/// The prints of all rooms of a plan that enclose an area, whatever they are for: what counts as a neighbour must not depend on
-/// a label scheme.
-pub fn prints(shapes: &RoomShapes) -> BTreeMap<RoomId, RoomPrint> {
-    let mut rooms: Vec<(RoomId, RoomPrint)> =
-        shapes.all().iter().filter_map(|shape| Some((shape.id, of_shape(shape)?))).collect();
-    let point = |at: Point| [at.x, at.y];
-    let centres: Vec<_> =
-        rooms.iter().enumerate().map(|(index, (_, room))| GeomWithData::new(point(room.centre), index)).collect();
-    let tree = RTree::bulk_load(centres);
-    for (index, (_, room)) in rooms.iter_mut().enumerate() {
-        let nearest = tree.nearest_neighbor_iter(point(room.centre)).filter(|other| other.data != index);
-        for (slot, other) in room.measures[MEASURES - NEAREST..].iter_mut().zip(nearest) {
-            let [x, y] = *other.geom();
-            *slot = room.centre.distance(Point::new(x, y));
+/// The prints of all rooms of a plan that enclose an area, in the order of [`RoomShapes::all`], whatever they are for: what
+/// counts as a neighbour must not depend on a label scheme.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Prints(Vec<Option<RoomPrint>>);
+
+/// With more rooms changed by an edit, all are compared again.
+const FEW_CHANGED: usize = 40;
+
+impl Prints {
+    pub fn new(shapes: &RoomShapes) -> Self {
+        let mut prints = Self(shapes.all().iter().map(of_shape).collect());
+        let centres = prints.0.iter().enumerate().filter_map(|(index, room)| Some((index, room.as_ref()?.centre)));
+        let tree =
+            RTree::bulk_load(centres.map(|(index, centre)| GeomWithData::new([centre.x, centre.y], index)).collect());
+        for (index, room) in prints.0.iter_mut().enumerate() {
+            let Some(room) = room else { continue };
+            let nearest =
+                tree.nearest_neighbor_iter([room.centre.x, room.centre.y]).filter(|other| other.data != index);
+            for (slot, other) in room.measures[MEASURES - NEAREST..].iter_mut().zip(nearest) {
+                let [x, y] = *other.geom();
+                *slot = room.centre.distance(Point::new(x, y));
+            }
         }
+        prints
     }
-    rooms.into_iter().collect()
+
+    /// The prints after an edit, from those before it: the same as [`Prints::new`]. A room is compared again where one that
+    /// changed was or is among the nearest.
+    pub fn after(shapes: &RoomShapes, shapes_before: &RoomShapes, before: &Self) -> Self {
+        let mut prints: Vec<Option<RoomPrint>> = Vec::with_capacity(shapes.all().len());
+        let mut is_new: Vec<bool> = Vec::with_capacity(shapes.all().len());
+        let mut changed: Vec<Point> = Vec::new();
+        let mut known = shapes_before.all().iter().zip(&before.0).peekable();
+        for shape in shapes.all() {
+            // Both are sorted by id; what is passed over has gone.
+            while let Some((_, gone)) = known.next_if(|(earlier, _)| earlier.id < shape.id) {
+                changed.extend(gone.as_ref().map(|print| print.centre));
+            }
+            let earlier = known.next_if(|(earlier, _)| earlier.id == shape.id);
+            match earlier.filter(|(earlier, _)| *earlier == shape) {
+                Some((_, print)) => {
+                    prints.push(*print);
+                    is_new.push(false);
+                }
+                None => {
+                    let print = of_shape(shape);
+                    changed.extend(earlier.and_then(|(_, print)| print.as_ref()).map(|print| print.centre));
+                    changed.extend(print.as_ref().map(|print| print.centre));
+                    prints.push(print);
+                    is_new.push(true);
+                }
+            }
+        }
+        changed.extend(known.filter_map(|(_, gone)| Some(gone.as_ref()?.centre)));
+        if changed.len() > FEW_CHANGED {
+            return Self::new(shapes);
+        }
+        let centres: Vec<Option<Point>> = prints.iter().map(|print| Some(print.as_ref()?.centre)).collect();
+        for (index, print) in prints.iter_mut().enumerate() {
+            let Some(print) = print else { continue };
+            let nearest = &mut print.measures[MEASURES - NEAREST..];
+            let farthest_m = if nearest.contains(&0.0) { f64::INFINITY } else { nearest[NEAREST - 1] };
+            let centre = print.centre;
+            if !is_new[index] && !changed.iter().any(|other| centre.distance(*other) <= farthest_m + 1e-9) {
+                continue;
+            }
+            // The nearest so far, by the square of the distance as the tree compares them.
+            let mut near = [(f64::INFINITY, 0.0); NEAREST];
+            for (_, other) in centres.iter().enumerate().filter(|(other, _)| *other != index) {
+                let Some(other) = *other else { continue };
+                let (x, y) = (other.x - centre.x, other.y - centre.y);
+                let square = x * x + y * y;
+                if square < near[NEAREST - 1].0 {
+                    let place = near.iter().position(|(than, _)| square < *than).unwrap_or(NEAREST - 1);
+                    near[place..].rotate_right(1);
+                    near[place] = (square, centre.distance(other));
+                }
+            }
+            for (slot, (_, distance_m)) in nearest.iter_mut().zip(near) {
+                *slot = distance_m;
+            }
+        }
+        Self(prints)
+    }
+
+    /// The print of the room with an index in [`RoomShapes::all`].
+    pub fn of(&self, index: usize) -> Option<&RoomPrint> {
+        self.0.get(index)?.as_ref()
+    }
 }
 
 fn of_shape(shape: &RoomShape) -> Option<RoomPrint> {
@@ -142,7 +211,7 @@ mod tests {
     use crate::plan::Plan;
 
     fn of(plan: &Plan) -> Vec<RoomPrint> {
-        prints(&RoomShapes::new(plan)).into_values().collect()
+        Prints::new(&RoomShapes::new(plan)).0.into_iter().flatten().collect()
     }
 
     /// A plan moved, turned by some angle and mirrored, its corners put on the grid again: each room is still itself.

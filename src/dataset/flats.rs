@@ -1,6 +1,8 @@
 //! A storey of flats, cut at the flats' entrance doors. Classifiers compare the rooms of a dwelling with each other; the twenty
 //! rooms of three flats and their stairs are no dwelling, nor are they an office.
 
+use std::sync::OnceLock;
+
 use super::RoomNetwork;
 
 /// The flats of a storey, and what they share. Rooms by their index in the network, ascending.
@@ -28,14 +30,17 @@ const MOST_OF_STOREY: usize = 150;
 /// Share of the storey's rooms that must lie in flats: the rooms off an office's corridor do not.
 const LEAST_SHARE: f64 = 0.75;
 
+/// A larger room at a landing that leads nowhere else is neither a lift nor a cupboard for meters.
+const SINGLE_M2: f64 = 8.0;
+
 impl Flats {
     /// The flats of a storey; `None` for a plan that is not one.
     ///
     /// Parts of the plan that no door joins are divided at their landings: a landing is the room without which a part falls
     /// apart most evenly. What is left is a storey of flats if each has the rooms and the area of a dwelling, and if together
-    /// they hold three quarters of the rooms. In a school or an office most rooms end at a corridor, so that without it single
-    /// rooms are left.
-    pub fn of(network: &RoomNetwork) -> Option<Self> {
+    /// they hold three quarters of the rooms, and if each has one entrance at most. In a school or an office most rooms end at a
+    /// corridor, so that without it single rooms are left; at a landing there are more flats than those.
+    fn of(network: &RoomNetwork) -> Option<Self> {
         let rooms = network.rooms.len();
         if !(2 * LEAST_ROOMS..=MOST_OF_STOREY).contains(&rooms) {
             return None;
@@ -59,11 +64,19 @@ impl Flats {
         if flats.len() < 2 || !flats.iter().all(is_flat) || (in_flats as f64) < LEAST_SHARE * rooms as f64 {
             return None;
         }
-        let mut is_common = vec![true; rooms];
-        for &room in flats.iter().flatten() {
-            is_common[room] = false;
+        let mut flat_of = vec![None; rooms];
+        for (index, flat) in flats.iter().enumerate() {
+            flat.iter().for_each(|&room| flat_of[room] = Some(index));
         }
-        Some(Self { flats, common: (0..rooms).filter(|&room| is_common[room]).collect() })
+        let entrances = |flat: usize| {
+            let doors = flats[flat].iter().flat_map(|&room| &joined[room]);
+            doors.filter(|&&other| flat_of[other] != Some(flat)).count()
+        };
+        let common: Vec<usize> = (0..rooms).filter(|&room| flat_of[room].is_none()).collect();
+        let is_single = |room: &&usize| joined[**room].len() <= 1 && network.rooms[**room].area_m2 > SINGLE_M2;
+        let is_storey =
+            (0..flats.len()).all(|flat| entrances(flat) <= 1) && common.iter().filter(is_single).count() < flats.len();
+        is_storey.then_some(Self { flats, common })
     }
 }
 
@@ -112,6 +125,11 @@ fn large_parts(joined: &[Vec<usize>], rooms: &[usize], less: Option<usize>) -> V
 }
 
 impl RoomNetwork {
+    /// The flats of a storey, see [`Flats::of`]: looked for once.
+    pub fn flats(&self) -> Option<&Flats> {
+        self.flats.get_or_init(|| Flats::of(self)).as_ref()
+    }
+
     /// Some of its rooms alone, in this order: doors to the others lead outside.
     pub fn part(&self, rooms: &[usize]) -> Self {
         let mut place = vec![None; self.rooms.len()];
@@ -135,6 +153,7 @@ impl RoomNetwork {
             typology: self.typology.clone(),
             rooms: Vec::new(),
             left_out: self.left_out.clone(),
+            flats: OnceLock::new(),
         }
     }
 }
@@ -158,7 +177,7 @@ mod tests {
                 of[from].doors.push(NetworkDoor { opening, kind: OpeningKind::Door, to: Some(to) });
             }
         }
-        RoomNetwork { rooms: of, ..like }
+        RoomNetwork { rooms: of, flats: OnceLock::new(), ..like }
     }
 
     #[test]
@@ -178,7 +197,7 @@ mod tests {
             (10, 11), // the other
         ];
         let storey = network(12, &doors);
-        let flats = Flats::of(&storey).unwrap();
+        let flats = storey.flats().unwrap();
         assert_eq!(flats.flats, [vec![1, 2, 3, 4, 5, 6], vec![7, 8, 9, 10, 11]]);
         assert_eq!(flats.common, [0]);
         let part = storey.part(&flats.flats[1]);
@@ -189,8 +208,8 @@ mod tests {
     #[test]
     fn a_corridor_with_rooms_and_a_single_flat_stay_whole() {
         let corridor: Vec<(usize, usize)> = (1..20).map(|room| (0, room)).collect();
-        assert_eq!(Flats::of(&network(20, &corridor)), None);
+        assert_eq!(network(20, &corridor).flats(), None);
         let flat = [(0, 1), (0, 2), (0, 3), (0, 4), (4, 5), (4, 6), (6, 7), (6, 8)];
-        assert_eq!(Flats::of(&network(9, &flat)), None);
+        assert_eq!(network(9, &flat).flats(), None);
     }
 }

@@ -1,5 +1,6 @@
 //! Rows of labelled rooms, collected from many plans.
 
+pub mod changes;
 mod collection;
 pub mod csv;
 pub mod fingerprint;
@@ -14,7 +15,7 @@ mod statistics;
 pub mod table;
 
 pub use collection::{Collection, RoomPlace};
-pub use network::{Form, NetworkDoor, NetworkRoom, RoomNetwork};
+pub use network::{Form, Measured, NetworkDoor, NetworkRoom, RoomNetwork};
 pub use schema::schema;
 pub use statistics::{LabelStatistics, Moments, Statistics};
 

@@ -1,14 +1,15 @@
-use crate::plan::titles::room_keys;
-use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
 
-use super::fingerprint::{self, RoomPrint};
+use super::fingerprint::{Prints, RoomPrint};
+use super::flats::Flats;
 use super::{BY_SCHEME, LeftOut, Row};
 use crate::edit;
-use crate::features::{Analysis, Features, NeighbourLabels, RoomStatus, analyse};
+use crate::features::{Analysis, Features, NeighbourLabels, RoomAnalysis, RoomStatus, analyse, analyse_after};
 use crate::geometry::{hull, polygon, runs};
 use crate::labels::{Label, Schemes, Typology};
-use crate::plan::{LabelOrigin, Meta, OpeningId, OpeningKind, Plan, Room, RoomId};
-use crate::topology::RoomShape;
+use crate::plan::titles::room_keys;
+use crate::plan::{Joint, LabelOrigin, Meta, OpeningId, OpeningKind, Plan, Room, RoomId};
+use crate::topology::{Connection, RoomShape};
 
 /// The rooms of one plan as classifiers see them: each room's own properties, its label if known, and
 /// where each of its openings leads. Features can be computed from it for any labels of the neighbours,
@@ -31,6 +32,8 @@ pub struct RoomNetwork {
     pub rooms: Vec<NetworkRoom>,
     /// Why other rooms are missing here, and which of the rooms here have no label.
     pub left_out: LeftOut,
+    /// See [`RoomNetwork::flats`]; empty until somebody asks. Whoever changes areas or doors of the rooms empties it.
+    pub flats: OnceLock<Option<Flats>>,
 }
 
 /// A room of a [`RoomNetwork`].
@@ -110,6 +113,50 @@ pub struct NetworkDoor {
     pub to: Option<usize>,
 }
 
+/// What is measured of a plan's rooms besides their features: it depends on their shapes and names, and on no label.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// The rooms in the order of [`room_keys`].
+    keys: Arc<Vec<(RoomId, String)>>,
+    prints: Arc<Prints>,
+    /// In the order of the analysed shapes; `None` for a room that encloses no area.
+    forms: Arc<Vec<Option<Form>>>,
+}
+
+impl Measured {
+    /// Measures the rooms of an analysed plan.
+    pub fn new(plan: &Plan, analysis: &Analysis) -> Self {
+        let forms = analysis.shapes.all().iter().zip(&analysis.rooms).map(|(shape, room)| form_of(shape, room));
+        Self {
+            keys: Arc::new(room_keys(plan)),
+            prints: Arc::new(Prints::new(&analysis.shapes)),
+            forms: Arc::new(forms.collect()),
+        }
+    }
+
+    /// The same after an edit, from what was measured before it: only what has changed is measured again.
+    pub fn after(plan: &Plan, analysis: &Analysis, before: &Analysis, measured: &Self) -> Self {
+        let keys =
+            if plan.rooms.ptr_eq(&before.plan().rooms) { measured.keys.clone() } else { Arc::new(room_keys(plan)) };
+        if Arc::ptr_eq(&analysis.shapes, &before.shapes) {
+            return Self { keys, ..measured.clone() };
+        }
+        let mut known = before.shapes.all().iter().zip(measured.forms.iter()).peekable();
+        let forms = analysis.shapes.all().iter().zip(&analysis.rooms).map(|(shape, room)| {
+            // Both are sorted by id.
+            while known.next_if(|(earlier, _)| earlier.id < shape.id).is_some() {}
+            known.next_if(|(earlier, _)| *earlier == shape).map_or_else(|| form_of(shape, room), |(_, form)| *form)
+        });
+        let forms = Arc::new(forms.collect());
+        let prints = Arc::new(Prints::after(&analysis.shapes, &before.shapes, &measured.prints));
+        Self { keys, prints, forms }
+    }
+}
+
+fn form_of(shape: &RoomShape, room: &RoomAnalysis) -> Option<Form> {
+    room.features.map(|features| Form::new(shape, features.area_m2))
+}
+
 /// Who gave a room its label; a prediction is none.
 fn origin_of(room: &Room) -> Option<LabelOrigin> {
     room.label.map(|label| label.origin).filter(|&origin| origin != LabelOrigin::Prediction)
@@ -134,13 +181,21 @@ impl RoomNetwork {
 
     /// The network of an analysed plan, whichever neighbours' labels the analysis used.
     pub fn of(plan: &Plan, analysis: &Analysis) -> Self {
+        Self::of_measured(plan, analysis, &Measured::new(plan, analysis))
+    }
+
+    /// The same from what was measured of the plan.
+    pub fn of_measured(plan: &Plan, analysis: &Analysis, measured: &Measured) -> Self {
         let typology = plan.meta().typology.as_ref();
         let mut left_out = LeftOut::default();
-        let mut rooms: Vec<NetworkRoom> = Vec::new();
-        let mut index_of: BTreeMap<RoomId, usize> = BTreeMap::new();
-        let prints = fingerprint::prints(&analysis.shapes);
-        for (id, key) in room_keys(plan) {
-            let (Some(room), Some(result)) = (plan.room(id), analysis.room(id)) else { continue };
+        let mut rooms: Vec<NetworkRoom> = Vec::with_capacity(analysis.rooms.len());
+        // By the index of the shape.
+        let mut place_of: Vec<Option<usize>> = vec![None; analysis.rooms.len()];
+        let mut shapes: Vec<usize> = Vec::with_capacity(analysis.rooms.len());
+        for (id, key) in measured.keys.iter() {
+            let id = *id;
+            let (Some(room), Some(index)) = (plan.room(id), analysis.shapes.index_of(id)) else { continue };
+            let result = &analysis.rooms[index];
             match result.status {
                 RoomStatus::NotClassified => {
                     left_out.not_classified += 1;
@@ -155,11 +210,12 @@ impl RoomNetwork {
                 RoomStatus::Labelled(_) => {}
             }
             let (Some(features), Some(temporary)) = (result.features, result.temporary) else { continue };
-            let (Some(shape), Some(&print)) = (analysis.shapes.get(id), prints.get(&id)) else { continue };
-            index_of.insert(id, rooms.len());
+            let (Some(&print), Some(form)) = (measured.prints.of(index), measured.forms[index]) else { continue };
+            place_of[index] = Some(rooms.len());
+            shapes.push(index);
             rooms.push(NetworkRoom {
                 id,
-                key,
+                key: key.clone(),
                 name: room.name.clone(),
                 function: room.function.clone(),
                 label: result.status.label(),
@@ -170,25 +226,27 @@ impl RoomNetwork {
                 temporary,
                 area_m2: features.area_m2,
                 axes_ratio: features.axes_ratio,
-                form: Form::new(shape, features.area_m2),
+                form,
                 doors: Vec::new(),
             });
         }
-        for room in &mut rooms {
-            room.doors = analysis
-                .neighbours(room.id)
-                .map(|(opening, side)| {
-                    let other = side.room().filter(|&other| other != room.id);
-                    let kind = plan.opening(opening).map_or(OpeningKind::Door, |opening| opening.kind);
-                    NetworkDoor { opening, kind, to: other.and_then(|other| index_of.get(&other).copied()) }
-                })
-                .collect();
+        for (room, index) in rooms.iter_mut().zip(shapes) {
+            let id = room.id;
+            let door = |connection: &Connection| {
+                let [one, other] = connection.sides;
+                let side = if one == Joint::Room(id) { other } else { one };
+                let other = side.room().filter(|&other| other != id);
+                let to = other.and_then(|other| place_of[analysis.shapes.index_of(other)?]);
+                NetworkDoor { opening: connection.opening, kind: connection.kind, to }
+            };
+            room.doors = analysis.graph.of_room(index).map(door).collect();
         }
         let meta = plan.meta();
         let building = meta.building_or_name().to_owned();
         let (group, storey) = (building.clone(), meta.storey.clone());
         let (file, plan) = (String::new(), meta.name.clone());
-        Self { file, plan, building, group, storey, typology: typology.cloned(), rooms, left_out }
+        let flats = OnceLock::new();
+        Self { file, plan, building, group, storey, typology: typology.cloned(), rooms, left_out, flats }
     }
 
     /// The network of a plan as if its typology were unknown: no label scheme says which rooms are not
@@ -200,12 +258,26 @@ impl RoomNetwork {
     /// The network of a plan taken for one of a typology, or of none, whatever it states: that typology's label scheme says which
     /// rooms are classified. Typology and labels are still those that the plan states.
     pub fn taken_for(plan: &Plan, typology: Option<&Typology>, schemes: &Schemes) -> Self {
+        let analysis = analyse(plan, schemes, NeighbourLabels::True);
+        Self::of_analysed_taken_for(plan, &analysis, &Measured::new(plan, &analysis), typology, schemes)
+    }
+
+    /// The same of a plan that is analysed and measured.
+    pub fn of_analysed_taken_for(
+        plan: &Plan,
+        analysis: &Analysis,
+        measured: &Measured,
+        typology: Option<&Typology>,
+        schemes: &Schemes,
+    ) -> Self {
         let stated = plan.meta().typology.clone();
         if stated.as_ref() == typology {
-            return Self::new(plan, schemes);
+            return Self::of_measured(plan, analysis, measured);
         }
         let unknown = edit::set_meta(plan, Meta { typology: typology.cloned(), ..plan.meta().clone() });
-        let mut network = Self { typology: stated, ..Self::new(&unknown, schemes) };
+        // A typology changes no shape.
+        let analysis = analyse_after(&unknown, schemes, NeighbourLabels::True, Some(analysis));
+        let mut network = Self { typology: stated, ..Self::of_measured(&unknown, &analysis, measured) };
         for it in &mut network.rooms {
             it.label_origin = plan.room(it.id).and_then(origin_of);
             it.label = plan.room(it.id).and_then(|room| RoomStatus::of(plan, schemes, room).label());

@@ -7,7 +7,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::fingerprint::{self, RoomPrint};
+use super::fingerprint::{Prints, RoomPrint};
 use crate::features::Analysis;
 use crate::formats::{self, building_name};
 use crate::geometry::{Point, Vector};
@@ -498,12 +498,12 @@ impl Sighting {
     pub fn of(plan: &Plan, analysis: &Analysis, file: &str, content: &str, storey_of_file: usize) -> Self {
         let meta = plan.meta();
         let building = meta.building_or_name();
-        let prints = fingerprint::prints(&analysis.shapes);
+        let prints = Prints::new(&analysis.shapes);
         let room = |(id, key): (RoomId, String)| {
             let room = plan.room(id)?;
             let label = analysis.room(id).and_then(|room| room.status.label());
             let (source_id, function) = (room.source_id.clone(), room.function.clone());
-            Some(SightedRoom { id, source_id, key, function, label, print: *prints.get(&id)? })
+            Some(SightedRoom { id, source_id, key, function, label, print: *prints.of(analysis.shapes.index_of(id)?)? })
         };
         Self {
             file: file.to_owned(),

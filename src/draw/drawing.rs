@@ -8,12 +8,12 @@ use super::scene::{Frame, Group, Item, Layer, Length, PlacedPicture, Scene, View
 use super::tile_grid::TileGrid;
 use super::tiles::{Contents, Tile, Tiles};
 use super::walls::{self, Faces, Walls};
-use super::{Fill, Grid, Rgba, Style, dimensions, names};
+use super::{Fill, Grid, Palette, Rgba, Style, dimensions, names};
 use crate::base::{units::Units, wording::thousands};
 use crate::features::{Analysis, RoomStatus};
 use crate::geometry::tangle::one_line_in;
 use crate::geometry::{Bounds, Point, Segment, areas, polygon, raster};
-use crate::labels::{Label, function_title, normalised_function};
+use crate::labels::{Colour, Label, function_title, normalised_function};
 use crate::picture::PictureLevels;
 use crate::plan::{Backdrop, DimensionId, DimensionLine, Joint, Meta, OpeningId, Plan, RoomId, Swing, Wall};
 
@@ -34,6 +34,8 @@ pub struct Drawing {
     are_piled: bool,
     /// What to know before believing what is shown, below the title; empty for most.
     pub(super) caveat: String,
+    /// The colours that the scheme gives functions.
+    colours: BTreeMap<String, Colour>,
     bounds: Bounds,
     /// The same without dimension chains.
     built: Bounds,
@@ -54,17 +56,20 @@ pub enum FromAfar<'a> {
     Line { segment: Segment, colour: Rgba, width_px: f64 },
 }
 
-/// Width in metres of the rim inside a room whose known label differs from the predicted one: wide enough
-/// to show beside the walls, which hide part of it.
-const RIM_M: f64 = 0.35;
+/// Width in pixels of the lines that hatch a room whose known label differs from the predicted one.
+const HATCH_LINE_PX: f64 = 1.75;
+
+/// A prediction this sure, or less, has the faintest fill; one this sure, or more, the full colour of its label.
+const FAINTEST: f64 = 0.35;
+const FULL: f64 = 0.9;
+
+/// The share of the label's colour in the faintest fill.
+const LEAST_COLOUR: f64 = 0.28;
 
 /// Rooms are piled up when more than so many lie over each other, and so many for each room: storeys drawn into
 /// each other have a few.
 const PILED_ROOMS: usize = 10_000;
 const PILED_A_ROOM: usize = 100;
-
-/// In a narrow room the rim takes at most this share of the width.
-const RIM_SHARE: f64 = 0.14;
 
 impl Drawing {
     /// Draws a plan. `analysis` must be that of the same plan.
@@ -83,14 +88,14 @@ impl Drawing {
         let mut rooms: Vec<RoomDrawing> = plan
             .rooms()
             .zip(&analysis.rooms)
-            .zip(analysis.shapes.all().iter().zip(&analysis.net))
+            .zip(analysis.shapes.all().iter().zip(analysis.net_rooms()))
             .map(|(((id, room), analysed), (shape, net))| RoomDrawing {
                 id,
                 name: room.name.trim().to_owned(),
                 function: room.function.trim().to_owned(),
                 status: analysed.status,
                 predicted: None,
-                within_rim: Vec::new(),
+                sureness: 1.0,
                 area_m2: shape.area_m2(),
                 clear_m2: net.as_ref().map_or(0.0, |net| net.area_m2),
                 has_walls: net.as_ref().is_some_and(|net| net.has_walls),
@@ -186,24 +191,29 @@ impl Drawing {
             tangled: walls.tangled,
             are_piled,
             caveat: String::new(),
+            colours: analysis.colours.clone(),
             bounds,
             built,
             tiles,
         }
     }
 
-    /// The same with a classifier's predictions for the rooms.
+    /// The same with a classifier's predictions for the rooms, all of them sure.
     #[must_use]
     pub fn with_predictions(mut self, labels: &BTreeMap<RoomId, Label>) -> Self {
         for room in &mut self.rooms {
-            room.predicted = labels.get(&room.id).copied();
-            room.within_rim = Vec::new();
-            if room.missed_label().is_some() {
-                let narrow_m = room.bounds.width().min(room.bounds.height());
-                room.within_rim = areas::inset(&room.outer, &room.holes, RIM_M.min(narrow_m * RIM_SHARE));
-            }
+            (room.predicted, room.sureness) = (labels.get(&room.id).copied(), 1.0);
         }
         self.predicted_counts = counts(self.rooms.iter().map(RoomDrawing::predicted_status));
+        self
+    }
+
+    /// The same, fainter where a prediction is unsure: how sure each is, 0..=1.
+    #[must_use]
+    pub fn with_sureness(mut self, sureness: &BTreeMap<RoomId, f64>) -> Self {
+        for room in &mut self.rooms {
+            room.sureness = sureness.get(&room.id).copied().unwrap_or(1.0);
+        }
         self
     }
 
@@ -289,7 +299,7 @@ impl Drawing {
                 picture.map(|picture| Group::new(layer, Frame::Plan, vec![picture])).collect()
             }
             Layer::Grid if layers.grid => grid(style, view.px_per_m, view.bounds()),
-            Layer::Rooms if layers.rooms => self.room_fills(style),
+            Layer::Rooms if layers.rooms => self.room_fills(style, view),
             Layer::Boundaries if layers.walls => self.boundary_lines(self.boundaries.iter().copied(), style),
             Layer::Walls if layers.walls => {
                 self.wall_fills(self.walls.iter(), self.wall_lines.iter().copied(), style, view)
@@ -358,7 +368,7 @@ impl Drawing {
         match layer {
             Layer::Rooms if layers.rooms => {
                 let rooms = tile.rooms.get(level).map(Vec::as_slice).unwrap_or_default();
-                rooms.iter().map(|&room| self.room_fill(room, fills, style)).collect()
+                rooms.iter().map(|&room| self.room_fill(room, fills, style, view)).collect()
             }
             Layer::Boundaries if layers.walls => {
                 self.boundary_lines(tile.boundaries.iter().map(|&index| self.boundaries[index]), style)
@@ -446,17 +456,28 @@ impl Drawing {
         names::group(&around, room, fill, style, view)
     }
 
+    /// The fills by function: the scheme's own, or else the palette's.
+    pub fn function_colours(&self, palette: &super::Palette) -> BTreeMap<String, Rgba> {
+        let mut colours = palette.functions(self.rooms.iter().map(|room| room.function.as_str()));
+        for (function, colour) in &mut colours {
+            if let Some(&chosen) = self.colours.get(function) {
+                *colour = palette.legible(chosen);
+            }
+        }
+        colours
+    }
+
     /// The fill colours of the rooms.
     pub fn fills(&self, style: &Style) -> Vec<Rgba> {
         let palette = style.palette();
         let functions = match style.fill {
-            Fill::Function => palette.functions(self.rooms.iter().map(|room| room.function.as_str())),
+            Fill::Function => self.function_colours(palette),
             Fill::Label | Fill::Prediction | Fill::None => BTreeMap::new(),
         };
         let fill = |room: &RoomDrawing| match style.fill {
             Fill::None => palette.paper,
             Fill::Label => palette.status(room.status),
-            Fill::Prediction => palette.status(room.predicted_status()),
+            Fill::Prediction => predicted_fill(palette, room.predicted_status(), room.sureness),
             Fill::Function => {
                 functions.get(&normalised_function(&room.function)).copied().unwrap_or(palette.unlabelled)
             }
@@ -464,35 +485,27 @@ impl Drawing {
         self.rooms.iter().map(|room| fill(room).faded(style.fill_opacity)).collect()
     }
 
-    fn room_fills(&self, style: &Style) -> Vec<Group> {
+    fn room_fills(&self, style: &Style, view: &View) -> Vec<Group> {
         let fills = self.fills(style);
         let mut order: Vec<usize> = (0..self.rooms.len()).filter(|&i| !self.rooms[i].outer.is_empty()).collect();
         order.sort_by(|&p, &q| painting_order(&self.rooms, p, q));
-        order.into_iter().map(|room| self.room_fill(room, &fills, style)).collect()
+        order.into_iter().map(|room| self.room_fill(room, &fills, style, view)).collect()
     }
 
-    fn room_fill(&self, index: usize, fills: &[Rgba], style: &Style) -> Group {
+    fn room_fill(&self, index: usize, fills: &[Rgba], style: &Style, view: &View) -> Group {
         let (room, fill) = (&self.rooms[index], fills[index]);
         let polygon = Item::Polygon { outer: room.outer.clone(), holes: room.holes.clone(), colour: fill };
-        let missed = room.missed_label().filter(|_| style.fill == Fill::Prediction);
-        let items = match missed {
-            None => vec![polygon],
-            Some(known) => {
-                let colour = style.palette().label(known).faded(style.fill_opacity);
-                let within = &room.within_rim;
-                let rim = within.iter().fold(room.holes.clone(), |mut holes, (outer, _)| {
-                    holes.push(outer.clone());
-                    holes
-                });
-                let inner = within.iter().map(|(outer, holes)| Item::Polygon {
-                    outer: outer.clone(),
-                    holes: holes.clone(),
-                    colour: fill,
-                });
-                let rim = Item::Polygon { outer: room.outer.clone(), holes: rim, colour };
-                std::iter::once(rim).chain(inner).collect()
-            }
-        };
+        let mut items = vec![polygon];
+        if let Some(known) = room.missed_label().filter(|_| style.fill == Fill::Prediction) {
+            let colour = style.palette().label_strong(known).faded(style.fill_opacity);
+            items.extend(room.hatch(view.px_per_m).into_iter().map(|line| Item::Line {
+                points: line.to_vec(),
+                closed: false,
+                colour,
+                width: Length::Px(HATCH_LINE_PX),
+                dash: None,
+            }));
+        }
         let title = room_title(room);
         Group { element: room.id.to_string(), title, ..Group::new(Layer::Rooms, Frame::Plan, items) }
     }
@@ -629,6 +642,18 @@ impl Drawing {
     /// The number of rooms whose known label differs from the predicted one.
     pub fn missed(&self) -> usize {
         self.rooms.iter().filter(|room| room.missed_label().is_some()).count()
+    }
+}
+
+/// The fill of a room by its predicted label: the surer the prediction, the more of the label's colour.
+pub fn predicted_fill(palette: &Palette, status: RoomStatus, sureness: f64) -> Rgba {
+    let full = palette.status(status);
+    match status {
+        RoomStatus::Labelled(_) => {
+            let share = ((sureness - FAINTEST) / (FULL - FAINTEST)).clamp(0.0, 1.0);
+            palette.paper.mixed(full, LEAST_COLOUR + (1.0 - LEAST_COLOUR) * share)
+        }
+        RoomStatus::NotClassified | RoomStatus::Unlabelled => full,
     }
 }
 

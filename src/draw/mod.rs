@@ -32,7 +32,7 @@ mod tiles;
 mod walls;
 
 pub use colour::Rgba;
-pub use drawing::{Drawing, FromAfar};
+pub use drawing::{Drawing, FromAfar, predicted_fill};
 pub use openings::PlacedOpening;
 pub use palette::{LabelColours, Palette, Theme};
 pub use robot_colours::RobotColours;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::Rgba;
 use crate::features::RoomStatus;
-use crate::labels::{Label, normalised_function};
+use crate::labels::{Colour, Label, normalised_function};
 
 /// Dark on light, or light on dark.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -153,6 +153,15 @@ impl Palette {
             taken[*slot] = true;
         }
         slots.into_iter().map(|(function, slot)| (function, self.functions[slot])).collect()
+    }
+}
+
+impl Palette {
+    /// A colour that somebody chose, as near to it as `ink` is legible on.
+    pub fn legible(&self, [r, g, b]: Colour) -> Rgba {
+        let chosen = Rgba { r, g, b, a: 255 };
+        let steps = (0..=20).map(|step| chosen.mixed(self.paper, f64::from(step) / 20.0));
+        steps.into_iter().find(|colour| self.ink.contrast(*colour) >= 5.0).unwrap_or(self.paper)
     }
 }
 

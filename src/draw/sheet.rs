@@ -238,7 +238,7 @@ pub(super) fn legend_entries(drawing: &Drawing, style: &Style) -> Vec<Entry> {
                 .collect()
         }
         Fill::Function => {
-            let colours = palette.functions(drawing.rooms.iter().map(|room| room.function.as_str()));
+            let colours = drawing.function_colours(palette);
             let mut counts: Vec<(String, usize)> = Vec::new();
             for function in colours.keys() {
                 let count =

@@ -42,8 +42,8 @@ pub enum Fill {
     #[default]
     Label,
     Function,
-    /// The label predicted by a classifier; if the known label differs, the room gets a rim in its
-    /// colour.
+    /// The label predicted by a classifier, fainter where it is unsure; if the known label differs, the room is hatched
+    /// in its colour.
     Prediction,
     None,
 }

@@ -159,7 +159,7 @@ pub fn set_measurements(plan: &Plan, measurements: Vec<Measurement>, drawing: Dr
     let metres_per_pixel = calibration.metres_per_pixel;
     let factor = metres_per_pixel / backdrop.metres_per_pixel;
     let next = match drawing {
-        DrawingMoves::Along => transformed(plan, backdrop.origin, factor, 0.0)?,
+        DrawingMoves::Along => transformed(plan, backdrop.origin, factor, 0.0, Vector::default())?,
         DrawingMoves::Stays => plan.clone(),
     };
     let mut meta = plan.meta().clone();
@@ -185,7 +185,7 @@ pub fn straightening_rad(direction: Vector) -> Option<f64> {
 pub fn turn_picture(plan: &Plan, about: Point, angle_rad: f64, drawing: DrawingMoves) -> Result<Plan, EditError> {
     let backdrop = backdrop_of(plan)?;
     let next = match drawing {
-        DrawingMoves::Along => transformed(plan, about, 1.0, angle_rad)?,
+        DrawingMoves::Along => transformed(plan, about, 1.0, angle_rad, Vector::default())?,
         DrawingMoves::Stays => plan.clone(),
     };
     let origin = about + (backdrop.origin - about).rotated(angle_rad);
@@ -194,7 +194,7 @@ pub fn turn_picture(plan: &Plan, about: Point, angle_rad: f64, drawing: DrawingM
 }
 
 /// Normalises an angle to plus or minus half a turn; a negligible one becomes 0.
-fn normalised_rad(angle_rad: f64) -> f64 {
+pub(super) fn normalised_rad(angle_rad: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
     let angle_rad = angle_rad - TAU * (angle_rad / TAU).round();
     if angle_rad.abs() < 1e-12 { 0.0 } else { angle_rad.clamp(-PI, PI) }
@@ -219,7 +219,7 @@ pub fn rescale(plan: &Plan, factor: f64, how: &str) -> Result<Plan, EditError> {
     if !(factor > 0.0 && factor.is_finite()) {
         return fail(format!("a plan is scaled by a factor above 0, not {factor}"));
     }
-    let mut next = transformed(plan, Point::default(), factor, 0.0)?;
+    let mut next = transformed(plan, Point::default(), factor, 0.0, Vector::default())?;
     if let Some(backdrop) = plan.backdrop() {
         let origin = checked_position(Point::default() + (backdrop.origin - Point::default()) * factor)?;
         let metres_per_pixel = backdrop.metres_per_pixel * factor;
@@ -236,12 +236,18 @@ pub fn rescale(plan: &Plan, factor: f64, how: &str) -> Result<Plan, EditError> {
     Ok(set_meta(&next, crate::plan::Meta { scale, ..plan.meta().clone() }))
 }
 
-/// Scales and rotates all that is drawn about a point; the backdrop stays.
+/// Scales and rotates all that is drawn about a point, and then moves it; the backdrop stays.
 ///
 /// # Errors
 /// When something would leave the drawing area or lose its length.
-fn transformed(plan: &Plan, about: Point, factor: f64, angle_rad: f64) -> Result<Plan, EditError> {
-    let moved = |point: Point| checked_position(about + ((point - about) * factor).rotated(angle_rad));
+pub(super) fn transformed(
+    plan: &Plan,
+    about: Point,
+    factor: f64,
+    angle_rad: f64,
+    by: Vector,
+) -> Result<Plan, EditError> {
+    let moved = |point: Point| checked_position(about + ((point - about) * factor).rotated(angle_rad) + by);
     let mut next = plan.clone();
     for (id, corner) in plan.corners() {
         if let Some(target) = next.corners.get_mut(&id) {

@@ -1,12 +1,13 @@
-use std::sync::OnceLock;
+use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
 
 use super::{Features, NeighbourLabels};
 use crate::features::temporary;
 use crate::geometry::runs::{self, Axes};
-use crate::labels::{Label, Meaning, Schemes};
+use crate::labels::{Colour, Label, Meaning, Schemes};
 use crate::plan::{Joint, LabelOrigin, Plan, Room, RoomId};
 use crate::topology::wall_bodies::WallBodies;
-use crate::topology::{Graph, NetRoom, RoomShapes, net_rooms_between};
+use crate::topology::{Graph, NetRoom, RoomShape, RoomShapes, net_rooms_between};
 
 /// The status of a room's label.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,13 +60,15 @@ pub struct RoomAnalysis {
 /// schemes and the choice of neighbours' labels.
 #[derive(Debug)]
 pub struct Analysis {
-    pub shapes: RoomShapes,
-    pub graph: Graph,
+    pub shapes: Arc<RoomShapes>,
+    pub graph: Arc<Graph>,
     /// In the order of [`RoomShapes::all`], that is by room id.
     pub rooms: Vec<RoomAnalysis>,
-    /// The clear part of each room, in the same order; `None` for a room that encloses no area. No feature and no
-    /// label depends on it.
-    pub net: Vec<Option<NetRoom>>,
+    /// The colours that the scheme gives functions; nothing that is computed depends on them.
+    pub colours: BTreeMap<String, Colour>,
+    /// The plan analysed: clones share all structure.
+    plan: Plan,
+    net: OnceLock<Vec<Option<NetRoom>>>,
     bodies: OnceLock<WallBodies>,
 }
 
@@ -80,9 +83,23 @@ impl Analysis {
         self.bodies.get_or_init(|| WallBodies::new(plan))
     }
 
+    /// The clear part of each room, in the order of [`RoomShapes::all`]; `None` for a room that encloses no area. No feature
+    /// and no label depends on it; computed when first asked for.
+    pub fn net_rooms(&self) -> &[Option<NetRoom>] {
+        self.net.get_or_init(|| match self.shapes.all() {
+            [] => Vec::new(),
+            _ => net_rooms_between(self.wall_bodies(&self.plan), &self.shapes),
+        })
+    }
+
     /// The clear part of one room.
     pub fn net(&self, id: RoomId) -> Option<&NetRoom> {
-        self.net[self.shapes.index_of(id)?].as_ref()
+        self.net_rooms().get(self.shapes.index_of(id)?)?.as_ref()
+    }
+
+    /// The plan analysed.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
     }
 
     /// For each opening of a room, what is on its other side.
@@ -99,8 +116,36 @@ fn other_side(sides: [Joint; 2], id: RoomId) -> Joint {
 
 /// Analyses a plan.
 pub fn analyse(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels) -> Analysis {
-    let shapes = RoomShapes::new(plan);
-    let graph = Graph::new(plan, &shapes);
+    analyse_after(plan, schemes, neighbours, None)
+}
+
+/// Analyses a plan after an edit: what the edit left as it was is taken from the analysis before it. The result does not
+/// depend on it.
+pub fn analyse_after(
+    plan: &Plan,
+    schemes: &Schemes,
+    neighbours: NeighbourLabels,
+    before: Option<&Analysis>,
+) -> Analysis {
+    let (shapes, graph) = match before {
+        None => {
+            let shapes = RoomShapes::new(plan);
+            let graph = Graph::new(plan, &shapes);
+            (Arc::new(shapes), Arc::new(graph))
+        }
+        Some(before) => {
+            let shapes = RoomShapes::after(plan, &before.plan, &before.shapes);
+            let graph = Graph::after(plan, &shapes, &before.plan, &before.shapes, &before.graph);
+            (shapes, graph)
+        }
+    };
+    let mut known = before.map(|before| before.shapes.all().iter().zip(&before.rooms).peekable());
+    let mut axes_before = |shape: &RoomShape| {
+        let known = known.as_mut()?;
+        // Both are sorted by id.
+        while known.next_if(|(earlier, _)| earlier.id < shape.id).is_some() {}
+        known.next_if(|(earlier, _)| *earlier == shape).map(|(_, room)| room.axes)
+    };
     let rules = schemes.temporary_rules(plan.meta().typology.as_ref());
     let mut rooms: Vec<RoomAnalysis> = plan
         .rooms()
@@ -108,7 +153,7 @@ pub fn analyse(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels) -> A
         .map(|(index, (id, room))| {
             let shape = &shapes.all()[index];
             let status = RoomStatus::of(plan, schemes, room);
-            let axes = runs::axes(&shape.outer, &shape.holes);
+            let axes = axes_before(shape).unwrap_or_else(|| runs::axes(&shape.outer, &shape.holes));
             let area_m2 = shape.area_m2();
             let features = axes.filter(|_| area_m2 > 0.0).map(|axes| Features {
                 area_m2,
@@ -140,10 +185,6 @@ pub fn analyse(plan: &Plan, schemes: &Schemes, neighbours: NeighbourLabels) -> A
             }
         }
     }
-    let bodies = OnceLock::new();
-    let net = match shapes.all() {
-        [] => Vec::new(),
-        _ => net_rooms_between(bodies.get_or_init(|| WallBodies::new(plan)), &shapes),
-    };
-    Analysis { shapes, graph, rooms, net, bodies }
+    let colours = schemes.colours(plan.meta().typology.as_ref());
+    Analysis { shapes, graph, rooms, colours, plan: plan.clone(), net: OnceLock::new(), bodies: OnceLock::new() }
 }

@@ -3,7 +3,7 @@
 mod analysis;
 pub mod temporary;
 
-pub use analysis::{Analysis, RoomAnalysis, RoomStatus, analyse};
+pub use analysis::{Analysis, RoomAnalysis, RoomStatus, analyse, analyse_after};
 
 use crate::labels::Label;
 

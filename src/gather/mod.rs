@@ -83,6 +83,11 @@ impl FileRead {
         let rooms = plans.iter().map(|plan| plan.rooms().len()).sum();
         Self { source: Source { file: file.to_owned(), sha256, plans: plans.len(), rooms }, plans: of_plans }
     }
+
+    /// The file, as it was named.
+    pub fn name(&self) -> &str {
+        &self.source.file
+    }
 }
 
 type BuildingKey = (Option<Typology>, String);

@@ -5,9 +5,10 @@ mod expectations;
 mod label;
 mod names;
 mod scheme;
+pub mod scheme_file;
 mod typology;
 
 pub use expectations::{TemporaryRule, UsualArea};
 pub use label::Label;
-pub use scheme::{Meaning, SchemeError, Schemes, function_title, normalised_function};
+pub use scheme::{Colour, Meaning, SchemeError, Schemes, function_title, normalised_function};
 pub use typology::Typology;

@@ -63,6 +63,18 @@ struct Scheme {
     /// The first that holds gives the label; if empty, those of [`Schemes::standard`] apply.
     temporary: Vec<TemporaryRule>,
     usual_areas: BTreeMap<Label, UsualArea>,
+    /// Colours of functions, by [`normalised_function`].
+    colours: BTreeMap<String, Colour>,
+}
+
+/// A colour: red, green and blue, a byte each.
+pub type Colour = [u8; 3];
+
+/// Reads a colour as CSS writes it: '#ffd27f'.
+pub(super) fn colour(text: &str) -> Option<Colour> {
+    let digits = text.strip_prefix('#').filter(|digits| digits.len() == 6)?;
+    let rgb = u32::from_str_radix(digits, 16).ok()?;
+    Some([(rgb >> 16) as u8, (rgb >> 8) as u8, rgb as u8])
 }
 
 /// The fewest letters of a function that is found at the end of a longer word: 'förråd' in 'städförråd', but no 'el' in
@@ -98,6 +110,12 @@ const BUNDLED: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/schemes.rs"
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SchemeError(String);
 
+impl SchemeError {
+    pub(super) fn new(what: String) -> Self {
+        Self(what)
+    }
+}
+
 impl fmt::Display for SchemeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)
@@ -131,6 +149,8 @@ struct DiskScheme {
     temporary: Vec<DiskRule>,
     #[serde(default)]
     usual_area_m2: BTreeMap<String, [f64; 2]>,
+    #[serde(default)]
+    colours: BTreeMap<String, String>,
 }
 
 impl Schemes {
@@ -166,7 +186,8 @@ impl Schemes {
             let typology = Typology::new(&name).ok_or_else(|| SchemeError("a typology needs a name".to_owned()))?;
             let disk: DiskScheme = value.try_into().map_err(|error: toml::de::Error| {
                 SchemeError(format!(
-                    "[{name}]: {}; the keys are S, M, B, C, H, not_classified, by_words, temporary and usual_area_m2",
+                    "[{name}]: {}; the keys are S, M, B, C, H, not_classified, by_words, temporary, usual_area_m2 and \
+                     colours",
                     error.message()
                 ))
             })?;
@@ -199,7 +220,13 @@ impl Schemes {
                 self.standard = temporary;
                 continue;
             }
+            let mut colours = BTreeMap::new();
+            for (function, text) in disk.colours {
+                let read = colour(&text).ok_or_else(|| wrong(format!("'{text}' is no colour; write it as #ffd27f")))?;
+                colours.insert(normalised_function(&function), read);
+            }
             let scheme = self.by_typology.entry(typology).or_default();
+            scheme.colours.extend(colours);
             scheme.functions.extend(added);
             scheme.by_words |= disk.by_words;
             scheme.usual_areas.extend(usual_areas);
@@ -234,6 +261,12 @@ impl Schemes {
     pub fn temporary_rules(&self, typology: Option<&Typology>) -> &[TemporaryRule] {
         let own = typology.and_then(|typology| self.by_typology.get(typology)).map(|scheme| &scheme.temporary);
         own.filter(|rules| !rules.is_empty()).unwrap_or(&self.standard)
+    }
+
+    /// The colours that a typology gives its functions, by [`normalised_function`]; others have those of the palette.
+    pub fn colours(&self, typology: Option<&Typology>) -> BTreeMap<String, Colour> {
+        let scheme = typology.and_then(|typology| self.by_typology.get(typology));
+        scheme.map(|scheme| scheme.colours.clone()).unwrap_or_default()
     }
 
     /// The usual area of a label in a typology; `None` if unknown.
@@ -350,6 +383,7 @@ mod tests {
             ("version = 1\n[house]\ntemporary = [{ label = 'X' }]", "unknown label"),
             ("version = 1\n[house]\ntemporary = [{ label = 'S', area_at_least_m2 = nan }]", "not a number"),
             ("version = 1\n[house]\nusual_area_m2 = { S = [9.0, 3.0] }", "smaller first"),
+            ("version = 1\n[house]\ncolours = { kitchen = 'red' }", "#ffd27f"),
             ("version = 1\n[standard]\nS = ['cupboard']", "no typology"),
         ] {
             let error = Schemes::default().extended_by(text).expect_err(text).to_string();

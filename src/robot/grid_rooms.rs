@@ -8,7 +8,7 @@ use super::grid_map::{Cell, GridMap};
 use super::grid_plan::{self, GridDoorway};
 use super::quadrilaterals::mean_quadrilateral_m2;
 use super::rooms::{FoundRoom, FoundRooms};
-use super::segment::{Segmentation, segment};
+use super::segment::{SegmentOptions, Segmentation, segment, segment_with};
 use crate::geometry::{Point, Segment, Vector, runs};
 
 /// The largest share of a room's boundary that may lie open to unknown space, unless the robot was in it:
@@ -18,15 +18,18 @@ const MOST_OPEN_SHARE: f64 = 0.5;
 /// The rooms of the grid map of a log: without those of which hardly more than a view is known. `places` are
 /// where the robot was.
 pub fn log_rooms(map: &GridMap, places: &[Point], segments: &[Segment]) -> FoundRooms {
-    let mut segmentation = segment(map);
     let (width, height) = (map.width(), map.height());
+    let cell_at = |&place: &Point| {
+        let (x, y) = map.picture_from_map(place);
+        let is_inside = x >= 0.0 && y >= 0.0 && x < width as f64 && y < height as f64;
+        is_inside.then(|| y as usize * width + x as usize)
+    };
+    let visited: Vec<usize> = places.iter().filter_map(cell_at).collect();
+    let mut segmentation = segment_with(map, &SegmentOptions::LOG, &visited);
     let count = segmentation.regions as usize + 1;
     let mut is_visited = vec![false; count];
-    for &place in places {
-        let (x, y) = map.picture_from_map(place);
-        if x >= 0.0 && y >= 0.0 && x < width as f64 && y < height as f64 {
-            is_visited[segmentation.region_of_cell[y as usize * width + x as usize] as usize] = true;
-        }
+    for &cell in &visited {
+        is_visited[segmentation.region_of_cell[cell] as usize] = true;
     }
     // Sides of cells towards unknown space, and towards obstacles.
     let (mut open, mut closed) = (vec![0_u32; count], vec![0_u32; count]);

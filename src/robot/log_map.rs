@@ -62,7 +62,15 @@ pub struct Surroundings {
 /// The free space, frontiers and rooms of a mapped log.
 pub fn surroundings(log: &Log, mapped: &MappedLog) -> Surroundings {
     let looks = log.readings.iter().zip(&mapped.poses).filter(|(reading, _)| !reading.scans.is_empty());
-    let looks = looks.map(|(reading, pose)| (*pose, reading.scans.as_slice()) as (Pose, &[Scan]));
+    let looks = looks.map(|(reading, pose)| (*pose, reading.scans.as_slice()));
+    surroundings_of(looks, mapped.map.lines().map(|line| line.line.segment()))
+}
+
+/// The same of scans, each with the robot's pose, and the segments of their line map.
+pub fn surroundings_of<'a>(
+    looks: impl Iterator<Item = (Pose, &'a [Scan])> + Clone,
+    segments: impl Iterator<Item = Segment>,
+) -> Surroundings {
     let Some(map) = grid_map(looks.clone()) else { return Surroundings::default() };
     let reach = (BESIDE_FREE_M / map.resolution_m).ceil() as i64;
     let is_free_near = |point: Point| {
@@ -79,8 +87,7 @@ pub fn surroundings(log: &Log, mapped: &MappedLog) -> Surroundings {
         let near = (0..count).filter(|&i| is_free_near(segment.a.lerp(segment.b, (i as f64 + 0.5) / count as f64)));
         2 * near.count() >= count
     };
-    let segments: Vec<Segment> =
-        mapped.map.lines().map(|line| line.line.segment()).filter(|segment| is_beside_free(segment)).collect();
+    let segments: Vec<Segment> = segments.filter(is_beside_free).collect();
     let free = FreeSpace::of_grid(&map);
     let segments = without_bridges(&segments, &super::rooms::boundary(free.shapes()), |at| free.is_hit_near(at));
     let long: Vec<Segment> =

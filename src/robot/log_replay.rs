@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::calibration::OdometryOptions;
 use super::carmen::{Log, Reading};
 use super::frontiers::{Frontier, frontiers};
+use super::log_map::{Surroundings, surroundings_of};
 use super::{FreeSpace, Mapper, MapperOptions, Pose, Scan};
 use crate::geometry::Segment;
 
@@ -18,6 +19,10 @@ const LOOK_RAD: f64 = 0.8;
 /// as the movement it causes at the distance of a room's wall.
 const MOVED_M: f64 = 0.05;
 const LEVER_M: f64 = 3.0;
+
+/// Until the end rooms are found in no more scans than this, evenly spaced: each time takes as long as all
+/// their beams.
+const MOST_LOOKS: usize = 1_000;
 
 /// What was seen from one place.
 #[derive(Clone, Debug)]
@@ -179,6 +184,16 @@ impl LogReplay {
         self.mapper.map().lines().map(|line| line.line.segment()).collect()
     }
 
+    /// The rooms, and what else is known of the surroundings: at the end as
+    /// [`surroundings`](super::log_map::surroundings) finds them, before from a thousand scans at most.
+    pub fn surroundings(&self) -> Surroundings {
+        let every = if self.is_over() { 1 } else { self.scans.div_ceil(MOST_LOOKS).max(1) };
+        let poses = self.mapper.poses();
+        let readings = self.log.readings[..self.next].iter().filter(|reading| !reading.scans.is_empty());
+        let looks = readings.zip(&poses).step_by(every).map(|(reading, pose)| (*pose, reading.scans.as_slice()));
+        surroundings_of(looks, self.segments().into_iter())
+    }
+
     /// The current best estimates of the poses of all scans.
     pub fn poses(&self) -> Vec<Pose> {
         self.mapper.poses()
@@ -192,7 +207,7 @@ impl LogReplay {
 
 #[cfg(test)]
 mod tests {
-    use super::super::log_map::map_log;
+    use super::super::log_map::{map_log, surroundings};
     use super::super::scanner::back_to_back;
     use super::super::{Exploration, RobotOptions, Scanner, World, WorldOptions};
     use super::*;
@@ -220,7 +235,7 @@ mod tests {
     fn step_by_step_it_is_the_map_of_the_whole_log() {
         let (_, log) = log();
         let mapped = map_log(&log, &MapperOptions::default(), &Work::quiet()).unwrap();
-        let mut replay = LogReplay::new(Arc::new(log), &MapperOptions::default());
+        let mut replay = LogReplay::new(Arc::new(log.clone()), &MapperOptions::default());
         let mut known_m2 = 0.0;
         while replay.step() {
             assert!(areas::area_m2(replay.free().shapes()) >= known_m2 - 0.1);
@@ -230,6 +245,8 @@ mod tests {
         assert_eq!(replay.poses(), mapped.poses);
         let lines: Vec<Segment> = mapped.map.lines().map(|line| line.line.segment()).collect();
         assert_eq!(replay.segments(), lines);
+        assert_eq!(replay.surroundings().found, surroundings(&log, &mapped).found);
+        assert!(!replay.surroundings().found.rooms.is_empty());
         assert!(known_m2 > 10.0, "{known_m2} m² are known");
     }
 

@@ -1,4 +1,7 @@
+use std::collections::BTreeMap;
 use std::sync::Arc;
+
+use super::save::{SaveError, save_bytes};
 
 use crate::base::file_name::component;
 use crate::classify::blend::Member;
@@ -91,4 +94,48 @@ pub fn models_in(folder: &Path) -> (Vec<StoredModel>, Vec<ModelError>) {
         }
     }
     (models, errors)
+}
+
+/// The file in a folder of models that names the defaults: an object of sets (typologies, or `standard`) and models' names.
+const DEFAULTS: &str = "defaults.json";
+
+/// The models in a folder that predict where nobody asks for a method, by set. None where the folder names none, or
+/// its file cannot be read.
+pub fn default_models(folder: &Path) -> BTreeMap<String, String> {
+    let path = folder.join(DEFAULTS);
+    let is_small = std::fs::metadata(&path).is_ok_and(|file| file.len() < (1 << 20));
+    let text = if is_small { std::fs::read_to_string(&path).unwrap_or_default() } else { String::new() };
+    serde_json::from_str(&text).unwrap_or_default()
+}
+
+/// Makes a model in a folder the default of a set; `None` for the one that comes with the program.
+///
+/// # Errors
+/// When the file cannot be written.
+pub fn set_default_model(folder: &Path, set: &str, model: Option<&str>) -> Result<(), SaveError> {
+    let mut defaults = default_models(folder);
+    match model {
+        Some(model) => drop(defaults.insert(set.to_owned(), model.to_owned())),
+        None => drop(defaults.remove(set)),
+    }
+    let mut bytes = serde_json::to_vec_pretty(&defaults).unwrap_or_default();
+    bytes.push(b'\n');
+    save_bytes(&folder.join(DEFAULTS), &bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn defaults_are_kept_beside_the_models() {
+        let folder = tempfile::tempdir().expect("a folder");
+        assert_eq!(default_models(folder.path()), BTreeMap::new());
+        for (set, model) in [("house", Some("mine")), ("school", Some("other")), ("house", None)] {
+            set_default_model(folder.path(), set, model).expect("written");
+        }
+        assert_eq!(default_models(folder.path()), BTreeMap::from([("school".to_owned(), "other".to_owned())]));
+        crate::store::save_bytes(&folder.path().join(DEFAULTS), b"{").expect("written");
+        assert_eq!(default_models(folder.path()), BTreeMap::new());
+    }
 }

@@ -438,7 +438,7 @@ impl Results {
         }
     }
 
-    fn curve(&self, set: &SetRows, at: usize, wanted: Algorithm) -> Option<Curve> {
+    pub(super) fn curve(&self, set: &SetRows, at: usize, wanted: Algorithm) -> Option<Curve> {
         let points: Vec<CurvePoint> = (0..CURVE_SHARES.len())
             .filter_map(|point| {
                 let of_folds: Vec<(usize, f64)> = self

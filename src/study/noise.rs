@@ -87,7 +87,8 @@ impl Noise {
     }
 }
 
-fn is_alike(p: &Row, q: &Row) -> bool {
+/// Whether two rooms are about the same size and form, see [`ALIKE`].
+pub(super) fn is_alike(p: &Row, q: &Row) -> bool {
     let near = |p: f64, q: f64| (p.max(1e-9).ln() - q.max(1e-9).ln()).abs() <= ALIKE;
     let (p, q) = (&p.features, &q.features);
     p.doors == q.doors && near(p.area_m2, q.area_m2) && near(p.axes_ratio, q.axes_ratio)

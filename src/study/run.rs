@@ -2,13 +2,13 @@
 //! are busy to the end and progress is even.
 
 use super::compare::Results;
-use super::measure::{Experiment, Task};
+use super::measure::{Experiment, Outcome, Task};
 use super::predictions::Prediction;
 use super::typologies::infer_typologies;
-use super::{Cell, Condition, Options, Study, StudyError};
+use super::{Cell, Condition, Curve, Options, Study, StudyError};
 use crate::base::random::Random;
 use crate::base::work::{Cancelled, Work};
-use crate::classify::Algorithm;
+use crate::classify::{Algorithm, FoldScore, Method};
 use crate::dataset::{Collection, RoomNetwork};
 
 /// Studies a collection. `blind` are the same plans as [`RoomNetwork::without_typology`] sees them;
@@ -64,6 +64,30 @@ pub fn validate(
     conditions: &[Condition],
     work: &Work<'_>,
 ) -> Result<Validation, StudyError> {
+    validate_telling(collection, options, set, algorithms, conditions, &|_| {}, work)
+}
+
+/// A fold that was tested.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FoldTold {
+    pub method: Method,
+    pub condition: Condition,
+    pub score: FoldScore,
+}
+
+/// The same as [`validate`]; `told` hears of each fold when it is done, from any thread.
+///
+/// # Errors
+/// As [`study`].
+pub fn validate_telling(
+    collection: &Collection,
+    options: Options,
+    set: &str,
+    algorithms: &[Algorithm],
+    conditions: &[Condition],
+    told: &(dyn Fn(FoldTold) + Sync),
+    work: &Work<'_>,
+) -> Result<Validation, StudyError> {
     let experiment = Experiment::new(collection, options)?;
     let all = experiment.conditions();
     let is_wanted = |task: &Task| match *task {
@@ -77,13 +101,56 @@ pub fn validate(
         | Task::Unknown { .. } => false,
     };
     let tasks: Vec<Task> = experiment.tasks().into_iter().filter(is_wanted).collect();
-    let results = perform(&experiment, tasks, work)?;
+    let heard = |task: Task, outcome: &Outcome| {
+        if let (Task::Fold { condition, algorithm, .. }, Outcome::Predicted(said, _)) = (task, outcome) {
+            let right = said.iter().filter(|(row, said)| said.label() == experiment.rows[*row].label).count();
+            let score = FoldScore { rooms: said.len(), right };
+            told(FoldTold { method: Method::Each(algorithm), condition: all[condition], score });
+        }
+    };
+    let results = perform_telling(&experiment, tasks, &heard, work)?;
     let cells = experiment.cells(&results).into_iter().filter(|cell| cell.scores.rooms > 0).collect();
     let predictions = experiment.predictions(&results, conditions);
     Ok((cells, experiment.notes, predictions))
 }
 
+/// The learning curve of an algorithm on one set: accuracy after learning from parts of the rooms, with the folds of
+/// the options. `None` where it cannot be measured.
+///
+/// # Errors
+/// As [`study`].
+pub fn learning_curve(
+    collection: &Collection,
+    options: Options,
+    set: &str,
+    algorithm: Algorithm,
+    work: &Work<'_>,
+) -> Result<Option<Curve>, StudyError> {
+    let experiment = Experiment::new(collection, options)?;
+    let Some(at) = experiment.sets.iter().position(|of| of.name == set) else { return Ok(None) };
+    let is_wanted =
+        |task: &Task| matches!(*task, Task::Point { set: of, algorithm: by, .. } if of == at && by == algorithm);
+    let tasks: Vec<Task> = experiment.tasks().into_iter().filter(is_wanted).collect();
+    let results = perform(&experiment, tasks, work)?;
+    Ok(results.curve(&experiment.sets[at], at, algorithm))
+}
+
 fn perform(experiment: &Experiment<'_>, tasks: Vec<Task>, work: &Work<'_>) -> Result<Results, Cancelled> {
-    let outcomes = work.map(tasks.len(), |index| experiment.perform(tasks[index], &work.alone()))?;
+    perform_telling(experiment, tasks, &|_, _| {}, work)
+}
+
+fn perform_telling(
+    experiment: &Experiment<'_>,
+    tasks: Vec<Task>,
+    heard: &(dyn Fn(Task, &Outcome) + Sync),
+    work: &Work<'_>,
+) -> Result<Results, Cancelled> {
+    let outcomes = work.map(tasks.len(), |index| {
+        let outcome = experiment.perform(tasks[index], &work.alone());
+        if let Ok(outcome) = &outcome {
+            heard(tasks[index], outcome);
+        }
+        outcome
+    })?;
     Ok(Results::new(tasks, outcomes.into_iter().collect::<Result<_, _>>()?))
 }

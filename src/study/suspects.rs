@@ -1,27 +1,40 @@
 //! Labels that are probably wrong: rooms by the probability that classifiers give their label which did not learn from them
 //! (confident learning without a threshold; Northcutt, Jiang and Chuang 2021). Several classifiers are asked, since each alone is wrong
-//! about rooms of its own, and the mean of their log-probabilities counts.
+//! about rooms of its own, and the mean of their log-probabilities counts. Rooms of the same size and form in one building speak
+//! for each other. The review queue and `enfilade suspects` both stand on this.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::StudyError;
+use super::noise::is_alike;
 use crate::base::random::seed_of_part;
 use crate::base::units::Units;
 use crate::base::work::{Cancelled, Work};
 use crate::classify::joint::{FirstRound, Joint};
+use crate::classify::models::Models;
 use crate::classify::{Algorithm, Distribution, Validation, evaluate_all};
-use crate::dataset::folds::{Folds, Grouping};
+use crate::dataset::folds::{Folds, Grouping, group_of};
 use crate::dataset::table::Table;
 use crate::dataset::{Collection, RoomNetwork, RoomPlace, Row, fold_table};
 use crate::features::NeighbourLabels;
 use crate::labels::{Label, Typology, normalised_function};
+use crate::predict::Predictor;
 
 /// A room and what is said of its label.
 #[derive(Clone, Debug)]
 pub struct Suspect {
     pub row: Row,
-    /// What classifiers say that did not learn from the room, together.
+    /// Where it stands in the collection.
+    pub place: RoomPlace,
+    /// What classifiers say that did not learn from the room, and the rooms like it in its building, together.
     pub said: Distribution,
+    /// How many classifiers were asked, and how many of them find another label likelier.
+    pub asked: usize,
+    pub against: usize,
+    /// What most other rooms of its function are labelled, if that is another label: the label, how many have it, of how many.
+    pub by_function: Option<(Label, usize, usize)>,
+    /// Other rooms of the building that are about as large and of the same form, by label.
+    pub alike: [usize; 5],
     /// Why another label is more likely, in words; empty where the given one is the likeliest.
     pub reason: String,
 }
@@ -42,6 +55,8 @@ pub struct Opinions {
     pub of: Vec<(String, Vec<Option<Distribution>>)>,
     /// By room: why, as the joint classifier sees it.
     reasons: Vec<String>,
+    /// By room, see [`Suspect::by_function`].
+    by_function: Vec<Option<(Label, usize, usize)>>,
 }
 
 /// All rooms, those whose given label is least probable first. Each typology is judged by itself. `work` counts folds.
@@ -55,19 +70,103 @@ pub fn suspects(
     given: bool,
     work: &Work<'_>,
 ) -> Result<Vec<Suspect>, StudyError> {
-    let opinions = opinions(collection, folds, seed, given, work)?;
-    let mut suspects: Vec<Suspect> = opinions
-        .rows
-        .iter()
-        .enumerate()
-        .map(|(index, row)| {
-            let said = together(opinions.of.iter().filter_map(|(name, of)| Some((name.as_str(), of[index]?))));
-            let reason = if said.label() == row.label { String::new() } else { opinions.reasons[index].clone() };
-            Suspect { row: row.clone(), said, reason }
-        })
-        .collect();
-    suspects.sort_by(|p, q| p.probability().total_cmp(&q.probability()));
-    Ok(suspects)
+    Ok(opinions(collection, folds, seed, given, work)?.suspects(collection.networks()))
+}
+
+/// The same, except that the models at hand are asked of typologies with few rooms, from which nothing can be learned.
+///
+/// # Errors
+/// As [`suspects`].
+pub fn suspects_by(
+    collection: &Collection,
+    folds: usize,
+    seed: u64,
+    models: &Models,
+    work: &Work<'_>,
+) -> Result<Vec<Suspect>, StudyError> {
+    Ok(asked(collection, folds, seed, false, Some(models), work)?.suspects(collection.networks()))
+}
+
+/// With fewer rooms, or buildings, of a typology classifiers learn little from the others.
+const FEW_ROOMS: usize = 200;
+const FEW_BUILDINGS: usize = 5;
+
+impl Opinions {
+    /// All rooms, those whose given label is least probable first; of equals the first in the collection.
+    fn suspects(&self, networks: &[RoomNetwork]) -> Vec<Suspect> {
+        let alike = Alike::new(&self.rows, &self.places, networks);
+        let mut suspects: Vec<Suspect> = self
+            .rows
+            .iter()
+            .enumerate()
+            .map(|(index, row)| {
+                let all = || self.of.iter().filter_map(move |(name, of)| Some((name.as_str(), of[index]?)));
+                let said = together(all());
+                // As much weight as what the classifiers say by themselves: they are right about rooms that have no like.
+                let with_alike = Distribution::smoothed(alike.near[index], &said, 1.0);
+                let said = together([("", said), ("", with_alike)].into_iter());
+                let classifiers = || all().filter(|(name, _)| *name != BY_FUNCTION);
+                let reason = if said.label() == row.label { String::new() } else { self.reasons[index].clone() };
+                Suspect {
+                    row: row.clone(),
+                    place: self.places[index],
+                    said,
+                    asked: classifiers().count(),
+                    against: classifiers().filter(|(_, said)| said.label() != row.label).count(),
+                    by_function: self.by_function[index],
+                    alike: alike.counts[index],
+                    reason,
+                }
+            })
+            .collect();
+        suspects.sort_by(|p, q| p.probability().total_cmp(&q.probability()));
+        suspects
+    }
+}
+
+/// The rooms of a building that are like each other.
+struct Alike {
+    /// For each room the others by label, each by how near it is in size and form: 1 for the same, less the less alike.
+    near: Vec<[f64; 5]>,
+    /// The same in whole rooms, of those that are alike to 10 %.
+    counts: Vec<[usize; 5]>,
+}
+
+impl Alike {
+    fn new(rows: &[Row], places: &[RoomPlace], networks: &[RoomNetwork]) -> Self {
+        let mut buildings: BTreeMap<(Option<&Typology>, &str), Vec<usize>> = BTreeMap::new();
+        for (index, row) in rows.iter().enumerate() {
+            buildings.entry((row.typology.as_ref(), group_of(row))).or_default().push(index);
+        }
+        let measures: Vec<[f64; 5]> = rows
+            .iter()
+            .zip(places)
+            .map(|(row, place)| {
+                let form = &networks[place.network].rooms[place.room].form;
+                let log = |value: f64| value.max(0.1).ln();
+                // A step of each is as much of a difference: 12 % of an area, 18 % of a side or an axes ratio, one opening.
+                [
+                    log(row.features.area_m2) / 0.12,
+                    log(row.features.axes_ratio) / 0.18,
+                    f64::from(row.features.doors),
+                    log(form.length_m) / 0.18,
+                    log(form.width_m) / 0.18,
+                ]
+            })
+            .collect();
+        let mut alike = Self { near: vec![[0.0; 5]; rows.len()], counts: vec![[0; 5]; rows.len()] };
+        for of in buildings.values() {
+            for &room in of {
+                for &other in of.iter().filter(|&&other| other != room) {
+                    let squares = measures[room].iter().zip(&measures[other]).map(|(p, q)| (p - q) * (p - q));
+                    let label = rows[other].label.index();
+                    alike.near[room][label] += (-squares.sum::<f64>() / 2.0).exp();
+                    alike.counts[room][label] += usize::from(is_alike(&rows[room], &rows[other]));
+                }
+            }
+        }
+        alike
+    }
 }
 
 /// What several say together: the geometric mean of their probabilities.
@@ -93,6 +192,8 @@ fn together<'a>(said: impl Iterator<Item = (&'a str, Distribution)>) -> Distribu
 fn weight_of(name: &str) -> f64 {
     match name {
         JOINT => 4.0,
+        // Asked alone, it would be drowned by the rooms of one function.
+        MODELS => 8.0,
         // Rooms of one function seldom differ in label.
         BY_FUNCTION => 16.0,
         _ => 1.0,
@@ -101,6 +202,9 @@ fn weight_of(name: &str) -> f64 {
 
 /// The name of what other rooms of a function say, among [`Opinions::of`].
 const BY_FUNCTION: &str = "by function";
+
+/// The name of the models at hand among [`Opinions::of`].
+const MODELS: &str = "models at hand";
 
 /// The name of the joint classifier among [`Opinions::of`].
 const JOINT: &str = "joint";
@@ -116,20 +220,41 @@ pub fn opinions(
     given: bool,
     work: &Work<'_>,
 ) -> Result<Opinions, StudyError> {
+    asked(collection, folds, seed, given, None, work)
+}
+
+fn asked(
+    collection: &Collection,
+    folds: usize,
+    seed: u64,
+    given: bool,
+    models: Option<&Models>,
+    work: &Work<'_>,
+) -> Result<Opinions, StudyError> {
     let Collection::Plans(networks) = collection else {
         return Err(StudyError::Data(
             "rows of a dataset file do not tell which rooms are neighbours; give the plans".to_owned(),
         ));
     };
     let rows = collection.rows(NeighbourLabels::True).unwrap_or_default();
-    let mut opinions =
-        Opinions { places: collection.places(), of: Vec::new(), reasons: vec![String::new(); rows.len()], rows };
+    let mut opinions = Opinions {
+        places: collection.places(),
+        of: Vec::new(),
+        reasons: vec![String::new(); rows.len()],
+        by_function: vec![None; rows.len()],
+        rows,
+    };
     let typologies: BTreeSet<Option<Typology>> = opinions.rows.iter().map(|row| row.typology.clone()).collect();
     let mut asked = false;
     for typology in typologies {
         let of_set: Vec<usize> =
             (0..opinions.rows.len()).filter(|&row| opinions.rows[row].typology == typology).collect();
-        asked |= opinions.ask(networks, &of_set, folds, seed, given, work)?;
+        let buildings: BTreeSet<&str> = of_set.iter().map(|&row| group_of(&opinions.rows[row])).collect();
+        let is_small = of_set.len() < FEW_ROOMS || buildings.len() < FEW_BUILDINGS;
+        match models.filter(|_| is_small) {
+            Some(models) => asked |= opinions.ask_models(networks, &of_set, models, work)?,
+            None => asked |= opinions.ask(networks, &of_set, folds, seed, given, work)?,
+        }
     }
     if asked {
         return Ok(opinions);
@@ -172,6 +297,44 @@ impl Opinions {
         Ok(asked)
     }
 
+    /// Asks the models at hand, which know the labels of the room's own plan, its own excepted; whether there are any.
+    fn ask_models(
+        &mut self,
+        networks: &[RoomNetwork],
+        of_set: &[usize],
+        models: &Models,
+        work: &Work<'_>,
+    ) -> Result<bool, Cancelled> {
+        let mut of_networks: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for &row in of_set {
+            of_networks.entry(self.places[row].network).or_default().push(row);
+        }
+        let of_networks: Vec<(usize, Vec<usize>)> = of_networks.into_iter().collect();
+        let places = &self.places;
+        let said = work.map(of_networks.len(), |at| {
+            let (network, rows) = &of_networks[at];
+            let of = &networks[*network];
+            let predictions = Predictor::default().predict(of.clone(), &of.known_labels(), None, models).ok()?;
+            let of_row = |&row: &usize| {
+                let room = &of.rooms[places[row].room];
+                let said = *predictions.distribution(room.id)?;
+                let is_doubted = room.label.is_some_and(|label| label != said.label());
+                let why = is_doubted.then(|| predictions.why(room.id, Units::Metric)).flatten();
+                Some((row, said, why.map(|why| why.sentences()).unwrap_or_default()))
+            };
+            Some(rows.iter().filter_map(of_row).collect::<Vec<_>>())
+        })?;
+        let mut asked = false;
+        for (row, said, why) in said.into_iter().flatten().flatten() {
+            asked = true;
+            self.tell(MODELS, &[row], &[said]);
+            self.reasons[row] = why;
+        }
+        let own: Vec<Row> = of_set.iter().map(|&row| self.rows[row].clone()).collect();
+        self.ask_by_function(of_set, &own);
+        Ok(asked)
+    }
+
     /// What other rooms of the same function are labelled, where they agree with each other and not with the room. Rooms whose label goes
     /// with their function are not judged by it: a wrong function gives a wrong label too.
     fn ask_by_function(&mut self, of_set: &[usize], own: &[Row]) {
@@ -190,6 +353,8 @@ impl Opinions {
             let said = Distribution::smoothed(others, &Distribution::UNIFORM, 0.02);
             if all >= LEAST && said.label() != row.label && others[said.label().index()] >= AGREE * all {
                 self.tell(BY_FUNCTION, &[index], &[said]);
+                let label = said.label();
+                self.by_function[index] = Some((label, others[label.index()] as usize, all as usize));
             }
         }
     }

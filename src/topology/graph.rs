@@ -1,11 +1,16 @@
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
 use super::RoomShapes;
+use super::shapes::changed_key;
 use crate::geometry::{Bounds, Point, Vector};
-use crate::plan::{Joint, Opening, OpeningId, Plan, THICKEST_WALL_M};
+use crate::plan::{CornerId, Joint, Opening, OpeningId, OpeningKind, Place, Plan, THICKEST_WALL_M};
 
 /// An opening and the two sides it joins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Connection {
     pub opening: OpeningId,
+    pub kind: OpeningKind,
     /// Both sides; if derived from geometry, the left of its segment first.
     pub sides: [Joint; 2],
     /// Whether a file or the user stated the sides; otherwise they follow from geometry.
@@ -31,24 +36,94 @@ pub struct Graph {
 impl Graph {
     /// The graph of a plan's rooms.
     pub fn new(plan: &Plan, shapes: &RoomShapes) -> Self {
-        let mut graph = Self { connections: Vec::new(), of_room: vec![Vec::new(); shapes.all().len()] };
+        let mut graph = Self::without_connections(shapes);
         for (id, opening) in plan.openings() {
-            if !opening.kind.is_passable() {
-                continue;
-            }
-            let (sides, pinned) = match opening.pinned {
-                Some(sides) => (sides, true),
-                None => (sides_by_geometry(plan, shapes, opening), false),
-            };
-            let index = graph.connections.len();
-            graph.connections.push(Connection { opening: id, sides, pinned });
-            let mut rooms: Vec<usize> = sides.iter().filter_map(|side| shapes.index_of(side.room()?)).collect();
-            rooms.dedup();
-            for room in rooms {
-                graph.of_room[room].push(index);
-            }
+            graph.add(id, opening.kind, shapes, || joined_by(plan, shapes, opening));
         }
         graph
+    }
+
+    /// The graph after an edit, from the one before it: the same as [`Graph::new`]. What an opening joins is looked for again
+    /// only where it, its edge or a room beside it has changed.
+    pub fn after(
+        plan: &Plan,
+        shapes: &Arc<RoomShapes>,
+        before: &Plan,
+        shapes_before: &Arc<RoomShapes>,
+        graph: &Arc<Self>,
+    ) -> Arc<Self> {
+        let is_shape = Arc::ptr_eq(shapes, shapes_before);
+        let changed: BTreeSet<CornerId> = if plan.corners.ptr_eq(&before.corners) {
+            BTreeSet::new()
+        } else {
+            plan.corners.diff(&before.corners).map(|item| changed_key(&item)).collect()
+        };
+        if is_shape && changed.is_empty() && plan.openings.ptr_eq(&before.openings) {
+            return Arc::clone(graph);
+        }
+        // The boxes of rooms that changed, came or went.
+        let mut around: Vec<Bounds> = Vec::new();
+        if !is_shape {
+            let of = |shapes: &RoomShapes, others: &RoomShapes| -> Vec<Bounds> {
+                let changed = shapes.all().iter().filter(|shape| others.get(shape.id) != Some(shape));
+                changed.map(|shape| shape.bounds).filter(|bounds| !bounds.is_empty()).collect()
+            };
+            around.extend(of(shapes, shapes_before));
+            around.extend(of(shapes_before, shapes));
+        }
+        let is_near = |opening: &Opening| {
+            let looked = plan.opening_segment(opening).map(|segment| {
+                // As far as both rays reach.
+                Bounds::of([segment.midpoint()]).inflated(2.0 * THICKEST_WALL_M + 1e-6)
+            });
+            looked.is_none_or(|looked| around.iter().any(|bounds| bounds.intersects(looked)))
+        };
+        let mut after = Self::without_connections(shapes);
+        let mut known = graph.connections.iter().peekable();
+        for (&id, opening) in &plan.openings {
+            while known.next_if(|connection| connection.opening < id).is_some() {}
+            let sides = known.next_if(|connection| connection.opening == id).map(|connection| connection.sides);
+            let is_same = || {
+                let has_moved = |corner: &CornerId| changed.contains(corner);
+                let is_there = match &opening.place {
+                    Place::Hosted { from, to, .. } => !has_moved(from) && !has_moved(to),
+                    Place::Free { .. } => true,
+                };
+                is_there
+                    && before.openings.get(&id).is_some_and(|earlier| Arc::ptr_eq(earlier, opening))
+                    && (around.is_empty() || !is_near(opening))
+            };
+            match sides.filter(|_| opening.pinned.is_none() && is_same()) {
+                Some(sides) => after.add(id, opening.kind, shapes, || (sides, false)),
+                None => after.add(id, opening.kind, shapes, || joined_by(plan, shapes, opening)),
+            }
+        }
+        Arc::new(after)
+    }
+
+    fn without_connections(shapes: &RoomShapes) -> Self {
+        Self { connections: Vec::new(), of_room: vec![Vec::new(); shapes.all().len()] }
+    }
+
+    /// Adds what an opening joins, unless it is a window.
+    fn add(
+        &mut self,
+        id: OpeningId,
+        kind: OpeningKind,
+        shapes: &RoomShapes,
+        joined: impl FnOnce() -> ([Joint; 2], bool),
+    ) {
+        if !kind.is_passable() {
+            return;
+        }
+        let (sides, pinned) = joined();
+        let index = self.connections.len();
+        self.connections.push(Connection { opening: id, kind, sides, pinned });
+        let mut rooms: Vec<usize> = sides.iter().filter_map(|side| shapes.index_of(side.room()?)).collect();
+        rooms.dedup();
+        for room in rooms {
+            self.of_room[room].push(index);
+        }
     }
 
     /// All connections by opening.
@@ -65,6 +140,14 @@ impl Graph {
             .unwrap_or_default()
             .iter()
             .map(|&connection| &self.connections[connection])
+    }
+}
+
+/// What an opening joins, and whether that is stated.
+fn joined_by(plan: &Plan, shapes: &RoomShapes, opening: &Opening) -> ([Joint; 2], bool) {
+    match opening.pinned {
+        Some(sides) => (sides, true),
+        None => (sides_by_geometry(plan, shapes, opening), false),
     }
 }
 

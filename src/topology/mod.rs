@@ -6,6 +6,7 @@ mod graph;
 mod net_areas;
 pub(crate) mod plan_faces;
 mod shapes;
+pub mod vertical;
 pub mod wall_bodies;
 
 pub use gaps::{DOORWAY_WIDTH_M, Gap, gaps};

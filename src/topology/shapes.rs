@@ -1,11 +1,15 @@
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use imbl::ordmap::DiffItem;
 use rstar::{AABB, RTree, RTreeObject};
 
 use crate::geometry::polygon::{self, Location};
 use crate::geometry::{Bounds, Point, Vector};
-use crate::plan::{Plan, RoomId};
+use crate::plan::{CornerId, Plan, Room, RoomId};
 
 /// A room's boundary as points.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct RoomShape {
     pub id: RoomId,
     /// The outer ring; empty for a room without a boundary.
@@ -98,18 +102,50 @@ impl RoomShapes {
         Self::of_rooms(plan, plan.rooms().map(|(id, _)| id))
     }
 
-    /// The shapes of some rooms, given by id.
-    pub fn of_rooms(plan: &Plan, rooms: impl IntoIterator<Item = RoomId>) -> Self {
-        let shapes: Vec<RoomShape> = rooms
-            .into_iter()
-            .filter_map(|id| Some((id, plan.room(id)?)))
-            .map(|(id, room)| {
-                let outer = plan.ring_points(&room.outer);
-                let holes = room.holes.iter().map(|hole| plan.ring_points(hole)).collect();
-                let bounds = polygon::bounds(&outer);
-                RoomShape { id, outer, holes, bounds }
+    /// The shapes of the rooms of a plan after an edit, from those before it: the same as [`RoomShapes::new`].
+    pub fn after(plan: &Plan, before: &Plan, shapes: &Arc<Self>) -> Arc<Self> {
+        let changed: BTreeSet<CornerId> = if plan.corners.ptr_eq(&before.corners) {
+            BTreeSet::new()
+        } else {
+            plan.corners.diff(&before.corners).map(|item| changed_key(&item)).collect()
+        };
+        if changed.is_empty() && plan.rooms.ptr_eq(&before.rooms) {
+            return Arc::clone(shapes);
+        }
+        let mut known = shapes.shapes.iter().peekable();
+        let mut is_same = true;
+        let all: Vec<RoomShape> = plan
+            .rooms
+            .iter()
+            .map(|(&id, room)| {
+                // Both are sorted by id.
+                while known.next_if(|shape| shape.id < id).is_some() {}
+                let shape = known.next_if(|shape| shape.id == id).zip(before.rooms.get(&id)).filter(|(_, earlier)| {
+                    let is_ring =
+                        Arc::ptr_eq(earlier, room) || (earlier.outer == room.outer && earlier.holes == room.holes);
+                    is_ring
+                        && (changed.is_empty()
+                            || !room.rings().flat_map(|ring| ring.iter()).any(|it| changed.contains(it)))
+                });
+                match shape {
+                    Some((shape, _)) => shape.clone(),
+                    None => {
+                        is_same = false;
+                        shape_of(plan, id, room)
+                    }
+                }
             })
             .collect();
+        if is_same && all.len() == shapes.shapes.len() { Arc::clone(shapes) } else { Arc::new(Self::of_shapes(all)) }
+    }
+
+    /// The shapes of some rooms, given by id.
+    pub fn of_rooms(plan: &Plan, rooms: impl IntoIterator<Item = RoomId>) -> Self {
+        let rooms = rooms.into_iter().filter_map(|id| Some((id, plan.room(id)?)));
+        Self::of_shapes(rooms.map(|(id, room)| shape_of(plan, id, room)).collect())
+    }
+
+    fn of_shapes(shapes: Vec<RoomShape>) -> Self {
         let entries = shapes
             .iter()
             .enumerate()
@@ -201,5 +237,20 @@ impl RoomShapes {
         found.retain(|&index| self.shapes[index].locate(point) != Location::Outside);
         found.sort_by(|&p, &q| self.shapes[p].area_m2().total_cmp(&self.shapes[q].area_m2()).then(p.cmp(&q)));
         found
+    }
+}
+
+fn shape_of(plan: &Plan, id: RoomId, room: &Room) -> RoomShape {
+    let outer = plan.ring_points(&room.outer);
+    let holes = room.holes.iter().map(|hole| plan.ring_points(hole)).collect();
+    let bounds = polygon::bounds(&outer);
+    RoomShape { id, outer, holes, bounds }
+}
+
+/// The key of what differs between two maps.
+pub(super) fn changed_key<K: Copy, V>(item: &DiffItem<'_, '_, K, V>) -> K {
+    match item {
+        DiffItem::Add(key, _) | DiffItem::Remove(key, _) => **key,
+        DiffItem::Update { new: (key, _), .. } => **key,
     }
 }

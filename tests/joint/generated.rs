@@ -45,6 +45,7 @@ pub fn network(building: &str, typology: &str, rooms: Vec<NetworkRoom>) -> RoomN
         typology: Typology::new(typology),
         rooms,
         left_out: Default::default(),
+        flats: Default::default(),
     }
 }
 

@@ -1,7 +1,10 @@
 //! The single way from a plan to its labels: the command line prints what the window shows.
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
+mod live;
+
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use enfilade::base::random::Random;
@@ -11,7 +14,7 @@ use enfilade::edit;
 use enfilade::formats::plan_json;
 use enfilade::geometry::Vector;
 use enfilade::labels::{Label, Schemes, Typology};
-use enfilade::pipeline::Derived;
+use enfilade::pipeline::{Derived, Labelled};
 use enfilade::plan::{ElementId, LabelOrigin, Meta, Plan, RoomId, RoomLabel};
 use enfilade::predict::Predictor;
 use enfilade::store::bundled_plans;
@@ -119,8 +122,9 @@ fn what_is_outdated_is_given_up() {
     let schemes = Schemes::bundled();
     let outdated = AtomicBool::new(true);
     let work = Work::quiet().watched(&|_, _| {}, &outdated);
-    assert_eq!(Derived::by_steps(&plan, &schemes, None, &work).err(), Some(Cancelled));
-    let derived = Derived::by_steps(&plan, &schemes, None, &Work::quiet()).unwrap();
+    let labelled = || Arc::new(Labelled::new(&plan, &schemes, None, None));
+    assert_eq!(Derived::by_steps(labelled(), &work).err(), Some(Cancelled));
+    let derived = Derived::by_steps(labelled(), &Work::quiet()).unwrap();
     assert!(derived.predictions.is_none());
     assert_eq!(derived.reading_order().len(), plan.rooms().filter(|(_, room)| room.has_boundary()).count());
 }

@@ -9,7 +9,7 @@ use enfilade::base::random::Random;
 use enfilade::base::work::Work;
 use enfilade::geometry::{Point, Segment, Vector};
 use enfilade::robot::carmen::{Log, LogError};
-use enfilade::robot::log_map::{MappedLog, map_log};
+use enfilade::robot::log_map::{MappedLog, map_log, surroundings};
 use enfilade::robot::{MapperOptions, Pose};
 use enfilade::store::{load_log, read_log};
 
@@ -176,6 +176,10 @@ fn bent_odometry_and_noise_are_corrected() {
     assert!(way_m < 0.05 && turn_rad < 0.02, "off by {way_m} m and {turn_rad} rad");
     assert_eq!(mapped.poses.len(), log.readings.len());
     assert!(worst_line_m(&mapped) < 0.08);
+    // Three rooms on a corridor, each behind a doorway of 1 m.
+    let found = surroundings(&log, &mapped).found;
+    assert_eq!((found.rooms.len(), found.doorways.len()), (4, 3));
+    assert!(found.doorways.iter().all(|doorway| (doorway.width_m - 1.0).abs() < 0.25));
 }
 
 #[test]
@@ -387,13 +391,18 @@ fn error_m(log: &Log, poses: &[Pose], relations: &Path) -> f64 {
 fn the_intel_lab_is_mapped_better_than_by_sequential_matching() {
     let (Some(path), Some(relations)) = (data("intel.truepair.log.gz"), data("intel.relations")) else { return };
     let log = load_log(&path).unwrap().log;
-    let error = |closes_loops| {
+    let map = |closes_loops| {
         let options = MapperOptions { closes_loops, ..MapperOptions::default() };
-        let mapped = map_log(&log, &options, &Work::quiet()).unwrap();
-        error_m(&log, &mapped.poses, &relations)
+        map_log(&log, &options, &Work::quiet()).unwrap()
     };
-    let drifting = error(false);
+    let drifting = error_m(&log, &map(false).poses, &relations);
     assert!(drifting < 0.220, "{drifting} m");
-    let closed = error(true);
+    let mapped = map(true);
+    let closed = error_m(&log, &mapped.poses, &relations);
     assert!(closed < 0.130, "{closed} m");
+    // Its offices are rooms of their own, beside corridors, a large laboratory and smaller rooms.
+    let areas: Vec<f64> = surroundings(&log, &mapped).found.rooms.iter().map(|room| room.area_m2).collect();
+    let offices = areas.iter().filter(|area_m2| (8.0..30.0).contains(*area_m2)).count();
+    let largest_m2 = areas.iter().copied().fold(0.0, f64::max);
+    assert!(offices >= 14 && largest_m2 < 110.0, "{offices} offices, the largest room {largest_m2} m²");
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use egui::epaint::StrokeKind;
 use egui::{Color32, Painter, Rect, Shape, Stroke, Vec2, vec2};
 
+use super::live::paint_new_labels;
 use super::{Beginning, Canvas};
 use crate::app::look::theme;
 use crate::app::paint::pending::Pending;
@@ -17,7 +18,7 @@ use crate::app::session::document::{Derived, Document};
 use crate::app::session::questions::Shown;
 use crate::app::tools::{self, Scope, Toolbox};
 use crate::base::units::Units;
-use crate::draw::{Palette, Style, View, dimensions};
+use crate::draw::{Fill, Palette, Style, View, dimensions};
 use crate::geometry::{Bounds, Point, Segment};
 use crate::plan::{ElementId, GuideAxis, Plan};
 
@@ -35,13 +36,19 @@ impl Canvas {
         session: &Session,
         style: &Style,
     ) {
-        let Some((earlier, _)) = document.last_derived() else { return };
+        let Some((earlier, drawn)) = document.last_derived() else { return };
         let plan = document.plan();
+        // The labels come before the rest.
+        let labelled = document.labelled();
         if !self.pending.as_ref().is_some_and(|pending| pending.is_between(earlier, plan)) {
             self.pending = Some(Pending::new(earlier, plan));
         }
         if let Some(pending) = &self.pending {
-            pending.paint(painter, rect, view, style, &session.schemes);
+            pending.paint(painter, rect, view, style, &session.schemes, labelled.is_some());
+            if let Some(labelled) = labelled.filter(|_| style.fill == Fill::Prediction && !pending.is_all()) {
+                paint_new_labels(painter, rect, view, &drawn.labelled, labelled, style.palette());
+                pending.paint_walls(painter, rect, view, style);
+            }
         }
     }
 

@@ -5,6 +5,7 @@ mod camera;
 pub(crate) mod dimensions;
 mod evidence;
 pub(crate) mod guides;
+mod live;
 mod marks;
 pub(crate) mod rulers;
 
@@ -249,7 +250,8 @@ impl Canvas {
             // Never show a stale label as current.
             None => self.paint_pending(&painter, rect, &view, document, session, &style),
             Some(derived) => {
-                let under_pointer = self.pointed.element.filter(|_| toolbox.is_selecting());
+                let is_watched = session.demo.is_some();
+                let under_pointer = self.pointed.element.filter(|_| toolbox.is_selecting() && !is_watched);
                 let hovered = under_pointer.or(self.hovered_in_panel);
                 let hovered = hovered.filter(|hovered| !session.selection.contains(*hovered));
                 if let Some(hovered) = hovered {
@@ -287,6 +289,13 @@ impl Canvas {
         for place in self.marked_in_panel.into_iter().chain(self.marked_here) {
             preview.handle(place, Look::Danger);
         }
+        if session.watches_labels()
+            && let Some(next) = tool.would_be(&scope)
+        {
+            self.paint_would_be(&painter, rect, &view, session, &next, palette);
+        } else if let Some(derived) = fresh {
+            self.paint_second_opinion(&painter, rect, &view, session, derived, palette);
+        }
         tool.preview(&scope, &mut preview);
         preview.paint(&painter, rect, &view, palette);
         if tool.snaps() && self.pointed.at.is_some() {
@@ -294,6 +303,7 @@ impl Canvas {
         }
         paint_typed(&painter, rect, &view, palette, &scope, toolbox);
         let is_blank = session.shown_run().is_none()
+            && session.demo.is_none()
             && document.plan().is_empty()
             && document.plan().backdrop().is_none()
             && session.ghost_plan().is_none();

@@ -144,13 +144,14 @@ pub enum Menu {
     Room,
     Picture,
     Predict,
+    Dataset,
     Robot,
     View,
     Help,
 }
 
 impl Menu {
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::File,
         Self::Edit,
         Self::Draw,
@@ -158,6 +159,7 @@ impl Menu {
         Self::Room,
         Self::Picture,
         Self::Predict,
+        Self::Dataset,
         Self::Robot,
         Self::View,
         Self::Help,
@@ -172,6 +174,7 @@ impl Menu {
             Self::Room => "Room",
             Self::Picture => "Picture",
             Self::Predict => "Predict",
+            Self::Dataset => "Dataset",
             Self::Robot => "Robot",
             Self::View => "View",
             Self::Help => "Help",

@@ -111,15 +111,27 @@ impl Pending {
         self.earlier.is_same_value(earlier) && self.plan.is_same_value(plan)
     }
 
-    /// Paints it; if it affects everything, or predictions that depend on all rooms are shown, a veil.
-    /// Draws no names: the previous ones are covered.
-    pub(crate) fn paint(&self, painter: &Painter, rect: Rect, view: &View, style: &Style, schemes: &Schemes) {
+    /// Whether it affects everything.
+    pub(crate) fn is_all(&self) -> bool {
+        self.is_all
+    }
+
+    /// Paints it; if it affects everything, or predictions are shown that depend on all rooms and are not known yet
+    /// (`has_labels`), a veil. Draws no names: the previous ones are covered.
+    pub(crate) fn paint(
+        &self,
+        painter: &Painter,
+        rect: Rect,
+        view: &View,
+        style: &Style,
+        schemes: &Schemes,
+        has_labels: bool,
+    ) {
         let palette = style.palette();
-        if self.is_all || style.fill == Fill::Prediction {
+        if self.is_all || (style.fill == Fill::Prediction && !has_labels) {
             painter.rect_filled(rect, 0.0, theme::colour(palette.paper).gamma_multiply(0.6));
             return;
         }
-        let seen = view.bounds().inflated(1.0);
         for (outer, holes, now) in &self.areas {
             let triangles = earcut(outer, holes);
             let fill = now.and_then(|id| self.plan.room(id)).map_or(palette.paper, |room| match style.fill {
@@ -135,6 +147,13 @@ impl Pending {
                 }
             }
         }
+        self.paint_walls(painter, rect, view, style);
+    }
+
+    /// Paints walls and openings, over what fills the rooms.
+    pub(crate) fn paint_walls(&self, painter: &Painter, rect: Rect, view: &View, style: &Style) {
+        let palette = style.palette();
+        let seen = view.bounds().inflated(1.0);
         let band = |segment: &Segment, width_px: f64, colour: Color32| {
             if seen.meets(*segment) {
                 let ends = [segment.a, segment.b].map(|point| on_screen(rect, view, point));

@@ -371,6 +371,11 @@ pub(crate) fn paint_group(painter: &Painter, rect: Rect, view: &View, group: &Gr
 }
 
 fn paint_text(painter: &Painter, rect: Rect, view: &View, text: &Text) {
+    paint_text_at(painter, on_screen(rect, view, text.at), view, text);
+}
+
+/// Paints a text whose point is at a place on the screen.
+pub(super) fn paint_text_at(painter: &Painter, at: Pos2, view: &View, text: &Text) {
     let family = match text.weight {
         Weight::Regular => FontFamily::Proportional,
         Weight::SemiBold => theme::semibold(),
@@ -385,7 +390,7 @@ fn paint_text(painter: &Painter, rect: Rect, view: &View, text: &Text) {
         Anchor::Middle => width / 2.0,
         Anchor::End => width,
     };
-    let at = on_screen(rect, view, text.at) + vec2(text.offset_px.x as f32, text.offset_px.y as f32);
+    let at = at + vec2(text.offset_px.x as f32, text.offset_px.y as f32);
     let pixels_per_point = view.pixel_ratio as f32;
     let on_pixel = |value: f32| (value * pixels_per_point).round() / pixels_per_point;
     let (corner, angle) = if text.upright {

@@ -53,6 +53,7 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         Some(Act::PickTowards(direction)) => {
             app.act_on(Call::new("pick-towards", [Value::word(direction)]), ui.ctx());
         }
+        Some(Act::Rename) if app.session.accepts_by_enter() => drop(app.run_command("accept-prediction", ui.ctx())),
         Some(Act::Rename) => match app.picked() {
             Some(element @ (ElementId::Wall(_) | ElementId::Opening(_))) => app.change_here(element),
             _ => drop(app.run_command("rename", ui.ctx())),

@@ -108,11 +108,11 @@ fn legend(ui: &mut Ui, app: &App, document: &Document) {
                 rows.push((palette.status(status), name.to_owned(), number, about.to_owned()));
             }
             note = (is_predicted && derived.drawing.missed() > 0)
-                .then(|| format!("{} with another known label, shown as a rim", derived.drawing.missed()));
+                .then(|| format!("{} with another known label, hatched in its colour", derived.drawing.missed()));
         }
         Fill::Function => {
             let number = |function: &str| derived.functions.get(function).copied().unwrap_or_default();
-            for (function, colour) in palette.functions(derived.functions.keys().map(String::as_str)) {
+            for (function, colour) in derived.drawing.function_colours(palette) {
                 rows.push((colour, crate::base::wording::sentence(&function), number(&function), String::new()));
             }
             if number("") > 0 {

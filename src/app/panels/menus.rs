@@ -278,6 +278,7 @@ pub(super) const fn letter(menu: Menu) -> (char, Key) {
         Menu::Room => ('R', Key::R),
         Menu::Picture => ('P', Key::P),
         Menu::Predict => ('t', Key::T),
+        Menu::Dataset => ('s', Key::S),
         Menu::Robot => ('b', Key::B),
         Menu::View => ('V', Key::V),
         Menu::Help => ('H', Key::H),

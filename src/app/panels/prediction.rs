@@ -46,6 +46,9 @@ pub(super) fn of_room(
     if let Some(why) = why {
         *evidence = reasons::show(ui, why).map(|point| predictions.marks(room, &point.on_plan));
     }
+    if let Some((own, near)) = predictions.nearest(room) {
+        reasons::nearest(ui, palette, &own, &near, app.units());
+    }
     let mut asked = None;
     match status.label() {
         Some(known) if known == said => drop(caption(ui, "Agrees with the label.")),
@@ -105,7 +108,7 @@ fn models(ui: &mut Ui, app: &App, predictions: &Predictions) -> Option<Asked> {
 }
 
 /// A set of models, in words.
-fn kind(set: &str) -> &str {
+pub(super) fn kind(set: &str) -> &str {
     if set == STANDARD { "any kind of building" } else { set }
 }
 
@@ -139,7 +142,7 @@ fn choice(ui: &mut Ui, app: &App, name: &str, id: &'static str) -> Option<Asked>
 }
 
 /// A label with its probability as a bar.
-fn bar(ui: &mut Ui, palette: &Palette, label: Label, probability: f64, is_said: bool) {
+pub(super) fn bar(ui: &mut Ui, palette: &Palette, label: Label, probability: f64, is_said: bool) {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 22.0), Sense::hover());
     let colours = colours(ui);
     let text = if is_said { colours.text } else { colours.text_weak };

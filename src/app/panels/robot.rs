@@ -84,7 +84,8 @@ fn contents(app: &App, ui: &mut Ui) -> Option<Call> {
     }
     hairline(ui);
     take(view(app, ui));
-    if run.is_some() {
+    // What is not on the canvas needs no legend.
+    if app.session.shown_run().is_some() {
         legend::legend(app, ui);
     }
     hairline(ui);
@@ -212,12 +213,12 @@ fn figures(app: &App, ui: &mut Ui, run: &Run) {
     ui.spacing_mut().item_spacing.y = 0.0;
     ui.add_space(4.0);
     let secs = run.time_s.round() as u64;
-    value(ui, "Time", &format!("{}:{:02} min", secs / 60, secs % 60));
-    value(ui, "Driven", &units.length(run.driven_m()));
-    value(ui, "Known floor", &units.area(run.map.known_m2));
+    let driven = units.length(run.driven_m());
+    value(ui, "Driven", &format!("{driven} in {}:{:02} min", secs / 60, secs % 60));
+    let frontiers = count(run.map.frontiers.len(), "frontier");
+    value(ui, "Known floor", &format!("{}, {frontiers}", units.area(run.map.known_m2)));
     let doorways = count(run.map.rooms.doorways.len(), "doorway");
     value(ui, "Found", &format!("{}, {doorways}", count(run.map.rooms.rooms.len(), "room")));
-    value(ui, "Frontiers", &run.map.frontiers.len().to_string());
     if let (Some(error_m), Some(drift_m)) = (run.error_m(), run.drift_m()) {
         value(ui, "Estimate off", &units.length(error_m)).on_hover_text("How far the estimate is from the truth");
         value(ui, "Odometry off", &units.length(drift_m)).on_hover_text("How far odometry alone is from the truth");
@@ -247,7 +248,8 @@ fn view(app: &App, ui: &mut Ui) -> Option<Call> {
             ("robot-paths", "Paths", settings.shows_paths),
             ("robot-sights", "Points and lines of sight", settings.shows_sights),
         ] {
-            let help = commands::find(id).map_or("", |command| command.help);
+            let Some(command) = commands::find(id).filter(|command| command.why_not(app).is_none()) else { continue };
+            let help = command.help;
             if toggle(ui, text, is_on).on_hover_text(help).clicked() {
                 call = Some(Call::new(id, [Value::Switch(!is_on)]));
             }

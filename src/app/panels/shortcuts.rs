@@ -67,12 +67,12 @@ const COLUMNS: [&[&[Menu]]; 3] = [
     &[&Menu::ALL],
     &[
         &[Menu::File, Menu::Edit, Menu::Draw, Menu::Modify, Menu::Help],
-        &[Menu::Room, Menu::Picture, Menu::Predict, Menu::Robot, Menu::View],
+        &[Menu::Room, Menu::Picture, Menu::Predict, Menu::Dataset, Menu::Robot, Menu::View],
     ],
     &[
         &[Menu::File, Menu::Edit, Menu::Draw, Menu::Help],
         &[Menu::Modify, Menu::Room, Menu::Picture],
-        &[Menu::Predict, Menu::Robot, Menu::View],
+        &[Menu::Predict, Menu::Dataset, Menu::Robot, Menu::View],
     ],
 ];
 

@@ -32,7 +32,8 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         let is_narrow = ui.ctx().content_rect().width() < NARROW;
         let right_width = if is_narrow { ZOOM_WIDTH } else { RIGHT_WIDTH };
         let width = (ui.available_width() - right_width).max(0.0);
-        let text = left_text(app);
+        // In the demonstration nobody is to do anything.
+        let text = if app.session.demo.is_some() { String::new() } else { left_text(app) };
         let said = app.session.status.clone();
         let needed = |text: &str| {
             let font = egui::FontId::proportional(theme::SMALL);

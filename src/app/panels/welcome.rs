@@ -28,6 +28,9 @@ const CARD: Vec2 = vec2(208.0, 168.0);
 /// How many of the files opened last are shown at once.
 const SHOWN_RECENT: usize = 5;
 
+/// Space that the words beside the buttons need, in points.
+const HINT_WIDTH: f32 = 190.0;
+
 /// Space between cards.
 const GAP: f32 = 16.0;
 
@@ -51,17 +54,23 @@ pub(super) fn show(app: &mut App, ui: &mut Ui) {
         ui.add(Label::new(RichText::new(text).color(colours(ui).text_weak)).wrap());
         ui.add_space(10.0);
         ui.horizontal(|ui| {
-            let Some((new, open)) = commands::find("new-plan").zip(commands::find("open")) else { return };
-            for (command, title) in [(new, "New plan"), (open, "Open a plan…")] {
-                let help = format!("{} ({})", command.help, app.keys_text(command, ui.ctx()));
-                if text_button(ui, title, command.id == new.id).on_hover_text(help).clicked() {
+            let buttons =
+                [("new-plan", "New plan"), ("open", "Open a plan…"), ("demonstration", "Watch a demonstration")];
+            for (id, title) in buttons {
+                let Some(command) = commands::find(id) else { continue };
+                let keys = app.keys_text(command, ui.ctx());
+                let help = if keys.is_empty() { command.help.to_owned() } else { format!("{} ({keys})", command.help) };
+                if text_button(ui, title, id == "new-plan").on_hover_text(help).clicked() {
                     let context = ui.ctx().clone();
                     app.run_command(command.id, &context);
                 }
             }
-            ui.add_space(4.0);
-            let hint = "or drop a file anywhere here";
-            ui.label(RichText::new(hint).color(colours(ui).text_weak));
+            // In a narrow window there is no space for it.
+            if ui.available_width() > HINT_WIDTH {
+                ui.add_space(4.0);
+                let hint = "or drop a file anywhere here";
+                ui.label(RichText::new(hint).color(colours(ui).text_weak));
+            }
         });
         ui.add_space(20.0);
         if !recent.is_empty() {

@@ -5,15 +5,16 @@ use std::path::{Path, PathBuf};
 use egui::Context;
 
 use super::Session;
+use crate::app::session::at_hand::read_files;
 use crate::app::session::file_dialogs::Purpose;
 use crate::app::session::jobs::Kind;
 use crate::app::session::messages::Severity;
 use crate::app::session::origin::file_name;
 use crate::base::wording::count;
 use crate::base::work::{Cancelled, Work};
-use crate::formats::{self, FileError};
+use crate::formats::FileError;
+use crate::gather::beside;
 use crate::gather::dataset::{Made, made};
-use crate::gather::{FileRead, PlansRead, beside, sha256};
 use crate::labels::Schemes;
 use crate::store;
 
@@ -142,23 +143,8 @@ fn make(
     work: &Work<'_>,
 ) -> Result<Finished, String> {
     let cancelled = |_: Cancelled| "it was cancelled".to_owned();
-    let read_one = |index: usize| {
-        let import = formats::read_file(&files[index])?;
-        let bytes = formats::read_bytes(&files[index]).map(|bytes| sha256(&bytes)).unwrap_or_default();
-        Ok(FileRead::new(&names[index], bytes, &import.plans, schemes, false))
-    };
-    let results: Vec<Result<FileRead, FileError>> = work.map(files.len(), read_one).map_err(cancelled)?;
-    let mut read = PlansRead::default();
-    let mut unreadable = Vec::new();
-    for result in results {
-        match result {
-            Ok(file) => read.add(file),
-            Err(error) => unreadable.push(error),
-        }
-    }
-    read.failed = unreadable.len();
-    read.put_together();
-    read.leave_out_repeats();
+    let files: Vec<(PathBuf, String)> = files.iter().cloned().zip(names.iter().cloned()).collect();
+    let (read, _, unreadable) = read_files(&files, schemes, work, |_, _| ())?;
     let plans = read.networks.len();
     if plans == 0 {
         return Err("no plan could be read".to_owned());

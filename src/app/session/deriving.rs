@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::Session;
-use crate::app::session::document::Derived;
+use crate::app::session::document::{Derived, Labelled, LabelledBy};
 use crate::app::session::jobs::Kind;
 
 /// The size of plan that is analysed in the background; below this, analysis takes a few milliseconds.
@@ -13,7 +13,7 @@ impl Session {
     /// Analyses the current plan, unless that is done or in progress.
     pub(crate) fn derive(&mut self) {
         let Some(document) = &mut self.document else { return };
-        document.predict_by(&self.predictor);
+        document.label_by(&LabelledBy { predictor: self.predictor.clone(), second: self.live.second });
         let plan = document.plan().clone();
         let is_needed = document.needs_deriving();
         self.keep_selected_what_is_in(&plan);
@@ -21,10 +21,12 @@ impl Session {
             return;
         }
         let Some(document) = &mut self.document else { return };
-        let schemes = self.schemes.clone();
-        let predictor = Some((self.predictor.clone(), self.models.clone()));
+        let (schemes, models) = (self.schemes.clone(), self.models.clone());
+        let by = LabelledBy { predictor: self.predictor.clone(), second: self.live.second };
+        let before = document.last_labelled().cloned();
         if plan.rooms().len() + plan.openings().len() + plan.walls().len() <= LARGE_PLAN_ELEMENTS {
-            let derived = Arc::new(Derived::new(&plan, &schemes, predictor));
+            let labelled = Arc::new(Labelled::new(&plan, &schemes, Some((&by, &models)), before.as_deref()));
+            let derived = Arc::new(Derived::from_labelled(labelled));
             document.set_derived(plan, derived);
             return;
         }
@@ -36,14 +38,27 @@ impl Session {
                 document.could_not_be_derived(&broken_for);
             }
         });
-        let wanted = self.jobs.start_wanted(kind, move |work| {
-            let derived = Derived::by_steps(&plan, &schemes, predictor, work).map(Arc::new);
-            move |session: &mut Session, _: &_| {
-                if let Some((document, derived)) = session.document.as_mut().zip(derived.ok()) {
-                    document.set_derived(plan, derived);
+        // First the labels, which are shown at once; then the rest, which takes longer.
+        let wanted = match document.labelled().cloned() {
+            None => self.jobs.start_wanted(kind, move |work| {
+                let is_wanted = work.goes_on().is_ok();
+                let labelled =
+                    is_wanted.then(|| Labelled::new(&plan, &schemes, Some((&by, &models)), before.as_deref()));
+                move |session: &mut Session, _: &_| {
+                    if let Some((document, labelled)) = session.document.as_mut().zip(labelled) {
+                        document.set_labelled(Arc::new(labelled));
+                    }
                 }
-            }
-        });
+            }),
+            Some(labelled) => self.jobs.start_wanted(kind, move |work| {
+                let derived = Derived::by_steps(labelled, work).map(Arc::new);
+                move |session: &mut Session, _: &_| {
+                    if let Some((document, derived)) = session.document.as_mut().zip(derived.ok()) {
+                        document.set_derived(plan, derived);
+                    }
+                }
+            }),
+        };
         document.await_derived(wanted);
     }
 }

@@ -12,9 +12,8 @@ use crate::edit;
 use crate::formats::{self, FileError, Note, Place, ReadError};
 use crate::geometry::Bounds;
 use crate::labels::Schemes;
-pub(crate) use crate::pipeline::Derived;
+pub(crate) use crate::pipeline::{Derived, Labelled, LabelledBy};
 use crate::plan::{CornerId, Difference, ElementId, History, Meta, Plan, Scale, ScaleOrigin};
-use crate::predict::Predictor;
 use crate::store::{self, Stamp};
 
 /// The analysis of a bundled plan, without predictions, which its thumbnail does not show: computed once.
@@ -126,16 +125,18 @@ pub(crate) struct Document {
     /// Whether what walls close becomes a room: at first where the plan was begun here.
     pub closes_rooms: bool,
     derived: Option<(Plan, Arc<Derived>)>,
+    /// The labels last worked out, perhaps of an earlier plan: the next are worked out from them.
+    labelled: Option<Arc<Labelled>>,
     /// The analysis in progress.
     awaited: Option<Awaited>,
     /// Which models predict.
-    predictor: Predictor,
+    by: LabelledBy,
 }
 
 /// The plan that a job is analysing, and the models it uses.
 struct Awaited {
     plan: Plan,
-    predictor: Predictor,
+    by: LabelledBy,
     /// The job; `None` if it panicked, as it would again.
     job: Option<Wanted>,
 }
@@ -152,7 +153,7 @@ impl Document {
         if let Some(begun) = begun {
             history.push(begun.title, begun.plan);
         }
-        let (derived, awaited, predictor) = (None, None, Predictor::default());
+        let (derived, labelled, awaited, by) = (None, None, None, LabelledBy::default());
         let (saved, is_gone) = (Some(plan), false);
         let closes_rooms = origin == Origin::Untitled;
         Self {
@@ -166,8 +167,9 @@ impl Document {
             is_gone,
             closes_rooms,
             derived,
+            labelled,
             awaited,
-            predictor,
+            by,
         }
     }
 
@@ -217,15 +219,37 @@ impl Document {
     /// The analysis of the current plan; `None` while it is in progress.
     pub(crate) fn derived(&self) -> Option<&Arc<Derived>> {
         let is_fresh = |(plan, derived): &&(Plan, Arc<Derived>)| {
-            plan.is_same_value(self.plan()) && derived.predictor.as_ref() == Some(&self.predictor)
+            plan.is_same_value(self.plan()) && derived.labelled.by.as_ref() == Some(&self.by)
         };
         self.derived.as_ref().filter(is_fresh).map(|(_, derived)| derived)
     }
 
     /// Sets which models predict.
-    pub(crate) fn predict_by(&mut self, predictor: &Predictor) {
-        if self.predictor != *predictor {
-            self.predictor.clone_from(predictor);
+    pub(crate) fn label_by(&mut self, by: &LabelledBy) {
+        if self.by != *by {
+            self.by.clone_from(by);
+        }
+    }
+
+    /// The labels of the current plan, which are there before the rest of its analysis; `None` while they are worked out.
+    pub(crate) fn labelled(&self) -> Option<&Arc<Labelled>> {
+        let is_fresh = |labelled: &&Arc<Labelled>| {
+            labelled.plan().is_same_value(self.plan()) && labelled.by.as_ref() == Some(&self.by)
+        };
+        self.labelled.as_ref().filter(is_fresh)
+    }
+
+    /// The labels last worked out, perhaps of an earlier plan or by other models: never shown as current.
+    pub(crate) fn last_labelled(&self) -> Option<&Arc<Labelled>> {
+        self.labelled.as_ref()
+    }
+
+    /// Takes the labels of a plan; those of an earlier one are dropped.
+    pub(crate) fn set_labelled(&mut self, labelled: Arc<Labelled>) {
+        if labelled.plan().is_same_value(self.plan()) && labelled.by.as_ref() == Some(&self.by) {
+            self.labelled = Some(labelled);
+            // What is still to come is another job's.
+            self.awaited = None;
         }
     }
 
@@ -240,14 +264,14 @@ impl Document {
         let is_awaited = self
             .awaited
             .as_ref()
-            .is_some_and(|awaited| awaited.plan.is_same_value(self.plan()) && awaited.predictor == self.predictor);
+            .is_some_and(|awaited| awaited.plan.is_same_value(self.plan()) && awaited.by == self.by);
         self.derived().is_none() && !is_awaited
     }
 
     /// Records that a job is analysing the plan. One for an earlier plan is cancelled.
     pub(crate) fn await_derived(&mut self, job: Wanted) {
-        let (plan, predictor) = (self.plan().clone(), self.predictor.clone());
-        self.awaited = Some(Awaited { plan, predictor, job: Some(job) });
+        let (plan, by) = (self.plan().clone(), self.by.clone());
+        self.awaited = Some(Awaited { plan, by, job: Some(job) });
     }
 
     /// Records that the job for a plan panicked: it is not restarted until the plan or the models change.
@@ -255,6 +279,11 @@ impl Document {
         if let Some(awaited) = self.awaited.as_mut().filter(|awaited| awaited.plan.is_same_value(plan)) {
             awaited.job = None;
         }
+    }
+
+    /// Models or label schemes have changed: the plan is to be analysed anew.
+    pub(crate) fn forget_derived(&mut self) {
+        (self.derived, self.awaited) = (None, None);
     }
 
     /// The plan is out of sight: it is not analysed any more.
@@ -269,7 +298,8 @@ impl Document {
 
     /// Takes the analysis of a plan; dropped if the plan or the models have changed since.
     pub(crate) fn set_derived(&mut self, plan: Plan, derived: Arc<Derived>) {
-        if plan.is_same_value(self.plan()) && derived.predictor.as_ref() == Some(&self.predictor) {
+        if plan.is_same_value(self.plan()) && derived.labelled.by.as_ref() == Some(&self.by) {
+            self.labelled = Some(derived.labelled.clone());
             self.derived = Some((plan, derived));
             self.awaited = None;
         }

@@ -40,6 +40,8 @@ pub(crate) struct Given {
 /// The purpose of choosing a file.
 pub(crate) enum Purpose {
     Open,
+    /// To open a folder of plans.
+    Workspace,
     /// To replay a robot's log.
     Log,
     Picture(PictureUse),
@@ -52,6 +54,14 @@ pub(crate) enum Purpose {
     Export,
     /// To write a dataset; the answer is for the dialog that asked.
     Dataset,
+    /// Labelled rooms: a folder of plans, or a dataset; the answer is for the dialog that asked.
+    Data {
+        is_folder: bool,
+    },
+    /// A folder to write in; the answer is for the dialog that asked.
+    Folder,
+    /// To write a chart; the answer is for the dialog that asked.
+    Chart,
     /// To save a recording; the closure makes the message that tells the recorder the path.
     Recording(Box<dyn FnOnce(PathBuf) -> Box<dyn Any + Send> + Send>),
 }
@@ -103,6 +113,7 @@ impl Dialogs {
                             .add_filter("All files", &["*"]);
                         Box::pin(dialog.pick_file()) as Waiting
                     }
+                    Purpose::Workspace => Box::pin(dialog.set_title("Open a folder of plans").pick_folder()),
                     Purpose::Log => {
                         let dialog = dialog
                             .set_title("Replay a laser log")
@@ -131,6 +142,22 @@ impl Dialogs {
                     Purpose::Dataset => {
                         let dialog =
                             dialog.set_title("Export the dataset").set_file_name(&name).add_filter("Table", &["csv"]);
+                        Box::pin(dialog.save_file())
+                    }
+                    Purpose::Data { is_folder: true } => {
+                        Box::pin(dialog.set_title("Choose a folder with plans").pick_folder())
+                    }
+                    Purpose::Data { is_folder: false } => {
+                        let dialog = dialog.set_title("Choose a dataset").add_filter("Table", &["csv"]);
+                        Box::pin(dialog.pick_file())
+                    }
+                    Purpose::Folder => Box::pin(dialog.set_title("Choose a folder").pick_folder()),
+                    Purpose::Chart => {
+                        let dialog = dialog.set_title("Export the chart").set_file_name(&name);
+                        let dialog = dialog
+                            .add_filter("Picture (PNG)", &["png"])
+                            .add_filter("Drawing (SVG)", &["svg"])
+                            .add_filter("Table (CSV)", &["csv"]);
                         Box::pin(dialog.save_file())
                     }
                     Purpose::Recording(_) => {
@@ -187,11 +214,14 @@ impl Purpose {
     pub(crate) const fn command(&self) -> &'static str {
         match self {
             Self::Open => "open",
+            Self::Workspace => "open-workspace",
             Self::Log => "replay-log",
             Self::Picture(PictureUse::Add) => "picture",
             Self::Picture(PictureUse::Relink) => "relink-picture",
             Self::Save { .. } => "save-as",
-            Self::Recording(_) | Self::Export | Self::Dataset => "choose-file",
+            Self::Recording(_) | Self::Export | Self::Dataset | Self::Data { .. } | Self::Folder | Self::Chart => {
+                "choose-file"
+            }
         }
     }
 }

@@ -284,10 +284,13 @@ impl Session {
         let word = path.to_string_lossy().into_owned();
         match purpose {
             Purpose::Open => self.wishes.push(run("open")),
+            Purpose::Workspace => self.wishes.push(run("open-workspace")),
             Purpose::Log => self.wishes.push(run("replay-log")),
             Purpose::Picture(PictureUse::Add) => self.wishes.push(run("picture")),
             Purpose::Picture(PictureUse::Relink) => self.wishes.push(run("relink-picture")),
-            Purpose::Export | Purpose::Dataset => self.chosen_file = Some(path),
+            Purpose::Export | Purpose::Dataset | Purpose::Data { .. } | Purpose::Folder | Purpose::Chart => {
+                self.chosen_file = Some(path);
+            }
             Purpose::Recording(save) => self.wishes.push(Wish::Recording(save(path))),
             Purpose::Save { then: None, answering: None } => self.wishes.push(run("save-as")),
             Purpose::Save { then, answering } => {
@@ -327,6 +330,7 @@ impl Session {
         match result {
             Ok(stamp) => {
                 self.status = format!("Saved to {}", file_name(&path));
+                let saved_at = [path.clone()];
                 let folder = path.parent().map(Path::to_owned);
                 self.in_plan(number, |session| {
                     let Some(document) = &mut session.document else { return };
@@ -342,6 +346,7 @@ impl Session {
                 if let Some((folder, depth)) = folder.map(|folder| self.list.listed_for(folder)) {
                     self.list_folder(folder, depth);
                 }
+                self.read_in_workspace_again(&saved_at);
                 // Asks again if there were changes since.
                 if let Some(intent) = then {
                     self.request(intent);

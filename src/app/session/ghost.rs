@@ -16,6 +16,7 @@ use crate::formats::{self, FileError, building_name};
 use crate::geometry::{Segment, polygon};
 use crate::labels::Schemes;
 use crate::plan::Plan;
+use crate::topology::vertical::vertical_links;
 
 /// The plan shown below the open one.
 pub(crate) struct Ghost {
@@ -82,7 +83,9 @@ impl Session {
     pub(crate) fn ghost_was_read(&mut self, origin: &Origin, result: Result<Ghost, FileError>) {
         match result {
             Ok(ghost) => {
-                self.status = format!("Below: {}", ghost.title);
+                let links = self.plan().map_or(0, |plan| vertical_links(&ghost.plan, plan).len());
+                let joined = if links == 0 { String::new() } else { format!("; stairs and lifts joined: {links}") };
+                self.status = format!("Below: {}{joined}", ghost.title);
                 self.show_ghost(Some(ghost));
             }
             Err(FileError { path, error }) => {

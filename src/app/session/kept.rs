@@ -39,6 +39,12 @@ impl<K: PartialEq, V: Clone> Kept<K, V> {
 /// A plan, equal only to the same value in memory.
 pub(crate) struct SamePlan(Plan);
 
+impl SamePlan {
+    pub(crate) fn of(plan: &Plan) -> Self {
+        Self(plan.clone())
+    }
+}
+
 impl PartialEq for SamePlan {
     fn eq(&self, other: &Self) -> bool {
         self.0.is_same_value(&other.0)
@@ -47,6 +53,12 @@ impl PartialEq for SamePlan {
 
 /// A shared value, equal only to itself.
 pub(crate) struct Same<T>(Arc<T>);
+
+impl<T> Same<T> {
+    pub(crate) fn of(shared: &Arc<T>) -> Self {
+        Self(shared.clone())
+    }
+}
 
 impl<T> PartialEq for Same<T> {
     fn eq(&self, other: &Self) -> bool {
@@ -128,7 +140,7 @@ impl Session {
             // An empty sum is minus zero.
             let sum_m2 = |areas_m2: &mut dyn Iterator<Item = f64>| areas_m2.fold(0.0, |sum, area_m2| sum + area_m2);
             Areas {
-                clear_m2: sum_m2(&mut derived.analysis.net.iter().flatten().map(|net| net.area_m2)),
+                clear_m2: sum_m2(&mut derived.analysis.net_rooms().iter().flatten().map(|net| net.area_m2)),
                 along_m2: sum_m2(&mut derived.analysis.shapes.all().iter().map(RoomShape::area_m2)),
             }
         })

@@ -1,7 +1,9 @@
 //! The session: the open plan and all that is done with it. It knows no canvas, tool, panel or command.
 
+pub(crate) mod at_hand;
 pub(crate) mod bulk;
 pub(crate) mod dataset;
+pub(crate) mod demo;
 pub(crate) mod deriving;
 pub(crate) mod document;
 pub(crate) mod executed;
@@ -17,6 +19,8 @@ pub(crate) mod jobs;
 pub(crate) mod kept;
 pub(crate) mod labelling;
 pub(crate) mod layers;
+pub(crate) mod live;
+pub(crate) mod measures;
 pub(crate) mod memory;
 pub(crate) mod messages;
 pub(crate) mod open_plans;
@@ -28,15 +32,19 @@ pub(crate) mod plan_list;
 pub(crate) mod predictions;
 pub(crate) mod questions;
 pub(crate) mod recovery;
+pub(crate) mod review;
 pub(crate) mod robot;
 pub(crate) mod safety;
 pub(crate) mod samples;
+pub(crate) mod scheme_edit;
 pub(crate) mod selection;
 pub(crate) mod settings;
 pub(crate) mod tracing;
+pub(crate) mod training;
 pub(crate) mod watch;
 pub(crate) mod wishes;
 pub(crate) mod words;
+pub(crate) mod workspace;
 
 use crate::app::paint::backdrop::BackdropView;
 use crate::app::session::document::Document;
@@ -102,6 +110,10 @@ pub(crate) struct Session {
     pub(crate) layers: LayerSettings,
     /// The storey drawn faintly under the plan.
     pub(crate) ghost: Option<ghost::Ghost>,
+    /// Second opinions, what-if and labels while something is dragged.
+    pub(crate) live: live::Live,
+    /// The demonstration, while it runs.
+    pub(crate) demo: Option<demo::Demo>,
     /// Which models predict.
     pub(crate) predictor: Predictor,
     /// The available models: bundled, and the user's own.
@@ -145,8 +157,24 @@ pub(crate) struct Session {
     pub(crate) preview: exporting::SheetPreview,
     /// The file that a dialog was told to write to, for the dialog that asked.
     pub(crate) chosen_file: Option<PathBuf>,
+    /// The open folder of plans.
+    pub(crate) workspace: Option<workspace::OpenWorkspace>,
+    /// Where what was found out about plans is kept; `None` to keep nothing.
+    pub(crate) cache_folder: Option<PathBuf>,
+    /// A room to select once the plan of this origin is shown.
+    pub(crate) awaited_room: Option<(Origin, crate::plan::RoomId)>,
+    /// The storey to show below once the plan of the first origin is shown.
+    pub(crate) awaited_ghost: Option<(Origin, Origin)>,
     /// The dataset being made.
     pub(crate) dataset_job: Option<jobs::Wanted>,
+    /// The labelled rooms at hand, for the dashboard and for training.
+    pub(crate) at_hand: at_hand::RoomsAtHand,
+    /// How well classifiers tell them.
+    pub(crate) measures: measures::Measures,
+    /// Models being trained, and those trained last.
+    pub(crate) training: training::Training,
+    /// The review of the open folder's labels.
+    pub(crate) review: review::Review,
     /// The simulated robot, or the log being replayed.
     pub(crate) robot: robot::Robot,
     /// Requests to the rest of the window.
@@ -184,6 +212,8 @@ impl Session {
             copied: None,
             layers: LayerSettings::default(),
             ghost: None,
+            live: live::Live::default(),
+            demo: None,
             predictor: Predictor::default(),
             models: Models::bundled(),
             settings: Settings::default(),
@@ -209,7 +239,15 @@ impl Session {
             findings: findings::Findings::default(),
             preview: exporting::SheetPreview::default(),
             chosen_file: None,
+            workspace: None,
+            cache_folder: None,
+            awaited_room: None,
+            awaited_ghost: None,
             dataset_job: None,
+            at_hand: at_hand::RoomsAtHand::default(),
+            measures: measures::Measures::default(),
+            training: training::Training::default(),
+            review: review::Review::default(),
             robot: robot::Robot::default(),
             wishes: Vec::new(),
         }

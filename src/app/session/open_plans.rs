@@ -42,8 +42,19 @@ pub(crate) struct OpenPlan {
     pub is_shown: bool,
 }
 
+impl Waiting {
+    pub(super) fn document(&self) -> &Document {
+        &self.document
+    }
+}
+
 impl Session {
-    fn documents(&self) -> impl Iterator<Item = &Document> {
+    /// All open plans, to change what is known of them.
+    pub(super) fn documents_mut(&mut self) -> impl Iterator<Item = &mut Document> {
+        self.waiting_plans.iter_mut().map(|waiting| &mut waiting.document).chain(&mut self.document)
+    }
+
+    pub(super) fn documents(&self) -> impl Iterator<Item = &Document> {
         self.waiting_plans.iter().map(|waiting| &waiting.document).chain(&self.document)
     }
 
@@ -266,6 +277,18 @@ impl Session {
             waiting.own.end();
         }
         self.keep_settings();
+    }
+
+    /// Closes a plan that waits and was never changed; says nothing of it.
+    pub(super) fn close_untouched(&mut self, number: u64) {
+        let is_untouched = |waiting: &Waiting| {
+            waiting.document.number == number
+                && waiting.document.history.steps().len() == 1
+                && !waiting.document.is_changed()
+        };
+        if let Some(index) = self.waiting_plans.iter().position(is_untouched) {
+            self.waiting_plans.remove(index).own.end();
+        }
     }
 
     /// Closes a plan that was only looked at, now that another is shown.

@@ -2,6 +2,8 @@
 
 use super::Session;
 use crate::app::session::messages::Severity;
+use crate::base::wording::count;
+use crate::classify::Distribution;
 use crate::classify::models::Models;
 use crate::edit;
 use crate::labels::Label;
@@ -14,7 +16,36 @@ use std::sync::Arc;
 impl Session {
     /// The predictions for the current plan; `None` while they are being computed.
     pub fn predictions(&self) -> Option<&Predictions> {
-        self.document.as_ref()?.derived()?.predictions.as_ref()
+        self.document.as_ref()?.labelled()?.predictions.as_deref()
+    }
+
+    /// The second opinion on the current plan, if one is asked for; `None` while it is being computed.
+    pub(crate) fn second_opinion(&self) -> Option<&Predictions> {
+        self.document.as_ref()?.labelled()?.second.as_deref()
+    }
+
+    /// The rooms without a label whose prediction has one of these labels and is so sure, with the label.
+    pub(crate) fn acceptable(&self, label: Option<Label>, least: f64) -> Vec<(RoomId, Label)> {
+        let Some(predictions) = self.predictions() else { return Vec::new() };
+        let rooms = predictions.network.rooms.iter().zip(&predictions.result.distributions);
+        let unlabelled = rooms.filter(|(room, _)| room.label.is_none());
+        let is_meant = |said: &Distribution| {
+            label.is_none_or(|label| said.label() == label) && said.probability(said.label()) >= least
+        };
+        unlabelled.filter(|(_, said)| is_meant(said)).map(|(room, said)| (room.id, said.label())).collect()
+    }
+
+    /// Labels the rooms without a label as predicted, where the prediction has this label and is so sure; in one step.
+    pub(crate) fn accept_those(&mut self, label: Option<Label>, least: f64) {
+        let said = self.acceptable(label, least);
+        let what = match label {
+            Some(label) => format!("Accept {label}"),
+            None if least > 0.0 => format!("Accept what is {:.0} % sure", 100.0 * least),
+            None => "Accept".to_owned(),
+        };
+        let title = format!("{what}: {}", count(said.len(), "prediction"));
+        self.accept(&title, &said);
+        self.status = title;
     }
 
     /// The selected rooms that have a prediction, with the predicted label.
@@ -44,10 +75,7 @@ impl Session {
 
     /// Labels all rooms without a label as predicted.
     pub(crate) fn accept_all_predictions(&mut self) {
-        let Some(predictions) = self.predictions() else { return };
-        let unlabelled = predictions.network.rooms.iter().filter(|room| room.label.is_none());
-        let said: Vec<(RoomId, Label)> =
-            unlabelled.filter_map(|room| Some((room.id, predictions.label(room.id)?))).collect();
+        let said = self.acceptable(None, 0.0);
         let title = format!("Accept {} predictions", said.len());
         self.accept(&title, &said);
         self.status = title;
@@ -65,7 +93,7 @@ impl Session {
         }
         if let Some(folder) = store::models_folder() {
             let (own, errors) = store::models_in(&folder);
-            self.models = Models::bundled().with(own);
+            self.models = Models::bundled().with(own).with_defaults(store::default_models(&folder));
             for error in errors {
                 self.say_of_program(Severity::Warning, "A model cannot be used", error.to_string());
             }

@@ -425,7 +425,7 @@ impl Session {
             fans: &at.fans,
             way: &at.way,
             paths: &run.paths,
-            shows_sights: self.robot.settings.shows_sights,
+            shows_sights: self.robot.settings.shows_sights && !matches!(run.source, Source::Log),
             shows_paths: self.robot.settings.shows_paths && compared.is_none(),
             is_over: run.state == State::Finished,
             marks: compared.map_or(&[], |compared| compared.marks.as_slice()),

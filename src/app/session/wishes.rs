@@ -2,6 +2,7 @@
 
 use std::any::Any;
 
+use crate::app::session::origin::Origin;
 use crate::app::session::questions::Intent;
 use crate::app::value::Call;
 use crate::geometry::{Bounds, Point};
@@ -35,6 +36,8 @@ pub(crate) enum Wish {
     CloseRecovery,
     CloseDifferences,
     Run(Call),
+    /// Open a plan to look at, as from the list.
+    OpenListed(Origin),
     /// Ask for the path that a command takes, beginning with a text.
     TypePath {
         command: &'static str,

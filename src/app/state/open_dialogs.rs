@@ -170,5 +170,9 @@ pub(crate) mod dialogs {
     pub(crate) const ABOUT: &str = "about";
     pub(crate) const BULK: &str = "many-rooms";
     pub(crate) const EXPORT: &str = "export";
+    pub(crate) const WORKSPACE: &str = "workspace";
     pub(crate) const DATASET: &str = "export-dataset";
+    pub(crate) const DASHBOARD: &str = "dashboard";
+    pub(crate) const TRAINING: &str = "train";
+    pub(crate) const SCHEMES: &str = "schemes";
 }

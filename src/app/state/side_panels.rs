@@ -161,4 +161,7 @@ pub(crate) mod ids {
     pub(crate) const HISTORY: &str = "history";
     pub(crate) const FINDINGS: &str = "findings";
     pub(crate) const ROBOT: &str = "robot";
+    pub(crate) const REVIEW: &str = "review";
+    pub(crate) const LIVE: &str = "live";
+    pub(crate) const WHAT_IF: &str = "what-if";
 }

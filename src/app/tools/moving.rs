@@ -86,6 +86,18 @@ impl Moving {
         format!("{what} · Esc cancels")
     }
 
+    /// The plan if it were let go now.
+    pub(super) fn would_be(&self, by: Vector, scope: &Scope<'_>) -> Option<Plan> {
+        match self {
+            Self::Walls { run, .. } => {
+                let drag = self.piece(scope).unwrap_or(run);
+                drag.apply(scope.plan, by).ok().map(|changed| changed.plan)
+            }
+            // Rooms come away from their neighbours: what that makes of the plan is seen once they are let go.
+            Self::Part(_) => None,
+        }
+    }
+
     /// Where it would be.
     pub(super) fn preview(&self, by: Vector, scope: &Scope<'_>, preview: &mut Preview) {
         match self {

@@ -119,6 +119,11 @@ impl Grip {
         rounded().unwrap_or(towards)
     }
 
+    /// The plan if it were let go now.
+    pub(super) fn would_be(self, scope: &Scope<'_>) -> Option<Plan> {
+        self.dragged(scope.plan, self.target(scope))
+    }
+
     /// What letting go does.
     pub(super) fn drop(self, scope: &Scope<'_>) -> Call {
         let to = Value::point(self.target(scope));

@@ -17,7 +17,7 @@ use crate::app::session::layers::LayerSettings;
 use crate::app::session::selection::{SelectMode, Selection};
 use crate::app::value::Boxed;
 use crate::draw::{Style, dimensions};
-use crate::edit::Reach;
+use crate::edit::{self, Reach};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::plan::{CornerId, DimensionLine, ElementId, Place, Plan, RoomId};
 
@@ -328,6 +328,15 @@ impl Tool for Select {
             State::Moving { what, .. } => what.hint(scope),
             State::Gripping(grip) => grip.hint(scope),
             State::MovingText { .. } => "The name and area stay there while the plan changes · Esc cancels".to_owned(),
+        }
+    }
+
+    fn would_be(&self, scope: &Scope<'_>) -> Option<Plan> {
+        match &self.state {
+            State::Gripping(grip) => grip.would_be(scope),
+            &State::MovingCorner { corner, .. } => edit::move_corners(scope.plan, &[(corner, scope.at())]).ok(),
+            State::Moving { from, what } => what.would_be(what.moved_by(*from, scope), scope),
+            State::Ready | State::Boxing { .. } | State::MovingText { .. } => None,
         }
     }
 

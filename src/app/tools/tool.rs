@@ -9,6 +9,7 @@ use super::typing::Typing;
 use crate::app::look::icons::Icon;
 use crate::app::paint::preview::Preview;
 use crate::geometry::Point;
+use crate::plan::Plan;
 use crate::snapping::Faces;
 
 /// A tool, and all that the window shows of it: its command, its place in the strip, its options.
@@ -124,6 +125,11 @@ pub(crate) trait Tool {
 
     /// What can be done now, for the status line.
     fn hint(&self, scope: &Scope<'_>) -> String;
+
+    /// The plan if what is dragged were let go now; `None` where nothing is dragged that changes rooms or openings.
+    fn would_be(&self, _scope: &Scope<'_>) -> Option<Plan> {
+        None
+    }
 
     /// Shows the work in progress.
     fn preview(&self, scope: &Scope<'_>, preview: &mut Preview);

@@ -96,7 +96,7 @@ impl Joint {
         room: usize,
     ) -> Option<JointExplanation> {
         network.rooms.get(room)?;
-        let FirstRound { looked, opinions: first } = round;
+        let FirstRound { looked, opinions: first, .. } = round;
         let values = |first: &[Distribution], known: &[Option<Label>]| {
             looked.with_labels_around(room, &Around::new(&looked.view, first, known), &self.left_out)
         };

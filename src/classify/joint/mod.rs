@@ -8,7 +8,9 @@
 //! seen the building, as in use; and in half of its examples some rooms are known, so that it learns how
 //! much to trust known labels.
 
+mod altered;
 mod around;
+mod asked;
 mod explain;
 mod store;
 mod trees;
@@ -16,25 +18,32 @@ mod view;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
+use std::sync::Arc;
 
+pub use altered::Alterations;
 pub use explain::{GroupEffect, JointExplanation, NeighbourEffect};
 pub use store::JointModelError;
 pub use view::Group;
 
+use self::altered::Version;
 use self::around::Around;
-use self::trees::{Forest, Job, KEPT, Samples};
-use self::view::View;
+use self::asked::Held;
+use self::trees::{Forest, Job, KEPT, Samples, VersionChoice};
+use self::view::{Search, View};
 use super::calibration::fitted_temperature;
-use super::{Distribution, Scores};
+use super::{Distribution, FoldScore, Scores};
 use crate::base::random::{Random, seed_of_part};
 use crate::base::work::{Cancelled, Work};
-use crate::dataset::flats::Flats;
 use crate::dataset::folds::{Folds, FoldsError};
 use crate::dataset::{RoomNetwork, RoomPlace};
 use crate::labels::{Label, Typology};
+use crate::plan::RoomId;
 
 /// Folds for first-round predictions of training rooms by forests not trained on their building.
 const INNER_FOLDS: usize = 4;
+
+/// How plans are altered while learning (`docs/joint.md` has what that is worth).
+const ALTERATIONS: Alterations = Alterations { copies: 3, as_drawn: 0.5, scale: 0.15, left_out: 0.4 };
 
 /// The trained fifth classifier.
 #[derive(Clone, Debug, PartialEq)]
@@ -110,19 +119,32 @@ struct Looked {
     features: Vec<Vec<f32>>,
     /// Whether no group of features was left out.
     is_whole: bool,
+    /// Which rooms of the whole plan are joined, and what searching them found.
+    searched: Arc<(Vec<Vec<usize>>, Vec<Search>)>,
 }
 
 impl Looked {
-    /// A storey of flats is looked at flat by flat ([`Flats`]): a dwelling's rooms are compared with each other, not with the
+    /// A storey of flats is looked at flat by flat ([`RoomNetwork::flats`]): a dwelling's rooms are compared with each other, not with the
     /// neighbours'. What the flats share is compared with the whole storey.
     fn new(network: &RoomNetwork, left_out: &BTreeSet<Group>) -> Self {
+        Self::after(network, left_out, None)
+    }
+
+    /// The same, after an edit: what was found by searching is found again where the same rooms are joined.
+    fn after(network: &RoomNetwork, left_out: &BTreeSet<Group>, before: Option<&Self>) -> Self {
         let mut view = View::new(network);
-        let mut features = view::features(network, &view);
-        let flats = Flats::of(network).map(|flats| flats.flats).unwrap_or_default();
+        let known = before.map(|before| &before.searched).filter(|searched| searched.0 == view.joined);
+        let searched = known.cloned().unwrap_or_else(|| {
+            let found = view::search(&view.joined);
+            Arc::new((view.joined.clone(), found))
+        });
+        let mut features = view::features(network, &view, &searched.1);
+        let flats = network.flats().map(|of| of.flats.as_slice()).unwrap_or_default();
         for (index, flat) in flats.iter().enumerate() {
             let part = network.part(flat);
             let of_part = View::new(&part);
-            for (&room, of_room) in flat.iter().zip(view::features(&part, &of_part)) {
+            let found = view::search(&of_part.joined);
+            for (&room, of_room) in flat.iter().zip(view::features(&part, &of_part, &found)) {
                 features[room] = of_room;
             }
             view.put(flat, index, &of_part);
@@ -130,7 +152,7 @@ impl Looked {
         for room in &mut features {
             blank(room, view::FEATURES, left_out);
         }
-        Self { view, features, is_whole: left_out.is_empty() }
+        Self { view, features, is_whole: left_out.is_empty(), searched }
     }
 
     /// The features of the second round.
@@ -155,8 +177,30 @@ impl Looked {
 /// The first round over a plan: the starting point of both predictions and their explanations.
 #[derive(Clone, Debug)]
 pub struct FirstRound {
-    looked: Looked,
+    looked: Arc<Looked>,
     opinions: Vec<Distribution>,
+    /// For the next plan, the rooms and what both forests said of them; empty where nothing is to be kept.
+    held: HeldRooms,
+}
+
+/// What the forests said of a plan's rooms.
+#[derive(Clone, Debug, Default)]
+struct HeldRooms {
+    rooms: Vec<RoomId>,
+    first: Vec<Arc<Held>>,
+    second: Vec<Arc<Held>>,
+}
+
+impl HeldRooms {
+    /// For each of these rooms its place here; `None` for one that is new.
+    fn places(&self, rooms: &[RoomId]) -> Vec<Option<usize>> {
+        if self.rooms == rooms {
+            return (0..rooms.len()).map(Some).collect();
+        }
+        let places: BTreeMap<RoomId, usize> =
+            self.rooms.iter().enumerate().map(|(place, &room)| (room, place)).collect();
+        rooms.iter().map(|room| places.get(room).copied()).collect()
+    }
 }
 
 /// Sets the features of some groups to 0, so that no tree can split on them.
@@ -185,6 +229,19 @@ impl Joint {
         Self::train_without(networks, &BTreeSet::new(), seed, work)
     }
 
+    /// The same with plans altered in another way, to measure what that is worth.
+    ///
+    /// # Errors
+    /// As [`Joint::train`].
+    pub fn train_altered(
+        networks: &[&RoomNetwork],
+        alterations: &Alterations,
+        seed: u64,
+        work: &Work<'_>,
+    ) -> Result<Self, JointTrainError> {
+        Self::learn(networks, alterations, &BTreeSet::new(), seed, work)
+    }
+
     /// The same without some groups of features, to measure their worth.
     ///
     /// # Errors
@@ -195,27 +252,23 @@ impl Joint {
         seed: u64,
         work: &Work<'_>,
     ) -> Result<Self, JointTrainError> {
+        Self::learn(networks, &ALTERATIONS, left_out, seed, work)
+    }
+
+    fn learn(
+        networks: &[&RoomNetwork],
+        alterations: &Alterations,
+        left_out: &BTreeSet<Group>,
+        seed: u64,
+        work: &Work<'_>,
+    ) -> Result<Self, JointTrainError> {
         let places = labelled(networks);
         if places.is_empty() {
             return Err(JointTrainError::NoLabelledRooms);
         }
-        let looked: Vec<Looked> = networks.iter().map(|network| Looked::new(network, left_out)).collect();
         let folds = inner_folds(networks, &places, seed);
         let count = folds.as_ref().map_or(0, Folds::count);
-
-        let classes = Classes::new(networks, &places);
-        let class_of = |place: RoomPlace| classes.of(networks, place);
-
-        // The first round: a forest for each fold that did not see it, and one trained on all rooms.
-        let mut samples = Samples::default();
-        for &place in &places {
-            let values = &looked[place.network].features[place.room];
-            samples.push(values, label(networks, place), class_of(place));
-        }
-        let (of_folds, first) = grow(&samples, folds.as_ref(), 1, seed_of_part(seed, 1), work)?;
-
-        // Predictions for every room, by the forest not trained on it. A room without a label is in the
-        // fold of the first labelled room of its plan.
+        // The fold that tests each room. A room without a label is in the fold of the first labelled room of its plan.
         let mut fold_of: Vec<Vec<usize>> = networks.iter().map(|network| vec![count; network.rooms.len()]).collect();
         if let Some(folds) = &folds {
             for (place, &fold) in places.iter().zip(folds.of_rows()).rev() {
@@ -225,37 +278,70 @@ impl Joint {
                 fold_of[place.network][place.room] = fold;
             }
         }
-        let opinions = work.map(networks.len(), |network| {
-            let rooms = looked[network].features.iter().zip(&fold_of[network]);
-            rooms.map(|(values, &fold)| of_folds.get(fold).unwrap_or(&first).predict(values)).collect::<Vec<_>>()
-        })?;
+        let classes = Classes::new(networks, &places);
 
-        // The second round: every plan twice, with no rooms known and with some known.
-        let mut samples = Samples::default();
-        let mut typical_of = Vec::new();
-        for (network, looked) in looked.iter().enumerate() {
-            let nothing = vec![None; networks[network].rooms.len()];
-            typical_of.push(looked.with_labels(&opinions[network], &nothing, left_out));
-        }
-        for &place in &places {
-            samples.push(&typical_of[place.network][place.room], label(networks, place), class_of(place));
-        }
-        let typical = samples.columns.iter().map(|column| median(column)).collect();
-        let mut random = Random::new(seed_of_part(seed, 2));
-        let partly: Vec<Vec<Vec<f32>>> = networks
+        // Every plan as it is drawn, and as another source might have drawn it. The samples are the labelled rooms of all
+        // versions, those of the plans as drawn first, in the order of `places`.
+        let versions = Version::all(networks, alterations, seed_of_part(seed, 4));
+        let looked = work.map(versions.len(), |version| Looked::new(&versions[version].network, left_out))?;
+        let samples_of: Vec<(usize, usize)> = versions
             .iter()
             .enumerate()
-            .map(|(network, rooms)| {
+            .flat_map(|(index, version)| version.network.labelled().map(move |room| (index, room)))
+            .collect();
+        let origin = |(version, room): (usize, usize)| {
+            let version: &Version = &versions[version];
+            RoomPlace { network: version.of, room: version.rooms[room] }
+        };
+        let sample = |samples: &mut Samples, at: (usize, usize), values: &[f32]| {
+            let place = origin(at);
+            samples.push(values, label(networks, place), classes.of(networks, place));
+            samples.versions.push((place.network, versions[at.0].copy));
+        };
+        let folds_of: Vec<usize> =
+            samples_of.iter().map(|&at| origin(at)).map(|place| fold_of[place.network][place.room]).collect();
+        let choice = VersionChoice { copies: alterations.copies, as_drawn: alterations.as_drawn };
+
+        // The first round: a forest for each fold that did not see it, and one trained on all rooms.
+        let mut samples = Samples::default();
+        for &at in &samples_of {
+            sample(&mut samples, at, &looked[at.0].features[at.1]);
+        }
+        let (of_folds, first) = grow(&samples, &folds_of, count, choice, seed_of_part(seed, 1), work)?;
+
+        // Predictions for every room, by the forest not trained on it.
+        let opinions = work.map(versions.len(), |index| {
+            let version = &versions[index];
+            let rooms = looked[index].features.iter().zip(&version.rooms);
+            rooms
+                .map(|(values, &room)| of_folds.get(fold_of[version.of][room]).unwrap_or(&first).predict(values))
+                .collect::<Vec<_>>()
+        })?;
+
+        // The second round: every version with no rooms known, and with some known.
+        let mut random = Random::new(seed_of_part(seed, 2));
+        let told: Vec<[Vec<Vec<f32>>; 2]> = versions
+            .iter()
+            .zip(&looked)
+            .zip(&opinions)
+            .map(|((version, looked), opinions)| {
+                let rooms = &version.network.rooms;
                 let share = random.unit();
                 let known: Vec<Option<Label>> =
-                    rooms.rooms.iter().map(|room| room.label.filter(|_| random.unit() < share)).collect();
-                looked[network].with_labels(&opinions[network], &known, left_out)
+                    rooms.iter().map(|room| room.label.filter(|_| random.unit() < share)).collect();
+                let nothing = vec![None; rooms.len()];
+                [nothing, known].map(|known| looked.with_labels(opinions, &known, left_out))
             })
             .collect();
-        for &place in &places {
-            samples.push(&partly[place.network][place.room], label(networks, place), class_of(place));
+        let mut samples = Samples::default();
+        // All places with nothing known, then all of them with some rooms known.
+        let knowing_some = samples_of.iter().map(|&at| (at, 1));
+        for (at, knowing) in samples_of.iter().map(|&at| (at, 0)).chain(knowing_some) {
+            sample(&mut samples, at, &told[at.0][knowing][at.1]);
         }
-        let (of_folds, second) = grow(&samples, folds.as_ref(), 2, seed_of_part(seed, 3), work)?;
+        let folds_of = folds_of.repeat(2);
+        let (of_folds, second) = grow(&samples, &folds_of, count, choice, seed_of_part(seed, 3), work)?;
+        let typical = samples.columns.iter().map(|column| median(&column[..places.len()])).collect();
 
         // Temperature from rooms whose building the forest had not seen.
         let unseen = places.iter().enumerate().filter_map(|(index, &place)| {
@@ -264,10 +350,7 @@ impl Joint {
             Some((forest.predict(&values), label(networks, place)))
         });
         let temperature = fitted_temperature(unseen);
-        let [first, second] = [first, second].map(|mut forest| {
-            forest.trees.truncate(KEPT);
-            forest
-        });
+        let [first, second] = [first, second].map(|forest| forest.shortened(KEPT));
         Ok(Self { first, second, temperature, typical, left_out: left_out.clone() })
     }
 
@@ -280,9 +363,7 @@ impl Joint {
 
     /// The first round, which needs no labels.
     pub fn first_round(&self, network: &RoomNetwork) -> FirstRound {
-        let looked = Looked::new(network, &self.left_out);
-        let opinions = self.first_opinions(&looked);
-        FirstRound { looked, opinions }
+        self.first_round_from(Arc::new(Looked::new(network, &self.left_out)))
     }
 
     /// The same, after another classifier's first round over the same network: rooms are looked at once for both.
@@ -290,18 +371,49 @@ impl Joint {
         if !(self.left_out.is_empty() && other.looked.is_whole) {
             return self.first_round(network);
         }
-        let looked = other.looked.clone();
-        let opinions = self.first_opinions(&looked);
-        FirstRound { looked, opinions }
+        self.first_round_from(other.looked.clone())
+    }
+
+    fn first_round_from(&self, looked: Arc<Looked>) -> FirstRound {
+        let opinions = looked.features.iter().map(|values| self.first.predict(values)).collect();
+        FirstRound { looked, opinions, held: HeldRooms::default() }
+    }
+
+    /// Both rounds over the plan after an edit: `before` is this classifier's first round over the plan before it, if there
+    /// was one, and `other` another classifier's over the same network. The result is that of [`Joint::first_round`] and
+    /// [`Joint::predict_from`], to the last bit.
+    pub fn predict_after(
+        &self,
+        network: &RoomNetwork,
+        known: &[Option<Label>],
+        other: Option<&FirstRound>,
+        before: Option<&FirstRound>,
+    ) -> (FirstRound, Vec<Distribution>) {
+        let looked = match other.filter(|other| self.left_out.is_empty() && other.looked.is_whole) {
+            Some(other) => other.looked.clone(),
+            None => {
+                let looked = before.map(|before| before.looked.as_ref());
+                Arc::new(Looked::after(network, &self.left_out, looked))
+            }
+        };
+        let rooms: Vec<RoomId> = network.rooms.iter().map(|room| room.id).collect();
+        let places = before.map_or_else(Vec::new, |before| before.held.places(&rooms));
+        let held_before = |of: fn(&HeldRooms) -> &Vec<Arc<Held>>| -> Vec<Option<&Arc<Held>>> {
+            let Some(before) = before else { return Vec::new() };
+            places.iter().map(|place| of(&before.held).get((*place)?)).collect()
+        };
+        let first = self.first.asked().predict_held(&looked.features, &held_before(|held| &held.first), |said| said);
+        let opinions: Vec<Distribution> = first.iter().map(|held| held.said).collect();
+        let features = looked.with_labels(&opinions, known, &self.left_out);
+        let finish = |said: Distribution| said.at_temperature(self.temperature);
+        let second = self.second.asked().predict_held(&features, &held_before(|held| &held.second), finish);
+        let distributions = second.iter().map(|held| held.said).collect();
+        (FirstRound { looked, opinions, held: HeldRooms { rooms, first, second } }, distributions)
     }
 
     /// Like [`Joint::predict`], from a first round over the same network.
     pub fn predict_from(&self, round: &FirstRound, known: &[Option<Label>]) -> Vec<Distribution> {
         self.second_opinions(&round.looked, &round.opinions, known)
-    }
-
-    fn first_opinions(&self, looked: &Looked) -> Vec<Distribution> {
-        looked.features.iter().map(|values| self.first.predict(values)).collect()
     }
 
     fn second_opinions(&self, looked: &Looked, first: &[Distribution], known: &[Option<Label>]) -> Vec<Distribution> {
@@ -368,28 +480,24 @@ fn inner_folds(networks: &[&RoomNetwork], places: &[RoomPlace], seed: u64) -> Op
         .ok()
 }
 
-/// A forest for each fold, trained on the samples of the others, and one trained on all. `times` is how
-/// many copies of the rooms the samples contain, one after the other.
+/// A forest for each of `count` folds, trained on the samples of the others, and one trained on all.
 fn grow(
     samples: &Samples,
-    folds: Option<&Folds>,
-    times: usize,
+    fold_of: &[usize],
+    count: usize,
+    choice: VersionChoice,
     seed: u64,
     work: &Work<'_>,
 ) -> Result<(Vec<Forest>, Forest), Cancelled> {
-    let rooms = samples.labels.len() / times;
-    let rows = |chosen: &[usize]| -> Vec<u32> {
-        (0..times).flat_map(|copy| chosen.iter().map(move |&row| (copy * rooms + row) as u32)).collect()
+    let rows = |keep: &dyn Fn(usize) -> bool| -> Vec<u32> {
+        (0..fold_of.len()).filter(|&row| keep(fold_of[row])).map(|row| row as u32).collect()
     };
-    let all: Vec<usize> = (0..rooms).collect();
-    let mut chosen: Vec<Vec<u32>> = vec![rows(&all)];
-    if let Some(folds) = folds {
-        chosen.extend((0..folds.count()).map(|fold| rows(&folds.training_rows(fold))));
-    }
+    let mut chosen: Vec<Vec<u32>> = vec![rows(&|_| true)];
+    chosen.extend((0..count).map(|fold| rows(&|of| of != fold)));
     let jobs: Vec<Job<'_>> = chosen
         .into_iter()
         .enumerate()
-        .map(|(index, rows)| Job { samples, rows, seed: seed_of_part(seed, index) })
+        .map(|(index, rows)| Job { samples, rows, choice, seed: seed_of_part(seed, index) })
         .collect();
     let mut forests = trees::grow(&jobs, work)?.into_iter();
     let of_all = forests.next().ok_or(Cancelled)?;
@@ -429,11 +537,18 @@ pub fn cross_validate_without(
     seed: u64,
     work: &Work<'_>,
 ) -> Result<JointValidated, JointValidationError> {
+    validate(networks, left_out, &folds_of(networks, folds, seed)?, known, seed, &|_| {}, work)
+}
+
+/// The folds of [`cross_validate`]: one for each labelled room.
+///
+/// # Errors
+/// When there are fewer buildings with labelled rooms than folds.
+pub fn folds_of(networks: &[&RoomNetwork], folds: usize, seed: u64) -> Result<Folds, JointValidationError> {
     let places = labelled(networks);
     let labels: Vec<Label> = places.iter().map(|&place| label(networks, place)).collect();
     let buildings: Vec<&str> = places.iter().map(|place| networks[place.network].group.as_str()).collect();
-    let folds = Folds::grouped(&labels, &buildings, folds, seed).map_err(JointValidationError::Folds)?;
-    validate(networks, left_out, &folds, known, seed, work)
+    Folds::grouped(&labels, &buildings, folds, seed).map_err(JointValidationError::Folds)
 }
 
 /// The same on folds that are given: one for each labelled room, such that no plan is split.
@@ -446,7 +561,21 @@ pub fn cross_validate_on(
     seed: u64,
     work: &Work<'_>,
 ) -> Result<JointValidated, JointValidationError> {
-    validate(networks, &BTreeSet::new(), folds, 0.0, seed, work)
+    cross_validate_telling(networks, folds, seed, &|_| {}, work)
+}
+
+/// The same; `told` hears of each fold when it is done, from any thread.
+///
+/// # Errors
+/// As [`cross_validate_on`].
+pub fn cross_validate_telling(
+    networks: &[&RoomNetwork],
+    folds: &Folds,
+    seed: u64,
+    told: &(dyn Fn(FoldScore) + Sync),
+    work: &Work<'_>,
+) -> Result<JointValidated, JointValidationError> {
+    validate(networks, &BTreeSet::new(), folds, 0.0, seed, told, work)
 }
 
 fn validate(
@@ -455,6 +584,7 @@ fn validate(
     folds: &Folds,
     known: f64,
     seed: u64,
+    told: &(dyn Fn(FoldScore) + Sync),
     work: &Work<'_>,
 ) -> Result<JointValidated, JointValidationError> {
     let places = labelled(networks);
@@ -474,7 +604,16 @@ fn validate(
                 let said = joint.as_ref().map(|joint| joint.predict(networks[network], &known));
                 (network, said.unwrap_or_else(|| vec![Distribution::UNIFORM; rooms.len()]))
             };
-            tested.into_iter().map(&mut predict).collect::<Vec<_>>()
+            let said: Vec<(usize, Vec<Distribution>)> = tested.into_iter().map(&mut predict).collect();
+            let mut score = FoldScore { rooms: 0, right: 0 };
+            for (network, said) in &said {
+                for room in networks[*network].labelled() {
+                    score.rooms += 1;
+                    score.right += usize::from(networks[*network].rooms[room].label == Some(said[room].label()));
+                }
+            }
+            told(score);
+            said
         })
         .map_err(|Cancelled| JointValidationError::Cancelled)?;
     let mut of_network: Vec<Vec<Distribution>> = vec![Vec::new(); networks.len()];

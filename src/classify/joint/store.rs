@@ -110,7 +110,7 @@ fn trees_of(forest: &Forest) -> Value {
         }
         Value::Array(numbers)
     };
-    forest.trees.iter().map(tree).collect()
+    forest.trees().iter().map(tree).collect()
 }
 
 fn forest(name: &str, trees: &[Value], features: usize) -> Result<Forest, JointModelError> {
@@ -129,7 +129,7 @@ fn forest(name: &str, trees: &[Value], features: usize) -> Result<Forest, JointM
         }
         read.push(tree);
     }
-    Ok(Forest { trees: read })
+    Ok(Forest::new(read))
 }
 
 /// A tree from its numbers. Questions still waiting for their second child are on an explicit stack, so

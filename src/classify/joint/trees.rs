@@ -2,6 +2,9 @@
 //! each of its questions is the best of a few drawn at random, and the trees' answers are averaged. With
 //! a few hundred rooms and many features this overfits less than choosing the best of all questions.
 
+use std::sync::OnceLock;
+
+use super::asked::Asked;
 use crate::base::random::{Random, seed_of_part};
 use crate::base::work::{Cancelled, Work};
 use crate::classify::Distribution;
@@ -34,6 +37,8 @@ pub(super) struct Samples {
     pub labels: Vec<Label>,
     /// What questions are to tell apart: a finer class within the label, such as the function; below [`MOST_CLASSES`].
     pub classes: Vec<u16>,
+    /// The plan of each sample, and which version of it: 0 as drawn. Empty if there is but one version.
+    pub versions: Vec<(usize, usize)>,
 }
 
 impl Samples {
@@ -79,16 +84,57 @@ pub(super) struct Tree {
     pub nodes: Vec<Node>,
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Forest {
-    pub trees: Vec<Tree>,
+    trees: Vec<Tree>,
+    /// The same to be asked; laid out when first needed.
+    asked: OnceLock<Asked>,
+}
+
+impl PartialEq for Forest {
+    fn eq(&self, other: &Self) -> bool {
+        self.trees == other.trees
+    }
 }
 
 /// A forest to grow, from these samples with this seed. `rows` must not be empty.
 pub(super) struct Job<'a> {
     pub samples: &'a Samples,
     pub rows: Vec<u32>,
+    pub choice: VersionChoice,
     pub seed: u64,
+}
+
+/// Which versions of plans a tree learns from: one of each plan.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct VersionChoice {
+    /// Versions of each plan, besides the one as drawn.
+    pub copies: usize,
+    /// Probability of the version as drawn.
+    pub as_drawn: f64,
+}
+
+impl Job<'_> {
+    /// What a tree learns from.
+    fn rows_of(&self, seed: u64) -> Vec<u32> {
+        if self.choice.copies == 0 || self.samples.versions.is_empty() {
+            return self.rows.clone();
+        }
+        let plans = self.samples.versions.iter().map(|(plan, _)| plan + 1).max().unwrap_or_default();
+        // Not the numbers that draw the questions.
+        let mut random = Random::new(seed_of_part(seed, usize::MAX));
+        let mut chosen = |_| match random.unit() < self.choice.as_drawn {
+            true => 0,
+            false => 1 + random.below(self.choice.copies),
+        };
+        let chosen: Vec<usize> = (0..plans).map(&mut chosen).collect();
+        let is_chosen = |row: &&u32| {
+            let (plan, version) = self.samples.versions[**row as usize];
+            chosen[plan] == version
+        };
+        let rows: Vec<u32> = self.rows.iter().filter(is_chosen).copied().collect();
+        if rows.is_empty() { self.rows.clone() } else { rows }
+    }
 }
 
 /// Grows the forests of all jobs, tree by tree on all threads.
@@ -96,24 +142,35 @@ pub(super) fn grow(jobs: &[Job<'_>], work: &Work<'_>) -> Result<Vec<Forest>, Can
     let mut trees = work
         .map(jobs.len() * TREES, |part| {
             let job = &jobs[part / TREES];
-            Tree::grow(job.samples, job.rows.clone(), seed_of_part(job.seed, part % TREES))
+            let seed = seed_of_part(job.seed, part % TREES);
+            Tree::grow(job.samples, job.rows_of(seed), seed)
         })?
         .into_iter();
-    Ok(jobs.iter().map(|_| Forest { trees: trees.by_ref().take(TREES).collect() }).collect())
+    Ok(jobs.iter().map(|_| Forest::new(trees.by_ref().take(TREES).collect())).collect())
 }
 
 impl Forest {
+    pub fn new(trees: Vec<Tree>) -> Self {
+        Self { trees, asked: OnceLock::new() }
+    }
+
+    pub fn trees(&self) -> &[Tree] {
+        &self.trees
+    }
+
+    /// The first trees only.
+    pub fn shortened(self, trees: usize) -> Self {
+        Self::new(self.trees.into_iter().take(trees).collect())
+    }
+
+    /// The forest laid out to be asked.
+    pub fn asked(&self) -> &Asked {
+        self.asked.get_or_init(|| Asked::new(&self.trees))
+    }
+
     /// The mean of the trees' answers.
     pub fn predict(&self, values: &[f32]) -> Distribution {
-        let mut sums = [0.0; 5];
-        for tree in &self.trees {
-            let counts = tree.leaf(values).map(f64::from);
-            let all: f64 = counts.iter().sum();
-            for (sum, count) in sums.iter_mut().zip(counts) {
-                *sum += count / all;
-            }
-        }
-        Distribution::from_weights(sums)
+        self.asked().predict(values)
     }
 }
 
@@ -127,18 +184,6 @@ impl Tree {
         };
         grower.grow(&mut rows, 0);
         Self { nodes: grower.nodes }
-    }
-
-    fn leaf(&self, values: &[f32]) -> [u32; 5] {
-        let mut index = 0;
-        loop {
-            match self.nodes[index] {
-                Node::Leaf(counts) => return counts,
-                Node::Question { feature, at_most, no } => {
-                    index = if values[feature] <= at_most { index + 1 } else { no };
-                }
-            }
-        }
     }
 }
 
@@ -237,6 +282,8 @@ fn purity(counts: [u32; MOST_CLASSES]) -> f64 {
 mod tests {
     use super::*;
 
+    const AS_DRAWN: VersionChoice = VersionChoice { copies: 0, as_drawn: 1.0 };
+
     /// Two labels separated by the first of two features.
     fn samples() -> Samples {
         let mut samples = Samples::default();
@@ -252,7 +299,7 @@ mod tests {
     #[test]
     fn a_forest_learns_and_does_not_depend_on_threads() {
         let samples = samples();
-        let jobs = || [Job { samples: &samples, rows: (0..60).collect(), seed: 5 }];
+        let jobs = || [Job { samples: &samples, rows: (0..60).collect(), choice: AS_DRAWN, seed: 5 }];
         let one = grow(&jobs(), &Work::quiet().on_threads(1)).unwrap();
         assert_eq!(one, grow(&jobs(), &Work::quiet().on_threads(3)).unwrap());
         assert_eq!(one[0].predict(&[2.5, 0.5]).label(), Label::Corridor);
@@ -265,9 +312,9 @@ mod tests {
         for label in [Label::Hall, Label::Hall, Label::Hall, Label::BigRoom].repeat(5) {
             samples.push(&[1.0], label, label.index() as u16);
         }
-        let job = Job { samples: &samples, rows: (0..20).collect(), seed: 0 };
+        let job = Job { samples: &samples, rows: (0..20).collect(), choice: AS_DRAWN, seed: 0 };
         let forest = grow(&[job], &Work::quiet()).unwrap().pop().unwrap();
-        assert!(forest.trees.iter().all(|tree| tree.nodes == [Node::Leaf([0, 0, 5, 0, 15])]));
+        assert!(forest.trees().iter().all(|tree| tree.nodes == [Node::Leaf([0, 0, 5, 0, 15])]));
         assert!((forest.predict(&[1.0]).probability(Label::Hall) - 0.75).abs() < 1e-12);
     }
 }

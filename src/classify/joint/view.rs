@@ -204,8 +204,8 @@ fn ranks(numbers: &[f64]) -> Vec<f64> {
 }
 
 /// Results of searching the graph, for each room.
-#[derive(Clone, Copy, Default)]
-struct Search {
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Search {
     /// Share of the shortest paths between other rooms that pass through it (Freeman 1977).
     betweenness: f64,
     /// One over the mean number of steps to the reachable rooms.
@@ -215,52 +215,87 @@ struct Search {
     reach: f64,
 }
 
+/// Which rooms are joined, one list after the other: quicker to go through than a list for each room.
+struct Joined {
+    /// Where each room's list begins, and where the last ends.
+    starts: Vec<u32>,
+    rooms: Vec<u32>,
+}
+
+impl Joined {
+    fn new(joined: &[Vec<usize>]) -> Self {
+        let mut starts = Vec::with_capacity(joined.len() + 1);
+        starts.push(0);
+        let mut rooms = Vec::new();
+        for of_room in joined {
+            rooms.extend(of_room.iter().map(|&other| other as u32));
+            starts.push(rooms.len() as u32);
+        }
+        Self { starts, rooms }
+    }
+
+    fn of(&self, room: u32) -> &[u32] {
+        let room = room as usize;
+        &self.rooms[self.starts[room] as usize..self.starts[room + 1] as usize]
+    }
+}
+
+/// Not reached in a search.
+const NOWHERE: u32 = u32::MAX;
+
 /// Searches the graph breadth-first from every room; betweenness after Brandes (2001).
-fn search(joined: &[Vec<usize>]) -> Vec<Search> {
+pub(super) fn search(joined: &[Vec<usize>]) -> Vec<Search> {
     let rooms = joined.len();
     let mut found = vec![Search::default(); rooms];
     let stride = rooms.div_ceil(MOST_SEARCHES).max(1);
+    let joined = Joined::new(joined);
+    // Only what a search has reached is reset after it.
+    let mut steps: Vec<u32> = vec![NOWHERE; rooms];
+    let mut ways = vec![0.0; rooms];
     let mut from_here = vec![0.0; rooms];
-    for start in 0..rooms {
-        if start % stride != 0 {
-            continue;
-        }
-        let mut steps: Vec<Option<u32>> = vec![None; rooms];
-        let mut ways = vec![0.0; rooms];
-        let mut order = Vec::new();
-        let mut queue = VecDeque::from([start]);
-        (steps[start], ways[start]) = (Some(0), 1.0);
-        while let Some(room) = queue.pop_front() {
-            order.push(room);
-            let next = steps[room].map(|steps| steps + 1);
-            for &other in &joined[room] {
-                if steps[other].is_none() {
-                    steps[other] = next;
-                    queue.push_back(other);
+    let mut order: Vec<u32> = Vec::with_capacity(rooms);
+    for start in (0..rooms).step_by(stride) {
+        order.clear();
+        order.push(start as u32);
+        (steps[start], ways[start]) = (0, 1.0);
+        let mut at = 0;
+        while let Some(&room) = order.get(at) {
+            at += 1;
+            let (next, ways_here) = (steps[room as usize] + 1, ways[room as usize]);
+            for &other in joined.of(room) {
+                let other_at = other as usize;
+                if steps[other_at] == NOWHERE {
+                    steps[other_at] = next;
+                    order.push(other);
                 }
-                if steps[other] == next {
-                    ways[other] += ways[room];
+                if steps[other_at] == next {
+                    ways[other_at] += ways_here;
                 }
             }
         }
         let reached = order.len() as f64;
-        let sum: f64 = order.iter().filter_map(|&room| steps[room]).map(f64::from).sum();
-        let farthest = order.last().and_then(|&room| steps[room]).unwrap_or_default();
+        let sum: f64 = order.iter().map(|&room| f64::from(steps[room as usize])).sum();
+        let farthest = order.last().map_or(0, |&room| steps[room as usize]);
         found[start].closeness = if sum > 0.0 { (reached - 1.0) / sum } else { 0.0 };
         found[start].farthest = f64::from(farthest);
         found[start].reach = reached / rooms as f64;
-        from_here.fill(0.0);
         let pairs = ((reached - 1.0) * (reached - 2.0)).max(1.0) / stride as f64;
         for &room in order.iter().rev() {
-            let before = steps[room].and_then(|steps| steps.checked_sub(1));
-            for &other in &joined[room] {
-                if before.is_some() && steps[other] == before {
-                    from_here[other] += ways[other] / ways[room] * (1.0 + from_here[room]);
+            let at = room as usize;
+            if at == start {
+                continue;
+            }
+            let before = steps[at] - 1;
+            for &other in joined.of(room) {
+                let other = other as usize;
+                if steps[other] == before {
+                    from_here[other] += ways[other] / ways[at] * (1.0 + from_here[at]);
                 }
             }
-            if room != start {
-                found[room].betweenness += from_here[room] / pairs;
-            }
+            found[at].betweenness += from_here[at] / pairs;
+        }
+        for &room in &order {
+            (steps[room as usize], ways[room as usize], from_here[room as usize]) = (NOWHERE, 0.0, 0.0);
         }
     }
     if stride > 1 {
@@ -336,7 +371,8 @@ fn alike_in_both(first: &[f64], second: &[f64]) -> Vec<f64> {
 }
 
 /// The features of every room of a network, each list as long as [`FEATURES`]; all finite.
-pub(super) fn features(network: &RoomNetwork, view: &View) -> Vec<Vec<f32>> {
+/// `places` are what [`search`] finds of the rooms that the view joins.
+pub(super) fn features(network: &RoomNetwork, view: &View, places: &[Search]) -> Vec<Vec<f32>> {
     let View { log_area, joined, siblings, .. } = view;
     let rooms = &network.rooms;
     let all = rooms.len() as f64;
@@ -356,7 +392,6 @@ pub(super) fn features(network: &RoomNetwork, view: &View) -> Vec<Vec<f32>> {
     let most_joined = most(degree.iter().copied());
     let (area_rank, door_rank) = (ranks(log_area), ranks(&doors));
     let (length_rank, width_rank) = (ranks(&log_length), ranks(&log_width));
-    let places = search(joined);
     let closeness: Vec<f64> = places.iter().map(|place| place.closeness).collect();
     let closeness_rank = ranks(&closeness);
     let mean_closeness = mean(closeness.iter().copied()).unwrap_or_default();

@@ -33,6 +33,29 @@ pub struct Segmentation {
     pub cuts: Vec<Cut>,
 }
 
+/// How the free space is cut, and what is joined again.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SegmentOptions {
+    /// A cut is considered where the free space is narrower than this share of what it is on both sides.
+    pub widest_share: f64,
+    /// A cut alone separates two rooms if it is narrower than this share of both: of the diameters of the
+    /// largest discs inside them.
+    pub narrow_share: f64,
+    /// A wall separates two rooms where both are within this distance of its middle, in metres.
+    pub wall_reach_m: f64,
+    /// Rooms smaller than this, in square metres, join a neighbour unless the robot was in them.
+    pub least_unvisited_m2: f64,
+}
+
+impl SegmentOptions {
+    /// For maps of which no more is known.
+    pub const MAP: Self = Self { widest_share: 0.85, narrow_share: 0.6, wall_reach_m: 0.45, least_unvisited_m2: 0.0 };
+
+    /// For the grid of a log. What stands along the walls of a room in use makes it narrower and its walls
+    /// thicker, and bays between desks look like rooms; but a robot does not enter those.
+    pub const LOG: Self = Self { widest_share: 0.95, narrow_share: 0.75, wall_reach_m: 0.8, least_unvisited_m2: 4.0 };
+}
+
 /// A smaller area enclosed by walls, in square metres, is a gap between the two scanned faces of a wall,
 /// not free space.
 const SMALLEST_FREE_M2: f64 = 0.25;
@@ -42,6 +65,11 @@ const LARGEST_CLUTTER_M: f64 = 1.2;
 
 /// Finds the rooms of a map.
 pub fn segment(map: &GridMap) -> Segmentation {
+    segment_with(map, &SegmentOptions::MAP, &[])
+}
+
+/// Finds the rooms of a map. `visited`: the cells where the robot was, by index.
+pub fn segment_with(map: &GridMap, options: &SegmentOptions, visited: &[usize]) -> Segmentation {
     let is_free: Vec<bool> = map.cells().iter().map(|&cell| cell == Cell::Free).collect();
     let mut raster =
         Raster { width: map.width(), height: map.height(), resolution_m: map.resolution_m, free: is_free.clone() };
@@ -49,8 +77,8 @@ pub fn segment(map: &GridMap) -> Segmentation {
     raster.remove_clutter();
     let distances = distance::distances(&raster.free, raster.width, raster.height);
     let mut gaps = wall_ends::gaps(&raster);
-    gaps.extend(narrows::narrows(&raster, &distances));
-    let found = regions::regions(&raster, &distances, &gaps);
+    gaps.extend(narrows::narrows(&raster, &distances, options.widest_share));
+    let found = regions::regions(&raster, &distances, &gaps, options, visited);
     numbered(&raster, &is_free, found)
 }
 
@@ -205,5 +233,34 @@ impl Raster {
         for (free, thing) in self.free.iter_mut().zip(things) {
             *free |= thing != 0 && is_clutter[thing as usize];
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::Pose;
+
+    /// A room of 4 m by 4 m with a bay of 1.6 m by 1.6 m behind an opening of 1 m in a wall of 0.2 m.
+    fn room_with_bay() -> GridMap {
+        let (width, height) = (130, 90);
+        let is_free = |x: usize, y: usize| {
+            let within = |left, top, right, bottom| (left..right).contains(&x) && (top..bottom).contains(&y);
+            within(5, 5, 85, 85) || within(85, 35, 89, 55) || within(89, 29, 121, 61)
+        };
+        let cells = (0..width * height).map(|cell| match is_free(cell % width, cell / width) {
+            true => Cell::Free,
+            false => Cell::Occupied,
+        });
+        GridMap::new(width, height, 0.05, Pose::IDENTITY, cells.collect()).unwrap()
+    }
+
+    #[test]
+    fn a_bay_is_a_room_only_if_the_robot_was_in_it() {
+        let map = room_with_bay();
+        let rooms = |visited: &[usize]| segment_with(&map, &SegmentOptions::LOG, visited).rooms;
+        let (room, bay) = (45 * 130 + 40, 45 * 130 + 100);
+        assert_eq!((rooms(&[room]), rooms(&[room, bay])), (1, 2));
+        assert_eq!(segment(&map).rooms, 2);
     }
 }

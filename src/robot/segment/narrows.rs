@@ -6,17 +6,16 @@ use super::distance::Distances;
 use super::union::Union;
 use crate::geometry::Point;
 
-/// Only places narrower than this share of both sides are considered; which to keep is decided later.
-const WIDEST_SHARE: f64 = 0.85;
 /// The two nearest obstacles of a narrow place are on opposite sides: the maximum cosine of the angle
 /// between them.
 const MOST_COSINE: f64 = -0.3;
 
-/// The narrow places: from the nearest obstacle on one side to that on the other.
+/// The places narrower than a share of both sides, from the nearest obstacle on one side to that on the
+/// other; which to keep is decided later.
 ///
 /// Cells are visited from the widest place down; basins that meet are merged unless the place where they
 /// meet is clearly narrower than both.
-pub fn narrows(raster: &Raster, distances: &Distances) -> Vec<[Point; 2]> {
+pub fn narrows(raster: &Raster, distances: &Distances, widest_share: f64) -> Vec<[Point; 2]> {
     let (width, height) = (raster.width as i32, raster.height as i32);
     let mut order: Vec<u32> = (0..raster.free.len() as u32).filter(|&cell| raster.free[cell as usize]).collect();
     order.sort_unstable_by_key(|&cell| (std::cmp::Reverse(distances.squared[cell as usize]), cell));
@@ -58,7 +57,7 @@ pub fn narrows(raster: &Raster, distances: &Distances) -> Vec<[Point; 2]> {
                 continue;
             }
             let (peak, lower) = (peaks[one as usize], peaks[other as usize]);
-            if distance > WIDEST_SHARE * peak.min(lower) {
+            if distance > widest_share * peak.min(lower) {
                 let (keep, go) = if peak >= lower { (one, other) } else { (other, one) };
                 basins.join(keep, go);
             } else {

@@ -2,19 +2,15 @@
 
 use std::collections::BTreeSet;
 
-use super::Raster;
 use super::distance::{self, Distances};
 use super::union::Union;
-use super::wall_ends::THICKEST_WALL_M;
+use super::{Raster, SegmentOptions};
 use crate::geometry::{Point, Vector};
 
 /// Smaller pieces, in square metres, are never rooms of their own beside a larger one: the space between
 /// two cuts through the same doorway, or the depth of a niche.
 pub const SMALLEST_ROOM_M2: f64 = 1.0;
-/// A cut alone separates two rooms if it is narrower than this share of both: of the diameters of the
-/// largest discs inside them.
-const NARROW_SHARE: f64 = 0.6;
-/// Otherwise it must continue, within [`WALL_LOOKED_AT_M`] of its ends, a wall between the same two rooms
+/// A cut that is not narrow must continue, within [`WALL_LOOKED_AT_M`] of its ends, a wall between the same two rooms
 /// of at least this length, which is also at least this share of the cut.
 const LEAST_WALL_M: f64 = 0.4;
 const LEAST_WALL_SHARE: f64 = 0.15;
@@ -41,19 +37,34 @@ pub struct Regions {
 }
 
 /// Cuts the free space and joins what belongs together.
-pub fn regions(raster: &Raster, distances: &Distances, gaps: &[[Point; 2]]) -> Regions {
+pub fn regions(
+    raster: &Raster,
+    distances: &Distances,
+    gaps: &[[Point; 2]],
+    options: &SegmentOptions,
+    visited: &[usize],
+) -> Regions {
     let mut is_cut = vec![false; raster.free.len()];
     for &gap in gaps {
         draw(raster, &mut is_cut, gap);
     }
     let (pieces, count) = raster.components(|cell| raster.free[cell] && !is_cut[cell]);
-    let mut merger = Merger::new(raster, distances, &pieces, count, gaps);
-    merger.join_small(raster.cells(SMALLEST_ROOM_M2.sqrt()).powi(2));
+    let mut merger = Merger::new(raster, distances, &pieces, count, gaps, options);
+    for &cell in visited {
+        merger.is_visited[pieces[cell] as usize] = true;
+    }
+    let cells = |area_m2: f64| raster.cells(area_m2.sqrt()).powi(2);
+    merger.join_small(cells(SMALLEST_ROOM_M2), false);
     merger.join_where_no_wall_parts(raster);
     // Now against rooms as closed by the remaining cuts: the aisle between two rows of open stalls counts
     // with its own width, not including them.
     merger.measure_closed(raster, &pieces);
     merger.join_where_no_wall_parts(raster);
+    if options.least_unvisited_m2 > 0.0 {
+        merger.join_small(cells(options.least_unvisited_m2), true);
+        merger.measure_closed(raster, &pieces);
+        merger.join_where_no_wall_parts(raster);
+    }
     merger.finish(raster, pieces)
 }
 
@@ -107,13 +118,23 @@ struct Merger {
     area_cells: Vec<u32>,
     /// Radius of the largest free disc, in cells.
     peak: Vec<f64>,
+    /// Whether the robot was in it.
+    is_visited: Vec<bool>,
+    narrow_share: f64,
     borders: Vec<Border>,
     /// The borders of each set, under the set's representative.
     borders_of: Vec<Vec<u32>>,
 }
 
 impl Merger {
-    fn new(raster: &Raster, distances: &Distances, pieces: &[u32], count: u32, gaps: &[[Point; 2]]) -> Self {
+    fn new(
+        raster: &Raster,
+        distances: &Distances,
+        pieces: &[u32],
+        count: u32,
+        gaps: &[[Point; 2]],
+        options: &SegmentOptions,
+    ) -> Self {
         let mut area_cells = vec![0; count as usize + 1];
         let mut deepest = vec![0; count as usize + 1];
         for (&piece, &squared) in pieces.iter().zip(&distances.squared) {
@@ -122,7 +143,7 @@ impl Merger {
         }
         let mut borders = Vec::new();
         for &gap in gaps {
-            borders_along(raster, pieces, gap, &mut borders);
+            borders_along(raster, pieces, gap, options.wall_reach_m, &mut borders);
         }
         let mut borders_of = vec![Vec::new(); count as usize + 1];
         for (index, border) in borders.iter().enumerate() {
@@ -131,7 +152,15 @@ impl Merger {
             }
         }
         let peak = deepest.into_iter().map(|squared: u32| f64::from(squared).sqrt()).collect();
-        Self { union: Union::of(count as usize + 1), area_cells, peak, borders, borders_of }
+        Self {
+            union: Union::of(count as usize + 1),
+            area_cells,
+            peak,
+            is_visited: vec![false; count as usize + 1],
+            narrow_share: options.narrow_share,
+            borders,
+            borders_of,
+        }
     }
 
     /// Re-measures the largest disc inside each set, with the cuts between different sets as walls.
@@ -166,6 +195,7 @@ impl Merger {
         let is_larger = self.area_cells[one as usize] >= self.area_cells[other as usize];
         let (keep, go) = if is_larger { (one, other) } else { (other, one) };
         self.union.join(keep, go);
+        self.is_visited[keep as usize] |= self.is_visited[go as usize];
         self.area_cells[keep as usize] += self.area_cells[go as usize];
         self.peak[keep as usize] = self.peak[keep as usize].max(self.peak[go as usize]);
         let mut moved = std::mem::take(&mut self.borders_of[go as usize]);
@@ -177,11 +207,14 @@ impl Merger {
     }
 
     /// Merges pieces smaller than `least` cells into the neighbour with the longest common border,
-    /// smallest first.
-    fn join_small(&mut self, least: f64) {
-        let is_small = |area: u32| f64::from(area) < least;
+    /// smallest first; those that the robot visited only if they are not spared.
+    fn join_small(&mut self, least: f64, spares_visited: bool) {
+        let is_small = |merger: &Self, piece: u32| {
+            let is_spared = spares_visited && merger.is_visited[piece as usize];
+            f64::from(merger.area_cells[piece as usize]) < least && !is_spared
+        };
         let mut queue: BTreeSet<(u32, u32)> = (1..self.area_cells.len() as u32)
-            .filter(|&piece| is_small(self.area_cells[piece as usize]))
+            .filter(|&piece| is_small(self, piece))
             .map(|piece| (self.area_cells[piece as usize], piece))
             .collect();
         while let Some((area, piece)) = queue.pop_first() {
@@ -199,7 +232,7 @@ impl Merger {
                 neighbours.into_iter().max_by_key(|&(neighbour, cells)| (cells, std::cmp::Reverse(neighbour)));
             if let Some((neighbour, _)) = longest {
                 let joined = self.join([piece, neighbour]);
-                if is_small(self.area_cells[joined as usize]) {
+                if is_small(self, joined) {
                     queue.insert((self.area_cells[joined as usize], joined));
                 }
             }
@@ -250,7 +283,7 @@ impl Merger {
         let share = length / (2.0 * narrower.max(0.5));
         let wall = self.wall(border, sides);
         let is_wall = f64::from(wall.between) >= (LEAST_WALL_SHARE * length).max(raster.cells(LEAST_WALL_M));
-        if share < NARROW_SHARE || is_wall {
+        if share < self.narrow_share || is_wall {
             return;
         }
         // Integers, so that the order is total.
@@ -316,7 +349,7 @@ impl Merger {
 }
 
 /// The pairs of pieces that face each other across a cut over at least two cells.
-fn borders_along(raster: &Raster, pieces: &[u32], gap: [Point; 2], borders: &mut Vec<Border>) {
+fn borders_along(raster: &Raster, pieces: &[u32], gap: [Point; 2], wall_reach_m: f64, borders: &mut Vec<Border>) {
     /// How far from the cut's line to look for its sides, in cells.
     const ASIDE: f64 = 3.0;
     let [from, to] = gap;
@@ -334,10 +367,10 @@ fn borders_along(raster: &Raster, pieces: &[u32], gap: [Point; 2], borders: &mut
     if facing.is_empty() {
         return;
     }
-    let thickest = 0.75 * raster.cells(THICKEST_WALL_M);
+    let reach = raster.cells(wall_reach_m);
     let beyond = [(from, -along), (to, along)].map(|(end, ahead)| {
         let steps = 1..raster.cells(WALL_LOOKED_AT_M) as u32;
-        steps.map(|step| both_sides(raster, pieces, end + ahead * f64::from(step), ahead, thickest)).collect::<Vec<_>>()
+        steps.map(|step| both_sides(raster, pieces, end + ahead * f64::from(step), ahead, reach)).collect::<Vec<_>>()
     });
     borders.extend(facing.into_iter().map(|(sides, cells)| Border {
         pieces: sides,

@@ -17,7 +17,7 @@ struct WallEnd {
 }
 
 /// The thickest wall, in metres, as everywhere in plans.
-pub const THICKEST_WALL_M: f64 = 0.6;
+const THICKEST_WALL_M: f64 = 0.6;
 /// Shorter pieces are not walls: 'segments under 30 cm are dropped' (section 3.3).
 const SHORTEST_WALL_M: f64 = 0.3;
 /// The widest gap considered. The paper's doorways end at 1.5 m; free passages are wider, and whether a

@@ -141,8 +141,8 @@ pub struct RobotStudyOptions {
 impl Default for RobotStudyOptions {
     fn default() -> Self {
         Self {
-            sensor_noise: vec![0.0, 1.0, 4.0, 10.0],
-            odometry_noise: vec![0.0, 1.0, 2.0, 4.0],
+            sensor_noise: vec![1.0, 4.0, 10.0],
+            odometry_noise: vec![1.0, 2.0, 4.0],
             furniture: vec![0, 3, 6],
             repeats: 1,
             folds: 5,

@@ -210,12 +210,10 @@ pub(super) const COMMANDS: &[Command] = &[
     command("previous-plan", "Previous plan", "Open the plan above in the list", has_several_plans, |app, _| {
         app.session.open_neighbour(-1);
     })
-    .keys(&[key(Key::PageUp)])
     .menu(Menu::File, 3),
     command("next-plan", "Next plan", "Open the plan below in the list", has_several_plans, |app, _| {
         app.session.open_neighbour(1);
     })
-    .keys(&[key(Key::PageDown)])
     .menu(Menu::File, 3),
     with(
         "show-plan",

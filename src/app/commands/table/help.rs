@@ -2,6 +2,10 @@
 
 use super::*;
 
+fn has_demo(app: &App) -> Availability {
+    when(app.session.demo.is_some(), "no demonstration is running")
+}
+
 pub(super) const COMMANDS: &[Command] = &[
     with(
         "commands",
@@ -29,6 +33,17 @@ pub(super) const COMMANDS: &[Command] = &[
     )
     .keys(&[key(Key::Questionmark), key(Key::F1)])
     .menu(Menu::Help, 0),
+    command(
+        "demonstration",
+        "Watch a demonstration",
+        "Watch a school being drawn and labelled room by room, in less than a minute; take over at any moment",
+        always,
+        |app, _| app.session.start_demo(),
+    )
+    .menu(Menu::Help, 0),
+    command("stop-demonstration", "Stop the demonstration", "Take over its plan as it is", has_demo, |app, _| {
+        app.session.stop_demo();
+    }),
     with(
         "set-shortcut",
         "Set a shortcut…",

@@ -1,5 +1,7 @@
 //! The table itself: one file per menu, and helpers for the entries.
 
+mod curate;
+mod dataset;
 mod draw;
 mod edit;
 mod file;
@@ -7,6 +9,7 @@ mod help;
 mod modify;
 mod picture;
 mod predict;
+mod review;
 mod robot;
 mod room;
 mod script;
@@ -381,7 +384,7 @@ const ZOOM_STEP: f64 = 1.25;
 /// Every command, in menu order. Each menu is a file; the tools' commands come from the tools.
 pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| {
     let tools = tools_of_the_strip();
-    let parts: [&[Command]; 12] = [
+    let parts: [&[Command]; 15] = [
         file::COMMANDS,
         edit::COMMANDS,
         &tools,
@@ -390,6 +393,9 @@ pub static COMMANDS: LazyLock<Vec<Command>> = LazyLock::new(|| {
         room::COMMANDS,
         picture::COMMANDS,
         predict::COMMANDS,
+        dataset::COMMANDS,
+        curate::COMMANDS,
+        review::COMMANDS,
         robot::COMMANDS,
         view::COMMANDS,
         help::COMMANDS,

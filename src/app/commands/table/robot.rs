@@ -1,7 +1,7 @@
 //! The simulated robot, and logs of real ones.
 
 use super::*;
-use crate::app::session::robot::run::State;
+use crate::app::session::robot::run::{Source, State};
 use crate::app::session::robot::settings::{MOST_FURNITURE, MOST_NOISE, MOST_SEED};
 
 fn done(result: Result<(), String>) -> Outcome {
@@ -34,6 +34,12 @@ fn has_comparison(app: &App) -> Availability {
         app.session.robot_run().is_some_and(|run| run.compared().is_some()),
         "wait until the robot has explored a plan to the end",
     )
+}
+
+/// Rooms are found by random points, except those of a log.
+fn has_points(app: &App) -> Availability {
+    let is_log = app.session.robot_run().is_some_and(|run| matches!(run.source, Source::Log));
+    when(!is_log, "the rooms of a log are found in its grid map, without points")
 }
 
 impl App {
@@ -121,7 +127,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "robot-sights",
         "Points and lines of sight",
         "Show how rooms are found: random points, those that see each other, and the segments visible from one",
-        always,
+        has_points,
         |app| app.session.robot.settings.shows_sights,
         |app, is_on| app.session.robot.settings.shows_sights = is_on,
     )

@@ -83,7 +83,7 @@ pub(super) const COMMANDS: &[Command] = &[
     choose(
         "fill-prediction",
         "Fill by prediction",
-        "Colour each room by its predicted label; where the known label differs, it shows as a rim",
+        "Colour each room by its predicted label, fainter where it is unsure; a room with another known label is hatched",
         always,
         |app| app.session.layers.fill == Fill::Prediction,
         |app, _| app.session.layers.fill = Fill::Prediction,

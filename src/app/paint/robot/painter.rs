@@ -63,6 +63,10 @@ impl Ground<'_> {
         (metres * self.view.px_per_m) as f32
     }
 
+    fn robot_radius(&self, seen: &RobotSeen<'_>) -> f32 {
+        self.px(seen.radius_m).max(LEAST_ROBOT_PX)
+    }
+
     fn fill(&self, filled: &Filled, colour: Color32) {
         if Bounds::of(filled.outer.iter().copied()).intersects(self.seen) {
             let Filled { outer, holes, triangles } = filled;
@@ -142,10 +146,13 @@ impl RobotPainter {
             paint_paths(&ground, seen);
         }
         if !seen.shows_sights {
-            for room in &rooms.rooms {
-                paint_label(&ground, room, units);
+            let mut taken: Vec<Rect> =
+                rooms.rooms.iter().filter_map(|room| paint_label(&ground, room, units)).collect();
+            if seen.marks.is_empty() {
+                let radius = ground.robot_radius(seen);
+                taken.push(Rect::from_center_size(ground.at(seen.pose.position()), Vec2::splat(2.0 * radius)));
             }
-            paint_tags(&ground, &seen.map.frontiers);
+            paint_tags(&ground, &seen.map.frontiers, taken);
         }
         if seen.marks.is_empty() {
             paint_robot(&ground, seen);
@@ -250,11 +257,11 @@ fn paint_frontier(ground: &Ground<'_>, frontier: &FrontierSeen) {
 }
 
 /// On frontiers the likely label of the room that has not been seen, as far as there is space.
-fn paint_tags(ground: &Ground<'_>, frontiers: &[FrontierSeen]) {
+/// `taken`: where something else is read.
+fn paint_tags(ground: &Ground<'_>, frontiers: &[FrontierSeen], mut taken: Vec<Rect>) {
     let mut tagged: Vec<&FrontierSeen> =
         frontiers.iter().filter(|frontier| frontier.behind.is_some() && frontier.length_m >= TAGGED_M).collect();
     tagged.sort_by(|p, q| q.length_m.total_cmp(&p.length_m));
-    let mut taken: Vec<Rect> = Vec::new();
     for frontier in tagged.into_iter().take(MOST_TAGS) {
         let Some((label, probability)) = frontier.behind else { continue };
         let outward = vec2(frontier.outward.x as f32, -frontier.outward.y as f32);
@@ -295,7 +302,7 @@ fn paint_paths(ground: &Ground<'_>, seen: &RobotSeen<'_>) {
 }
 
 fn paint_robot(ground: &Ground<'_>, seen: &RobotSeen<'_>) {
-    let radius = ground.px(seen.radius_m).max(LEAST_ROBOT_PX);
+    let radius = ground.robot_radius(seen);
     let body = theme::colour(ground.colours.estimate);
     let rim = theme::colour(ground.colours.free);
     let at = ground.at(seen.pose.position());
@@ -317,14 +324,14 @@ fn paint_robot(ground: &Ground<'_>, seen: &RobotSeen<'_>) {
     ground.painter.add(Shape::convex_polygon(vec![arrow[0], arrow[2], arrow[3]], rim, Stroke::NONE));
 }
 
-/// The label of a room and its area, as far as there is space.
-fn paint_label(ground: &Ground<'_>, room: &RoomSeen, units: Units) {
-    let Some(label) = room.label else { return };
+/// The label of a room and its area, as far as there is space. Returns where.
+fn paint_label(ground: &Ground<'_>, room: &RoomSeen, units: Units) -> Option<Rect> {
+    let label = room.label?;
     if !ground.seen.contains(room.at) {
-        return;
+        return None;
     }
     let bounds = Bounds::of(room.floor.outer.iter().copied());
-    let size = vec2(ground.px(bounds.width()), ground.px(bounds.height()));
+    let space = vec2(ground.px(bounds.width()), ground.px(bounds.height()));
     let ink = theme::colour(ground.palette.ink);
     let font = FontId::new(12.0, theme::semibold());
     let name = ground.painter.layout_no_wrap(sentence(label.name()), font.clone(), ink);
@@ -337,7 +344,7 @@ fn paint_label(ground: &Ground<'_>, room: &RoomSeen, units: Units) {
         ground.painter.galley(on_pixel(corner), galley, ink);
     };
     let middle = ground.at(room.at);
-    let fits = |needed: Vec2| needed.x + 6.0 < size.x && needed.y + 4.0 < size.y;
+    let fits = |needed: Vec2| needed.x + 6.0 < space.x && needed.y + 4.0 < space.y;
     let area = units.area(room.area_m2);
     let area = ground.painter.layout_no_wrap(area, FontId::proportional(theme::SMALL), ink.gamma_multiply(0.8));
     let both = vec2(name.rect.width().max(area.rect.width()), name.rect.height() + area.rect.height());
@@ -345,14 +352,19 @@ fn paint_label(ground: &Ground<'_>, room: &RoomSeen, units: Units) {
         let (above, below) = (name.rect.height(), area.rect.height());
         put(name, middle - vec2(0.0, below / 2.0));
         put(area, middle + vec2(0.0, above / 2.0));
-    } else if fits(name.rect.size()) {
-        put(name, middle);
-    } else {
-        let letter = ground.painter.layout_no_wrap(label.letter().to_owned(), font, ink);
-        if fits(letter.rect.size() - vec2(4.0, 2.0)) {
-            put(letter, middle);
-        }
+        return Some(Rect::from_center_size(middle, both));
     }
+    let letter = ground.painter.layout_no_wrap(label.letter().to_owned(), font, ink);
+    let size = name.rect.size();
+    if fits(size) {
+        put(name, middle);
+        return Some(Rect::from_center_size(middle, size));
+    }
+    let size = letter.rect.size();
+    fits(size - vec2(4.0, 2.0)).then(|| {
+        put(letter, middle);
+        Rect::from_center_size(middle, size)
+    })
 }
 
 fn paint_mark(ground: &Ground<'_>, mark: &MarkSeen, is_current: bool) {

@@ -109,8 +109,6 @@ impl Compared {
                 true_of.insert(best, (room.iou, room.id));
             }
         }
-        let name_of =
-            |index: usize| true_of.get(&index).map_or_else(|| "a room that is none".to_owned(), |(_, id)| title(*id));
         let middle = |rings: &[Vec<Point>]| Bounds::of(rings.iter().flatten().copied()).center();
         let found_at = |index: usize| found.rooms.get(index).map(|room| room.at);
         let place_of = |id: RoomId| {
@@ -144,7 +142,8 @@ impl Compared {
                 match said {
                     Some(said) if said == true_label => right += 1,
                     Some(said) => {
-                        let text = format!("{}: {}, not {}", title(room.id), true_label.name(), said.name());
+                        let text =
+                            format!("{}: {} in the plan, predicted {}", title(room.id), true_label.name(), said.name());
                         add(Verdict::WrongLabel, text, rings, None, at);
                     }
                     None => {}
@@ -153,7 +152,7 @@ impl Compared {
         }
         for &index in &score.invented {
             let Some(room) = found.rooms.get(index) else { continue };
-            let text = "A room was found where the plan has none of its own".to_owned();
+            let text = "A room was found that is not in the plan".to_owned();
             add(Verdict::Invented, text, vec![room.floor.outer.clone()], None, room.at);
         }
         for pair in score.true_edges.difference(&score.right_edges) {
@@ -163,7 +162,13 @@ impl Compared {
         }
         for &(i, j) in &score.wrong_pairs {
             let (Some(from), Some(to)) = (found_at(i), found_at(j)) else { continue };
-            let text = format!("{} and {}", name_of(i), name_of(j));
+            let text = match [true_of.get(&i), true_of.get(&j)] {
+                [None, Some((_, id))] | [Some((_, id)), None] => {
+                    format!("{} and a room that is not in the plan", title(*id))
+                }
+                [None, None] => "Two rooms that are not in the plan".to_owned(),
+                [Some((_, one)), Some((_, other))] => format!("{} and {}", title(*one), title(*other)),
+            };
             add(Verdict::WrongDoor, text, Vec::new(), Some([from, to]), from.lerp(to, 0.5));
         }
         for &id in &score.unreachable {

@@ -15,7 +15,7 @@ use crate::predict::Predictor;
 use crate::predict::explored::{LabelledMap, labelled};
 use crate::robot::frontiers::Frontier;
 use crate::robot::mapper::View;
-use crate::robot::rooms::{FoundRooms, RoomOptions, find_rooms};
+use crate::robot::rooms::FoundRooms;
 use crate::robot::score::score;
 use crate::robot::split_and_merge::SplitOptions;
 use crate::robot::{Pose, RayGrid, Scan};
@@ -205,20 +205,23 @@ impl Drive {
     fn look(&mut self) {
         self.looks += 1;
         let is_over = self.vehicle.is_over();
-        let free = self.vehicle.free();
-        self.map.free = Arc::new(Filled::parts(free, self.world_from_map));
-        self.map.known_m2 = areas::area_m2(free);
-        let frontiers = self.vehicle.frontiers();
         let is_due = |at: usize, share: f64| is_over || (self.looks - at) as f64 >= 1.0 + share * self.looks as f64;
         let (lines_due, rooms_due) = (is_due(self.lines_at, LINES_AFTER), is_due(self.rooms_at, ROOMS_AFTER));
+        let seen = rooms_due.then(|| self.vehicle.surroundings(self.seed));
+        // On the way what the vehicle knows at once, at the end what the rooms were found in.
+        let last = seen.as_ref().filter(|_| is_over);
+        let free = last.map_or_else(|| self.vehicle.free(), |seen| seen.free.shapes());
+        self.map.free = Arc::new(Filled::parts(free, self.world_from_map));
+        self.map.known_m2 = areas::area_m2(free);
+        let frontiers = last.map_or_else(|| self.vehicle.frontiers(), |seen| seen.frontiers.clone());
         if lines_due || rooms_due {
             self.lines_at = self.looks;
-            let segments = self.vehicle.segments();
+            let segments = last.map_or_else(|| self.vehicle.segments(), |seen| seen.segments.clone());
             self.map.lines = Arc::new(segments.iter().map(|&segment| self.placed(segment)).collect());
             self.map.fresh = Arc::default();
-            if rooms_due {
+            if let Some(seen) = &seen {
                 self.rooms_at = self.looks;
-                self.find(&segments, &frontiers, is_over);
+                self.find(&seen.found, &segments, &frontiers, is_over);
             }
         } else {
             let view = View::of(self.vehicle.scans(), &SplitOptions::default());
@@ -248,19 +251,17 @@ impl Drive {
         }
     }
 
-    /// Finds the rooms, labels them, and compares them with the true plan at the end.
-    fn find(&mut self, segments: &[Segment], frontiers: &[Frontier], is_over: bool) {
-        let options = RoomOptions { seed: self.seed, ..RoomOptions::default() };
-        let found = find_rooms(segments, self.vehicle.free(), &options);
+    /// Labels the rooms found, and compares them with the true plan at the end.
+    fn find(&mut self, found: &FoundRooms, segments: &[Segment], frontiers: &[Frontier], is_over: bool) {
         let label = |predictor: &Predictor, models: &Models| {
-            labelled(&found, frontiers, self.world_from_map, self.meta.clone(), predictor, models)
+            labelled(found, frontiers, self.world_from_map, self.meta.clone(), predictor, models)
         };
         // A method without a model for this kind of building is no reason to stop: the usual one has all.
         let made = label(&self.predictor, &self.models)
             .or_else(|_| label(&Predictor::default(), &Models::bundled()))
             .map_err(|error| error.to_string());
         let labels = made.as_ref().map(|made| made.labels.clone()).unwrap_or_default();
-        self.map.rooms = Arc::new(self.rooms_seen(&found, &labels, segments));
+        self.map.rooms = Arc::new(self.rooms_seen(found, &labels, segments));
         match made {
             Ok(made) => {
                 let said = frontiers.iter().zip(&made.behind);

@@ -4,7 +4,9 @@ use crate::geometry::areas::Shapes;
 use crate::geometry::{Point, Segment};
 use crate::robot::explore::Activity;
 use crate::robot::frontiers::Frontier;
+use crate::robot::log_map::Surroundings;
 use crate::robot::log_replay::LogReplay;
+use crate::robot::rooms::{RoomOptions, find_rooms};
 use crate::robot::{Exploration, Pose, Scan};
 
 /// How fast a robot drives and turns, in m/s and rad/s: with these a step of 0.2 m or of 20 degrees takes the
@@ -32,6 +34,8 @@ pub(super) trait Vehicle: Send {
     fn free(&self) -> &Shapes;
     fn frontiers(&self) -> Vec<Frontier>;
     fn segments(&self) -> Vec<Segment>;
+    /// The rooms, and what else is known of the surroundings.
+    fn surroundings(&self, seed: u64) -> Surroundings;
     fn poses(&self) -> Vec<Pose>;
     fn closures(&self) -> usize;
     fn progress(&self) -> Option<(usize, usize)>;
@@ -92,6 +96,13 @@ impl Vehicle for Exploration {
 
     fn segments(&self) -> Vec<Segment> {
         Exploration::segments(self)
+    }
+
+    fn surroundings(&self, seed: u64) -> Surroundings {
+        let segments = Exploration::segments(self);
+        let options = RoomOptions { seed, ..RoomOptions::default() };
+        let found = find_rooms(&segments, self.free.shapes(), &options);
+        Surroundings { free: self.free.clone(), frontiers: Exploration::frontiers(self), found, segments }
     }
 
     fn poses(&self) -> Vec<Pose> {
@@ -166,6 +177,10 @@ impl Vehicle for LogVehicle {
 
     fn segments(&self) -> Vec<Segment> {
         self.replay.segments()
+    }
+
+    fn surroundings(&self, _seed: u64) -> Surroundings {
+        self.replay.surroundings()
     }
 
     fn poses(&self) -> Vec<Pose> {
