@@ -173,11 +173,7 @@ pub fn gaps(segments: &[Segment], boundary: &RayGrid, options: &DoorwayOptions) 
             gaps.extend(to_wall(end, &long, &grid, options));
         }
     }
-    if options.must_widen {
-        gaps = gaps.into_iter().filter_map(|gap| clipped(gap, boundary, options)).collect();
-    } else {
-        gaps.retain(|&gap| is_free(gap, boundary));
-    }
+    gaps.retain(|&gap| is_free(gap, boundary));
     gaps.sort_by(|p, q| p.length().total_cmp(&q.length()));
     let mut found: Vec<Vec<Segment>> = Vec::new();
     let mut mouths: Vec<Segment> = Vec::new();
@@ -204,7 +200,7 @@ pub fn gaps(segments: &[Segment], boundary: &RayGrid, options: &DoorwayOptions) 
         !found.iter().flatten().any(|&other| is_same_doorway(**mouth, other) || crosses(**mouth, other))
     };
     let alone = |&mouth: &Segment| {
-        let is_framed = jogs(mouth, boundary).iter().any(|side| side[0] && side[1]);
+        let is_framed = jogs(mouth, boundary, &found).iter().any(|side| side[0] && side[1]);
         Doorway { segment: mouth, width_m: mouth.length(), depth_m: 0.0, is_framed }
     };
     let mouths = mouths.iter().filter(is_new).map(alone).collect();
@@ -280,30 +276,6 @@ fn is_free(gap: Segment, boundary: &RayGrid) -> bool {
     (0..PLACES).all(|i| is_inside(boundary, from.lerp(to, i as f64 / (PLACES - 1) as f64)))
 }
 
-/// A stub of wall at the end of a gap up to a wall is at most this long, in metres: too short for a segment.
-const STUB_M: f64 = 0.2;
-
-/// The gap without the stubs of wall that stand in it at its ends; `None` if more stands in it.
-fn clipped(gap: Segment, boundary: &RayGrid, options: &DoorwayOptions) -> Option<Segment> {
-    if is_free(gap, boundary) {
-        return Some(gap);
-    }
-    let along = gap.vector().unit()?;
-    let middle = gap.midpoint();
-    let half_m = gap.length() / 2.0;
-    if !is_inside(boundary, middle) {
-        return None;
-    }
-    let reach_m = |way: Vector| boundary.cast(middle, way, half_m).map_or(half_m, |hit| hit.distance_m + FREE_ENDS_M);
-    let (back_m, on_m) = (reach_m(-along).min(half_m), reach_m(along).min(half_m));
-    let clipped = Segment::new(middle - along * back_m, middle + along * on_m);
-    let is_stub = half_m - back_m <= STUB_M && half_m - on_m <= STUB_M;
-    (is_stub && clipped.length() >= options.narrowest_m && is_free(clipped, boundary)).then_some(clipped)
-}
-
-/// The free space ends about this far before a wall, in metres.
-const FREE_ENDS_M: f64 = 0.02;
-
 /// Whether a point is in the free space: it is left of the first boundary that a ray from it meets.
 pub(super) fn is_inside(boundary: &RayGrid, point: Point) -> bool {
     // In a direction that no wall has, so that no ray runs along one.
@@ -359,13 +331,16 @@ pub(super) fn widens(gap: Segment, boundary: &RayGrid, found: &[Vec<Segment>]) -
 const JOG_M: f64 = 0.05;
 
 /// Whether the floor reaches further than the gap's end within the depth of a wall: on its left and right, at its
-/// start and end.
-fn jogs(gap: Segment, boundary: &RayGrid) -> [[bool; 2]; 2] {
+/// start and end. Doorways found before count as closed.
+fn jogs(gap: Segment, boundary: &RayGrid, found: &[Vec<Segment>]) -> [[bool; 2]; 2] {
     let Some(along) = gap.vector().unit() else { return [[false; 2]; 2] };
     let middle = gap.midpoint();
     let half_m = gap.length() / 2.0;
-    let reach_m =
-        |at: Point, way: Vector| boundary.cast(at, way, half_m + 1.0).map_or(half_m + 1.0, |hit| hit.distance_m);
+    let limit_m = half_m + 1.0;
+    let reach_m = |at: Point, way: Vector| {
+        let wall_m = boundary.cast(at, way, limit_m).map_or(limit_m, |hit| hit.distance_m);
+        found.iter().flatten().filter_map(|&door| super::ray_grid::hit_m(at, way, door)).fold(wall_m, f64::min)
+    };
     [along.left(), -along.left()].map(|across| {
         let ahead_m = boundary.cast(middle, across, DEEPEST_M).map_or(DEEPEST_M, |hit| hit.distance_m - 0.05);
         let steps = (ahead_m / 0.05).floor().max(0.0) as usize;
