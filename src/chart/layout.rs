@@ -134,7 +134,7 @@ impl Chart {
             tick.text = elided(&tick.text, WIDEST_NAME_PX.min(0.4 * width_px), font);
         }
         let widest = up_ticks.iter().map(|tick| font.width_px(&tick.text, TEXT_PX)).fold(0.0, f64::max);
-        let plot = [Point::new((GAP + widest + 7.0).round(), top.round()), Point::new(width_px - 14.0, bottom.round())];
+        let plot = [Point::new((GAP + widest + 7.0).round(), top.round()), Point::new(width_px - 18.0, bottom.round())];
         let room = plot[1].x - plot[0].x;
         let mut across_ticks = ticks(&self.across.scale, across.from, across.to, (room / 56.0).max(2.0) as usize);
         if matches!(self.across.scale, Scale::Named(_)) {

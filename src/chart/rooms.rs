@@ -6,6 +6,16 @@ use crate::dataset::{Row, Statistics};
 use crate::features::Features;
 use crate::labels::Label;
 
+/// Which of these charts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ChartKind {
+    Balance,
+    Histogram,
+    Scatter,
+    LearningCurve,
+    ByBuilding,
+}
+
 /// Bins of a histogram of a measure.
 const BINS: usize = 24;
 
@@ -144,7 +154,7 @@ pub fn scatter(of: &str, rows: &[(usize, &Row)], across: usize, up: usize) -> Ch
         Series { name: titled(label), ink: Ink::Label(label), marks: Marks::Dots(of_label.map(dot).collect()) }
     });
     Chart {
-        title: format!("Rooms of {of}"),
+        title: sentence(of),
         note: count(rows.len(), "room"),
         across: axis(across),
         up: axis(up),
@@ -226,14 +236,14 @@ mod tests {
             .map(|it| row(if it % 3 == 0 { Label::Corridor } else { Label::SmallRoom }, f64::from(it), it % 7))
             .collect();
         let rows: Vec<&Row> = rows.iter().collect();
-        for feature in 0..8 {
+        for (feature, name) in FEATURES.iter().enumerate() {
             let chart = histogram("all", &rows, feature);
             let mut rooms = 0.0;
             for series in &chart.series {
                 let Marks::Bars(bars) = &series.marks else { panic!("bars") };
                 rooms += bars.iter().map(|bar| bar.up[1] - bar.up[0]).sum::<f64>();
             }
-            assert_eq!(rooms, 60.0, "{}", FEATURES[feature]);
+            assert_eq!(rooms, 60.0, "{name}");
         }
     }
 

@@ -35,6 +35,9 @@ fn checksum(path: &str, value: &[u8]) -> [u8; SUM_BYTES] {
 /// Memory of the database itself: all of it is read once, and written seldom.
 const CACHE_BYTES: usize = 4 << 20;
 
+/// Each file's path within the folder, with what is known of it.
+type KeptFiles = Vec<(String, Vec<u8>)>;
+
 /// Why an index cannot be used; everything still works without.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum IndexError {
@@ -75,7 +78,7 @@ impl fmt::Debug for IndexFile {
 pub struct Known {
     pub index: IndexFile,
     /// By path, what is known of each file, sorted.
-    pub files: Vec<(String, Vec<u8>)>,
+    pub files: KeptFiles,
     /// Why the index had to be made anew, if it was broken.
     pub broken: Option<String>,
 }
@@ -109,7 +112,7 @@ impl IndexFile {
         }
     }
 
-    fn open_at(path: &Path) -> Result<(Self, Vec<(String, Vec<u8>)>), IndexError> {
+    fn open_at(path: &Path) -> Result<(Self, KeptFiles), IndexError> {
         // A damaged file may trip an assertion of the database.
         let opened = catch_unwind(AssertUnwindSafe(|| {
             let database =
@@ -124,7 +127,7 @@ impl IndexFile {
         opened.unwrap_or_else(|_| Err(other("the file is damaged")))
     }
 
-    fn read(&self) -> Result<Vec<(String, Vec<u8>)>, IndexError> {
+    fn read(&self) -> Result<KeptFiles, IndexError> {
         let reading = self.database.begin_read().map_err(other)?;
         let table = match reading.open_table(FILES) {
             Ok(table) => table,
@@ -179,7 +182,7 @@ mod tests {
         let open = || IndexFile::open(cache.path(), plans.path());
         let known = open().unwrap();
         assert_eq!((known.files.len(), known.broken), (0, None));
-        let found: Vec<(String, Vec<u8>)> = (0..200u8).map(|i| (format!("{i:03}"), vec![i; 3000])).collect();
+        let found: KeptFiles = (0..200u8).map(|i| (format!("{i:03}"), vec![i; 3000])).collect();
         known.index.keep(&found, &[]).unwrap();
         assert_eq!(open().unwrap_err(), IndexError::InUse);
         known.index.keep(&[], &["007".to_owned()]).unwrap();

@@ -135,7 +135,7 @@ mod tests {
             set_default_model(folder.path(), set, model).expect("written");
         }
         assert_eq!(default_models(folder.path()), BTreeMap::from([("school".to_owned(), "other".to_owned())]));
-        std::fs::write(folder.path().join(DEFAULTS), "{").expect("written");
+        crate::store::save_bytes(&folder.path().join(DEFAULTS), b"{").expect("written");
         assert_eq!(default_models(folder.path()), BTreeMap::new());
     }
 }

@@ -1,6 +1,9 @@
 //! A school of as many rooms as wanted: copies of the bundled one side by side, their corridors joined, so that it is one
 //! building whose rooms can all be reached.
 
+#![allow(dead_code, reason = "each user uses a part")]
+#![allow(clippy::expect_used, reason = "a test fails by panicking")]
+
 use std::collections::BTreeMap;
 
 use enfilade::geometry::{Point, Vector};

@@ -13,11 +13,11 @@ use crate::app::look::widgets::{
     Lead, ROW, Row, caption, colours, dialog_frame, hairline_in, put_line, right, section, strong, text_button,
 };
 use crate::app::session::at_hand::AtHand;
-use crate::app::session::measures::{ChartKind, ChartWanted, Measured, set_words};
+use crate::app::session::measures::{ChartWanted, Measured, set_words};
 use crate::app::state::{After, App, Dialog, Entry, dialogs};
 use crate::app::value::{Call, Value};
 use crate::base::wording::{count, sentence, thousands};
-use crate::chart::rooms::FEATURES;
+use crate::chart::rooms::{ChartKind, FEATURES};
 use crate::classify::Algorithm;
 use crate::dataset::sets::STANDARD;
 use crate::dataset::{Row as RoomRow, Statistics};
@@ -303,7 +303,7 @@ impl Dashboard {
                 let (done, all) = app.session.measure_progress().unwrap_or((0, 1));
                 let bar = ProgressBar::new(done as f32 / all.max(1) as f32).desired_width(220.0);
                 ui.add(bar.text(format!("{done} of {all}")));
-            } else if text_button(ui, "Measure", true).clicked() {
+            } else if text_button(ui, "Measure accuracy", true).clicked() {
                 let word = self.algorithm.name();
                 let values = [Value::Text(self.set.clone()), Value::Text(word.to_owned())];
                 act = Some(Act::Calls(vec![Call::new("measure-accuracy", values)]));
@@ -455,13 +455,14 @@ fn listed(
 
 /// A button to export a chart, in its upper right corner.
 fn export_button(ui: &mut Ui, chart: Rect, wanted: ChartWanted) -> Option<Act> {
-    let corner = Rect::from_min_max(egui::pos2(chart.right() - 90.0, chart.top() + 6.0), chart.max - vec2(8.0, 0.0));
+    let corner = Rect::from_min_size(egui::pos2(chart.right() - 98.0, chart.top() + 7.0), vec2(90.0, 30.0));
     let help = "As a picture (PNG), a drawing (SVG) or a table (CSV), by the file's ending";
     let mut is_clicked = false;
-    ui.scope_builder(egui::UiBuilder::new().max_rect(corner).id_salt("export chart"), |ui| {
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::TOP), |ui| {
-            is_clicked = text_button(ui, "Export…", false).on_hover_text(help).clicked();
-        });
+    // Beside the layout, which goes on below the chart.
+    let salt = ("export chart", wanted.words(), wanted.kind as u8);
+    let mut child = ui.new_child(egui::UiBuilder::new().max_rect(corner).id_salt(salt));
+    child.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        is_clicked = text_button(ui, "Export…", false).on_hover_text(help).clicked();
     });
     is_clicked.then_some(Act::Export(wanted))
 }

@@ -99,7 +99,7 @@ fn bar_of(ui: &mut Ui, progress: Progress) {
 fn idle(ui: &mut Ui, app: &App) -> Option<Call> {
     text(ui, "Goes through the rooms of all plans in the open folder, those first whose labels are most likely wrong.");
     ui.add_space(6.0);
-    if app.session.dataset_source().is_none() {
+    if !app.session.can_review() {
         caption(ui, "Open a folder with labelled plans first.");
         return None;
     }
@@ -120,7 +120,7 @@ fn making(ui: &mut Ui, progress: Option<(usize, usize)>) -> Option<Call> {
 fn failed(ui: &mut Ui, app: &App, why: &str) -> Option<Call> {
     text(ui, format!("There is nothing to review: {why}."));
     ui.add_space(6.0);
-    let again = app.session.dataset_source().is_some() && text_button(ui, "Try again", false).clicked();
+    let again = app.session.can_review() && text_button(ui, "Try again", false).clicked();
     again.then(|| Call::new("review-labels", []))
 }
 

@@ -292,7 +292,7 @@ fn function_row(
         let picker =
             ui.color_edit_button_srgb(&mut colour).on_hover_text("Its colour where rooms are filled by function");
         let is_picked = picker.changed();
-        picker.accessible_name(&format!("{function}: colour"));
+        picker.accessible_name(format!("{function}: colour"));
         if is_picked {
             chosen = Some(Chosen::Colour(colour));
         }

@@ -384,6 +384,7 @@ impl Training {
                         .and_then(|before| before.scores.iter().find(|(of, _)| of == by).map(|(_, scores)| scores));
                     ui.spacing_mut().item_spacing.x = 28.0;
                     ui.columns(2, |columns| {
+                        columns.iter_mut().for_each(|column| column.spacing_mut().item_spacing.x = 8.0);
                         labels(&mut columns[0], palette, scores, before);
                         confusion(&mut columns[1], palette, scores);
                     });
@@ -414,7 +415,8 @@ impl Training {
         });
         line(ui, NAMES, "", |ui| {
             let sets: Vec<String> = app.session.chosen_defaults().into_iter().map(|(set, _)| of_set(&set)).collect();
-            let title = format!("Predict {} with it from now on", sets.join(", "));
+            let it = if reports.len() > 1 { "them" } else { "it" };
+            let title = format!("Predict {} with {it} from now on", and_words(&sets));
             if toggle(ui, &title, self.as_default).clicked() {
                 self.as_default = !self.as_default;
             }
@@ -466,6 +468,15 @@ fn is_without_models(app: &App, set: &str) -> bool {
 /// A set's plans, in words.
 fn of_set(set: &str) -> String {
     if set == STANDARD { "plans of any kind".to_owned() } else { format!("{set} plans") }
+}
+
+/// Several things: 'a, b and c'.
+fn and_words(things: &[String]) -> String {
+    match things {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
 }
 
 /// A time, as people say it.
@@ -538,10 +549,10 @@ fn labels(ui: &mut Ui, palette: &Palette, scores: &Scores, before: Option<&Score
         let cells = [sentence(label.name()), found, percent(rates.precision), format!("{:.2}", rates.f1)];
         table_line(ui, Some(theme::colour(palette.label(label))), &cells, Look::Ours);
     }
-    caption(
-        ui,
-        "Found: of the rooms with the label, those that got it. Right: of the rooms that got it, those that have it.",
-    );
+    let told =
+        "Found: of the rooms with the label, those that got it. Right: of the rooms that got it, those that have it.";
+    // The columns justify text, which pulls words apart.
+    ui.vertical(|ui| caption(ui, told));
 }
 
 /// What rooms of each label were taken for.

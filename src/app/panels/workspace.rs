@@ -19,7 +19,7 @@ use crate::app::look::widgets::{
     text_button, toggle,
 };
 use crate::app::session::workspace::OpenWorkspace;
-use crate::app::session::workspace::view::Shows;
+use crate::app::session::workspace::shows::Shows;
 use crate::app::state::{After, App, Dialog, Entry, dialogs};
 use crate::base::wording::{count, sentence, thousands};
 use crate::labels::Typology;
@@ -254,7 +254,7 @@ impl Table {
     /// What is selected, and what can be done with it.
     fn foot(&mut self, app: &mut App, ui: &mut Ui) -> Option<Act> {
         let mut act = None;
-        let Some(workspace) = app.session.workspace.as_mut() else { return None };
+        let workspace = app.session.workspace.as_mut()?;
         let thing = if workspace.view.shows == Shows::Rooms { "room" } else { "plan" };
         ui.horizontal(|ui| {
             let (length, selected) = (workspace.view.len(), &workspace.view.selected);

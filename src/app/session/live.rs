@@ -19,6 +19,9 @@ use crate::predict::{Choice, infer};
 /// Probabilities differ visibly from this on.
 const VISIBLE: f64 = 0.05;
 
+/// A room of which the second opinion is another: both labels with their probabilities, the second opinion last.
+pub(crate) type Disagreement = (RoomId, (Label, f64), (Label, f64));
+
 /// The state of the live labels.
 pub(crate) struct Live {
     /// Whether the panel is shown.
@@ -118,7 +121,7 @@ impl Session {
     }
 
     /// The rooms of which the second opinion is another, with both labels and their probabilities.
-    pub(crate) fn disagreements(&self) -> Vec<(RoomId, (Label, f64), (Label, f64))> {
+    pub(crate) fn disagreements(&self) -> Vec<Disagreement> {
         let Some((one, other)) = self.predictions().zip(self.second_opinion()) else { return Vec::new() };
         let said = |distribution: &Distribution| (distribution.label(), distribution.probability(distribution.label()));
         let rooms = one.network.rooms.iter().zip(&one.result.distributions);

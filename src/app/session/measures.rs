@@ -12,7 +12,8 @@ use crate::app::session::jobs::{Kind, Wanted};
 use crate::app::session::messages::Severity;
 use crate::app::session::origin::file_name;
 use crate::base::work::Work;
-use crate::chart::{Chart, rooms};
+use crate::chart::Chart;
+use crate::chart::rooms::{self, ChartKind};
 use crate::classify::{Algorithm, Scores};
 use crate::dataset::Statistics;
 use crate::dataset::folds::{Grouping, building_of};
@@ -29,16 +30,6 @@ const JOB: &str = "measure classifiers";
 
 /// The size of an exported chart, in logical pixels, and physical pixels to each.
 const EXPORT_PX: (f64, f64, f64) = (900.0, 540.0, 2.0);
-
-/// A chart of the dashboard.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum ChartKind {
-    Balance,
-    Histogram,
-    Scatter,
-    LearningCurve,
-    ByBuilding,
-}
 
 /// Which chart, of which rooms.
 #[derive(Clone, Debug, PartialEq, Eq)]

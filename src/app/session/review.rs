@@ -180,10 +180,9 @@ impl Session {
     }
 
     fn begin_review(&mut self, other: Option<PathBuf>) -> Result<(), String> {
-        let Some((folder, files)) = self.dataset_source() else {
-            return Err("open a folder with plans first".to_owned());
+        let Some((folder, files)) = self.review_source() else {
+            return Err("open a folder of plans first".to_owned());
         };
-        let (folder, files) = (folder.to_owned(), files.to_vec());
         let open = self.open_versions();
         let schemes = self.schemes.clone();
         let is_comparison = other.is_some();
@@ -199,6 +198,23 @@ impl Session {
         });
         self.review.job = Some(job);
         Ok(())
+    }
+
+    /// The folder to review, and its plans: those of the workspace, or without one those in the list.
+    fn review_source(&self) -> Option<(PathBuf, Vec<PathBuf>)> {
+        match &self.workspace {
+            Some(workspace) if !workspace.now.files().is_empty() => {
+                let now = &workspace.now;
+                Some((now.folder().to_owned(), now.files().iter().map(|file| now.path_of(file)).collect()))
+            }
+            _ => self.dataset_source().map(|(folder, files)| (folder.to_owned(), files.to_vec())),
+        }
+    }
+
+    /// Whether there is a folder to review.
+    pub(crate) fn can_review(&self) -> bool {
+        let has_workspace = self.workspace.as_ref().is_some_and(|workspace| !workspace.now.files().is_empty());
+        has_workspace || self.dataset_source().is_some()
     }
 
     /// Gives up making the queue.

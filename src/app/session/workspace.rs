@@ -5,6 +5,7 @@
 //! work with it. [`OpenWorkspace::revision`] tells when there is another.
 
 pub(crate) mod bulk;
+pub(crate) mod shows;
 pub(crate) mod storeys;
 pub(crate) mod view;
 
@@ -275,13 +276,11 @@ impl Session {
     }
 }
 
+/// What is listed, the index to keep the rest in, and what was wrong with the index before.
+type ListedAndIndex = (Listed, Option<Arc<IndexFile>>, Option<String>);
+
 /// Lists a folder with what an index knows of it, and gives the index to keep the rest in.
-fn listed(
-    folder: &Path,
-    cache: Option<&Path>,
-    recipe: &Recipe,
-    work: &Work<'_>,
-) -> Result<(Listed, Option<Arc<IndexFile>>, Option<String>), Cancelled> {
+fn listed(folder: &Path, cache: Option<&Path>, recipe: &Recipe, work: &Work<'_>) -> Result<ListedAndIndex, Cancelled> {
     // Without an index everything is found out anew, and nothing else is different.
     let known = cache.and_then(|cache| IndexFile::open(cache, folder).ok());
     let (index, files, broken) = match known {

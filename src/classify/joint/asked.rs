@@ -33,6 +33,9 @@ const LEAF: u32 = u32::MAX;
 /// Rooms asked about together: what is kept of them while they are stays in the processor's nearest memory.
 const TOGETHER: usize = 32;
 
+/// Each feature is above the first number and at most the second as long as all questions on the way are answered alike.
+type Bounds = (Box<[f32]>, Box<[f32]>);
+
 /// What a forest said of a room, and for which features it still says so.
 #[derive(Debug)]
 pub(super) struct Held {
@@ -115,7 +118,7 @@ impl Asked {
             .collect();
         let missing: Vec<usize> = (0..rooms.len()).filter(|&room| held[room].is_none()).collect();
         for together in missing.chunks(TOGETHER) {
-            let mut bounds: Vec<(Box<[f32]>, Box<[f32]>)> = together
+            let mut bounds: Vec<Bounds> = together
                 .iter()
                 .map(|&room| {
                     let width = rooms[room].len();

@@ -334,10 +334,10 @@ impl Joint {
             })
             .collect();
         let mut samples = Samples::default();
-        for partly in 0..2 {
-            for &at in &samples_of {
-                sample(&mut samples, at, &told[at.0][partly][at.1]);
-            }
+        // All places with nothing known, then all of them with some rooms known.
+        let knowing_some = samples_of.iter().map(|&at| (at, 1));
+        for (at, knowing) in samples_of.iter().map(|&at| (at, 0)).chain(knowing_some) {
+            sample(&mut samples, at, &told[at.0][knowing][at.1]);
         }
         let folds_of = folds_of.repeat(2);
         let (of_folds, second) = grow(&samples, &folds_of, count, choice, seed_of_part(seed, 3), work)?;

@@ -1,8 +1,8 @@
 //! The dashboard, training, and label schemes.
 
 use super::*;
-use crate::app::session::measures::ChartKind;
 use crate::app::session::training::Wish;
+use crate::chart::rooms::ChartKind;
 use crate::classify::Algorithm;
 use crate::labels::Typology;
 

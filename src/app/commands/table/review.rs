@@ -10,6 +10,10 @@ fn is_reviewing(app: &App) -> Availability {
     when(app.session.is_reviewing(), "start a review of the labels first")
 }
 
+fn can_review(app: &App) -> Availability {
+    when(app.session.can_review(), "open a folder of plans first")
+}
+
 fn can_go_back(app: &App) -> Availability {
     when(app.session.review.can_go_back(), "nothing was decided in a review yet")
 }
@@ -26,7 +30,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "review-labels",
         "Review the labels…",
         "Go through the rooms of all plans in the open folder, those first whose labels are most likely wrong",
-        has_folder,
+        can_review,
         &given0(|app, _| {
             app.show_review_panel();
             done(app.session.review_labels())
@@ -38,7 +42,7 @@ pub(super) const COMMANDS: &[Command] = &[
         "review-differences",
         "Compare with another person's labels…",
         "Go through the rooms that somebody else labelled otherwise, in another folder with plans of the same names",
-        has_folder,
+        can_review,
         &given1(needed("FOLDER", PLAN_FILE, "the folder of the other person's plans"), |app, folder, _| {
             app.show_review_panel();
             done(app.session.review_differences(folder))

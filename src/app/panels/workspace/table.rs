@@ -7,7 +7,7 @@ use super::{Act, Table, nothing, plan_in_words};
 use crate::app::look::theme;
 use crate::app::look::widgets::{colours, focus_ring, put_line, swatch};
 use crate::app::session::workspace::OpenWorkspace;
-use crate::app::session::workspace::view::Shows;
+use crate::app::session::workspace::shows::Shows;
 use crate::app::state::App;
 use crate::workspace::query::{Order, PlanColumn, RoomColumn};
 use crate::workspace::{Content, PlanRow, RoomRow};
@@ -24,7 +24,7 @@ const GAP: f32 = 12.0;
 const BAR: f32 = 12.0;
 
 pub(super) fn show(table: &mut Table, app: &mut App, ui: &mut Ui) -> Option<Act> {
-    let Some(OpenWorkspace { view, .. }) = app.session.workspace.as_mut() else { return None };
+    let OpenWorkspace { view, .. } = app.session.workspace.as_mut()?;
     let (shows, length, cursor) = (view.shows, view.len(), view.cursor);
     let is_rooms = shows == Shows::Rooms;
     let (head, _) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
