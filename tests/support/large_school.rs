@@ -50,7 +50,7 @@ fn copies(one: &Plan, copies: usize, is_bare: bool) -> Plan {
                     holes: room.holes.iter().map(|hole| of(hole)).collect(),
                     function: if is_bare { String::new() } else { room.function.clone() },
                     label: room.label.filter(|_| !is_bare),
-                    text_at: None,
+                    text_offset: None,
                     source_id: String::new(),
                     ..room.clone()
                 };
