@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use enfilade::base::random::Random;
 use enfilade::base::work::Work;
-use enfilade::geometry::{Point, Segment, Vector};
+use enfilade::geometry::{Point, Segment, Vector, areas};
 use enfilade::robot::carmen::{Log, LogError};
 use enfilade::robot::log_map::{MappedLog, map_log, surroundings};
 use enfilade::robot::{MapperOptions, Pose};
@@ -401,7 +401,8 @@ fn the_intel_lab_is_mapped_better_than_by_sequential_matching() {
     let closed = error_m(&log, &mapped.poses, &relations);
     assert!(closed < 0.130, "{closed} m");
     // Its offices are rooms of their own, beside corridors, a large laboratory and smaller rooms.
-    let areas: Vec<f64> = surroundings(&log, &mapped).found.rooms.iter().map(|room| room.area_m2).collect();
+    let found = surroundings(&log, &mapped).found;
+    let areas: Vec<f64> = found.rooms.iter().map(|room| areas::area_m2(&room.shapes())).collect();
     let offices = areas.iter().filter(|area_m2| (8.0..30.0).contains(*area_m2)).count();
     let largest_m2 = areas.iter().copied().fold(0.0, f64::max);
     assert!(offices >= 14 && largest_m2 < 110.0, "{offices} offices, the largest room {largest_m2} m²");

@@ -145,6 +145,7 @@ impl Merger {
         for &gap in gaps {
             borders_along(raster, pieces, gap, options.wall_reach_m, &mut borders);
         }
+        borders_left_out(raster, pieces, options.wall_reach_m, &mut borders);
         let mut borders_of = vec![Vec::new(); count as usize + 1];
         for (index, border) in borders.iter().enumerate() {
             for piece in border.pieces {
@@ -367,17 +368,50 @@ fn borders_along(raster: &Raster, pieces: &[u32], gap: [Point; 2], wall_reach_m:
     if facing.is_empty() {
         return;
     }
-    let reach = raster.cells(wall_reach_m);
-    let beyond = [(from, -along), (to, along)].map(|(end, ahead)| {
-        let steps = 1..raster.cells(WALL_LOOKED_AT_M) as u32;
-        steps.map(|step| both_sides(raster, pieces, end + ahead * f64::from(step), ahead, reach)).collect::<Vec<_>>()
-    });
+    let beyond = beyond(raster, pieces, gap, wall_reach_m);
     borders.extend(facing.into_iter().map(|(sides, cells)| Border {
         pieces: sides,
         gap,
         cells,
         beyond: beyond.clone(),
     }));
+}
+
+/// The pairs of pieces that touch without a border so far: several cuts that lie close together part pieces
+/// that face each other across none of them.
+fn borders_left_out(raster: &Raster, pieces: &[u32], wall_reach_m: f64, borders: &mut Vec<Border>) {
+    let mut touching = pieces.to_vec();
+    raster.spread(&mut touching);
+    // How often each pair touches, and where first and last, row by row.
+    let mut contacts = std::collections::BTreeMap::<[u32; 2], (u32, usize, usize)>::new();
+    for cell in 0..touching.len() {
+        for next in raster.beside(cell, &[(1, 0), (0, 1)]) {
+            let (one, other) = (touching[cell], touching[next]);
+            if one != 0 && other != 0 && one != other {
+                let contact = contacts.entry([one.min(other), one.max(other)]).or_insert((0, cell, cell));
+                *contact = (contact.0 + 1, contact.1, cell);
+            }
+        }
+    }
+    let ordered = |[one, other]: [u32; 2]| [one.min(other), one.max(other)];
+    let known: BTreeSet<[u32; 2]> = borders.iter().map(|border| ordered(border.pieces)).collect();
+    let middle = |cell: usize| Point::new((cell % raster.width) as f64 + 0.5, (cell / raster.width) as f64 + 0.5);
+    for (pair, (cells, first, last)) in contacts {
+        if cells >= 2 && !known.contains(&pair) {
+            let gap = [middle(first), middle(last)];
+            borders.push(Border { pieces: pair, gap, cells, beyond: beyond(raster, pieces, gap, wall_reach_m) });
+        }
+    }
+}
+
+/// The pieces on both sides of a gap's line beyond each of its ends, cell by cell.
+fn beyond(raster: &Raster, pieces: &[u32], [from, to]: [Point; 2], wall_reach_m: f64) -> [Vec<[u32; 2]>; 2] {
+    let along = (to - from).unit().unwrap_or(Vector::new(1.0, 0.0));
+    let reach = raster.cells(wall_reach_m);
+    [(from, -along), (to, along)].map(|(end, ahead)| {
+        let steps = 1..raster.cells(WALL_LOOKED_AT_M) as u32;
+        steps.map(|step| both_sides(raster, pieces, end + ahead * f64::from(step), ahead, reach)).collect()
+    })
 }
 
 /// The first pieces on both sides of a line at a point of it, at most `reach` cells away; 0 for none.
