@@ -12,7 +12,7 @@ use crate::app::panels::prediction::bar;
 use crate::app::session::review::{Progress, Shown};
 use crate::app::state::{App, Height, Side, SidePanel, panels};
 use crate::app::value::{Call, Value};
-use crate::base::wording::{sentence, shortened};
+use crate::base::wording::{count, sentence, shortened};
 use crate::labels::Label as RoomLabel;
 use crate::plan::titles::printable;
 use crate::review::{Entry, Reason};
@@ -131,10 +131,7 @@ fn finished(ui: &mut Ui, app: &App, progress: Progress) -> Option<Call> {
     }
     text(
         ui,
-        format!(
-            "All {} rooms are decided: {} were right, {} were corrected.",
-            progress.rooms, progress.accepted, progress.corrected
-        ),
+        format!("All rooms are decided: {} kept, {} corrected.", count(progress.accepted, "label"), progress.corrected),
     );
     caption(ui, "Plans with corrections stay open until you save them.");
     ui.add_space(6.0);
