@@ -94,11 +94,6 @@ fn main() {
             println!("  {kind:16} median {:8.2} ms, 99th {:8.2} ms", percentile(times, 0.5), percentile(times, 0.99));
         }
         println!(
-            "  of it analysis {:.2} ms, network {:.2} ms (medians)",
-            percentile(&mut analyses, 0.5),
-            percentile(&mut networks, 0.5)
-        );
-        println!(
             "  edit to labels   median {:8.2} ms, 99th {:8.2} ms",
             percentile(&mut all, 0.5),
             percentile(&mut all, 0.99)

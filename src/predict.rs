@@ -10,6 +10,7 @@ use std::sync::{Arc, OnceLock};
 use crate::base::units::Units;
 use crate::base::wording::{count, sentence};
 use crate::classify::blend::Opinions;
+use crate::classify::explain::{NearRoom, Reason};
 use crate::classify::in_plan::{self, InPlan};
 use crate::classify::joint::FirstRound;
 use crate::classify::learned::Acquaintance;
@@ -20,7 +21,7 @@ use crate::classify::why::{OnPlan, Why};
 use crate::classify::{Distribution, Method, PlanClassifier};
 use crate::dataset::sets::STANDARD;
 use crate::dataset::{NetworkDoor, RoomNetwork};
-use crate::features::NeighbourLabels;
+use crate::features::{Features, NeighbourLabels};
 use crate::labels::{Label, Typology};
 use crate::plan::{OpeningId, RoomId};
 
@@ -418,6 +419,17 @@ impl Predictions {
                 blend.why(opinions, &self.network, &self.known, index, units)
             }
             (PlanClassifier::Joint(_) | PlanClassifier::Blend(_), _) => None,
+        }
+    }
+
+    /// The rooms that the model learned from that are most like a room, nearest first, if its label follows from these; with
+    /// the room's own features.
+    pub fn nearest(&self, room: RoomId) -> Option<(Features, Vec<NearRoom>)> {
+        let PlanClassifier::Each(classifier) = &self.model.classifier else { return None };
+        let features = self.result.features[*self.index_of.get(&room)?];
+        match classifier.explain(&features.values()).reason {
+            Reason::Neighbours(reason) => Some((features, reason.neighbours)),
+            Reason::Rule(_) | Reason::Path(_) | Reason::Features(_) => None,
         }
     }
 

@@ -7,7 +7,7 @@ use crate::app::look::keys::Keys;
 pub(crate) use crate::app::session::words::{
     UNKNOWN, element, elements_word, is_own_word, point_in, points_word, room, room_word, sample_word, switch_word,
 };
-use crate::app::session::workspace::view::Shows;
+use crate::app::session::workspace::shows::Shows;
 use crate::app::session::{bulk::Order, selection::SelectMode};
 use crate::chart::rooms::ChartKind;
 use crate::classify::Method;

@@ -136,7 +136,8 @@ impl Blend {
         self.temperature
     }
 
-    /// What every part and all together say of a network's rooms. `known` as in [`super::joint::Joint::predict`].
+    /// What every part and all together say of a network's rooms. `known` as in [`super::joint::Joint::predict`]: the parts are
+    /// asked as if nothing were known, since what they make of given labels is worth less than what shows where they are wrong.
     pub fn opinions(&self, network: &RoomNetwork, known: &[Option<Label>]) -> Opinions {
         let (mut of_parts, mut rounds): (Vec<Vec<Distribution>>, Vec<Option<FirstRound>>) = (Vec::new(), Vec::new());
         for part in &self.parts {
@@ -146,12 +147,12 @@ impl Blend {
                         Some(other) => joint.first_round_after(network, other),
                         None => joint.first_round(network),
                     };
-                    of_parts.push(joint.predict_from(&round, known));
+                    of_parts.push(joint.predict_from(&round, &[]));
                     rounds.push(Some(round));
                 }
                 Some(Kind::Each(classifier)) => {
                     let neighbours = NeighbourLabels::Predicted;
-                    of_parts.push(in_plan::classify(classifier, network, known, neighbours).distributions);
+                    of_parts.push(in_plan::classify(classifier, network, &[], neighbours).distributions);
                     rounds.push(None);
                 }
                 None => {}
@@ -174,7 +175,7 @@ impl Blend {
                 Some(Kind::Joint(joint)) => {
                     let other = rounds.iter().flatten().next();
                     let before = before.and_then(|before| before.rounds.get(index)?.as_ref());
-                    let (round, distributions) = joint.predict_after(network, known, other, before);
+                    let (round, distributions) = joint.predict_after(network, &[], other, before);
                     of_parts.push(distributions);
                     rounds.push(Some(round));
                     said.push(None);
@@ -182,7 +183,7 @@ impl Blend {
                 Some(Kind::Each(classifier)) => {
                     let before = before.and_then(|before| before.said.get(index)?.as_ref());
                     let neighbours = NeighbourLabels::Predicted;
-                    let (result, kept) = in_plan::classify_after(classifier, network, known, neighbours, before);
+                    let (result, kept) = in_plan::classify_after(classifier, network, &[], neighbours, before);
                     of_parts.push(result.distributions);
                     rounds.push(None);
                     said.push(Some(kept));

@@ -18,10 +18,10 @@ const DOUBT: f64 = 1.0;
 
 /// By how much rooms that are alike differ: one standard deviation of the logarithms of areas, of lengths against widths, of one
 /// more than their openings, and of one more than the rooms they open to.
-const AREA: f64 = 0.25;
-const SHAPE: f64 = 0.4;
-const OPENINGS: f64 = 0.5;
-const JOINED: f64 = 0.5;
+const AREA: f64 = 0.15;
+const SHAPE: f64 = 0.3;
+const OPENINGS: f64 = 0.4;
+const JOINED: f64 = 0.4;
 
 /// Rooms further apart in area are not looked at.
 const WINDOW: f64 = 3.0 * AREA;
@@ -83,8 +83,8 @@ pub fn words(like: &[(usize, Label)]) -> String {
 /// Rooms less alike are not mentioned.
 const MENTIONED: f64 = 0.3;
 
-/// What is said of the rooms of a plan, once the labels that were given for some have been compared with what was `said` of these. A
-/// room's own label is never used for it. `known` as in [`super::joint::Joint::predict`].
+/// What is said of the rooms of a plan, once the labels that were given for some have been compared with what was `said` of these
+/// while none was known. A room's own label is never used for it. `known` as in [`super::joint::Joint::predict`].
 pub fn corrected(network: &RoomNetwork, known: &[Option<Label>], said: &[Distribution]) -> Vec<Distribution> {
     let given: Vec<(usize, Label)> =
         known.iter().take(said.len()).enumerate().filter_map(|(room, label)| Some((room, (*label)?))).collect();

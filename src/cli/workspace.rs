@@ -88,10 +88,13 @@ impl Subcommand for WorkspaceCommand {
     fn run(self, terminal: &mut Terminal) -> Result<Outcome, CliError> {
         let sorted = self.sorted()?;
         if !self.folder.is_dir() {
-            return Err(CliError::call(format!("{}: is no folder; name a folder of plans", self.folder.display())));
+            return Err(CliError::new(format!("{}: is no folder; name a folder of plans", self.folder.display())));
         }
         let recipe = Recipe::new(std::sync::Arc::new(inputs::schemes(&self.scheme)?), &Models::bundled());
         let workspace = self.read(&recipe, terminal)?;
+        if workspace.plan_rows().next().is_none() {
+            return Err(CliError::new(format!("{}: no plan files in this folder", self.folder.display())));
+        }
         let query = self.query();
         let work = crate::base::work::Work::quiet();
         match sorted {

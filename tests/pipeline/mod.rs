@@ -1,6 +1,8 @@
 //! The single way from a plan to its labels: the command line prints what the window shows.
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
 
+mod live;
+
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -120,9 +122,9 @@ fn what_is_outdated_is_given_up() {
     let schemes = Schemes::bundled();
     let outdated = AtomicBool::new(true);
     let work = Work::quiet().watched(&|_, _| {}, &outdated);
-    let labelled = Arc::new(Labelled::new(&plan, &schemes, None, None));
-    assert_eq!(Derived::by_steps(labelled.clone(), &work).err(), Some(Cancelled));
-    let derived = Derived::by_steps(labelled, &Work::quiet()).unwrap();
+    let labelled = || Arc::new(Labelled::new(&plan, &schemes, None, None));
+    assert_eq!(Derived::by_steps(labelled(), &work).err(), Some(Cancelled));
+    let derived = Derived::by_steps(labelled(), &Work::quiet()).unwrap();
     assert!(derived.predictions.is_none());
     assert_eq!(derived.reading_order().len(), plan.rooms().filter(|(_, room)| room.has_boundary()).count());
 }

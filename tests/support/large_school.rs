@@ -1,6 +1,9 @@
 //! A school of as many rooms as wanted: copies of the bundled one side by side, their corridors joined, so that it is one
 //! building whose rooms can all be reached.
 
+#![allow(dead_code, reason = "each user uses a part")]
+#![allow(clippy::expect_used, reason = "a test fails by panicking")]
+
 use std::collections::BTreeMap;
 
 use enfilade::geometry::{Point, Vector};
@@ -47,7 +50,7 @@ fn copies(one: &Plan, copies: usize, is_bare: bool) -> Plan {
                     holes: room.holes.iter().map(|hole| of(hole)).collect(),
                     function: if is_bare { String::new() } else { room.function.clone() },
                     label: room.label.filter(|_| !is_bare),
-                    text_at: None,
+                    text_offset: None,
                     source_id: String::new(),
                     ..room.clone()
                 };

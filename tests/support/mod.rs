@@ -7,6 +7,8 @@
 #![allow(dead_code, reason = "each test binary uses a part")]
 #![allow(clippy::disallowed_methods, reason = "a test's output is no user's file")]
 
+pub mod large_school;
+
 use std::ffi::OsString;
 use std::io::{Cursor, Write};
 use std::path::Path;

@@ -366,5 +366,5 @@ fn the_subcommand_lists_plans_and_rooms_and_says_what_cannot_be_read() {
     assert!(rooms[0]["predicted_probability"].as_f64().is_some());
     let (code, _, err) = enfilade(["workspace", "--no-index", path, "--sort", "colour"]);
     assert_eq!(code, 2);
-    assert!(err.contains("use name, file"), "{err}");
+    assert!(err.contains("use 'name', 'file'"), "{err}");
 }

@@ -250,7 +250,8 @@ impl Canvas {
             // Never show a stale label as current.
             None => self.paint_pending(&painter, rect, &view, document, session, &style),
             Some(derived) => {
-                let under_pointer = self.pointed.element.filter(|_| toolbox.is_selecting());
+                let is_watched = session.demo.is_some();
+                let under_pointer = self.pointed.element.filter(|_| toolbox.is_selecting() && !is_watched);
                 let hovered = under_pointer.or(self.hovered_in_panel);
                 let hovered = hovered.filter(|hovered| !session.selection.contains(*hovered));
                 if let Some(hovered) = hovered {

@@ -80,7 +80,6 @@ pub(crate) const SIDE_PANELS: &[SidePanel] = &[
 pub(crate) fn show(app: &mut App, ui: &mut Ui) {
     let colours = theme::colours(ui.visuals());
     let frame = |margin: Margin| Frame::new().fill(colours.panel).inner_margin(margin);
-    demo::take_input(app, ui);
     app.session.live.is_shown = app.panels.is_shown(panels::LIVE);
     let evidence = app.session.demo_evidence();
     (app.canvas.hovered_in_panel, app.canvas.marked_in_panel, app.canvas.evidence) = (None, None, evidence);

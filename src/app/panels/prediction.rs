@@ -46,6 +46,9 @@ pub(super) fn of_room(
     if let Some(why) = why {
         *evidence = reasons::show(ui, why).map(|point| predictions.marks(room, &point.on_plan));
     }
+    if let Some((own, near)) = predictions.nearest(room) {
+        reasons::nearest(ui, palette, &own, &near, app.units());
+    }
     let mut asked = None;
     match status.label() {
         Some(known) if known == said => drop(caption(ui, "Agrees with the label.")),

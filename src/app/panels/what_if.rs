@@ -158,7 +158,7 @@ fn contents(app: &App, ui: &mut Ui, tried: &Tried, calls: &mut Vec<Call>, hovere
     caption(
         ui,
         format!(
-            "By the {} that learned from {}, all other features as on the sliders. Points are the plan's rooms in their labels' \
+            "By the {} (models for {}), all other features as on the sliders. Points are the plan's rooms in their labels' \
              colours; the ring is this room.{why}",
             method.title(),
             kind(tried.model.set())

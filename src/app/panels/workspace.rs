@@ -19,7 +19,7 @@ use crate::app::look::widgets::{
     text_button, toggle,
 };
 use crate::app::session::workspace::OpenWorkspace;
-use crate::app::session::workspace::view::Shows;
+use crate::app::session::workspace::shows::Shows;
 use crate::app::state::{After, App, Dialog, Entry, dialogs};
 use crate::base::wording::{count, sentence, thousands};
 use crate::labels::Typology;

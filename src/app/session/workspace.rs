@@ -5,6 +5,7 @@
 //! work with it. [`OpenWorkspace::revision`] tells when there is another.
 
 pub(crate) mod bulk;
+pub(crate) mod shows;
 pub(crate) mod storeys;
 pub(crate) mod view;
 

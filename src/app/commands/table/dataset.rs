@@ -1,7 +1,7 @@
 //! Folders of plans, and buildings of several storeys.
 
 use super::*;
-use crate::app::session::workspace::view::Shows;
+use crate::app::session::workspace::shows::Shows;
 use crate::labels::Typology;
 use crate::workspace::change::Change;
 use crate::workspace::query::{Order, PlanColumn, RoomColumn};

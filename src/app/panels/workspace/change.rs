@@ -5,7 +5,7 @@ use egui::{Align2, ComboBox, Id, TextEdit, Ui, WidgetInfo};
 use crate::app::look::theme;
 use crate::app::look::widgets::{caption, colours, focus_ring, right, strong, text_button};
 use crate::app::session::workspace::OpenWorkspace;
-use crate::app::session::workspace::view::Shows;
+use crate::app::session::workspace::shows::Shows;
 use crate::app::state::App;
 use crate::base::wording::{count, sentence};
 use crate::labels::{Label, Typology};

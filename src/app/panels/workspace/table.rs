@@ -7,7 +7,7 @@ use super::{Act, Table, nothing, plan_in_words};
 use crate::app::look::theme;
 use crate::app::look::widgets::{colours, focus_ring, put_line, swatch};
 use crate::app::session::workspace::OpenWorkspace;
-use crate::app::session::workspace::view::Shows;
+use crate::app::session::workspace::shows::Shows;
 use crate::app::state::App;
 use crate::workspace::query::{Order, PlanColumn, RoomColumn};
 use crate::workspace::{Content, PlanRow, RoomRow};

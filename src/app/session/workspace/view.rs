@@ -8,26 +8,10 @@ use egui::Context;
 use super::OpenWorkspace;
 use crate::app::session::Session;
 use crate::app::session::jobs::{Kind, Wanted};
+use crate::app::session::workspace::shows::Shows;
 use crate::workspace::change::Selected;
 use crate::workspace::query::{self, Order, PlanColumn, Query, RoomColumn};
 use crate::workspace::{PlanRow, RoomRow, Workspace};
-
-/// How the workspace is shown.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Shows {
-    /// A row a plan.
-    #[default]
-    Plans,
-    /// A picture a plan.
-    Grid,
-    /// A row a room.
-    Rooms,
-}
-
-impl Shows {
-    pub(crate) const WORDS: &'static [(&'static str, &'static str)] =
-        &[("plans", "List of plans"), ("grid", "Pictures of plans"), ("rooms", "Table of rooms")];
-}
 
 /// What is asked of a workspace.
 #[derive(Clone, Debug, PartialEq, Eq)]
