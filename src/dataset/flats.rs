@@ -3,16 +3,7 @@
 
 use std::sync::OnceLock;
 
-use super::RoomNetwork;
-
-/// The flats of a storey, and what they share. Rooms by their index in the network, ascending.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Flats {
-    /// At least two.
-    pub flats: Vec<Vec<usize>>,
-    /// Stairs, lifts and the passages between them, and rooms too few to be a flat.
-    pub common: Vec<usize>,
-}
+use super::network::{Flats, RoomNetwork};
 
 /// Fewest rooms of a flat, and most.
 const LEAST_ROOMS: usize = 4;

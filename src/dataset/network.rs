@@ -1,7 +1,6 @@
 use std::sync::{Arc, OnceLock};
 
 use super::fingerprint::{Prints, RoomPrint};
-use super::flats::Flats;
 use super::{BY_SCHEME, LeftOut, Row};
 use crate::edit;
 use crate::features::{Analysis, Features, NeighbourLabels, RoomAnalysis, RoomStatus, analyse, analyse_after};
@@ -10,6 +9,15 @@ use crate::labels::{Label, Schemes, Typology};
 use crate::plan::titles::room_keys;
 use crate::plan::{Joint, LabelOrigin, Meta, OpeningId, OpeningKind, Plan, Room, RoomId};
 use crate::topology::{Connection, RoomShape};
+
+/// The flats of a storey, and what they share. Rooms by their index in the network, ascending. See `flats`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Flats {
+    /// At least two.
+    pub flats: Vec<Vec<usize>>,
+    /// Stairs, lifts and the passages between them, and rooms too few to be a flat.
+    pub common: Vec<usize>,
+}
 
 /// The rooms of one plan as classifiers see them: each room's own properties, its label if known, and
 /// where each of its openings leads. Features can be computed from it for any labels of the neighbours,
