@@ -116,7 +116,16 @@ impl Subcommand for CompareCommand {
             serde_json::to_writer_pretty(&mut terminal.out, &as_json(&both, &table))?;
             writeln!(terminal.out)?;
         } else {
-            print(&both, &table, self.output.is_none(), terminal)?;
+            let mut said = Vec::new();
+            print(&both, &table, self.output.is_none(), &mut said)?;
+            if self.output.is_none() {
+                terminal.out.write_all(&said)?;
+            } else {
+                // The table is the result: this only tells what is in it.
+                for line in String::from_utf8_lossy(&said).lines() {
+                    terminal.report(line)?;
+                }
+            }
         }
         Ok(if is_whole { Outcome::Done } else { Outcome::InputWrong })
     }
@@ -239,9 +248,8 @@ fn as_json(both: &[Both], table: &Confusion) -> Value {
 /// The most differences printed: more are read in a table.
 const MOST: usize = 200;
 
-fn print(both: &[Both], table: &Confusion, with_list: bool, terminal: &mut Terminal) -> Result<(), CliError> {
+fn print(both: &[Both], table: &Confusion, with_list: bool, out: &mut Vec<u8>) -> Result<(), CliError> {
     let agreement = Agreement::of(table);
-    let out = &mut terminal.out;
     let in_both: usize = both.iter().map(|both| both.compared.pairs.len()).sum();
     writeln!(out, "{} and {} in both", count(both.len(), "plan"), count(in_both, "room"))?;
     for (side, name) in ["first", "second"].into_iter().enumerate().filter(|(side, _)| alone(both, *side) > 0) {

@@ -279,7 +279,7 @@ impl Derived {
         // between rooms, and between them and balconies.
         let reach = THICKEST_DRAWN_M / 2.0 * scale.min(1.0);
         let closed = |shapes: &Shapes| offset(&offset(shapes, reach), -reach);
-        let building = closed(&rooms_area);
+        let building = without_spurs(closed(&rooms_area));
         let gaps = if outdoors.is_empty() {
             building.overlay(&rooms_area, OverlayRule::Difference, FillRule::NonZero)
         } else {
@@ -315,6 +315,21 @@ impl Derived {
         Self { solid, railings }
     }
 }
+
+/// Shapes without the spurs that closing leaves where neighbours stand askew by millimetres: grown by a wall's thickness, a
+/// spur of no width would become a stub of wall. Shapes that have none stay as they are, to the bit.
+fn without_spurs(shapes: Shapes) -> Shapes {
+    let opened = areas::opening(&shapes, SPUR_M);
+    let length_m: f64 = shapes.iter().flatten().map(|ring| polygon::perimeter(&points(ring))).sum();
+    let is_same = (area_m2(&shapes) - area_m2(&opened)).abs() <= SPUR_M2_A_METRE * length_m;
+    if is_same { shapes } else { opened }
+}
+
+/// Half the width in metres of what counts as a spur.
+const SPUR_M: f64 = 0.02;
+
+/// Shapes that lose less area in m² for each metre of their outline have no spur: so much is rounding.
+const SPUR_M2_A_METRE: f64 = 2e-6;
 
 /// Gaps between imported rooms up to this width in metres are drawn as walls: a little more than
 /// [`crate::plan::THICKEST_WALL_M`], for the masonry of old buildings with plaster on both sides.

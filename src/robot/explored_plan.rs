@@ -50,10 +50,11 @@ pub fn plan(
 ) -> Result<ExploredPlan, Vec<Violation>> {
     let mut builder = Builder::new(meta);
     let place = |point: &Point| world_from_map.apply(*point);
+    let ring = |ring: &[Point]| without_spikes(ring).iter().map(place).collect::<Vec<Point>>();
     let mut rooms = Vec::new();
     for (index, found) in found.rooms.iter().enumerate() {
-        let outer = builder.ring(found.outer.iter().map(place));
-        let holes: Vec<Arc<_>> = found.holes.iter().map(|hole| builder.ring(hole.iter().map(place))).collect();
+        let outer = builder.ring(ring(&found.outer));
+        let holes: Vec<Arc<_>> = found.holes.iter().map(|hole| builder.ring(ring(hole))).collect();
         let holes = holes.into_iter().filter(|hole| hole.len() >= 3).collect();
         let axes = found.axes.map(|axes| (axes.major_m, axes.minor_m)).unwrap_or_default();
         let measured = serde_json::json!({
@@ -96,6 +97,30 @@ pub fn plan(
     }
     Ok(ExploredPlan { plan: builder.finish()?, rooms, frontiers: at_frontiers })
 }
+
+/// A ring without corners where it turns back on itself: what is left of a sight between two walls.
+fn without_spikes(ring: &[Point]) -> Vec<Point> {
+    let mut kept = ring.to_vec();
+    let mut index = 0;
+    while kept.len() > 3 && index < kept.len() {
+        let count = kept.len();
+        let (before, after) = (kept[(index + count - 1) % count], kept[(index + 1) % count]);
+        let (to, on) = (before - kept[index], after - kept[index]);
+        let longer_m = to.length().max(on.length());
+        // How far the end of the shorter side is from the longer one.
+        let is_spike = to.dot(on) > 0.0 && to.cross(on).abs() <= SPIKE_M * longer_m;
+        if is_spike {
+            kept.remove(index);
+            index = index.saturating_sub(1);
+        } else {
+            index += 1;
+        }
+    }
+    kept
+}
+
+/// Both sides of a spike are this near to each other, in metres.
+const SPIKE_M: f64 = 0.01;
 
 /// The room whose boundary contains a frontier.
 fn room_beside(found: &FoundRooms, frontier: &Frontier) -> Option<usize> {

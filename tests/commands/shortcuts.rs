@@ -14,6 +14,9 @@ fn every_shortcut_does_its_command() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("traced.plan.json");
     let word = path.to_str().unwrap();
+    // A copy: a review keeps what was decided in the folder.
+    let plans = folder.path().join("plans");
+    copy_plans(&plans);
     let mut checked = 0;
     for command in COMMANDS.iter() {
         for &shortcut in command.shortcuts {
@@ -53,6 +56,13 @@ fn every_shortcut_does_its_command() {
                 "merge-rooms" => select_neighbours(&mut window),
                 "paste" => run(&mut window, "copy", &[]),
                 "robot-run" | "robot-step" => run(&mut window, "explore-plan", &[]),
+                id if id.starts_with("review-") => {
+                    run(&mut window, "open", &[plans.to_str().unwrap()]);
+                    run(&mut window, "review-labels", &[]);
+                    if id == "review-back" {
+                        run(&mut window, "review-skip", &[]);
+                    }
+                }
                 // Nothing hangs on a window.
                 "delete" | "cut" => {
                     let plan = window.app().plan().unwrap();
@@ -73,6 +83,7 @@ fn every_shortcut_does_its_command() {
                 // A file that is open already is shown.
                 "open" => (said.starts_with("open ") || said.starts_with("show-plan "), "open"),
                 // These show something, or give the keyboard to it.
+                "review-note" => (window.focused().is_some(), "the note"),
                 "commands" => (window.control("Find a command").is_some(), "the palette"),
                 "find-room" => (
                     window.control("Find a room: a room's name, or its id if several rooms have the name").is_some(),
@@ -260,24 +271,33 @@ fn the_sheet_is_searched() {
 #[test]
 fn plain_letters_go_to_a_text_field_and_others_do_not() {
     let mut window = window_with("dwelling");
-    run(&mut window, "set-shortcut", &["graph", "Y"]);
+    run(&mut window, "set-shortcut", &["graph", "X"]);
     run(&mut window, "set-shortcut", &["grid", "Ctrl+Alt+X"]);
     run(&mut window, "set-shortcut", &["names", "F12"]);
     run(&mut window, "pick", &["Study"]);
     run(&mut window, "rename", &[]);
     window.watch_commands(true);
     // As a window system tells of it: the key, and the text it gives.
-    keys(&mut window, "Y");
-    type_in(&mut window, "y");
+    keys(&mut window, "X");
+    type_in(&mut window, "x");
     keys(&mut window, "Ctrl+Alt+X");
     keys(&mut window, "F12");
     let said = done(&mut window);
     assert!(!said.iter().any(|line| line.starts_with("graph")), "{said:?}");
     assert!(said.contains(&r#"grid "off""#.to_owned()) && said.contains(&r#"names "off""#.to_owned()), "{said:?}");
     keys(&mut window, "Enter");
-    assert_eq!(picked(&window).name, "y", "the old name was selected");
-    keys(&mut window, "Y");
+    assert_eq!(picked(&window).name, "x", "the old name was selected");
+    keys(&mut window, "X");
     assert!(done(&mut window).contains(&r#"graph "on""#.to_owned()));
+}
+
+fn copy_plans(folder: &Path) {
+    for entry in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("plans")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_file() {
+            write(&folder.join(path.file_name().unwrap()), &std::fs::read_to_string(&path).unwrap());
+        }
+    }
 }
 
 #[expect(clippy::disallowed_methods, reason = "a test's files are no user's")]

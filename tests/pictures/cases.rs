@@ -193,6 +193,16 @@ fn rooms_drawn_to_the_faces_of_walls_get_those_walls() {
     looks_like("unwalled_faces", SMALL, &bare(), sketch);
 }
 
+/// As a robot measures them: walls a few millimetres askew leave no stubs.
+#[test]
+fn rooms_that_stand_askew_have_plain_walls_between_them() {
+    let sketch = Sketch::new()
+        .room("bedroom", &[(4.7299, 8.7275), (0.0768, 8.7249), (0.0725, 5.0782), (4.7293, 5.0699)])
+        .room("bedroom", &[(9.1304, 5.0701), (9.1299, 8.7296), (4.8704, 8.7298), (4.8701, 5.0699)])
+        .room("living room", &[(11.9264, 0.0814), (11.931, 8.7218), (9.2691, 8.7186), (9.2728, 0.0765)]);
+    looks_like("unwalled_askew", SMALL, &bare(), sketch);
+}
+
 #[test]
 fn where_rooms_overlap_by_less_than_a_wall_the_wall_is() {
     let sketch = Sketch::new()

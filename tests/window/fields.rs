@@ -22,6 +22,9 @@ fn run(window: &mut Offscreen, id: &str, words: &[&str]) {
     window.settle().unwrap();
 }
 
+/// The bundled plans.
+const PLANS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/plans");
+
 /// Brings fields up in a window.
 type BringUp = fn(&mut Offscreen);
 
@@ -63,8 +66,16 @@ const STATES: &[(&str, BringUp)] = &[
         run(window, "draw-walls", &["20,0 24,0"]);
         press(window, "Ignore…");
     }),
+    ("a folder of plans", |window| run(window, "open-workspace", &[PLANS])),
+    ("training", |window| run(window, "train", &[])),
+    ("label schemes", |window| run(window, "schemes", &[])),
+    ("a review", |window| {
+        window.open(Path::new(PLANS));
+        window.settle().unwrap();
+        run(window, "review-labels", &[]);
+    }),
     ("a table of rooms", |window| {
-        window.open(&Path::new(env!("CARGO_MANIFEST_DIR")).join("plans"));
+        window.open(Path::new(PLANS));
         window.settle().unwrap();
         run(window, "export-dataset", &[]);
     }),
@@ -131,10 +142,14 @@ fn every_kind_of_field_in_the_code_is_tried() {
         "export.rs",
         "export.rs",
         "findings.rs",
+        "forms.rs",
         "here.rs",
         "room.rs",
         "palette.rs",
+        "review.rs",
         "shortcuts.rs",
+        "change.rs",
+        "workspace.rs",
     ];
     assert_eq!(found, tried, "bring the new field up in STATES, and name its file here");
 }

@@ -111,7 +111,7 @@ fn clicking_picks_the_smallest_and_again_what_lies_beneath() {
 #[test]
 fn the_inspector_leads_from_room_to_room() {
     // High enough for the neighbours, which stand last.
-    let mut window = Offscreen::new(OffscreenOptions { height: 1200, ..OffscreenOptions::default() });
+    let mut window = Offscreen::new(OffscreenOptions { height: 1500, ..OffscreenOptions::default() });
     assert!(window.open_bundled("dwelling"));
     window.settle().unwrap();
     click_room(&mut window, "Kitchen");

@@ -81,6 +81,12 @@ enum Act {
     Export(ChartWanted),
 }
 
+/// Closes the dashboard by its command, so that a recording tells of it.
+fn close(app: &mut App, ui: &Ui) -> After {
+    app.act("dashboard", &["off"], ui.ctx());
+    After::Close
+}
+
 impl Dialog for Dashboard {
     fn show(&mut self, app: &mut App, ui: &mut Ui) -> After {
         if app.session.question.is_some() {
@@ -107,7 +113,7 @@ impl Dialog for Dashboard {
         let is_closed = response.should_close();
         match response.inner.or(is_closed.then_some(Act::Close)) {
             None => After::Stay,
-            Some(Act::Close) => After::Close,
+            Some(Act::Close) => close(app, ui),
             Some(Act::Calls(calls)) => {
                 calls.into_iter().for_each(|call| app.act_on(call, ui.ctx()));
                 After::Stay
@@ -116,7 +122,7 @@ impl Dialog for Dashboard {
                 let room = app.session.at_hand.read.clone();
                 if let Some((origin, id)) = room.as_ref().and_then(|at_hand| at_hand.room_of(row)) {
                     app.session.go_to_room(origin, id);
-                    return After::Close;
+                    return close(app, ui);
                 }
                 After::Stay
             }

@@ -198,8 +198,11 @@ fn room(ui: &mut Ui, app: &mut App, entry: &Entry) -> Option<Call> {
         }
         section(ui, "Why it is here");
         for reason in &entry.reasons {
-            text(ui, reason.words());
-            ui.add_space(2.0);
+            // A sentence a line, so that a long reason is read at a glance.
+            for sentence in reason.words().split_inclusive(". ") {
+                text(ui, sentence.trim_end().to_owned());
+                ui.add_space(4.0);
+            }
         }
         if entry.reasons.is_empty() {
             text(ui, "Nothing speaks against its label; it comes late in the queue.");

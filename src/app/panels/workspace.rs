@@ -81,20 +81,26 @@ impl Dialog for Table {
         let act = response.inner.or(is_closed.then_some(Act::Close));
         match act {
             None => After::Stay,
-            Some(Act::Close) => After::Close,
+            Some(Act::Close) => close(app, ui),
             Some(Act::Run(id)) => {
                 app.act(id, &[], ui.ctx());
                 After::Stay
             }
             Some(Act::Open(row)) => {
                 if open(app, row) {
-                    After::Close
+                    close(app, ui)
                 } else {
                     After::Stay
                 }
             }
         }
     }
+}
+
+/// Closes the table by its command, so that a recording tells of it.
+fn close(app: &mut App, ui: &Ui) -> After {
+    app.act("workspace", &["off"], ui.ctx());
+    After::Close
 }
 
 /// Opens the plan of a row, and selects the room of one. Returns whether there is one that can be opened.

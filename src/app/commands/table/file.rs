@@ -219,7 +219,8 @@ pub(super) const COMMANDS: &[Command] = &[
         "show-plan",
         "Show open plan…",
         "Show another open plan, as you left it",
-        has_several_open,
+        // The one in view is among them: a recording names it where a person went back to it.
+        has_plan,
         &given1(needed("PLAN", OPEN_PLAN, "its title in the list"), |app, OpenPlanNumber(number), _| {
             app.session.show_open(number);
             Outcome::Done
