@@ -96,7 +96,7 @@ fn every_shortcut_does_its_command() {
                 "shortcuts" => (window.control("Search shortcuts").is_some(), "the sheet"),
                 "name-rooms" => (window.control("Name rooms").is_some(), "the form"),
                 "rename" | "set-function" => {
-                    type_in(&mut window, "x");
+                    type_in(&mut window, "q");
                     keys(&mut window, "Enter");
                     (done(&mut window)[0].starts_with(command.id), "a name")
                 }
@@ -271,23 +271,23 @@ fn the_sheet_is_searched() {
 #[test]
 fn plain_letters_go_to_a_text_field_and_others_do_not() {
     let mut window = window_with("dwelling");
-    run(&mut window, "set-shortcut", &["graph", "X"]);
+    run(&mut window, "set-shortcut", &["graph", "Q"]);
     run(&mut window, "set-shortcut", &["grid", "Ctrl+Alt+X"]);
     run(&mut window, "set-shortcut", &["names", "F12"]);
     run(&mut window, "pick", &["Study"]);
     run(&mut window, "rename", &[]);
     window.watch_commands(true);
     // As a window system tells of it: the key, and the text it gives.
-    keys(&mut window, "X");
-    type_in(&mut window, "x");
+    keys(&mut window, "Q");
+    type_in(&mut window, "q");
     keys(&mut window, "Ctrl+Alt+X");
     keys(&mut window, "F12");
     let said = done(&mut window);
     assert!(!said.iter().any(|line| line.starts_with("graph")), "{said:?}");
     assert!(said.contains(&r#"grid "off""#.to_owned()) && said.contains(&r#"names "off""#.to_owned()), "{said:?}");
     keys(&mut window, "Enter");
-    assert_eq!(picked(&window).name, "x", "the old name was selected");
-    keys(&mut window, "X");
+    assert_eq!(picked(&window).name, "q", "the old name was selected");
+    keys(&mut window, "Q");
     assert!(done(&mut window).contains(&r#"graph "on""#.to_owned()));
 }
 
