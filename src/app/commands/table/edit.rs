@@ -34,9 +34,23 @@ pub(super) const COMMANDS: &[Command] = &[
         Some(|app, _| app.panels.set_shown(panels::HISTORY, true)),
     )
     .menu(Menu::Edit, 0),
-    command("clear-selection", "Clear selection", "Leave the tool, or clear the selection", can_clear, |app, _| {
-        if app.tools.is_selecting() { app.session.pick(None) } else { app.put_tool_away() }
-    })
+    with(
+        "clear-selection",
+        "Clear selection",
+        "Leave the tool, or clear the selection",
+        can_clear,
+        &given0(|app, _| {
+            if app.tools.is_selecting() {
+                app.session.pick(None);
+                return Outcome::Done;
+            }
+            app.put_tool_away();
+            // A recording need not know how the tool came to hand: without it, the selection would be cleared instead.
+            app.session.note_executed("tool-select", Vec::new());
+            Outcome::Asks
+        }),
+        None,
+    )
     .keys(&[key(Key::Escape)])
     .menu(Menu::Edit, 1),
     with(
