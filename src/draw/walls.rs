@@ -326,7 +326,7 @@ fn without_spurs(shapes: Shapes) -> Shapes {
 }
 
 /// Half the width in metres of what counts as a spur.
-const SPUR_M: f64 = 0.02;
+const SPUR_M: f64 = 0.05;
 
 /// Shapes that lose less area in m² for each metre of their outline have no spur: so much is rounding.
 const SPUR_M2_A_METRE: f64 = 2e-6;
