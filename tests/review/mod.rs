@@ -17,6 +17,7 @@ use proptest::prelude::*;
 
 use crate::support::{enfilade, is_whole};
 
+#[expect(dead_code, reason = "the example uses all of it")]
 #[path = "../../examples/planted_errors/plant.rs"]
 mod plant;
 

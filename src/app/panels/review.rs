@@ -185,6 +185,9 @@ fn room(ui: &mut Ui, app: &mut App, entry: &Entry) -> Option<Call> {
     });
     caption(ui, "Another label: 1 to 5. Another function: F4. Then keep it.");
     ui.add_space(4.0);
+    // Above the reasons, which may be long: it is never scrolled out of sight.
+    asked = note(ui, app, entry).or(asked.take());
+    ui.add_space(6.0);
     ScrollArea::vertical().id_salt("review").auto_shrink(false).show(ui, |ui| {
         if !app.session.review.is_comparison() {
             let palette = app.session.palette(ui);
@@ -210,8 +213,6 @@ fn room(ui: &mut Ui, app: &mut App, entry: &Entry) -> Option<Call> {
         for note in app.session.review.notes() {
             caption(ui, note.as_str());
         }
-        ui.add_space(6.0);
-        asked = note(ui, app, entry).or(asked.take());
     });
     asked
 }
