@@ -188,7 +188,7 @@ mod tests {
 
     fn office() -> Plan {
         let plans = crate::store::bundled_plans().unwrap();
-        plans.into_iter().find(|(name, _)| *name == "office").unwrap().1
+        plans.into_iter().find(|(name, _)| *name == "office.plan.json").unwrap().1
     }
 
     fn relabelled(plan: &Plan, id: RoomId, label: Label) -> Plan {

@@ -15,7 +15,7 @@ pub(super) const COMMANDS: &[Command] = &[
         |app| app.dialogs.is_open(dialogs::DASHBOARD),
         |app, is_on| app.set_dialog(dialogs::DASHBOARD, is_on),
     )
-    .menu(Menu::Dataset, 3),
+    .menu(Menu::Dataset, 2),
     with(
         "export-chart",
         "Export a chart",
@@ -74,7 +74,7 @@ pub(super) const COMMANDS: &[Command] = &[
         ),
         Some(|app, _| app.open_dialog(dialogs::TRAINING)),
     )
-    .menu(Menu::Dataset, 3),
+    .menu(Menu::Dataset, 2),
     command(
         "stop-training",
         "Stop the training",
@@ -82,7 +82,7 @@ pub(super) const COMMANDS: &[Command] = &[
         is_training,
         |app, _| app.session.cancel_training(),
     )
-    .menu(Menu::Dataset, 3),
+    .menu(Menu::Dataset, 2),
     with(
         "keep-models",
         "Keep the trained models",
@@ -107,7 +107,7 @@ pub(super) const COMMANDS: &[Command] = &[
         |app| app.dialogs.is_open(dialogs::SCHEMES),
         |app, is_on| app.set_dialog(dialogs::SCHEMES, is_on),
     )
-    .menu(Menu::Dataset, 3),
+    .menu(Menu::Dataset, 2),
     with(
         "save-scheme",
         "Change a label scheme",

@@ -37,7 +37,7 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Dataset, 2),
+    .menu(Menu::Dataset, 3),
     with(
         "review-differences",
         "Compare with another person's labels…",
@@ -49,7 +49,7 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Dataset, 2),
+    .menu(Menu::Dataset, 3),
     with(
         "review-accept",
         "Keep the label",
@@ -59,7 +59,7 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[key(Key::Y)])
-    .menu(Menu::Dataset, 2),
+    .menu(Menu::Dataset, 3),
     with(
         "review-correct",
         "Correct the label",
@@ -71,7 +71,7 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[shift(Key::Y)])
-    .menu(Menu::Dataset, 2),
+    .menu(Menu::Dataset, 3),
     with(
         "review-skip",
         "Skip the room",
@@ -81,7 +81,7 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[key(Key::U)])
-    .menu(Menu::Dataset, 2),
+    .menu(Menu::Dataset, 3),
     with(
         "review-back",
         "Back in the review",
@@ -91,7 +91,7 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[shift(Key::U)])
-    .menu(Menu::Dataset, 2),
+    .menu(Menu::Dataset, 3),
     with(
         "review-note",
         "Note about the room…",
@@ -103,7 +103,7 @@ pub(super) const COMMANDS: &[Command] = &[
         None,
     )
     .keys(&[key(Key::I)])
-    .menu(Menu::Dataset, 2),
+    .menu(Menu::Dataset, 3),
     with(
         "review-stop",
         "End the review",
@@ -115,5 +115,5 @@ pub(super) const COMMANDS: &[Command] = &[
         }),
         None,
     )
-    .menu(Menu::Dataset, 2),
+    .menu(Menu::Dataset, 3),
 ];
