@@ -366,7 +366,9 @@ mod tests {
                 }
                 bytes.truncate(if cut < bytes.len() / 2 { bytes.len() } else { cut });
                 if let Ok(read) = description(&String::from_utf8_lossy(&bytes)) {
-                    prop_assert!(read.resolution_m.is_finite() && !read.image.contains(".."));
+                    // 'floor..pgm' is a name like any other.
+                    let leads_out = read.image.split(['/', '\\']).any(|part| part == "..");
+                    prop_assert!(read.resolution_m.is_finite() && !leads_out, "{}", read.image);
                 }
                 for mode in [MapMode::Trinary, MapMode::Scale, MapMode::Raw] {
                     let reading = PictureReading { mode, ..PictureReading::MAP_SERVER };
