@@ -116,7 +116,7 @@ fn large_parts(joined: &[Vec<usize>], rooms: &[usize], less: Option<usize>) -> V
 }
 
 impl RoomNetwork {
-    /// The flats of a storey, see [`Flats::of`]: looked for once.
+    /// The flats of a storey, looked for once; `None` for a plan that is not one.
     pub fn flats(&self) -> Option<&Flats> {
         self.flats.get_or_init(|| Flats::of(self)).as_ref()
     }
