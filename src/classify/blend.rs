@@ -14,10 +14,11 @@ use std::sync::Arc;
 use serde_json::{Value, json};
 
 use super::calibration::fitted_temperature;
+use super::given::{self, Given};
+use super::in_plan;
 use super::joint::{FirstRound, Joint, JointExplanation};
 use super::why::{OnPlan, Point, Why, and_list, speaks};
 use super::{Algorithm, Classifier, Distribution, Method};
-use super::{given, in_plan};
 use crate::base::units::Units;
 use crate::dataset::RoomNetwork;
 use crate::dataset::sets::STANDARD;
@@ -103,7 +104,9 @@ pub struct Opinions {
     said: Vec<Option<in_plan::Said>>,
     /// The mean of the parts.
     means: Vec<Distribution>,
-    /// The blend's distribution of each room: the mean, corrected by the labels that were given ([`given::corrected`]).
+    /// The labels that were given.
+    given: Given,
+    /// The blend's distribution of each room: the mean, corrected by the labels that were given ([`Given::corrected`]).
     pub distributions: Vec<Distribution>,
 }
 
@@ -209,8 +212,9 @@ impl Blend {
                 Distribution::mean(&said, &weights).at_temperature(self.temperature)
             })
             .collect();
-        let distributions = given::corrected(network, known, &means);
-        Opinions { of_parts, rounds, said, means, distributions }
+        let given = Given::of(network, known);
+        let distributions = given.corrected(&means);
+        Opinions { of_parts, rounds, said, means, given, distributions }
     }
 
     /// Why a room got its label, with areas in these units; `None` for a room that is not in the network. The points are those
@@ -238,7 +242,7 @@ impl Blend {
             self.parts.iter().zip(&opinions.of_parts).map(|(part, said)| (part, said[room])).collect();
         let (mean, corrected) = (opinions.means[room], opinions.distributions[room]);
         if let Some((speaks, _)) = speaks(label, |of| corrected.probability(of) - mean.probability(of)) {
-            let like = given::like(network, known, room);
+            let like = opinions.given.like(room);
             let seen = given::words(&like);
             let on_plan = OnPlan::Rooms(like.into_iter().map(|(other, _)| other).collect());
             why.add(Point { seen, speaks: Some(speaks), on_plan });
@@ -329,9 +333,9 @@ fn who_said_what(said: &[(&Part, Distribution)], label: Label, mean: Label) -> S
             STANDARD => "all buildings".to_owned(),
             set => format!("{set}s"),
         };
-        let who =
-            format!("the {} of {of} ({:.0} %)", part.model.method().title(), 100.0 * said.probability(said.label()));
-        by_label.entry(said.label()).or_default().push(who);
+        let (says, sure) = said.likeliest();
+        let who = format!("the {} of {of} ({:.0} %)", part.model.method().title(), 100.0 * sure);
+        by_label.entry(says).or_default().push(who);
     }
     let for_it = by_label.remove(&label).unwrap_or_default();
     let mut sentence = match (for_it.is_empty(), by_label.is_empty()) {

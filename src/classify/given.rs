@@ -27,6 +27,7 @@ const JOINED: f64 = 0.4;
 const WINDOW: f64 = 3.0 * AREA;
 
 /// What of a room decides which others are like it.
+#[derive(Clone, Debug)]
 struct Traits([f64; 4]);
 
 impl Traits {
@@ -48,21 +49,70 @@ impl Traits {
     }
 }
 
-/// The rooms like a room that have a given label, most alike first.
-pub fn like(network: &RoomNetwork, known: &[Option<Label>], room: usize) -> Vec<(usize, Label)> {
-    let joined = network.joined();
-    let traits = |room: usize| Traits::of(&network.rooms[room], joined[room].len());
-    let own = traits(room);
-    let mut like: Vec<(f64, usize, Label)> = known
-        .iter()
-        .take(network.rooms.len())
-        .enumerate()
-        .filter(|(other, _)| *other != room)
-        .filter_map(|(other, label)| Some((own.likeness(&traits(other)), other, (*label)?)))
-        .filter(|(likeness, ..)| *likeness >= MENTIONED)
-        .collect();
-    like.sort_by(|p, q| q.0.total_cmp(&p.0));
-    like.into_iter().map(|(_, other, label)| (other, label)).collect()
+/// The labels that were given to rooms of a plan, with what tells which rooms are like them.
+#[derive(Clone, Debug)]
+pub struct Given {
+    /// Of each room of the network; of none where no label was given.
+    traits: Vec<Traits>,
+    /// The rooms that have a label, by area.
+    by_area: Vec<(usize, Label)>,
+}
+
+impl Given {
+    /// `known` as in [`super::joint::Joint::predict`].
+    pub fn of(network: &RoomNetwork, known: &[Option<Label>]) -> Self {
+        let labels = known.iter().take(network.rooms.len()).enumerate();
+        let mut by_area: Vec<(usize, Label)> = labels.filter_map(|(room, label)| Some((room, (*label)?))).collect();
+        if by_area.is_empty() {
+            return Self { traits: Vec::new(), by_area };
+        }
+        let traits: Vec<Traits> =
+            network.rooms.iter().zip(network.joined()).map(|(room, joined)| Traits::of(room, joined.len())).collect();
+        by_area.sort_by(|(p, _), (q, _)| traits[*p].0[0].total_cmp(&traits[*q].0[0]));
+        Self { traits, by_area }
+    }
+
+    /// The other rooms with a label whose areas are near that of a room, by area, each with how alike it is.
+    fn near(&self, room: usize) -> impl Iterator<Item = (f64, usize, Label)> {
+        let own = self.traits.get(room);
+        let area = own.map_or(0.0, |own| own.0[0]);
+        let from = self.by_area.partition_point(|(other, _)| self.traits[*other].0[0] < area - WINDOW / AREA);
+        let within =
+            self.by_area[from..].iter().take_while(move |(other, _)| self.traits[*other].0[0] <= area + WINDOW / AREA);
+        within
+            .filter(move |(other, _)| *other != room)
+            .filter_map(move |&(other, label)| Some((own?.likeness(&self.traits[other]), other, label)))
+    }
+
+    /// The rooms like a room that have a given label, most alike first.
+    pub fn like(&self, room: usize) -> Vec<(usize, Label)> {
+        let mut like: Vec<(f64, usize, Label)> =
+            self.near(room).filter(|(likeness, ..)| *likeness >= MENTIONED).collect();
+        like.sort_by(|p, q| q.0.total_cmp(&p.0).then(p.1.cmp(&q.1)));
+        like.into_iter().map(|(_, other, label)| (other, label)).collect()
+    }
+
+    /// What is said of the rooms of a plan, once the labels that were given for some have been compared with what was `said` of
+    /// these while none was known. A room's own label is never used for it.
+    pub fn corrected(&self, said: &[Distribution]) -> Vec<Distribution> {
+        if self.by_area.is_empty() {
+            return said.to_vec();
+        }
+        let of_room = |(room, said_of_room): (usize, &Distribution)| {
+            let mut weights = 0.0;
+            let mut residuals = [0.0; 5];
+            for (likeness, other, label) in self.near(room) {
+                weights += likeness;
+                for (index, residual) in residuals.iter_mut().enumerate() {
+                    let truth = f64::from(u8::from(index == label.index()));
+                    *residual += likeness * (truth - said[other].probabilities()[index]);
+                }
+            }
+            let moved = |index: usize| (STRENGTH * residuals[index] / (DOUBT + weights)).exp();
+            Distribution::from_weights(std::array::from_fn(|index| said_of_room.probabilities()[index] * moved(index)))
+        };
+        said.iter().enumerate().map(of_room).collect()
+    }
 }
 
 /// What such rooms tell, in words without a full stop.
@@ -83,42 +133,6 @@ pub fn words(like: &[(usize, Label)]) -> String {
 /// Rooms less alike are not mentioned.
 const MENTIONED: f64 = 0.3;
 
-/// What is said of the rooms of a plan, once the labels that were given for some have been compared with what was `said` of these
-/// while none was known. A room's own label is never used for it. `known` as in [`super::joint::Joint::predict`].
-pub fn corrected(network: &RoomNetwork, known: &[Option<Label>], said: &[Distribution]) -> Vec<Distribution> {
-    let mut given: Vec<(usize, Label)> =
-        known.iter().take(said.len()).enumerate().filter_map(|(room, label)| Some((room, (*label)?))).collect();
-    if given.is_empty() {
-        return said.to_vec();
-    }
-    let traits: Vec<Traits> =
-        network.rooms.iter().zip(network.joined()).map(|(room, joined)| Traits::of(room, joined.len())).collect();
-    given.sort_by(|(p, _), (q, _)| traits[*p].0[0].total_cmp(&traits[*q].0[0]));
-    let of_room = |(room, said_of_room): (usize, &Distribution)| {
-        let own = &traits[room];
-        let from = given.partition_point(|(other, _)| traits[*other].0[0] < own.0[0] - WINDOW / AREA);
-        let mut weights = 0.0;
-        let mut residuals = [0.0; 5];
-        for &(other, label) in &given[from..] {
-            if traits[other].0[0] > own.0[0] + WINDOW / AREA {
-                break;
-            }
-            if other == room {
-                continue;
-            }
-            let likeness = own.likeness(&traits[other]);
-            weights += likeness;
-            for (index, residual) in residuals.iter_mut().enumerate() {
-                let truth = f64::from(u8::from(index == label.index()));
-                *residual += likeness * (truth - said[other].probabilities()[index]);
-            }
-        }
-        let moved = |index: usize| (STRENGTH * residuals[index] / (DOUBT + weights)).exp();
-        Distribution::from_weights(std::array::from_fn(|index| said_of_room.probabilities()[index] * moved(index)))
-    };
-    said.iter().enumerate().map(of_room).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -138,16 +152,16 @@ mod tests {
         let network = network();
         let medium = Distribution::from_weights([0.4, 0.6, 0.0, 0.0, 0.0]);
         let said = [medium; 5];
-        assert_eq!(corrected(&network, &[], &said), said, "nothing is given");
+        assert_eq!(Given::of(&network, &[]).corrected(&said), said, "nothing is given");
         let known = [Some(Label::SmallRoom), Some(Label::SmallRoom)];
-        let corrected = corrected(&network, &known, &said);
+        let given = Given::of(&network, &known);
+        let corrected = given.corrected(&said);
         assert_eq!(corrected[2].label(), Label::SmallRoom);
         assert_eq!(corrected[2], corrected[3]);
         assert_eq!(corrected[4], medium, "it is like none of them");
         // Its own label does not count, the other's does.
         assert_eq!(corrected[0], corrected[1]);
         assert!(corrected[0].probability(Label::SmallRoom) < corrected[2].probability(Label::SmallRoom));
-        let like = like(&network, &known, 2);
-        assert_eq!(words(&like), "labels given to rooms like it: 2 small rooms");
+        assert_eq!(words(&given.like(2)), "labels given to rooms like it: 2 small rooms");
     }
 }

@@ -1,14 +1,12 @@
 //! Classifying all rooms of a plan at once: unknown labels of neighbours are predicted too, and
 //! predictions repeated until none changes.
 
-use std::collections::BTreeMap;
-
 use super::{Algorithm, Classifier, Distribution};
 use crate::base::random::seed_of_part;
 use crate::base::work::{Cancelled, Work};
 use crate::dataset::folds::{Folds, Grouping};
 use crate::dataset::table::Table;
-use crate::dataset::{RoomNetwork, RoomPlace, Row};
+use crate::dataset::{RoomNetwork, RoomPlace, Row, places_among};
 use crate::features::{Features, NeighbourLabels};
 use crate::labels::Label;
 use crate::plan::RoomId;
@@ -40,18 +38,6 @@ pub struct Said {
 /// More rounds than these are not kept of a room.
 const MOST_KEPT: usize = 4;
 
-impl Said {
-    /// For each of these rooms its place here; `None` for one that is new.
-    fn places(&self, rooms: &[RoomId]) -> Vec<Option<usize>> {
-        if self.rooms == rooms {
-            return (0..rooms.len()).map(Some).collect();
-        }
-        let places: BTreeMap<RoomId, usize> =
-            self.rooms.iter().enumerate().map(|(place, &room)| (room, place)).collect();
-        rooms.iter().map(|room| places.get(room).copied()).collect()
-    }
-}
-
 /// Classifies the rooms of a plan. `known` holds, for each room of the network, the label that may be
 /// used when it is a neighbour (never for its own prediction), if known.
 pub fn classify(
@@ -73,7 +59,7 @@ pub fn classify_after(
     before: Option<&Said>,
 ) -> (InPlan, Said) {
     let rooms: Vec<RoomId> = network.rooms.iter().map(|room| room.id).collect();
-    let places = before.map_or_else(Vec::new, |before| before.places(&rooms));
+    let places = before.map_or_else(Vec::new, |before| places_among(&before.rooms, &rooms));
     let mut said = Said { of_rooms: vec![Vec::new(); rooms.len()], rooms };
     let said_before = |room: usize, features: &Features| {
         let kept = before?.of_rooms.get((*places.get(room)?)?)?;

@@ -15,7 +15,7 @@ mod statistics;
 pub mod table;
 
 pub use collection::{Collection, RoomPlace};
-pub use network::{Flats, Form, Measured, NetworkDoor, NetworkRoom, RoomNetwork};
+pub use network::{Flats, Form, Measured, NetworkDoor, NetworkRoom, RoomNetwork, places_among};
 pub use schema::schema;
 pub use statistics::{LabelStatistics, Moments, Statistics};
 

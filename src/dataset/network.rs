@@ -1,3 +1,4 @@
+use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
 use super::fingerprint::{Prints, RoomPrint};
@@ -42,6 +43,15 @@ pub struct RoomNetwork {
     pub left_out: LeftOut,
     /// See [`RoomNetwork::flats`]; empty until somebody asks. Whoever changes areas or doors of the rooms empties it.
     pub flats: OnceLock<Option<Flats>>,
+}
+
+/// For each of these rooms its place among those `before`; `None` for one that is new.
+pub fn places_among(before: &[RoomId], rooms: &[RoomId]) -> Vec<Option<usize>> {
+    if before == rooms {
+        return (0..rooms.len()).map(Some).collect();
+    }
+    let places: BTreeMap<RoomId, usize> = before.iter().enumerate().map(|(place, &room)| (room, place)).collect();
+    rooms.iter().map(|room| places.get(room).copied()).collect()
 }
 
 /// A room of a [`RoomNetwork`].

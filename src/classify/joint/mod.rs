@@ -35,7 +35,7 @@ use super::{Distribution, FoldScore, Scores};
 use crate::base::random::{Random, seed_of_part};
 use crate::base::work::{Cancelled, Work};
 use crate::dataset::folds::{Folds, FoldsError};
-use crate::dataset::{RoomNetwork, RoomPlace};
+use crate::dataset::{RoomNetwork, RoomPlace, places_among};
 use crate::labels::{Label, Typology};
 use crate::plan::RoomId;
 
@@ -189,18 +189,6 @@ struct HeldRooms {
     rooms: Vec<RoomId>,
     first: Vec<Arc<Held>>,
     second: Vec<Arc<Held>>,
-}
-
-impl HeldRooms {
-    /// For each of these rooms its place here; `None` for one that is new.
-    fn places(&self, rooms: &[RoomId]) -> Vec<Option<usize>> {
-        if self.rooms == rooms {
-            return (0..rooms.len()).map(Some).collect();
-        }
-        let places: BTreeMap<RoomId, usize> =
-            self.rooms.iter().enumerate().map(|(place, &room)| (room, place)).collect();
-        rooms.iter().map(|room| places.get(room).copied()).collect()
-    }
 }
 
 /// Sets the features of some groups to 0, so that no tree can split on them.
@@ -397,7 +385,7 @@ impl Joint {
             }
         };
         let rooms: Vec<RoomId> = network.rooms.iter().map(|room| room.id).collect();
-        let places = before.map_or_else(Vec::new, |before| before.held.places(&rooms));
+        let places = before.map_or_else(Vec::new, |before| places_among(&before.held.rooms, &rooms));
         let held_before = |of: fn(&HeldRooms) -> &Vec<Arc<Held>>| -> Vec<Option<&Arc<Held>>> {
             let Some(before) = before else { return Vec::new() };
             places.iter().map(|place| of(&before.held).get((*place)?)).collect()
