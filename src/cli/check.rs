@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use serde_json::{Map, Value, json};
 
 use super::batch::{self, Input};
-use super::collect::content_of;
 use super::door::{Paint, one_line};
 use super::repeats::repeats_in_words;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
@@ -18,6 +17,7 @@ use crate::geometry::Point;
 use crate::labels::Schemes;
 use crate::pipeline::Pipeline;
 use crate::plan::Plan;
+use crate::store;
 
 /// `enfilade check`: everything that is wrong with plans.
 #[derive(clap::Args)]
@@ -78,7 +78,7 @@ impl Subcommand for CheckCommand {
         let mut sightings: Vec<Sighting> = Vec::new();
         let work = |input: &Input| {
             let import = input.read()?;
-            let (file, content) = (input.path.display().to_string(), content_of(&input.path));
+            let (file, content) = (input.path.display().to_string(), store::content_of(&input.path));
             let each = |(storey, plan): (usize, &Plan)| {
                 let pipeline = Pipeline::new(plan, &schemes);
                 let seen = Sighting::of(plan, pipeline.analysis(), &file, &content, storey);

@@ -13,11 +13,12 @@ use crate::dataset::fold_table::FoldTable;
 use crate::dataset::folds::{Grouping, building_of, group_of};
 use crate::dataset::{Collection, LeftOut, RoomNetwork, Row, csv};
 use crate::features::NeighbourLabels;
-use crate::formats::{self, Import};
+use crate::formats::Import;
 pub use crate::gather::PlansRead;
 use crate::gather::{FileRead, Source, sha256};
 use crate::labels::{Schemes, Typology};
 use crate::plan::titles::first_of;
+use crate::store;
 
 /// Options of every subcommand that learns from labelled rooms.
 #[derive(clap::Args)]
@@ -247,7 +248,7 @@ pub fn read_plans(
     let mut read = PlansRead::default();
     let work = |input: &Input, import: Import| {
         let file = input.path.display().to_string();
-        FileRead::new(&file, content_of(&input.path), &import.plans, schemes, with_blind)
+        FileRead::new(&file, store::content_of(&input.path), &import.plans, schemes, with_blind)
     };
     read.failed = batch::for_each_import(&files, "collecting rooms", terminal, work, |_, file, _| {
         read.add(file);
@@ -259,12 +260,6 @@ pub fn read_plans(
         read.leave_out_repeats();
     }
     Ok(read)
-}
-
-/// A hash of a file's bytes; empty for a folder, and for what cannot be read again.
-pub fn content_of(path: &Path) -> String {
-    let is_file = path.is_file();
-    is_file.then(|| formats::read_bytes(path).ok()).flatten().map(|bytes| sha256(&bytes)).unwrap_or_default()
 }
 
 /// The rows of dataset files, each room once.

@@ -3,7 +3,6 @@ use std::path::PathBuf;
 use serde_json::json;
 
 use super::batch::{self, Input};
-use super::collect::content_of;
 use super::manifest;
 use super::numbers::rounded;
 use super::outputs::Outputs;
@@ -16,6 +15,7 @@ use crate::labels::{Label, Schemes, Typology};
 use crate::pipeline::Pipeline;
 use crate::plan::titles::room_keys;
 use crate::plan::{Plan, RoomId};
+use crate::store;
 
 /// `enfilade features`: the features of every room.
 #[derive(clap::Args)]
@@ -96,8 +96,7 @@ impl Subcommand for FeaturesCommand {
         let mut outputs = Outputs::new(terminal);
         outputs.result(self.output.as_deref(), &bytes, terminal)?;
         if let Some(path) = self.output.as_deref().filter(|path| !self.json && manifest::is_file(path)) {
-            let source =
-                |file: &Input| json!({ "file": file.path.display().to_string(), "sha256": content_of(&file.path) });
+            let source = |file: &Input| json!({ "file": file.path.display().to_string(), "sha256": store::content_of(&file.path) });
             let told = manifest::of_table(path, &bytes, rooms_written)
                 .with("neighbours", json!(self.shared.neighbours.name()))
                 .with("sources", files.iter().map(source).collect())

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use super::batch::{self, Input};
-use super::collect::content_of;
 use super::door::one_line;
 use super::progress::with_progress;
 use super::{CliError, Outcome, Subcommand, Terminal, inputs};
@@ -14,6 +13,7 @@ use crate::formats::Import;
 use crate::labels::Label;
 use crate::plan::titles::printable;
 use crate::review::{Decisions, Entry, FILE_NAME, FileSeen, Key, Material, Reason, Verdict, queue};
+use crate::store;
 
 /// `enfilade review`: where a person's look is worth most.
 #[derive(clap::Args)]
@@ -60,7 +60,7 @@ impl Subcommand for ReviewCommand {
         let mut seen: Vec<FileSeen> = Vec::new();
         let work = |input: &Input, import: Import| {
             let name = input.within.to_string_lossy().replace('\\', "/");
-            FileSeen::new(&name, content_of(&input.path), &import.plans, &schemes)
+            FileSeen::new(&name, store::content_of(&input.path), &import.plans, &schemes)
         };
         let failed = batch::for_each_import(&files, "reading plans", terminal, work, |_, file, _| {
             seen.push(file);

@@ -5,7 +5,7 @@ use std::sync::{Arc, mpsc};
 
 use super::batch::{self, Input};
 use super::call::quoted;
-use super::collect::{content_of, report_left_out};
+use super::collect::report_left_out;
 use super::inputs;
 use super::outputs::{Care, Outputs, must_be_folder};
 use super::progress::{Progress, with_progress};
@@ -18,6 +18,7 @@ use crate::formats::{self, Import};
 use crate::gather::{FileRead, PlansRead, program, sha256};
 use crate::labels::Schemes;
 use crate::plan::Plan;
+use crate::store;
 use crate::study::robot::{Record, RobotStudyOptions, Run, StudyPlan, explore, gather, run_key, runs};
 use crate::study::{About, report};
 
@@ -191,7 +192,7 @@ impl RobotStudyCommand {
         let mut plans: Vec<(Arc<Plan>, bool)> = Vec::new();
         let work = |input: &Input, import: Import| {
             let file = input.path.display().to_string();
-            (FileRead::new(&file, content_of(&input.path), &import.plans, schemes, false), import.plans)
+            (FileRead::new(&file, store::content_of(&input.path), &import.plans, schemes, false), import.plans)
         };
         read.failed = batch::for_each_import(&files, "reading plans", terminal, work, |input, (file, of_file), _| {
             let explores = is_explored.get(input.path.as_path()).copied().unwrap_or_default();

@@ -6,8 +6,6 @@ mod manifest;
 
 use std::collections::BTreeMap;
 
-use sha2::{Digest as _, Sha256};
-
 use crate::dataset::repeats::{Repeats, Sighting};
 use crate::dataset::{LeftOut, RoomNetwork};
 use crate::formats::building_name;
@@ -15,16 +13,8 @@ use crate::labels::{Schemes, Typology};
 use crate::pipeline::Pipeline;
 use crate::plan::Plan;
 
+pub use crate::base::hash::sha256;
 pub use manifest::{Manifest, beside, json_bytes, program};
-
-/// SHA-256 in hexadecimal digits, as `sha256sum` prints it.
-pub fn sha256(bytes: &[u8]) -> String {
-    use std::fmt::Write as _;
-    Sha256::digest(bytes).iter().fold(String::new(), |mut text, byte| {
-        let _ = write!(text, "{byte:02x}");
-        text
-    })
-}
 
 /// A file that was read.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -38,5 +38,5 @@ pub use plan_file::{checked_bytes, load_plan, save_plan};
 pub use plan_folder::{FoundPlan, plans_below};
 pub use save::{SaveError, save_bytes, save_bytes_fast};
 pub use schemes::{SCHEME_ENDING, SCHEMES_VARIABLE, SchemeFileError, schemes_folder, schemes_in, with_scheme_file};
-pub use stamp::Stamp;
+pub use stamp::{Stamp, content_of};
 pub use viewer::{print_folder, show_in_viewer};

@@ -6,6 +6,12 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use crate::base::hash;
 use crate::formats;
 
+/// The SHA-256 of a file's bytes; empty for a folder, and for what cannot be read.
+pub fn content_of(path: &Path) -> String {
+    let is_file = path.is_file();
+    is_file.then(|| formats::read_bytes(path).ok()).flatten().map(|bytes| hash::sha256(&bytes)).unwrap_or_default()
+}
+
 /// A file's content at some time, to notice changes by others: a hash of its bytes, the same in every
 /// version and on every machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
