@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-use super::{Content, PlanEntry, PlanFile, Workspace, record};
+use super::{Content, PlanEntry, PlanFile, Workspace, path_below, record};
 use crate::base::hash;
 use crate::base::work::{Cancelled, Work};
 use crate::classify::models::Models;
@@ -58,13 +58,13 @@ pub fn list(folder: &Path, known: &[(String, Vec<u8>)], recipe: &Recipe, work: &
     let mut before: BTreeMap<&str, Option<PlanFile>> =
         known.iter().map(|(path, _)| path.as_str()).zip(decoded).collect();
     let listed = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let below = Workspace::new(listed, Vec::new());
+
     let (mut files, mut to_read) = (Vec::new(), Vec::new());
     for (at, found) in plans_below(listed, usize::MAX, |_| false).enumerate() {
         if at % 256 == 0 {
             work.goes_on()?;
         }
-        let Some(path) = below.path_below(&found.path) else { continue };
+        let Some(path) = path_below(listed, &found.path) else { continue };
         let known = before.remove(path.as_str()).flatten();
         let state = FileState::of(&found.path).unwrap_or_default();
         let file = match (found.problem, known) {

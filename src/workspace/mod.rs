@@ -75,6 +75,13 @@ impl PlanFile {
     }
 }
 
+/// The path below a folder of a file that lies there, with slashes; `None` for another.
+pub fn path_below(folder: &Path, path: &Path) -> Option<String> {
+    let below = path.strip_prefix(folder).ok()?;
+    let parts: Vec<String> = below.iter().map(|part| part.to_string_lossy().into_owned()).collect();
+    Some(parts.join("/"))
+}
+
 /// A plan of a workspace, by its places in this value of it: [`Workspace::files`], and [`PlanFile::plans`] (`None` for a
 /// file that is not read, or cannot be).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -151,13 +158,6 @@ impl Workspace {
     /// The place of a file by its path below the folder.
     pub fn find(&self, path: &str) -> Option<usize> {
         self.files.binary_search_by(|file| (*file.path).cmp(path)).ok()
-    }
-
-    /// The path below the folder of a file that lies there; `None` for another.
-    pub fn path_below(&self, path: &Path) -> Option<String> {
-        let below = path.strip_prefix(&self.folder).ok()?;
-        let parts: Vec<String> = below.iter().map(|part| part.to_string_lossy().into_owned()).collect();
-        Some(parts.join("/"))
     }
 
     /// Puts files in, each in the place of the one of its path.

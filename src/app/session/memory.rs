@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use super::Session;
 use crate::app::session::jobs::Kind;
 use crate::app::session::open_plans::PlanView;
-use crate::app::session::origin::Origin;
+use crate::app::session::origin::{Origin, absolute};
 use crate::app::session::settings::Settings;
 use crate::app::session::wishes::Wish;
 use crate::geometry::{COORDINATE_LIMIT_M, Point};
@@ -161,7 +161,7 @@ fn is_view_of(view: &Value, path: &str, storey: usize) -> bool {
 /// The path under which something is remembered.
 fn remembered(origin: &Origin) -> Option<(PathBuf, usize)> {
     let Origin::File { path, storey } = origin else { return None };
-    Some((std::path::absolute(path).unwrap_or_else(|_| path.clone()), *storey))
+    Some((absolute(path), *storey))
 }
 
 impl Session {
@@ -178,7 +178,7 @@ impl Session {
 
     /// Remembers the folder in which a file was chosen.
     pub(super) fn remember_folder(&mut self, path: &Path) {
-        let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        let path = absolute(path);
         if let Some(folder) = path.parent() {
             self.settings.set_folder(folder);
         }

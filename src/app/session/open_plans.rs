@@ -90,15 +90,7 @@ impl Session {
 
     /// The open plan of an origin.
     pub(crate) fn open_of(&self, origin: &Origin) -> Option<u64> {
-        let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-        let is_it = |other: &Origin| match (origin, other) {
-            (Origin::Bundled(p), Origin::Bundled(q)) => p == q,
-            (Origin::File { path: p, storey: i }, Origin::File { path: q, storey: j }) => {
-                i == j && absolute(p) == absolute(q)
-            }
-            _ => false,
-        };
-        self.documents().find(|document| is_it(&document.origin)).map(|document| document.number)
+        self.documents().find(|document| document.origin.is_same(origin)).map(|document| document.number)
     }
 
     /// Shows another open plan.

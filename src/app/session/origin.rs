@@ -26,6 +26,17 @@ pub(crate) enum Origin {
 }
 
 impl Origin {
+    /// Whether both are the same sample, or the same plan of a file however its path is written. A new plan is never another.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Bundled(p), Self::Bundled(q)) => p == q,
+            (Self::File { path: p, storey: i }, Self::File { path: q, storey: j }) => {
+                i == j && absolute(p) == absolute(q)
+            }
+            _ => false,
+        }
+    }
+
     /// The file, if it is one.
     pub(crate) fn path(&self) -> Option<&Path> {
         match self {
@@ -58,6 +69,11 @@ impl Origin {
             Self::File { path, .. } => formats::file_stem(&file_name(path)).to_owned(),
         }
     }
+}
+
+/// A path from the root, so that two ways to write it are told for the same; as it is where there is no working folder.
+pub(crate) fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 
 /// A path's last part.

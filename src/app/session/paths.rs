@@ -3,6 +3,7 @@
 use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
 use super::Session;
+use super::origin::absolute;
 use crate::app::session::file_dialogs::{Answer, Purpose};
 use crate::app::session::wishes::Wish;
 use crate::base::natural_order::NaturalKey;
@@ -98,7 +99,7 @@ impl Session {
     /// Where a person begins to look for files: where the plan lies, or the folder used last, or the person's own.
     pub(crate) fn first_folder(&self) -> PathBuf {
         let own = self.document.as_ref().and_then(|document| document.origin.folder());
-        let own = own.map(|folder| std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned()));
+        let own = own.map(absolute);
         let last = || self.settings.folder().filter(|folder| self.named_from.is_none() && folder.is_dir());
         let home = || self.named_from.clone().or_else(|| etcetera::home_dir().ok()).unwrap_or_default();
         own.or_else(last).unwrap_or_else(home)

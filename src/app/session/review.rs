@@ -13,7 +13,7 @@ use super::Session;
 use super::document::Document;
 use super::jobs::{Kind, Wanted};
 use super::messages::Severity;
-use super::origin::Origin;
+use super::origin::{Origin, absolute};
 use super::selection::SelectMode;
 use super::wishes::Wish;
 use crate::base::wording::count;
@@ -22,7 +22,6 @@ use crate::classify::models::Models;
 use crate::edit;
 use crate::features::RoomStatus;
 use crate::formats;
-use crate::gather::sha256;
 use crate::labels::{Label, Schemes};
 use crate::plan::titles::room_title;
 use crate::plan::{ElementId, LabelOrigin, Plan, RoomId, RoomLabel};
@@ -227,7 +226,7 @@ impl Session {
         let mut versions: BTreeMap<PathBuf, Vec<(usize, Plan)>> = BTreeMap::new();
         for document in self.documents() {
             if let Origin::File { path, storey } = &document.origin {
-                let path = std::path::absolute(path).unwrap_or_else(|_| path.clone());
+                let path = absolute(path);
                 versions.entry(path).or_default().push((*storey, document.plan().clone()));
             }
         }
@@ -258,24 +257,27 @@ impl Session {
 
     // Where the review is.
 
+    /// The open plans of the folder, by file and storey as entries name them.
+    fn open_here(&self) -> OpenHere<'_> {
+        let folder = self.review.folder.as_deref().map(absolute).unwrap_or_default();
+        let place = |document: &Document| match &document.origin {
+            Origin::File { path, storey } => Some((name_below(&folder, &absolute(path)), *storey)),
+            Origin::Bundled(_) | Origin::Untitled => None,
+        };
+        self.documents().filter_map(|document| Some((place(document)?, document.plan()))).collect()
+    }
+
     /// The label that a room has now: in its plan if that is open, else as it was left.
     fn label_now(&self, index: usize) -> Option<Label> {
+        self.label_among(index, &self.open_here())
+    }
+
+    fn label_among(&self, index: usize, open: &OpenHere<'_>) -> Option<Label> {
         let entry = self.review.entry(index)?;
-        let origin = self.origin_of_entry(entry)?;
-        let open = self.documents().find(|document| Self::is_of(document, &origin)).map(Document::plan);
+        let open = open.get(&(entry.row.file.clone(), entry.storey_of_file));
         match open.and_then(|plan| Some((plan, plan.room(entry.room)?))) {
             Some((plan, room)) => RoomStatus::of(plan, &self.schemes, room).label(),
             None => Some(self.review.changed.get(&index).copied().unwrap_or(entry.row.label)),
-        }
-    }
-
-    fn is_of(document: &Document, origin: &Origin) -> bool {
-        let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-        match (&document.origin, origin) {
-            (Origin::File { path: p, storey: i }, Origin::File { path: q, storey: j }) => {
-                i == j && absolute(p) == absolute(q)
-            }
-            _ => false,
         }
     }
 
@@ -284,17 +286,18 @@ impl Session {
         Some(Origin::File { path: folder.join(&entry.row.file), storey: entry.storey_of_file })
     }
 
-    fn verdict_of(&self, index: usize) -> Option<Verdict> {
+    fn verdict_of(&self, index: usize, open: &OpenHere<'_>) -> Option<Verdict> {
         let entry = self.review.entry(index)?;
-        self.review.decisions.of(&Review::key(entry))?.verdict_on(self.label_now(index)?)
+        self.review.decisions.of(&Review::key(entry))?.verdict_on(self.label_among(index, open)?)
     }
 
     /// How far the review is.
     pub(crate) fn review_progress(&self) -> Progress {
         let rooms = self.review.queue.as_ref().map_or(0, |queue| queue.entries.len());
         let mut progress = Progress { rooms, accepted: 0, corrected: 0, skipped: 0 };
+        let open = self.open_here();
         for (key, _) in self.review.decisions.iter() {
-            match self.review.places.get(key).and_then(|&index| self.verdict_of(index)) {
+            match self.review.places.get(key).and_then(|&index| self.verdict_of(index, &open)) {
                 Some(Verdict::Accepted) => progress.accepted += 1,
                 Some(Verdict::Corrected) => progress.corrected += 1,
                 Some(Verdict::Skipped) => progress.skipped += 1,
@@ -314,9 +317,10 @@ impl Session {
         let rooms = self.review.queue.as_ref().map_or(0, |queue| queue.entries.len());
         let from = after.map_or(0, |after| after + 1);
         let order = || (from..rooms).chain(0..from.min(rooms));
-        let next = order().find(|&index| self.verdict_of(index).is_none());
+        let open = self.open_here();
+        let next = order().find(|&index| self.verdict_of(index, &open).is_none());
         let next = next.or_else(|| {
-            order().find(|&index| Some(index) != after && self.verdict_of(index) == Some(Verdict::Skipped))
+            order().find(|&index| Some(index) != after && self.verdict_of(index, &open) == Some(Verdict::Skipped))
         });
         match next {
             Some(index) => self.review_go_to(index, None),
@@ -350,7 +354,7 @@ impl Session {
         let Some(entry) = self.review.entry(index) else { return };
         let (room, origin) = (entry.room, self.origin_of_entry(entry));
         let Some(document) = self.document.as_ref() else { return };
-        if !origin.is_some_and(|origin| Self::is_of(document, &origin)) {
+        if !origin.is_some_and(|origin| document.origin.is_same(&origin)) {
             return;
         }
         let number = document.number;
@@ -493,7 +497,7 @@ impl Session {
         }
         // Nobody decides about what is not seen.
         let origin = self.review.entry(index).and_then(|entry| self.origin_of_entry(entry));
-        let is_seen = self.document.as_ref().zip(origin.as_ref()).is_some_and(|(shown, it)| Self::is_of(shown, it));
+        let is_seen = self.document.as_ref().zip(origin.as_ref()).is_some_and(|(shown, it)| shown.origin.is_same(it));
         if !is_seen {
             self.review_go_to(index, None);
             return Err("another plan was shown; this is the room to decide".to_owned());
@@ -554,6 +558,14 @@ impl Session {
     }
 }
 
+/// Open plans by file, named from the folder, and storey.
+type OpenHere<'a> = BTreeMap<(String, usize), &'a Plan>;
+
+/// How a file is named from the folder: as entries and decisions name it.
+fn name_below(folder: &Path, path: &Path) -> String {
+    path.strip_prefix(folder).unwrap_or(path).to_string_lossy().replace('\\', "/")
+}
+
 /// Reads the plans and makes the queue.
 fn make(
     folder: &Path,
@@ -592,15 +604,13 @@ fn material(
     let read = |index: usize| {
         let path = &files[index];
         let mut plans = formats::read_file(path).ok()?.plans;
-        let absolute = std::path::absolute(path).unwrap_or_else(|_| path.clone());
-        for (storey, plan) in open.get(&absolute).into_iter().flatten() {
+        for (storey, plan) in open.get(&absolute(path)).into_iter().flatten() {
             if let Some(place) = plans.get_mut(*storey) {
                 place.clone_from(plan);
             }
         }
-        let name = path.strip_prefix(folder).unwrap_or(path).to_string_lossy().replace('\\', "/");
-        let bytes = formats::read_bytes(path).map(|bytes| sha256(&bytes)).unwrap_or_default();
-        Some(FileSeen::new(&name, bytes, &plans, schemes))
+        let name = name_below(folder, path);
+        Some(FileSeen::new(&name, store::content_of(path), &plans, schemes))
     };
     Ok(Material::new(work.map(files.len(), read)?.into_iter().flatten()))
 }

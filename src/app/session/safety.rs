@@ -9,7 +9,7 @@ use super::Session;
 use crate::app::session::{
     document::Document,
     messages::{Message, Remedy, Severity},
-    origin::{Origin, file_name},
+    origin::{Origin, absolute, file_name},
     recovery::Offered,
     watch::{Content, Theirs, Watch},
     wishes::Wish,
@@ -61,12 +61,9 @@ impl OfPlan {
 
 fn start_of(document: &Document) -> JournalStart {
     match &document.origin {
-        Origin::File { path, storey } => JournalStart {
-            file: Some(std::path::absolute(path).unwrap_or_else(|_| path.clone())),
-            storey: *storey,
-            sample: None,
-            stamp: document.stamp,
-        },
+        Origin::File { path, storey } => {
+            JournalStart { file: Some(absolute(path)), storey: *storey, sample: None, stamp: document.stamp }
+        }
         Origin::Bundled(index) => {
             JournalStart { sample: Some(sample_word(*index).to_owned()), ..JournalStart::default() }
         }

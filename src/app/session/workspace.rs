@@ -19,13 +19,13 @@ use super::Session;
 use crate::app::session::file_dialogs::Purpose;
 use crate::app::session::jobs::{Kind, Wanted};
 use crate::app::session::messages::Severity;
-use crate::app::session::origin::Origin;
+use crate::app::session::origin::{Origin, absolute};
 use crate::app::session::wishes::Wish;
 use crate::base::work::{Cancelled, Work};
 use crate::plan::{ElementId, RoomId};
 use crate::store::IndexFile;
 use crate::workspace::index::{self, Listed, Recipe};
-use crate::workspace::{PlanFile, PlanKey, PlanRow, Workspace};
+use crate::workspace::{PlanFile, PlanKey, PlanRow, Workspace, path_below};
 
 /// So many files are read in one job, a thread: enough to be quick, few enough to see something soon.
 const READ_AT_ONCE: usize = 24;
@@ -103,9 +103,12 @@ impl OpenWorkspace {
     /// The row of a plan that lies in the folder.
     pub(crate) fn row_of(&self, origin: &Origin) -> Option<PlanRow> {
         let Origin::File { path, storey } = origin else { return None };
-        let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-        let below = Workspace::new(&absolute(self.now.folder()), Vec::new()).path_below(&absolute(path))?;
-        self.now.row_of(&PlanKey { path: below.into(), storey: u32::try_from(*storey).ok()? })
+        self.now.row_of(&PlanKey { path: self.path_below(path)?.into(), storey: u32::try_from(*storey).ok()? })
+    }
+
+    /// The path below the folder of a file that lies there, however it is written; `None` for another.
+    fn path_below(&self, path: &Path) -> Option<String> {
+        path_below(&absolute(self.now.folder()), &absolute(path))
     }
 }
 
@@ -159,9 +162,7 @@ impl Session {
     /// Reads some files of the workspace again, after they were written; those that lie elsewhere are passed over.
     pub(crate) fn read_in_workspace_again(&mut self, paths: &[PathBuf]) {
         let Some(workspace) = &mut self.workspace else { return };
-        let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-        let folder = Workspace::new(&absolute(workspace.now.folder()), Vec::new());
-        let below = paths.iter().filter_map(|path| folder.path_below(&absolute(path)));
+        let below = paths.iter().filter_map(|path| workspace.path_below(path));
         let below: Vec<Arc<str>> =
             below.filter(|path| crate::formats::is_plan_file_name(path)).map(Into::into).collect();
         if below.is_empty() {
@@ -246,9 +247,9 @@ impl Session {
         if let Some(indexing) = &mut workspace.indexing {
             indexing.done += files.len();
         }
-        let mut now = workspace.now.clone();
-        Arc::make_mut(&mut now).put(files.into_iter().flatten());
-        workspace.set(now);
+        // In place, unless somebody works with the value as it was.
+        Arc::make_mut(&mut workspace.now).put(files.into_iter().flatten());
+        workspace.revision += 1;
         self.index_next();
     }
 
