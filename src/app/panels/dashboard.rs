@@ -4,13 +4,14 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use egui::{FontId, Id, Modal, ProgressBar, Rect, Role, ScrollArea, Sense, Ui, WidgetInfo, vec2};
+use egui::{FontId, ProgressBar, Rect, Role, ScrollArea, Sense, Ui, WidgetInfo, vec2};
 
 use super::chart_view;
+use super::forms;
 use super::forms::{choose, pick};
 use crate::app::look::theme;
 use crate::app::look::widgets::{
-    Lead, ROW, Row, caption, colours, dialog_frame, hairline_in, put_line, right, section, strong, text_button,
+    Lead, ROW, Row, caption, colours, hairline_in, put_line, right, section, strong, text_button,
 };
 use crate::app::session::at_hand::AtHand;
 use crate::app::session::measures::{ChartWanted, Measured, set_words};
@@ -103,13 +104,7 @@ impl Dialog for Dashboard {
             let values = [kind_word(wanted.kind), Value::Path(path), Value::Text(wanted.words())];
             app.act_on(Call::new("export-chart", values), ui.ctx());
         }
-        let size = ui.ctx().content_rect().size() - vec2(96.0, 96.0);
-        let size = size.min(vec2(LARGEST[0], LARGEST[1])).max(vec2(320.0, 240.0));
-        let response = Modal::new(Id::unique("dashboard")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
-            ui.set_width(size.x);
-            ui.set_height(size.y);
-            self.contents(app, ui)
-        });
+        let response = forms::large_dialog(ui, "dashboard", LARGEST, |ui| self.contents(app, ui));
         let is_closed = response.should_close();
         match response.inner.or(is_closed.then_some(Act::Close)) {
             None => After::Stay,

@@ -1,9 +1,25 @@
 //! What the forms of the dashboard, of training and of schemes share.
 
-use egui::{Align2, ComboBox, FontId, Role, Sense, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Align2, ComboBox, FontId, Id, Modal, ModalResponse, Role, Sense, TextEdit, Ui, WidgetInfo, vec2};
 
 use crate::app::look::theme;
-use crate::app::look::widgets::{Segment, colours, focus_ring, follow_focus, put_line, segmented};
+use crate::app::look::widgets::{Segment, colours, dialog_frame, focus_ring, follow_focus, put_line, segmented};
+
+/// A dialog of this size, width and height in points, where the window is large enough.
+pub(super) fn large_dialog<T>(
+    ui: &Ui,
+    name: &str,
+    largest: [f32; 2],
+    contents: impl FnOnce(&mut Ui) -> T,
+) -> ModalResponse<T> {
+    let size = ui.ctx().content_rect().size() - vec2(96.0, 96.0);
+    let size = size.min(largest.into()).max(vec2(320.0, 240.0));
+    Modal::new(Id::unique(name)).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
+        ui.set_width(size.x);
+        ui.set_height(size.y);
+        contents(ui)
+    })
+}
 
 /// A line of a form: a caption, and the control in the rest.
 pub(super) fn line<T>(ui: &mut Ui, width: f32, name: &str, control: impl FnOnce(&mut Ui) -> T) -> T {

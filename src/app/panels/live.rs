@@ -2,10 +2,9 @@
 //! once, and a second opinion beside the first.
 
 use egui::epaint::StrokeKind;
-use egui::{
-    Align2, FontId, Rect, Response, Role, ScrollArea, Sense, Slider, Stroke, Ui, UiBuilder, WidgetInfo, pos2, vec2,
-};
+use egui::{Align2, FontId, Rect, Response, Role, Sense, Slider, Stroke, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
+use super::sides;
 use crate::app::look::theme;
 use crate::app::look::widgets::{
     Lead, ROW, Row, caption, colours, focus_ring, follow_focus, hairline, put_line, section, text_button,
@@ -43,14 +42,7 @@ pub(super) const PANEL: SidePanel = SidePanel {
 fn show(app: &mut App, ui: &mut Ui) {
     let mut call = None;
     let mut hovered = None;
-    ui.painter().hline(ui.clip_rect().x_range(), ui.max_rect().top(), Stroke::new(1.0, colours(ui).border));
-    ScrollArea::vertical().id_salt("live").auto_shrink([false, false]).show(ui, |ui| {
-        let margin = egui::Margin { left: 16, right: 16, top: 12, bottom: 16 };
-        egui::Frame::new().inner_margin(margin).show(ui, |ui| {
-            ui.spacing_mut().item_spacing.y = 4.0;
-            call = contents(app, ui, &mut hovered);
-        });
-    });
+    sides::scrolled(ui, "live", |ui| call = contents(app, ui, &mut hovered));
     if hovered.is_some() {
         app.canvas.hovered_in_panel = hovered;
     }

@@ -2,14 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use egui::{FontId, Id, Modal, Role, ScrollArea, Sense, Ui, vec2};
+use egui::{FontId, Role, ScrollArea, Sense, Ui, vec2};
 
+use super::forms;
 use super::forms::text;
 use crate::app::look::search::Search;
 use crate::app::look::theme;
 use crate::app::look::widgets::{
-    Lead, ROW, Row, Segment, caption, colours, dialog_frame, main_button, put_line, right, section, segmented, strong,
-    text_button,
+    Lead, ROW, Row, Segment, caption, colours, main_button, put_line, right, section, segmented, strong, text_button,
 };
 use crate::app::state::{After, App, Dialog, Entry, dialogs};
 use crate::app::value::{Call, Value};
@@ -68,13 +68,7 @@ impl Dialog for Schemes {
             let source = app.session.usual_source();
             app.session.read_rooms(source, true);
         }
-        let size = ui.ctx().content_rect().size() - vec2(96.0, 96.0);
-        let size = size.min(vec2(LARGEST[0], LARGEST[1])).max(vec2(320.0, 240.0));
-        let response = Modal::new(Id::unique("schemes")).frame(dialog_frame(ui)).show(ui.ctx(), |ui| {
-            ui.set_width(size.x);
-            ui.set_height(size.y);
-            self.contents(app, ui)
-        });
+        let response = forms::large_dialog(ui, "schemes", LARGEST, |ui| self.contents(app, ui));
         // A click beside the dialog, or Escape, must not throw changes away.
         let is_closed = response.should_close() && self.changes.is_empty();
         match response.inner.or(is_closed.then_some(End::Leave)) {

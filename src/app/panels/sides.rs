@@ -1,6 +1,6 @@
 //! The side panels, stacked.
 
-use egui::{Frame, Panel, Rect, ScrollArea, Ui, UiBuilder};
+use egui::{Frame, Margin, Panel, Rect, ScrollArea, Stroke, Ui, UiBuilder};
 
 use crate::app::look::theme;
 use crate::app::state::{App, Height, Side, SidePanel};
@@ -69,4 +69,17 @@ pub(super) fn show(app: &mut App, ui: &mut Ui, panels: &[&'static SidePanel]) {
         }
     }
     ui.take_available_space();
+}
+
+/// The contents of a panel that scrolls as a whole, with a line above.
+pub(super) fn scrolled(ui: &mut Ui, name: &str, contents: impl FnOnce(&mut Ui)) {
+    let line = Stroke::new(1.0, theme::colours(ui.visuals()).border);
+    ui.painter().hline(ui.clip_rect().x_range(), ui.max_rect().top(), line);
+    ScrollArea::vertical().id_salt(name).auto_shrink([false, false]).show(ui, |ui| {
+        let margin = Margin { left: 16, right: 16, top: 12, bottom: 16 };
+        Frame::new().inner_margin(margin).show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 4.0;
+            contents(ui);
+        });
+    });
 }

@@ -2,10 +2,11 @@
 //! the features with the plan's rooms as points.
 
 use egui::epaint::{Mesh, StrokeKind};
-use egui::{Align2, FontId, Rect, Role, ScrollArea, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, FontId, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use super::live::{list, slider};
 use super::prediction::kind;
+use super::sides;
 use crate::app::look::theme;
 use crate::app::look::widgets::{caption, colours, hairline, link, section, strong};
 use crate::app::session::document::Document;
@@ -47,17 +48,12 @@ const NAMES: [&str; 8] =
 fn show(app: &mut App, ui: &mut Ui) {
     let mut calls = Vec::new();
     let mut hovered = None;
-    ui.painter().hline(ui.clip_rect().x_range(), ui.max_rect().top(), Stroke::new(1.0, colours(ui).border));
-    ScrollArea::vertical().id_salt("what if").auto_shrink([false, false]).show(ui, |ui| {
-        let margin = egui::Margin { left: 16, right: 16, top: 12, bottom: 16 };
-        egui::Frame::new().inner_margin(margin).show(ui, |ui| {
-            ui.spacing_mut().item_spacing.y = 4.0;
-            section(ui, "What if");
-            match app.session.tried() {
-                Err(why) => drop(caption(ui, why)),
-                Ok(tried) => contents(app, ui, &tried, &mut calls, &mut hovered),
-            }
-        });
+    sides::scrolled(ui, "what if", |ui| {
+        section(ui, "What if");
+        match app.session.tried() {
+            Err(why) => drop(caption(ui, why)),
+            Ok(tried) => contents(app, ui, &tried, &mut calls, &mut hovered),
+        }
     });
     if hovered.is_some() {
         app.canvas.hovered_in_panel = hovered;
