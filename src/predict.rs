@@ -475,8 +475,7 @@ impl Predictions {
 
     /// How sure the predictions of all classified rooms are: the probability of each label, 0..=1.
     pub fn sureness(&self) -> BTreeMap<RoomId, f64> {
-        let sure = |said: &Distribution| said.probability(said.label());
-        self.index_of.iter().map(|(&room, &index)| (room, sure(&self.result.distributions[index]))).collect()
+        self.index_of.iter().map(|(&room, &index)| (room, self.result.distributions[index].sureness())).collect()
     }
 
     /// What lies behind each opening that leads into unexplored space (or outside), should there be a

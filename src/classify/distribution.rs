@@ -54,13 +54,24 @@ impl Distribution {
         best
     }
 
+    /// The most probable label with its probability, 0..=1.
+    pub fn likeliest(&self) -> (Label, f64) {
+        let label = self.label();
+        (label, self.probability(label))
+    }
+
+    /// How probable the most probable label is, 0..=1.
+    pub fn sureness(&self) -> f64 {
+        self.likeliest().1
+    }
+
     /// The distribution at a temperature: above 1 less certain, below 1 more certain. The order of the
     /// labels does not change. A temperature that is not a positive number changes nothing.
     pub fn at_temperature(self, temperature: f64) -> Self {
         if temperature == 1.0 || !(temperature.is_finite() && temperature > 0.0) {
             return self;
         }
-        let most = self.probability(self.label());
+        let most = self.sureness();
         Self::from_weights(self.0.map(|probability| (probability / most).powf(1.0 / temperature)))
     }
 }

@@ -155,7 +155,7 @@ fn table(told: &[Told<'_>], guard: Guard) -> Result<Vec<u8>, CliError> {
             row.label_origin.clone(),
             format!("{:.4}", told.suspect.probability()),
             said.label().letter().to_owned(),
-            format!("{:.4}", said.probability(said.label())),
+            format!("{:.4}", said.sureness()),
             guard.cell(&told.reason),
         ]);
         writer.write_record(cells)?;

@@ -108,11 +108,8 @@ pub fn labelled(
     let predictions = predictor.predict(network, &known, None, models).map_err(MapError::Model)?;
     let said_of = predictions.labels();
     let labels: Vec<Option<Label>> = bare.rooms.iter().map(|id| said_of.get(id).copied()).collect();
-    let unknown: BTreeMap<OpeningId, (Label, f64)> = predictions
-        .unknown()
-        .into_iter()
-        .map(|(_, opening, said)| (opening, (said.label(), said.probability(said.label()))))
-        .collect();
+    let unknown: BTreeMap<OpeningId, (Label, f64)> =
+        predictions.unknown().into_iter().map(|(_, opening, said)| (opening, said.likeliest())).collect();
     let behind: Vec<Option<(Label, f64)>> =
         bare.frontiers.iter().map(|opening| unknown.get(opening.as_ref()?).copied()).collect();
     let extra = |behind: &Option<(Label, f64)>| {

@@ -96,7 +96,7 @@ impl Explainers {
         let seen = temporary(network);
         let values: Vec<_> = (0..network.rooms.len()).map(|room| network.features(room, &seen).values()).collect();
         let said = values.iter().flat_map(|values| self.0.iter().map(move |classifier| classifier.predict(values)));
-        let sure: Vec<f64> = said.map(|said| said.probability(said.label()).ln()).collect();
+        let sure: Vec<f64> = said.map(|said| said.sureness().ln()).collect();
         (!sure.is_empty()).then(|| Moments::of(sure).mean)
     }
 }

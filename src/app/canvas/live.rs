@@ -11,6 +11,7 @@ use crate::app::paint::scene_painter::{earcut, outline_mesh, polygon_mesh};
 use crate::app::session::Session;
 use crate::app::session::document::{Derived, Labelled};
 use crate::app::session::live::changes;
+use crate::classify::Distribution;
 use crate::draw::{Fill, Palette, View, predicted_fill};
 use crate::features::RoomStatus;
 use crate::plan::Plan;
@@ -101,8 +102,8 @@ pub(super) fn paint_new_labels(
     let Some((earlier, later)) = drawn.predictions.as_ref().zip(now.predictions.as_ref()) else { return };
     let seen = view.bounds();
     for (room, said) in later.network.rooms.iter().zip(&later.result.distributions) {
-        let (label, sure) = (said.label(), said.probability(said.label()));
-        let before = earlier.distribution(room.id).map(|said| (said.label(), said.probability(said.label())));
+        let (label, sure) = said.likeliest();
+        let before = earlier.distribution(room.id).map(Distribution::likeliest);
         let shape = now.analysis.shapes.get(room.id).filter(|shape| shape.bounds.intersects(seen));
         let Some(shape) = shape.filter(|_| before != Some((label, sure))) else { continue };
         let triangles = earcut(&shape.outer, &shape.holes);

@@ -25,6 +25,7 @@ use crate::formats::{self, FileError};
 use crate::gather::{FileRead, PlansRead};
 use crate::labels::{Meaning, Schemes, Typology, normalised_function};
 use crate::plan::{ElementId, Plan, RoomId};
+use crate::store;
 
 /// The name of the job, by which its progress is found.
 const JOB: &str = "read the labelled rooms";
@@ -275,8 +276,7 @@ pub(super) fn read_files<T: Send>(
     let read_one = |index: usize| {
         let (path, name) = &files[index];
         let import = formats::read_file(path)?;
-        let bytes = formats::read_bytes(path).map(|bytes| crate::gather::sha256(&bytes)).unwrap_or_default();
-        Ok((FileRead::new(name, bytes, &import.plans, schemes, false), extra(index, &import.plans)))
+        Ok((FileRead::new(name, store::content_of(path), &import.plans, schemes, false), extra(index, &import.plans)))
     };
     let results: Vec<Result<(FileRead, T), FileError>> =
         work.map(files.len(), read_one).map_err(|_| "it was cancelled".to_owned())?;

@@ -233,8 +233,8 @@ impl Session {
         let Some(predictions) = self.predictions() else { return Vec::new() };
         let mut best: BTreeMap<Label, (f64, RoomId)> = BTreeMap::new();
         for (room, said) in predictions.network.rooms.iter().zip(&predictions.result.distributions) {
-            let sure = said.probability(said.label());
-            let best = best.entry(said.label()).or_insert((sure, room.id));
+            let (label, sure) = said.likeliest();
+            let best = best.entry(label).or_insert((sure, room.id));
             if sure > best.0 {
                 *best = (sure, room.id);
             }

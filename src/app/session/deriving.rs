@@ -5,9 +5,15 @@ use std::sync::Arc;
 use super::Session;
 use crate::app::session::document::{Derived, Labelled, LabelledBy};
 use crate::app::session::jobs::Kind;
+use crate::plan::Plan;
 
 /// The size of plan that is analysed in the background; below this, analysis takes a few milliseconds.
-pub(super) const LARGE_PLAN_ELEMENTS: usize = 2000;
+const LARGE_PLAN_ELEMENTS: usize = 2000;
+
+/// Whether a plan is too large to be analysed within a frame.
+pub(super) fn is_large(plan: &Plan) -> bool {
+    plan.rooms().len() + plan.openings().len() + plan.walls().len() > LARGE_PLAN_ELEMENTS
+}
 
 impl Session {
     /// Analyses the current plan, unless that is done or in progress.
@@ -24,7 +30,7 @@ impl Session {
         let (schemes, models) = (self.schemes.clone(), self.models.clone());
         let by = LabelledBy { predictor: self.predictor.clone(), second: self.live.second };
         let before = document.last_labelled().cloned();
-        if plan.rooms().len() + plan.openings().len() + plan.walls().len() <= LARGE_PLAN_ELEMENTS {
+        if !is_large(&plan) {
             let labelled = Arc::new(Labelled::new(&plan, &schemes, Some((&by, &models)), before.as_deref()));
             let derived = Arc::new(Derived::from_labelled(labelled));
             document.set_derived(plan, derived);

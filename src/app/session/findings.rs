@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use egui::Context;
 
 use super::Session;
-use super::deriving::LARGE_PLAN_ELEMENTS;
+use super::deriving::is_large;
 use super::wishes::Wish;
 use crate::app::session::document::Document;
 use crate::app::session::jobs::Kind;
@@ -92,8 +92,7 @@ impl Session {
             return;
         }
         let Some(derived) = document.derived() else { return };
-        let elements = plan.rooms().len() + plan.openings().len() + plan.walls().len();
-        if elements > LARGE_PLAN_ELEMENTS && !self.jobs.is_inline() {
+        if is_large(plan) && !self.jobs.is_inline() {
             let now = context.input(|input| input.time);
             let since = match &self.findings.seen {
                 Some((seen, since)) if seen.is_same_value(plan) => *since,

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use super::Session;
-use super::deriving::LARGE_PLAN_ELEMENTS;
+use super::deriving::is_large;
 use super::kept::{Kept, Same, SamePlan};
 use crate::app::session::document::{Document, Labelled, LabelledBy};
 use crate::classify::{Classifier, Distribution, Method, PlanClassifier};
@@ -71,15 +71,17 @@ pub(crate) fn changes(before: &Labelled, after: &Labelled) -> Vec<Changed> {
     let Some((earlier, later)) = before.predictions.as_ref().zip(after.predictions.as_ref()) else {
         return Vec::new();
     };
-    let said = |distribution: &Distribution| (distribution.label(), distribution.probability(distribution.label()));
     let mut changes: Vec<Changed> = later
         .network
         .rooms
         .iter()
         .zip(&later.result.distributions)
         .filter_map(|(room, distribution)| {
-            let changed =
-                Changed { room: room.id, before: said(earlier.distribution(room.id)?), after: said(distribution) };
+            let changed = Changed {
+                room: room.id,
+                before: earlier.distribution(room.id)?.likeliest(),
+                after: distribution.likeliest(),
+            };
             let is_seen = changed.is_flip() || (changed.before.1 - changed.after.1).abs() >= VISIBLE;
             is_seen.then_some(changed)
         })
@@ -99,7 +101,7 @@ impl Session {
     /// than a frame.
     pub(crate) fn labels_if(&self, plan: &Plan) -> Option<Arc<Labelled>> {
         let labelled = self.document.as_ref()?.labelled()?;
-        if plan.rooms().len() + plan.openings().len() + plan.walls().len() > LARGE_PLAN_ELEMENTS {
+        if is_large(plan) {
             return None;
         }
         let key = (SamePlan::of(plan), Same::of(labelled));
@@ -123,11 +125,10 @@ impl Session {
     /// The rooms of which the second opinion is another, with both labels and their probabilities.
     pub(crate) fn disagreements(&self) -> Vec<Disagreement> {
         let Some((one, other)) = self.predictions().zip(self.second_opinion()) else { return Vec::new() };
-        let said = |distribution: &Distribution| (distribution.label(), distribution.probability(distribution.label()));
         let rooms = one.network.rooms.iter().zip(&one.result.distributions);
         rooms
             .filter_map(|(room, distribution)| {
-                let (one, other) = (said(distribution), said(other.distribution(room.id)?));
+                let (one, other) = (distribution.likeliest(), other.distribution(room.id)?.likeliest());
                 (one.0 != other.0).then_some((room.id, one, other))
             })
             .collect()
@@ -347,10 +348,7 @@ fn regions(labelled: &Labelled, tried: &Tried, axes: [usize; 2]) -> Option<Regio
             values[axes[1]] = scales[1].value(place(up, CELLS[1]));
             let said = match &last {
                 Some((of, said)) if *of == values => *said,
-                _ => {
-                    let distribution = classifier.predict(&values);
-                    (distribution.label(), distribution.probability(distribution.label()))
-                }
+                _ => classifier.predict(&values).likeliest(),
             };
             last = Some((values, said));
             cells.push(said);

@@ -30,7 +30,8 @@ impl Session {
         let rooms = predictions.network.rooms.iter().zip(&predictions.result.distributions);
         let unlabelled = rooms.filter(|(room, _)| room.label.is_none());
         let is_meant = |said: &Distribution| {
-            label.is_none_or(|label| said.label() == label) && said.probability(said.label()) >= least
+            let (likeliest, sure) = said.likeliest();
+            label.is_none_or(|label| likeliest == label) && sure >= least
         };
         unlabelled.filter(|(_, said)| is_meant(said)).map(|(room, said)| (room.id, said.label())).collect()
     }
