@@ -283,7 +283,7 @@ impl Document {
 
     /// Models or label schemes have changed: the plan is to be analysed anew.
     pub(crate) fn forget_derived(&mut self) {
-        (self.derived, self.awaited) = (None, None);
+        (self.derived, self.labelled, self.awaited) = (None, None, None);
     }
 
     /// The plan is out of sight: it is not analysed any more.
