@@ -125,8 +125,8 @@ impl RoomShapes {
                     !edited.contains(&id)
                         || before.rooms.get(&id).is_some_and(|was| was.outer == room.outer && was.holes == room.holes)
                 };
-                let has_moved =
-                    || !changed.is_empty() && room.rings().flat_map(|ring| ring.iter()).any(|it| changed.contains(it));
+                let is_moved = |ring: &Arc<[CornerId]>| ring.iter().any(|corner| changed.contains(corner));
+                let has_moved = || !changed.is_empty() && (is_moved(&room.outer) || room.holes.iter().any(is_moved));
                 match known.next_if(|shape| shape.id == id).filter(|_| has_ring() && !has_moved()) {
                     Some(shape) => shape.clone(),
                     None => {
