@@ -109,7 +109,7 @@ impl Asked {
         let mut waiting: Vec<(usize, usize)> = Vec::new();
         for tree in trees {
             let root = asked.steps.len();
-            let mut add = |asked: &mut Self| {
+            let add = |asked: &mut Self| {
                 asked.steps.push(Step { at_most: 0.0, to: 0 });
                 asked.leaf_at.push(0);
             };
