@@ -72,7 +72,7 @@ pub fn print(
                     .map(|room| Distribution::mean(&said.iter().map(|of| of[room]).collect::<Vec<_>>(), &weights))
                     .collect();
                 let counts = counts.entry(name).or_default();
-                count(counts, network, index, |known| Given::of(network, known).corrected(&means));
+                count(counts, network, index, |known| Given::of(network, known, &means).corrected(&means));
             }
         }
     }
