@@ -12,6 +12,7 @@ mod altered;
 mod around;
 mod asked;
 mod explain;
+mod room_by_room;
 mod store;
 mod trees;
 mod view;
@@ -22,6 +23,7 @@ use std::sync::Arc;
 
 pub use altered::Alterations;
 pub use explain::{GroupEffect, JointExplanation, NeighbourEffect};
+pub use room_by_room::by_other_rooms;
 pub use store::JointModelError;
 pub use view::Group;
 
